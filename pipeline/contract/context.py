@@ -1,0 +1,52 @@
+"""What a running stage may use besides its inputs: fan-out, progress, log. Never hashed."""
+
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+
+
+class Progress:
+    """Counts steps of one piece of work; this base class is silent."""
+
+    def advance(self, steps=1):
+        """Tell that ``steps`` more of the announced total are done."""
+
+
+@dataclass(frozen=True)
+class Case:
+    """What the report may say about its case: title, settings with origins, method sentences."""
+
+    name: str = "case"
+    title: str = ""
+    description: str = ""
+    settings: dict = field(default_factory=dict)    # stage -> {dotted key: SI value}
+    origins: dict = field(default_factory=dict)     # stage -> {dotted key: {origin, source}}
+    units: dict = field(default_factory=dict)       # stage -> {dotted key: SI unit}
+    meanings: dict = field(default_factory=dict)    # stage -> {dotted key: meaning}
+    methods: dict = field(default_factory=dict)     # stage -> sentence
+    version: str = ""
+
+
+@dataclass(frozen=True)
+class Context:
+    """The default context runs in this process and says nothing: fit for tests and notebooks."""
+
+    solver: str = "superlu"
+    case: Case = Case()
+
+    def map(self, function, items, label=""):
+        """``[function(item) for item in items]``, in order; ``function`` must be picklable."""
+        items = list(items)
+        with self.progress(label, len(items)) as progress:
+            results = []
+            for item in items:
+                results.append(function(item))
+                progress.advance()
+        return results
+
+    @contextmanager
+    def progress(self, label, total):
+        """A Progress for ``total`` steps of the work called ``label``."""
+        yield Progress()
+
+    def log(self, message):
+        """One line for the user; silent here."""

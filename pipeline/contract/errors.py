@@ -1,0 +1,39 @@
+"""Errors say where, what was expected, what was found and what to do.
+
+The exit code of the command line belongs to the class: 2 for input, 3 for
+non-convergence, 4 for files.
+"""
+
+
+class BrakechainError(Exception):
+    """Base of every error that a user can mend; ``str(error)`` is the whole message."""
+
+    exit_code = 1
+
+    def __init__(self, where, expected=None, found=None, remedy=None):
+        self.where, self.expected, self.found, self.remedy = where, expected, found, remedy
+        told = [f"expected {expected}" * bool(expected), f"found {found}" * bool(found)]
+        sentence = ", ".join(t for t in told if t)
+        message = f"{where}: {sentence}" if sentence else str(where)
+        super().__init__(f"{message}; {remedy}" if remedy else message)
+
+    def __reduce__(self):
+        return type(self), (self.where, self.expected, self.found, self.remedy)
+
+
+class ConfigError(BrakechainError):
+    """A setting or an input is missing, unknown, of the wrong unit or out of range."""
+
+    exit_code = 2
+
+
+class ConvergenceError(BrakechainError):
+    """An iteration stopped before its tolerance; results are never returned."""
+
+    exit_code = 3
+
+
+class ProductError(BrakechainError):
+    """A file or a data product breaks its contract: name, version, unit, shape, finiteness."""
+
+    exit_code = 4

@@ -1,0 +1,101 @@
+"""A data product: a frozen bundle of arrays with named dimensions and SI units."""
+
+import re
+from dataclasses import dataclass, field, fields
+
+import numpy as np
+
+from pipeline.contract.errors import ProductError
+from pipeline.contract.units import SI
+
+Array = np.ndarray
+
+
+def quantity(unit, dims, meaning, dtype=float):
+    """Declare one array: SI unit, space-separated dimension names ("" = scalar), meaning."""
+    if unit not in SI:
+        raise ProductError(f"unit {unit!r} is not in the SI vocabulary of units.py")
+    return field(metadata={"unit": unit, "dims": tuple(dims.split()), "meaning": meaning,
+                           "dtype": np.dtype(dtype)})
+
+
+def count(dims, meaning):
+    """Declare one array of whole numbers (indices, counts, flags 0/1)."""
+    return quantity("1", dims, meaning, np.int64)
+
+
+def text(dims, meaning):
+    """Declare one array of strings (names, notes)."""
+    return quantity("1", dims, meaning, str)
+
+
+def part(meaning):
+    """Declare a nested product; its class is the annotation of the field."""
+    return field(metadata={"meaning": meaning})
+
+
+def is_product(cls):
+    """True for a class made by ``@product``."""
+    return isinstance(cls, type) and "version" in cls.__dict__ and "name" in cls.__dict__
+
+
+def snake(name):
+    """'ReducedModel' -> 'reduced_model'."""
+    return re.sub(r"(?<!^)(?=[A-Z])", "_", name).lower()
+
+
+def product(version):
+    """Class decorator: freeze, name, version and validate a data product.
+
+    Arrays become read-only. A product refuses shapes whose named dimensions
+    disagree, a dtype that does not fit and values that are not finite.
+    """
+
+    def decorate(cls):
+        cls.name = snake(cls.__name__)
+        cls.version = version
+        cls.__post_init__ = _validate
+        return dataclass(frozen=True, eq=False, kw_only=True)(cls)
+
+    return decorate
+
+
+def _validate(self):
+    sizes = {}
+    for f in fields(self):
+        where = f"{self.name}.{f.name}"
+        value = getattr(self, f.name)
+        if is_product(f.type):
+            if not isinstance(value, f.type):
+                raise ProductError(where, f"a {f.type.name}", type(value).__name__)
+            continue
+        array = _as_array(value, f.metadata["dtype"], where)
+        _check_dimensions(array, f.metadata["dims"], sizes, where)
+        if array.dtype.kind in "fc" and not np.isfinite(array).all():
+            raise ProductError(where, "finite values", f"{np.sum(~np.isfinite(array))} that are not")
+        object.__setattr__(self, f.name, array)
+
+
+def _as_array(value, dtype, where):
+    if dtype.kind == "U":
+        array = np.array(value, dtype=object)
+        wrong = [v for v in array.flat if not isinstance(v, str)]
+        if wrong:
+            raise ProductError(where, "strings", repr(wrong[0]))
+    else:
+        array = np.asarray(value)
+        if array.size == 0 or array.dtype.kind == "b":
+            array = array.astype(dtype)
+        if not np.can_cast(array.dtype, dtype, "same_kind"):
+            raise ProductError(where, str(dtype), str(array.dtype))
+        array = np.array(array, dtype=dtype, order="C")
+    array.setflags(write=False)
+    return array
+
+
+def _check_dimensions(array, dims, sizes, where):
+    if array.ndim != len(dims):
+        raise ProductError(where, f"dimensions {dims}", f"shape {array.shape}")
+    for dim, size in zip(dims, array.shape):
+        if sizes.setdefault(dim, size) != size:
+            raise ProductError(where, f"{sizes[dim]} along '{dim}' as in the fields before", f"{size}")

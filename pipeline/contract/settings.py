@@ -1,0 +1,113 @@
+"""Settings: strict, frozen pydantic models; quantities carry their unit in the YAML.
+
+A section is declared as
+
+    class Settings(Section):
+        thickness: Quantity("m", gt=0) = option("6.87 mm", "ring thickness")
+
+and read from ``{thickness: 7 mm}`` or, with its origin, from
+``{thickness: {value: 7 mm, origin: stated, source: "Table 1"}}``.
+"""
+
+from difflib import get_close_matches
+from pathlib import Path
+from typing import Annotated
+
+from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationError, WithJsonSchema
+
+from pipeline.contract.errors import ConfigError
+from pipeline.contract.units import to_si
+
+#: what an annotated YAML value may say beside its value
+ORIGINS = ("stated", "inferred", "measured", "tuned", "assumed", "user")
+ANNOTATION = {"value", "origin", "source", "doubt", "choose"}
+
+
+class Section(BaseModel):
+    """One YAML section; unknown keys are refused and values are frozen."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True, validate_default=True)
+
+
+def Quantity(unit, **bounds):  # noqa: N802 - reads as a type in annotations
+    """A float in the SI unit ``unit``; ``bounds`` are pydantic's gt, ge, lt, le."""
+    spelt = {"type": ["string", "number"], "description": f"quantity in {unit}"}
+    return Annotated[float, BeforeValidator(lambda v: _in_si(v, unit)), Field(**bounds), WithJsonSchema(spelt)]
+
+
+def Quantities(unit, **bounds):  # noqa: N802
+    """A tuple of floats in ``unit``, each within ``bounds``; at least one."""
+    return Annotated[tuple[Quantity(unit, **bounds), ...], Field(min_length=1)]
+
+
+def option(default, meaning, **more):
+    """One setting with its default (``...`` = compulsory) and its meaning."""
+    return Field(default, description=meaning, **more)
+
+
+def _in_si(value, unit):
+    try:
+        return to_si(value, unit, "")
+    except ConfigError as error:
+        raise ValueError(f"expected {error.expected}, found {error.found}") from None
+
+
+def _existing(value):
+    path = Path(str(value))
+    if not path.is_file():
+        raise ValueError(f"expected a file, found none at {str(path)!r}")
+    return path
+
+
+#: a path whose content joins the hash of the stage that reads it
+InputFile = Annotated[Path, BeforeValidator(_existing), WithJsonSchema({"type": "string", "description": "a file"})]
+
+
+def split_origins(values, path=""):
+    """Separate ``{value:, origin:, source:}`` annotations from the values.
+
+    Returns (plain values, {dotted key: {"origin": ..., "source": ...}}).
+    """
+    if isinstance(values, dict):
+        if "value" in values and set(values) <= ANNOTATION:
+            said = {k: v for k, v in values.items() if k != "value"}
+            if said.get("origin", "user") not in ORIGINS:
+                raise ConfigError(f"{path}.origin", f"one of {', '.join(ORIGINS)}", repr(said["origin"]))
+            plain, inner = split_origins(values["value"], path)
+            return plain, {path: said, **inner}
+        pairs = {k: split_origins(v, f"{path}.{k}" if path else str(k)) for k, v in values.items()}
+        return {k: p for k, (p, _) in pairs.items()}, {k: v for _, o in pairs.values() for k, v in o.items()}
+    if isinstance(values, list):
+        pairs = [split_origins(v, f"{path}.{i}") for i, v in enumerate(values)]
+        return [p for p, _ in pairs], {k: v for _, o in pairs for k, v in o.items()}
+    return values, {}
+
+
+def fill(cls, values, where):
+    """Build section ``cls`` from a plain mapping; ``where`` is 'file.yaml: stage' for messages."""
+    try:
+        return cls.model_validate(values)
+    except ValidationError as error:
+        raise ConfigError("\n".join(_sentence(cls, e, where) for e in error.errors())) from None
+
+
+def _sentence(cls, error, where):
+    place = ".".join([where, *map(str, error["loc"])])
+    if error["type"] == "extra_forbidden":
+        known = sorted(_known_keys(cls, error["loc"][:-1]))
+        near = get_close_matches(str(error["loc"][-1]), known, 1)
+        remedy = f"did you mean '{near[0]}'?" if near else f"known: {', '.join(known)}"
+        return f"{place}: unknown key; {remedy}"
+    if error["type"] == "missing":
+        return f"{place}: expected a value, found none; add it to the YAML"
+    message = error["msg"].removeprefix("Value error, ")
+    found = "" if "found" in message else f", found {error['input']!r}"
+    return f"{place}: {message[0].lower()}{message[1:]}{found}"
+
+
+def _known_keys(cls, location):
+    for step in location:
+        annotation = cls.model_fields[step].annotation if step in getattr(cls, "model_fields", {}) else cls
+        options = [annotation, *getattr(annotation, "__args__", ())]
+        cls = next((a for a in options if isinstance(a, type) and issubclass(a, BaseModel)), cls)
+    return getattr(cls, "model_fields", {})

@@ -1,0 +1,59 @@
+"""A stage is a pure function; its signature is the whole contract."""
+
+import inspect
+import types
+from dataclasses import dataclass
+from typing import Callable, Union, get_args, get_origin, get_type_hints
+
+from pipeline.contract.context import Context
+from pipeline.contract.errors import ProductError
+from pipeline.contract.product import is_product
+from pipeline.contract.settings import Section
+
+
+@dataclass(frozen=True)
+class Stage:
+    """What the runner, the command line and the report need to know about one step."""
+
+    name: str           # 'complex_modes': file, function, YAML section and output file
+    run: Callable
+    inputs: dict        # argument name -> tuple of product classes that may fill it
+    optional: frozenset     # argument names that may stay empty
+    output: type        # product class
+    settings: type      # settings class
+    summary: str        # first docstring line: the CLI help
+    method: str         # docstring paragraph after 'Method:': the sentence of the report
+    companions: Callable | None     # product -> {file name: str or bytes}, written beside it
+    reads_case: bool    # True for the report: the whole YAML joins its hash
+
+    def __call__(self, *args, **kwargs):
+        """Run the pure function; ``context`` may be left out."""
+        return self.run(*args, **{"context": Context(), **kwargs})
+
+
+def stage(run=None, *, companions=None, reads_case=False):
+    """Turn ``def name(a: ProductA, settings: Settings, context: Context) -> Name`` into a Stage."""
+    if run is None:
+        return lambda function: stage(function, companions=companions, reads_case=reads_case)
+    hints = get_type_hints(run)
+    output, settings = hints.pop("return", None), hints.pop("settings", None)
+    context = hints.pop("context", None)
+    inputs = {name: _products(hint) for name, hint in hints.items()}
+    fits = (is_product(output) and isinstance(settings, type) and issubclass(settings, Section)
+            and context is Context and all(products for products in inputs.values()))
+    if not fits:
+        raise ProductError(f"stage {run.__name__}: annotate the products read, 'settings', 'context' and"
+                           f" the product written")
+    doc, file = inspect.getdoc(run) or "", run.__module__.rpartition(".")[2]
+    if not file == run.__name__ == output.name or "Method:" not in doc:
+        raise ProductError(f"stage {run.__name__}: file, function and product share one name"
+                           f" (found {file}, {output.name}); the docstring needs 'Method:'")
+    summary, _, method = doc.partition("Method:")
+    optional = frozenset(name for name, hint in hints.items() if type(None) in get_args(hint))
+    return Stage(run.__name__, run, inputs, optional, output, settings, summary.strip().splitlines()[0],
+                 " ".join(method.split()), companions, reads_case)
+
+
+def _products(hint):
+    options = get_args(hint) if get_origin(hint) in (Union, types.UnionType) else (hint,)
+    return tuple(p for p in options if is_product(p))

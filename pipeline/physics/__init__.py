@@ -1,0 +1,1 @@
+"""Mechanics on arrays: no files, no YAML, no command line, no products."""

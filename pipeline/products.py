@@ -1,0 +1,290 @@
+"""Every product that crosses a stage boundary. This page is the file-format reference.
+
+Conventions: SI units; cylindrical axes of the disc, z along its axis; the disc turns about +z.
+Side 'outer' (fingers) is z > 0, side 'inner' (piston) is z < 0. At a contact the normal points from
+the disc into the pad, the tangent along the sliding velocity of the disc, the lateral direction
+radially outwards. A relative displacement is pad minus disc: positive normal opens the contact.
+"""
+
+import numpy as np
+
+from pipeline.contract import Array, count, part, product, quantity, text
+
+
+@product(version=1)
+class Surface:
+    """Two rough surfaces on one periodic lateral grid, with the depth grading of their solids."""
+
+    y: Array = quantity("m", "y", "lateral position across sliding")
+    x: Array = quantity("m", "x", "lateral position along sliding")
+    disc_height: Array = quantity("m", "y x", "disc surface height, outwards of the solid, zero mean")
+    pad_height: Array = quantity("m", "y x", "pad surface height, outwards of the solid, zero mean")
+    disc_depth: Array = quantity("m", "disc_layer", "depth of the FE layer boundaries of the disc block, from 0")
+    pad_depth: Array = quantity("m", "pad_layer", "depth of the FE layer boundaries of the pad block, from 0")
+    body: Array = text("body", "body the statistics belong to")
+    source: Array = text("body", "file or generator of the height map")
+    rms_height: Array = quantity("m", "body", "Sq, root mean square height")
+    mean_height: Array = quantity("m", "body", "Sa, arithmetic mean deviation")
+    peak_to_valley: Array = quantity("m", "body", "Sz, highest peak to deepest valley")
+    skewness: Array = quantity("1", "body", "Ssk, skewness of heights")
+    kurtosis: Array = quantity("1", "body", "Sku, kurtosis of heights (3 = Gaussian)")
+    rms_slope: Array = quantity("1", "body", "Sdq, root mean square slope")
+    outlier_share: Array = quantity("1", "body", "share of samples removed as outliers")
+    filled_share: Array = quantity("1", "body", "share of samples filled")
+    shortest_wavelength: Array = quantity("m", "body", "shortest wavelength kept")
+    nodes_per_wavelength: Array = quantity("1", "body", "grid nodes on the shortest wavelength")
+    wavenumber: Array = quantity("rad/m", "wavenumber", "radial wavenumber of the power spectrum")
+    power_spectrum: Array = quantity("m^4", "body wavenumber", "isotropic (radially averaged) power spectrum")
+
+
+@product(version=1)
+class MicroFriction:
+    """Friction, real contact area and wear of the rough pair over pressure, speed and sliding distance."""
+
+    pressure: Array = quantity("Pa", "pressure", "nominal contact pressure")
+    speed: Array = quantity("m/s", "speed", "sliding speed")
+    distance: Array = quantity("m", "distance", "sliding distance")
+    friction: Array = quantity("1", "pressure speed distance", "coefficient of friction, shear over normal force")
+    friction_std: Array = quantity("1", "pressure speed distance", "standard error of the friction coefficient")
+    real_area: Array = quantity("1", "pressure speed distance", "real contact area share, perimeter-corrected")
+    wear_depth: Array = quantity("m", "pressure speed distance", "mean approach of both surfaces by wear")
+    largest_wear: Array = quantity("m", "pressure speed distance", "largest wear of one surface node")
+    normal_stiffness: Array = quantity("Pa/m", "pressure speed distance", "interface stiffness dp/d(approach), bulk removed")
+    flash_temperature: Array = quantity("K", "pressure speed distance", "mean flash temperature rise of the contact spots")
+    shear_limit: Array = quantity("Pa", "", "shear limit at reference speed and temperature")
+    y: Array = quantity("m", "y", "lateral position across sliding")
+    x: Array = quantity("m", "x", "lateral position along sliding")
+    contact_pressure_new: Array = quantity("Pa", "y x", "contact pressure, first cycle, middle pressure and speed")
+    contact_pressure_worn: Array = quantity("Pa", "y x", "contact pressure, last cycle, middle pressure and speed")
+    pad_wear: Array = quantity("m", "y x", "wear of the pad nodes after the last cycle, middle pressure and speed")
+    disc_wear: Array = quantity("m", "y x", "wear of the disc nodes after the last cycle, middle pressure and speed")
+    refinement: Array = quantity("1", "refinement", "nodes per shortest wavelength of the convergence study")
+    refinement_area: Array = quantity("1", "refinement", "perimeter-corrected real area share at middle pressure")
+
+
+@product(version=1)
+class FrictionMap:
+    """mu(pressure, speed, distance) of the interface and its normal stiffness."""
+
+    pressure: Array = quantity("Pa", "pressure", "nominal contact pressure")
+    speed: Array = quantity("m/s", "speed", "sliding speed")
+    distance: Array = quantity("m", "distance", "sliding distance")
+    friction: Array = quantity("1", "pressure speed distance", "coefficient of friction")
+    friction_std: Array = quantity("1", "pressure speed distance", "standard error of the coefficient of friction")
+    normal_stiffness: Array = quantity("Pa/m", "pressure distance", "interface stiffness, mean over speed")
+    computed_pressure: Array = quantity("Pa", "computed_pressure", "pressures at which micro_friction ran")
+    computed_speed: Array = quantity("m/s", "computed_speed", "speeds at which micro_friction ran")
+
+
+@product(version=1)
+class Body:
+    """One elastic body: FE mesh, materials and real modes on its supports."""
+
+    node: Array = quantity("m", "node xyz", "node positions")
+    element: Array = count("element vertex", "node numbers of each element, order of meshio")
+    kind: Array = text("", "meshio cell type of the elements: hexahedron20 or hexahedron27")
+    material: Array = count("element", "row of the material table")
+    material_name: Array = text("material", "material names")
+    density: Array = quantity("kg/m^3", "material", "density")
+    elasticity: Array = quantity("Pa", "material voigt strain", "elastic constants, order xx yy zz yz xz xy")
+    damping_ratio: Array = quantity("1", "", "damping ratio of the elastic modes of the body")
+    frequency: Array = quantity("Hz", "mode", "natural frequencies of the body on its supports alone")
+    shape: Array = quantity("1/kg^0.5", "mode node xyz", "mass-normalised mode shapes")
+    supported: Array = count("support", "nodes held in all directions (rigid supports; none = empty)")
+
+
+@product(version=1)
+class Incidence:
+    """Sparse rows: displacement of row i = sum of weight * u[body][node, axis]."""
+
+    rows: Array = count("", "number of rows")
+    row: Array = count("entry", "row of the entry")
+    body: Array = count("entry", "body of the entry, index into Structure.body_name")
+    node: Array = count("entry", "node of the entry")
+    axis: Array = count("entry", "axis of the entry: 0, 1, 2 = x, y, z")
+    weight: Array = quantity("1", "entry", "weight")
+
+
+@product(version=1)
+class Structure:
+    """FE bodies of the brake, their joints, contacts and sensors, and the solved preload."""
+
+    body_name: Array = text("body", "bodies in order: disc, pad_outer, pad_inner, caliper")
+    disc: Body = part("brake disc on its mount")
+    pad_outer: Body = part("pad with backplate on the finger side, z > 0")
+    pad_inner: Body = part("pad with backplate on the piston side, z < 0")
+    caliper: Body = part("caliper with fingers and cylinder")
+    free_frequency: Array = quantity("Hz", "free_mode", "natural frequencies of the free disc, rigid motions left out")
+    free_diameters: Array = count("free_mode", "nodal diameters of the free-disc modes")
+    free_out_of_plane: Array = quantity("1", "free_mode", "share of modal mass that moves along the axis")
+    joint_name: Array = text("joint", "joint names, e.g. abutment_outer_leading")
+    joint: Incidence = part("joint elongation rows (both ends included; a joint to ground has one end)")
+    joint_stiffness: Array = quantity("N/m", "joint", "joint stiffness, linearised about the preload")
+    joint_damping: Array = quantity("N s/m", "joint", "joint damping")
+    contact_pad: Array = count("contact", "body of the pad of the contact, index into body_name")
+    contact_position: Array = quantity("m", "contact xyz", "centroid of the contact patch on the disc face")
+    contact_area: Array = quantity("m^2", "contact", "area of the contact patch")
+    contact_normal: Incidence = part("normal relative displacement, pad minus disc, positive opens")
+    contact_tangent: Incidence = part("relative displacement pad minus disc along sliding")
+    contact_lateral: Incidence = part("relative displacement pad minus disc radially outwards")
+    pressure: Array = quantity("Pa", "pressure", "nominal pad pressures at which the preload was solved")
+    preload: Array = quantity("N", "pressure contact", "static normal contact force")
+    contact_stiffness: Array = quantity("N/m", "pressure contact", "normal contact stiffness about the preload, 0 when open")
+    closed: Array = count("pressure contact", "1 where the contact is closed")
+    law_closure: Array = quantity("m", "closure", "closure (minus gap) axis of the normal contact law, from 0")
+    law_pressure: Array = quantity("Pa", "closure", "contact pressure at each closure")
+    sensor_name: Array = text("sensor", "sensor names")
+    sensor_position: Array = quantity("m", "sensor xyz", "sensor positions")
+    sensor_direction: Array = quantity("1", "sensor xyz", "sensor directions, unit vectors")
+    sensor: Incidence = part("sensor displacement rows")
+    piston: Incidence = part("piston row: opening force pair between cylinder and inner backplate")
+    piston_area: Array = quantity("m^2", "", "pad area on which the nominal pressure acts; piston force = pressure * area")
+
+
+@product(version=1)
+class ReducedModel:
+    """The reduced sliding model: everything that a solver or an effect needs of a sliding system.
+
+    Equation of motion, s = sliding, q = reduced coordinates:
+        M q'' + (C + speed G + sum_j c_j b_j b_j^T) q'
+              + (K + speed^2 Kc + sum_j k_j b_j b_j^T) q = sum_i (n_i N_i + t_i T_i) + inputs,
+    N_i >= 0 the contact force on the pad along its normal row n_i, T_i = mu N_i along its tangent row t_i.
+    """
+
+    body_name: Array = text("body", "bodies in order")
+    coordinate_body: Array = count("coordinate", "body of each reduced coordinate, index into body_name")
+    mass: Array = quantity("kg", "coordinate column", "reduced mass")
+    damping: Array = quantity("N s/m", "coordinate column", "reduced damping of the bodies")
+    gyroscopic: Array = quantity("N s^2/m", "coordinate column", "gyroscopic matrix per rad/s of disc speed")
+    stiffness: Array = quantity("N/m", "coordinate column", "reduced stiffness of the bodies, without joints and contacts")
+    centrifugal: Array = quantity("kg", "coordinate column", "stiffness per squared disc speed")
+    joint_name: Array = text("joint", "joint names")
+    joint: Array = quantity("1", "joint coordinate", "joint elongation rows")
+    joint_stiffness: Array = quantity("N/m", "joint", "joint stiffness")
+    joint_damping: Array = quantity("N s/m", "joint", "joint damping")
+    contact_pad: Array = count("contact", "body of the pad of the contact")
+    contact_position: Array = quantity("m", "contact xyz", "centroid of the contact patch")
+    contact_area: Array = quantity("m^2", "contact", "area of the contact patch")
+    contact_normal: Array = quantity("1", "contact coordinate", "normal rows, pad minus disc, positive opens")
+    contact_tangent: Array = quantity("1", "contact coordinate", "tangent rows, pad minus disc, along sliding")
+    contact_lateral: Array = quantity("1", "contact coordinate", "lateral rows, pad minus disc, radial")
+    pressure: Array = quantity("Pa", "pressure", "nominal pad pressures of the preload states")
+    preload: Array = quantity("N", "pressure contact", "static normal contact force")
+    contact_stiffness: Array = quantity("N/m", "pressure contact", "normal contact stiffness about the preload")
+    law_closure: Array = quantity("m", "closure", "closure axis of the normal contact law")
+    law_pressure: Array = quantity("Pa", "closure", "contact pressure at each closure")
+    input_name: Array = text("input", "inputs, e.g. piston")
+    input: Array = quantity("1", "input coordinate", "input rows: generalised force per unit input force")
+    input_area: Array = quantity("m^2", "input", "input force per nominal pad pressure")
+    sensor_name: Array = text("sensor", "sensor names")
+    sensor_position: Array = quantity("m", "sensor xyz", "sensor positions")
+    sensor_direction: Array = quantity("1", "sensor xyz", "sensor directions")
+    sensor: Array = quantity("1", "sensor coordinate", "sensor displacement rows")
+    visible_position: Array = quantity("m", "visible xyz", "surface nodes kept for pictures")
+    visible_body: Array = count("visible", "body of the surface nodes")
+    visible_face: Array = count("face corner", "quadrilaterals of the surface, row numbers of visible_position")
+    recovery: Array = quantity("1", "visible xyz coordinate", "displacement of the surface nodes per coordinate", np.float32)
+
+
+@product(version=1)
+class ComplexModes:
+    """Complex modes of the sliding system over friction, and at each operating point of the map."""
+
+    pressure: Array = quantity("Pa", "pressure", "nominal pad pressure")
+    friction: Array = quantity("1", "friction", "friction coefficient of the sweep")
+    root: Array = quantity("1/s", "pressure friction root", "s = sigma + i omega, followed over friction", complex)
+    real_frequency: Array = quantity("Hz", "pressure root", "frequencies without friction and damping")
+    operating_pressure: Array = quantity("Pa", "operating", "pressure of the operating point")
+    operating_speed: Array = quantity("rad/s", "operating", "disc speed of the operating point")
+    operating_friction: Array = quantity("1", "operating", "friction coefficient from the map, mean over contacts")
+    operating_root: Array = quantity("1/s", "operating root", "roots at the operating point", complex)
+    unstable_operating: Array = count("unstable", "operating point of the unstable mode")
+    unstable_root: Array = quantity("1/s", "unstable", "roots with positive real part, strongest first", complex)
+    unstable_shape: Array = quantity("1", "unstable visible xyz", "their shapes on the surface nodes, largest = 1", complex)
+    corrections: Array = count("", "static friction correction vectors added to the real modes")
+
+
+@product(version=1)
+class Multibody:
+    """Motion of the flexible pads on four rigid sub-discs of friction patches, per operating point."""
+
+    pressure: Array = quantity("Pa", "operating", "nominal pad pressure")
+    speed: Array = quantity("rad/s", "operating", "disc speed")
+    time: Array = quantity("s", "time", "time after the static start")
+    pad_name: Array = text("pad", "pads: outer, inner")
+    pad_motion: Array = quantity("m", "operating pad xyz time", "displacement of the centre of gravity of the pads; x = along sliding at the pad centre, y = axial, z = radial")
+    patch_force: Array = quantity("N", "operating pad sub_disc time", "normal force of each sub-disc on each pad")
+    normal_force: Array = quantity("N", "operating contact time", "normal force at each contact point", np.float32)
+    friction_force: Array = quantity("N", "operating contact time", "friction force on the pad along sliding", np.float32)
+    mean_friction: Array = quantity("1", "operating", "friction over normal force, mean over the second half")
+    growth_rate: Array = quantity("1/s", "operating", "growth rate of the pad oscillation, fitted to its envelope")
+    oscillation_frequency: Array = quantity("Hz", "operating", "dominant frequency of the pad oscillation along sliding")
+    separated_share: Array = quantity("1", "operating", "share of contact samples without contact")
+    outside_map_share: Array = quantity("1", "operating", "share of friction evaluations outside the computed map")
+    caliper_factor: Array = quantity("1", "caliper_factor", "factor on the caliper stiffness, stability map")
+    abutment_factor: Array = quantity("1", "abutment_factor", "factor on the abutment stiffness, stability map")
+    stability: Array = quantity("1/s", "operating caliper_factor abutment_factor", "largest growth rate of the linearised system")
+
+
+@product(version=1)
+class Response:
+    """Vibration of the elastic brake at the sensors, excited by the contact forces."""
+
+    pressure: Array = quantity("Pa", "operating", "nominal pad pressure")
+    speed: Array = quantity("rad/s", "operating", "disc speed")
+    time: Array = quantity("s", "time", "time after the static start")
+    sensor_name: Array = text("sensor", "sensor names")
+    sensor_position: Array = quantity("m", "sensor xyz", "sensor positions")
+    velocity: Array = quantity("m/s", "operating sensor time", "velocity at the sensors", np.float32)
+    frequency: Array = quantity("Hz", "frequency", "frequency axis of the spectra")
+    velocity_spectrum: Array = quantity("m^2/s^2/Hz", "operating sensor frequency", "one-sided power spectral density (Welch)")
+    mode_frequency: Array = quantity("Hz", "mode", "natural frequencies of the modes superposed")
+    mode_damping: Array = quantity("1", "mode", "their damping ratios")
+    coupling: Array = text("", "how forces enter: assembly or disc")
+
+
+@product(version=1)
+class Squeal:
+    """Squeal events at the sensors, and levels per band."""
+
+    pressure: Array = quantity("Pa", "operating", "nominal pad pressure")
+    speed: Array = quantity("rad/s", "operating", "disc speed")
+    sensor_name: Array = text("sensor", "sensor names")
+    reference: Array = quantity("m/s", "", "reference velocity of the level")
+    threshold: Array = quantity("1", "", "level above which a peak is a squeal event, dB")
+    peak_level: Array = quantity("1", "operating sensor", "highest level in the squeal band, dB")
+    peak_frequency: Array = quantity("Hz", "operating sensor", "its frequency")
+    band: Array = quantity("Hz", "band", "centre of the third-octave bands")
+    band_level: Array = quantity("1", "operating sensor band", "velocity level per band, dB")
+    event_operating: Array = count("event", "operating point of the event")
+    event_sensor: Array = count("event", "sensor of the event")
+    event_frequency: Array = quantity("Hz", "event", "frequency")
+    event_level: Array = quantity("1", "event", "largest level, dB")
+    event_start: Array = quantity("s", "event", "begin")
+    event_duration: Array = quantity("s", "event", "duration")
+
+
+@product(version=1)
+class Comparison:
+    """Published values beside ours, row by row."""
+
+    row: Array = text("row", "name of the quantity")
+    section: Array = text("row", "part of the paper: friction, modes, multibody, squeal")
+    unit: Array = text("row", "unit in which the row is shown")
+    published: Array = quantity("1", "row", "published value in that unit (0 where none)")
+    published_known: Array = count("row", "1 where the paper gives a value")
+    ours: Array = quantity("1", "row", "our value in that unit (0 where none)")
+    ours_known: Array = count("row", "1 where the chain computes the quantity")
+    tolerance: Array = quantity("1", "row", "tolerance in that unit")
+    verdict: Array = text("row", "within, outside, or not comparable")
+    tuned: Array = text("row", "what was tuned to reach the row, empty where nothing")
+    source: Array = text("row", "where the paper says so")
+    doubt: Array = text("row", "doubt about the published value, empty where none")
+    note: Array = text("row", "how our value was formed")
+
+
+@product(version=1)
+class Report:
+    """The report page of a case."""
+
+    html: Array = text("", "self-contained page")

@@ -1,0 +1,1 @@
+"""Systems: geometry, materials and joints, each value with its origin."""
