@@ -48,5 +48,10 @@ class Context:
         """A Progress for ``total`` steps of the work called ``label``."""
         yield Progress()
 
+    @contextmanager
+    def stage(self, stage):
+        """Announces that ``stage`` runs inside; silent here."""
+        yield
+
     def log(self, message):
         """One line for the user; silent here."""

@@ -52,12 +52,24 @@ def product(version):
     """
 
     def decorate(cls):
-        cls.name = snake(cls.__name__)
-        cls.version = version
         cls.__post_init__ = _validate
-        return dataclass(frozen=True, eq=False, kw_only=True)(cls)
+        cls = dataclass(frozen=True, eq=False, kw_only=True)(cls)
+        _check_names(cls)
+        cls.name, cls.version = snake(cls.__name__), version
+        return cls
 
     return decorate
+
+
+def _check_names(cls):
+    """A field may carry the name of a dimension only as its coordinate (HDF5 dimension scale)."""
+    plain = {f.name: f.metadata.get("dims") for f in fields(cls)}
+    if plain.keys() & {"name", "version"}:
+        raise ProductError(f"product {cls.__name__}", "no field called 'name' or 'version'", "one", "rename it")
+    for dim in {d for dims in plain.values() for d in dims or ()}:
+        if dim in plain and plain[dim] != (dim,):
+            raise ProductError(f"{snake(cls.__name__)}.{dim}", f"the 1-D coordinate of dimension '{dim}'",
+                                   f"dimensions {plain[dim]}")
 
 
 def _validate(self):

@@ -9,13 +9,14 @@ and read from ``{thickness: 7 mm}`` or, with its origin, from
 ``{thickness: {value: 7 mm, origin: stated, source: "Table 1"}}``.
 """
 
+from dataclasses import dataclass
 from difflib import get_close_matches
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, get_args
 
-from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationError, WithJsonSchema
+from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationError, ValidationInfo, WithJsonSchema
 
-from pipeline.contract.errors import ConfigError
+from pipeline.contract.errors import BrakechainError, ConfigError
 from pipeline.contract.units import to_si
 
 #: what an annotated YAML value may say beside its value
@@ -29,10 +30,18 @@ class Section(BaseModel):
     model_config = ConfigDict(extra="forbid", frozen=True, validate_default=True)
 
 
+@dataclass(frozen=True)
+class Unit:
+    """Marks the SI unit of an annotated setting."""
+
+    name: str
+
+
 def Quantity(unit, **bounds):  # noqa: N802 - reads as a type in annotations
     """A float in the SI unit ``unit``; ``bounds`` are pydantic's gt, ge, lt, le."""
     spelt = {"type": ["string", "number"], "description": f"quantity in {unit}"}
-    return Annotated[float, BeforeValidator(lambda v: _in_si(v, unit)), Field(**bounds), WithJsonSchema(spelt)]
+    return Annotated[float, BeforeValidator(lambda v: _in_si(v, unit)), Field(**bounds), WithJsonSchema(spelt),
+                     Unit(unit)]
 
 
 def Quantities(unit, **bounds):  # noqa: N802
@@ -52,11 +61,19 @@ def _in_si(value, unit):
         raise ValueError(f"expected {error.expected}, found {error.found}") from None
 
 
-def _existing(value):
-    path = Path(str(value))
-    if not path.is_file():
-        raise ValueError(f"expected a file, found none at {str(path)!r}")
-    return path
+def _existing(value, info: ValidationInfo):
+    """Resolve a file named in the YAML: 'measured:NAME', or a path from the YAML's folder or from here."""
+    context = info.context or {}
+    if str(value).startswith("measured:"):
+        try:
+            return context["measured"](str(value).removeprefix("measured:"))
+        except (BrakechainError, KeyError) as error:
+            raise ValueError(str(error)) from None
+    candidates = [Path(context.get("folder", ".")) / str(value), Path(str(value))]
+    found = next((path for path in candidates if path.is_file()), None)
+    if found is None:
+        raise ValueError(f"expected a file, found none at {' or '.join(repr(str(c)) for c in candidates)}")
+    return found
 
 
 #: a path whose content joins the hash of the stage that reads it
@@ -83,12 +100,35 @@ def split_origins(values, path=""):
     return values, {}
 
 
-def fill(cls, values, where):
-    """Build section ``cls`` from a plain mapping; ``where`` is 'file.yaml: stage' for messages."""
+def fill(cls, values, where, context=None):
+    """Build section ``cls`` from a plain mapping; ``where`` is 'file.yaml: stage' for messages.
+
+    ``context`` tells how files are found: {"folder": Path, "measured": name -> Path}.
+    """
+    if not isinstance(values, dict):
+        raise ConfigError(where, "a mapping of settings", repr(values))
     try:
-        return cls.model_validate(values)
+        return cls.model_validate(values, context=context)
     except ValidationError as error:
         raise ConfigError("\n".join(_sentence(cls, e, where) for e in error.errors())) from None
+
+
+def leaves(section, prefix=""):
+    """Yield (dotted key, value, SI unit or "", meaning) of every setting of a filled section."""
+    for name, info in type(section).model_fields.items():
+        value, key = getattr(section, name), f"{prefix}{name}"
+        if isinstance(value, Section):
+            yield from leaves(value, f"{key}.")
+        elif isinstance(value, (tuple, list)) and value and all(isinstance(v, Section) for v in value):
+            for index, item in enumerate(value):
+                yield from leaves(item, f"{key}.{index}.")
+        else:
+            yield key, value, _unit(info), info.description or ""
+
+
+def _unit(info):
+    inner = [m for a in get_args(info.annotation) for m in getattr(a, "__metadata__", ())]
+    return next((m.name for m in [*info.metadata, *inner] if isinstance(m, Unit)), "")
 
 
 def _sentence(cls, error, where):

@@ -1,6 +1,8 @@
 """SI everywhere; other units exist only in YAML, and are converted once, here."""
 
 import numbers
+import re
+import tokenize
 from functools import cache
 
 from pipeline.contract.errors import ConfigError
@@ -13,11 +15,7 @@ SI = frozenset({
 })
 
 
-@cache
-def _registry():
-    import pint
-
-    return pint.UnitRegistry()
+_NUMBER = re.compile(r"\s*[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?\s*(?P<unit>.*)")
 
 
 def to_si(value, unit, where):
@@ -25,32 +23,36 @@ def to_si(value, unit, where):
 
     Raises ConfigError that names ``where``, the unit expected and what was found.
     """
-    example = f"a quantity in {unit}, such as \"{_example(unit)}\"" if unit != "1" else "a number"
-    if isinstance(value, bool) or not isinstance(value, (str, numbers.Real)):
-        raise ConfigError(where, example, repr(value))
-    if isinstance(value, numbers.Real):
+    example = "a number" if unit == "1" else f'a quantity in {unit}, such as "{_example(unit)}"'
+    if isinstance(value, numbers.Real) and not isinstance(value, bool):
         if unit != "1":
             raise ConfigError(where, example, f"{value!r} without a unit", "write the unit after the number")
         return float(value)
-    try:
-        return float(value) if unit == "1" else _convert(value, unit)
-    except ValueError:
-        pass
-    try:
-        return _convert(value, unit)
-    except Exception as error:
-        if type(error).__module__.split(".")[0] not in ("pint", "tokenize", "builtins"):
-            raise
-        raise ConfigError(where, example, repr(value)) from None
+    spelt = _NUMBER.fullmatch(value) if isinstance(value, str) else None
+    if not spelt or (unit != "1" and not spelt["unit"]):
+        raise ConfigError(where, example, repr(value))
+    return _convert(value, unit, lambda: ConfigError(where, example, repr(value)))
 
 
-def _convert(text, unit):
-    registry = _registry()
-    quantity = registry.Quantity(text)
-    if quantity.unitless and unit != "1" and not any(c.isalpha() or c == "%" for c in text):
-        raise ArithmeticError("no unit")
-    target = "dimensionless" if unit == "1" else unit.replace("1/kg^0.5", "kg^(-0.5)")
-    return float(quantity.to(target).magnitude)
+def _convert(text, unit, refusal):
+    import pint
+
+    try:
+        quantity = _registry().Quantity(text)
+        return float(quantity.to("dimensionless" if unit == "1" else _for_pint(unit)).magnitude)
+    except (pint.PintError, ArithmeticError, ValueError, TypeError, AttributeError, tokenize.TokenError):
+        raise refusal() from None
+
+
+def _for_pint(unit):
+    return unit.replace("1/kg^0.5", "kg^(-0.5)")
+
+
+@cache
+def _registry():
+    import pint
+
+    return pint.UnitRegistry()
 
 
 def _example(unit):

@@ -1,0 +1,49 @@
+# brakechain: 'make run' and 'make test' need nothing but Python 3.11+ and make.
+CASE   ?= disc_brake
+PYTHON ?= python3
+ARGS   ?=
+TESTS  ?= tests
+STAGES := surface micro_friction friction_map structure reduced_model complex_modes multibody response squeal comparison report
+
+CONFIG := configs/$(CASE).yaml
+READY  := .venv/.ready
+BIN    := .venv/bin
+
+.DEFAULT_GOAL := help
+.PHONY: help setup run test test-slow bench lint clean $(STAGES)
+
+help:            ## show this list
+	@echo "usage: make TARGET [CASE=disc_brake] [ARGS=...]      cases: $(basename $(notdir $(wildcard configs/*.yaml)))"
+	@grep -hE '^[a-z-]+:.*##' Makefile | sed -E 's/:.*## */ /' | awk '{name = $$1; sub(/^[^ ]* */, ""); printf "  %-12s %s\n", name, $$0}'
+	@echo "  one stage:   $(STAGES)"
+
+setup: $(READY)  ## create the virtual environment .venv from the pinned lock, wheels only
+
+$(READY): requirements.lock pyproject.toml
+	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' || \
+		{ echo "error: PYTHON=$(PYTHON): expected Python 3.11 or newer; try: make PYTHON=python3.12 $(MAKECMDGOALS)"; exit 2; }
+	$(PYTHON) -m venv .venv
+	$(BIN)/python -m pip install --quiet --require-hashes --only-binary :all: -r requirements.lock
+	$(BIN)/python -m pip install --quiet --no-deps --editable .
+	@touch $@
+
+run: $(READY)    ## run the chain of CASE; what is up to date is kept
+	$(BIN)/brakechain run $(CONFIG) $(ARGS)
+
+test: $(READY)   ## all tests but the slow studies
+	$(BIN)/python -m pytest -q -m "not slow" $(ARGS) $(TESTS)
+
+test-slow: $(READY)  ## the slow studies: full cases, kill-and-resume in every stage
+	$(BIN)/python -m pytest -q -m slow $(ARGS) $(TESTS)
+
+bench: $(READY)  ## benchmarks: seconds and memory of every stage and kernel
+	$(BIN)/python -m tests.benchmarks $(ARGS)
+
+lint: $(READY)   ## style of the code
+	$(BIN)/python -m ruff check .
+
+clean:           ## delete the products of CASE
+	rm -rf data/runs/$(CASE)
+
+$(STAGES): $(READY)
+	$(BIN)/brakechain $(subst _,-,$@) $(CONFIG) $(ARGS)

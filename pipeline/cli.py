@@ -1,0 +1,221 @@
+"""The command line, derived from the stages. The door of click."""
+
+import json
+import os
+import sys
+from pathlib import Path
+
+import click
+
+import stages
+from pipeline import __version__
+from pipeline.contract.errors import BrakechainError
+
+RUNS = Path("data/runs")
+
+
+class Derived(click.Group):
+    """A group whose stage commands are made when asked for: '--help' imports no stage."""
+
+    def list_commands(self, ctx):
+        return [*self.commands, *(name.replace("_", "-") for name in stages.NAMES)]
+
+    def get_command(self, ctx, name):
+        stage = name.replace("-", "_")
+        return _stage_command(stage) if stage in stages.NAMES else super().get_command(ctx, name)
+
+
+@click.group(cls=Derived, context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 110})
+@click.version_option(__version__, prog_name="brakechain")
+def cli():
+    """brakechain: from asperities to brake squeal, one HDF5 file per step.
+
+    'brakechain run CONFIG' runs the chain of a case; every stage is a command of its own.
+    Products lie in data/runs/<case>/; 'brakechain inspect FILE' shows what is in one.
+    """
+
+
+def _options(*which):
+    """Options that several commands share, by name."""
+    table = {
+        "run": click.option("--run", "folder", metavar="DIR", type=click.Path(path_type=Path),
+                            help="folder of the products  [default: data/runs/<case>]"),
+        "set": click.option("--set", "overrides", multiple=True, metavar="A.B=V",
+                            help="override one setting, e.g. multibody.duration=\"0.1 s\"; may be repeated"),
+        "from": click.option("--from", "first", metavar="STAGE", help="begin here; earlier products are taken as they are"),
+        "until": click.option("--until", "last", metavar="STAGE", help="end after this stage"),
+        "force": click.option("--force", multiple=True, metavar="STAGE", help="compute this stage even if up to date"),
+        "again": click.option("--force", "again", is_flag=True, help="compute even if up to date"),
+        "dry": click.option("--dry-run", is_flag=True, help="say what would be computed and why; compute nothing"),
+        "workers": click.option("--workers", type=click.IntRange(1), metavar="N",
+                                help="processes for independent tasks  [default: one per core]"),
+        "scheduler": click.option("--scheduler", metavar="ADDRESS", help="use the Dask cluster at this address instead"),
+        "debug": click.option("--debug", is_flag=True, expose_value=False, help="show the traceback of an error"),
+    }
+
+    def decorate(function):
+        for name in reversed(which):
+            function = table[name](function)
+        return function
+
+    return decorate
+
+
+_CONFIG = click.argument("config", type=click.Path(path_type=Path))
+_FAN_OUT = ("dry", "workers", "scheduler", "debug")
+
+
+@cli.command()
+@_CONFIG
+@_options("run", "set", "from", "until", "force", *_FAN_OUT)
+def run(config, folder, overrides, first, last, force, dry_run, workers, scheduler):
+    """Run the chain of CONFIG; what is up to date is not computed again."""
+    _run(config, folder, overrides, first, last, force, dry_run, workers, scheduler)
+
+
+def _stage_command(name):
+    """The command of one stage: the same form for all of them."""
+
+    @click.command(name.replace("_", "-"), help=stages.summary(name), short_help=stages.summary(name))
+    @_CONFIG
+    @_options("run", "set", "again", *_FAN_OUT)
+    def command(config, folder, overrides, again, dry_run, workers, scheduler):
+        _run(config, folder, overrides, name, name, (name,) if again else (), dry_run, workers, scheduler)
+
+    return command
+
+
+def _run(config, folder, overrides, first, last, force, dry_run, workers, scheduler):
+    from pipeline.console import Bars, RunContext
+    from pipeline.contract import executor
+
+    job = _job(config, folder, overrides)
+    names = [s.name for s in job.case.stages]
+    for name in force:
+        if name not in names:
+            raise click.BadParameter(f"expected one of {', '.join(names)}, found {name!r}", param_hint="--force")
+    if dry_run:
+        _show_plan(job.plan(first, last, frozenset(force)))
+        return
+    work = executor.choose(workers or os.cpu_count() or 1, scheduler)
+    try:
+        context = RunContext(solver=job.solver, case=job.case.card(__version__), executor=work, bars=Bars())
+        computed = job.execute(context, first, last, frozenset(force), _tell)
+    finally:
+        work.close()
+    if not computed:
+        click.echo(f"nothing to compute: everything asked for is up to date in {job.folder}")
+    elif (job.folder / "report.html").exists() and (last in (None, "report")):
+        click.echo(f"report: {job.folder / 'report.html'}")
+
+
+def _job(config, folder, overrides):
+    """The case and its run folder, checked, with the sparse solver resolved."""
+    from pipeline import measured
+    from pipeline.contract import case, runner
+    from pipeline.physics import linear_solver
+
+    chosen = case.load(config, stages.CHAINS, stages.load, overrides, measured.path)
+    solver = linear_solver.available()[0] if chosen.solver == "auto" else chosen.solver
+    if solver not in linear_solver.available():
+        raise click.BadParameter(f"{config}: solver: expected one of {', '.join(linear_solver.available())} on this"
+                                 f" machine, found {solver!r}")
+    return runner.Run(chosen, folder or RUNS / chosen.name, solver)
+
+
+def _tell(state, seconds):
+    if seconds is None:
+        return
+    click.echo(f"{state.stage.name:<16} {seconds:8.1f} s   {_because(state.reasons)}")
+
+
+def _because(reasons, most=3):
+    more = f" and {len(reasons) - most} more" if len(reasons) > most else ""
+    return "; ".join(reasons[:most]) + more
+
+
+def _show_plan(states):
+    for state in states:
+        click.echo(f"{state.stage.name:<16} {'would run: ' + _because(state.reasons) if state.reasons else 'up to date'}")
+    if not any(state.reasons for state in states):
+        click.echo("nothing to compute")
+
+
+@cli.command()
+@_CONFIG
+@_options("run", "set", "debug")
+@click.option("--dot", is_flag=True, help="print the graph in the language of Graphviz")
+def chain(config, folder, overrides, dot):
+    """List the stages of CONFIG, their state, and why each would run again."""
+    job = _job(config, folder, overrides)
+    states = job.plan()
+    if not dot:
+        _show_plan(states)
+        return
+    click.echo("digraph chain {\n  rankdir=LR; node [shape=box, fontname=\"sans-serif\"];")
+    for state in states:
+        style = "dashed" if state.reasons else "solid"
+        click.echo(f"  {state.stage.name} [style={style}];")
+        for product in job.filled(state.stage).values():
+            if product:
+                click.echo(f"  {product.name} -> {state.stage.name};")
+    click.echo("}")
+
+
+@cli.command()
+@click.argument("file", type=click.Path(path_type=Path))
+@_options("debug")
+def inspect(file):
+    """Show what is in a product FILE: tree, dimensions, units, ranges, provenance."""
+    from pipeline.inspection import describe
+
+    for line in describe(file):
+        click.echo(line)
+
+
+@cli.command()
+@click.argument("name", required=False)
+def schema(name):
+    """Print the JSON schema of the YAML of chain NAME, for editors  [default: all chains]."""
+    from pipeline.schema import case_schema
+
+    names = [name] if name else list(stages.CHAINS)
+    if name and name not in stages.CHAINS:
+        raise click.BadParameter(f"expected one of {', '.join(stages.CHAINS)}, found {name!r}", param_hint="NAME")
+    chains = {n: [stages.load(s) for s in stages.CHAINS[n]] for n in names}
+    click.echo(json.dumps(case_schema(chains), indent=2))
+
+
+@cli.command()
+def completion():
+    """Say how to switch on completion of commands in your shell."""
+    for shell, file in (("bash", "~/.bashrc"), ("zsh", "~/.zshrc")):
+        click.echo(f"{shell}: add to {file}:   eval \"$(_BRAKECHAIN_COMPLETE={shell}_source brakechain)\"")
+    click.echo("fish: run once:   _BRAKECHAIN_COMPLETE=fish_source brakechain >"
+               " ~/.config/fish/completions/brakechain.fish")
+
+
+def main():
+    """Run a command: errors become one sentence and an exit code; --debug shows the traceback."""
+    try:
+        sys.exit(cli(standalone_mode=False))
+    except click.exceptions.Exit as stop:
+        sys.exit(stop.exit_code)
+    except click.ClickException as error:
+        error.show()
+        sys.exit(2)
+    except (click.Abort, KeyboardInterrupt):
+        click.echo("stopped; what was finished is kept, run the same command to go on", err=True)
+        sys.exit(130)
+    except BrakechainError as error:
+        _fail(error, str(error), error.exit_code)
+    except Exception as error:  # the last resort: one line for the user, the traceback on request
+        _fail(error, f"internal error: {type(error).__name__}: {error}; run again with --debug for the traceback", 1)
+
+
+def _fail(error, message, code):
+    if "--debug" in sys.argv:
+        raise error
+    click.echo(f"error: {message}", err=True)
+    sys.exit(code)
+

@@ -1,0 +1,129 @@
+"""A case: one YAML file = one chain with its settings, each value with its origin."""
+
+import hashlib
+import json
+from dataclasses import dataclass
+from difflib import get_close_matches
+from functools import cached_property
+from pathlib import Path
+
+from pipeline.contract import documents, settings
+from pipeline.contract.context import Case
+from pipeline.contract.errors import ConfigError
+
+#: top-level keys beside the sections of the stages
+HEAD = ("chain", "title", "description", "solver")
+SOLVERS = ("auto", "pypardiso", "superlu")
+
+
+@dataclass(frozen=True)
+class CaseFile:
+    """The YAML of a case, checked whole before anything is computed."""
+
+    path: Path
+    document: dict      # as read, overrides applied, origins included
+    stages: tuple       # the stages of its chain, in order
+    measured: object = None     # name of a public recording -> its local file
+
+    @property
+    def name(self):
+        return self.path.stem
+
+    @property
+    def solver(self):
+        return self.document.get("solver", "auto")
+
+    @cached_property
+    def _split(self):
+        plain, origins = settings.split_origins({s.name: self.document.get(s.name) or {} for s in self.stages})
+        return plain, origins
+
+    @cached_property
+    def sections(self):
+        """stage name -> filled settings; ConfigError for anything not understood."""
+        context = {"folder": self.path.parent, "measured": self.measured}
+        return {s.name: settings.fill(s.settings, self._split[0][s.name], f"{self.path}: {s.name}", context)
+                for s in self.stages}
+
+    def given(self, stage):
+        """The settings of a stage as the YAML gives them, with origins."""
+        return self.document.get(stage.name) or {}
+
+    @property
+    def digest(self):
+        """SHA-256 of the whole case, for a stage that shows it."""
+        return hashlib.sha256(json.dumps(self.document, sort_keys=True, default=str).encode()).hexdigest()
+
+    def card(self, version):
+        """What the report may tell about the case."""
+        told = {s.name: list(settings.leaves(self.sections[s.name])) for s in self.stages}
+        origins = {s.name: {k.removeprefix(f"{s.name}."): v for k, v in self._split[1].items()
+                            if k.startswith(f"{s.name}.")} for s in self.stages}
+        column = lambda i: {name: {row[0]: row[i] for row in rows} for name, rows in told.items()}  # noqa: E731
+        methods = {s.name: s.method.format(**dict(self.sections[s.name])) for s in self.stages}
+        return Case(self.name, self.document.get("title", ""), self.document.get("description", ""), column(1),
+                    origins, column(2), column(3), methods, version)
+
+
+def load(path, chains, stage_of, overrides=(), measured=None):
+    """Read and check the case at ``path``.
+
+    chains : dict, chain name -> names of its stages in order
+    stage_of : function, stage name -> Stage
+    overrides : strings 'stage.key=value', as given to --set
+    measured : function, name of a public recording -> its local file
+    """
+    path = Path(path)
+    document = documents.read_yaml(path)
+    if not isinstance(document, dict):
+        raise ConfigError(path, "a mapping of sections", repr(document)[:60])
+    for item in overrides:
+        _override(document, item)
+    name = document.get("chain")
+    if name not in chains:
+        raise ConfigError(f"{path}: chain", f"one of {', '.join(chains)}", repr(name))
+    stages = tuple(stage_of(each) for each in chains[name])
+    _check_keys(path, document, stages)
+    case = CaseFile(path, document, stages, measured)
+    case.sections  # noqa: B018 - refuses a bad case before anything is computed
+    return case
+
+
+def _override(document, item):
+    key, equals, text = item.partition("=")
+    steps = key.split(".")
+    if not equals or len(steps) < 2:
+        raise ConfigError(f"--set {item}", "stage.key=value", repr(item))
+    place = document
+    for step in steps[:-1]:
+        inner = _step(place, step, item)
+        place = inner["value"] if isinstance(inner, dict) and "value" in inner else inner
+    last = int(steps[-1]) if isinstance(place, list) and steps[-1].isdigit() else steps[-1]
+    try:
+        place[last] = documents.parse_value(text)
+    except (IndexError, TypeError):
+        raise ConfigError(f"--set {item}", f"a place for '{steps[-1]}'", repr(place)[:60]) from None
+
+
+def _step(place, step, item):
+    if isinstance(place, dict):
+        if place.get(step) is None:
+            place[step] = {}
+        return place[step]
+    if isinstance(place, list) and step.isdigit() and int(step) < len(place):
+        return place[int(step)]
+    raise ConfigError(f"--set {item}", f"a mapping that holds '{step}'", repr(place)[:60])
+
+
+def _check_keys(path, document, stages):
+    known = [*HEAD, *(s.name for s in stages)]
+    for key in document:
+        if key not in known:
+            near = get_close_matches(str(key), known, 1)
+            hint = f"did you mean '{near[0]}'?" if near else f"known: {', '.join(known)}"
+            raise ConfigError(f"{path}: {key}: unknown section; {hint}")
+    if document.get("solver", "auto") not in SOLVERS:
+        raise ConfigError(f"{path}: solver", f"one of {', '.join(SOLVERS)}", repr(document["solver"]))
+    for key in ("title", "description"):
+        if not isinstance(document.get(key, ""), str):
+            raise ConfigError(f"{path}: {key}", "text", repr(document[key]))

@@ -1,0 +1,135 @@
+"""Fan-out of independent tasks: this process, local processes, or a Dask cluster. Same bits each way.
+
+Every task runs with one BLAS thread; results come back in the order of the items.
+"""
+
+import multiprocessing
+import os
+import threading
+import time
+from concurrent.futures import ProcessPoolExecutor, as_completed
+
+from threadpoolctl import threadpool_limits
+
+from pipeline.contract.errors import ConfigError
+from pipeline.environment import ONE_THREAD
+
+#: solvers with global state: one task at a time in a process, also in a worker with several threads
+_ONE_TASK = threading.Lock()
+
+
+def run_task(function, item):
+    """One task, as every executor runs it."""
+    os.environ.update(ONE_THREAD)
+    with _ONE_TASK, threadpool_limits(1):
+        return function(item)
+
+
+class InProcess:
+    """One task after the other, here."""
+
+    def map(self, function, items, done):
+        results = []
+        for item in items:
+            results.append(run_task(function, item))
+            done()
+        return results
+
+    def close(self):
+        """Nothing to release."""
+
+
+class LocalProcesses:
+    """``workers`` processes on this machine, started when first needed."""
+
+    def __init__(self, workers):
+        self.workers, self._pool = workers, None
+
+    def map(self, function, items, done):
+        if self._pool is None:
+            os.environ.update(ONE_THREAD)
+            self._pool = ProcessPoolExecutor(self.workers, multiprocessing.get_context("spawn"), _follow, (os.getpid(),))
+        futures = [self._pool.submit(run_task, function, item) for item in items]
+        try:
+            for future in as_completed(futures):
+                future.result()
+                done()
+        except BaseException:
+            for future in futures:
+                future.cancel()
+            raise
+        return [future.result() for future in futures]
+
+    def close(self):
+        if self._pool is not None:
+            self._pool.shutdown(cancel_futures=True)
+
+
+def _follow(parent):
+    """End this worker when its parent is gone, however it went."""
+
+    def watch():
+        while os.getppid() == parent:
+            time.sleep(0.5)
+        os._exit(1)
+
+    threading.Thread(target=watch, daemon=True).start()
+
+
+class DaskCluster:
+    """The workers of the Dask scheduler at ``address``; they must run the same brakechain."""
+
+    def __init__(self, address, code):
+        try:
+            from distributed import Client
+        except ImportError:
+            raise ConfigError("--scheduler", "the package 'distributed'", "none",
+                              "pip install 'brakechain[cluster]'") from None
+        try:
+            self._client = Client(address, timeout=10, set_as_default=False)
+        except (OSError, ValueError, TimeoutError) as error:
+            raise ConfigError("--scheduler", "a Dask scheduler that answers", f"{address} ({error})",
+                              "start one with 'dask scheduler' and 'dask worker ADDRESS'") from None
+        self._check(address, code)
+
+    def _check(self, address, code):
+        try:
+            self._client.wait_for_workers(1, timeout=20)
+        except TimeoutError:
+            self._client.close()
+            raise ConfigError("--scheduler", "at least one worker", f"none at {address}",
+                              f"start one with 'dask worker {address}'") from None
+        for worker, found in self._client.run(_project_code).items():
+            if found != code:
+                self._client.close()
+                raise ConfigError(f"--scheduler: worker {worker}", "the same brakechain code as here", "other code",
+                                  "install the same version there and restart the worker")
+
+    def map(self, function, items, done):
+        from distributed import as_completed as completed
+
+        futures = [self._client.submit(run_task, function, item, pure=False) for item in items]
+        try:
+            for future in completed(futures):
+                future.result()
+                done()
+        except BaseException:
+            self._client.cancel(futures)
+            raise
+        return self._client.gather(futures)
+
+    def close(self):
+        self._client.close()
+
+
+def _project_code():
+    from pipeline.contract.fingerprint import project_digest
+
+    return project_digest()
+
+
+def choose(workers, scheduler):
+    """The executor that the command line asks for."""
+    if scheduler:
+        return DaskCluster(scheduler, _project_code())
+    return LocalProcesses(workers) if workers > 1 else InProcess()

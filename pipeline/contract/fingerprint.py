@@ -1,0 +1,122 @@
+"""What decides whether a stage must run again: settings, inputs' content, solver and code."""
+
+import ast
+import hashlib
+from dataclasses import dataclass
+from functools import cache
+from importlib.util import find_spec
+from pathlib import Path
+
+from pipeline.contract.settings import leaves
+
+_PROJECT = ("pipeline", "stages")
+
+
+@dataclass(frozen=True)
+class Fingerprint:
+    """Everything that a stage's output depends on, in a form that JSON keeps."""
+
+    version: int        # of the product written
+    solver: str
+    settings: dict      # dotted key -> value; files by their SHA-256
+    inputs: dict        # argument -> [product, content hash]
+    code: dict          # module -> SHA-256
+    case: str           # SHA-256 of the whole YAML for a stage that reads it, else ""
+
+
+def reasons(before, now):
+    """Why ``now`` differs from the stored ``before`` (a dict or None), one phrase each."""
+    if before is None:
+        return ["not computed yet"]
+    told = [f"{name} {before.get(name)} -> {getattr(now, name)}" for name in ("version", "solver")
+            if before.get(name) != getattr(now, name)]
+    told += _differences("setting ", before.get("settings", {}), now.settings, show=True)
+    told += _differences("input ", before.get("inputs", {}), now.inputs)
+    told += _differences("code ", before.get("code", {}), now.code)
+    if before.get("case") != now.case and not told:
+        told.append("the case file changed")
+    return told
+
+
+def _differences(kind, before, now, show=False):
+    """'setting a: 1 -> 2', 'input b changed', ... for every key that differs."""
+    keys = [k for k in {**before, **now} if before.get(k) != now.get(k)]
+    return [f"{kind}{k}: {before.get(k)} -> {now.get(k)}" if show else f"{kind}{k} changed" for k in keys]
+
+
+def settings_of(section):
+    """Dotted settings in JSON form; a file stands as the digest of its content."""
+    return {key: _plain(value) for key, value, _, _ in leaves(section)}
+
+
+def _plain(value):
+    if isinstance(value, Path):
+        return f"file {digest(value)[:16]}"
+    if isinstance(value, (tuple, list)):
+        return [_plain(v) for v in value]
+    if isinstance(value, dict):
+        return {str(k): _plain(v) for k, v in value.items()}
+    return value
+
+
+def digest(path):
+    """SHA-256 of one file."""
+    stat = Path(path).stat()
+    return _digest(Path(path), stat.st_mtime_ns, stat.st_size)
+
+
+@cache
+def _digest(path, _modified, _size):
+    return hashlib.sha256(path.read_bytes()).hexdigest()
+
+
+def code_of(module):
+    """{module: SHA-256} of ``module`` and of every project module that it imports, transitively."""
+    return dict(sorted((name, digest(path)) for name, path in _reach(module).items()))
+
+
+def _reach(module):
+    found, waiting = {}, [module]
+    while waiting:
+        name = waiting.pop()
+        if name not in found:
+            path = _file(name)
+            if path:
+                found.update({name: path, **_package_data(name, path)})
+                waiting += _imports(path)
+    return found
+
+
+def _package_data(name, path):
+    """Files that belong to a package and are no Python: templates, tables."""
+    if path.name != "__init__.py":
+        return {}
+    files = [f for f in path.parent.glob("templates/*") if f.is_file()]
+    return {f"{name}/{f.name}": f for f in files}
+
+
+@cache
+def _file(name):
+    try:
+        spec = find_spec(name)
+    except (ModuleNotFoundError, AttributeError):
+        return None
+    return Path(spec.origin) if spec and spec.origin and spec.has_location else None
+
+
+@cache
+def _imports(path):
+    """Project modules named in the import statements of a file, wherever they stand in it."""
+    names = set()
+    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        if isinstance(node, ast.Import):
+            names.update(a.name for a in node.names)
+        elif isinstance(node, ast.ImportFrom) and node.module:
+            names.update({node.module, *(f"{node.module}.{a.name}" for a in node.names)})
+    return [n for n in sorted(names) if n.split(".")[0] in _PROJECT and n != "stages"]
+
+
+def project_digest():
+    """SHA-256 over all Python files of the project: two machines with the same value run the same code."""
+    sources = sorted(f for name in _PROJECT for f in _file(name).parent.rglob("*.py"))
+    return hashlib.sha256("".join(digest(f) for f in sources).encode()).hexdigest()

@@ -1,0 +1,214 @@
+"""Run a chain on a run folder: what is up to date stays, what is not is computed and published whole."""
+
+import fcntl
+import json
+import os
+import platform
+import resource
+import subprocess
+import time
+from contextlib import contextmanager
+from dataclasses import asdict, dataclass
+from importlib import metadata
+from pathlib import Path
+
+from pipeline import __version__
+from pipeline.contract import fingerprint, store
+from pipeline.contract.errors import ConfigError, ProductError
+
+_PACKAGES = ("numpy", "scipy", "scikit-fem", "exudyn", "h5py", "numba", "pypardiso", "SurfaceTopography", "pyvista")
+
+
+@dataclass(frozen=True)
+class State:
+    """Where one stage of a run folder stands."""
+
+    stage: object
+    reasons: tuple      # why it must run; empty = up to date
+    path: Path
+
+
+@dataclass(frozen=True)
+class Run:
+    """One case in one folder."""
+
+    case: object        # case.CaseFile
+    folder: Path
+    solver: str         # resolved, joins every hash
+
+    def path(self, product):
+        return self.folder / f"{product.name}.h5"
+
+    def producer(self, products):
+        """The stage of this chain that writes one of ``products``, or None."""
+        names = {p.name for p in products}
+        return next((s for s in self.case.stages if s.output.name in names), None)
+
+    def filled(self, stage):
+        """argument -> product class that fills it in this chain (None for an absent optional one)."""
+        chosen = {}
+        for name, products in stage.inputs.items():
+            writer = self.producer(products)
+            if writer is None and name not in stage.optional:
+                raise ConfigError(f"{stage.name}.{name}", f"a stage of the chain that writes {products[0].name}", "none")
+            chosen[name] = writer.output if writer else None
+        return chosen
+
+    def fingerprint(self, stage):
+        """What the output of ``stage`` depends on now; None while an input is missing."""
+        inputs = {}
+        for name, product in self.filled(stage).items():
+            if product is None:
+                continue
+            found = store.identity(self.path(product))
+            if found is None or found[:2] != (product.name, product.version):
+                return None
+            inputs[name] = [product.name, found[2]]
+        settings = fingerprint.settings_of(self.case.sections[stage.name])
+        code = fingerprint.code_of(stage.run.__module__)
+        digest = self.case.digest if stage.reads_case else ""
+        return fingerprint.Fingerprint(stage.output.version, self.solver, settings, inputs, code, digest)
+
+    def state(self, stage, stale=frozenset()):
+        """State of ``stage``; ``stale`` names the products that would be computed before it."""
+        path = self.path(stage.output)
+        before = _stored(path)
+        now = self.fingerprint(stage)
+        told = [] if now is None else fingerprint.reasons(before and before["fingerprint"], now)
+        if before is None:
+            told = [_unreadable(path)]
+        elif before["companions"] and not all((self.folder / name).exists() for name in before["companions"]):
+            told.append("a companion file is missing")
+        changed = [p.name for p in self.filled(stage).values() if p and p.name in stale]
+        told += [f"input {name} is computed anew" for name in changed if f"input {name} changed" not in told]
+        if now is None and not told:
+            told = ["an input is missing"]
+        return State(stage, tuple(told), path)
+
+    def plan(self, first=None, last=None, force=frozenset()):
+        """States of the stages from ``first`` to ``last``, as a run would find them."""
+        stale, states = set(), []
+        for stage in self._span(first, last):
+            state = self.state(stage, stale)
+            if stage.name in force:
+                state = State(stage, ("forced", *state.reasons), state.path)
+            stale.update({stage.output.name} if state.reasons else ())
+            states.append(state)
+        return states
+
+    def _span(self, first, last):
+        names = [s.name for s in self.case.stages]
+        for option, name in (("--from", first), ("--until", last)):
+            if name is not None and name not in names:
+                raise ConfigError(option, f"one of {', '.join(names)}", repr(name))
+        begin = names.index(first) if first else 0
+        end = names.index(last) + 1 if last else len(names)
+        if begin >= end:
+            raise ConfigError("--from/--until", "a stage at or after --from", f"--from {first} --until {last}")
+        return self.case.stages[begin:end]
+
+    def execute(self, context, first=None, last=None, force=frozenset(), tell=lambda state, seconds: None):
+        """Compute what must be computed; ``tell`` hears (state, seconds or None) after each stage.
+
+        Returns the number of stages computed.
+        """
+        computed = 0
+        with locked(self.folder):
+            for stage in self._span(first, last):
+                state = self.state(stage)
+                if stage.name in force:
+                    state = State(stage, ("forced", *state.reasons), state.path)
+                seconds = self._compute(stage, context) if state.reasons else None
+                computed += bool(state.reasons)
+                tell(state, seconds)
+        return computed
+
+    def _compute(self, stage, context):
+        inputs = {name: store.read(product, self.path(product)) if product else None
+                  for name, product in self.filled(stage).items()}
+        now = self.fingerprint(stage)
+        wall, cpu = time.perf_counter(), _cpu_seconds()
+        with context.stage(stage):
+            output = stage.run(**inputs, settings=self.case.sections[stage.name], context=context)
+        seconds = time.perf_counter() - wall
+        companions = stage.companions(output) if stage.companions else {}
+        for name, content in companions.items():
+            store.write_companion(self.folder / name, content)
+        store.write(output, self.path(stage.output), {
+            "stage": stage.name, "brakechain": __version__, "git_commit": git_commit(),
+            "settings": json.dumps(self.case.given(stage), default=str), "fingerprint": json.dumps(asdict(now)),
+            "companions": json.dumps(sorted(companions)), "packages": json.dumps(_packages()),
+            "python": platform.python_version(), "machine": platform.machine(), "wall_seconds": seconds,
+            "cpu_seconds": _cpu_seconds() - cpu})
+        return seconds
+
+
+def _stored(path):
+    """Fingerprint and companions of the product at ``path``; None where there is no readable one."""
+    if not path.exists() or store.identity(path) is None:
+        return None
+    try:
+        told = store.provenance(path)
+        return {"fingerprint": json.loads(told["fingerprint"]), "companions": json.loads(told["companions"])}
+    except (ProductError, KeyError, ValueError):
+        return None
+
+
+def _unreadable(path):
+    return "its file is damaged" if path.exists() else "not computed yet"
+
+
+@contextmanager
+def locked(folder):
+    """Hold the run folder for this process alone; it is freed however the process ends."""
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        handle = os.open(folder / ".lock", os.O_RDWR | os.O_CREAT)
+    except OSError as error:
+        raise ProductError(folder, "a run folder that can be written", error.strerror,
+                           "choose another with --run, or mend its permissions") from None
+    try:
+        try:
+            fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except BlockingIOError:
+            holder = os.pread(handle, 32, 0).decode() or "unknown"
+            raise ProductError(folder, "a free run folder", f"another run on it (process {holder})",
+                               "wait for it, or choose another folder with --run") from None
+        os.ftruncate(handle, 0)
+        os.pwrite(handle, str(os.getpid()).encode(), 0)
+        _sweep(folder)
+        yield
+    finally:
+        os.close(handle)
+
+
+def _sweep(folder):
+    """Remove what a killed run left half-written."""
+    for partial in folder.glob(".*.partial"):
+        partial.unlink()
+
+
+def _cpu_seconds():
+    usage = [resource.getrusage(who) for who in (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN)]
+    return sum(u.ru_utime + u.ru_stime for u in usage)
+
+
+def _packages():
+    found = {}
+    for name in _PACKAGES:
+        try:
+            found[name] = metadata.version(name)
+        except metadata.PackageNotFoundError:
+            continue
+    return found
+
+
+def git_commit():
+    """Commit of the checkout that holds this code, with '+' when it was changed; '' outside one."""
+    here = Path(__file__).parent
+    try:
+        commit = subprocess.run(["git", "describe", "--always", "--abbrev=40", "--dirty=+", "--exclude=*"], cwd=here,
+                                capture_output=True, text=True, check=True, timeout=10)
+    except (OSError, subprocess.SubprocessError):
+        return ""
+    return commit.stdout.strip()

@@ -1,0 +1,184 @@
+"""Products on disk: one HDF5 file each, atomic, versioned, with provenance. The door of h5py.
+
+Layout: root attributes ``product``, ``version``, ``content``; datasets under ``/data`` (nested
+products are groups) with ``units`` and ``long_name`` and dimension scales in the netCDF-4 manner,
+so that xarray (engine h5netcdf, group "data") sees named dimensions; ``/provenance`` attributes.
+"""
+
+import hashlib
+import os
+from dataclasses import fields
+from pathlib import Path
+
+import h5py
+import numpy as np
+
+from pipeline.contract.errors import ProductError
+from pipeline.contract.product import is_product
+
+_NO_COORDINATE = "This is a netCDF dimension but not a netCDF variable."
+
+
+def content_hash(item):
+    """SHA-256 of names, units, version and values; blind to provenance."""
+    digest = hashlib.sha256(f"{item.name}/{item.version}".encode())
+    for f in fields(item):
+        value = getattr(item, f.name)
+        if is_product(f.type):
+            digest.update(f"{f.name}/{content_hash(value)}".encode())
+            continue
+        digest.update(f"{f.name}/{f.metadata['unit']}/{value.dtype.str}/{value.shape}".encode())
+        digest.update("\0".join(value.flat).encode() if value.dtype.kind == "O" else np.ascontiguousarray(value))
+    return digest.hexdigest()
+
+
+def write(item, path, provenance, content=None):
+    """Write ``item`` to ``path`` whole or not at all: temporary name, sync, rename."""
+    path = Path(path)
+    partial = path.with_name(f".{path.name}.partial")
+    try:
+        with h5py.File(partial, "w", track_order=True) as h5:
+            h5.attrs.update(product=item.name, version=item.version, content=content or content_hash(item))
+            _write_group(h5.create_group("data", track_order=True), item)
+            h5.create_group("provenance").attrs.update(provenance)
+        publish(partial, path)
+    except OSError as error:
+        raise ProductError(path, "a file that can be written", str(error), "check space and permissions") from error
+
+
+def write_companion(path, content):
+    """Write text or bytes beside a product, whole or not at all."""
+    path = Path(path)
+    partial = path.with_name(f".{path.name}.partial")
+    partial.write_bytes(content.encode() if isinstance(content, str) else content)
+    publish(partial, path)
+
+
+def publish(partial, path):
+    """Sync the finished ``partial`` file and give it its name."""
+    with open(partial, "rb") as stream:
+        os.fsync(stream.fileno())
+    os.replace(partial, path)
+    folder = os.open(path.parent, os.O_RDONLY)
+    try:
+        os.fsync(folder)
+    finally:
+        os.close(folder)
+
+
+def _write_group(group, item):
+    scales = {}
+    for f in fields(item):
+        value = getattr(item, f.name)
+        if is_product(f.type):
+            inner = group.create_group(f.name, track_order=True)
+            inner.attrs.update(product=value.name, version=value.version, long_name=f.metadata["meaning"])
+            _write_group(inner, value)
+            continue
+        dtype = h5py.string_dtype() if value.dtype.kind == "O" else value.dtype
+        dataset = group.create_dataset(f.name, data=value, dtype=dtype)
+        dataset.attrs.update(units=f.metadata["unit"], long_name=f.metadata["meaning"])
+        if f.metadata["dims"] == (f.name,):
+            dataset.make_scale(f.name)
+            scales[f.name] = dataset
+    for f in fields(item):
+        if not is_product(f.type):
+            _attach_dimensions(group, f, scales)
+
+
+def _attach_dimensions(group, f, scales):
+    dataset = group[f.name]
+    for axis, dim in enumerate(f.metadata["dims"]):
+        if dim == f.name:
+            continue
+        if dim not in scales:
+            scales[dim] = group.create_dataset(dim, shape=(dataset.shape[axis],), dtype="f4")
+            scales[dim].make_scale(f"{_NO_COORDINATE}{dataset.shape[axis]:10d}")
+        dataset.dims[axis].attach_scale(scales[dim])
+
+
+def read(cls, path):
+    """Read a ``cls`` back; refuses another product, version or unit, and a damaged file."""
+    with _opened(path) as h5:
+        _check_identity(h5, cls, path)
+        try:
+            item, content = _read_group(h5["data"], cls, path), h5.attrs["content"]
+        except (KeyError, OSError) as error:
+            raise _damaged(path, error) from None
+    if content_hash(item) != content:
+        raise _damaged(path, "its values are not those that were written")
+    return item
+
+
+def identity(path):
+    """(product, version, content hash) of a file, or None where there is no readable product."""
+    try:
+        with _opened(path) as h5:
+            return tuple(h5.attrs[k] for k in ("product", "version", "content"))
+    except (ProductError, KeyError):
+        return None
+
+
+def provenance(path):
+    """The provenance attributes of a product file, as a dict."""
+    with _opened(path) as h5:
+        return dict(h5["provenance"].attrs)
+
+
+def _opened(path):
+    if not Path(path).exists():
+        product = Path(path).stem
+        raise ProductError(path, f"the product {product}", "no file", f"run 'brakechain {product.replace('_', '-')}' first")
+    try:
+        return h5py.File(path, "r")
+    except OSError as error:
+        raise _damaged(path, error) from None
+
+
+def _damaged(path, error):
+    return ProductError(path, "a whole HDF5 product", f"a truncated or damaged file ({error})",
+                        "delete it and rerun the stage that writes it")
+
+
+def _check_identity(h5, cls, path):
+    found = (h5.attrs.get("product"), h5.attrs.get("version"))
+    if found != (cls.name, cls.version):
+        told = f"{found[0]} version {found[1]}" if found[0] else "a file without product name"
+        raise ProductError(path, f"{cls.name} version {cls.version}", told, "rerun the stage that writes it")
+
+
+def _read_group(group, cls, path):
+    values = {}
+    for f in fields(cls):
+        if is_product(f.type):
+            values[f.name] = _read_group(group[f.name], f.type, path)
+            continue
+        dataset = group[f.name]
+        if dataset.attrs["units"] != f.metadata["unit"]:
+            raise ProductError(f"{path}: {f.name}", f"units {f.metadata['unit']}", dataset.attrs["units"])
+        is_text = h5py.check_string_dtype(dataset.dtype) is not None
+        values[f.name] = dataset.asstr()[()] if is_text else dataset[()]
+    return cls(**values)
+
+
+def walk(path):
+    """Yield (name, attributes, dataset or None) for every group and dataset of a product file."""
+    with _opened(path) as h5:
+        yield "/", dict(h5.attrs), None
+        rows = []
+        h5["data"].visititems(lambda name, node: rows.append((f"data/{name}", node)))
+        for name, node in rows:
+            is_array = isinstance(node, h5py.Dataset)
+            yield name, dict(node.attrs), node if is_array else None
+        yield "provenance", dict(h5["provenance"].attrs), None
+
+
+def dimensions(dataset):
+    """Names of the dimensions of a dataset of a product file."""
+    return [scale[0].name.rpartition("/")[2] if len(scale) else "" for scale in dataset.dims]
+
+
+def is_placeholder(dataset):
+    """True for the scale of a dimension that has no coordinate values."""
+    name = dataset.attrs.get("NAME", b"")
+    return (name if isinstance(name, str) else name.decode()).startswith(_NO_COORDINATE)

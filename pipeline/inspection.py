@@ -1,0 +1,71 @@
+"""What 'brakechain inspect' says of a product file."""
+
+import json
+
+import numpy as np
+
+from pipeline.contract import store
+
+_LONG = 90
+
+
+def describe(path):
+    """Yield the lines: identity, tree with dimensions, units and ranges, provenance."""
+    for name, attributes, dataset in store.walk(path):
+        if name == "/":
+            yield f"{path}: {attributes['product']} version {attributes['version']}"
+            yield f"content {attributes['content']}"
+            yield ""
+        elif name == "provenance":
+            yield ""
+            yield from _provenance(attributes)
+        elif dataset is None:
+            yield f"{_indent(name)}{_leaf(name)}/   {attributes.get('long_name', '')}"
+        elif not store.is_placeholder(dataset):
+            yield _line(name, attributes, dataset)
+
+
+def _line(name, attributes, dataset):
+    sizes = ", ".join(f"{d}: {n}" for d, n in zip(store.dimensions(dataset), dataset.shape))
+    unit = "" if attributes["units"] == "1" else f" {attributes['units']}"
+    label = f"{_indent(name)}{_leaf(name)}" + (f" ({sizes})" if sizes else "")
+    return f"{label:<56} {_range(dataset)}{unit}   {attributes['long_name']}"
+
+
+def _range(dataset):
+    if dataset.size == 0:
+        return "empty"
+    if dataset.dtype.kind == "O":
+        flat = [str(v) for v in np.ravel(dataset.asstr()[()])]
+        told = ", ".join(flat)
+        return told if len(told) <= _LONG and "\n" not in told else f"{len(flat)} strings, {len(told)} characters"
+    values = dataset[()]
+    if values.dtype.kind == "c":
+        return f"|.| {abs(values).min():.6g} .. {abs(values).max():.6g}"
+    low, high = values.min(), values.max()
+    return f"{low:.6g}" if low == high else f"{low:.6g} .. {high:.6g}"
+
+
+def _provenance(attributes):
+    yield "provenance"
+    for key, value in attributes.items():
+        if isinstance(value, str) and value[:1] in "{[":
+            yield f"  {key}"
+            document = json.loads(value)
+            pairs = document.items() if isinstance(document, dict) else enumerate(document)
+            yield from (f"    {k}: {_short(v)}" for k, v in pairs)
+        else:
+            yield f"  {key}: {value}"
+
+
+def _short(value):
+    told = json.dumps(value) if isinstance(value, (dict, list)) else str(value)
+    return told if len(told) <= 2 * _LONG else f"{told[:2 * _LONG]} ..."
+
+
+def _indent(name):
+    return "  " * (name.count("/") - 1)
+
+
+def _leaf(name):
+    return name.rpartition("/")[2]

@@ -1,0 +1,19 @@
+"""Mode coupling (flutter) of two undamped modes under friction, in closed form.
+
+Unit masses and K = [[k11, k12 - mu k_friction], [k12, k22]]: the friction force that follows the contact pressure of
+mode 2 acts on mode 1 (Hoffmann, Fischer, Allgaier & Gaul, Mech. Res. Commun. 29 (2002) 197). Stiffnesses in 1/s^2.
+"""
+
+import numpy as np
+
+
+def onset_friction(k11, k22, k12, k_friction):
+    """Friction at which both squared frequencies coalesce: (k11 - k22)^2 / 4 + k12 (k12 - mu k_friction) = 0."""
+    return (k12**2 + (k11 - k22) ** 2 / 4) / (k12 * k_friction)
+
+
+def roots_over_friction(k11, k22, k12, k_friction, friction):
+    """The four roots s (1/s), from s^2 = -(k11 + k22) / 2 +- sqrt((k11 - k22)^2 / 4 + k12 (k12 - mu k_friction))."""
+    spread = np.sqrt(complex((k11 - k22) ** 2 / 4 + k12 * (k12 - friction * k_friction)))
+    squares = -(k11 + k22) / 2 + spread * np.array([1, -1])
+    return np.concatenate((np.sqrt(squares), -np.sqrt(squares)))

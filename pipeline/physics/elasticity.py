@@ -1,0 +1,232 @@
+"""Linear elasticity on hexahedra: stiffness, mass and the matrices of rotation.
+
+Shape functions and quadrature are scikit-fem's; the element matrices are formed in batches and
+summed node block by node block. Degree of freedom = 3 node + axis; strains in the order
+xx yy zz yz xz xy (shear as engineering strain); vertices in the order of meshio.
+"""
+
+from functools import cache
+
+import numpy as np
+import scipy.sparse as sp
+
+from pipeline.contract.errors import ConfigError
+
+#: corners, edge middles, face middles, centre of the reference cube 0..1, in the order of meshio
+_CUBE = np.array([
+    (0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0, 0, 1), (1, 0, 1), (1, 1, 1), (0, 1, 1),
+    (.5, 0, 0), (1, .5, 0), (.5, 1, 0), (0, .5, 0), (.5, 0, 1), (1, .5, 1), (.5, 1, 1), (0, .5, 1),
+    (0, 0, .5), (1, 0, .5), (1, 1, .5), (0, 1, .5),
+    (0, .5, .5), (1, .5, .5), (.5, 0, .5), (.5, 1, .5), (.5, .5, 0), (.5, .5, 1), (.5, .5, .5)])
+_SQUARE = np.array([(0, 0), (1, 0), (1, 1), (0, 1), (.5, 0), (1, .5), (.5, 1), (0, .5), (.5, .5)])
+#: meshio cell type -> (scikit-fem element, reference vertices, order of quadrature)
+_ELEMENT = {"hexahedron": ("ElementHex1", _CUBE[:8], 3), "hexahedron20": ("ElementHexS2", _CUBE[:20], 5),
+            "hexahedron27": ("ElementHex2", _CUBE, 5), "quad": ("ElementQuad1", _SQUARE[:4], 3),
+            "quad8": ("ElementQuadS2", _SQUARE[:8], 5), "quad9": ("ElementQuad2", _SQUARE, 5)}
+#: (row, column) of the symmetric tensor behind each of the six strains
+_VOIGT = ((0, 0), (1, 1), (2, 2), (1, 2), (0, 2), (0, 1))
+_BATCH = 256
+
+
+def isotropic(young, poisson):
+    """(6, 6) elasticity [Pa] of an isotropic material."""
+    shear = young / (2 * (1 + poisson))
+    return orthotropic((young,) * 3, (poisson,) * 3, (shear,) * 3)
+
+
+def orthotropic(young, poisson, shear):
+    """(6, 6) elasticity [Pa] of an orthotropic material along x, y, z.
+
+    ``young`` = (E_x, E_y, E_z), ``poisson`` = (nu_yz, nu_xz, nu_xy) with nu_ij = -strain_j / strain_i
+    under stress along i, ``shear`` = (G_yz, G_xz, G_xy). Raises ConfigError where the strain
+    energy would not be positive.
+    """
+    compliance = np.diag(1 / np.r_[young, shear].astype(float))
+    for nu, (i, j) in zip(poisson, ((1, 2), (0, 2), (0, 1)), strict=True):
+        compliance[i, j] = compliance[j, i] = -nu / young[i]
+    if np.linalg.eigvalsh(compliance)[0] <= 0:
+        raise ConfigError("elastic constants", "a positive strain energy (|nu_ij| < sqrt(E_i / E_j), nu < 1/2)",
+                          f"E = {tuple(young)}, nu = {tuple(poisson)}, G = {tuple(shear)}")
+    return np.linalg.inv(compliance)
+
+
+def assemble(node, element, kind, material, density, elasticity):
+    """Stiffness and consistent mass of an elastic body.
+
+    Parameters
+    ----------
+    node : (n, 3) array [m]
+    element : (e, v) integer array, vertices in the order of meshio
+    kind : "hexahedron", "hexahedron20" or "hexahedron27"
+    material : (e,) integer array, row of the two tables
+    density : (m,) array [kg/m^3]
+    elasticity : (m, 6, 6) array [Pa]
+
+    Returns
+    -------
+    stiffness [N/m], mass [kg] : (3n, 3n) CSR; dof = 3 node + axis
+
+    Raises ConfigError for an unknown kind or an element turned inside out.
+    """
+    elasticity, density = np.asarray(elasticity), np.asarray(density)
+
+    def matrices(gradient, shape, volume, rows):
+        strain = _strain(gradient)
+        stress = elasticity[material[rows]][:, None] @ (strain * volume[..., None, None])
+        e, q, _, n = strain.shape
+        stiffness = strain.reshape(e, 6 * q, n).swapaxes(1, 2) @ stress.reshape(e, 6 * q, n)
+        return stiffness, _products(shape, shape, volume * density[material[rows]][:, None])
+
+    stiffness, mass = _element_matrices(node, element, kind, matrices)
+    return sum_blocks(stiffness, element, len(node)), _sum_scalars(mass, element, len(node))
+
+
+def gyroscopic(node, element, kind, material, density):
+    """Matrices of a body that turns about z, seen from the frame at rest.
+
+    A particle passing the place x moves with Omega e_z x x + u' + Omega d_theta u, where d_theta =
+    x d_y - y d_x acts on the Cartesian components. Its inertia adds Omega G q' - Omega^2 H q with
+        G_ab = int rho (N_a d_theta N_b - d_theta N_a N_b) dV,    H_ab = int rho d_theta N_a d_theta N_b dV
+    per axis; exact for bodies of revolution about z.
+
+    Returns (gyroscopic G [kg per rad/s], convective H [kg]) as (3n, 3n) CSR.
+    """
+    density = np.asarray(density)
+
+    def matrices(gradient, shape, volume, rows):
+        mass = volume * density[material[rows]][:, None]
+        x, y = np.moveaxis((shape @ node[element[rows]])[..., :2], -1, 0)
+        turn = x[..., None] * gradient[..., 1] - y[..., None] * gradient[..., 0]
+        product = _products(np.broadcast_to(shape, turn.shape), turn, mass)
+        return product - product.swapaxes(1, 2), _products(turn, turn, mass)
+
+    whirl, convective = _element_matrices(node, element, kind, matrices)
+    return _sum_scalars(whirl, element, len(node)), _sum_scalars(convective, element, len(node))
+
+
+def centrifugal_load(node, element, kind, material, density):
+    """(3n,) nodal forces of rotation about z per squared speed [N s^2]: int rho N (x, y, 0) dV."""
+    def loads(gradient, shape, volume, rows):
+        mass = volume * np.asarray(density)[material[rows]][:, None]
+        position = (shape @ node[element[rows]]) * (1, 1, 0)
+        return (np.einsum("eq,qa,eqx->eax", mass, shape, position, optimize=True),)
+
+    load = np.zeros((len(node), 3))
+    np.add.at(load, element, _element_matrices(node, element, kind, loads)[0])
+    return load.ravel()
+
+
+def geometric_stiffness(node, element, kind, material, elasticity, displacement):
+    """Stiffness (3n, 3n) CSR of the stresses under a (3n,) displacement: int dN_a . sigma dN_b dV.
+
+    With the displacement under ``centrifugal_load`` it is the stiffening per squared speed.
+    """
+    moved, elasticity = displacement.reshape(-1, 3), np.asarray(elasticity)
+
+    def matrices(gradient, shape, volume, rows):
+        e, q = volume.shape
+        strain = _strain(gradient) @ moved[element[rows]].reshape(e, 1, -1, 1)
+        voigt = (elasticity[material[rows]][:, None] @ strain)[..., 0]
+        stress = np.empty((e, q, 3, 3))
+        for k, (i, j) in enumerate(_VOIGT):
+            stress[..., i, j] = stress[..., j, i] = voigt[..., k]
+        return (np.einsum("eq,eqai,eqij,eqbj->eab", volume, gradient, stress, gradient, optimize=True),)
+
+    return _sum_scalars(_element_matrices(node, element, kind, matrices)[0], element, len(node))
+
+
+def reference_vertices(kind):
+    """(v, d) vertices of the reference cube or square 0..1; ConfigError for a cell type not served."""
+    if kind not in _ELEMENT:
+        raise ConfigError("mesh", f"cells of type {', '.join(_ELEMENT)}", repr(kind),
+                          "mesh with hexahedra of first or second order")
+    return _ELEMENT[kind][1]
+
+
+def shape_functions(kind, point):
+    """Shape functions (p, v) and their gradients (p, v, d) at (p, d) points of the reference cell."""
+    finite, order = _finite_element(kind)
+    columns = np.ascontiguousarray(np.asarray(point, float).T)
+    values = [finite.lbasis(columns, i) for i in order]
+    shape = [np.broadcast_to(value, columns.shape[1]) for value, _ in values]
+    gradient = [np.broadcast_to(np.array(slope), columns.shape) for _, slope in values]
+    return np.array(shape).T, np.array(gradient).transpose(2, 0, 1)
+
+
+@cache
+def quadrature(kind):
+    """Gauss points (q, d) and weights (q,) of the reference cell, sum of weights 1."""
+    from skfem.quadrature import get_quadrature
+
+    point, weight = get_quadrature(_finite_element(kind)[0], _ELEMENT[kind][2])
+    return point.T, weight
+
+
+@cache
+def _finite_element(kind):
+    """scikit-fem's element, and its number of each vertex in the order of meshio."""
+    from skfem import element
+
+    vertices = reference_vertices(kind)
+    finite = getattr(element, _ELEMENT[kind][0])()
+    distance = np.abs(finite.doflocs[None] - vertices[:, None]).sum(axis=2)
+    return finite, np.argmin(distance, axis=1)
+
+
+def _element_matrices(node, element, kind, matrices):
+    """Run ``matrices(gradient, shape, volume, rows)`` over batches of elements; join the results."""
+    point, weight = quadrature(kind)
+    shape, reference_gradient = shape_functions(kind, point)
+    results = []
+    for start in range(0, len(element), _BATCH):
+        rows = slice(start, start + _BATCH)
+        jacobian = np.einsum("evx,qvr->eqxr", node[element[rows]], reference_gradient, optimize=True)
+        volume = np.linalg.det(jacobian)
+        if volume.min() <= 0:
+            worst = start + int(np.argmin(volume.min(axis=1)))
+            raise ConfigError(f"mesh, element {worst}", "a positive Jacobian", f"{volume.min():.3g} m^3",
+                              "check its vertex order (meshio) and its shape")
+        gradient = reference_gradient @ np.linalg.inv(jacobian)
+        results.append(matrices(gradient, shape, volume * weight, rows))
+    return tuple(np.concatenate(parts) for parts in zip(*results, strict=True))
+
+
+def _strain(gradient):
+    """B: (..., v, 3) gradients -> (..., 6, 3v)."""
+    strain = np.zeros((*gradient.shape[:-2], 6, gradient.shape[-2], 3))
+    for row, (i, j) in enumerate(_VOIGT):
+        strain[..., row, :, j] = gradient[..., i]
+        strain[..., row, :, i] = gradient[..., j]
+    return strain.reshape(*strain.shape[:-2], -1)
+
+
+def _products(left, right, weight):
+    """(e, v, v): sum over the points of weight * left_a * right_b."""
+    return (left * weight[..., None]).swapaxes(-1, -2) @ right
+
+
+def _sum_scalars(matrix, element, nodes):
+    """Sum (e, v, v) node matrices; the same for each axis."""
+    return sp.kron(_summed(matrix, element, nodes), sp.identity(3), format="csr")
+
+
+def sum_blocks(matrix, element, nodes):
+    """Sum (e, 3v, 3v) matrices of elements with (e, v) nodes to (3 nodes, 3 nodes) CSR."""
+    e, v = element.shape
+    blocks = matrix.reshape(e, v, 3, v, 3).swapaxes(2, 3).reshape(e, v, v, 9)
+    return _summed(blocks, element, nodes)
+
+
+def _summed(entries, element, nodes):
+    """Sum (e, v, v) scalars to (n, n) CSR, or (e, v, v, 9) blocks to (3n, 3n) CSR, in one fixed order."""
+    v = element.shape[1]
+    rows, columns = np.repeat(element, v, axis=1).ravel(), np.tile(element, v).ravel()
+    key = rows.astype(np.int64) * nodes + columns
+    order = np.argsort(key, kind="stable")
+    first = np.flatnonzero(np.r_[True, np.diff(key[order]) > 0])
+    data = np.add.reduceat(entries.reshape(len(key), -1)[order], first, axis=0)
+    indptr = np.searchsorted(rows[order][first], np.arange(nodes + 1))
+    indices = columns[order][first]
+    if entries.ndim == 3:
+        return sp.csr_matrix((data[:, 0], indices, indptr), (nodes, nodes))
+    return sp.bsr_matrix((data.reshape(-1, 3, 3), indices, indptr), (3 * nodes, 3 * nodes)).tocsr()

@@ -1,0 +1,109 @@
+"""The friction law mu(pressure, speed, distance): a table, read multilinearly, constant outside.
+
+The few computed points are first refined by monotone cubics (``refine``); a solver then reads the fine
+table with the scalar kernel ``friction_at``, which also gives the slopes that its tangent needs.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numba import njit
+from scipy.interpolate import PchipInterpolator
+
+from pipeline.contract.errors import ConfigError
+
+AXES = ("pressure", "speed", "distance")
+
+
+@dataclass(frozen=True)
+class FrictionLaw:
+    """mu on the grid pressure (P,) Pa x speed (V,) m/s x distance (S,) m; ``friction`` is (P, V, S)."""
+
+    pressure: np.ndarray
+    speed: np.ndarray
+    distance: np.ndarray
+    friction: np.ndarray
+
+    def __post_init__(self):
+        for name in (*AXES, "friction"):
+            object.__setattr__(self, name, np.ascontiguousarray(getattr(self, name), dtype=float))
+        sizes = tuple(getattr(self, name).size for name in AXES)
+        if self.friction.shape != sizes or 0 in sizes:
+            raise ConfigError("friction law", f"a table of shape {sizes}, none of them 0", str(self.friction.shape))
+        for name in AXES:
+            if np.any(np.diff(getattr(self, name)) <= 0):
+                raise ConfigError(f"friction law: {name}", "strictly rising values", str(getattr(self, name)))
+
+    @property
+    def table(self):
+        """Arguments that ``friction_at`` takes after the state: the three axes and the table."""
+        return self.pressure, self.speed, self.distance, self.friction
+
+    def evaluate(self, pressure, speed, distance):
+        """(mu, outside) for broadcastable arrays of the state; outside is True where an axis was clipped."""
+        states = np.broadcast_arrays(pressure, speed, distance)
+        flat = np.ascontiguousarray([np.ravel(s) for s in states], dtype=float)
+        friction, outside = _evaluate(flat, *self.table)
+        return friction.reshape(states[0].shape), outside.reshape(states[0].shape)
+
+
+def refine(axes, values, subdivisions):
+    """Monotone, overshoot-free refinement of a table.
+
+    ``axes`` are the strictly rising axes of ``values``; every interval of axis i is cut into ``subdivisions[i]``
+    equal parts and filled by PCHIP (Fritsch & Carlson 1980) along one axis after the other. No value leaves the
+    range of the table; axes of length 1 stay. Returns (refined axes, refined values).
+    """
+    fine_axes = []
+    for number, (axis, parts) in enumerate(zip(axes, subdivisions, strict=True)):
+        axis = np.asarray(axis, dtype=float)
+        fine = np.interp(np.arange((axis.size - 1) * parts + 1) / parts, np.arange(axis.size), axis)
+        if axis.size > 1:
+            values = PchipInterpolator(axis, values, axis=number)(fine)
+        fine_axes.append(fine)
+    return fine_axes, np.array(values, dtype=float)
+
+
+@njit(cache=True)
+def _locate(axis, value):
+    """Interval (low, high), weight of its end, 1 / length, and 1 if the value was clipped."""
+    last = axis.size - 1
+    if value <= axis[0] or last == 0:
+        return 0, 0, 0.0, 0.0, 1 if value != axis[0] else 0
+    if value >= axis[last]:
+        return last, last, 0.0, 0.0, 1 if value > axis[last] else 0
+    low = np.searchsorted(axis, value, side="right") - 1
+    length = axis[low + 1] - axis[low]
+    return low, low + 1, (value - axis[low]) / length, 1.0 / length, 0
+
+
+@njit(cache=True)
+def friction_at(pressure, speed, distance, pressures, speeds, distances, table):
+    """(mu, dmu/dpressure in 1/Pa, dmu/dspeed in s/m, outside) at one state.
+
+    Multilinear on the axes; outside them mu is constant and its slope zero, and ``outside`` is 1. An axis of one
+    value does not vary: it is outside wherever the state differs from it.
+    """
+    p0, p1, wp, ip, outside_p = _locate(pressures, pressure)
+    v0, v1, wv, iv, outside_v = _locate(speeds, speed)
+    s0, s1, ws, _, outside_s = _locate(distances, distance)
+    m00 = table[p0, v0, s0] * (1.0 - ws) + table[p0, v0, s1] * ws
+    m01 = table[p0, v1, s0] * (1.0 - ws) + table[p0, v1, s1] * ws
+    m10 = table[p1, v0, s0] * (1.0 - ws) + table[p1, v0, s1] * ws
+    m11 = table[p1, v1, s0] * (1.0 - ws) + table[p1, v1, s1] * ws
+    low = m00 * (1.0 - wv) + m01 * wv
+    high = m10 * (1.0 - wv) + m11 * wv
+    slope_v = ((m01 - m00) * (1.0 - wp) + (m11 - m10) * wp) * iv
+    outside = 1 if outside_p + outside_v + outside_s > 0 else 0
+    return low * (1.0 - wp) + high * wp, (high - low) * ip, slope_v, outside
+
+
+@njit(cache=True)
+def _evaluate(states, pressures, speeds, distances, table):
+    size = states.shape[1]
+    friction, outside = np.empty(size), np.zeros(size, dtype=np.bool_)
+    for i in range(size):
+        mu, _, _, clipped = friction_at(
+            states[0, i], states[1, i], states[2, i], pressures, speeds, distances, table)
+        friction[i], outside[i] = mu, clipped == 1
+    return friction, outside

@@ -1,0 +1,176 @@
+"""Direct sparse solvers behind one door: PARDISO of MKL where installed, SuperLU otherwise."""
+
+import ctypes
+import weakref
+from functools import cache
+from importlib.util import find_spec
+
+import numpy as np
+import scipy.sparse as sp
+from scipy.sparse.linalg import splu
+
+from pipeline.contract.errors import ConfigError, ConvergenceError
+
+#: matrix types of PARDISO by (complex, symmetric)
+_MATRIX_TYPE = {(False, True): -2, (False, False): 11, (True, True): 6, (True, False): 13}
+_SEQUENTIAL, _CONDITIONAL_BITS_AUTO = 1, 2      # constants of mkl_service.h
+_ANALYSE_AND_FACTORISE, _SOLVE, _RELEASE = 12, 33, -1
+#: a factor whose solution misses a seeded right-hand side by more is that of a singular matrix
+_SINGULAR = 1e-4
+
+
+def available():
+    """Names of the solvers installed here, fastest first."""
+    return (*(("pypardiso",) if find_spec("pypardiso") and _library() else ()), "superlu")
+
+
+def factorise(matrix, solver, symmetric=True):
+    """Factorise a sparse matrix once, to solve with it often.
+
+    Parameters
+    ----------
+    matrix : (n, n) sparse, real or complex
+    solver : "pypardiso" or "superlu"
+    symmetric : True for A = A^T (indefinite allowed; complex means symmetric, not Hermitian)
+
+    Returns
+    -------
+    Factor with ``solve(rhs)`` for (n,) and (n, m) right-hand sides and, for real symmetric
+    matrices, ``negative``, the number of negative eigenvalues (Sylvester's law of inertia).
+
+    Raises ConvergenceError for a singular matrix, ConfigError for an unknown solver.
+    """
+    if solver not in _BACKENDS:
+        raise ConfigError("linear solver", f"one of {', '.join(_BACKENDS)}", repr(solver))
+    matrix = sp.csr_matrix(matrix)
+    matrix.sort_indices()
+    if not np.isfinite(matrix.data).all():
+        raise ConvergenceError("factorisation", "finite matrix entries", "NaN or infinity")
+    if (np.diff(matrix.indptr) == 0).any():
+        raise _singular(matrix, "an empty row")
+    factor = _BACKENDS[solver](matrix, symmetric)
+    _refuse_singular(matrix, factor)
+    return factor
+
+
+class _Factor:
+    """Shared handling of right-hand sides; a subclass solves (n, m) arrays of the factor's type."""
+
+    negative = None
+
+    def solve(self, rhs):
+        """x of A x = rhs, same shape as ``rhs``; complex right-hand sides are welcome."""
+        rhs = np.asarray(rhs)
+        if np.iscomplexobj(rhs) and self.dtype == np.float64:
+            return self.solve(rhs.real) + 1j * self.solve(rhs.imag)
+        columns = np.asfortranarray(rhs.reshape(len(rhs), -1), dtype=self.dtype)
+        return self._solve(columns).reshape(rhs.shape)
+
+
+class _SuperLU(_Factor):
+    def __init__(self, matrix, symmetric):
+        self.dtype = np.result_type(matrix.dtype, np.float64)
+        options = {"options": {"SymmetricMode": True}, "diag_pivot_thresh": 1e-3} if symmetric else {}
+        ordering = "MMD_AT_PLUS_A" if symmetric else "COLAMD"
+        try:
+            self._factor = splu(matrix.astype(self.dtype).tocsc(), permc_spec=ordering, **options)
+        except RuntimeError as error:
+            raise _singular(matrix, str(error)) from None
+        if symmetric and self.dtype == np.float64:
+            self.negative = self._inertia()
+
+    def _inertia(self):
+        """Negative pivots; they are those of an L D L^T only while no row was exchanged."""
+        if not np.array_equal(self._factor.perm_r, self._factor.perm_c):
+            return None
+        return int((self._factor.U.diagonal() < 0).sum())
+
+    def _solve(self, columns):
+        return self._factor.solve(columns)
+
+
+class _Pardiso(_Factor):
+    def __init__(self, matrix, symmetric):
+        complex_ = np.iscomplexobj(matrix)
+        self.dtype = np.dtype(complex if complex_ else float)
+        stored = _upper_triangle(matrix) if symmetric else matrix
+        self._call = _PardisoCall(stored.astype(self.dtype), _MATRIX_TYPE[complex_, symmetric])
+        self._call(_ANALYSE_AND_FACTORISE)
+        if symmetric and not complex_:
+            self.negative = int(self._call.parameter[22])
+        weakref.finalize(self, self._call, _RELEASE)
+
+    def _solve(self, columns):
+        return self._call(_SOLVE, columns)
+
+
+def _upper_triangle(matrix):
+    """Upper triangle in CSR with every diagonal entry stored, zero or not, as PARDISO wants it."""
+    upper, diagonal = sp.triu(matrix, format="coo"), np.arange(matrix.shape[0])
+    rows, columns = np.r_[upper.row, diagonal], np.r_[upper.col, diagonal]
+    return sp.csr_matrix((np.r_[upper.data, 0 * diagonal], (rows, columns)), matrix.shape)
+
+
+class _PardisoCall:
+    """One handle of PARDISO with the matrix it needs at every call."""
+
+    def __init__(self, matrix, kind):
+        self.matrix, self.kind = matrix, ctypes.c_int32(kind)
+        self.handle = np.zeros(64, np.int64)
+        self.rows = matrix.indptr.astype(np.int32) + 1
+        self.columns = matrix.indices.astype(np.int32) + 1
+        self.parameter = np.zeros(64, np.int32)
+        self.parameter[[0, 1, 9, 20]] = 1, 2, 8, 1     # own values, nested dissection, pivot 1e-8, 2 x 2 pivots
+        if kind in (11, 13):
+            self.parameter[[9, 10, 12]] = 13, 1, 1      # pivot 1e-13, scaling, matching
+        # parameter[7] = 0: no iterative refinement unless pivots had to be perturbed
+
+    def __call__(self, phase, rhs=None):
+        rhs = np.zeros((len(self.rows) - 1, 1), self.matrix.dtype, order="F") if rhs is None else rhs
+        result, error = np.zeros_like(rhs, order="F"), ctypes.c_int32(0)
+        arrays = (self.matrix.data, self.rows, self.columns, np.zeros(1, np.int32))
+        integer = [ctypes.byref(ctypes.c_int32(i)) for i in (1, 1, phase, len(rhs), rhs.shape[1], 0)]
+        maxfct, mnum, phase_, size, width, quiet = integer
+        data, rows, columns, permutation = (_pointer(a) for a in arrays)
+        _library().pardiso(_pointer(self.handle), maxfct, mnum, ctypes.byref(self.kind), phase_, size, data, rows,
+                           columns, permutation, width, _pointer(self.parameter), quiet, _pointer(rhs),
+                           _pointer(result), ctypes.byref(error))
+        if error.value:
+            raise ConvergenceError("factorisation by PARDISO", "a regular matrix that fits into memory",
+                                   f"error {error.value}",
+                                   "support the body or shift the matrix" if error.value in (-4, -7) else None)
+        return result
+
+
+def _pointer(array):
+    return array.ctypes.data_as(ctypes.c_void_p)
+
+
+@cache
+def _library():
+    """MKL, told to run one thread and the same instructions at every call; None where it cannot load."""
+    try:
+        from pypardiso.pardiso_wrapper import PyPardisoSolver
+        library = PyPardisoSolver().libmkl
+    except (ImportError, OSError):
+        return None
+    library.MKL_Set_Threading_Layer(_SEQUENTIAL)
+    library.MKL_CBWR_Set(_CONDITIONAL_BITS_AUTO)
+    library.pardiso.argtypes, library.pardiso.restype = [ctypes.c_void_p] * 16, None
+    return library
+
+
+def _refuse_singular(matrix, factor):
+    probe = np.random.default_rng(1).standard_normal(matrix.shape[0])
+    solution = factor.solve(probe)
+    miss = np.linalg.norm(matrix @ solution - probe) / np.linalg.norm(probe)
+    if not miss < _SINGULAR:
+        raise _singular(matrix, f"a relative residual of {miss:.1e}")
+
+
+def _singular(matrix, found):
+    return ConvergenceError(f"factorisation of a {matrix.shape[0]} x {matrix.shape[1]} matrix", "a regular matrix",
+                            found, "support the body, or shift the matrix")
+
+
+_BACKENDS = {"pypardiso": _Pardiso, "superlu": _SuperLU}

@@ -1,0 +1,156 @@
+"""Contact of flexible pads with a rigid turning disc whose faces are tessellated by four sub-discs.
+
+The disc is cut into equal sectors that are dealt to four rigidly joined sub-discs in turn, as in the
+multibody model of the disc-brake paper (2021, section 2.1.5, Figure 5). Every sub-disc has slid its own
+distance and therefore has its own friction. A contact patch overlaps one sector or two: its force is
+shared by overlap, so that all forces stay continuous while the disc turns.
+
+At contact i, with the normal row n_i (positive opens) and the tangent row t_i (along sliding):
+    closure c = -n_i q,  N = A p(c),  slip v = Omega r_i - t_i q',
+    T = ramp(t) N sum_d w_id(t) mu(p, |v|, s_d(t)) sign(v),      generalised force n_i N + t_i T.
+Friction acts along sliding only. sign(v) is +-1 except for |v| < stick_speed, where it is the cubic
+x (3 - x^2) / 2 of x = v / stick_speed: sticking is replaced by creep slower than that.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+from numba import njit
+
+from pipeline.physics.friction_law import friction_at
+
+SUB_DISCS = 4
+
+
+class PatchContact(NamedTuple):
+    """Contact points of pads on the sub-discs, all in SI units; c contacts, n coordinates."""
+
+    normal: np.ndarray          # (c, n) normal rows, positive opens
+    tangent: np.ndarray         # (c, n) tangent rows, along sliding
+    area: np.ndarray            # (c,) m^2
+    radius: np.ndarray          # (c,) m, distance from the disc axis
+    angle: np.ndarray           # (c,) rad, position on the disc face
+    half_angle: np.ndarray      # (c,) rad, half of the angle that the patch spans
+    closure: np.ndarray         # (k,) m, from 0: axis of the normal law
+    pressure: np.ndarray        # (k,) Pa, from 0, rising
+    friction_pressure: np.ndarray   # (P,) Pa, axes of the friction table
+    friction_speed: np.ndarray      # (V,) m/s
+    friction_distance: np.ndarray   # (S,) m
+    friction: np.ndarray        # (P, V, S) coefficient of friction
+    bedding: np.ndarray         # (4,) m, distance on the friction map of each sub-disc at time 0
+    bedding_speed: float        # m/s, gain of that distance with time
+    disc_speed: float           # rad/s
+    sectors: int                # per revolution, a multiple of 4
+    ramp: float                 # s, time in which friction rises from nothing
+    stick_speed: float          # m/s, slip below which the friction sign is regularised
+
+
+class ContactState(NamedTuple):
+    """Forces of all contacts on the pads and their slopes at one instant."""
+
+    normal: np.ndarray          # (c,) N
+    friction: np.ndarray        # (c,) N, along sliding
+    stiffness: np.ndarray       # (c,) N/m, dN/dclosure
+    coupling: np.ndarray        # (c,) dT/dN = mu + p dmu/dp, shared over the sub-discs
+    slip_slope: np.ndarray      # (c,) N s/m, dT/dslip
+    share: np.ndarray           # (c, 4) part of the patch on each sub-disc
+    outside: int                # friction evaluations outside the friction table
+    evaluations: int            # friction evaluations
+
+
+@njit(cache=True)
+def normal_law(closure, closures, pressures):
+    """(pressure in Pa, slope in Pa/m) of a piecewise linear law: zero in separation, last slope beyond the table."""
+    if closure <= 0.0:
+        return 0.0, 0.0
+    low = min(np.searchsorted(closures, closure, side="right"), closures.size - 1) - 1
+    slope = (pressures[low + 1] - pressures[low]) / (closures[low + 1] - closures[low])
+    return pressures[low] + slope * (closure - closures[low]), slope
+
+
+@njit(cache=True)
+def patch_shares(angle, half_angle, turned, sectors):
+    """(c, 4) share of each patch on each sub-disc after the disc has turned by ``turned`` rad; rows sum to one."""
+    shares = np.empty((angle.size, SUB_DISCS))
+    per_angle = sectors / (2.0 * np.pi)
+    for i in range(angle.size):
+        begin = (angle[i] - half_angle[i] - turned) * per_angle
+        end = (angle[i] + half_angle[i] - turned) * per_angle
+        for d in range(SUB_DISCS):
+            shares[i, d] = (_length_on(d, end) - _length_on(d, begin)) / (end - begin)
+    return shares
+
+
+@njit(cache=True)
+def _length_on(sub_disc, position):
+    """Sectors of one sub-disc between 0 and ``position`` sectors."""
+    cycles = np.floor(position / SUB_DISCS)
+    return cycles + min(max(position - SUB_DISCS * cycles - sub_disc, 0.0), 1.0)
+
+
+@njit(cache=True)
+def friction_sign(slip, stick_speed):
+    """(sign, its slope in s/m): +-1 outside the stick speed, a cubic without kinks inside."""
+    x = slip / stick_speed
+    if x >= 1.0:
+        return 1.0, 0.0
+    if x <= -1.0:
+        return -1.0, 0.0
+    return x * (3.0 - x * x) / 2.0, 1.5 * (1.0 - x * x) / stick_speed
+
+
+@njit(cache=True)
+def friction_share(time, ramp):
+    """Part of the friction that acts ``time`` seconds after the friction-free start; smooth, from 0 to 1."""
+    if time >= ramp:
+        return 1.0
+    return 0.5 * (1.0 - np.cos(np.pi * max(time, 0.0) / ramp))
+
+
+@njit(cache=True)
+def contact_state(contact, time, displacement, velocity):
+    """ContactState at generalised ``displacement`` (n,) and ``velocity`` (n,)."""
+    closure, slide = -(contact.normal @ displacement), contact.tangent @ velocity
+    shares = patch_shares(contact.angle, contact.half_angle, contact.disc_speed * time, contact.sectors)
+    acting = friction_share(time, contact.ramp)
+    size, outside, evaluations = closure.size, 0, 0
+    normal, friction, stiffness = np.zeros(size), np.zeros(size), np.zeros(size)
+    coupling, slip_slope = np.zeros(size), np.zeros(size)
+    for i in range(size):
+        pressure, slope = normal_law(closure[i], contact.closure, contact.pressure)
+        if slope == 0.0:
+            continue
+        normal[i], stiffness[i] = contact.area[i] * pressure, contact.area[i] * slope
+        slip = contact.disc_speed * contact.radius[i] - slide[i]
+        mu, mu_pressure, mu_speed = 0.0, 0.0, 0.0
+        for d in range(SUB_DISCS):
+            if shares[i, d] > 0.0:
+                m, mp, mv, out = friction_at(
+                    pressure, abs(slip), contact.bedding[d] + contact.bedding_speed * time, contact.friction_pressure,
+                    contact.friction_speed, contact.friction_distance, contact.friction)
+                mu, mu_pressure = mu + shares[i, d] * m, mu_pressure + shares[i, d] * mp
+                mu_speed, outside, evaluations = mu_speed + shares[i, d] * mv, outside + out, evaluations + 1
+        sign, sign_slope = friction_sign(slip, contact.stick_speed)
+        friction[i] = acting * mu * sign * normal[i]
+        coupling[i] = acting * sign * (mu + pressure * mu_pressure)
+        slip_slope[i] = acting * normal[i] * (mu * sign_slope + mu_speed * np.sign(slip) * sign)
+    return ContactState(normal, friction, stiffness, coupling, slip_slope, shares, outside, evaluations)
+
+
+@njit(cache=True)
+def contact_force(contact, time, displacement, velocity):
+    """Generalised force (n,) of all contacts on the pads."""
+    state = contact_state(contact, time, displacement, velocity)
+    return state.normal @ contact.normal + state.friction @ contact.tangent
+
+
+@njit(cache=True)
+def contact_tangent(contact, time, displacement, velocity):
+    """(stiffness, damping), both (n, n): minus the derivatives of ``contact_force``; exact, unsymmetric."""
+    state = contact_state(contact, time, displacement, velocity)
+    size, n = contact.normal.shape
+    pushed, slid = np.empty((size, n)), np.empty((size, n))
+    for i in range(size):
+        pushed[i] = state.stiffness[i] * (contact.normal[i] + state.coupling[i] * contact.tangent[i])
+        slid[i] = state.slip_slope[i] * contact.tangent[i]
+    return pushed.T @ contact.normal, slid.T @ contact.tangent

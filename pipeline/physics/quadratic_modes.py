@@ -1,0 +1,96 @@
+"""Complex modes of a small dense system: roots and vectors of (s^2 M + s C + K) x = 0, and their paths over friction.
+
+C and K may be unsymmetric (gyroscopic and friction terms). The problem is scaled to unit masses by congruence and
+written as the companion matrix [[0, g I], [-K / g, -C]] with g = sqrt(|K|), so that both blocks are of one size
+(Fan, Lin & Van Dooren, SIAM J. Matrix Anal. Appl. 26 (2004) 252).
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.linalg import LinAlgError, cholesky, eig, eigvals, solve_triangular
+from scipy.optimize import linear_sum_assignment
+
+from pipeline.contract.errors import ConfigError
+
+
+@dataclass(frozen=True)
+class QuadraticModes:
+    """All 2 n roots (1/s) by rising imaginary part, right vectors (n, 2n) and, where asked for, left ones."""
+
+    value: np.ndarray
+    right: np.ndarray
+    left: np.ndarray | None = None
+
+
+def quadratic_roots(mass, damping, stiffness):
+    """All 2 n roots s (1/s) of det(s^2 M + s C + K) = 0, by rising imaginary part; arguments as ``quadratic_modes``."""
+    companion, _ = _companion(mass, damping, stiffness)
+    roots = eigvals(companion, overwrite_a=True, check_finite=False)
+    return roots[_order(roots)]
+
+
+def quadratic_modes(mass, damping, stiffness, left=False):
+    """Roots and vectors of (s^2 M + s C + K) x = 0 and, if ``left``, y^H (s^2 M + s C + K) = 0.
+
+    ``mass`` (n, n) kg is symmetric positive definite; ``damping`` (n, n) N s/m and ``stiffness`` (n, n) N/m are
+    general real matrices. Vectors have unit length in the mass norm, x^H M x = 1. Raises ConfigError for a mass
+    matrix that is not positive definite.
+    """
+    companion, factor = _companion(mass, damping, stiffness)
+    roots, *vectors = eig(companion, left=left, right=True, overwrite_a=True, check_finite=False)
+    order, n = _order(roots), len(mass)
+    right = _physical(vectors[-1][:n, order], factor)
+    return QuadraticModes(roots[order], right, _physical(vectors[0][n:, order], factor) if left else None)
+
+
+def upper_half(roots):
+    """Indices of one root of every conjugate pair, by rising imaginary part: n of the 2 n roots of a real system.
+
+    Of real roots, which come in an even number, the half that lies to the right is taken.
+    """
+    roots = np.asarray(roots)
+    half = np.lexsort((roots.real, roots.imag))[len(roots) // 2:]
+    return half[np.argsort(roots[half].imag, kind="stable")]
+
+
+def follow_roots(roots):
+    """Reorder roots (steps, n) so that column j is one root followed over the steps.
+
+    Every step is assigned to the roots expected by linear extrapolation, with the least sum of distances in the
+    complex plane. Where two roots meet (coalescence) either continuation is right.
+    """
+    followed = np.array(roots)
+    for step in range(1, len(followed)):
+        back = max(step - 2, 0)
+        expected = followed[step - 1] + (followed[step - 1] - followed[back])
+        _, chosen = linear_sum_assignment(abs(expected[:, None] - followed[step][None, :]))
+        followed[step] = followed[step, chosen]
+    return followed
+
+
+def _companion(mass, damping, stiffness):
+    """(companion matrix, W): W^T M W = I takes unit-mass coordinates to physical ones."""
+    n, balance = len(mass), np.sqrt(np.maximum(np.diag(mass), np.finfo(float).tiny))
+    try:
+        lower = cholesky(mass / np.outer(balance, balance), lower=True)
+    except LinAlgError:
+        raise ConfigError("complex modes: mass", "a symmetric positive definite matrix",
+                          f"smallest diagonal entry {np.min(np.diag(mass)):.3g}",
+                          "give every coordinate a mass, or condense the massless ones") from None
+    to_physical = solve_triangular(lower, np.eye(n), lower=True).T / balance[:, None]
+    unit_damping = to_physical.T @ damping @ to_physical
+    unit_stiffness = to_physical.T @ stiffness @ to_physical
+    pace = np.sqrt(np.linalg.norm(unit_stiffness)) or 1.0
+    companion = np.zeros((2 * n, 2 * n))
+    companion[:n, n:] = pace * np.eye(n)
+    companion[n:, :n], companion[n:, n:] = -unit_stiffness / pace, -unit_damping
+    return companion, to_physical
+
+
+def _physical(vectors, to_physical):
+    return to_physical @ (vectors / np.linalg.norm(vectors, axis=0))
+
+
+def _order(roots):
+    return np.lexsort((roots.real, roots.imag))

@@ -1,0 +1,82 @@
+"""Sliding contact with a shear limit (Tresca friction), and how the limit depends on speed and temperature.
+
+No coefficient of friction enters: a contact node holds until its shear traction reaches the limit (Bowden & Tabor),
+then it slips. The coefficient of friction is the outcome, the sum of shear over the sum of normal force.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy import fft
+
+from pipeline.contract.errors import ConvergenceError
+
+
+@dataclass(frozen=True)
+class ShearContact:
+    """Shear traction (2, ny, nx) in Pa along x and y, ``sticking`` nodes (ny, nx), ``iterations``."""
+
+    traction: np.ndarray
+    sticking: np.ndarray
+    iterations: int
+
+
+def solve_shear_limit(limit, compliance, displacement, tolerance=1e-6, max_iterations=5000):
+    """Shear traction when the bases of the solids are displaced by ``displacement`` (m) along x.
+
+    ``limit`` (ny, nx) in Pa: largest shear traction of each node, 0 where open; ``compliance``: SurfaceCompliance of
+    both solids. Minimises t C t / 2 - t d subject to |t| <= limit: accelerated projected gradients with restart (FISTA,
+    Beck & Teboulle 2009), the projection exact. The last step is below ``tolerance`` times the largest
+    limit, measured over the whole map; otherwise ConvergenceError.
+    """
+    lipschitz = _largest_eigenvalue(compliance)
+    imposed = np.array([displacement, 0.0])[:, None, None]
+    traction = np.stack([limit, np.zeros_like(limit)])
+    ahead, momentum = traction, 1.0
+    for iteration in range(max_iterations):
+        slip = imposed - _apply(compliance, ahead)
+        new = _project(ahead + slip / lipschitz, limit)
+        step = new - traction
+        if np.abs(new - ahead).max() <= tolerance * limit.max():
+            sticking = (limit > 0.0) & (np.hypot(*new) < limit * (1.0 - 1e-9))
+            return ShearContact(new, sticking, iteration)
+        restart = np.vdot(ahead - new, step) > 0.0
+        following = 1.0 if restart else (1.0 + np.sqrt(1.0 + 4.0 * momentum ** 2)) / 2.0
+        ahead = new if restart else new + (momentum - 1.0) / following * step
+        traction, momentum = new, following
+    raise ConvergenceError("shear limit", f"steps below {tolerance:g} of the limit within {max_iterations} iterations",
+                           f"{np.abs(step).max() / limit.max():.2g}", "raise max_iterations or tolerance")
+
+
+def full_slip_displacement(limit, compliance):
+    """Base displacement in m at which every contact node slips along x, the uniform shear of the blocks removed."""
+    uniform = np.stack([limit, np.zeros_like(limit)])
+    displaced = _apply(compliance, uniform)[0]
+    return displaced[limit > 0.0].max() - compliance.along[0, 0] * limit.mean()
+
+
+def limit_at_speed(limit, speed, reference_speed, rate, softening, heating):
+    """Shear limit in Pa at a sliding speed: rate term and thermal softening.
+
+    limit * (1 + rate ln(speed / reference)) * (1 - softening * rise), with the flash rise = ``heating`` (K/Pa, see
+    flash_temperature) times the limit itself; solved for the limit.
+    """
+    fast = limit * (1.0 + rate * np.log(speed / reference_speed))
+    return fast / (1.0 + softening * heating * fast)
+
+
+def _apply(compliance, traction):
+    along, across = fft.rfft2(traction)
+    image = np.stack([compliance.along * along + compliance.cross * across,
+                      compliance.cross * along + compliance.across * across])
+    return fft.irfft2(image, s=traction.shape[1:])
+
+
+def _project(traction, limit):
+    size = np.hypot(*traction)
+    return traction * np.where(size > limit, limit / np.where(size > 0.0, size, 1.0), 1.0)
+
+
+def _largest_eigenvalue(compliance):
+    mean, half = (compliance.along + compliance.across) / 2.0, (compliance.along - compliance.across) / 2.0
+    return (mean + np.hypot(half, compliance.cross)).max()

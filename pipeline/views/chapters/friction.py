@@ -1,0 +1,78 @@
+"""Chapters: friction and wear of the rough pair, and the friction map."""
+
+from pipeline.views import contact_spots, friction
+from pipeline.views.chapter import Chapter, Figure
+from pipeline.views.readable import number, percent, quantity, span
+
+
+def micro(product, look):
+    """Chapter of the product MicroFriction."""
+    middle = (len(product.pressure) // 2, len(product.speed) // 2)
+    point = f"{quantity(product.pressure[middle[0]], 'Pa', 3)}, {quantity(product.speed[middle[1]], 'm/s', 3)}"
+    new, worn = product.real_area[middle][[0, -1]]
+    gain = product.friction[:, :, -1].mean() - product.friction[:, :, 0].mean()
+    return Chapter(
+        "micro_friction", "Friction and wear of the rough pair",
+        f"Both rough solids pressed and slid against each other over {quantity(product.distance[-1], 'm', 3)} at"
+        f" {span(product.pressure, 'Pa')} and {span(product.speed, 'm/s')}. A contact spot shears at no more than"
+        f" {quantity(product.shear_limit, 'Pa', 3)}; friction is the sum of shear over the sum of normal force.",
+        f"Friction lies between {span(product.friction, '1')}; wear flattens the peaks, the real contact area grows,"
+        f" and friction {'rises' if gain > 0 else 'falls'} by {number(abs(gain), 2)} on average. Since the real contact"
+        f" stays a few percent of the nominal area, the shear limit sets the level of friction: it is the first value"
+        f" to measure.",
+        (*_spots(product, look, point, new, worn), *_curves(product)))
+
+
+def _spots(product, look, point, new, worn):
+    wear = product.largest_wear.max()
+    return (
+        Figure(contact_spots.contact_spots(product, "new", look.dpi),
+               f"Contact spots, new surfaces, {point}: {percent(new)} of the area carries all load."),
+        Figure(contact_spots.contact_spots(product, "worn", look.dpi),
+               f"The same after {quantity(product.distance[-1], 'm', 3)} of sliding: {percent(worn)}."),
+        Figure(contact_spots.wear_map(product, "pad", look.dpi),
+               f"Wear of the pad, {point}; largest wear of one node in the whole study {quantity(wear, 'm', 3)}."),
+        Figure(contact_spots.wear_map(product, "disc", look.dpi),
+               f"Wear of the disc, {point}: largest {quantity(product.disc_wear.max(), 'm', 3)}."))
+
+
+def _curves(product):
+    first, last = product.real_area[:, :, 0].mean(axis=1), product.real_area[:, :, -1].mean(axis=1)
+    speed = abs(product.friction[:, -1] - product.friction[:, 0]).max()
+    return (
+        Figure(friction.over_distance(product, "real_area"),
+               f"Real contact area grows from {span(100 * first, '1')} % to {span(100 * last, '1')} %"
+               " (lowest to highest pressure)."),
+        Figure(friction.over_distance(product, "wear_depth"),
+               f"Approach of the two bodies by wear: {span(product.wear_depth[:, :, -1], 'm')} at the end."),
+        Figure(friction.over_distance(product, "friction"),
+               "Coefficient of friction over sliding distance; band: standard error, at most"
+               f" {number(product.friction_std.max(), 2)}."),
+        Figure(friction.over_pressure(product),
+               "Coefficient of friction over pressure at three sliding distances. Over the speeds computed it changes"
+               f" by at most {number(speed, 2)}."),
+        Figure(friction.convergence(product),
+               f"Real contact area at the middle pressure when the grid is refined: {_change(product)}"))
+
+
+def _change(product):
+    area = product.refinement_area
+    if len(area) < 2:
+        return f"one grid only, {percent(area[0])}."
+    return (f"the last refinement changes it by {percent(abs(area[-1] / area[-2] - 1), 2)}; this is the error of the"
+            " grid.")
+
+
+def friction_map(product, look):
+    """Chapter of the product FrictionMap."""
+    last = product.friction[:, :, -1]
+    return Chapter(
+        "friction_map", "Friction map",
+        f"Coefficient of friction over sliding speed and pressure after {quantity(product.distance[-1], 'm', 3)} of"
+        " sliding. Orange lines: computed. Hatched: outside the computed range, continued as a constant.",
+        f"The brake model reads this map patch by patch: {span(last, '1')} here, standard error up to"
+        f" {number(product.friction_std.max(), 2)}. Interface stiffness {span(product.normal_stiffness, 'Pa/m')}."
+        " Trust nothing that rests on the hatched part; the share of evaluations that fell there is told with the"
+        " pad motion.",
+        (Figure(friction.friction_map(product), f"Friction map: {span(last, '1')} over"
+                f" {span(product.computed_pressure, 'Pa')} and {span(product.computed_speed, 'm/s')}."),))

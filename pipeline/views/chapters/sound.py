@@ -1,0 +1,78 @@
+"""Chapters: vibration at the sensors, and squeal."""
+
+import numpy as np
+
+from pipeline.views import sound as pictures
+from pipeline.views.chapter import Chapter, Figure, Table
+from pipeline.views.chapters.motion import extremes, point
+from pipeline.views.readable import number, plural, quantity, span
+
+
+def response(product, published, look):
+    """Chapter of the product Response."""
+    points = list(dict.fromkeys(extremes(product)))
+    figures = tuple(Figure(pictures.spectra(product, points, sensor, published, look.dpi),
+                           f"Velocity spectrum at sensor {name}." + _dotted(published))
+                    for sensor, name in enumerate(product.sensor_name[:4]))
+    effective = product.velocity.astype(float).std(axis=2)
+    return Chapter(
+        "response", "Vibration at the sensors",
+        f"The contact forces excite {len(product.mode_frequency)} modes up to"
+        f" {quantity(product.mode_frequency.max(), 'Hz')} (superposed exactly); forces enter the {product.coupling}."
+        f" Spectra at lowest and highest load, resolution"
+        f" {quantity(product.frequency[1] - product.frequency[0], 'Hz', 3)}.",
+        f"Effective velocities lie between {span(effective, 'm/s')}. A narrow peak that stands out of the forced level"
+        " is a squeal candidate; a forest of equal peaks is only the modal density of the brake.",
+        figures)
+
+
+def squeal(product, published, look):
+    """Chapter of the product Squeal."""
+    points = list(dict.fromkeys(extremes(product)))
+    loudest = int(np.argmax(product.peak_level.max(axis=0)))
+    figures = [
+        Figure(pictures.occurrence(product, look.dpi), occurrence_caption(product)),
+        Figure(pictures.band_levels(product, points, loudest),
+               f"Third-octave levels at sensor {product.sensor_name[loudest]}, lowest and highest load.")]
+    if len(product.event_level):
+        figures.insert(1, Figure(pictures.level_frequency(product, published),
+                                 f"{plural(len(product.event_level), 'event')}:"
+                                 f" {span(product.event_frequency, 'Hz')}, {span(product.event_level, '1')} dB; dashed:"
+                                 " threshold." + _dotted(published)))
+    return Chapter(
+        "squeal", "Squeal",
+        f"The detector calls a spectral peak above {number(product.threshold, 3)} dB (velocity, re"
+        f" {quantity(product.reference, 'm/s', 3)}) in the squeal band an event, sensor by sensor.",
+        _conclusion(product), tuple(figures), _table(product))
+
+
+def occurrence_caption(product):
+    """Where the loudest peak lies and how it compares with the threshold."""
+    return ("Highest velocity level in the squeal band at each operating point, its frequency and number of events."
+            f" Loudest {number(product.peak_level.max(), 3)} dB; the line in the colour bar is the threshold,"
+            f" {number(product.threshold, 3)} dB re {quantity(product.reference, 'm/s', 3)}.")
+
+
+def _conclusion(product):
+    where = np.unique(product.event_operating)
+    if not len(where):
+        short = float(product.threshold) - product.peak_level.max()
+        return f"No event: the loudest peak stays {number(short, 2)} dB below the threshold."
+    return (f"{plural(len(product.event_level), 'event')} at {len(where)} of {len(product.pressure)} operating points:"
+            f" {'; '.join(point(product, o) for o in where)}.")
+
+
+def _table(product, most=15):
+    order = np.argsort(-product.event_level, kind="stable")[:most]
+    if not len(order):
+        return ()
+    rows = tuple((point(product, product.event_operating[e]), str(product.sensor_name[product.event_sensor[e]]),
+                  quantity(product.event_frequency[e], "Hz"), number(product.event_level[e], 3),
+                  quantity(product.event_start[e], "s", 3), quantity(product.event_duration[e], "s", 3)) for e in order)
+    title = f"Loudest {len(rows)} of {plural(len(product.event_level), 'event')}"
+    return (Table(("operating point", "sensor", "frequency", "level / dB", "begin", "duration"), rows, title,
+                  (2, 3, 4, 5)),)
+
+
+def _dotted(published):
+    return f" Dotted: squeal in the paper, {quantity(published, 'Hz')}." if len(published) else ""

@@ -1,0 +1,47 @@
+"""The report page: one self-contained HTML file, sections in the order of the chain."""
+
+from functools import partial
+
+from pipeline.views import case as case_view
+from pipeline.views import sound as sound_pictures
+from pipeline.views.chapter import Figure
+from pipeline.views.chapters import comparison, friction, motion, sound, stability, structure, surface
+from pipeline.views.limits import limits
+from pipeline.views.verdict import published_squeal, verdict
+
+
+def plan(products, look):
+    """Functions without arguments, one per chapter whose product is there, in chain order."""
+    lines = published_squeal(products.get("comparison"))
+    model = products.get("model")
+    known = (("surface", surface.chapter, ()), ("micro_friction", friction.micro, ()),
+             ("friction_map", friction.friction_map, ()), ("structure", structure.chapter, ()),
+             ("complex_modes", stability.chapter, (model, lines)), ("multibody", motion.chapter, ()),
+             ("response", sound.response, (lines,)), ("squeal", sound.squeal, (lines,)),
+             ("comparison", comparison.chapter, ()))
+    return [partial(write, products[name], *more, look) for name, write, more in known
+            if products.get(name) is not None]
+
+
+def page(chapters, products, case, look):
+    """HTML text of the report; the same arguments give the same bytes."""
+    found = products.get("comparison")
+    return _template().render(
+        case=case, chapters=chapters, verdict=verdict(products, case_view.tuned(case)),
+        key_figure=_key_figure(products, look), key_table=comparison.table(found) if found is not None else None,
+        stages=case_view.stages(case), limits=limits(products))
+
+
+def _key_figure(products, look):
+    squeal = products.get("squeal")
+    if squeal is None:
+        return None
+    return Figure(sound_pictures.occurrence(squeal, look.dpi), sound.occurrence_caption(squeal))
+
+
+def _template():
+    from jinja2 import Environment, PackageLoader, StrictUndefined
+
+    environment = Environment(loader=PackageLoader("pipeline.views"), autoescape=True, undefined=StrictUndefined,
+                              trim_blocks=True, lstrip_blocks=True)
+    return environment.get_template("report.html.j2")

@@ -1,0 +1,52 @@
+"""Scenes of the brake: assembled mesh, mode shapes of the disc, unstable complex modes."""
+
+import numpy as np
+
+from pipeline.views.scene import Scene, Solid
+from pipeline.views.style import BLUE, GREEN, ORANGE, SKY
+
+BODY_COLOURS = {"disc": "#b8bec6", "pad_outer": ORANGE, "pad_inner": GREEN, "caliper": BLUE}
+
+
+def assembly(structure):
+    """Scene of all bodies with the edges of their elements."""
+    bodies = [(str(name), getattr(structure, str(name))) for name in structure.body_name]
+    return Scene(tuple(Solid(body.node, body.element, body.kind.item(), colour=BODY_COLOURS.get(name, SKY), edges=True)
+                       for name, body in bodies))
+
+
+def disc_mode(disc, mode):
+    """Scene of one real mode of the disc, displaced; colour = size of the displacement."""
+    shape = disc.shape[mode]
+    return Scene((_displaced(disc.node, disc.element, disc.kind.item(), shape, shape),), size=(640, 480))
+
+
+def unstable_mode(model, modes, index):
+    """Scene of one unstable complex mode at its instant of largest displacement; colour = amplitude over a cycle."""
+    shape = modes.unstable_shape[index]
+    phase = np.exp(-0.5j * np.angle(np.sum(shape**2)))
+    return Scene((_displaced(model.visible_position, model.visible_face, "quad", (shape * phase).real, shape),))
+
+
+def diameters(disc, mode):
+    """Dominant number of nodal diameters of the axial motion of a disc mode."""
+    axial = disc.shape[mode][:, 2]
+    angle = np.arctan2(disc.node[:, 1], disc.node[:, 0])
+    orders = np.arange(25)
+    content = np.abs(np.exp(-1j * orders[:, None] * angle) @ axial)
+    content[0] /= np.sqrt(2.0)
+    return int(np.argmax(content))
+
+
+def distinct(frequency, count):
+    """First ``count`` modes, rigid motions and the second of each pair of equal frequencies left out."""
+    elastic = np.flatnonzero(frequency > 1.0)
+    apart = np.diff(frequency[elastic], prepend=0.0) > 5e-3 * frequency[elastic]
+    return elastic[apart][:count]
+
+
+def _displaced(points, cells, kind, displacement, amplitude):
+    size = np.ptp(points, axis=0).max()
+    amount = np.linalg.norm(np.abs(amplitude), axis=1)
+    largest = max(amount.max(), 1e-300)
+    return Solid(points + 0.06 * size / largest * displacement, cells, kind, scalar=amount / largest)

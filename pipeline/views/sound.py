@@ -1,0 +1,86 @@
+"""Pictures of the vibration: spectra with squeal lines, occurrence, levels over frequency."""
+
+import numpy as np
+
+from pipeline.views.style import COLOURS, FAINT, INK, LINES, MARKERS, SEQUENTIAL, drawing, png, svg, tiles
+
+
+def spectra(response, operatings, sensor, published, dpi):
+    """PNG of the velocity spectra at one sensor for some operating points; dotted lines at ``published`` squeal."""
+    kilohertz = response.frequency / 1e3
+    with drawing(3.4) as figure:
+        axes = figure.subplots()
+        for frequency in published:
+            axes.axvline(frequency / 1e3, color=FAINT, lw=1.1, ls=":")
+        for line, operating in enumerate(operatings):
+            density = np.maximum(response.velocity_spectrum[operating, sensor], 1e-30)
+            axes.semilogy(kilohertz, density, color=COLOURS[line % 6], ls=LINES[line % 6], lw=0.9,
+                          label=_operating(response, operating))
+        axes.set(xlabel="frequency / kHz", ylabel="velocity spectral density / m²/s²/Hz", xlim=(0, kilohertz[-1]),
+                 ylim=_decades(response.velocity_spectrum[operatings, sensor]))
+        axes.legend(loc="upper right")
+        return png(figure, dpi)
+
+
+def occurrence(squeal, dpi):
+    """PNG of the highest level in the squeal band at each operating point, with its frequency; frame = squeal."""
+    sensor = np.argmax(squeal.peak_level, axis=1)
+    row = np.arange(len(sensor))
+    level, frequency = squeal.peak_level[row, sensor], squeal.peak_frequency[row, sensor]
+    events = np.bincount(squeal.event_operating, minlength=len(level))
+    texts = [f"{lv:.0f} dB\n{f / 1e3:.2f} kHz\n{_events(n)}" for lv, f, n in zip(level, frequency, events, strict=True)]
+    low, high = min(level.min(), squeal.threshold - 3.0), max(level.max(), squeal.threshold + 3.0)
+    with drawing(3.3) as figure:
+        axes = figure.subplots()
+        tiles(axes, squeal.pressure, squeal.speed, level, texts, "highest level / dB", cmap=SEQUENTIAL, vmin=low,
+              vmax=high)
+        figure.axes[-1].axhline(float(squeal.threshold), color="white", lw=2.5)
+        figure.axes[-1].axhline(float(squeal.threshold), color=INK, lw=1.2, ls="--")
+        return png(figure, dpi)
+
+
+def level_frequency(squeal, published):
+    """SVG of the level of every event over its frequency, one marker per pressure, and the threshold."""
+    pressures = np.unique(squeal.pressure)
+    with drawing() as figure:
+        axes = figure.subplots()
+        for frequency in published:
+            axes.axvline(frequency / 1e3, color=FAINT, lw=1.1, ls=":")
+        axes.axhline(float(squeal.threshold), color=INK, lw=0.9, ls="--")
+        for index, pressure in enumerate(pressures):
+            here = np.flatnonzero(squeal.pressure[squeal.event_operating] == pressure)
+            axes.plot(squeal.event_frequency[here] / 1e3, squeal.event_level[here], ls="none",
+                      marker=MARKERS[index % 6], color=COLOURS[index % 6], mec="white", mew=0.4,
+                      label=f"{pressure / 1e6:.3g} MPa")
+        axes.set(xlabel="frequency / kHz", ylabel="velocity level / dB")
+        axes.legend(title="pressure", title_fontsize=8)
+        return svg(figure)
+
+
+def band_levels(squeal, operatings, sensor):
+    """SVG of the third-octave levels at one sensor for some operating points."""
+    with drawing() as figure:
+        axes = figure.subplots()
+        for line, operating in enumerate(operatings):
+            axes.step(squeal.band, squeal.band_level[operating, sensor], where="mid", color=COLOURS[line % 6],
+                      ls=LINES[line % 6], label=_operating(squeal, operating))
+        axes.set_xscale("log")
+        kept = squeal.band[:: max(1, len(squeal.band) // 6)]
+        axes.set_xticks(kept, [f"{f / 1e3:.3g}" for f in kept])
+        axes.set_xticks([], minor=True)
+        axes.set(xlabel="third-octave band / kHz", ylabel="velocity level / dB")
+        axes.legend()
+        return svg(figure)
+
+
+def _operating(product, operating):
+    return f"{product.pressure[operating] / 1e6:.3g} MPa, {product.speed[operating]:.4g} rad/s"
+
+
+def _events(number):
+    return f"{number} event{'s' * (number != 1)}" if number else "quiet"
+
+
+def _decades(density):
+    highest = max(float(density.max()), 1e-30)
+    return 1e-9 * highest, 5.0 * highest

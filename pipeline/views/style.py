@@ -1,0 +1,107 @@
+"""One look for every figure: phone-sized panels, colour-blind safe colours, deterministic bytes.
+
+A figure is one panel of about 117 mm: on a phone it fills the screen with 9-point text, on a desktop two stand side
+by side. Categories use the palette of Okabe and Ito (2008), magnitudes the perceptually uniform viridis and cividis,
+signed quantities purple-orange; every category also differs by line style, marker or label.
+"""
+
+from contextlib import contextmanager
+from io import BytesIO
+
+import numpy as np
+
+BLUE, ORANGE, GREEN, RED, PURPLE, SKY = "#0072B2", "#E69F00", "#009E73", "#D55E00", "#CC79A7", "#56B4E9"
+INK, FAINT = "#222222", "#8a8f98"
+COLOURS = (BLUE, RED, GREEN, PURPLE, ORANGE, SKY)
+LINES = ("-", "--", "-.", ":", (0, (5, 1, 1, 1, 1, 1)), (0, (1, 1)))
+MARKERS = ("o", "s", "^", "D", "v", "P")
+SEQUENTIAL, HEIGHTS, SIGNED = "viridis", "cividis", "PuOr_r"
+
+WIDTH, HEIGHT = 4.6, 3.2
+RC = {
+    "font.family": "DejaVu Sans", "font.size": 9, "axes.titlesize": 9, "axes.labelsize": 9, "xtick.labelsize": 8,
+    "ytick.labelsize": 8, "legend.fontsize": 8, "legend.frameon": False, "text.color": INK, "axes.edgecolor": FAINT,
+    "axes.labelcolor": INK, "xtick.color": INK, "ytick.color": INK, "axes.spines.top": False,
+    "axes.spines.right": False, "axes.grid": True, "grid.color": "#e3e6ea", "grid.linewidth": 0.6,
+    "axes.axisbelow": True, "lines.linewidth": 1.6, "lines.markersize": 4.5, "axes.unicode_minus": True,
+    "figure.facecolor": "white", "savefig.facecolor": "white", "svg.hashsalt": "brakechain", "svg.fonttype": "path",
+    "hatch.linewidth": 0.6, "path.simplify": True,
+}
+
+
+@contextmanager
+def drawing(height=HEIGHT):
+    """An empty matplotlib Figure in the style of the report."""
+    from matplotlib import style
+    from matplotlib.figure import Figure
+
+    with style.context(RC, after_reset=True):
+        yield Figure(figsize=(WIDTH, height), layout="constrained")
+
+
+def svg(figure):
+    """SVG text of a figure; no date, no creator, fixed identifiers."""
+    stream = BytesIO()
+    figure.savefig(stream, format="svg", metadata={"Date": None, "Creator": None, "Format": None, "Type": None})
+    return stream.getvalue().decode()
+
+
+def png(figure, dpi):
+    """PNG bytes of a figure, without metadata."""
+    stream = BytesIO()
+    figure.savefig(stream, format="png", dpi=dpi, metadata={"Software": None})
+    return stream.getvalue()
+
+
+def image(axes, x, y, values, label, **look):
+    """Map ``values`` over the lateral positions ``x``, ``y`` (m), axes in mm, with a colour bar."""
+    extent = 1e3 * np.array([x[0], x[-1], y[0], y[-1]])
+    shown = axes.imshow(values, origin="lower", extent=extent, interpolation="nearest", **look)
+    axes.set(xlabel="along sliding x / mm", ylabel="across sliding y / mm")
+    axes.grid(False)
+    axes.figure.colorbar(shown, ax=axes, label=label, shrink=0.9)
+    return shown
+
+
+def operating_grid(pressure, speed, values):
+    """Values of operating points on their pressure x speed grid: (pressures, speeds, grid); NaN where none ran."""
+    pressures, row = np.unique(pressure, return_inverse=True)
+    speeds, column = np.unique(speed, return_inverse=True)
+    grid = np.full((len(pressures), len(speeds)), np.nan)
+    grid[row, column] = values
+    return pressures, speeds, grid
+
+
+def tiles(axes, pressure, speed, values, texts, label, **look):
+    """One tile per operating point: pressure (MPa) upwards, disc speed (rad/s) to the right, ``texts`` written on."""
+    pressures, speeds, grid = operating_grid(pressure, speed, values)
+    shown = axes.imshow(grid, origin="lower", aspect="auto", **look)
+    axes.set_xticks(range(len(speeds)), [f"{v:.4g}" for v in speeds])
+    axes.set_yticks(range(len(pressures)), [f"{p / 1e6:.3g}" for p in pressures])
+    axes.set(xlabel="disc speed / rad/s", ylabel="pressure / MPa")
+    axes.grid(False)
+    for p, v, value, text in zip(pressure, speed, values, texts, strict=True):
+        axes.text(np.searchsorted(speeds, v), np.searchsorted(pressures, p), text, ha="center", va="center",
+                  fontsize=8, color=_readable_on(shown, value))
+    axes.figure.colorbar(shown, ax=axes, label=label, shrink=0.9)
+    return shown
+
+
+def _readable_on(shown, value):
+    red, green, blue, _ = shown.cmap(shown.norm(value))
+    return INK if 0.299 * red + 0.587 * green + 0.114 * blue > 0.5 else "white"
+
+
+def symmetric(values, least=1e-9):
+    """Colour limits of a signed quantity, zero in the middle."""
+    largest = max(float(np.max(np.abs(values), initial=0.0)), least)
+    return {"vmin": -largest, "vmax": largest, "cmap": SIGNED}
+
+
+def envelope(time, values, bins=1200):
+    """Lowest and highest value in each of ``bins`` time windows, alternating: what a screen can show of a signal."""
+    if len(time) <= 2 * bins:
+        return time, values
+    edges = np.linspace(0, len(time), bins + 1).astype(int)[:-1]
+    low, high = np.minimum.reduceat(values, edges), np.maximum.reduceat(values, edges)
+    return np.repeat(time[edges], 2), np.column_stack([low, high]).ravel()

@@ -1,0 +1,140 @@
+"""The first screen: does it squeal, where, how sure, what is tuned. Every number comes from a product."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from pipeline.views.agreement import comparable
+from pipeline.views.chapters.motion import extremes, point
+from pipeline.views.chapters.stability import distinct_unstable
+from pipeline.views.readable import number, percent, plural, quantity, span
+
+TWO_PI = 2.0 * np.pi
+NEAR = 0.02     # an unstable mode explains an event when their frequencies agree within 2 %
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """Headline, answers in plain words, and the numbers behind them as (name, value) pairs."""
+
+    headline: str
+    tone: str       # squeal, warning or quiet: the colour of the page's head
+    answers: tuple
+    facts: tuple
+
+
+def verdict(products, tuned_settings):
+    """Verdict over ``products`` (name -> product or None); ``tuned_settings`` are (name, value) pairs."""
+    headline, tone = _headline(products)
+    answers = [("Where", _where(products)), ("Why", _why(products)), ("How sure", _sure(products)),
+               ("Tuned", _tuned(products, tuned_settings))]
+    return Verdict(headline, tone, tuple(a for a in answers if a[1]), tuple(_facts(products)))
+
+
+def published_squeal(comparison):
+    """Squeal frequencies of the paper in Hz, from the rows of the comparison."""
+    if comparison is None:
+        return ()
+    size = {"Hz": 1.0, "kHz": 1e3}
+    rows = range(len(comparison.row))
+    return tuple(sorted({comparison.published[r] * size[str(comparison.unit[r])] for r in rows
+                         if comparison.section[r] == "squeal" and comparison.published_known[r]
+                         and str(comparison.unit[r]) in size}))
+
+
+def _headline(products):
+    squeal, modes = products.get("squeal"), products.get("complex_modes")
+    unstable = 0 if modes is None else len(distinct_unstable(modes, len(modes.unstable_root)))
+    if squeal is not None and len(squeal.event_level):
+        where = len(np.unique(squeal.event_operating))
+        return f"It squeals at {where} of {len(squeal.pressure)} operating points", "squeal"
+    if unstable:
+        start = "No peak exceeds the squeal threshold, but " if squeal is not None else ""
+        text = f"{start}{plural(unstable, 'mode')} {'is' if unstable == 1 else 'are'} unstable"
+        return text[0].upper() + text[1:], "warning"
+    if squeal is None and modes is None:
+        return "No verdict: this case ends before the stability of the brake", "warning"
+    return "No squeal predicted", "quiet"
+
+
+def _where(products):
+    squeal = products.get("squeal")
+    if squeal is None:
+        return ""
+    operating, sensor = np.unravel_index(np.argmax(squeal.peak_level), squeal.peak_level.shape)
+    return (f"Loudest at {point(squeal, operating)}: {number(squeal.peak_level[operating, sensor], 3)} dB"
+            f" re {quantity(squeal.reference, 'm/s', 3)} at {quantity(squeal.peak_frequency[operating, sensor], 'Hz')},"
+            f" sensor {squeal.sensor_name[sensor]}; threshold {number(squeal.threshold, 3)} dB.")
+
+
+def _why(products):
+    modes, squeal = products.get("complex_modes"), products.get("squeal")
+    if modes is None:
+        return ""
+    if not len(modes.unstable_root):
+        return "No mode is unstable: what the sensors feel is forced by the rotating friction patches."
+    frequencies = modes.unstable_root.imag / TWO_PI
+    strongest = (f"The strongest unstable mode, {quantity(frequencies[0], 'Hz')}, grows with"
+                 f" {quantity(modes.unstable_root[0].real, '1/s', 3)}.")
+    if squeal is None:
+        return strongest
+    peak = squeal.peak_frequency.flat[np.argmax(squeal.peak_level)]
+    nearest = frequencies[np.argmin(np.abs(frequencies - peak))]
+    apart = abs(nearest / peak - 1)
+    if apart <= NEAR:
+        return f"{strongest} The loudest peak has an unstable mode at its side: {quantity(nearest, 'Hz')}."
+    return (f"{strongest} The loudest peak has none within {percent(NEAR)} (nearest {quantity(nearest, 'Hz')}): read it"
+            " as forced vibration, not as self-excited squeal.")
+
+
+def _sure(products):
+    comparison = products.get("comparison")
+    if comparison is None:
+        return "Nothing published was compared."
+    rows = comparable(comparison)
+    within = [r for r in rows if comparison.verdict[r] == "within"]
+    tuned = [r for r in within if comparison.tuned[r]]
+    published = int(comparison.published_known.sum())
+    return (f"The paper states {published} numbers; {len(rows)} can be compared, {len(within)} lie within their"
+            f" tolerance, and {len(tuned)} of those were reached by tuning, so {len(within) - len(tuned)} speak for the"
+            " model.")
+
+
+def _tuned(products, tuned_settings):
+    comparison = products.get("comparison")
+    rows = [] if comparison is None else list(dict.fromkeys(t for t in map(str, comparison.tuned) if t))
+    settings = [f"{name} = {value}" for name, value in tuned_settings]
+    shown = rows or settings[:6]
+    more = f" ({plural(len(settings), 'setting')} marked tuned; all below)" if settings else ""
+    return f"{'; '.join(shown)}{more}." if shown else ""
+
+
+def _facts(products):
+    for name, describe in (("friction_map", _friction), ("micro_friction", _contact), ("complex_modes", _modes),
+                           ("multibody", _motion), ("squeal", _level)):
+        if products.get(name) is not None:
+            yield describe(products[name])
+
+
+def _friction(product):
+    return "friction", f"{span(product.friction, '1', 2)}, ± {number(product.friction_std.max(), 2)}"
+
+
+def _contact(product):
+    return "real contact", f"{span(100 * product.real_area, '1', 2)} % of nominal"
+
+
+def _modes(product):
+    frequencies = np.sort([product.unstable_root[i].imag / TWO_PI for i in distinct_unstable(product, 99)])
+    shown = f": {span(frequencies, 'Hz')}" if len(frequencies) else ""
+    return "unstable modes", f"{len(frequencies)}{shown}"
+
+
+def _motion(product):
+    high = extremes(product)[1]
+    return "pad growth rate, highest load", (f"{quantity(product.growth_rate[high], '1/s', 3)} at"
+                                             f" {quantity(product.oscillation_frequency[high], 'Hz', 3)}")
+
+
+def _level(product):
+    return "loudest", f"{number(product.peak_level.max(), 3)} dB (threshold {number(product.threshold, 3)})"

@@ -1,0 +1,26 @@
+"""The chains, in reading order. Each stage is the file of its name; it is loaded when it is needed."""
+
+import ast
+import inspect
+from importlib import import_module
+from pathlib import Path
+
+CHAINS = {
+    "disc_brake": ("surface", "micro_friction", "friction_map", "structure", "reduced_model", "complex_modes",
+                   "multibody", "response", "squeal", "comparison", "report"),
+}
+
+#: every stage once, in the order of its first chain
+NAMES = tuple(dict.fromkeys(name for names in CHAINS.values() for name in names))
+
+
+def load(name):
+    """The Stage called ``name``."""
+    return getattr(import_module(f"stages.{name}"), name)
+
+
+def summary(name):
+    """First line of the docstring of stage ``name``, read without importing it."""
+    tree = ast.parse((Path(__file__).parent / f"{name}.py").read_text(encoding="utf-8"))
+    function = next(n for n in tree.body if isinstance(n, ast.FunctionDef) and n.name == name)
+    return inspect.cleandoc(ast.get_docstring(function) or "").splitlines()[0]

@@ -1,0 +1,121 @@
+"""Stage surface: the two rough surfaces, from scans or from the seeded generators."""
+
+from typing import Annotated, Literal
+
+import numpy as np
+from pydantic import Field
+
+from pipeline.contract import ConfigError, Context, InputFile, Quantity, Section, option, stage
+from pipeline.physics.layered_solid import graded_depth
+from pipeline.physics.rough_surface import plateau_pad, turned_disc
+from pipeline.physics.topography import isotropic_spectrum, level, read_scan, remove_outliers, statistics, to_grid
+from pipeline.products import Surface
+
+BODIES = ("disc", "pad")
+
+
+class Scan(Section):
+    """A measured surface."""
+
+    kind: Literal["scan"] = "scan"
+    file: InputFile = option(..., "scan in any format that SurfaceTopography reads; measured:PATH for a registered one")
+    transposed: bool = option(False, "turn the scan by 90 degrees, so that turning marks run along sliding (x)")
+    outlier_threshold: float = option(8.0, "local median test: difference over robust scatter that is an outlier", gt=0)
+    longest_wavelength: Quantity("m", gt=0) = option("1 mm", "long cut-off: waviness above it is removed")
+    rms_height: Quantity("m", gt=0) = option(..., "Sq to which the heights are scaled")
+    reason: str = option(..., "why the heights are scaled", min_length=1)
+
+
+class TurnedDisc(Section):
+    """A generated turned cast-iron disc."""
+
+    kind: Literal["generated"] = "generated"
+    seed: int = option(1, "seed of the generator", ge=0)
+    rms_height: Quantity("m", gt=0) = option("3.5 um", "Sq, rms height")
+    feed: Quantity("m", gt=0) = option("250 um", "feed of the turning tool; a whole number of feeds fits the patch")
+    marks_share: float = option(0.9, "share of the height variance in the turning marks", ge=0, le=1)
+    roughness_wavelength: Quantity("m", gt=0) = option("250 um", "roll-off wavelength of the roughness")
+    hurst: float = option(0.8, "Hurst exponent of the roughness", ge=0, le=1)
+    outbreak_share: float = option(0.03, "share of the area with grain outbreaks", ge=0, lt=1)
+    outbreak_size: Quantity("m", gt=0) = option("80 um", "diameter of a grain outbreak")
+    outbreak_depth: float = option(3.0, "depth of an outbreak over the rms of the rest", ge=0)
+
+
+class PlateauPad(Section):
+    """A generated brake pad."""
+
+    kind: Literal["generated"] = "generated"
+    seed: int = option(2, "seed of the generator", ge=0)
+    rms_height: Quantity("m", gt=0) = option("3.8 um", "Sq, rms height")
+    plateau_share: float = option(0.25, "share of the area in plateaus", gt=0, lt=1)
+    plateau_size: Quantity("m", gt=0) = option("250 um", "distance between plateaus")
+    plateau_height: float = option(1.0, "plateau above matrix over the rms of the matrix")
+    plateau_roughness: float = option(6.0, "rms of plateaus over rms of the matrix", ge=0)
+    edge_width: float = option(0.2, "width of the plateau edges in the generating field", gt=0)
+    roughness_wavelength: Quantity("m", gt=0) = option("250 um", "roll-off wavelength of the roughness")
+    hurst: float = option(0.8, "Hurst exponent of the roughness", ge=0, le=1)
+
+
+class Settings(Section):
+    """Rough surfaces and the depth grading of their solids."""
+
+    nodes: int = option(128, "grid nodes along each edge of the patch", ge=8)
+    patch_length: Quantity("m", gt=0) = option("1 mm", "edge of the square periodic patch")
+    shortest_wavelength: Quantity("m", gt=0) = option("62.5 um", "short cut-off; contact area converges at 8 nodes on it")
+    disc_thickness: Quantity("m", gt=0) = option("1 mm", "depth of the disc block under its surface")
+    pad_thickness: Quantity("m", gt=0) = option("1 mm", "depth of the pad block under its surface")
+    layer_growth: float = option(1.5, "thickness ratio of neighbouring FE layers; the first is as thick as the grid", ge=1)
+    disc: Annotated[TurnedDisc | Scan, Field(discriminator="kind")] = option(TurnedDisc(), "surface of the disc")
+    pad: Annotated[PlateauPad | Scan, Field(discriminator="kind")] = option(PlateauPad(), "surface of the pad")
+
+
+@stage
+def surface(settings: Settings, context: Context) -> Surface:
+    """Rough surfaces of disc and pad, from scans or seeded generators.
+
+    Method:
+    Both surfaces live on one periodic patch of {patch_length} m edge with {nodes} nodes per edge and no wavelength below
+    {shortest_wavelength} m. Scans lose outliers by a local median test, holes by harmonic filling and their quadratic
+    form, fade periodically at the margins and are scaled to the declared rms height; generated surfaces are a turned disc
+    (tool marks, roughness, grain outbreaks) and a pad of rough plateaus over a smoother matrix.
+    """
+    spacing = settings.patch_length / settings.nodes
+    if settings.shortest_wavelength < 2.0 * spacing:
+        raise ConfigError("surface.shortest_wavelength", f"at least two grid spacings ({2.0 * spacing:g} m)",
+                          f"{settings.shortest_wavelength:g} m", "raise surface.nodes")
+    made = [_make(body, getattr(settings, body), settings) for body in BODIES]
+    heights = [m["height"] for m in made]
+    figures = [statistics(h, (spacing, spacing)) for h in heights]
+    spectra = [isotropic_spectrum(h, (spacing, spacing)) for h in heights]
+    position = np.arange(settings.nodes) * spacing
+    return Surface(
+        x=position, y=position, disc_height=heights[0], pad_height=heights[1],
+        disc_depth=graded_depth(spacing, settings.disc_thickness, settings.layer_growth),
+        pad_depth=graded_depth(spacing, settings.pad_thickness, settings.layer_growth),
+        body=BODIES, source=[m["source"] for m in made],
+        outlier_share=[m["outliers"] for m in made], filled_share=[m["filled"] for m in made],
+        shortest_wavelength=settings.shortest_wavelength,
+        nodes_per_wavelength=[settings.shortest_wavelength / spacing] * 2,
+        wavenumber=spectra[0][0], power_spectrum=[power for _, power in spectra],
+        **{name: [getattr(f, name) for f in figures] for name in
+           ("rms_height", "mean_height", "peak_to_valley", "skewness", "kurtosis", "rms_slope")})
+
+
+def _make(body, choice, settings):
+    """Height map of one body with its source and cleaning shares."""
+    if choice.kind == "scan":
+        return _measured(body, choice, settings)
+    generate = turned_disc if body == "disc" else plateau_pad
+    height = generate(settings.nodes, settings.patch_length, settings.shortest_wavelength,
+                      **choice.model_dump(exclude={"kind"}))
+    return {"height": height, "source": f"generated: {generate.__name__}, seed {choice.seed}", "outliers": 0.0, "filled": 0.0}
+
+
+def _measured(body, choice, settings):
+    scan = read_scan(choice.file)
+    heights, spacing = (scan.heights.T, scan.spacing[::-1]) if choice.transposed else (scan.heights, scan.spacing)
+    cleaned, outliers = remove_outliers(heights, choice.outlier_threshold)
+    levelled, filled = level(cleaned, spacing)
+    height = to_grid(levelled, spacing, settings.patch_length, settings.nodes, settings.shortest_wavelength,
+                     choice.longest_wavelength, choice.rms_height, f"surface.{body}: {choice.file}")
+    return {"height": height, "source": choice.file.name, "outliers": outliers, "filled": filled}

@@ -1,0 +1,68 @@
+"""A case file is checked whole before anything is computed."""
+
+import pytest
+
+from pipeline.contract import ConfigError, case
+from tests.contract.toy import CHAINS, load
+
+YAML = """
+chain: toy
+title: A toy
+source:
+  duration: {value: 3 s, origin: stated, source: "page 2"}
+doubled:
+  factor: 4
+"""
+
+
+@pytest.fixture
+def config(tmp_path):
+    path = tmp_path / "toy.yaml"
+    path.write_text(YAML)
+    return path
+
+
+def loaded(path, *overrides):
+    return case.load(path, CHAINS, load, overrides)
+
+
+def test_sections_origins_and_methods(config):
+    toy = loaded(config)
+    assert toy.sections["source"].duration == 3.0 and toy.sections["doubled"].factor == 4.0
+    card = toy.card("0.1")
+    assert card.origins["source"] == {"duration": {"origin": "stated", "source": "page 2"}}
+    assert card.methods["source"] == "Signals of 3 s were made." and card.units["source"]["duration"] == "s"
+
+
+def test_overrides_replace_the_value_and_keep_the_origin(config):
+    toy = loaded(config, "source.duration=5 s", "doubled.factor=3")
+    assert toy.sections["source"].duration == 5.0 and toy.sections["doubled"].factor == 3.0
+
+
+@pytest.mark.parametrize("text, message", [
+    ("chain: tuy", "chain: expected one of toy, found 'tuy'"),
+    ("chain: toy\nsuorce: {}", "suorce: unknown section; did you mean 'source'?"),
+    ("chain: toy\nsource: {duration: -3 s}", "source.duration: input should be greater than 0"),
+    ("chain: toy\nsource: {}\nsource: {}", "expected 'source' once, found it again"),
+    ("chain: [toy", "expected valid YAML"), ("- 1", "expected a mapping of sections"),
+    ("chain: toy\nsolver: fast", "solver: expected one of auto, pypardiso, superlu"),
+    ("chain: toy\ntitle: [1]", "title: expected text"),
+    ("chain: toy\nsource: 3", "source: expected a mapping of settings"),
+])
+def test_refusals(tmp_path, text, message):
+    path = tmp_path / "bad.yaml"
+    path.write_text(text)
+    with pytest.raises(ConfigError) as error:
+        loaded(path)
+    assert message in str(error.value) and "bad.yaml" in str(error.value)
+
+
+@pytest.mark.parametrize("override", ["duration=3 s", "source.duration", "source.duration.x.y=3", "source.durations=1 s"])
+def test_bad_overrides_are_refused(config, override):
+    with pytest.raises(ConfigError):
+        loaded(config, override)
+
+
+def test_a_missing_file_is_told(tmp_path):
+    with pytest.raises(ConfigError, match="none.yaml: expected a YAML file, found none"):
+        loaded(tmp_path / "none.yaml")

@@ -1,0 +1,86 @@
+"""Fan-out: order kept, errors passed on, the same results here, in processes and on a Dask cluster."""
+
+import os
+import re
+import subprocess
+import sys
+from contextlib import contextmanager
+
+import numpy as np
+import pytest
+
+from pipeline.contract import ConfigError, ConvergenceError
+from pipeline.contract.executor import DaskCluster, InProcess, LocalProcesses, choose
+
+
+def work(seed):
+    """A task whose bits depend on the number of threads."""
+    a = np.random.default_rng(seed).standard_normal((300, 300))
+    return (a @ a).tobytes()
+
+
+def fail(item):
+    """A task that does not converge for one item."""
+    if item == 2:
+        raise ConvergenceError(f"point {item}", "residual below 1e-8", "1e-3", "shorten the step")
+    return item
+
+
+@contextmanager
+def running(executor):
+    try:
+        yield executor
+    finally:
+        executor.close()
+
+
+def test_local_processes_give_the_bits_of_this_process():
+    counted = []
+    with running(LocalProcesses(2)) as pool:
+        there = pool.map(work, range(5), lambda: counted.append(1))
+    assert there == InProcess().map(work, range(5), lambda: None) and len(counted) == 5
+
+
+@pytest.mark.parametrize("executor", [InProcess(), LocalProcesses(2)], ids=["here", "processes"])
+def test_errors_arrive_as_they_were_raised(executor):
+    with running(executor), pytest.raises(ConvergenceError, match="point 2: expected residual below 1e-8, found 1e-3"):
+        executor.map(fail, range(4), lambda: None)
+
+
+def test_a_scheduler_that_does_not_answer():
+    pytest.importorskip("distributed")
+    with pytest.raises(ConfigError, match="expected a Dask scheduler that answers"):
+        choose(2, "tcp://127.0.0.1:9")
+
+
+def test_choice():
+    assert isinstance(choose(1, None), InProcess) and isinstance(choose(3, None), LocalProcesses)
+    assert isinstance(DaskCluster, type)
+
+
+def test_workers_end_with_their_parent(tmp_path):
+    script = tmp_path / "parent.py"
+    script.write_text("import os, time\nfrom pipeline.contract.executor import LocalProcesses\n"
+                      "if __name__ == '__main__':\n    p = LocalProcesses(1)\n"
+                      "    print(p.map(eval, ['__import__(\"os\").getpid()'], lambda: None)[0], flush=True)\n"
+                      "    os.kill(os.getpid(), 9)\n")
+    done = subprocess.run([sys.executable, script], capture_output=True, text=True, timeout=60,
+                          env={**os.environ, "PYTHONPATH": os.getcwd()})
+    worker = int(re.search(r"\d+", done.stdout)[0])
+    assert done.returncode == -9 and _gone(worker)
+
+
+def _gone(pid, patience=10.0):
+    import time
+
+    end = time.monotonic() + patience
+    while time.monotonic() < end:
+        try:
+            os.kill(pid, 0)
+            with open(f"/proc/{pid}/stat") as stat:
+                if stat.read().split()[2] == "Z":
+                    return True
+        except (ProcessLookupError, FileNotFoundError):
+            return True
+        time.sleep(0.1)
+    return False

@@ -1,0 +1,45 @@
+"""Products refuse what breaks their contract."""
+
+import numpy as np
+import pytest
+
+from pipeline.contract import Array, ProductError, product, quantity
+from tests.contract.toy.products import Inner, Source
+
+GOOD = {"time": [0.0, 1.0], "label": ["a"], "signal": np.zeros((1, 2)), "root": [1j], "flag": [1], "scale": 1.0,
+        "inner": Inner(position=np.zeros((2, 3)))}
+
+
+@pytest.mark.parametrize("field, value, message", [
+    ("signal", np.zeros((1, 3)), "source.signal: expected 2 along 'time' as in the fields before, found 3"),
+    ("signal", np.zeros(2), r"source.signal: expected dimensions \('channel', 'time'\), found shape \(2,\)"),
+    ("signal", [[0.0, np.nan]], "source.signal: expected finite values, found 1 that are not"),
+    ("signal", [[0.0, 1j]], "source.signal: expected float64, found complex128"),
+    ("flag", [0.5], "source.flag: expected int64, found float64"),
+    ("label", [3], "source.label: expected strings, found 3"),
+    ("inner", None, "source.inner: expected a inner, found NoneType"),
+])
+def test_refuses(field, value, message):
+    with pytest.raises(ProductError, match=message):
+        Source(**{**GOOD, field: value})
+
+
+def test_arrays_are_read_only_copies():
+    signal = np.zeros((1, 2))
+    made = Source(**{**GOOD, "signal": signal})
+    signal[0, 0] = 5.0
+    assert made.signal[0, 0] == 0.0
+    with pytest.raises(ValueError, match="read-only"):
+        made.signal[0, 0] = 1.0
+
+
+def test_a_field_named_like_a_dimension_is_its_coordinate():
+    with pytest.raises(ProductError, match="wrong.time: expected the 1-D coordinate"):
+        @product(version=1)
+        class Wrong:
+            time: Array = quantity("s", "time channel", "two-dimensional")
+
+
+def test_unknown_unit_is_refused():
+    with pytest.raises(ProductError, match="not in the SI vocabulary"):
+        quantity("mm", "", "a length")

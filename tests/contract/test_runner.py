@@ -1,0 +1,128 @@
+"""Resume: what is up to date stays; what changed runs again and says why."""
+
+import multiprocessing
+import os
+from pathlib import Path
+
+import pytest
+
+from pipeline.contract import Context, ConfigError, ProductError, case, fingerprint, runner, store
+from tests.contract.toy import CHAINS, load
+from tests.contract.toy.products import Doubled
+
+
+@pytest.fixture
+def config(tmp_path):
+    path = tmp_path / "toy.yaml"
+    path.write_text("chain: toy\nsource: {duration: 3 s}\n")
+    return path
+
+
+def job(config, *overrides, solver="superlu"):
+    return runner.Run(case.load(config, CHAINS, load, overrides), config.parent / "run", solver)
+
+
+def why(run):
+    return {state.stage.name: state.reasons for state in run.plan()}
+
+
+def test_a_second_run_computes_nothing(config):
+    assert job(config).execute(Context()) == 2
+    assert job(config).execute(Context()) == 0
+    assert why(job(config)) == {"source": (), "doubled": ()}
+    assert store.read(Doubled, config.parent / "run" / "doubled.h5").signal[0, 0] == 2000.0
+    assert (config.parent / "run" / "doubled.csv").exists()
+
+
+def test_a_changed_setting_reruns_its_stage_and_what_follows(config):
+    job(config).execute(Context())
+    changed = job(config, "doubled.factor=3")
+    assert why(changed) == {"source": (), "doubled": ("setting factor: 2.0 -> 3.0",)}
+    changed = job(config, "source.level=2 kPa")
+    assert why(changed)["doubled"] == ("input source is computed anew",)
+    told = []
+    assert changed.execute(Context(), tell=lambda state, seconds: told.append((state.stage.name, state.reasons))) == 2
+    assert told == [("source", ("setting level: 1000.0 -> 2000.0",)), ("doubled", ("input given changed",))]
+
+
+def test_the_same_content_upstream_spares_what_follows(config):
+    job(config).execute(Context())
+    assert job(config).execute(Context(), force={"source"}) == 1
+
+
+def test_solver_version_and_code_join_the_hash(config, monkeypatch):
+    job(config).execute(Context())
+    assert why(job(config, solver="pypardiso"))["source"] == ("solver superlu -> pypardiso",)
+    known = fingerprint.code_of
+    monkeypatch.setattr(fingerprint, "code_of", lambda module: {**known(module), "pipeline.contract.units": "other"})
+    assert why(job(config))["source"] == ("code pipeline.contract.units changed",)
+
+
+def test_code_is_followed_through_imports():
+    code = fingerprint.code_of("tests.contract.toy.doubled")
+    assert {"tests.contract.toy.doubled", "pipeline.contract.units", "pipeline.contract.stage"} <= set(code)
+    assert "pipeline.cli" not in code and "pipeline.contract.runner" not in code
+
+
+def test_damage_and_missing_companions_are_repaired(config):
+    job(config).execute(Context())
+    folder = config.parent / "run"
+    (folder / "doubled.csv").unlink()
+    assert why(job(config))["doubled"] == ("a companion file is missing",)
+    (folder / "source.h5").write_bytes((folder / "source.h5").read_bytes()[:500])
+    assert why(job(config))["source"] == ("its file is damaged",)
+    (folder / ".source.h5.partial").write_bytes(b"half")
+    assert job(config).execute(Context()) == 2 and not list(folder.glob(".*.partial"))
+
+
+def test_from_takes_earlier_products_as_they_are(config):
+    with pytest.raises(ProductError, match="expected the product source, found no file"):
+        job(config).execute(Context(), first="doubled")
+    job(config).execute(Context())
+    assert job(config, "source.level=2 kPa").execute(Context(), first="doubled") == 0
+    assert job(config, "source.level=2 kPa").execute(Context(), last="source") == 1
+
+
+@pytest.mark.parametrize("first, last", [("sauce", None), (None, "sauce"), ("doubled", "source")])
+def test_bad_ends_are_refused(config, first, last):
+    with pytest.raises(ConfigError):
+        job(config).plan(first, last)
+
+
+def _hold(folder, ready, free):
+    with runner.locked(Path(folder)):
+        ready.set()
+        free.wait(20)
+
+
+def test_two_runs_on_one_folder(config):
+    spawn = multiprocessing.get_context("spawn")
+    ready, free = spawn.Event(), spawn.Event()
+    other = spawn.Process(target=_hold, args=(str(config.parent / "run"), ready, free))
+    other.start()
+    assert ready.wait(20)
+    with pytest.raises(ProductError, match=f"another run on it .process {other.pid}."):
+        job(config).execute(Context())
+    free.set()
+    other.join()
+    assert job(config).execute(Context()) == 2
+
+
+@pytest.mark.skipif(os.geteuid() == 0, reason="root may write everywhere")
+def test_a_read_only_folder_is_told(config):
+    config.parent.chmod(0o500)
+    with pytest.raises(ProductError, match="a run folder that can be written"):
+        job(config).execute(Context())
+
+
+def test_a_file_in_place_of_the_folder_is_told(config):
+    (config.parent / "run").write_text("")
+    with pytest.raises(ProductError, match="a run folder that can be written"):
+        job(config).execute(Context())
+
+
+def test_provenance_says_how_it_was_made(config):
+    job(config).execute(Context())
+    told = store.provenance(config.parent / "run" / "source.h5")
+    assert told["stage"] == "source" and '"duration": "3 s"' in told["settings"] and told["wall_seconds"] >= 0
+    assert {"git_commit", "packages", "python", "cpu_seconds", "brakechain"} <= set(told)

@@ -1,0 +1,76 @@
+"""Settings: strict, and their messages are part of the contract."""
+
+from typing import Literal
+
+import pytest
+
+from pipeline.contract import ConfigError, InputFile, Quantities, Quantity, Section, option
+from pipeline.contract.settings import fill, leaves, split_origins
+
+
+class Ring(Section):
+    """A nested section."""
+
+    thickness: Quantity("m", gt=0) = option("6.87 mm", "ring thickness")
+
+
+class Settings(Section):
+    """Everything a section can hold."""
+
+    ring: Ring = option(Ring(), "the ring")
+    pressures: Quantities("Pa", gt=0) = option(("1 MPa", "2 MPa"), "pressures")
+    steps: int = option(41, "steps", gt=1)
+    kind: Literal["one", "two"] = option("one", "kind")
+    scan: InputFile | None = option(None, "a file")
+
+
+def test_defaults_and_units():
+    filled = fill(Settings, {"ring": {"thickness": "7 mm"}}, "c.yaml: s")
+    assert filled.ring.thickness == pytest.approx(0.007) and filled.pressures == (1e6, 2e6)
+
+
+@pytest.mark.parametrize("values, message", [
+    ({"stepz": 3}, "c.yaml: s.stepz: unknown key; did you mean 'steps'?"),
+    ({"ring": {"thicknes": "1 mm"}}, "c.yaml: s.ring.thicknes: unknown key; did you mean 'thickness'?"),
+    ({"ring": {"thickness": "1 kg"}}, "c.yaml: s.ring.thickness: expected a quantity in m, such as \"12 mm\", found '1 kg'"),
+    ({"ring": {"thickness": "-1 mm"}}, "c.yaml: s.ring.thickness: input should be greater than 0, found '-1 mm'"),
+    ({"pressures": []}, "c.yaml: s.pressures: "), ({"steps": 4.5}, "c.yaml: s.steps: "),
+    ({"pressures": ["1 MPa", "2 m"]}, "c.yaml: s.pressures.1: expected a quantity in Pa"),
+    ({"kind": "three"}, "c.yaml: s.kind: input should be 'one' or 'two', found 'three'"),
+    ({"scan": "nowhere.dat"}, "c.yaml: s.scan: expected a file, found none at 'nowhere.dat'"),
+    ([], "c.yaml: s: expected a mapping of settings, found []"),
+])
+def test_refusals_say_where_expected_found(values, message):
+    with pytest.raises(ConfigError) as error:
+        fill(Settings, values, "c.yaml: s")
+    assert message in str(error.value)
+
+
+def test_every_mistake_is_told_at_once():
+    with pytest.raises(ConfigError) as error:
+        fill(Settings, {"stepz": 3, "kind": "three"}, "c")
+    assert len(str(error.value).splitlines()) == 2
+
+
+def test_files_are_found_from_the_folder_of_the_yaml_or_by_name_of_the_measurement(tmp_path):
+    (tmp_path / "a.dat").write_text("x")
+    context = {"folder": tmp_path, "measured": {"scan": tmp_path / "a.dat"}.__getitem__}
+    assert fill(Settings, {"scan": "a.dat"}, "c", context).scan == tmp_path / "a.dat"
+    assert fill(Settings, {"scan": "measured:scan"}, "c", context).scan == tmp_path / "a.dat"
+    with pytest.raises(ConfigError, match="other"):
+        fill(Settings, {"scan": "measured:other"}, "c", context)
+
+
+def test_origins_are_split_from_values():
+    given = {"ring": {"thickness": {"value": "7 mm", "origin": "stated", "source": "Table 1"}}, "steps": 3}
+    plain, origins = split_origins(given)
+    assert plain == {"ring": {"thickness": "7 mm"}, "steps": 3}
+    assert origins == {"ring.thickness": {"origin": "stated", "source": "Table 1"}}
+    with pytest.raises(ConfigError, match="ring.origin: expected one of stated"):
+        split_origins({"ring": {"value": 1, "origin": "guessed"}})
+
+
+def test_leaves_tell_units_and_meanings():
+    told = {key: (value, unit, meaning) for key, value, unit, meaning in leaves(Settings())}
+    assert told["ring.thickness"] == (pytest.approx(0.00687), "m", "ring thickness")
+    assert told["pressures"] == ((1e6, 2e6), "Pa", "pressures") and told["steps"] == (41, "", "steps")

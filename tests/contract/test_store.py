@@ -1,0 +1,76 @@
+"""Products on disk: round trip, identity, damage."""
+
+import h5py
+import numpy as np
+import pytest
+
+from pipeline.contract import ProductError, store
+from tests.contract.test_product import GOOD
+from tests.contract.toy.products import Doubled, Source
+
+
+@pytest.fixture
+def written(tmp_path):
+    path = tmp_path / "source.h5"
+    store.write(Source(**GOOD), path, {"stage": "source"})
+    return path
+
+
+def test_round_trip(written):
+    back = store.read(Source, written)
+    assert store.content_hash(back) == store.content_hash(Source(**GOOD)) == store.identity(written)[2]
+    assert list(back.label) == ["a"] and back.inner.position.shape == (2, 3) and back.root[0] == 1j
+    assert store.provenance(written) == {"stage": "source"} and not list(written.parent.glob(".*"))
+
+
+def test_content_hash_sees_values_and_not_provenance(tmp_path, written):
+    other = tmp_path / "other.h5"
+    store.write(Source(**GOOD), other, {"stage": "elsewhere"})
+    assert store.identity(other) == store.identity(written)
+    assert store.content_hash(Source(**{**GOOD, "scale": 2.0})) != store.identity(written)[2]
+    assert store.content_hash(Source(**{**GOOD, "label": ["b"]})) != store.identity(written)[2]
+
+
+def test_xarray_sees_named_dimensions_and_units(written):
+    xarray = pytest.importorskip("xarray")
+    with xarray.open_dataset(written, engine="h5netcdf", group="data") as data:
+        assert data.signal.dims == ("channel", "time") and data.signal.attrs["units"] == "Pa"
+        np.testing.assert_array_equal(data.time, [0.0, 1.0])
+
+
+def test_refuses_another_product_and_version(written):
+    with pytest.raises(ProductError, match="expected doubled version 1, found source version 1"):
+        store.read(Doubled, written)
+    with h5py.File(written, "a") as h5:
+        h5.attrs["version"] = 99
+    with pytest.raises(ProductError, match="expected source version 1, found source version 99; rerun"):
+        store.read(Source, written)
+
+
+def test_refuses_another_unit(written):
+    with h5py.File(written, "a") as h5:
+        h5["data/signal"].attrs["units"] = "bar"
+    with pytest.raises(ProductError, match="signal: expected units Pa, found bar"):
+        store.read(Source, written)
+
+
+def test_refuses_truncated_changed_or_missing_files(written):
+    whole = written.read_bytes()
+    with h5py.File(written, "a") as h5:
+        h5["data/signal"][0, 0] = 7.0
+    with pytest.raises(ProductError, match="values are not those that were written"):
+        store.read(Source, written)
+    written.write_bytes(whole[: len(whole) // 2])
+    with pytest.raises(ProductError, match="truncated or damaged"):
+        store.read(Source, written)
+    written.unlink()
+    with pytest.raises(ProductError, match="expected the product source, found no file; run 'brakechain source' first"):
+        store.read(Source, written)
+
+
+def test_an_interrupted_write_leaves_the_old_product(written, monkeypatch):
+    before = written.read_bytes()
+    monkeypatch.setattr(store, "_write_group", lambda *_: (_ for _ in ()).throw(KeyboardInterrupt))
+    with pytest.raises(KeyboardInterrupt):
+        store.write(Source(**{**GOOD, "scale": 3.0}), written, {})
+    assert written.read_bytes() == before

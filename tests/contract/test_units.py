@@ -1,0 +1,29 @@
+"""Units: coherent SI inside, pint at the edge."""
+
+import pint
+import pytest
+
+from pipeline.contract import ConfigError
+from pipeline.contract.units import SI, to_si
+
+
+@pytest.mark.parametrize("unit", sorted(SI - {"1"}))
+def test_every_unit_is_coherent_si(unit):
+    registry = pint.UnitRegistry()
+    quantity = registry.Quantity(1.0, unit.replace("1/kg^0.5", "kg^(-0.5)"))
+    assert quantity.to_base_units().magnitude == pytest.approx(1.0, rel=1e-15)
+
+
+@pytest.mark.parametrize("text, unit, value", [
+    ("12 mm", "m", 0.012), ("2 MPa", "Pa", 2e6), ("3.3e-6 mm^2/N", "m^2/N", 3.3e-12), ("40 %", "1", 0.4),
+    ("0.3", "1", 0.3), (0.3, "1", 0.3), ("600 rpm", "rad/s", 62.83185307179586), ("4 degrees", "rad", 0.06981317007977318),
+    ("5 N*s/m", "N s/m", 5.0), ("1e3 1/s", "1/s", 1000.0),
+])
+def test_conversion(text, unit, value):
+    assert to_si(text, unit, "x") == pytest.approx(value, rel=1e-12)
+
+
+@pytest.mark.parametrize("value", ["3 kg", "3", 3, "three mm", "12 mn mm", True, None, [1], "mm"])
+def test_refuses_what_is_no_length(value):
+    with pytest.raises(ConfigError, match="a.yaml: disc.thickness: expected a quantity in m"):
+        to_si(value, "m", "a.yaml: disc.thickness")

@@ -1,0 +1,30 @@
+"""Two products of a chain that needs no physics."""
+
+from pipeline.contract import Array, count, part, product, quantity, text
+
+
+@product(version=1)
+class Inner:
+    """A nested product."""
+
+    position: Array = quantity("m", "point xyz", "points")
+
+
+@product(version=1)
+class Source:
+    """Numbers to work on."""
+
+    time: Array = quantity("s", "time", "time axis")
+    label: Array = text("channel", "names")
+    signal: Array = quantity("Pa", "channel time", "signals")
+    root: Array = quantity("1/s", "channel", "roots", complex)
+    flag: Array = count("channel", "flags")
+    scale: Array = quantity("1", "", "a scalar")
+    inner: Inner = part("a part")
+
+
+@product(version=1)
+class Doubled:
+    """Numbers worked on."""
+
+    signal: Array = quantity("Pa", "channel time", "doubled signals")

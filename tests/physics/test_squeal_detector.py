@@ -1,0 +1,99 @@
+"""Tones, chirps and noise of known begin, level and length."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from pipeline.contract.errors import ConfigError
+from pipeline.physics.squeal_detector import Detector, detect, frames, loudest
+
+RATE = 100e3
+TIME = np.arange(100000) / RATE
+#: reference 1 nm/s; the threshold is 1 mm/s
+DETECTOR = Detector((1250.0, 20000.0), 120.0, 1e-9, 0.01, 0.75, 10.0, 30.0, 100.0, 0.01, 0.02)
+
+
+def tone(frequency, root_mean_square, start=0.0, end=1.0):
+    return np.where((TIME >= start) & (TIME < end), np.sqrt(2) * root_mean_square * np.sin(2 * np.pi * frequency * TIME), 0)
+
+
+def events(signal, detector=DETECTOR):
+    return detect(frames(signal, RATE, detector), detector)
+
+
+@pytest.mark.exact
+@pytest.mark.parametrize("frequency", [1777.0, 9234.5, 16600.0, 17849.9])
+def test_steady_tone(frequency):
+    (event,) = events(tone(frequency, 4e-3))
+    assert event.frequency == pytest.approx(frequency, abs=0.1)
+    assert event.level == pytest.approx(20 * np.log10(4e6), abs=0.01)
+    assert (event.start, event.duration) == (0, pytest.approx(1))
+
+
+def test_begin_and_length_of_a_tone():
+    """6 dB above the threshold the half-covered frame decides: the begin is unbiased, to a hop."""
+    (event,) = events(tone(6543.0, 2e-3, 0.3, 0.7))
+    assert event.start == pytest.approx(0.3, abs=0.0026)
+    assert event.duration == pytest.approx(0.4, abs=0.0051)
+    (loud,) = events(tone(6543.0, 0.5, 0.3, 0.7))
+    assert 0.3 - DETECTOR.window / 2 - 0.0026 <= loud.start < event.start
+
+
+def test_two_at_once_and_one_after():
+    signal = tone(3000.0, 3e-3, 0.1, 0.5) + tone(8000.0, 5e-3, 0.3, 0.8) + tone(3000.0, 2e-3, 0.7, 0.9)
+    found = events(signal)
+    assert [round(e.frequency, -2) for e in found] == [3000, 8000, 3000]
+    np.testing.assert_allclose([e.start for e in found], [0.1, 0.3, 0.7], atol=0.006)
+    np.testing.assert_allclose([e.duration for e in found], [0.4, 0.5, 0.2], atol=0.012)
+
+
+def test_growing_tone_begins_where_it_passes_the_threshold():
+    growth = np.exp((TIME - 0.5) * 10)
+    (event,) = events(1e-3 * np.sqrt(2) * growth * np.sin(2 * np.pi * 5000 * TIME))
+    assert event.start == pytest.approx(0.5, abs=0.003)
+
+
+def test_chirp_is_one_event():
+    (event,) = events(3e-3 * np.sqrt(2) * np.sin(2 * np.pi * (4000 * TIME + 500 * TIME**2)))
+    assert event.frequency == pytest.approx(4500, abs=30)
+    assert event.duration == pytest.approx(1)
+
+
+def test_short_gap_belongs_to_the_event_and_a_long_one_does_not():
+    assert len(events(tone(5000, 3e-3, 0.2, 0.5) + tone(5000, 3e-3, 0.505, 0.8))) == 1
+    assert len(events(tone(5000, 3e-3, 0.2, 0.5) + tone(5000, 3e-3, 0.55, 0.8))) == 2
+
+
+def test_noise_below_the_threshold_gives_none():
+    """Null test: each line of the noise is far below the threshold, though its total is not far."""
+    noise = np.random.default_rng(0).standard_normal(len(TIME))
+    assert events(1e-3 * noise) == []
+    assert events(np.zeros(len(TIME))) == []
+
+
+def test_tone_in_noise():
+    noise = 1e-3 * np.random.default_rng(0).standard_normal(len(TIME))
+    (event,) = events(noise + tone(7000, 2e-3, 0.2, 0.6))
+    assert event.frequency == pytest.approx(7000, abs=5)
+    assert event.start == pytest.approx(0.2, abs=0.006)
+
+
+def test_tones_below_the_threshold_outside_the_band_or_too_short_give_none():
+    assert events(tone(5000, 0.98e-3)) == []
+    assert events(tone(1000, 5e-3)) == []
+    assert events(tone(5000, 3e-3, 0.5, 0.505)) == []
+
+
+def test_loudest_tone_is_told_below_the_threshold_too():
+    signal = tone(5020.0, 1e-5) + tone(500.0, 1e-2)
+    peak, frequency = loudest(frames(signal, RATE, DETECTOR), DETECTOR)
+    assert peak == pytest.approx(80, abs=0.1)
+    assert frequency == pytest.approx(5020, abs=1)
+
+
+def test_bad_input():
+    with pytest.raises(ConfigError, match="shorter|at least"):
+        frames(np.zeros(10), RATE, DETECTOR)
+    with pytest.raises(ConfigError, match="half the sampling rate"):
+        frames(np.zeros(100000), 30e3, replace(DETECTOR, window=0.1))

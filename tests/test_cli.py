@@ -1,0 +1,71 @@
+"""The command line: derived, quick to answer, its errors one sentence with an exit code."""
+
+import json
+import subprocess
+import sys
+
+import pytest
+
+import stages
+
+
+def brakechain(*args, cwd=None):
+    return subprocess.run([sys.executable, "-m", "pipeline", *map(str, args)], capture_output=True, text=True, cwd=cwd,
+                          timeout=120)
+
+
+def test_help_lists_every_stage_and_imports_none():
+    done = brakechain("--help")
+    assert done.returncode == 0
+    for name in stages.NAMES:
+        assert name.replace("_", "-") in done.stdout and stages.summary(name)[:30] in done.stdout
+    script = ("import sys, pipeline.cli as c\nfrom click.testing import CliRunner\n"
+              "CliRunner().invoke(c.cli, ['--help'])\n"
+              "heavy = {'skfem', 'pyvista', 'exudyn', 'numba', 'matplotlib', 'scipy', 'SurfaceTopography'} & set(sys.modules)\n"
+              "sys.exit(str(heavy) if heavy else 0)")
+    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, timeout=60)
+    assert done.returncode == 0, done.stderr
+
+
+@pytest.mark.parametrize("name", stages.NAMES)
+def test_every_stage_command_has_the_same_form(name):
+    done = brakechain(name.replace("_", "-"), "--help")
+    assert done.returncode == 0
+    for option in ("CONFIG", "--run", "--set", "--force", "--dry-run", "--workers", "--scheduler", "--debug"):
+        assert option in done.stdout
+
+
+@pytest.mark.parametrize("text, code, message", [
+    ("chain: disc_brake\nmultibdy: {}", 2, "multibdy: unknown section; did you mean 'multibody'?"),
+    ("chain: disc_brake\nmultibody: {duratoin: 1 s}", 2, "multibody.duratoin: unknown key; did you mean 'duration'?"),
+    ("chain: disc_brake\nmultibody: {duration: 3 kg}", 2, "multibody.duration: expected a quantity in s"),
+    ("chain: none", 2, "chain: expected one of disc_brake"),
+])
+def test_bad_cases_are_one_sentence_without_traceback(tmp_path, text, code, message):
+    (tmp_path / "bad.yaml").write_text(text)
+    done = brakechain("run", tmp_path / "bad.yaml", "--run", tmp_path / "run")
+    assert done.returncode == code and message in done.stderr and "Traceback" not in done.stderr
+    assert not (tmp_path / "run").exists(), "nothing is made before the case is understood"
+
+
+def test_debug_shows_the_traceback(tmp_path):
+    assert "Traceback" in brakechain("run", tmp_path / "none.yaml", "--debug").stderr
+
+
+def test_files_have_their_own_exit_code(tmp_path):
+    assert brakechain("inspect", tmp_path / "none.h5").returncode == 4
+    (tmp_path / "half.h5").write_bytes(b"\x89HDF\r\n\x1a\nhalf")
+    done = brakechain("inspect", tmp_path / "half.h5")
+    assert done.returncode == 4 and "truncated or damaged" in done.stderr
+
+
+def test_schema_is_json_and_knows_units_and_origins():
+    schema = json.loads(brakechain("schema", "disc_brake").stdout)
+    duration = schema["properties"]["multibody"]["properties"]["duration"]
+    assert "quantity in s" in json.dumps(duration) and "origin" in json.dumps(duration)
+    assert schema["additionalProperties"] is False
+    assert brakechain("schema", "none").returncode == 2
+
+
+def test_completion_is_told():
+    assert "_BRAKECHAIN_COMPLETE=bash_source" in brakechain("completion").stdout

@@ -1,0 +1,147 @@
+"""The rules of the house, enforced: imports, doors, mirrored tests, one name for one thing."""
+
+import ast
+import re
+from pathlib import Path
+
+import pytest
+
+import stages
+from pipeline import products
+from pipeline.contract.product import is_product
+
+ROOT = Path(__file__).parents[1]
+FILES = sorted([*ROOT.glob("pipeline/**/*.py"), *ROOT.glob("stages/**/*.py")])
+
+#: layer -> layers of the house it may import
+MAY_IMPORT = {
+    "pipeline.environment": set(),
+    "pipeline.contract": {"pipeline.contract", "pipeline.environment"},
+    "pipeline.products": {"pipeline.contract"},
+    "pipeline.physics": {"pipeline.physics", "pipeline.contract.errors"},
+    "pipeline.systems": {"pipeline.systems", "pipeline.physics", "pipeline.contract.errors"},
+    "pipeline.published": {"pipeline.contract"},
+    "pipeline.measured": {"pipeline.contract"},
+    "pipeline.views": {"pipeline.views", "pipeline.products", "pipeline.contract"},
+    "stages": {"pipeline.contract", "pipeline.products", "pipeline.physics", "pipeline.systems", "pipeline.published",
+               "pipeline.views"},
+    "pipeline.inspection": {"pipeline.contract"},
+    "pipeline.schema": {"pipeline.contract"},
+    "pipeline.console": {"pipeline.contract"},
+    "pipeline.cli": {"pipeline.contract", "pipeline.console", "pipeline.inspection", "pipeline.measured",
+                     "pipeline.physics.linear_solver", "pipeline.schema", "stages"},
+    "pipeline.__main__": {"pipeline.cli", "pipeline.environment"},
+}
+#: third-party package -> its doors
+DOORS = {
+    "h5py": {"pipeline.contract.store", "pipeline.inspection"}, "yaml": {"pipeline.contract.documents"},
+    "click": {"pipeline.cli"}, "rich": {"pipeline.console"}, "pint": {"pipeline.contract.units"},
+    "pydantic": {"pipeline.contract.settings", "pipeline.published", "pipeline.measured"},
+    "pooch": {"pipeline.measured"}, "distributed": {"pipeline.contract.executor"},
+    "skfem": {"pipeline.physics.elasticity", "pipeline.physics.faces", "pipeline.physics.layer_element"},
+    "meshio": {"pipeline.physics.mesh"}, "exudyn": {"pipeline.physics.multibody"},
+    "pypardiso": {"pipeline.physics.linear_solver"}, "SurfaceTopography": {"pipeline.physics.topography"},
+    "pyvista": {"pipeline.views"}, "matplotlib": {"pipeline.views"}, "jinja2": {"pipeline.views"},
+}
+#: packages that must not be loaded before they are needed
+HEAVY = {"skfem", "meshio", "exudyn", "pypardiso", "SurfaceTopography", "pyvista", "matplotlib", "distributed", "pooch",
+         "pint"}
+
+
+def dotted(path):
+    name = ".".join(path.relative_to(ROOT).with_suffix("").parts)
+    return name.removesuffix(".__init__")
+
+
+def imports(tree):
+    for node in tree:
+        if isinstance(node, ast.Import):
+            yield from (a.name for a in node.names)
+        elif isinstance(node, ast.ImportFrom):
+            assert node.level == 0, "write absolute imports"
+            for alias in node.names:
+                yield f"{node.module}.{alias.name}"
+
+
+def everywhere(path):
+    return list(imports(ast.walk(ast.parse(path.read_text()))))
+
+
+def within(name, allowed):
+    return any(name == a or name.startswith(a + ".") for a in allowed)
+
+
+def layer_of(path):
+    return max((k for k in MAY_IMPORT if within(dotted(path), {k})), key=len, default=None)
+
+
+@pytest.mark.parametrize("path", FILES, ids=dotted)
+def test_imports_point_inwards(path):
+    if dotted(path) in ("pipeline", "stages"):
+        return
+    layer = layer_of(path)
+    assert layer, f"{dotted(path)}: a layer that this test does not know"
+    for name in everywhere(path):
+        if within(name, {"pipeline", "stages"}) and name != "pipeline.__version__":
+            assert within(name, MAY_IMPORT[layer]), f"{dotted(path)} ({layer}) may not import {name}"
+
+
+@pytest.mark.parametrize("path", FILES, ids=dotted)
+def test_third_party_packages_enter_by_their_doors(path):
+    for name in everywhere(path):
+        doors = DOORS.get(name.split(".")[0])
+        assert doors is None or within(dotted(path), doors), f"{name} enters only by {sorted(doors)}"
+
+
+@pytest.mark.parametrize("path", FILES, ids=dotted)
+def test_heavy_packages_load_when_needed(path):
+    for name in imports(ast.parse(path.read_text()).body):
+        assert name.split(".")[0] not in HEAVY, f"{dotted(path)}: import {name} where it is used"
+
+
+@pytest.mark.parametrize("path", FILES, ids=dotted)
+def test_a_file_says_what_it_is(path):
+    assert ast.get_docstring(ast.parse(path.read_text())), f"{path}: no module docstring"
+
+
+@pytest.mark.parametrize("folder", ["stages", "pipeline/physics", "pipeline/systems"])
+def test_every_file_has_its_test(folder):
+    for path in ROOT.glob(f"{folder}/*.py"):
+        if path.stem != "__init__":
+            mirror = ROOT / "tests" / Path(folder).name / f"test_{path.stem}.py"
+            assert mirror.exists(), f"{path.relative_to(ROOT)} has no {mirror.relative_to(ROOT)}"
+
+
+@pytest.mark.parametrize("name", stages.NAMES)
+def test_one_name_for_one_thing(name):
+    stage = stages.load(name)
+    assert stage.name == stage.output.name == name and stages.summary(name) == stage.summary
+    assert stage.method.format(**dict(stage.settings())), "the method sentence fits the settings"
+
+
+@pytest.mark.parametrize("chain", stages.CHAINS)
+def test_a_chain_reads_only_what_was_written_before(chain):
+    seen = set()
+    for stage in map(stages.load, stages.CHAINS[chain]):
+        for argument, options in stage.inputs.items():
+            assert argument in stage.optional or {p.name for p in options} & seen, f"{stage.name}.{argument}"
+        assert stage.output.name not in seen
+        seen.add(stage.output.name)
+
+
+def test_every_stage_file_stands_in_a_chain_and_has_a_make_target():
+    assert {p.stem for p in ROOT.glob("stages/*.py")} - {"__init__"} == set(stages.NAMES)
+    listed = re.search(r"^STAGES := (.*)$", (ROOT / "Makefile").read_text(), re.MULTILINE)[1].split()
+    assert listed == list(stages.NAMES)
+
+
+def test_every_product_says_what_it_is():
+    for cls in filter(is_product, vars(products).values()):
+        assert cls.__doc__ and not cls.__doc__.startswith(f"{cls.__name__}("), f"{cls.__name__} has no docstring"
+
+
+def test_no_measured_bytes_are_part_of_the_project():
+    allowed = {".py", ".yaml", ".md", ".toml", ".j2", ".lock", ".png", ".svg", ""}
+    tracked = [p for folder in ("configs", "data/reference", "data/measured", "tests") for p in (ROOT / folder).rglob("*")]
+    foreign = [p for p in tracked if p.is_file() and p.suffix not in allowed and "__pycache__" not in p.parts]
+    assert not foreign

@@ -1,0 +1,231 @@
+"""Small synthetic products with the shapes of real ones: what the views are tried on."""
+
+import numpy as np
+
+from pipeline.contract.context import Case
+from pipeline.products import (
+    Body,
+    Comparison,
+    ComplexModes,
+    FrictionMap,
+    Incidence,
+    MicroFriction,
+    Multibody,
+    ReducedModel,
+    Response,
+    Squeal,
+    Structure,
+    Surface,
+)
+
+PRESSURE, SPEED, OMEGA = np.array([1e6, 2e6, 3e6]), np.array([0.9, 1.1, 1.3]), np.array([8.5, 10.25, 12.0])
+OPERATING_PRESSURE, OPERATING_SPEED = np.repeat(PRESSURE, 3), np.tile(OMEGA, 3)
+SENSORS, SQUEAL_LINE = ["disc_outer_rim", "pad_outer_back"], 16600.0
+NO_ROWS = Incidence(rows=0, row=[], body=[], node=[], axis=[], weight=[])
+
+
+def surface(nodes=48):
+    """Turning marks against plateaus on a square millimetre."""
+    x = np.linspace(0, 1e-3, nodes)
+    noise = np.random.default_rng(1).normal(size=(2, nodes, nodes))
+    disc = 5e-6 * np.sin(2 * np.pi * x / 2e-4)[:, None] + 1e-6 * noise[0]
+    pad = 3e-6 * np.tanh(noise[1])
+    heights = np.stack([disc - disc.mean(), pad - pad.mean()])
+    rms = heights.std(axis=(1, 2))
+    wavenumber = np.geomspace(6e3, 2e5, 30)
+    return Surface(
+        y=x, x=x, disc_height=heights[0], pad_height=heights[1], disc_depth=np.geomspace(1, 101, 6) * 1e-5 - 1e-5,
+        pad_depth=np.geomspace(1, 101, 6) * 1e-5 - 1e-5, body=["disc", "pad"],
+        source=["generated: turned disc", "generated: plateau pad"], rms_height=rms, mean_height=0.8 * rms,
+        peak_to_valley=np.ptp(heights, axis=(1, 2)), skewness=[0.1, -0.6], kurtosis=[2.1, 3.4],
+        rms_slope=[0.12, 0.09], outlier_share=[0.0, 0.001], filled_share=[0.0, 0.002],
+        shortest_wavelength=[3.1e-5, 3.1e-5], nodes_per_wavelength=[8.0, 8.0], wavenumber=wavenumber,
+        power_spectrum=np.stack([1e-20 * (wavenumber / 1e4) ** -3.0, 4e-21 * (wavenumber / 1e4) ** -2.5]))
+
+
+def micro_friction(nodes=48):
+    """Friction that rises with wear."""
+    distance = np.linspace(5e-5, 1e-2, 12)
+    worn = distance / distance[-1]
+    area = (PRESSURE[:, None, None] / 1e6 * 0.03 + 0.02 * worn) * np.ones((1, 3, 1))
+    friction = 0.40 + 0.02 * np.arange(3)[:, None, None] + 0.002 * np.arange(3)[:, None] + 0.2 * worn
+    field = np.random.default_rng(2).normal(size=(nodes, nodes))
+    x = np.linspace(0, 1e-3, nodes)
+    return MicroFriction(
+        pressure=PRESSURE, speed=SPEED, distance=distance, friction=friction, friction_std=0.02 * friction,
+        real_area=area, wear_depth=7e-7 * worn * np.ones((3, 3, 1)), largest_wear=6e-6 * worn * np.ones((3, 3, 1)),
+        normal_stiffness=1e12 * (1 + worn) * np.ones((3, 3, 1)), flash_temperature=5 + 0 * area, shear_limit=13.5e6,
+        y=x, x=x, contact_pressure_new=np.clip(field - 1.8, 0, None) * 5e7,
+        contact_pressure_worn=np.clip(field - 1.5, 0, None) * 4e7, pad_wear=np.clip(field - 1.4, 0, None) * 2e-6,
+        disc_wear=np.clip(field - 1.4, 0, None) * 2e-7, refinement=[4.0, 8.0, 16.0],
+        refinement_area=[0.04, 0.031, 0.030])
+
+
+def friction_map():
+    """The map of the friction above, one speed wider than computed."""
+    micro = micro_friction(8)
+    return FrictionMap(pressure=PRESSURE, speed=SPEED, distance=micro.distance, friction=micro.friction,
+                       friction_std=micro.friction_std, normal_stiffness=micro.normal_stiffness.mean(axis=1),
+                       computed_pressure=PRESSURE, computed_speed=SPEED)
+
+
+def structure():
+    """A ring, two pads and a block as caliper, of few elements."""
+    bodies = {"disc": _ring(0.066, 0.157, 0.0, 0.007, 0.0, 2 * np.pi, 32, True),
+              "pad_outer": _ring(0.11, 0.15, 0.0071, 0.017, 1.2, 1.9, 6, False),
+              "pad_inner": _ring(0.11, 0.15, -0.0101, -0.0001, 1.2, 1.9, 6, False),
+              "caliper": _ring(0.10, 0.18, 0.018, 0.03, 1.1, 2.0, 6, False)}
+    angle = np.tile(np.linspace(1.25, 1.85, 6), 2)
+    position = np.stack([0.13 * np.cos(angle), 0.13 * np.sin(angle), np.repeat([0.007, 0.0], 6)], axis=1)
+    preload = PRESSURE[:, None] * 2e-4 * np.linspace(1.4, 0.6, 12)
+    return Structure(
+        body_name=list(bodies), **bodies, free_frequency=[259.4, 259.4, 431.6, 660.1, 660.1],
+        free_diameters=[2, 2, 0, 3, 3], free_out_of_plane=[1.0, 1.0, 1.0, 0.99, 0.99],
+        joint_name=["abutment_outer_leading"], joint=NO_ROWS, joint_stiffness=[1e7], joint_damping=[10.0],
+        contact_pad=np.repeat([1, 2], 6), contact_position=position, contact_area=np.full(12, 2e-4),
+        contact_normal=NO_ROWS, contact_tangent=NO_ROWS, contact_lateral=NO_ROWS, pressure=PRESSURE, preload=preload,
+        contact_stiffness=preload * 1e5, closed=np.ones((3, 12), dtype=int), law_closure=[0.0, 1e-6],
+        law_pressure=[0.0, 1e6], sensor_name=SENSORS, sensor_position=np.zeros((2, 3)),
+        sensor_direction=np.tile([0.0, 0.0, 1.0], (2, 1)), sensor=NO_ROWS, piston=NO_ROWS, piston_area=2.4e-3)
+
+
+def reduced_model(coordinates=3):
+    """Only what the pictures read of it is meaningful: the visible surface."""
+    disc = structure().disc
+    square, wide, contacts = np.eye(coordinates), np.zeros((1, coordinates)), np.zeros((2, coordinates))
+    faces = disc.element[:, 4:8]
+    return ReducedModel(
+        body_name=["disc"], coordinate_body=np.zeros(coordinates, dtype=int), mass=square, damping=square,
+        gyroscopic=0 * square, stiffness=square, centrifugal=0 * square, joint_name=["abutment"], joint=wide,
+        joint_stiffness=[1e7], joint_damping=[1.0], contact_pad=[1, 1], contact_position=np.zeros((2, 3)),
+        contact_area=[1e-4, 1e-4], contact_normal=contacts, contact_tangent=contacts, contact_lateral=contacts,
+        pressure=PRESSURE, preload=np.ones((3, 2)), contact_stiffness=np.ones((3, 2)), law_closure=[0.0, 1e-6],
+        law_pressure=[0.0, 1e6], input_name=["piston"], input=wide, input_area=[2.4e-3], sensor_name=SENSORS,
+        sensor_position=np.zeros((2, 3)), sensor_direction=np.zeros((2, 3)), sensor=np.zeros((2, coordinates)),
+        visible_position=disc.node, visible_body=np.zeros(len(disc.node), dtype=int), visible_face=faces,
+        recovery=np.zeros((len(disc.node), 3, coordinates), dtype=np.float32))
+
+
+def complex_modes(stable=False):
+    """Eight modes, one of which becomes unstable at friction 0.4."""
+    friction = np.linspace(0, 0.7, 8)
+    frequency = np.array([800.0, 2200.0, 4100.0, 7300.0, 11000.0, 14800.0, SQUEAL_LINE, 17900.0])
+    growth = -0.002 * 2 * np.pi * frequency * np.ones((3, 8, 1))
+    growth[:, :, 6] += 0.0 if stable else (friction * 520)[None, :] * np.array([0.9, 1.0, 1.1])[:, None]
+    root = growth + 2j * np.pi * (frequency + 30 * friction[:, None] ** 2)
+    mu = 0.40 + 0.03 * np.repeat([1, 2, 3], 3)
+    at = np.stack([root[p, np.searchsorted(friction, m)] for p, m in zip(np.repeat([0, 1, 2], 3), mu, strict=True)])
+    operating, which = np.nonzero(at.real > 0)
+    order = np.argsort(-at[operating, which].real, kind="stable")
+    disc = structure().disc
+    angle = np.arctan2(disc.node[:, 1], disc.node[:, 0])
+    shape = np.zeros((len(operating), len(disc.node), 3), dtype=complex)
+    shape[:, :, 2] = np.exp(5j * angle)
+    return ComplexModes(
+        pressure=PRESSURE, friction=friction, root=root, real_frequency=np.tile(frequency, (3, 1)),
+        operating_pressure=OPERATING_PRESSURE, operating_speed=OPERATING_SPEED, operating_friction=mu,
+        operating_root=at, unstable_operating=operating[order], unstable_root=at[operating, which][order],
+        unstable_shape=shape, corrections=55)
+
+
+def multibody(samples=3000):
+    """Pads that settle at low and swing on at high load."""
+    time = np.linspace(0, 0.1, samples)
+    rate = np.linspace(-60.0, 4.0, 9)
+    swing = np.exp(rate[:, None] * time) * np.sin(2 * np.pi * 180 * time)
+    motion = np.zeros((9, 2, 3, samples))
+    motion[:, 0, 0], motion[:, 1, 0] = 2e-5 * swing, 1.8e-5 * swing
+    phase = 2 * np.pi * (40 * time + 0.25 * np.arange(4)[:, None])
+    force = OPERATING_PRESSURE[:, None, None, None] * 6e-4 * (1 + np.sin(phase)) * np.ones((1, 2, 1, 1))
+    factors = np.array([0.3, 0.55, 1.0, 1.8, 3.0])
+    stability = 40 * np.log(np.outer(factors, factors)) + rate[:, None, None]
+    contact = np.zeros((9, 2, samples), dtype=np.float32)
+    return Multibody(
+        pressure=OPERATING_PRESSURE, speed=OPERATING_SPEED, time=time, pad_name=["outer", "inner"], pad_motion=motion,
+        patch_force=force, normal_force=contact, friction_force=contact, mean_friction=np.linspace(0.41, 0.5, 9),
+        growth_rate=rate, oscillation_frequency=np.full(9, 180.0), separated_share=np.zeros(9),
+        outside_map_share=np.full(9, 0.01), caliper_factor=factors, abutment_factor=factors, stability=stability)
+
+
+def response(samples=2000):
+    """Spectra with a line at 16.6 kHz that grows with load."""
+    time = np.linspace(0, 0.05, samples)
+    frequency = np.linspace(0, 20000, 800)
+    line = 1e-8 * np.exp(-((frequency - SQUEAL_LINE) / 40) ** 2)
+    floor = 1e-12 * (1 + (frequency / 3000) ** 2) ** -1
+    spectrum = floor + np.linspace(0.01, 1, 9)[:, None, None] * line * np.ones((1, 2, 1))
+    velocity = np.random.default_rng(3).normal(scale=1e-4, size=(9, 2, samples)).astype(np.float32)
+    return Response(pressure=OPERATING_PRESSURE, speed=OPERATING_SPEED, time=time, sensor_name=SENSORS,
+                    sensor_position=np.zeros((2, 3)), velocity=velocity, frequency=frequency,
+                    velocity_spectrum=spectrum, mode_frequency=np.linspace(260, 19800, 120),
+                    mode_damping=np.full(120, 0.002), coupling="assembly")
+
+
+def squeal(quiet=False):
+    """Two events at the highest load, or none."""
+    band = 1000 * 2 ** (np.arange(0, 14) / 3)
+    level = 60 + 4 * np.arange(9)[:, None] + np.array([0.0, -6.0])
+    events = 0 if quiet else 2
+    return Squeal(
+        pressure=OPERATING_PRESSURE, speed=OPERATING_SPEED, sensor_name=SENSORS, reference=5e-8,
+        threshold=120.0 if quiet else 88.0, peak_level=level, peak_frequency=np.full((9, 2), SQUEAL_LINE), band=band,
+        band_level=level[:, :, None] - 20 + 10 * np.exp(-((band - 16000) / 3000) ** 2),
+        event_operating=[7, 8][:events], event_sensor=[0, 0][:events], event_frequency=[16580.0, 16600.0][:events],
+        event_level=[88.5, 92.0][:events], event_start=[0.02, 0.01][:events], event_duration=[0.01, 0.03][:events])
+
+
+def comparison():
+    """Rows of every kind: within, outside, tuned, doubted, not comparable."""
+    rows = (("friction, lowest", "friction", "1", 0.4, 1, 0.41, 1, 0.05, "within", "shear limit", "Section 4", ""),
+            ("real contact area at 1 MPa", "friction", "%", 3, 1, 3.1, 1, 0.6, "within", "pad roughness", "Fig. 10a", ""),
+            ("free disc, mode 1/2", "modes", "Hz", 267, 1, 259.4, 1, 10, "within", "disc section", "Table 1", ""),
+            ("free disc, mode 18", "modes", "Hz", 3075, 1, 3399, 1, 150, "outside", "", "Table 1", "prints 337.3 Hz"),
+            ("growth at lowest load", "multibody", "1/s", 0, 0, -60.0, 1, 0, "not comparable", "", "Fig. 13", ""),
+            ("first squeal line", "squeal", "kHz", 16.6, 1, 16.6, 1, 0.3, "within", "", "Fig. 18", ""),
+            ("second squeal line", "squeal", "kHz", 17.8, 1, 0, 0, 0.3, "not comparable", "", "Fig. 18", ""))
+    names = ("row", "section", "unit", "published", "published_known", "ours", "ours_known", "tolerance", "verdict",
+             "tuned", "source", "doubt")
+    columns = {name: list(column) for name, column in zip(names, zip(*rows, strict=True), strict=True)}
+    for name in ("published", "ours", "tolerance"):
+        columns[name] = np.array(columns[name], dtype=float)
+    return Comparison(**columns, note=["read from the product"] * len(rows))
+
+
+def case():
+    """A case with settings of every kind."""
+    return Case(
+        name="small", title="Small brake", description="A synthetic case for the views",
+        settings={"surface": {"period": 1e-3, "seed": 7, "filled": True},
+                  "micro_friction": {"shear_limit": 13.5e6, "pressures": (1e6, 2e6, 3e6)}},
+        origins={"surface": {"period": {"origin": "assumed", "source": "size of the scan"}},
+                 "micro_friction": {"shear_limit": {"origin": "tuned", "source": "Figure 10c"}}},
+        units={"surface": {"period": "m"}, "micro_friction": {"shear_limit": "Pa", "pressures": "Pa"}},
+        meanings={"micro_friction": {"shear_limit": "largest shear stress of a spot"}},
+        methods={"surface": "Two maps were generated.", "micro_friction": "Tresca limit of 13.5 MPa."}, version="0.1")
+
+
+def products(**replaced):
+    """Every product the report reads, by the name of its argument; ``replaced`` overrides."""
+    return {"surface": surface(), "micro_friction": micro_friction(), "friction_map": friction_map(),
+            "structure": structure(), "model": reduced_model(), "complex_modes": complex_modes(),
+            "multibody": multibody(), "response": response(), "squeal": squeal(), "comparison": comparison(),
+            **replaced}
+
+
+def _ring(inner, outer, low, high, start, end, sectors, closed):
+    """Sector of a ring, one element across and through, as a Body of 20-node hexahedra with two modes."""
+    angle = np.linspace(start, end, sectors + 1)[: sectors if closed else None]
+    corner = np.array([[r * np.cos(a), r * np.sin(a), z] for a in angle for z in (low, high) for r in (inner, outer)])
+    here, there = np.arange(sectors), (np.arange(sectors) + 1) % len(angle)
+    corners = np.stack([4 * here, 4 * here + 1, 4 * there + 1, 4 * there, 4 * here + 2, 4 * here + 3, 4 * there + 3,
+                        4 * there + 2], axis=1)
+    pairs = np.array([(0, 1), (1, 2), (2, 3), (3, 0), (4, 5), (5, 6), (6, 7), (7, 4), (0, 4), (1, 5), (2, 6), (3, 7)])
+    edges, number = np.unique(np.sort(corners[:, pairs], axis=2).reshape(-1, 2), axis=0, return_inverse=True)
+    node = np.concatenate([corner, corner[edges].mean(axis=1)])
+    element = np.concatenate([corners, len(corner) + number.reshape(-1, 12)], axis=1)
+    shape = np.zeros((2, len(node), 3))
+    turn = np.arctan2(node[:, 1], node[:, 0])
+    shape[:, :, 2] = np.cos(np.array([[2], [3]]) * turn)
+    return Body(node=node, element=element, kind="hexahedron20", material=np.zeros(sectors, dtype=int),
+                material_name=["iron"], density=[7200.0], elasticity=np.eye(6)[None] * 1e11, damping_ratio=0.002,
+                frequency=[259.4, 660.1], shape=shape, supported=[])
