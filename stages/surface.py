@@ -94,7 +94,7 @@ def surface(settings: Settings, context: Context) -> Surface:
         pad_depth=graded_depth(spacing, settings.pad_thickness, settings.layer_growth),
         body=BODIES, source=[m["source"] for m in made],
         outlier_share=[m["outliers"] for m in made], filled_share=[m["filled"] for m in made],
-        shortest_wavelength=settings.shortest_wavelength,
+        shortest_wavelength=[settings.shortest_wavelength] * 2,
         nodes_per_wavelength=[settings.shortest_wavelength / spacing] * 2,
         wavenumber=spectra[0][0], power_spectrum=[power for _, power in spectra],
         **{name: [getattr(f, name) for f in figures] for name in

@@ -30,8 +30,9 @@ def surface_rise(flux, spacing, solid, speed):
     wave_y = 2 * np.pi * np.fft.fftfreq(flux.shape[0], spacing[0])[:, None]
     wave_x = 2 * np.pi * np.fft.rfftfreq(flux.shape[1], spacing[1])[None, :]
     root = np.sqrt(wave_y ** 2 + wave_x ** 2 + 1j * wave_x * speed / solid.diffusivity)
-    root[0, 0] = np.inf
-    return fft.irfft2(fft.rfft2(flux) / (solid.conductivity * root), s=flux.shape)
+    heat = fft.rfft2(flux)
+    root[0, 0], heat[0, 0] = 1.0, 0.0
+    return fft.irfft2(heat / (solid.conductivity * root), s=flux.shape)
 
 
 def spot_heating(contact, spacing, resting, passing, speed):

@@ -9,62 +9,65 @@ trapezoidal rule with modified Newton iterations and a fixed step.
 import numpy as np
 
 from pipeline.contract.errors import ConvergenceError
-from pipeline.physics.patch_contact import contact_force, contact_tangent
+from pipeline.physics.pad_system import force, tangent
 
 TOLERANCE = 1e-10
 
 
-def integrate(system, start, step, steps, record_every=1):
+def integrate(system, start, step, steps, record_every=1, scale=None):
     """(time (m,), displacement (m, n), velocity (m, n)) at every ``record_every``-th step from rest at ``start``.
 
-    ``system`` is a PadSystem, ``step`` in s. The residual of every step is below 1e-10 of the load. Raises
-    ConvergenceError naming the time and the residual of the first step that did not converge.
+    ``system`` is a PadSystem, ``step`` in s. Every step ends with a residual below 1e-10 of ``scale`` (N in the
+    system's coordinates; default the load). Raises ConvergenceError naming the time and the residual otherwise.
     """
     import exudyn
 
+    scale = np.linalg.norm(system.load) if scale is None else scale
     multibody = exudyn.SystemContainer().AddSystem()
     _add_assembly(multibody, system, start)
     multibody.Assemble()
-    states = _record(multibody, np.size(start), step, steps, record_every)
+    states = _record(multibody, start, step, steps, record_every)
     solver = exudyn.MainSolverImplicitSecondOrder()
-    settings = _settings(exudyn, step, steps, TOLERANCE * np.linalg.norm(system.load))
-    exudyn.SetWriteToConsole(False)
-    try:
-        converged, found = solver.SolveSystem(multibody, settings), f"{solver.conv.residual:.3g}"
-    except exudyn.SolverError as error:
-        converged, found = False, str(error).strip().splitlines()[0]
-    finally:
-        exudyn.SetWriteToConsole(True)
-    if not converged:
+    if not _solve(exudyn, solver, multibody, _settings(exudyn, step, steps, TOLERANCE * scale)):
         raise ConvergenceError(f"multibody: exudyn at t = {solver.it.currentTime:.6g} s",
-                               f"a residual below {TOLERANCE:g} of the load", found, "take a shorter step")
-    states[0, 0] = start
+                               f"a residual below {TOLERANCE:g} of the load", f"{solver.conv.residual / scale:.3g}",
+                               "take a shorter step")
     return np.arange(len(states)) * (step * record_every), states[:, 0], states[:, 1]
 
 
 def _add_assembly(multibody, system, start):
     from exudyn.itemInterface import NodeGenericODE2, ObjectGenericODE2
 
-    n, contact = np.size(start), system.contact
+    n = np.size(start)
 
-    def force(multibody, time, item, displacement, velocity):
-        return contact_force(contact, time, np.asarray(displacement), np.asarray(velocity))
+    def right_hand_side(multibody, time, item, displacement, velocity):
+        return force(system, time, np.array(displacement), np.array(velocity))
 
-    def tangent(multibody, time, item, displacement, velocity, position_factor, velocity_factor):
-        stiffness, damping = contact_tangent(contact, time, np.asarray(displacement), np.asarray(velocity))
+    def jacobian(multibody, time, item, displacement, velocity, position_factor, velocity_factor):
+        stiffness, damping = tangent(system, time, np.array(displacement), np.array(velocity))
         return position_factor * stiffness + velocity_factor * damping
 
     node = multibody.AddNode(NodeGenericODE2(
         referenceCoordinates=np.zeros(n), initialCoordinates=start, initialCoordinates_t=np.zeros(n),
         numberOfODE2Coordinates=n))
     multibody.AddObject(ObjectGenericODE2(
-        nodeNumbers=[node], massMatrix=system.mass, stiffnessMatrix=system.stiffness, dampingMatrix=system.damping,
-        forceVector=system.load, forceUserFunction=force, jacobianUserFunction=tangent))
+        nodeNumbers=[node], massMatrix=_sparse(system.mass), forceUserFunction=right_hand_side,
+        jacobianUserFunction=jacobian))
 
 
-def _record(multibody, size, step, steps, record_every):
+def _sparse(matrix):
+    import exudyn
+
+    rows, columns = np.nonzero(matrix)
+    container = exudyn.MatrixContainer()
+    container.SetWithSparseMatrix(np.column_stack((rows, columns, matrix[rows, columns])), *matrix.shape)
+    return container
+
+
+def _record(multibody, start, step, steps, record_every):
     """(m, 2, n) array that the solver fills with displacement and velocity as it goes."""
-    states = np.zeros((steps // record_every + 1, 2, size))
+    states = np.zeros((steps // record_every + 1, 2, np.size(start)))
+    states[0, 0] = start
 
     def after_step(multibody, time):
         count = round(time / step)
@@ -77,9 +80,20 @@ def _record(multibody, size, step, steps, record_every):
     return states
 
 
+def _solve(exudyn, solver, multibody, settings):
+    talkative = exudyn.config.printToConsole
+    exudyn.config.printToConsole = False
+    try:
+        return solver.SolveSystem(multibody, settings)
+    except exudyn.SolverError:
+        return False
+    finally:
+        exudyn.config.printToConsole = talkative
+
+
 def _settings(exudyn, step, steps, tolerance):
     settings = exudyn.SimulationSettings()
-    settings.solutionSettings.writeSolutionToFile = False
+    settings.solution.file.write = False
     integration = settings.timeIntegration
     integration.numberOfSteps, integration.endTime = steps, steps * step
     integration.adaptiveStep = integration.automaticStepSize = False

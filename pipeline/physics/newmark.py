@@ -9,53 +9,50 @@ import numpy as np
 from numba import njit
 
 from pipeline.contract.errors import ConvergenceError
-from pipeline.physics.patch_contact import contact_force, contact_tangent
+from pipeline.physics.pad_system import force, tangent
 
 ITERATIONS = 30
 CONTRACTION = 0.2
 TOLERANCE = 1e-10
 
 
-def newmark(system, start, step, steps, record_every=1):
+def integrate(system, start, step, steps, record_every=1, scale=None):
     """(time (m,), displacement (m, n), velocity (m, n)) at every ``record_every``-th step from rest at ``start``.
 
-    ``system`` is a PadSystem, ``step`` in s. Raises ConvergenceError naming the time and the residual of the first
-    step that did not converge; a result is never returned then.
+    ``system`` is a PadSystem, ``step`` in s. Every step ends with a residual below 1e-10 of ``scale`` (N in the
+    system's coordinates; default the load). Raises ConvergenceError naming the time and the residual otherwise.
     """
+    scale = np.linalg.norm(system.load) if scale is None else scale
     displacement, velocity, failed, residual = _integrate(
-        *system[:4], system.contact, np.array(start, dtype=float), step, steps, record_every)
+        system, np.array(start, dtype=float), step, steps, record_every, TOLERANCE * scale)
     if failed:
         raise ConvergenceError(f"multibody: newmark at t = {failed * step:.6g} s",
-                               f"a residual below {TOLERANCE:g} of the load", f"{residual:.3g}", "take a shorter step")
-    return np.arange(displacement.shape[0]) * (step * record_every), displacement, velocity
+                               f"a residual below {TOLERANCE:g} of the load", f"{residual / scale:.3g}",
+                               "take a shorter step")
+    return np.arange(len(displacement)) * (step * record_every), displacement, velocity
 
 
 @njit(cache=True)
-def _integrate(mass, damping, stiffness, load, contact, start, step, steps, record_every):
+def _integrate(system, start, step, steps, record_every, tolerance):
     n, kept = start.size, steps // record_every + 1
     displacements, velocities = np.zeros((kept, n)), np.zeros((kept, n))
-    scale = np.linalg.norm(load)
-    linear = mass + 0.5 * step * damping + 0.25 * step**2 * stiffness
     q, v = start, np.zeros(n)
-    a = np.linalg.solve(mass, load + contact_force(contact, 0.0, q, v) - damping @ v - stiffness @ q)
+    a = np.linalg.solve(system.mass, force(system, 0.0, q, v))
     displacements[0] = q
-    inverse = _inverse(linear, contact, 0.0, q, v, step)
+    inverse = _inverse(system, 0.0, q, v, step)
     for count in range(1, steps + 1):
-        time, predicted_v = count * step, v + 0.5 * step * a
-        predicted_q = q + step * v + 0.25 * step**2 * a
-        known = load - damping @ predicted_v - stiffness @ predicted_q
-        inertia, last, converged = linear @ a, np.inf, False
+        old_q, old_v, last, converged = q + step * v + 0.25 * step**2 * a, v + 0.5 * step * a, np.inf, False
+        size = np.inf
         for _ in range(ITERATIONS):
-            q, v = predicted_q + 0.25 * step**2 * a, predicted_v + 0.5 * step * a
-            residual = known + contact_force(contact, time, q, v) - inertia
-            size = np.linalg.norm(residual) / scale
-            if size <= TOLERANCE:
+            q, v = old_q + 0.25 * step**2 * a, old_v + 0.5 * step * a
+            residual = force(system, count * step, q, v) - system.mass @ a
+            size = np.linalg.norm(residual)
+            if size <= tolerance:
                 converged = True
                 break
             if size > CONTRACTION * last:
-                inverse = _inverse(linear, contact, time, q, v, step)
-            correction, last = inverse @ residual, size
-            a, inertia = a + correction, inertia + linear @ correction
+                inverse = _inverse(system, count * step, q, v, step)
+            a, last = a + inverse @ residual, size
         if not converged:
             return displacements, velocities, count, size
         if count % record_every == 0:
@@ -64,6 +61,6 @@ def _integrate(mass, damping, stiffness, load, contact, start, step, steps, reco
 
 
 @njit(cache=True)
-def _inverse(linear, contact, time, q, v, step):
-    stiffness, damping = contact_tangent(contact, time, q, v)
-    return np.linalg.inv(linear + 0.5 * step * damping + 0.25 * step**2 * stiffness)
+def _inverse(system, time, q, v, step):
+    stiffness, damping = tangent(system, time, q, v)
+    return np.linalg.inv(system.mass + 0.5 * step * damping + 0.25 * step**2 * stiffness)

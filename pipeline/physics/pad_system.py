@@ -3,13 +3,15 @@
 from typing import NamedTuple
 
 import numpy as np
-from scipy.linalg import cho_factor, cho_solve
+from numba import njit
+from scipy.linalg import cho_factor, cho_solve, eigh
 
 from pipeline.contract.errors import ConvergenceError
 from pipeline.physics.patch_contact import PatchContact, contact_force, contact_tangent
 
 STATIC_ITERATIONS = 100
 STATIC_TOLERANCE = 1e-12
+STATIC_HALVINGS = 20
 
 
 class PadSystem(NamedTuple):
@@ -22,14 +24,50 @@ class PadSystem(NamedTuple):
     contact: PatchContact
 
 
-def static_start(system, where="static start"):
-    """Displacement (n,) in equilibrium with the load before friction acts.
+@njit(cache=True)
+def force(system, time, displacement, velocity):
+    """M q'' (n,): load and contact force less elastic and damping forces."""
+    inner = system.stiffness @ displacement + system.damping @ velocity
+    return system.load + contact_force(system.contact, time, displacement, velocity) - inner
 
-    Newton's method on K q = load + n^T N(q) from closed contacts, each step shortened until the residual
-    falls. The problem is convex, since the normal law rises. Raises ConvergenceError.
+
+@njit(cache=True)
+def tangent(system, time, displacement, velocity):
+    """(stiffness, damping), both (n, n): minus the exact derivatives of ``force``."""
+    stiffness, damping = contact_tangent(system.contact, time, displacement, velocity)
+    return system.stiffness + stiffness, system.damping + damping
+
+
+def preloaded_modes(system, start, highest_frequency=np.inf):
+    """(system in modal coordinates, modes (n, m)): q = start + modes @ coordinates, unit masses.
+
+    The modes are those of the frictionless system linearised about its static state ``start`` (n,), up to
+    ``highest_frequency`` in Hz. The static state stays exact, whatever is left out; the contact law stays nonlinear.
     """
-    frictionless = system.contact._replace(friction=np.zeros_like(system.contact.friction))
-    return _equilibrium(system._replace(contact=frictionless), _all_closed(frictionless, system), where)
+    stiffness, _ = linearised(without_friction(system), start)
+    square, modes = eigh((stiffness + stiffness.T) / 2, system.mass)
+    modes = np.ascontiguousarray(modes[:, square <= (2 * np.pi * highest_frequency) ** 2])
+    contact = system.contact._replace(
+        normal=system.contact.normal @ modes, tangent=system.contact.tangent @ modes,
+        opening=system.contact.opening + system.contact.normal @ start)
+    return PadSystem(
+        mass=np.eye(modes.shape[1]), damping=modes.T @ system.damping @ modes,
+        stiffness=modes.T @ system.stiffness @ modes, load=modes.T @ (system.load - system.stiffness @ start),
+        contact=contact), modes
+
+
+def without_friction(system):
+    """The same system with a friction coefficient of zero everywhere."""
+    return system._replace(contact=system.contact._replace(friction=np.zeros_like(system.contact.friction)))
+
+
+def static_start(system, where="static start"):
+    """Displacement (n,) in equilibrium with the load before friction acts. Raises ConvergenceError."""
+    frictionless, contact = without_friction(system), system.contact
+    slope = contact.area * (contact.pressure[1] - contact.pressure[0]) / (contact.closure[1] - contact.closure[0])
+    closed = system.stiffness + (contact.normal.T * slope) @ contact.normal
+    guess = cho_solve(cho_factor(closed), system.load - contact.normal.T @ (slope * contact.opening))
+    return _equilibrium(frictionless, guess, where)
 
 
 def sliding_state(system, start, where="steady sliding"):
@@ -38,40 +76,28 @@ def sliding_state(system, start, where="steady sliding"):
 
 
 def linearised(system, displacement):
-    """(damping, stiffness), both (n, n), of small motions about steady sliding at ``displacement``.
+    """(stiffness, damping), both (n, n), of small motions about steady sliding at ``displacement``.
 
     Stiffness: K + k n^T n + (mu + p dmu/dp) k t^T n; damping: C + N dmu/dv t^T t, with full friction.
     """
-    contact = system.contact._replace(ramp=0.0)
-    stiffness, damping = contact_tangent(contact, 0.0, displacement, np.zeros_like(displacement))
-    return system.damping + damping, system.stiffness + stiffness
-
-
-def _all_closed(contact, system):
-    slope = contact.area * (contact.pressure[1] - contact.pressure[0]) / (contact.closure[1] - contact.closure[0])
-    closed = system.stiffness + (contact.normal.T * slope) @ contact.normal
-    return cho_solve(cho_factor(closed), system.load)
+    sliding = system._replace(contact=system.contact._replace(ramp=0.0))
+    return tangent(sliding, 0.0, displacement, np.zeros_like(displacement))
 
 
 def _equilibrium(system, displacement, where):
-    rest = np.zeros_like(displacement)
-
-    def residual_of(q):
-        return system.load + contact_force(system.contact, 0.0, q, rest) - system.stiffness @ q
-
-    scale, residual = np.linalg.norm(system.load), residual_of(displacement)
+    """Newton's method on force = 0 at rest; a step is halved until the residual falls."""
+    rest, scale = np.zeros_like(displacement), np.linalg.norm(system.load)
+    residual = force(system, 0.0, displacement, rest)
     for _ in range(STATIC_ITERATIONS):
         if np.linalg.norm(residual) <= STATIC_TOLERANCE * scale:
             return displacement
-        stiffness, _ = contact_tangent(system.contact, 0.0, displacement, rest)
-        step, length = np.linalg.solve(system.stiffness + stiffness, residual), 1.0
-        while length > 1e-6:
-            candidate = displacement + length * step
-            remaining = residual_of(candidate)
+        step = np.linalg.solve(tangent(system, 0.0, displacement, rest)[0], residual)
+        for length in 0.5 ** np.arange(STATIC_HALVINGS):
+            trial = displacement + length * step
+            remaining = force(system, 0.0, trial, rest)
             if np.linalg.norm(remaining) < np.linalg.norm(residual):
                 break
-            length /= 2
-        displacement, residual = candidate, remaining
+        displacement, residual = trial, remaining
     raise ConvergenceError(where, f"a residual below {STATIC_TOLERANCE:g} of the load",
                            f"{np.linalg.norm(residual) / scale:.3g} after {STATIC_ITERATIONS} steps",
                            "check that the joints hold every rigid motion and that the contact law rises")

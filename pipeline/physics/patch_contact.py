@@ -6,7 +6,7 @@ distance and therefore has its own friction. A contact patch overlaps one sector
 shared by overlap, so that all forces stay continuous while the disc turns.
 
 At contact i, with the normal row n_i (positive opens) and the tangent row t_i (along sliding):
-    closure c = -n_i q,  N = A p(c),  slip v = Omega r_i - t_i q',
+    closure c = -(n_i q + opening),  N = A p(c),  slip v = Omega r_i - t_i q',
     T = ramp(t) N sum_d w_id(t) mu(p, |v|, s_d(t)) sign(v),      generalised force n_i N + t_i T.
 Friction acts along sliding only. sign(v) is +-1 except for |v| < stick_speed, where it is the cubic
 x (3 - x^2) / 2 of x = v / stick_speed: sticking is replaced by creep slower than that.
@@ -27,6 +27,7 @@ class PatchContact(NamedTuple):
 
     normal: np.ndarray          # (c, n) normal rows, positive opens
     tangent: np.ndarray         # (c, n) tangent rows, along sliding
+    opening: np.ndarray         # (c,) m, normal displacement where all coordinates are zero
     area: np.ndarray            # (c,) m^2
     radius: np.ndarray          # (c,) m, distance from the disc axis
     angle: np.ndarray           # (c,) rad, position on the disc face
@@ -110,7 +111,7 @@ def friction_share(time, ramp):
 @njit(cache=True)
 def contact_state(contact, time, displacement, velocity):
     """ContactState at generalised ``displacement`` (n,) and ``velocity`` (n,)."""
-    closure, slide = -(contact.normal @ displacement), contact.tangent @ velocity
+    closure, slide = -(contact.normal @ displacement + contact.opening), contact.tangent @ velocity
     shares = patch_shares(contact.angle, contact.half_angle, contact.disc_speed * time, contact.sectors)
     acting = friction_share(time, contact.ramp)
     size, outside, evaluations = closure.size, 0, 0

@@ -8,23 +8,21 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from pipeline.physics.rough_contact import NormalContact, solve_normal_contact
+from pipeline.physics.rough_contact import solve_normal_contact
 
 
 @dataclass(frozen=True)
-class WearState:
-    """The pair at the start of one cycle, everything on the pad's grid (ny, nx).
+class WornPair:
+    """Worn surfaces after some cycles: heights (ny, nx) in m outwards of pad and disc, each on its own grid."""
 
-    ``gap`` of the undeformed worn surfaces in m, its ``contact`` solution, wear of both in m (``disc_wear`` on the disc's
-    own grid) and the ``position`` of the slider in nodes.
-    """
-
-    cycle: int
-    position: int
-    gap: np.ndarray
-    contact: NormalContact
+    pad_height: np.ndarray
+    disc_height: np.ndarray
     pad_wear: np.ndarray
     disc_wear: np.ndarray
+
+    def gap(self, position):
+        """Distance (ny, nx) in m of the undeformed surfaces when the slider has moved by ``position`` nodes along x."""
+        return -(self.pad_height - self.pad_wear) - np.roll(self.disc_height - self.disc_wear, position, axis=1)
 
 
 def archard(pressure, distance, coefficient):
@@ -34,18 +32,19 @@ def archard(pressure, distance, coefficient):
 
 def run_in(pad_height, disc_height, compliance, mean_pressure, *, cycles, distance, stroke, pad_coefficient,
            disc_coefficient, tolerance, max_iterations):
-    """Yield a WearState at the start of each cycle and after the last: ``cycles`` + 1 states.
+    """Yield the WornPair at the start and after each cycle: ``cycles`` + 1 states.
 
-    Heights (ny, nx) in m point out of their solids; ``compliance`` (ny, nx // 2 + 1) is the normal one of both solids.
-    The pressure of a cycle is that at its start. ConvergenceError when a contact solve does not converge.
+    ``compliance`` (ny, nx // 2 + 1) in m/Pa is the normal one of both solids; the pressure of a cycle is that at its
+    start. ConvergenceError when a contact solve does not converge.
     """
-    pad_wear, disc_wear = np.zeros_like(pad_height), np.zeros_like(disc_height)
-    start = None
-    for cycle in range(cycles + 1):
+    pair = WornPair(pad_height, disc_height, np.zeros_like(pad_height), np.zeros_like(disc_height))
+    pressure = None
+    yield pair
+    for cycle in range(cycles):
         position = cycle % (stroke + 1)
-        gap = -(pad_height - pad_wear) - np.roll(disc_height - disc_wear, position, axis=1)
-        contact = solve_normal_contact(gap, compliance, mean_pressure, start, tolerance, max_iterations)
-        yield WearState(cycle, position, gap, contact, pad_wear, disc_wear)
-        start = contact.pressure
-        pad_wear = pad_wear + archard(start, distance, pad_coefficient)
-        disc_wear = disc_wear + archard(np.roll(start, -position, axis=1), distance, disc_coefficient)
+        contact = solve_normal_contact(pair.gap(position), compliance, mean_pressure, pressure, tolerance, max_iterations)
+        pressure = contact.pressure
+        pad_wear = pair.pad_wear + archard(pressure, distance, pad_coefficient)
+        disc_wear = pair.disc_wear + archard(np.roll(pressure, -position, axis=1), distance, disc_coefficient)
+        pair = WornPair(pad_height, disc_height, pad_wear, disc_wear)
+        yield pair

@@ -66,5 +66,5 @@ def percent(share, digits=3):
 
 
 def plural(amount, noun):
-    """'1 mode', '3 modes', 'no mode'."""
-    return f"no {noun}" if amount == 0 else f"{amount} {noun}{'s' * (amount != 1)}"
+    """'1 mode', '3 modes', 'no modes'."""
+    return f"1 {noun}" if amount == 1 else f"{amount or 'no'} {noun}s"

@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from pipeline.views.readable import plural
 from pipeline.views.style import COLOURS, FAINT, INK, LINES, MARKERS, SEQUENTIAL, drawing, png, svg, tiles
 
 
@@ -28,7 +29,7 @@ def occurrence(squeal, dpi):
     row = np.arange(len(sensor))
     level, frequency = squeal.peak_level[row, sensor], squeal.peak_frequency[row, sensor]
     events = np.bincount(squeal.event_operating, minlength=len(level))
-    texts = [f"{lv:.0f} dB\n{f / 1e3:.2f} kHz\n{_events(n)}" for lv, f, n in zip(level, frequency, events, strict=True)]
+    texts = [f"{lv:.0f} dB\n{f / 1e3:.2f} kHz\n{plural(n, 'event')}" for lv, f, n in zip(level, frequency, events, strict=True)]
     low, high = min(level.min(), squeal.threshold - 3.0), max(level.max(), squeal.threshold + 3.0)
     with drawing(3.3) as figure:
         axes = figure.subplots()
@@ -75,10 +76,6 @@ def band_levels(squeal, operatings, sensor):
 
 def _operating(product, operating):
     return f"{product.pressure[operating] / 1e6:.3g} MPa, {product.speed[operating]:.4g} rad/s"
-
-
-def _events(number):
-    return f"{number} event{'s' * (number != 1)}" if number else "quiet"
 
 
 def _decades(density):

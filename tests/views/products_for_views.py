@@ -1,14 +1,16 @@
-"""Small synthetic products with the shapes of real ones: what the views are tried on."""
+"""Small synthetic products with the shapes of real ones: what the views are tried on; fields they do not read are 0."""
+
+from dataclasses import fields
 
 import numpy as np
 
 from pipeline.contract.context import Case
+from pipeline.contract.product import is_product
 from pipeline.products import (
     Body,
     Comparison,
     ComplexModes,
     FrictionMap,
-    Incidence,
     MicroFriction,
     Multibody,
     ReducedModel,
@@ -21,7 +23,18 @@ from pipeline.products import (
 PRESSURE, SPEED, OMEGA = np.array([1e6, 2e6, 3e6]), np.array([0.9, 1.1, 1.3]), np.array([8.5, 10.25, 12.0])
 OPERATING_PRESSURE, OPERATING_SPEED = np.repeat(PRESSURE, 3), np.tile(OMEGA, 3)
 SENSORS, SQUEAL_LINE = ["disc_outer_rim", "pad_outer_back"], 16600.0
-NO_ROWS = Incidence(rows=0, row=[], body=[], node=[], axis=[], weight=[])
+
+
+def filled(cls, **given):
+    """A product with the values ``given`` and zeros elsewhere; dimensions nobody gives have length 2."""
+    plain = {f.name: f.metadata for f in fields(cls) if not is_product(f.type)}
+    sizes = {dim: size for name, value in given.items() if name in plain
+             for dim, size in zip(plain[name]["dims"], np.shape(value), strict=True)}
+    values = {name: np.zeros([sizes.get(dim, 2) for dim in said["dims"]], dtype=said["dtype"])
+              for name, said in plain.items()}
+    parts = {f.name: filled(f.type) for f in fields(cls) if is_product(f.type) and f.name not in given}
+    return cls(**{**{name: value.tolist() if value.dtype.kind == "U" else value for name, value in values.items()},
+                  **parts, **given})
 
 
 def surface(nodes=48):
@@ -33,8 +46,8 @@ def surface(nodes=48):
     heights = np.stack([disc - disc.mean(), pad - pad.mean()])
     rms = heights.std(axis=(1, 2))
     wavenumber = np.geomspace(6e3, 2e5, 30)
-    return Surface(
-        y=x, x=x, disc_height=heights[0], pad_height=heights[1], disc_depth=np.geomspace(1, 101, 6) * 1e-5 - 1e-5,
+    return filled(
+        Surface, y=x, x=x, disc_height=heights[0], pad_height=heights[1], disc_depth=np.geomspace(1, 101, 6) * 1e-5 - 1e-5,
         pad_depth=np.geomspace(1, 101, 6) * 1e-5 - 1e-5, body=["disc", "pad"],
         source=["generated: turned disc", "generated: plateau pad"], rms_height=rms, mean_height=0.8 * rms,
         peak_to_valley=np.ptp(heights, axis=(1, 2)), skewness=[0.1, -0.6], kurtosis=[2.1, 3.4],
@@ -51,8 +64,8 @@ def micro_friction(nodes=48):
     friction = 0.40 + 0.02 * np.arange(3)[:, None, None] + 0.002 * np.arange(3)[:, None] + 0.2 * worn
     field = np.random.default_rng(2).normal(size=(nodes, nodes))
     x = np.linspace(0, 1e-3, nodes)
-    return MicroFriction(
-        pressure=PRESSURE, speed=SPEED, distance=distance, friction=friction, friction_std=0.02 * friction,
+    return filled(
+        MicroFriction, pressure=PRESSURE, speed=SPEED, distance=distance, friction=friction, friction_std=0.02 * friction,
         real_area=area, wear_depth=7e-7 * worn * np.ones((3, 3, 1)), largest_wear=6e-6 * worn * np.ones((3, 3, 1)),
         normal_stiffness=1e12 * (1 + worn) * np.ones((3, 3, 1)), flash_temperature=5 + 0 * area, shear_limit=13.5e6,
         y=x, x=x, contact_pressure_new=np.clip(field - 1.8, 0, None) * 5e7,
@@ -64,7 +77,7 @@ def micro_friction(nodes=48):
 def friction_map():
     """The map of the friction above, one speed wider than computed."""
     micro = micro_friction(8)
-    return FrictionMap(pressure=PRESSURE, speed=SPEED, distance=micro.distance, friction=micro.friction,
+    return filled(FrictionMap, pressure=PRESSURE, speed=SPEED, distance=micro.distance, friction=micro.friction,
                        friction_std=micro.friction_std, normal_stiffness=micro.normal_stiffness.mean(axis=1),
                        computed_pressure=PRESSURE, computed_speed=SPEED)
 
@@ -78,32 +91,21 @@ def structure():
     angle = np.tile(np.linspace(1.25, 1.85, 6), 2)
     position = np.stack([0.13 * np.cos(angle), 0.13 * np.sin(angle), np.repeat([0.007, 0.0], 6)], axis=1)
     preload = PRESSURE[:, None] * 2e-4 * np.linspace(1.4, 0.6, 12)
-    return Structure(
-        body_name=list(bodies), **bodies, free_frequency=[259.4, 259.4, 431.6, 660.1, 660.1],
+    return filled(
+        Structure, body_name=list(bodies), **bodies, free_frequency=[259.4, 259.4, 431.6, 660.1, 660.1],
         free_diameters=[2, 2, 0, 3, 3], free_out_of_plane=[1.0, 1.0, 1.0, 0.99, 0.99],
-        joint_name=["abutment_outer_leading"], joint=NO_ROWS, joint_stiffness=[1e7], joint_damping=[10.0],
+        joint_name=["abutment_outer_leading"], joint_stiffness=[1e7], joint_damping=[10.0],
         contact_pad=np.repeat([1, 2], 6), contact_position=position, contact_area=np.full(12, 2e-4),
-        contact_normal=NO_ROWS, contact_tangent=NO_ROWS, contact_lateral=NO_ROWS, pressure=PRESSURE, preload=preload,
+        pressure=PRESSURE, preload=preload,
         contact_stiffness=preload * 1e5, closed=np.ones((3, 12), dtype=int), law_closure=[0.0, 1e-6],
         law_pressure=[0.0, 1e6], sensor_name=SENSORS, sensor_position=np.zeros((2, 3)),
-        sensor_direction=np.tile([0.0, 0.0, 1.0], (2, 1)), sensor=NO_ROWS, piston=NO_ROWS, piston_area=2.4e-3)
+        sensor_direction=np.tile([0.0, 0.0, 1.0], (2, 1)), piston_area=2.4e-3)
 
 
-def reduced_model(coordinates=3):
-    """Only what the pictures read of it is meaningful: the visible surface."""
+def reduced_model():
+    """The visible surface of the ring."""
     disc = structure().disc
-    square, wide, contacts = np.eye(coordinates), np.zeros((1, coordinates)), np.zeros((2, coordinates))
-    faces = disc.element[:, 4:8]
-    return ReducedModel(
-        body_name=["disc"], coordinate_body=np.zeros(coordinates, dtype=int), mass=square, damping=square,
-        gyroscopic=0 * square, stiffness=square, centrifugal=0 * square, joint_name=["abutment"], joint=wide,
-        joint_stiffness=[1e7], joint_damping=[1.0], contact_pad=[1, 1], contact_position=np.zeros((2, 3)),
-        contact_area=[1e-4, 1e-4], contact_normal=contacts, contact_tangent=contacts, contact_lateral=contacts,
-        pressure=PRESSURE, preload=np.ones((3, 2)), contact_stiffness=np.ones((3, 2)), law_closure=[0.0, 1e-6],
-        law_pressure=[0.0, 1e6], input_name=["piston"], input=wide, input_area=[2.4e-3], sensor_name=SENSORS,
-        sensor_position=np.zeros((2, 3)), sensor_direction=np.zeros((2, 3)), sensor=np.zeros((2, coordinates)),
-        visible_position=disc.node, visible_body=np.zeros(len(disc.node), dtype=int), visible_face=faces,
-        recovery=np.zeros((len(disc.node), 3, coordinates), dtype=np.float32))
+    return filled(ReducedModel, body_name=["disc"], visible_position=disc.node, visible_face=disc.element[:, 4:8])
 
 
 def complex_modes(stable=False):
@@ -121,8 +123,8 @@ def complex_modes(stable=False):
     angle = np.arctan2(disc.node[:, 1], disc.node[:, 0])
     shape = np.zeros((len(operating), len(disc.node), 3), dtype=complex)
     shape[:, :, 2] = np.exp(5j * angle)
-    return ComplexModes(
-        pressure=PRESSURE, friction=friction, root=root, real_frequency=np.tile(frequency, (3, 1)),
+    return filled(
+        ComplexModes, pressure=PRESSURE, friction=friction, root=root, real_frequency=np.tile(frequency, (3, 1)),
         operating_pressure=OPERATING_PRESSURE, operating_speed=OPERATING_SPEED, operating_friction=mu,
         operating_root=at, unstable_operating=operating[order], unstable_root=at[operating, which][order],
         unstable_shape=shape, corrections=55)
@@ -140,8 +142,8 @@ def multibody(samples=3000):
     factors = np.array([0.3, 0.55, 1.0, 1.8, 3.0])
     stability = 40 * np.log(np.outer(factors, factors)) + rate[:, None, None]
     contact = np.zeros((9, 2, samples), dtype=np.float32)
-    return Multibody(
-        pressure=OPERATING_PRESSURE, speed=OPERATING_SPEED, time=time, pad_name=["outer", "inner"], pad_motion=motion,
+    return filled(
+        Multibody, pressure=OPERATING_PRESSURE, speed=OPERATING_SPEED, time=time, pad_name=["outer", "inner"], pad_motion=motion,
         patch_force=force, normal_force=contact, friction_force=contact, mean_friction=np.linspace(0.41, 0.5, 9),
         growth_rate=rate, oscillation_frequency=np.full(9, 180.0), separated_share=np.zeros(9),
         outside_map_share=np.full(9, 0.01), caliper_factor=factors, abutment_factor=factors, stability=stability)
@@ -155,7 +157,7 @@ def response(samples=2000):
     floor = 1e-12 * (1 + (frequency / 3000) ** 2) ** -1
     spectrum = floor + np.linspace(0.01, 1, 9)[:, None, None] * line * np.ones((1, 2, 1))
     velocity = np.random.default_rng(3).normal(scale=1e-4, size=(9, 2, samples)).astype(np.float32)
-    return Response(pressure=OPERATING_PRESSURE, speed=OPERATING_SPEED, time=time, sensor_name=SENSORS,
+    return filled(Response, pressure=OPERATING_PRESSURE, speed=OPERATING_SPEED, time=time, sensor_name=SENSORS,
                     sensor_position=np.zeros((2, 3)), velocity=velocity, frequency=frequency,
                     velocity_spectrum=spectrum, mode_frequency=np.linspace(260, 19800, 120),
                     mode_damping=np.full(120, 0.002), coupling="assembly")
@@ -166,8 +168,8 @@ def squeal(quiet=False):
     band = 1000 * 2 ** (np.arange(0, 14) / 3)
     level = 60 + 4 * np.arange(9)[:, None] + np.array([0.0, -6.0])
     events = 0 if quiet else 2
-    return Squeal(
-        pressure=OPERATING_PRESSURE, speed=OPERATING_SPEED, sensor_name=SENSORS, reference=5e-8,
+    return filled(
+        Squeal, pressure=OPERATING_PRESSURE, speed=OPERATING_SPEED, sensor_name=SENSORS, reference=5e-8,
         threshold=120.0 if quiet else 88.0, peak_level=level, peak_frequency=np.full((9, 2), SQUEAL_LINE), band=band,
         band_level=level[:, :, None] - 20 + 10 * np.exp(-((band - 16000) / 3000) ** 2),
         event_operating=[7, 8][:events], event_sensor=[0, 0][:events], event_frequency=[16580.0, 16600.0][:events],
@@ -188,7 +190,7 @@ def comparison():
     columns = {name: list(column) for name, column in zip(names, zip(*rows, strict=True), strict=True)}
     for name in ("published", "ours", "tolerance"):
         columns[name] = np.array(columns[name], dtype=float)
-    return Comparison(**columns, note=["read from the product"] * len(rows))
+    return filled(Comparison, **columns, note=["read from the product"] * len(rows))
 
 
 def case():
@@ -226,6 +228,5 @@ def _ring(inner, outer, low, high, start, end, sectors, closed):
     shape = np.zeros((2, len(node), 3))
     turn = np.arctan2(node[:, 1], node[:, 0])
     shape[:, :, 2] = np.cos(np.array([[2], [3]]) * turn)
-    return Body(node=node, element=element, kind="hexahedron20", material=np.zeros(sectors, dtype=int),
-                material_name=["iron"], density=[7200.0], elasticity=np.eye(6)[None] * 1e11, damping_ratio=0.002,
+    return filled(Body, node=node, element=element, kind="hexahedron20", material_name=["iron"], density=[7200.0], elasticity=np.eye(6)[None] * 1e11, damping_ratio=0.002,
                 frequency=[259.4, 660.1], shape=shape, supported=[])

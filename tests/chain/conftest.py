@@ -1,0 +1,41 @@
+"""One undisturbed run of the quick case, made once for all tests of the chain."""
+
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from pipeline.contract import store
+from stages import NAMES
+
+ROOT = Path(__file__).parents[2]
+QUICK = ROOT / "configs" / "disc_brake_quick.yaml"
+
+
+def brakechain(*args, code=0):
+    """Run the command line from the project's root; checks its exit code."""
+    done = subprocess.run([sys.executable, "-m", "pipeline", *map(str, args)], capture_output=True, text=True, cwd=ROOT,
+                          timeout=900)
+    assert done.returncode == code, done.stdout + done.stderr
+    return done
+
+
+def contents(folder):
+    """product -> content hash of every product in a run folder."""
+    return {name: store.identity(folder / f"{name}.h5")[2] for name in NAMES if (folder / f"{name}.h5").exists()}
+
+
+@pytest.fixture(scope="session")
+def finished(tmp_path_factory):
+    """Folder of a finished quick run; read only: copy it before you change it."""
+    folder = tmp_path_factory.mktemp("finished") / "disc_brake_quick"
+    brakechain("run", QUICK, "--run", folder)
+    return folder
+
+
+@pytest.fixture
+def copy(finished, tmp_path):
+    """A copy of the finished run that a test may change."""
+    return Path(shutil.copytree(finished, tmp_path / "run"))

@@ -1,0 +1,67 @@
+"""A finished case computes nothing; a change reruns what it touches, and says so beforehand."""
+
+import pytest
+
+from stages import NAMES
+from tests.chain.conftest import QUICK, brakechain, contents
+
+
+def test_every_product_is_there(finished):
+    assert set(contents(finished)) == set(NAMES)
+    assert (finished / "report.html").stat().st_size > 50_000 and (finished / "friction_map.csv").exists()
+    assert not [p.name for p in finished.glob(".*") if p.name != ".lock"]
+
+
+def test_a_second_run_computes_nothing_and_says_so(finished):
+    assert "nothing to compute" in brakechain("run", QUICK, "--run", finished).stdout
+    assert "up to date" in brakechain("chain", QUICK, "--run", finished).stdout
+
+
+def test_a_changed_setting_reruns_its_stage_and_what_follows(copy):
+    change = ("--run", copy, "--set", "multibody.duration=0.01 s")
+    planned = brakechain("run", QUICK, *change, "--dry-run").stdout
+    before = contents(copy)
+    told = brakechain("run", QUICK, *change).stdout
+    for name in NAMES[:NAMES.index("multibody")]:
+        assert f"{name:<16} up to date" in planned and f"\n{name} " not in f"\n{told}"
+    assert "multibody        would run: setting duration: " in planned and "-> 0.01" in planned
+    for name in NAMES[NAMES.index("multibody"):]:
+        assert f"{name:<16} would run" in planned and f"\n{name} " in f"\n{told}"
+    changed = {name for name, content in contents(copy).items() if content != before[name]}
+    assert {"multibody", "response", "squeal", "report"} <= changed
+
+
+def test_one_step_is_one_command(copy):
+    (copy / "squeal.h5").unlink()
+    assert "squeal" in brakechain("squeal", QUICK, "--run", copy).stdout
+    assert "nothing to compute" in brakechain("squeal", QUICK, "--run", copy).stdout
+    assert "forced" in brakechain("squeal", QUICK, "--run", copy, "--force").stdout
+
+
+def test_until_and_from(copy):
+    told = brakechain("run", QUICK, "--run", copy, "--until", "friction_map", "--force", "surface").stdout
+    assert "surface" in told and "squeal" not in told
+    assert "expected one of" in brakechain("run", QUICK, "--run", copy, "--from", "nothing", code=2).stderr
+
+
+def test_a_damaged_product_is_told_by_a_step_and_mended_by_a_run(copy, finished):
+    damaged = copy / "complex_modes.h5"
+    damaged.write_bytes(damaged.read_bytes()[:3000])
+    told = brakechain("report", QUICK, "--run", copy, "--force", code=4).stderr
+    assert "complex_modes.h5" in told and "truncated or damaged" in told and "Traceback" not in told
+    assert "its file is damaged" in brakechain("run", QUICK, "--run", copy).stdout
+    assert contents(copy) == contents(finished)
+
+
+@pytest.mark.parametrize("name", ["surface", "friction_map", "structure", "complex_modes", "multibody", "squeal"])
+def test_xarray_shows_named_dimensions_and_units(finished, name):
+    xarray = pytest.importorskip("xarray")
+    with xarray.open_dataset(finished / f"{name}.h5", engine="h5netcdf", group="data") as data:
+        assert data.sizes and all("units" in data[v].attrs for v in data.data_vars if data[v].dtype.kind in "fi")
+        assert not any(str(d).startswith("phony") for d in data.sizes)
+
+
+def test_inspect_tells_dimensions_units_and_provenance(finished):
+    told = brakechain("inspect", finished / "friction_map.h5").stdout
+    assert "friction_map version 1" in told and "friction (pressure: " in told and "provenance" in told
+    assert "Pa" in told and "settings" in told
