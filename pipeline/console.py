@@ -81,6 +81,9 @@ class RunContext(context.Context):
         with self.bars.work(label, len(items)) as progress:
             return self.executor.map(function, items, progress.advance)
 
+    def spent_elsewhere(self):
+        return self.executor.spent_elsewhere
+
     @contextmanager
     def progress(self, label, total):
         with self.bars.work(label, total) as progress:

@@ -240,8 +240,9 @@ class Response:
     velocity: Array = quantity("m/s", "operating sensor time", "velocity at the sensors", np.float32)
     frequency: Array = quantity("Hz", "frequency", "frequency axis of the spectra")
     velocity_spectrum: Array = quantity("m^2/s^2/Hz", "operating sensor frequency", "one-sided power spectral density (Welch)")
-    mode_frequency: Array = quantity("Hz", "mode", "natural frequencies of the modes superposed")
-    mode_damping: Array = quantity("1", "mode", "their damping ratios")
+    mode_operating: Array = count("mode", "operating point of the superposed mode")
+    mode_frequency: Array = quantity("Hz", "mode", "its natural frequency")
+    mode_damping: Array = quantity("1", "mode", "its damping ratio, 0 for a rigid motion")
     coupling: Array = text("", "how forces enter: assembly or disc")
 
 
@@ -271,13 +272,13 @@ class Comparison:
     """Published values beside ours, row by row."""
 
     row: Array = text("row", "name of the quantity")
-    section: Array = text("row", "part of the paper: friction, modes, multibody, squeal")
+    section: Array = text("row", "part of the paper: friction, modes, multibody, squeal, bench")
     unit: Array = text("row", "unit in which the row is shown")
     published: Array = quantity("1", "row", "published value in that unit (0 where none)")
     published_known: Array = count("row", "1 where the paper gives a value")
     ours: Array = quantity("1", "row", "our value in that unit (0 where none)")
     ours_known: Array = count("row", "1 where the chain computes the quantity")
-    tolerance: Array = quantity("1", "row", "tolerance in that unit")
+    tolerance: Array = quantity("1", "row", "tolerance in that unit (0 where the row is not compared by a tolerance)")
     verdict: Array = text("row", "within, outside, or not comparable")
     tuned: Array = text("row", "what was tuned to reach the row, empty where nothing")
     source: Array = text("row", "where the paper says so")

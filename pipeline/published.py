@@ -17,7 +17,7 @@ class Published(Section):
     """One published fact: a value with its tolerance, or a statement, perhaps with bounds that it implies."""
 
     key: str = Field(pattern=r"^[a-z][a-z0-9_]*$")
-    part: Literal["friction", "modes", "multibody", "squeal"]
+    part: Literal["friction", "modes", "multibody", "squeal", "bench"]
     role: Literal["input", "simulation", "test", "derived", "condition"]
     quantity: str = Field(min_length=1)
     value: float | None = None

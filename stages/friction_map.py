@@ -28,9 +28,9 @@ def friction_map(micro_friction: MicroFriction, settings: Settings, context: Con
     """Map of the coefficient of friction over pressure, speed and sliding distance.
 
     Method:
-    The computed points are joined by monotone cubics without overshoot (PCHIP along pressure, speed and distance, each interval
-    in {pressure_subdivisions}, {speed_subdivisions} and {distance_subdivisions} parts); users of the map read it
-    multilinearly and, as the paper does, hold it constant outside the computed range.
+    The computed points are joined by monotone cubics without overshoot (PCHIP along pressure, speed and distance, each
+    interval in {pressure_subdivisions}, {speed_subdivisions} and {distance_subdivisions} parts); users of the map read
+    it multilinearly and, as the paper does, hold it constant outside the computed range.
     """
     parts = (settings.pressure_subdivisions, settings.speed_subdivisions, settings.distance_subdivisions)
     axes = (micro_friction.pressure, micro_friction.speed, micro_friction.distance)

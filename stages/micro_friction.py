@@ -13,21 +13,26 @@ from pipeline.physics.rough_surface import resample
 from pipeline.products import MicroFriction, Surface
 
 
-class Solid(Section):
-    """Elastic and thermal data of one solid."""
+class Iron(Section):
+    """Cast iron of the disc."""
 
-    youngs_modulus: Quantity("Pa", gt=0)
-    poisson_ratio: float = option(..., "Poisson ratio", ge=0, lt=0.5)
-    conductivity: Quantity("W/m/K", gt=0)
-    density: Quantity("kg/m^3", gt=0)
-    heat_capacity: Quantity("J/K/kg", gt=0)
-    wear_coefficient: Quantity("m^2/N", ge=0)
+    youngs_modulus: Quantity("Pa", gt=0) = option("110 GPa", "Young's modulus")
+    poisson_ratio: float = option(0.26, "Poisson ratio", ge=0, lt=0.5)
+    conductivity: Quantity("W/m/K", gt=0) = option("50 W/m/K", "thermal conductivity")
+    density: Quantity("kg/m^3", gt=0) = option("7200 kg/m^3", "density")
+    heat_capacity: Quantity("J/K/kg", gt=0) = option("500 J/K/kg", "heat capacity")
+    wear_coefficient: Quantity("m^2/N", ge=0) = option("4e-7 mm^2/N", "Archard wear depth per pressure and distance")
 
 
-IRON = {"youngs_modulus": "110 GPa", "poisson_ratio": 0.26, "conductivity": "50 W/m/K", "density": "7200 kg/m^3",
-        "heat_capacity": "500 J/K/kg", "wear_coefficient": "4.5e-7 mm^2/N"}
-LINING = {"youngs_modulus": "0.25 GPa", "poisson_ratio": 0.25, "conductivity": "1 W/m/K", "density": "2200 kg/m^3",
-          "heat_capacity": "1000 J/K/kg", "wear_coefficient": "4.5e-6 mm^2/N"}
+class Lining(Section):
+    """Surface layer of the pad, far softer than its bulk; modulus and wear are tuned to the published contact area."""
+
+    youngs_modulus: Quantity("Pa", gt=0) = option("0.235 GPa", "Young's modulus")
+    poisson_ratio: float = option(0.25, "Poisson ratio", ge=0, lt=0.5)
+    conductivity: Quantity("W/m/K", gt=0) = option("1 W/m/K", "thermal conductivity")
+    density: Quantity("kg/m^3", gt=0) = option("2200 kg/m^3", "density")
+    heat_capacity: Quantity("J/K/kg", gt=0) = option("1000 J/K/kg", "heat capacity")
+    wear_coefficient: Quantity("m^2/N", ge=0) = option("4e-6 mm^2/N", "Archard wear depth per pressure and distance")
 
 
 class Settings(Section):
@@ -36,18 +41,17 @@ class Settings(Section):
     pressures: Quantities("Pa", gt=0) = option(("1 MPa", "2 MPa", "3 MPa"), "nominal contact pressures, rising")
     disc_speeds: Quantities("rad/s", gt=0) = option(("8.5 rad/s", "10.25 rad/s", "12 rad/s"), "disc speeds, rising")
     effective_radius: Quantity("m", gt=0) = option("128 mm", "radius at which the disc speed is the sliding speed")
-    disc: Solid = option(Solid(**IRON), "cast iron of the disc")
-    pad: Solid = option(Solid(**LINING), "surface layer of the pad")
+    disc: Iron = option(Iron(), "cast iron of the disc")
+    pad: Lining = option(Lining(), "surface layer of the pad")
     disc_strength: Quantity("Pa", gt=0) = option("234 MPa", "sigma_e of the disc in tau_max = factor sigma_e / sqrt(3)")
     third_body_factor: float = option(0.1, "shear strength of the third body over that of the disc", gt=0, le=1)
     rate_coefficient: float = option(0.015, "relative rise of the shear limit per unit of ln(speed)", ge=0)
     reference_speed: Quantity("rad/s", gt=0) = option("10.25 rad/s", "disc speed at which the shear limit is declared")
     softening: Quantity("1/K", ge=0) = option("5e-4 1/K", "relative loss of the shear limit per kelvin of flash rise")
-    cycles: int = option(200, "wear cycles", ge=1)
-    cycle_distance: Quantity("m", gt=0) = option("50 um", "sliding distance that one cycle stands for")
+    cycles: int = option(200, "wear cycles up to the last recorded distance", ge=1)
     stroke: Quantity("m", ge=0) = option("50 um", "pass of the slider before it returns to its start")
     recorded_distances: Quantities("m", ge=0) = option(
-        ("0 mm", "0.3 mm", "1 mm", "2.5 mm", "5 mm", "7.5 mm", "10 mm"), "sliding distances of the table, rising from 0")
+        ("0 mm", "0.3 mm", "1 mm", "2.5 mm", "5 mm", "7.5 mm", "10 mm"), "distances of the table, rising from 0")
     realisations: int = option(3, "relative positions of the two patches, averaged", ge=2)
     seed: int = option(7, "seed of the relative positions", ge=0)
     refinement: tuple[float, ...] = option((0.5, 1.0, 2.0), "grid factors of the convergence study of the contact area")
@@ -62,11 +66,14 @@ def micro_friction(surface: Surface, settings: Settings, context: Context) -> Mi
     Method:
     Two rough elastic blocks of hex8 finite elements, condensed exactly to their surface by DFT, are pressed together
     (Polonsky and Keer's conjugate gradients) and sheared to full slip under the shear limit {third_body_factor} *
-    {disc_strength} Pa / sqrt(3); Archard wear on both surfaces over {cycles} cycles of {cycle_distance} m. The coefficient
-    of friction is the sum of shear over the sum of normal force, with the real area corrected for its perimeter (Yastrebov
-    et al. 2017), mean over one pass of the slider and {realisations} relative positions of the patches. Speed enters
-    through a rate term ({rate_coefficient}) and thermal softening ({softening} 1/K) of the shear limit.
+    {disc_strength} Pa / sqrt(3); Archard wear on both surfaces follows in {cycles} cycles. The coefficient of friction
+    is the sum of shear over the sum of normal force, with the real area corrected for its perimeter (Yastrebov et al.
+    2017), mean over one pass of the slider and {realisations} relative positions of the patches. Speed enters through a
+    rate term ({rate_coefficient}) and thermal softening ({softening} 1/K) of the limit. The modulus of the pad surface,
+    the third-body factor and the wear coefficients are tuned to the published contact area, friction and approach.
     """
+    for name in ("pressures", "disc_speeds"):
+        _refuse_falling(getattr(settings, name), name)
     speeds = np.array(settings.disc_speeds) * settings.effective_radius
     recorded = _recorded_cycles(settings)
     offsets = np.random.default_rng(settings.seed).integers(0, surface.x.size, (settings.realisations, 2))
@@ -79,20 +86,30 @@ def micro_friction(surface: Surface, settings: Settings, context: Context) -> Mi
                         settings.refinement, "convergence of the contact area")
     shown = records[len(settings.pressures) // 2 * settings.realisations]
     return MicroFriction(
-        pressure=settings.pressures, speed=speeds, distance=np.array(recorded) * settings.cycle_distance,
+        pressure=settings.pressures, speed=speeds, distance=np.array(recorded) * _cycle_distance(settings),
         **_table(records, settings), shear_limit=_shear_limit(settings), x=surface.x, y=surface.y,
         refinement=np.array(settings.refinement) * surface.nodes_per_wavelength[0], refinement_area=areas,
         **{name: getattr(shown, name) for name in
            ("contact_pressure_new", "contact_pressure_worn", "pad_wear", "disc_wear")})
 
 
+def _refuse_falling(values, name):
+    if any(high <= low for low, high in zip(values, values[1:], strict=False)):
+        raise ConfigError(f"micro_friction.{name}", "strictly rising values", str(list(values)))
+
+
+def _cycle_distance(settings):
+    return settings.recorded_distances[-1] / settings.cycles
+
+
 def _recorded_cycles(settings):
-    cycles = [round(distance / settings.cycle_distance) for distance in settings.recorded_distances]
-    rising = all(low < high for low, high in zip(cycles, cycles[1:], strict=False))
-    if cycles[0] != 0 or cycles[-1] > settings.cycles or not rising:
-        raise ConfigError("micro_friction.recorded_distances",
-                          f"distances rising from 0 to at most {settings.cycles * settings.cycle_distance:g} m, a cycle or"
-                          f" more apart", str(list(settings.recorded_distances)), "raise cycles or cycle_distance")
+    """The cycles nearest to the recorded distances."""
+    distances, step = settings.recorded_distances, _cycle_distance(settings)
+    _refuse_falling(distances, "recorded_distances")
+    cycles = [round(distance / step) for distance in distances] if step > 0.0 else [0, 0]
+    if cycles[0] != 0 or len(set(cycles)) < len(cycles):
+        raise ConfigError("micro_friction.recorded_distances", "two or more distances from 0, at least one wear cycle"
+                          f" ({step:g} m) apart", str(list(distances)), "raise cycles")
     return cycles
 
 
@@ -118,12 +135,13 @@ def _split(depth, parts):
 def _slide(task, pair, speeds, recorded, settings):
     pressure, offset = task
     shifted = RoughPair(np.roll(pair.pad_height, offset, (0, 1)), pair.disc_height, pair.spacing, pair.compliance)
-    wearing = Wearing(recorded[-1], settings.cycle_distance, round(settings.stroke / pair.spacing[1]),
+    wearing = Wearing(settings.cycles, _cycle_distance(settings), round(settings.stroke / pair.spacing[1]),
                       settings.pad.wear_coefficient, settings.disc.wear_coefficient)
     pad, disc = (ThermalSolid(s.conductivity, s.density, s.heat_capacity) for s in (settings.pad, settings.disc))
     shearing = Shearing(_shear_limit(settings), settings.reference_speed * settings.effective_radius,
                         settings.rate_coefficient, settings.softening, pad, disc)
-    return slide(shifted, pressure, speeds, recorded, wearing, shearing, Solving(settings.tolerance, settings.max_iterations))
+    solving = Solving(settings.tolerance, settings.max_iterations)
+    return slide(shifted, pressure, speeds, recorded, wearing, shearing, solving)
 
 
 def _area_on_grid(factor, surface, settings, pressure):
@@ -143,4 +161,5 @@ def _table(records, settings):
     approach = every("approach")
     return {**{name: every(name).mean(axis=1) for name in same},
             "friction_std": every("friction").std(axis=1, ddof=1) / np.sqrt(settings.realisations),
-            "wear_depth": (approach - approach[..., :1]).mean(axis=1), "largest_wear": every("largest_wear").max(axis=1)}
+            "wear_depth": (approach - approach[..., :1]).mean(axis=1),
+            "largest_wear": every("largest_wear").max(axis=1)}

@@ -1,9 +1,8 @@
 """Stage surface: the two rough surfaces, from scans or from the seeded generators."""
 
-from typing import Annotated, Literal
+from typing import Literal
 
 import numpy as np
-from pydantic import Field
 
 from pipeline.contract import ConfigError, Context, InputFile, Quantity, Section, option, stage
 from pipeline.physics.layered_solid import graded_depth
@@ -61,12 +60,12 @@ class Settings(Section):
 
     nodes: int = option(128, "grid nodes along each edge of the patch", ge=8)
     patch_length: Quantity("m", gt=0) = option("1 mm", "edge of the square periodic patch")
-    shortest_wavelength: Quantity("m", gt=0) = option("62.5 um", "short cut-off; contact area converges at 8 nodes on it")
+    shortest_wavelength: Quantity("m", gt=0) = option("62.5 um", "short cut-off; put 8 or more nodes on it")
     disc_thickness: Quantity("m", gt=0) = option("1 mm", "depth of the disc block under its surface")
     pad_thickness: Quantity("m", gt=0) = option("1 mm", "depth of the pad block under its surface")
-    layer_growth: float = option(1.5, "thickness ratio of neighbouring FE layers; the first is as thick as the grid", ge=1)
-    disc: Annotated[TurnedDisc | Scan, Field(discriminator="kind")] = option(TurnedDisc(), "surface of the disc")
-    pad: Annotated[PlateauPad | Scan, Field(discriminator="kind")] = option(PlateauPad(), "surface of the pad")
+    layer_growth: float = option(1.5, "thickness ratio of neighbouring FE layers; the first is a grid cube", ge=1)
+    disc: TurnedDisc | Scan = option(TurnedDisc(), "surface of the disc", discriminator="kind")
+    pad: PlateauPad | Scan = option(PlateauPad(), "surface of the pad", discriminator="kind")
 
 
 @stage
@@ -74,10 +73,10 @@ def surface(settings: Settings, context: Context) -> Surface:
     """Rough surfaces of disc and pad, from scans or seeded generators.
 
     Method:
-    Both surfaces live on one periodic patch of {patch_length} m edge with {nodes} nodes per edge and no wavelength below
-    {shortest_wavelength} m. Scans lose outliers by a local median test, holes by harmonic filling and their quadratic
-    form, fade periodically at the margins and are scaled to the declared rms height; generated surfaces are a turned disc
-    (tool marks, roughness, grain outbreaks) and a pad of rough plateaus over a smoother matrix.
+    Both surfaces live on one periodic patch of {patch_length} m edge with {nodes} nodes per edge and no wavelength
+    below {shortest_wavelength} m. Scans lose outliers by a local median test, holes by harmonic filling and their
+    quadratic form, fade periodically at the margins and are scaled to the declared rms height; generated surfaces are
+    a turned disc (tool marks, roughness, grain outbreaks) and a pad of rough plateaus over a smoother matrix.
     """
     spacing = settings.patch_length / settings.nodes
     if settings.shortest_wavelength < 2.0 * spacing:
@@ -108,7 +107,8 @@ def _make(body, choice, settings):
     generate = turned_disc if body == "disc" else plateau_pad
     height = generate(settings.nodes, settings.patch_length, settings.shortest_wavelength,
                       **choice.model_dump(exclude={"kind"}))
-    return {"height": height, "source": f"generated: {generate.__name__}, seed {choice.seed}", "outliers": 0.0, "filled": 0.0}
+    source = f"generated: {generate.__name__}, seed {choice.seed}"
+    return {"height": height, "source": source, "outliers": 0.0, "filled": 0.0}
 
 
 def _measured(body, choice, settings):

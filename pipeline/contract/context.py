@@ -43,6 +43,10 @@ class Context:
                 progress.advance()
         return results
 
+    def spent_elsewhere(self):
+        """CPU seconds that tasks of ``map`` have spent in other processes so far."""
+        return 0.0
+
     @contextmanager
     def progress(self, label, total):
         """A Progress for ``total`` steps of the work called ``label``."""

@@ -19,19 +19,23 @@ _ONE_TASK = threading.Lock()
 
 
 def run_task(function, item):
-    """One task, as every executor runs it."""
+    """One task, as every executor runs it: its result and the CPU seconds it took."""
     os.environ.update(ONE_THREAD)
     with _ONE_TASK, threadpool_limits(1):
-        return function(item)
+        begin = time.process_time()
+        return function(item), time.process_time() - begin
 
 
 class InProcess:
     """One task after the other, here."""
 
+    spent_elsewhere = 0.0   # CPU seconds of tasks in other processes
+
     def map(self, function, items, done):
+        """Results in the order of ``items``; ``done()`` is called after each."""
         results = []
         for item in items:
-            results.append(run_task(function, item))
+            results.append(run_task(function, item)[0])
             done()
         return results
 
@@ -43,22 +47,23 @@ class LocalProcesses:
     """``workers`` processes on this machine, started when first needed."""
 
     def __init__(self, workers):
-        self.workers, self._pool = workers, None
+        self.workers, self._pool, self.spent_elsewhere = workers, None, 0.0
 
     def map(self, function, items, done):
+        """Results in the order of ``items``; ``done()`` is called after each."""
         if self._pool is None:
             os.environ.update(ONE_THREAD)
             self._pool = ProcessPoolExecutor(self.workers, multiprocessing.get_context("spawn"), _follow, (os.getpid(),))
         futures = [self._pool.submit(run_task, function, item) for item in items]
         try:
             for future in as_completed(futures):
-                future.result()
+                self.spent_elsewhere += future.result()[1]
                 done()
         except BaseException:
             for future in futures:
                 future.cancel()
             raise
-        return [future.result() for future in futures]
+        return [future.result()[0] for future in futures]
 
     def close(self):
         if self._pool is not None:
@@ -80,6 +85,7 @@ class DaskCluster:
     """The workers of the Dask scheduler at ``address``; they must run the same brakechain."""
 
     def __init__(self, address, code):
+        self.spent_elsewhere = 0.0
         try:
             from distributed import Client
         except ImportError:
@@ -106,17 +112,18 @@ class DaskCluster:
                                   "install the same version there and restart the worker")
 
     def map(self, function, items, done):
+        """Results in the order of ``items``; ``done()`` is called after each."""
         from distributed import as_completed as completed
 
         futures = [self._client.submit(run_task, function, item, pure=False) for item in items]
         try:
             for future in completed(futures):
-                future.result()
+                self.spent_elsewhere += future.result()[1]
                 done()
         except BaseException:
             self._client.cancel(futures)
             raise
-        return self._client.gather(futures)
+        return [result for result, _ in self._client.gather(futures)]
 
     def close(self):
         self._client.close()

@@ -4,7 +4,6 @@ import fcntl
 import json
 import os
 import platform
-import resource
 import subprocess
 import time
 from contextlib import contextmanager
@@ -127,7 +126,7 @@ class Run:
         inputs = {name: store.read(product, self.path(product)) if product else None
                   for name, product in self.filled(stage).items()}
         now = self.fingerprint(stage)
-        wall, cpu = time.perf_counter(), _cpu_seconds()
+        wall, cpu = time.perf_counter(), _cpu_seconds(context)
         with context.stage(stage):
             output = stage.run(**inputs, settings=self.case.sections[stage.name], context=context)
         seconds = time.perf_counter() - wall
@@ -139,7 +138,7 @@ class Run:
             "settings": json.dumps(self.case.given(stage), default=str), "fingerprint": json.dumps(asdict(now)),
             "companions": json.dumps(sorted(companions)), "packages": json.dumps(_packages()),
             "python": platform.python_version(), "machine": platform.machine(), "wall_seconds": seconds,
-            "cpu_seconds": _cpu_seconds() - cpu})
+            "cpu_seconds": _cpu_seconds(context) - cpu})
         return seconds
 
 
@@ -188,9 +187,8 @@ def _sweep(folder):
         partial.unlink()
 
 
-def _cpu_seconds():
-    usage = [resource.getrusage(who) for who in (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN)]
-    return sum(u.ru_utime + u.ru_stime for u in usage)
+def _cpu_seconds(context):
+    return time.process_time() + context.spent_elsewhere()
 
 
 def _packages():

@@ -8,8 +8,8 @@ from pipeline.physics.linear_solver import factorise
 
 #: largest accepted error of an eigenvalue of the shifted problem, relative
 _TOLERANCE = 1e-7
-#: automatic shift, as a share of the largest ratio of stiffness and mass diagonals
-_SHIFT_SHARE = 1e-8
+#: automatic shift: share of the frequency limit, or of the largest ratio of stiffness and mass diagonals
+_LIMIT_SHARE, _DIAGONAL_SHARE = 0.1, 1e-6
 #: modes sought beyond those counted
 _SPARE = 2
 #: below this size, dense
@@ -30,7 +30,7 @@ def lowest_modes(stiffness, mass, solver, count=None, below=None, shift=None):
     solver : "pypardiso" or "superlu"
     count : number of modes, or
     below : frequency [Hz] below which all modes are wanted
-    shift : the factorised matrix is K + (2 pi shift)^2 M [Hz]; chosen from the diagonals by default
+    shift : the factorised matrix is K + (2 pi shift)^2 M [Hz]; chosen by itself by default
 
     Returns
     -------
@@ -46,7 +46,7 @@ def lowest_modes(stiffness, mass, solver, count=None, below=None, shift=None):
     wanted = count if below is None else _modes_below(stiffness, mass, solver, below)
     if wanted is not None and wanted > stiffness.shape[0]:
         raise ConfigError("lowest_modes", f"at most {stiffness.shape[0]} modes", str(wanted))
-    offset = _offset(stiffness, mass) if shift is None else (2 * np.pi * shift)**2
+    offset = _offset(stiffness, mass, below) if shift is None else (2 * np.pi * shift)**2
     square, shape = _solve(stiffness, mass, solver, wanted + _SPARE * (below is not None), offset)
     frequency = np.sqrt(np.maximum(square, 0)) / (2 * np.pi)
     if below is not None:
@@ -67,8 +67,10 @@ def _modes_below(stiffness, mass, solver, below):
     return negative
 
 
-def _offset(stiffness, mass):
-    return _SHIFT_SHARE * (stiffness.diagonal() / mass.diagonal()).max()
+def _offset(stiffness, mass, below):
+    if below is not None:
+        return (2 * np.pi * _LIMIT_SHARE * below)**2
+    return _DIAGONAL_SHARE * (stiffness.diagonal() / mass.diagonal()).max()
 
 
 def _solve(stiffness, mass, solver, count, offset):
@@ -86,50 +88,42 @@ def _solve(stiffness, mass, solver, count, offset):
 
 
 def _lanczos(factor, mass, count):
-    """Smallest ``count`` eigenvalues of (A, M) and their vectors, A = L D L^T given by its factor.
+    """Smallest ``count`` eigenvalues of (A, M) and their vectors; ``factor`` solves with A.
 
     Block Lanczos on A^-1 M with full reorthogonalisation in the mass norm (Grimes, Lewis and
     Simon 1994, without restart): whole blocks keep double modes together and solve several
     right-hand sides at once.
     """
     size, most = mass.shape[0], min(_LONGEST * count + 20 * _BLOCK, mass.shape[0] // 2)
-    basis = np.empty((size, most + _BLOCK), order="F")
-    inverse = np.zeros((most, most))
-    start = np.random.default_rng(0).standard_normal((size, _BLOCK))
-    basis[:, :_BLOCK], _ = _orthonormal(factor.solve(mass @ start), mass)
+    basis, inertia = (np.empty((size, most + _BLOCK), order="F") for _ in range(2))
+    inverse = np.zeros((most + _BLOCK, most + _BLOCK))
+    start = factor.solve(mass @ np.random.default_rng(0).standard_normal((size, _BLOCK)))
+    basis[:, :_BLOCK], inertia[:, :_BLOCK], _ = _orthonormal(start, mass)
     for done in range(_BLOCK, most + 1, _BLOCK):
-        known, now = basis[:, :done], slice(done - _BLOCK, done)
-        image, component = _without(known, factor.solve(mass @ basis[:, now]), mass)
-        inverse[:done, now] = component
-        inverse[now, :done] = component.T
-        basis[:, done:done + _BLOCK], rest = _orthonormal(image, mass)
+        now, after = slice(done - _BLOCK, done), slice(done, done + _BLOCK)
+        recent = slice(max(done - 2 * _BLOCK, 0), done)
+        image = factor.solve(inertia[:, now])
+        inverse[recent, now] = inertia[:, recent].T @ image
+        image -= basis[:, recent] @ inverse[recent, now]
+        image -= basis[:, :done] @ (inertia[:, :done].T @ image)
+        basis[:, after], inertia[:, after], rest = _orthonormal(image, mass)
         if done >= count and (done - count) // _BLOCK % _CHECK_EVERY == 0:
-            value, vector = eigh(inverse[:done, :done], subset_by_index=(done - count, done - 1))
+            value, vector = eigh(inverse[:done, :done], subset_by_index=(done - count, done - 1), lower=False)
             error = np.linalg.norm(rest @ vector[-_BLOCK:], axis=0) / value
             if error.max() < _LANCZOS_TOLERANCE:
-                return 1 / value[::-1], known @ vector[:, ::-1]
-    raise ConvergenceError("lowest_modes", f"{count} modes within {most} Lanczos vectors",
-                           f"{int((error < _LANCZOS_TOLERANCE).sum())}", "change the shift or ask for fewer modes")
-
-
-def _without(known, image, mass):
-    """``image`` made orthogonal to the ``known`` vectors in the mass norm, twice, and what was taken away."""
-    total = 0.0
-    for _ in range(2):
-        component = known.T @ (mass @ image)
-        image = image - known @ component
-        total = total + component
-    return image, total
+                return 1 / value[::-1], basis[:, :done] @ vector[:, ::-1]
+    raise ConvergenceError("lowest_modes", f"{count} modes within {most} Lanczos vectors", "less",
+                           "change the shift or ask for fewer modes")
 
 
 def _orthonormal(block, mass):
-    """Mass-orthonormal basis Q of the columns and R, block = Q R; Cholesky twice."""
-    upper = np.eye(block.shape[1])
+    """Mass-orthonormal basis Q of the columns, M Q, and R with block = Q R; Cholesky twice."""
+    inertia, upper = mass @ block, np.eye(block.shape[1])
     for _ in range(2):
-        factor = cholesky(block.T @ (mass @ block))
-        block = solve_triangular(factor, block.T, trans="T").T
+        factor = cholesky(block.T @ inertia)
+        block, inertia = (solve_triangular(factor, b.T, trans="T").T for b in (block, inertia))
         upper = factor @ upper
-    return block, upper
+    return block, inertia, upper
 
 
 def _refuse_inaccurate(factor, mass, shifted, shape):

@@ -19,10 +19,11 @@ _CUBE = np.array([
     (0, 0, .5), (1, 0, .5), (1, 1, .5), (0, 1, .5),
     (0, .5, .5), (1, .5, .5), (.5, 0, .5), (.5, 1, .5), (.5, .5, 0), (.5, .5, 1), (.5, .5, .5)])
 _SQUARE = np.array([(0, 0), (1, 0), (1, 1), (0, 1), (.5, 0), (1, .5), (.5, 1), (0, .5), (.5, .5)])
-#: meshio cell type -> (scikit-fem element, reference vertices, order of quadrature)
-_ELEMENT = {"hexahedron": ("ElementHex1", _CUBE[:8], 3), "hexahedron20": ("ElementHexS2", _CUBE[:20], 5),
-            "hexahedron27": ("ElementHex2", _CUBE, 5), "quad": ("ElementQuad1", _SQUARE[:4], 3),
-            "quad8": ("ElementQuadS2", _SQUARE[:8], 5), "quad9": ("ElementQuad2", _SQUARE, 5)}
+#: meshio cell type -> (scikit-fem element, reference vertices, order of quadrature, order for the stiffness).
+#: The 2 x 2 x 2 points of hexahedron20 make thin parts bend freely; its hourglass shapes cannot spread to neighbours.
+_ELEMENT = {"hexahedron": ("ElementHex1", _CUBE[:8], 3, 3), "hexahedron20": ("ElementHexS2", _CUBE[:20], 5, 3),
+            "hexahedron27": ("ElementHex2", _CUBE, 5, 5), "quad": ("ElementQuad1", _SQUARE[:4], 3, 3),
+            "quad8": ("ElementQuadS2", _SQUARE[:8], 5, 5), "quad9": ("ElementQuad2", _SQUARE, 5, 5)}
 #: (row, column) of the symmetric tensor behind each of the six strains
 _VOIGT = ((0, 0), (1, 1), (2, 2), (1, 2), (0, 2), (0, 1))
 _BATCH = 256
@@ -70,14 +71,17 @@ def assemble(node, element, kind, material, density, elasticity):
     """
     elasticity, density = np.asarray(elasticity), np.asarray(density)
 
-    def matrices(gradient, shape, volume, rows):
+    def stiffnesses(gradient, shape, volume, rows):
         strain = _strain(gradient)
         stress = elasticity[material[rows]][:, None] @ (strain * volume[..., None, None])
         e, q, _, n = strain.shape
-        stiffness = strain.reshape(e, 6 * q, n).swapaxes(1, 2) @ stress.reshape(e, 6 * q, n)
-        return stiffness, _products(shape, shape, volume * density[material[rows]][:, None])
+        return (strain.reshape(e, 6 * q, n).swapaxes(1, 2) @ stress.reshape(e, 6 * q, n),)
 
-    stiffness, mass = _element_matrices(node, element, kind, matrices)
+    def masses(gradient, shape, volume, rows):
+        return (_products(shape, shape, volume * density[material[rows]][:, None]),)
+
+    stiffness, = _element_matrices(node, element, kind, stiffnesses, reduced=True)
+    mass, = _element_matrices(node, element, kind, masses)
     return sum_blocks(stiffness, element, len(node)), _sum_scalars(mass, element, len(node))
 
 
@@ -154,11 +158,11 @@ def shape_functions(kind, point):
 
 
 @cache
-def quadrature(kind):
+def quadrature(kind, reduced=False):
     """Gauss points (q, d) and weights (q,) of the reference cell, sum of weights 1."""
     from skfem.quadrature import get_quadrature
 
-    point, weight = get_quadrature(_finite_element(kind)[0], _ELEMENT[kind][2])
+    point, weight = get_quadrature(_finite_element(kind)[0], _ELEMENT[kind][3 if reduced else 2])
     return point.T, weight
 
 
@@ -173,9 +177,9 @@ def _finite_element(kind):
     return finite, np.argmin(distance, axis=1)
 
 
-def _element_matrices(node, element, kind, matrices):
+def _element_matrices(node, element, kind, matrices, reduced=False):
     """Run ``matrices(gradient, shape, volume, rows)`` over batches of elements; join the results."""
-    point, weight = quadrature(kind)
+    point, weight = quadrature(kind, reduced)
     shape, reference_gradient = shape_functions(kind, point)
     results = []
     for start in range(0, len(element), _BATCH):

@@ -28,10 +28,11 @@ def face_points(node, face):
     return np.einsum("qv,fvx->fqx", shape, node[face]), area * weight
 
 
-def interpolation(node, face, point, where="surface point", distance=1e-6):
+def interpolation(node, face, point, where="surface point", distance=1e-6, slack=_SLACK):
     """Face (p,) and vertex weights (p, v) of each (p, 3) point on the faces.
 
-    ``distance`` [m] is how far off the surface a point may lie; farther raises ConfigError.
+    ``distance`` [m] is how far off the surface a point may lie, ``slack`` how far beside its face, in sizes of the
+    face; farther raises ConfigError.
     """
     kind, tree = face_kind(face), cKDTree(node[face[:, :4]].mean(axis=1))
     found = np.full(len(point), -1)
@@ -42,7 +43,7 @@ def interpolation(node, face, point, where="surface point", distance=1e-6):
         if not len(missing):
             break
         inner, gap = _project(node[face[candidate[missing]]], kind, point[missing])
-        inside = (np.abs(inner - 0.5).max(axis=1) < 0.5 + _SLACK) & (gap < distance)
+        inside = (np.abs(inner - 0.5).max(axis=1) < 0.5 + slack) & (gap < distance)
         found[missing[inside]] = candidate[missing[inside]]
         local[missing[inside]] = inner[inside]
     if (found < 0).any():

@@ -26,7 +26,7 @@ class ThermalSolid:
 
 
 def surface_rise(flux, spacing, solid, speed):
-    """Temperature rise map (ny, nx) in K by a heat ``flux`` map in W/m^2 that moves along x at ``speed`` over ``solid``."""
+    """Temperature rise (ny, nx) in K by a heat ``flux`` map in W/m^2 that moves along x at ``speed`` over ``solid``."""
     wave_y = 2 * np.pi * np.fft.fftfreq(flux.shape[0], spacing[0])[:, None]
     wave_x = 2 * np.pi * np.fft.rfftfreq(flux.shape[1], spacing[1])[None, :]
     root = np.sqrt(wave_y ** 2 + wave_x ** 2 + 1j * wave_x * speed / solid.diffusivity)
@@ -38,8 +38,8 @@ def surface_rise(flux, spacing, solid, speed):
 def spot_heating(contact, spacing, resting, passing, speed):
     """Mean flash rise of the contact spots per shear limit, in K/Pa.
 
-    ``contact`` (ny, nx) is the mask of spots, each dissipating shear limit * ``speed``; ``resting`` and ``passing`` are the
-    ThermalSolids on which the spots rest and over which they move.
+    ``contact`` (ny, nx) is the mask of spots, each dissipating shear limit * ``speed``; ``resting`` and ``passing`` are
+    the ThermalSolids on which the spots rest and over which they move.
     """
     flux = np.where(contact, speed, 0.0)
     rest = surface_rise(flux, spacing, resting, 0.0)[contact].mean()

@@ -12,6 +12,9 @@ import numpy as np
 
 from pipeline.physics.faces import interpolation
 
+#: how far beside its face a point may lie, in sizes of the face: edges are parabolas where a rim is a circle
+_BESIDE = 0.01
+
 
 @dataclass(frozen=True)
 class Weights:
@@ -24,9 +27,10 @@ class Weights:
 def locate(node, face, point):
     """Weights of the points (p, 3) [m] on the faces (f, corner) of a body with nodes (n, 3) [m].
 
-    Raises ConfigError where a point lies on no face.
+    A point may lie a hundredth of a face or 1 um beside the faces, as points of a circular rim do; raises
+    ConfigError beyond that.
     """
-    found, share = interpolation(node, face, point, "force mapping")
+    found, share = interpolation(node, face, point, "force mapping", slack=_BESIDE)
     return Weights(face[found], share)
 
 

@@ -59,10 +59,8 @@ def layered_compliance(shape, spacing, depth, youngs_modulus, poisson_ratio):
         element = brick_stiffness((spacing[1], spacing[0], thickness), youngs_modulus, poisson_ratio)
         layer = _symbol(element, phases)
         top, coupling, bottom = layer[..., :3, :3], layer[..., :3, 3:], layer[..., 3:, 3:]
-        if below is None:
-            below = top
-        else:
-            below = top - coupling @ np.linalg.solve(bottom + below, layer[..., 3:, :3])
+        clamped = below is None
+        below = top if clamped else top - coupling @ np.linalg.solve(bottom + below, layer[..., 3:, :3])
     compliance = np.linalg.inv(below).real * (spacing[0] * spacing[1])
     return SurfaceCompliance(compliance[..., 2, 2].copy(), compliance[..., 0, 0].copy(),
                              compliance[..., 1, 1].copy(), compliance[..., 0, 1].copy())

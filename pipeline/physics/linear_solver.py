@@ -17,6 +17,8 @@ _SEQUENTIAL, _CONDITIONAL_BITS_AUTO = 1, 2      # constants of mkl_service.h
 _ANALYSE_AND_FACTORISE, _SOLVE, _RELEASE = 12, 33, -1
 #: a factor whose solution misses a seeded right-hand side by more is that of a singular matrix
 _SINGULAR = 1e-4
+#: a factor without row exchanges is kept while it is as good as this
+_ACCURATE = 1e-8
 
 
 def available():
@@ -49,7 +51,9 @@ def factorise(matrix, solver, symmetric=True):
     if (np.diff(matrix.indptr) == 0).any():
         raise _singular(matrix, "an empty row")
     factor = _BACKENDS[solver](matrix, symmetric)
-    _refuse_singular(matrix, factor)
+    miss = _miss(matrix, factor)
+    if not miss < _SINGULAR:
+        raise _singular(matrix, f"a relative residual of {miss:.1e}")
     return factor
 
 
@@ -68,14 +72,15 @@ class _Factor:
 
 
 class _SuperLU(_Factor):
+    """Symmetric matrices are first tried without row exchanges, which keeps the inertia readable."""
+
     def __init__(self, matrix, symmetric):
         self.dtype = np.result_type(matrix.dtype, np.float64)
-        options = {"options": {"SymmetricMode": True}, "diag_pivot_thresh": 1e-3} if symmetric else {}
-        ordering = "MMD_AT_PLUS_A" if symmetric else "COLAMD"
-        try:
-            self._factor = splu(matrix.astype(self.dtype).tocsc(), permc_spec=ordering, **options)
-        except RuntimeError as error:
-            raise _singular(matrix, str(error)) from None
+        columns = matrix.astype(self.dtype).tocsc()
+        for threshold in (0.0, 1.0) if symmetric else (1.0,):
+            self._factor = _lu(columns, symmetric, threshold)
+            if _miss(matrix, self) < _ACCURATE:
+                break
         if symmetric and self.dtype == np.float64:
             self.negative = self._inertia()
 
@@ -87,6 +92,14 @@ class _SuperLU(_Factor):
 
     def _solve(self, columns):
         return self._factor.solve(columns)
+
+
+def _lu(columns, symmetric, threshold):
+    try:
+        return splu(columns, permc_spec="MMD_AT_PLUS_A" if symmetric else "COLAMD", diag_pivot_thresh=threshold,
+                    options={"SymmetricMode": symmetric})
+    except RuntimeError as error:
+        raise _singular(columns, str(error)) from None
 
 
 class _Pardiso(_Factor):
@@ -150,22 +163,20 @@ def _pointer(array):
 def _library():
     """MKL, told to run one thread and the same instructions at every call; None where it cannot load."""
     try:
-        from pypardiso.pardiso_wrapper import PyPardisoSolver
-        library = PyPardisoSolver().libmkl
+        from pypardiso.scipy_aliases import pypardiso_solver
     except (ImportError, OSError):
         return None
+    library = pypardiso_solver.libmkl
     library.MKL_Set_Threading_Layer(_SEQUENTIAL)
     library.MKL_CBWR_Set(_CONDITIONAL_BITS_AUTO)
     library.pardiso.argtypes, library.pardiso.restype = [ctypes.c_void_p] * 16, None
     return library
 
 
-def _refuse_singular(matrix, factor):
+def _miss(matrix, factor):
+    """Relative residual of one seeded right-hand side."""
     probe = np.random.default_rng(1).standard_normal(matrix.shape[0])
-    solution = factor.solve(probe)
-    miss = np.linalg.norm(matrix @ solution - probe) / np.linalg.norm(probe)
-    if not miss < _SINGULAR:
-        raise _singular(matrix, f"a relative residual of {miss:.1e}")
+    return np.linalg.norm(matrix @ factor.solve(probe) - probe) / np.linalg.norm(probe)
 
 
 def _singular(matrix, found):

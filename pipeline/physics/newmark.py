@@ -50,6 +50,8 @@ def _integrate(system, start, step, steps, record_every, tolerance):
             if size <= tolerance:
                 converged = True
                 break
+            if not size < np.inf:
+                break
             if size > CONTRACTION * last:
                 inverse = _inverse(system, count * step, q, v, step)
             a, last = a + inverse @ residual, size

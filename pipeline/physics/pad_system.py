@@ -6,8 +6,8 @@ import numpy as np
 from numba import njit
 from scipy.linalg import cho_factor, cho_solve, eigh
 
-from pipeline.contract.errors import ConvergenceError
-from pipeline.physics.patch_contact import PatchContact, contact_force, contact_tangent
+from pipeline.contract.errors import ConfigError, ConvergenceError
+from pipeline.physics.patch_contact import SUB_DISCS, PatchContact, contact_force, contact_tangent
 
 STATIC_ITERATIONS = 100
 STATIC_TOLERANCE = 1e-12
@@ -22,6 +22,39 @@ class PadSystem(NamedTuple):
     stiffness: np.ndarray   # (n, n) N/m, bodies and joints
     load: np.ndarray        # (n,) N, generalised force of the pistons
     contact: PatchContact
+
+
+def pad_system(sliding, input_force, closure, pressure, friction, bedding, bedding_share, sectors, ramp, stick_speed):
+    """PadSystem of a SlidingModel without its disc (``sliding.held("disc")``), at the speed of that model.
+
+    ``input_force`` (i,) N; ``closure`` (k,) m and ``pressure`` (k,) Pa: normal law; ``friction``: FrictionLaw;
+    ``bedding`` (4,) m: distance of the sub-discs on the friction map at the start; ``bedding_share``: part of the
+    distance slid that counts on the map; ``sectors`` per revolution; ``ramp`` s; ``stick_speed`` m/s. Raises
+    ConfigError.
+    """
+    _check(closure, pressure, bedding, sectors)
+    contacts, (mass, damping, stiffness) = sliding.contacts, sliding.supported()
+    contact = PatchContact(
+        normal=contacts.normal, tangent=contacts.tangent, lateral=contacts.lateral,
+        opening=np.zeros(len(contacts.area)), area=contacts.area, radius=contacts.lever,
+        angle=np.arctan2(contacts.position[:, 1], contacts.position[:, 0]),
+        half_angle=np.sqrt(contacts.area) / (2 * contacts.lever), closure=closure, pressure=pressure,
+        friction_pressure=friction.pressure, friction_speed=friction.speed, friction_distance=friction.distance,
+        friction=friction.friction, bedding=np.array(bedding),
+        bedding_speed=bedding_share * sliding.speed * np.mean(contacts.lever), disc_speed=float(sliding.speed),
+        sectors=int(sectors), ramp=float(ramp), stick_speed=float(stick_speed))
+    arrays = {name: np.array(value) for name, value in contact._asdict().items() if isinstance(value, np.ndarray)}
+    return PadSystem(mass, damping, stiffness, input_force @ sliding.input_rows, contact._replace(**arrays))
+
+
+def _check(closure, pressure, bedding, sectors):
+    if closure[0] != 0 or pressure[0] != 0 or np.any(np.diff(closure) <= 0) or np.any(np.diff(pressure) <= 0):
+        raise ConfigError("multibody: normal contact law", "closure and pressure that rise from 0",
+                          f"closures from {closure[0]:g} m and pressures from {pressure[0]:g} Pa")
+    if len(bedding) != SUB_DISCS:
+        raise ConfigError("multibody.bedding", f"{SUB_DISCS} distances, one per sub-disc", f"{len(bedding)}")
+    if sectors % SUB_DISCS or sectors < SUB_DISCS:
+        raise ConfigError("multibody.sectors", f"a multiple of {SUB_DISCS}", f"{sectors}")
 
 
 @njit(cache=True)
@@ -49,7 +82,7 @@ def preloaded_modes(system, start, highest_frequency=np.inf):
     modes = np.ascontiguousarray(modes[:, square <= (2 * np.pi * highest_frequency) ** 2])
     contact = system.contact._replace(
         normal=system.contact.normal @ modes, tangent=system.contact.tangent @ modes,
-        opening=system.contact.opening + system.contact.normal @ start)
+        lateral=system.contact.lateral @ modes, opening=system.contact.opening + system.contact.normal @ start)
     return PadSystem(
         mass=np.eye(modes.shape[1]), damping=modes.T @ system.damping @ modes,
         stiffness=modes.T @ system.stiffness @ modes, load=modes.T @ (system.load - system.stiffness @ start),
@@ -78,7 +111,8 @@ def sliding_state(system, start, where="steady sliding"):
 def linearised(system, displacement):
     """(stiffness, damping), both (n, n), of small motions about steady sliding at ``displacement``.
 
-    Stiffness: K + k n^T n + (mu + p dmu/dp) k t^T n; damping: C + N dmu/dv t^T t, with full friction.
+    Stiffness: K + k n^T n + (mu + p dmu/dp) k t^T n; damping: C + N dmu/dv t^T t
+    + (mu N / v) l^T l, with full friction.
     """
     sliding = system._replace(contact=system.contact._replace(ramp=0.0))
     return tangent(sliding, 0.0, displacement, np.zeros_like(displacement))
@@ -91,7 +125,10 @@ def _equilibrium(system, displacement, where):
     for _ in range(STATIC_ITERATIONS):
         if np.linalg.norm(residual) <= STATIC_TOLERANCE * scale:
             return displacement
-        step = np.linalg.solve(tangent(system, 0.0, displacement, rest)[0], residual)
+        try:
+            step = np.linalg.solve(tangent(system, 0.0, displacement, rest)[0], residual)
+        except np.linalg.LinAlgError:
+            break
         for length in 0.5 ** np.arange(STATIC_HALVINGS):
             trial = displacement + length * step
             remaining = force(system, 0.0, trial, rest)
@@ -99,5 +136,5 @@ def _equilibrium(system, displacement, where):
                 break
         displacement, residual = trial, remaining
     raise ConvergenceError(where, f"a residual below {STATIC_TOLERANCE:g} of the load",
-                           f"{np.linalg.norm(residual) / scale:.3g} after {STATIC_ITERATIONS} steps",
+                           f"{np.linalg.norm(residual) / scale:.3g}",
                            "check that the joints hold every rigid motion and that the contact law rises")

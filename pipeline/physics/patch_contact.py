@@ -5,11 +5,12 @@ multibody model of the disc-brake paper (2021, section 2.1.5, Figure 5). Every s
 distance and therefore has its own friction. A contact patch overlaps one sector or two: its force is
 shared by overlap, so that all forces stay continuous while the disc turns.
 
-At contact i, with the normal row n_i (positive opens) and the tangent row t_i (along sliding):
-    closure c = -(n_i q + opening),  N = A p(c),  slip v = Omega r_i - t_i q',
-    T = ramp(t) N sum_d w_id(t) mu(p, |v|, s_d(t)) sign(v),      generalised force n_i N + t_i T.
-Friction acts along sliding only. sign(v) is +-1 except for |v| < stick_speed, where it is the cubic
-x (3 - x^2) / 2 of x = v / stick_speed: sticking is replaced by creep slower than that.
+At contact i, with the rows n_i (positive opens), t_i (along sliding) and l_i (lateral) of the pad's motion:
+    closure c = -(n_i q + opening),  N = A p(c),
+    slip of the disc against the pad v = (Omega r_i - t_i q', -l_i q'),
+    friction on the pad F = ramp(t) N sum_d w_id(t) mu(p, |v|, s_d(t)) g(|v|) v / |v|.
+g = 1 except for |v| < stick_speed, where it is the cubic x (3 - x^2) / 2 of x = |v| / stick_speed: sticking is replaced
+by creep slower than that.
 """
 
 from typing import NamedTuple
@@ -27,6 +28,7 @@ class PatchContact(NamedTuple):
 
     normal: np.ndarray          # (c, n) normal rows, positive opens
     tangent: np.ndarray         # (c, n) tangent rows, along sliding
+    lateral: np.ndarray         # (c, n) lateral rows
     opening: np.ndarray         # (c,) m, normal displacement where all coordinates are zero
     area: np.ndarray            # (c,) m^2
     radius: np.ndarray          # (c,) m, distance from the disc axis
@@ -43,20 +45,18 @@ class PatchContact(NamedTuple):
     disc_speed: float           # rad/s
     sectors: int                # per revolution, a multiple of 4
     ramp: float                 # s, time in which friction rises from nothing
-    stick_speed: float          # m/s, slip below which the friction sign is regularised
+    stick_speed: float          # m/s, slip below which friction is regularised
 
 
 class ContactState(NamedTuple):
     """Forces of all contacts on the pads and their slopes at one instant."""
 
     normal: np.ndarray          # (c,) N
-    friction: np.ndarray        # (c,) N, along sliding
+    friction: np.ndarray        # (c, 2) N, along sliding and laterally
     stiffness: np.ndarray       # (c,) N/m, dN/dclosure
-    coupling: np.ndarray        # (c,) dT/dN = mu + p dmu/dp, shared over the sub-discs
-    slip_slope: np.ndarray      # (c,) N s/m, dT/dslip
+    coupling: np.ndarray        # (c, 2) d friction / dN = (mu + p dmu/dp) v / |v|
+    drag: np.ndarray            # (c, 3) N s/m, d friction / dv: along-along, along-lateral, lateral-lateral
     share: np.ndarray           # (c, 4) part of the patch on each sub-disc
-    outside: int                # friction evaluations outside the friction table
-    evaluations: int            # friction evaluations
 
 
 @njit(cache=True)
@@ -90,13 +90,11 @@ def _length_on(sub_disc, position):
 
 
 @njit(cache=True)
-def friction_sign(slip, stick_speed):
-    """(sign, its slope in s/m): +-1 outside the stick speed, a cubic without kinks inside."""
+def sliding_part(slip, stick_speed):
+    """(g, dg/dslip in s/m): 1 from the stick speed on, a cubic without kinks below it; slip >= 0."""
     x = slip / stick_speed
     if x >= 1.0:
         return 1.0, 0.0
-    if x <= -1.0:
-        return -1.0, 0.0
     return x * (3.0 - x * x) / 2.0, 1.5 * (1.0 - x * x) / stick_speed
 
 
@@ -109,40 +107,54 @@ def friction_share(time, ramp):
 
 
 @njit(cache=True)
+def sub_disc_friction(contact, time, shares, pressure, slip):
+    """(mu, dmu/dpressure, dmu/dslip) of one patch with ``shares`` (4,) on the sub-discs."""
+    mu, over_pressure, over_slip = 0.0, 0.0, 0.0
+    for d in range(SUB_DISCS):
+        if shares[d] > 0.0:
+            value, pressure_slope, slip_slope, _ = friction_at(
+                pressure, slip, contact.bedding[d] + contact.bedding_speed * time, contact.friction_pressure,
+                contact.friction_speed, contact.friction_distance, contact.friction)
+            mu += shares[d] * value
+            over_pressure += shares[d] * pressure_slope
+            over_slip += shares[d] * slip_slope
+    return mu, over_pressure, over_slip
+
+
+@njit(cache=True)
 def contact_state(contact, time, displacement, velocity):
     """ContactState at generalised ``displacement`` (n,) and ``velocity`` (n,)."""
-    closure, slide = -(contact.normal @ displacement + contact.opening), contact.tangent @ velocity
+    closure = -(contact.normal @ displacement + contact.opening)
+    along, aside = contact.tangent @ velocity, contact.lateral @ velocity
     shares = patch_shares(contact.angle, contact.half_angle, contact.disc_speed * time, contact.sectors)
-    acting = friction_share(time, contact.ramp)
-    size, outside, evaluations = closure.size, 0, 0
-    normal, friction, stiffness = np.zeros(size), np.zeros(size), np.zeros(size)
-    coupling, slip_slope = np.zeros(size), np.zeros(size)
+    acting, size = friction_share(time, contact.ramp), closure.size
+    normal, friction, stiffness = np.zeros(size), np.zeros((size, 2)), np.zeros(size)
+    coupling, drag = np.zeros((size, 2)), np.zeros((size, 3))
     for i in range(size):
         pressure, slope = normal_law(closure[i], contact.closure, contact.pressure)
         if slope == 0.0:
             continue
         normal[i], stiffness[i] = contact.area[i] * pressure, contact.area[i] * slope
-        slip = contact.disc_speed * contact.radius[i] - slide[i]
-        mu, mu_pressure, mu_speed = 0.0, 0.0, 0.0
-        for d in range(SUB_DISCS):
-            if shares[i, d] > 0.0:
-                m, mp, mv, out = friction_at(
-                    pressure, abs(slip), contact.bedding[d] + contact.bedding_speed * time, contact.friction_pressure,
-                    contact.friction_speed, contact.friction_distance, contact.friction)
-                mu, mu_pressure = mu + shares[i, d] * m, mu_pressure + shares[i, d] * mp
-                mu_speed, outside, evaluations = mu_speed + shares[i, d] * mv, outside + out, evaluations + 1
-        sign, sign_slope = friction_sign(slip, contact.stick_speed)
-        friction[i] = acting * mu * sign * normal[i]
-        coupling[i] = acting * sign * (mu + pressure * mu_pressure)
-        slip_slope[i] = acting * normal[i] * (mu * sign_slope + mu_speed * np.sign(slip) * sign)
-    return ContactState(normal, friction, stiffness, coupling, slip_slope, shares, outside, evaluations)
+        slip_x, slip_y = contact.disc_speed * contact.radius[i] - along[i], -aside[i]
+        slip = np.hypot(slip_x, slip_y)
+        mu, over_pressure, over_slip = sub_disc_friction(contact, time, shares[i], pressure, slip)
+        part, part_slope = sliding_part(slip, contact.stick_speed)
+        x, y = (slip_x / slip, slip_y / slip) if slip > 0.0 else (1.0, 0.0)
+        force, slide = acting * normal[i] * mu * part, acting * part * (mu + pressure * over_pressure)
+        radial = acting * normal[i] * (mu * part_slope + over_slip * part)
+        turning = force / slip if slip > 0.0 else radial
+        friction[i, 0], friction[i, 1], coupling[i, 0], coupling[i, 1] = force * x, force * y, slide * x, slide * y
+        drag[i, 0], drag[i, 2] = radial * x * x + turning * y * y, radial * y * y + turning * x * x
+        drag[i, 1] = (radial - turning) * x * y
+    return ContactState(normal, friction, stiffness, coupling, drag, shares)
 
 
 @njit(cache=True)
 def contact_force(contact, time, displacement, velocity):
     """Generalised force (n,) of all contacts on the pads."""
     state = contact_state(contact, time, displacement, velocity)
-    return state.normal @ contact.normal + state.friction @ contact.tangent
+    sliding = np.ascontiguousarray(state.friction.T)
+    return state.normal @ contact.normal + sliding[0] @ contact.tangent + sliding[1] @ contact.lateral
 
 
 @njit(cache=True)
@@ -150,8 +162,11 @@ def contact_tangent(contact, time, displacement, velocity):
     """(stiffness, damping), both (n, n): minus the derivatives of ``contact_force``; exact, unsymmetric."""
     state = contact_state(contact, time, displacement, velocity)
     size, n = contact.normal.shape
-    pushed, slid = np.empty((size, n)), np.empty((size, n))
+    pressed, slid_x, slid_y = np.empty((size, n)), np.empty((size, n)), np.empty((size, n))
     for i in range(size):
-        pushed[i] = state.stiffness[i] * (contact.normal[i] + state.coupling[i] * contact.tangent[i])
-        slid[i] = state.slip_slope[i] * contact.tangent[i]
-    return pushed.T @ contact.normal, slid.T @ contact.tangent
+        t, side = contact.tangent[i], contact.lateral[i]
+        pressed[i] = state.stiffness[i] * (
+            contact.normal[i] + state.coupling[i, 0] * t + state.coupling[i, 1] * side)
+        slid_x[i] = state.drag[i, 0] * t + state.drag[i, 1] * side
+        slid_y[i] = state.drag[i, 1] * t + state.drag[i, 2] * side
+    return pressed.T @ contact.normal, slid_x.T @ contact.tangent + slid_y.T @ contact.lateral

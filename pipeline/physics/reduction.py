@@ -59,14 +59,14 @@ def craig_bampton(stiffness, mass, rows, below, solver):
     return ReducedBody(shape, projected(mass, shape), projected(stiffness, shape), rows.shape[0], frequency)
 
 
-def attachment(stiffness, mass, rows, frequency, modes, below, solver):
+def attachment(stiffness, mass, rows, frequency, modes, below, factor):
     """Given mass-normalised modes of a supported body, with the residual static response to forces on ``rows``.
 
     The static responses K^-1 R^T are freed of their share in ``modes`` (n, m), ``frequency`` (m,) Hz; what is left is
     turned into mass-orthonormal pseudo-modes, of which those below the frequency ``below`` [Hz] are kept. With all of
-    them the static response to interface forces is exact.
+    them the static response to interface forces is exact. ``factor`` is that of the stiffness.
     """
-    static = factorise(stiffness, solver).solve(sp.csr_matrix(rows).T.toarray())
+    static = factor.solve(sp.csr_matrix(rows).T.toarray())
     residual = static - modes @ (modes.T @ (mass @ static))
     residual -= modes @ (modes.T @ (mass @ residual))
     pseudo_frequency, pseudo = _pseudo_modes(stiffness, mass, residual, below)

@@ -74,12 +74,16 @@ class SlidingRecord:
     disc_wear: np.ndarray
 
 
+#: fields of a SlidingRecord that vary over the recorded distances
 RECORDED = ("friction", "real_area", "approach", "largest_wear", "normal_stiffness", "flash_temperature",
             "full_slip_distance", "limit_at_speed")
 
+#: imposed displacement of steady sliding over that of full slip
+FAR = 100.0
+
 
 def slide(pair, mean_pressure, speeds, recorded, wearing, shearing, solving):
-    """SlidingRecord of a run under ``mean_pressure`` (Pa) at ``speeds`` (m/s), told after the ``recorded`` cycles (rising)."""
+    """SlidingRecord under ``mean_pressure`` (Pa) at ``speeds`` (m/s) after each of the ``recorded`` cycles (rising)."""
     figures, pressures = [], []
     states = run_in(pair.pad_height, pair.disc_height, pair.compliance.normal, mean_pressure, **vars(wearing),
                     **vars(solving))
@@ -119,8 +123,8 @@ def _pass(worn, pair, mean_pressure, stroke, solving):
 def _shear(pressure, speed, pair, shearing, solving):
     """Friction, real area and heat of one contact at one speed.
 
-    The nodal limit carries the perimeter correction: limit * corrected area / counted area. The bases are displaced far
-    beyond full slip, which the solution confirms by its own optimality.
+    The nodal limit carries the perimeter correction: limit * corrected area / counted area. The bases are displaced by
+    ``FAR`` times what full slip takes, so that all slip is along x; that no node sticks is the solution's finding.
     """
     touching = pressure > 0.0
     counted, area = contact_area(touching)
@@ -128,7 +132,7 @@ def _shear(pressure, speed, pair, shearing, solving):
     limit = limit_at_speed(shearing.limit, speed, shearing.reference_speed, shearing.rate, shearing.softening, heating)
     nodal = np.where(touching, limit * area / counted, 0.0)
     slip = full_slip_displacement(nodal, pair.compliance)
-    imposed = 2.0 * (slip + pair.compliance.along[0, 0] * nodal.mean())
+    imposed = FAR * (slip + pair.compliance.along[0, 0] * nodal.mean())
     shear = solve_shear_limit(nodal, pair.compliance, imposed, **vars(solving))
-    return {"friction": shear.traction[0].sum() / pressure.sum(), "real_area": area, "flash_temperature": heating * limit,
-            "full_slip_distance": slip, "limit_at_speed": limit}
+    return {"friction": shear.traction[0].sum() / pressure.sum(), "real_area": area,
+            "flash_temperature": heating * limit, "full_slip_distance": slip, "limit_at_speed": limit}

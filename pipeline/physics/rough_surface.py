@@ -18,9 +18,9 @@ def turned_disc(nodes, length, shortest, rms_height, *, seed, feed, marks_share,
     """Turned cast iron (nodes, nodes) in m on a square patch of ``length`` m.
 
     Tool marks run along x with a whole number of feeds near ``feed`` (m) in the patch and carry ``marks_share`` of the
-    variance, a self-affine roughness (``hurst``, roll-off ``roughness_wavelength`` in m) the rest. Grain outbreaks
-    are round pits of diameter ``outbreak_size`` (m) on ``outbreak_share`` of the area, ``outbreak_depth`` times the rms of
-    the rest deep at their centre.
+    variance, a self-affine roughness (``hurst``, roll-off ``roughness_wavelength`` in m) the rest. Grain outbreaks are
+    round pits of diameter ``outbreak_size`` (m) on ``outbreak_share`` of the area, ``outbreak_depth`` times the
+    rms of the rest deep at their centre.
     """
     random = np.random.default_rng(seed)
     size = _construction_size(length, shortest)
@@ -37,9 +37,9 @@ def plateau_pad(nodes, length, shortest, rms_height, *, seed, plateau_share, pla
                 plateau_roughness, edge_width, roughness_wavelength, hurst):
     """Brake pad (nodes, nodes) in m: rough plateaus (hard particles) over a smoother matrix (resin).
 
-    Plateaus cover ``plateau_share`` of the patch, are ``plateau_size`` (m) apart, stand ``plateau_height`` times the rms of
-    the matrix above it and are ``plateau_roughness`` times as rough; the step is ``edge_width`` of the plateau field's
-    rms wide. Both textures are self-affine (``hurst``, roll-off ``roughness_wavelength`` in m).
+    Plateaus cover ``plateau_share`` of the patch, are ``plateau_size`` (m) apart, stand ``plateau_height`` times the
+    rms of the matrix above it and are ``plateau_roughness`` times as rough; the step is ``edge_width`` of the plateau
+    field's rms wide. Both textures are self-affine (``hurst``, roll-off ``roughness_wavelength`` in m).
     """
     random = np.random.default_rng(seed)
     size = _construction_size(length, shortest)
@@ -52,7 +52,7 @@ def plateau_pad(nodes, length, shortest, rms_height, *, seed, plateau_share, pla
 
 
 def self_affine(random, size, length, shortest, roll_off, hurst):
-    """Gaussian roughness (size, size), zero mean, unit rms: spectrum flat down to ``roll_off``, then k^(-2 - 2 hurst)."""
+    """Gaussian roughness (size, size) of unit rms: spectrum flat down to ``roll_off``, then as k^(-2 - 2 hurst)."""
     wave = _wavenumber((size, size), length)
     knee = 2 * np.pi / roll_off
     amplitude = np.maximum(wave, knee) ** (-1.0 - hurst) * (wave <= 2 * np.pi / shortest)

@@ -13,6 +13,9 @@ from scipy.signal import find_peaks
 from pipeline.contract.errors import ConfigError
 from pipeline.physics.spectra import level
 
+#: how much lower a tone midway between two lines of a Hann spectrum looks [dB], rounded up
+_BETWEEN_LINES = 1.5
+
 
 @dataclass(frozen=True)
 class Detector:
@@ -132,7 +135,7 @@ def _inside(found, detector):
 def _tones(found, frame, detector):
     """Frequencies and levels of the tones of one frame, strongest first."""
     levels = level(found.spectrum[frame]**2, detector.reference)
-    lines = find_peaks(levels, prominence=detector.prominence)[0]
+    lines = find_peaks(levels, detector.threshold - _BETWEEN_LINES, prominence=detector.prominence)[0]
     lines = lines[_inside(found, detector)[lines]]
     frequency, root_mean_square = _refine(found, frame, lines)
     levels = level(root_mean_square**2, detector.reference)

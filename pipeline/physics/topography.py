@@ -41,7 +41,7 @@ class Statistics:
 def read_scan(path):
     """Scan of any file that SurfaceTopography reads (x3p, sur, opd, al3d, plu, dat, nc, ...), heights outwards.
 
-    Raises ConfigError that names the file when it is unreadable, tells no physical size, or holds no or constant heights.
+    Raises ConfigError that names the file when it is unreadable, tells no size, or holds no or constant heights.
     """
     where = f"scan {path}"
     with _quiet_readers():
@@ -86,8 +86,8 @@ def level(heights, spacing):
 def periodic_patch(heights, spacing, length, overlap=0.1):
     """Central square patch of ``length`` m made periodic: its margins fade into what follows beyond the patch.
 
-    ``overlap`` is the faded share of the length; weights keep the variance of uncorrelated margins. Returns a map on the
-    pixels of the scan. Raises ConfigError when the scan is smaller than length * (1 + overlap).
+    ``overlap`` is the faded share of the length; weights keep the variance of uncorrelated margins. Returns a map on
+    the pixels of the scan. Raises ConfigError when the scan is smaller than length * (1 + overlap).
     """
     for axis in (0, 1):
         kept = round(length / spacing[axis])
@@ -104,7 +104,7 @@ def periodic_patch(heights, spacing, length, overlap=0.1):
 
 
 def to_grid(heights, spacing, length, nodes, shortest, longest, rms_height, where):
-    """Periodic map (nodes, nodes) of a levelled scan: patch, band from ``shortest`` to ``longest``, scaled to ``rms_height``."""
+    """Periodic map (nodes, nodes) of a levelled scan in the band ``shortest`` to ``longest``, of rms ``rms_height``."""
     patch = periodic_patch(heights - heights.mean(), spacing, length)
     filtered = resample(band_limit(patch, (length, length), shortest, longest), (nodes, nodes))
     _refuse_constant(filtered, where)

@@ -42,8 +42,8 @@ def run_in(pad_height, disc_height, compliance, mean_pressure, *, cycles, distan
     yield pair
     for cycle in range(cycles):
         position = cycle % (stroke + 1)
-        contact = solve_normal_contact(pair.gap(position), compliance, mean_pressure, pressure, tolerance, max_iterations)
-        pressure = contact.pressure
+        pressure = solve_normal_contact(pair.gap(position), compliance, mean_pressure, pressure, tolerance,
+                                        max_iterations).pressure
         pad_wear = pair.pad_wear + archard(pressure, distance, pad_coefficient)
         disc_wear = pair.disc_wear + archard(np.roll(pressure, -position, axis=1), distance, disc_coefficient)
         pair = WornPair(pad_height, disc_height, pad_wear, disc_wear)

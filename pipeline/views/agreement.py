@@ -9,7 +9,7 @@ def agreement(comparison):
     """SVG, one dot per comparable row: deviation / tolerance; hollow where something was tuned."""
     rows = comparable(comparison)
     deviation = (comparison.ours[rows] - comparison.published[rows]) / comparison.tolerance[rows]
-    with drawing(0.75 + 0.21 * max(len(rows), 1)) as figure:
+    with drawing(0.8 + 0.21 * len(rows), left=2.1, top=0.1) as figure:
         axes = figure.subplots()
         axes.axvspan(-1, 1, color="#dfeaf3", lw=0)
         axes.axvline(0, color=FAINT, lw=0.9)
@@ -21,9 +21,15 @@ def agreement(comparison):
 
 
 def comparable(comparison):
-    """Rows where both the paper and the chain have a number and a tolerance is stated."""
+    """Rows with a verdict where both the paper and the chain have a number, and a tolerance is stated."""
     known = (comparison.published_known == 1) & (comparison.ours_known == 1) & (comparison.tolerance > 0)
-    return np.flatnonzero(known)
+    return np.array([row for row in judged(comparison) if known[row]], dtype=int)
+
+
+def judged(comparison, verdict=None):
+    """Rows whose verdict is 'within' or 'outside', or only the one asked for."""
+    wanted = (verdict,) if verdict else ("within", "outside")
+    return [row for row in range(len(comparison.row)) if comparison.verdict[row] in wanted]
 
 
 def _dot(axes, place, value, tuned):

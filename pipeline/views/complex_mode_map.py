@@ -2,7 +2,21 @@
 
 import numpy as np
 
-from pipeline.views.style import COLOURS, FAINT, INK, LINES, SEQUENTIAL, drawing, png, svg, symmetric, tiles
+from pipeline.views.readable import number
+from pipeline.views.style import (
+    COLOURS,
+    FAINT,
+    INK,
+    LINES,
+    SEQUENTIAL,
+    colour_bar,
+    drawing,
+    legend,
+    png,
+    svg,
+    symmetric,
+    tiles,
+)
 
 TWO_PI = 2.0 * np.pi
 
@@ -11,13 +25,13 @@ def growth_over_frequency(modes, published, dpi):
     """PNG of all roots of the friction sweep, highest pressure; dotted lines at the ``published`` frequencies (Hz)."""
     roots = modes.root[-1]
     friction = np.broadcast_to(modes.friction[:, None], roots.shape)
-    with drawing() as figure:
+    with drawing(bar=True) as figure:
         axes = figure.subplots()
         _frequency_lines(axes, published)
         axes.axhline(0.0, color=INK, lw=0.9)
         shown = axes.scatter(roots.imag / TWO_PI / 1e3, roots.real, c=friction, s=7, cmap=SEQUENTIAL, lw=0)
         axes.set(xlabel="frequency / kHz", ylabel="growth rate / 1/s", ylim=_limits(roots.real))
-        figure.colorbar(shown, ax=axes, label="coefficient of friction")
+        colour_bar(axes, shown, "coefficient of friction")
         return png(figure, dpi)
 
 
@@ -44,15 +58,15 @@ def operating_growth(modes, dpi):
     """PNG of the largest growth rate at each operating point, with its frequency."""
     leading = np.argmax(modes.operating_root.real, axis=1)
     root = modes.operating_root[np.arange(len(leading)), leading]
-    texts = [f"{r.real:.0f} 1/s\n{r.imag / TWO_PI / 1e3:.2f} kHz" for r in root]
-    with drawing(3.0) as figure:
+    texts = [f"{number(r.real, 3)} 1/s\n{number(r.imag / TWO_PI / 1e3)} kHz" for r in root]
+    with drawing(3.0, bar=True) as figure:
         tiles(figure.subplots(), modes.operating_pressure, modes.operating_speed, root.real, texts,
               "largest growth rate / 1/s", **symmetric(root.real))
         return png(figure, dpi)
 
 
 def _sweep(modes, values, label, count, zero):
-    with drawing() as figure:
+    with drawing(3.4, top=0.55) as figure:
         axes = figure.subplots()
         if zero:
             axes.axhline(0.0, color=INK, lw=0.9)
@@ -61,7 +75,7 @@ def _sweep(modes, values, label, count, zero):
             axes.plot(modes.friction, values[:, root], color=COLOURS[line % 6], ls=LINES[line % 6],
                       label=f"{frequency:.2f} kHz")
         axes.set(xlabel="coefficient of friction", ylabel=label)
-        axes.legend(ncols=2)
+        legend(axes)
         return svg(figure)
 
 

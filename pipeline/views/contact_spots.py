@@ -24,7 +24,7 @@ def _spots(micro, values, label, highest, dpi):
     from matplotlib import colormaps
 
     colours = colormaps[SEQUENTIAL].with_extremes(bad="#e9ebee")
-    with drawing(3.7) as figure:
+    with drawing(3.55, bar=True) as figure:
         shown = np.ma.masked_less_equal(values, 0.0)
         image(figure.subplots(), micro.x, micro.y, shown, label, cmap=colours, vmin=0.0, vmax=highest)
         return png(figure, dpi)

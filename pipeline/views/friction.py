@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from pipeline.views.style import COLOURS, LINES, MARKERS, ORANGE, SEQUENTIAL, drawing, svg
+from pipeline.views.style import COLOURS, LINES, MARKERS, ORANGE, SEQUENTIAL, colour_bar, drawing, legend, svg
 
 
 def over_distance(micro, what):
@@ -23,7 +23,7 @@ def over_distance(micro, what):
                 axes.fill_between(1e3 * micro.distance, values[p, middle] - half, values[p, middle] + half,
                                   color=COLOURS[p % 6], alpha=0.2, lw=0)
         axes.set(xlabel="sliding distance / mm", ylabel=label, xlim=(0, None))
-        axes.legend(title="pressure", title_fontsize=8)
+        legend(axes)
         return svg(figure)
 
 
@@ -37,16 +37,17 @@ def over_pressure(micro):
                           color=COLOURS[line], ls=LINES[line], marker=MARKERS[line], capsize=3,
                           label=f"{1e3 * micro.distance[s]:.2g} mm")
         axes.set(xlabel="pressure / MPa", ylabel="coefficient of friction", xticks=micro.pressure / 1e6)
-        axes.legend(title="sliding distance", title_fontsize=8)
+        legend(axes)
         return svg(figure)
 
 
 def convergence(micro):
     """SVG of the real contact area over nodes per shortest wavelength."""
-    with drawing(2.6) as figure:
+    with drawing(2.6, top=0.12) as figure:
         axes = figure.subplots()
         axes.plot(micro.refinement, 100 * micro.refinement_area, marker="o", color=COLOURS[0])
-        axes.set(xlabel="nodes per shortest wavelength", ylabel="real contact area / %", ylim=(0, None))
+        axes.set(xlabel="nodes per shortest wavelength", ylabel="real contact area / %",
+                 ylim=(0, 115 * micro.refinement_area.max()))
         axes.set_xticks(micro.refinement, [f"{n:.3g}" for n in micro.refinement])
         return svg(figure)
 
@@ -58,13 +59,13 @@ def friction_map(product):
     rows = np.searchsorted(product.pressure, np.clip(pressure, product.pressure[0], product.pressure[-1]))
     columns = np.searchsorted(product.speed, np.clip(speed, product.speed[0], product.speed[-1]))
     values = product.friction[:, :, -1][np.ix_(rows, columns)]
-    with drawing(3.5) as figure:
+    with drawing(3.5, bar=True) as figure:
         axes = figure.subplots()
         shown = axes.contourf(speed, pressure / 1e6, values, levels=_levels(values), cmap=SEQUENTIAL)
         _mark_computed(axes, product, speed, pressure)
         axes.set(xlabel="sliding speed / m/s", ylabel="pressure / MPa")
         axes.grid(False)
-        figure.colorbar(shown, ax=axes, label="coefficient of friction", format="%.3f")
+        colour_bar(axes, shown, "coefficient of friction", format="%.3f")
         return svg(figure)
 
 

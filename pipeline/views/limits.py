@@ -2,10 +2,10 @@
 
 #: (products that must be there, sentence)
 LIMITS = (
-    (("micro_friction",), "Third body: one shear limit stands for the film between pad and disc. Its growth, transfer of"
-     " material between the bodies and wear debris are left out."),
-    (("micro_friction",), "Plastic flow of the asperities, adhesion, and stiff particles inside the pad: both solids are"
-     " elastic and homogeneous beneath their rough surface."),
+    (("micro_friction",), "Third body: one shear limit stands for the film between pad and disc. Its growth,"
+     " transfer of material between the bodies and wear debris are left out."),
+    (("micro_friction",), "Plastic flow of the asperities, adhesion, and stiff particles inside the pad: both solids"
+     " are elastic and homogeneous beneath their rough surface."),
     (("micro_friction",), "Heat: the flash temperature of the spots may lower the shear limit, but disc and pad do not"
      " warm up, and no material constant changes with temperature or moisture."),
     (("structure",), "The real geometry: the paper prints no drawing. Shapes and stiffnesses are inferred or tuned as"

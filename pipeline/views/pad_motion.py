@@ -2,7 +2,20 @@
 
 import numpy as np
 
-from pipeline.views.style import COLOURS, INK, LINES, SIGNED, drawing, envelope, png, symmetric, tiles
+from pipeline.views.readable import number
+from pipeline.views.style import (
+    COLOURS,
+    INK,
+    LINES,
+    SIGNED,
+    colour_bar,
+    drawing,
+    envelope,
+    legend,
+    png,
+    symmetric,
+    tiles,
+)
 
 
 def pad_motion(multibody, operating, dpi):
@@ -14,28 +27,28 @@ def pad_motion(multibody, operating, dpi):
             time, shown = envelope(multibody.time, motion - motion[len(motion) // 2:].mean())
             axes.plot(1e3 * time, shown, color=COLOURS[pad], ls=LINES[pad], lw=0.9, label=f"{name} pad")
         axes.set(xlabel="time / ms", ylabel="displacement along sliding / µm", xlim=1e3 * multibody.time[[0, -1]])
-        axes.legend(loc="upper right", ncols=2)
+        legend(axes)
         return png(figure, dpi)
 
 
 def patch_forces(multibody, operating, pad, dpi):
     """PNG of the normal force of the four sub-discs on one pad, in kN over time."""
-    with drawing() as figure:
+    with drawing(3.4, top=0.55) as figure:
         axes = figure.subplots()
         for patch, force in enumerate(multibody.patch_force[operating, pad]):
             time, shown = envelope(multibody.time, force / 1e3)
             axes.plot(1e3 * time, shown, color=COLOURS[patch % 6], ls=LINES[patch % 6], lw=1.0,
                       label=f"sub-disc {patch + 1}")
         axes.set(xlabel="time / ms", ylabel="normal force / kN", xlim=1e3 * multibody.time[[0, -1]], ylim=(0, None))
-        axes.legend(loc="upper right", ncols=2)
+        legend(axes, columns=2)
         return png(figure, dpi)
 
 
 def growth(multibody, dpi):
     """PNG of the fitted growth rate of the pad oscillation at each operating point, with its frequency."""
-    texts = [f"{g:.1f} 1/s\n{f:.0f} Hz" for g, f in zip(
+    texts = [f"{number(g, 3)} 1/s\n{number(f, 3)} Hz" for g, f in zip(
         multibody.growth_rate, multibody.oscillation_frequency, strict=True)]
-    with drawing(3.0) as figure:
+    with drawing(3.0, bar=True) as figure:
         tiles(figure.subplots(), multibody.pressure, multibody.speed, multibody.growth_rate, texts,
               "growth rate / 1/s", **symmetric(multibody.growth_rate))
         return png(figure, dpi)
@@ -48,7 +61,7 @@ def stability_map(multibody, operating, dpi):
     values = multibody.stability[operating]
     largest = max(np.abs(multibody.stability).max(), 1e-6)
     norm = SymLogNorm(linthresh=0.02 * largest, vmin=-largest, vmax=largest)
-    with drawing() as figure:
+    with drawing(bar=True) as figure:
         axes = figure.subplots()
         mesh = axes.pcolormesh(multibody.abutment_factor, multibody.caliper_factor, values, cmap=SIGNED, norm=norm,
                                shading="nearest")
@@ -61,7 +74,7 @@ def stability_map(multibody, operating, dpi):
             axis.set_ticks(ticks, [f"{t:.3g}" for t in ticks])
             axis.set_minor_locator(_none())
         axes.grid(False)
-        figure.colorbar(mesh, ax=axes, label="largest growth rate / 1/s")
+        colour_bar(axes, mesh, "largest growth rate / 1/s")
         return png(figure, dpi)
 
 

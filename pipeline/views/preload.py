@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from pipeline.views.style import SEQUENTIAL, drawing, png
+from pipeline.views.style import SEQUENTIAL, colour_bar, drawing, png
 
 
 def contact_pressure(structure, pad, dpi):
@@ -13,14 +13,14 @@ def contact_pressure(structure, pad, dpi):
     area = structure.contact_area[here]
     pressure = 1e-6 * structure.preload[state, here] / area
     is_open = structure.closed[state, here] == 0
-    with drawing(3.0) as figure:
+    with drawing(3.0, bar=True) as figure:
         axes = figure.subplots()
         shown = axes.scatter(x[~is_open], y[~is_open], c=pressure[~is_open], s=_marker(x, y), cmap=SEQUENTIAL,
                              marker="s", vmin=0.0)
         axes.scatter(x[is_open], y[is_open], marker="x", color="#8a8f98", s=14)
         axes.set(xlabel="x / mm", ylabel="y / mm", aspect="equal")
         axes.margins(0.08)
-        figure.colorbar(shown, ax=axes, label="contact pressure / MPa", shrink=0.9)
+        colour_bar(axes, shown, "contact pressure / MPa")
         return png(figure, dpi)
 
 

@@ -52,11 +52,12 @@ def quantity(value, unit, digits=4):
 
 
 def span(values, unit, digits=3):
-    """'0.40–0.67' or '1–3 MPa': smallest to largest; one number where both read the same."""
+    """'0.4–0.67', '1–3 MPa' or '−60 to 4 1/s': smallest to largest; one number where both read the same."""
     low, high = float(np.min(values)), float(np.max(values))
     name, size = scale(max(abs(low), abs(high)), unit)
     first, last = number(low / size, digits), number(high / size, digits)
-    text = first if first == last else f"{first}{RANGE}{last}"
+    between = RANGE if low >= 0.0 else " to "
+    text = first if first == last else f"{first}{between}{last}"
     return text if name == "1" else f"{text}{THIN}{name}"
 
 

@@ -16,16 +16,15 @@ def assembly(structure):
 
 
 def disc_mode(disc, mode):
-    """Scene of one real mode of the disc, displaced; colour = size of the displacement."""
-    shape = disc.shape[mode]
-    return Scene((_displaced(disc.node, disc.element, disc.kind.item(), shape, shape),), size=(640, 480))
+    """Scene of one real mode of the disc, displaced; colour = axial displacement."""
+    return Scene((_displaced(disc.node, disc.element, disc.kind.item(), disc.shape[mode]),), size=(640, 480))
 
 
 def unstable_mode(model, modes, index):
-    """Scene of one unstable complex mode at its instant of largest displacement; colour = amplitude over a cycle."""
+    """Scene of one unstable complex mode at its instant of largest displacement; colour = axial displacement."""
     shape = modes.unstable_shape[index]
     phase = np.exp(-0.5j * np.angle(np.sum(shape**2)))
-    return Scene((_displaced(model.visible_position, model.visible_face, "quad", (shape * phase).real, shape),))
+    return Scene((_displaced(model.visible_position, model.visible_face, "quad", (shape * phase).real),))
 
 
 def diameters(disc, mode):
@@ -45,8 +44,8 @@ def distinct(frequency, count):
     return elastic[apart][:count]
 
 
-def _displaced(points, cells, kind, displacement, amplitude):
+def _displaced(points, cells, kind, displacement):
     size = np.ptp(points, axis=0).max()
-    amount = np.linalg.norm(np.abs(amplitude), axis=1)
-    largest = max(amount.max(), 1e-300)
-    return Solid(points + 0.06 * size / largest * displacement, cells, kind, scalar=amount / largest)
+    largest = max(np.linalg.norm(displacement, axis=1).max(), 1e-300)
+    axial = displacement[:, 2] / max(np.abs(displacement[:, 2]).max(), 1e-300)
+    return Solid(points + 0.06 * size / largest * displacement, cells, kind, scalar=axial)

@@ -3,7 +3,7 @@
 import numpy as np
 
 from pipeline.views.readable import plural
-from pipeline.views.style import COLOURS, FAINT, INK, LINES, MARKERS, SEQUENTIAL, drawing, png, svg, tiles
+from pipeline.views.style import COLOURS, FAINT, INK, LINES, MARKERS, RED, SEQUENTIAL, drawing, legend, png, svg, tiles
 
 
 def spectra(response, operatings, sensor, published, dpi):
@@ -19,7 +19,7 @@ def spectra(response, operatings, sensor, published, dpi):
                           label=_operating(response, operating))
         axes.set(xlabel="frequency / kHz", ylabel="velocity spectral density / m²/s²/Hz", xlim=(0, kilohertz[-1]),
                  ylim=_decades(response.velocity_spectrum[operatings, sensor]))
-        axes.legend(loc="upper right")
+        legend(axes)
         return png(figure, dpi)
 
 
@@ -29,32 +29,35 @@ def occurrence(squeal, dpi):
     row = np.arange(len(sensor))
     level, frequency = squeal.peak_level[row, sensor], squeal.peak_frequency[row, sensor]
     events = np.bincount(squeal.event_operating, minlength=len(level))
-    texts = [f"{lv:.0f} dB\n{f / 1e3:.2f} kHz\n{plural(n, 'event')}" for lv, f, n in zip(level, frequency, events, strict=True)]
+    texts = [f"{lv:.0f} dB\n{f / 1e3:.2f} kHz\n{plural(n, 'event')}"
+             for lv, f, n in zip(level, frequency, events, strict=True)]
     low, high = min(level.min(), squeal.threshold - 3.0), max(level.max(), squeal.threshold + 3.0)
-    with drawing(3.3) as figure:
+    with drawing(3.3, bar=True) as figure:
         axes = figure.subplots()
-        tiles(axes, squeal.pressure, squeal.speed, level, texts, "highest level / dB", cmap=SEQUENTIAL, vmin=low,
-              vmax=high)
-        figure.axes[-1].axhline(float(squeal.threshold), color="white", lw=2.5)
-        figure.axes[-1].axhline(float(squeal.threshold), color=INK, lw=1.2, ls="--")
+        bar = tiles(axes, squeal.pressure, squeal.speed, level, texts, "highest level / dB", cmap=SEQUENTIAL, vmin=low,
+                    vmax=high)
+        _frame(axes, squeal, events > 0)
+        bar.ax.axhline(float(squeal.threshold), color="white", lw=2.5)
+        bar.ax.axhline(float(squeal.threshold), color=INK, lw=1.2, ls="--")
         return png(figure, dpi)
 
 
 def level_frequency(squeal, published):
-    """SVG of the level of every event over its frequency, one marker per pressure, and the threshold."""
+    """SVG of level over frequency: every event, one marker per pressure; highest peaks as grey dots; the threshold."""
     pressures = np.unique(squeal.pressure)
     with drawing() as figure:
         axes = figure.subplots()
         for frequency in published:
             axes.axvline(frequency / 1e3, color=FAINT, lw=1.1, ls=":")
         axes.axhline(float(squeal.threshold), color=INK, lw=0.9, ls="--")
+        axes.plot(squeal.peak_frequency.ravel() / 1e3, squeal.peak_level.ravel(), ".", color=FAINT, ms=3)
         for index, pressure in enumerate(pressures):
             here = np.flatnonzero(squeal.pressure[squeal.event_operating] == pressure)
             axes.plot(squeal.event_frequency[here] / 1e3, squeal.event_level[here], ls="none",
                       marker=MARKERS[index % 6], color=COLOURS[index % 6], mec="white", mew=0.4,
                       label=f"{pressure / 1e6:.3g} MPa")
-        axes.set(xlabel="frequency / kHz", ylabel="velocity level / dB")
-        axes.legend(title="pressure", title_fontsize=8)
+        axes.set(xlabel="frequency / kHz", ylabel="velocity level / dB", xlim=(0, None))
+        legend(axes)
         return svg(figure)
 
 
@@ -70,12 +73,21 @@ def band_levels(squeal, operatings, sensor):
         axes.set_xticks(kept, [f"{f / 1e3:.3g}" for f in kept])
         axes.set_xticks([], minor=True)
         axes.set(xlabel="third-octave band / kHz", ylabel="velocity level / dB")
-        axes.legend()
+        legend(axes)
         return svg(figure)
 
 
 def _operating(product, operating):
     return f"{product.pressure[operating] / 1e6:.3g} MPa, {product.speed[operating]:.4g} rad/s"
+
+
+def _frame(axes, product, marked):
+    """Thick frames around the tiles of the ``marked`` operating points."""
+    from matplotlib.patches import Rectangle
+
+    column, row = (np.unique(v, return_inverse=True)[1] for v in (product.speed, product.pressure))
+    for x, y in zip(column[marked], row[marked], strict=True):
+        axes.add_patch(Rectangle((x - 0.46, y - 0.46), 0.92, 0.92, fill=False, ec=RED, lw=2.5))
 
 
 def _decades(density):

@@ -1,8 +1,8 @@
 """One look for every figure: phone-sized panels, colour-blind safe colours, deterministic bytes.
 
-A figure is one panel of about 117 mm: on a phone it fills the screen with 9-point text, on a desktop two stand side
-by side. Categories use the palette of Okabe and Ito (2008), magnitudes the perceptually uniform viridis and cividis,
-signed quantities purple-orange; every category also differs by line style, marker or label.
+A figure is one panel of about 117 mm: on a phone it fills the screen with text of about 11 pixels, on a desktop two
+stand side by side. Categories use the palette of Okabe and Ito (2008), magnitudes the perceptually uniform viridis
+and cividis, signed quantities purple-orange; every category also differs by line style, marker or label.
 """
 
 from contextlib import contextmanager
@@ -19,8 +19,9 @@ SEQUENTIAL, HEIGHTS, SIGNED = "viridis", "cividis", "PuOr_r"
 
 WIDTH, HEIGHT = 4.6, 3.2
 RC = {
-    "font.family": "DejaVu Sans", "font.size": 9, "axes.titlesize": 9, "axes.labelsize": 9, "xtick.labelsize": 8,
-    "ytick.labelsize": 8, "legend.fontsize": 8, "legend.frameon": False, "text.color": INK, "axes.edgecolor": FAINT,
+    "font.family": "DejaVu Sans", "font.size": 10.5, "axes.labelsize": 10.5, "xtick.labelsize": 9.5,
+    "ytick.labelsize": 9.5, "legend.fontsize": 9.5, "legend.handlelength": 1.6, "legend.columnspacing": 1.2,
+    "legend.frameon": False, "text.color": INK, "axes.edgecolor": FAINT,
     "axes.labelcolor": INK, "xtick.color": INK, "ytick.color": INK, "axes.spines.top": False,
     "axes.spines.right": False, "axes.grid": True, "grid.color": "#e3e6ea", "grid.linewidth": 0.6,
     "axes.axisbelow": True, "lines.linewidth": 1.6, "lines.markersize": 4.5, "axes.unicode_minus": True,
@@ -30,13 +31,16 @@ RC = {
 
 
 @contextmanager
-def drawing(height=HEIGHT):
-    """An empty matplotlib Figure in the style of the report."""
+def drawing(height=HEIGHT, left=0.72, right=0.15, top=0.34, bar=False):
+    """An empty matplotlib Figure in the style of the report; margins in inches, ``bar`` keeps room for a colour bar."""
     from matplotlib import style
     from matplotlib.figure import Figure
 
     with style.context(RC, after_reset=True):
-        yield Figure(figsize=(WIDTH, height), layout="constrained")
+        figure = Figure(figsize=(WIDTH, height))
+        figure.subplots_adjust(left=left / WIDTH, right=1.0 - (0.78 if bar else right) / WIDTH, bottom=0.52 / height,
+                               top=1.0 - (0.14 if bar else top) / height)
+        yield figure
 
 
 def svg(figure):
@@ -59,8 +63,12 @@ def image(axes, x, y, values, label, **look):
     shown = axes.imshow(values, origin="lower", extent=extent, interpolation="nearest", **look)
     axes.set(xlabel="along sliding x / mm", ylabel="across sliding y / mm")
     axes.grid(False)
-    axes.figure.colorbar(shown, ax=axes, label=label, shrink=0.9)
-    return shown
+    colour_bar(axes, shown, label)
+
+
+def colour_bar(axes, shown, label, **look):
+    """Colour bar in the margin that ``drawing(bar=True)`` keeps."""
+    return axes.figure.colorbar(shown, ax=axes, label=label, fraction=0.045, pad=0.03, aspect=24, **look)
 
 
 def operating_grid(pressure, speed, values):
@@ -82,9 +90,13 @@ def tiles(axes, pressure, speed, values, texts, label, **look):
     axes.grid(False)
     for p, v, value, text in zip(pressure, speed, values, texts, strict=True):
         axes.text(np.searchsorted(speeds, v), np.searchsorted(pressures, p), text, ha="center", va="center",
-                  fontsize=8, color=_readable_on(shown, value))
-    axes.figure.colorbar(shown, ax=axes, label=label, shrink=0.9)
-    return shown
+                  fontsize=9, linespacing=1.15, color=_readable_on(shown, value))
+    return colour_bar(axes, shown, label)
+
+
+def legend(axes, columns=3):
+    """Legend above the axes, where it hides no line."""
+    axes.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=columns, borderaxespad=0.2)
 
 
 def _readable_on(shown, value):

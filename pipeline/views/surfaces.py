@@ -2,14 +2,14 @@
 
 import numpy as np
 
-from pipeline.views.style import COLOURS, HEIGHTS, INK, LINES, drawing, image, png, svg
+from pipeline.views.style import COLOURS, HEIGHTS, INK, LINES, drawing, image, legend, png, svg
 
 
 def height_map(surface, body, dpi):
     """PNG of the heights of 'disc' or 'pad' in µm, over mm."""
     heights = 1e6 * _heights(surface, body)
     low, high = np.percentile(heights, [0.2, 99.8])
-    with drawing(3.7) as figure:
+    with drawing(3.55, bar=True) as figure:
         image(figure.subplots(), surface.x, surface.y, heights, "height / µm", cmap=HEIGHTS, vmin=low, vmax=high)
         return png(figure, dpi)
 
@@ -19,7 +19,7 @@ def profile(surface):
     row = len(surface.y) // 2
     disc, pad = 1e6 * surface.disc_height[row], -1e6 * surface.pad_height[row]
     gap = np.max(disc - pad) * 1.05
-    with drawing(2.6) as figure:
+    with drawing(2.6, top=0.12) as figure:
         axes = figure.subplots()
         x = 1e3 * surface.x
         axes.fill_between(x, disc.min() - 4, disc, color=COLOURS[0], alpha=0.35, lw=0)
@@ -42,7 +42,7 @@ def height_distribution(surface):
             density, edges = np.histogram(heights, bins=80, density=True)
             axes.plot(0.5 * (edges[1:] + edges[:-1]), density, color=COLOURS[index], ls=LINES[index], label=body)
         axes.set(xlabel="height above mean plane / µm", ylabel="probability density / 1/µm", ylim=(0, None))
-        axes.legend()
+        legend(axes)
         return svg(figure)
 
 
@@ -57,9 +57,9 @@ def power_spectrum(surface):
         shortest = 2 * np.pi / surface.shortest_wavelength.min()
         axes.axvline(shortest, color=INK, lw=0.9, ls=":")
         axes.annotate("shortest wavelength kept", (shortest, 1), xycoords=("data", "axes fraction"), fontsize=8,
-                      xytext=(-3, -2), textcoords="offset points", rotation=90, ha="right", va="top")
+                      xytext=(4, -2), textcoords="offset points", rotation=90, va="top")
         axes.set(xlabel="wavenumber / rad/m", ylabel="power spectral density / m$^4$", ylim=_decades(surface))
-        axes.legend(loc="lower left")
+        legend(axes)
         return svg(figure)
 
 
@@ -68,6 +68,7 @@ def _heights(surface, body):
 
 
 def _decades(surface):
-    largest = surface.power_spectrum.max()
-    smallest = surface.power_spectrum[surface.power_spectrum > 0].min(initial=largest)
-    return max(smallest, 1e-9 * largest) / 2, 3 * largest
+    """Limits of the spectra over the wavelengths that are kept."""
+    kept = surface.wavenumber[None, :] < 2 * np.pi / surface.shortest_wavelength[:, None]
+    shown = surface.power_spectrum[kept & (surface.power_spectrum > 0)]
+    return (shown.min() / 5, 3 * shown.max()) if shown.size else (None, None)

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from pipeline.views.agreement import comparable
+from pipeline.views.agreement import judged
 from pipeline.views.chapters.motion import extremes, point
 from pipeline.views.chapters.stability import distinct_unstable
 from pipeline.views.readable import number, percent, plural, quantity, span
@@ -91,13 +91,11 @@ def _sure(products):
     comparison = products.get("comparison")
     if comparison is None:
         return "Nothing published was compared."
-    rows = comparable(comparison)
-    within = [r for r in rows if comparison.verdict[r] == "within"]
-    tuned = [r for r in within if comparison.tuned[r]]
-    published = int(comparison.published_known.sum())
-    return (f"The paper states {published} numbers; {len(rows)} can be compared, {len(within)} lie within their"
-            f" tolerance, and {len(tuned)} of those were reached by tuning, so {len(within) - len(tuned)} speak for the"
-            " model.")
+    within = judged(comparison, "within")
+    tuned = sum(bool(comparison.tuned[row]) for row in within)
+    return (f"Of {len(comparison.row)} published facts, {len(judged(comparison))} can be judged by this chain;"
+            f" {len(within)} hold within their tolerance, {tuned} of them because something was tuned to reach them."
+            f" That leaves {len(within) - tuned} as evidence for the model.")
 
 
 def _tuned(products, tuned_settings):

@@ -98,6 +98,14 @@ def test_rows_transposed():
     np.testing.assert_array_equal(nodal, [[0, 0, 8], [0, 0, -2], [6, 0, -6]])
 
 
+@pytest.mark.parametrize("radius", [INNER, OUTER])
+def test_rims_are_circles_beside_the_parabolas_of_the_mesh(radius):
+    node, face = ring()
+    angle = np.linspace(0, 7, 100)
+    point = np.stack([radius * np.cos(angle), radius * np.sin(angle), np.full(100, TOP)], axis=1)
+    np.testing.assert_allclose(gather(locate(node, face, point), node), point, atol=2e-6)
+
+
 def test_points_beside_the_body_are_refused():
     node, face = ring()
     for point in ([0.2, 0, TOP], [0.1, 0, 2 * TOP]):

@@ -49,15 +49,15 @@ def rigid_motions(node):
 @pytest.mark.exact
 def test_craig_bampton_converges_to_the_full_modes_of_a_free_plate(plate):
     node, stiffness, mass = plate
-    full = lowest_modes(stiffness, mass, "superlu", count=14)[0][6:]
+    full = lowest_modes(stiffness, mass, "superlu", count=14, shift=1e3)[0][6:]
     errors = []
-    for below in (20e3, 40e3, 80e3):
+    for below in (40e3, 80e3, 160e3):
         body = craig_bampton(stiffness, mass, patch_rows(node), below, "superlu")
         errors.append(frequencies(body)[6:14] / full - 1)
     errors = np.array(errors)
     assert (errors > -1e-8).all()
-    assert (np.diff(errors.max(axis=1)) < 0).all()
-    assert errors[-1, :6].max() < 1e-4
+    order = np.log2(errors.max(axis=1)[:-1] / errors.max(axis=1)[1:])
+    assert (order > 2).all()
 
 
 @pytest.mark.exact
@@ -118,7 +118,7 @@ def mounted(plate):
 def test_residual_attachment_makes_the_static_response_exact(mounted):
     stiffness, mass, rows = mounted
     frequency, modes = lowest_modes(stiffness, mass, "superlu", below=20e3)
-    body = attachment(stiffness, mass, rows, frequency, modes, np.inf, "superlu")
+    body = attachment(stiffness, mass, rows, frequency, modes, np.inf, factorise(stiffness, "superlu"))
     force = np.arange(1.0, rows.shape[0] + 1)
     reduced = body.shape @ np.linalg.solve(body.stiffness, (rows @ body.shape).T @ force)
     expected = factorise(stiffness, "superlu").solve(rows.T @ force)
@@ -132,9 +132,9 @@ def test_residual_attachment_makes_the_static_response_exact(mounted):
 def test_pseudo_modes_are_cut_at_the_declared_frequency(mounted):
     stiffness, mass, rows = mounted
     frequency, modes = lowest_modes(stiffness, mass, "superlu", below=20e3)
-    every = attachment(stiffness, mass, rows, frequency, modes, np.inf, "superlu").frequency
+    every = attachment(stiffness, mass, rows, frequency, modes, np.inf, factorise(stiffness, "superlu")).frequency
     cut = np.median(every[len(frequency):])
-    kept = attachment(stiffness, mass, rows, frequency, modes, cut, "superlu").frequency
+    kept = attachment(stiffness, mass, rows, frequency, modes, cut, factorise(stiffness, "superlu")).frequency
     np.testing.assert_allclose(kept, every[every < cut], rtol=1e-9)
 
 

@@ -15,7 +15,10 @@ DETECTOR = Detector((1250.0, 20000.0), 120.0, 1e-9, 0.01, 0.75, 10.0, 30.0, 100.
 
 
 def tone(frequency, root_mean_square, start=0.0, end=1.0):
-    return np.where((TIME >= start) & (TIME < end), np.sqrt(2) * root_mean_square * np.sin(2 * np.pi * frequency * TIME), 0)
+    shown = np.searchsorted(TIME, (start, end))
+    signal = np.zeros(len(TIME))
+    signal[slice(*shown)] = np.sqrt(2) * root_mean_square * np.sin(2 * np.pi * frequency * TIME[slice(*shown)])
+    return signal
 
 
 def events(signal, detector=DETECTOR):

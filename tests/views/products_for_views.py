@@ -47,8 +47,7 @@ def surface(nodes=48):
     rms = heights.std(axis=(1, 2))
     wavenumber = np.geomspace(6e3, 2e5, 30)
     return filled(
-        Surface, y=x, x=x, disc_height=heights[0], pad_height=heights[1], disc_depth=np.geomspace(1, 101, 6) * 1e-5 - 1e-5,
-        pad_depth=np.geomspace(1, 101, 6) * 1e-5 - 1e-5, body=["disc", "pad"],
+        Surface, y=x, x=x, disc_height=heights[0], pad_height=heights[1], body=["disc", "pad"],
         source=["generated: turned disc", "generated: plateau pad"], rms_height=rms, mean_height=0.8 * rms,
         peak_to_valley=np.ptp(heights, axis=(1, 2)), skewness=[0.1, -0.6], kurtosis=[2.1, 3.4],
         rms_slope=[0.12, 0.09], outlier_share=[0.0, 0.001], filled_share=[0.0, 0.002],
@@ -65,8 +64,9 @@ def micro_friction(nodes=48):
     field = np.random.default_rng(2).normal(size=(nodes, nodes))
     x = np.linspace(0, 1e-3, nodes)
     return filled(
-        MicroFriction, pressure=PRESSURE, speed=SPEED, distance=distance, friction=friction, friction_std=0.02 * friction,
-        real_area=area, wear_depth=7e-7 * worn * np.ones((3, 3, 1)), largest_wear=6e-6 * worn * np.ones((3, 3, 1)),
+        MicroFriction, pressure=PRESSURE, speed=SPEED, distance=distance, friction=friction,
+        friction_std=0.02 * friction, real_area=area, wear_depth=7e-7 * worn * np.ones((3, 3, 1)),
+        largest_wear=6e-6 * worn * np.ones((3, 3, 1)),
         normal_stiffness=1e12 * (1 + worn) * np.ones((3, 3, 1)), flash_temperature=5 + 0 * area, shear_limit=13.5e6,
         y=x, x=x, contact_pressure_new=np.clip(field - 1.8, 0, None) * 5e7,
         contact_pressure_worn=np.clip(field - 1.5, 0, None) * 4e7, pad_wear=np.clip(field - 1.4, 0, None) * 2e-6,
@@ -143,8 +143,9 @@ def multibody(samples=3000):
     stability = 40 * np.log(np.outer(factors, factors)) + rate[:, None, None]
     contact = np.zeros((9, 2, samples), dtype=np.float32)
     return filled(
-        Multibody, pressure=OPERATING_PRESSURE, speed=OPERATING_SPEED, time=time, pad_name=["outer", "inner"], pad_motion=motion,
-        patch_force=force, normal_force=contact, friction_force=contact, mean_friction=np.linspace(0.41, 0.5, 9),
+        Multibody, pressure=OPERATING_PRESSURE, speed=OPERATING_SPEED, time=time,
+        pad_name=["outer", "inner"], pad_motion=motion, patch_force=force, normal_force=contact,
+        friction_force=contact, mean_friction=np.linspace(0.41, 0.5, 9),
         growth_rate=rate, oscillation_frequency=np.full(9, 180.0), separated_share=np.zeros(9),
         outside_map_share=np.full(9, 0.01), caliper_factor=factors, abutment_factor=factors, stability=stability)
 
@@ -178,8 +179,8 @@ def squeal(quiet=False):
 
 def comparison():
     """Rows of every kind: within, outside, tuned, doubted, not comparable."""
-    rows = (("friction, lowest", "friction", "1", 0.4, 1, 0.41, 1, 0.05, "within", "shear limit", "Section 4", ""),
-            ("real contact area at 1 MPa", "friction", "%", 3, 1, 3.1, 1, 0.6, "within", "pad roughness", "Fig. 10a", ""),
+    rows = (("friction, lowest", "friction", "1", 0.4, 1, 0.41, 1, 0.05, "within", "shear limit", "Sec. 4", ""),
+            ("real contact at 1 MPa", "friction", "%", 3, 1, 3.1, 1, 0.6, "within", "pad roughness", "Fig. 10a", ""),
             ("free disc, mode 1/2", "modes", "Hz", 267, 1, 259.4, 1, 10, "within", "disc section", "Table 1", ""),
             ("free disc, mode 18", "modes", "Hz", 3075, 1, 3399, 1, 150, "outside", "", "Table 1", "prints 337.3 Hz"),
             ("growth at lowest load", "multibody", "1/s", 0, 0, -60.0, 1, 0, "not comparable", "", "Fig. 13", ""),
@@ -228,5 +229,6 @@ def _ring(inner, outer, low, high, start, end, sectors, closed):
     shape = np.zeros((2, len(node), 3))
     turn = np.arctan2(node[:, 1], node[:, 0])
     shape[:, :, 2] = np.cos(np.array([[2], [3]]) * turn)
-    return filled(Body, node=node, element=element, kind="hexahedron20", material_name=["iron"], density=[7200.0], elasticity=np.eye(6)[None] * 1e11, damping_ratio=0.002,
+    return filled(Body, node=node, element=element, kind="hexahedron20", material_name=["iron"],
+                density=[7200.0], damping_ratio=0.002,
                 frequency=[259.4, 660.1], shape=shape, supported=[])

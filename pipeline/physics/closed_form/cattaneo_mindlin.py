@@ -1,4 +1,4 @@
-"""Cattaneo (1938) and Mindlin (1949): partial slip of a Hertz contact under a tangential load (Johnson 1985, section 7.2)."""
+"""Cattaneo (1938), Mindlin (1949): partial slip of a Hertz contact under a tangential load (Johnson 1985, 7.2)."""
 
 import numpy as np
 

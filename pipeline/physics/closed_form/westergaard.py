@@ -4,7 +4,7 @@ import numpy as np
 
 
 def full_contact_pressure(amplitude, wavelength, modulus):
-    """Mean pressure p* = pi E* amplitude / wavelength at which the wave h = amplitude cos(2 pi x / wavelength) flattens."""
+    """Mean pressure p* = pi E* amplitude / wavelength that flattens the wave amplitude cos(2 pi x / wavelength)."""
     return np.pi * modulus * amplitude / wavelength
 
 

@@ -1,6 +1,6 @@
 """Chapter: the paper's numbers beside ours."""
 
-from pipeline.views.agreement import agreement, comparable
+from pipeline.views.agreement import agreement, comparable, judged
 from pipeline.views.chapter import Chapter, Figure, Table
 from pipeline.views.readable import THIN, number
 
@@ -9,14 +9,14 @@ HEAD = ("quantity", "paper", "ours", "tolerance", "verdict", "tuned", "doubt", "
 
 def chapter(comparison, look):
     """Chapter of the product Comparison."""
-    rows = comparable(comparison)
-    outside = [str(comparison.row[r]) for r in rows if comparison.verdict[r] == "outside"]
-    figures = (Figure(agreement(comparison), "Deviation from the paper in tolerances: blue inside, red outside, hollow"
-                      " where something was tuned to reach it; an arrow lies beyond the frame."),) if len(rows) else ()
+    outside = [str(comparison.row[row]) for row in judged(comparison, "outside")]
+    caption = ("Deviation from the paper in tolerances: blue inside, red outside, hollow where something was tuned to"
+               " reach it; an arrow lies beyond the frame.")
+    figures = (Figure(agreement(comparison), caption),) if len(comparable(comparison)) else ()
     return Chapter(
         "comparison", "Paper against ours",
-        f"{int(comparison.published_known.sum())} published numbers, {len(rows)} of them computed by this chain.",
-        f"Outside tolerance: {'; '.join(outside)}." if outside else "Every number compared lies within its tolerance.",
+        f"{len(comparison.row)} published facts, {len(judged(comparison))} of them judged against this chain.",
+        f"Outside tolerance: {'; '.join(outside)}." if outside else "Every fact judged holds within its tolerance.",
         figures)
 
 
@@ -27,7 +27,7 @@ def table(comparison):
 
 def _row(comparison, row):
     unit = str(comparison.unit[row])
-    unit = "" if unit == "1" else f"{THIN}{unit}"
+    unit = {"1": "", "um": f"{THIN}µm"}.get(unit, f"{THIN}{unit}")
 
     def write(value, known):
         return f"{number(value)}{unit}" if known else "—"

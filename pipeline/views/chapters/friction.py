@@ -17,9 +17,9 @@ def micro(product, look):
         f" {span(product.pressure, 'Pa')} and {span(product.speed, 'm/s')}. A contact spot shears at no more than"
         f" {quantity(product.shear_limit, 'Pa', 3)}; friction is the sum of shear over the sum of normal force.",
         f"Friction lies between {span(product.friction, '1')}; wear flattens the peaks, the real contact area grows,"
-        f" and friction {'rises' if gain > 0 else 'falls'} by {number(abs(gain), 2)} on average. Since the real contact"
-        f" stays a few percent of the nominal area, the shear limit sets the level of friction: it is the first value"
-        f" to measure.",
+        f" and friction {'rises' if gain > 0 else 'falls'} by {number(abs(gain), 2)} on average. In full slip"
+        " friction is shear limit times real contact area over pressure: the shear limit sets its level and is the"
+        " first value to measure.",
         (*_spots(product, look, point, new, worn), *_curves(product)))
 
 

@@ -4,7 +4,7 @@ import numpy as np
 
 from pipeline.views import pad_motion as pictures
 from pipeline.views.chapter import Chapter, Figure
-from pipeline.views.readable import number, percent, quantity, span
+from pipeline.views.readable import THIN, number, percent, quantity, span
 
 
 def chapter(multibody, look):
@@ -63,5 +63,5 @@ def _stability(multibody, operating, look):
     return Figure(pictures.stability_map(multibody, operating, look.dpi),
                   f"Stability of the linearised pads over caliper and abutment stiffness at"
                   f" {point(multibody, operating)}: largest growth rates {number(values.min(), 3)} to"
-                  f" {number(values.max(), 3)}{chr(0x202f)}1/s, {share} of the map unstable (orange). Star: this case;"
+                  f" {number(values.max(), 3)}{THIN}1/s, {share} of the map unstable (orange). Star: this case;"
                   " black line: the limit.")

@@ -30,26 +30,26 @@ def squeal(product, published, look):
     """Chapter of the product Squeal."""
     points = list(dict.fromkeys(extremes(product)))
     loudest = int(np.argmax(product.peak_level.max(axis=0)))
-    figures = [
-        Figure(pictures.occurrence(product, look.dpi), occurrence_caption(product)),
+    figures = (
+        Figure(pictures.level_frequency(product, published),
+               f"Level over frequency of {plural(len(product.event_level), 'event')}"
+               + (f", {span(product.event_frequency, 'Hz')}, {span(product.event_level, '1')} dB"
+                  if len(product.event_level) else "") + "; grey dots: highest peak of each sensor; dashed: threshold."
+               + _dotted(published)),
         Figure(pictures.band_levels(product, points, loudest),
-               f"Third-octave levels at sensor {product.sensor_name[loudest]}, lowest and highest load.")]
-    if len(product.event_level):
-        figures.insert(1, Figure(pictures.level_frequency(product, published),
-                                 f"{plural(len(product.event_level), 'event')}:"
-                                 f" {span(product.event_frequency, 'Hz')}, {span(product.event_level, '1')} dB; dashed:"
-                                 " threshold." + _dotted(published)))
+               f"Third-octave levels at sensor {product.sensor_name[loudest]}, lowest and highest load."))
     return Chapter(
         "squeal", "Squeal",
         f"The detector calls a spectral peak above {number(product.threshold, 3)} dB (velocity, re"
-        f" {quantity(product.reference, 'm/s', 3)}) in the squeal band an event, sensor by sensor.",
-        _conclusion(product), tuple(figures), _table(product))
+        f" {quantity(product.reference, 'm/s', 3)}) in the squeal band an event, sensor by sensor."
+        " Figure 1 shows where it squeals.",
+        _conclusion(product), figures, _table(product))
 
 
 def occurrence_caption(product):
     """Where the loudest peak lies and how it compares with the threshold."""
     return ("Highest velocity level in the squeal band at each operating point, its frequency and number of events."
-            f" Loudest {number(product.peak_level.max(), 3)} dB; the line in the colour bar is the threshold,"
+            f" Framed: squeal. Loudest {number(product.peak_level.max(), 3)} dB; line in the colour bar: threshold,"
             f" {number(product.threshold, 3)} dB re {quantity(product.reference, 'm/s', 3)}.")
 
 

@@ -5,7 +5,7 @@ import numpy as np
 from pipeline.views import complex_mode_map as pictures
 from pipeline.views import shapes
 from pipeline.views.chapter import Chapter, Figure, Table
-from pipeline.views.chapters.structure import NO_PICTURES
+from pipeline.views.chapters.structure import COLOURS, NO_PICTURES
 from pipeline.views.readable import number, quantity, span
 from pipeline.views.scene import render
 
@@ -23,7 +23,8 @@ def chapter(modes, model, published, look):
         "complex_modes", "Stability of the sliding brake",
         "Complex modes of the brake with sliding friction: a mode with positive growth rate grows by itself until"
         f" something limits it. Friction is swept over {span(modes.friction, '1')} at"
-        f" {span(modes.pressure, 'Pa')}; {modes.corrections.item()} static friction corrections complete the modal base.",
+        f" {span(modes.pressure, 'Pa')}; {modes.corrections.item()} static friction corrections complete the modal"
+        " base.",
         _conclusion(modes), figures, _table(modes),
         (NO_PICTURES,) if drawn is None else ())
 
@@ -50,7 +51,8 @@ def _conclusion(modes):
     strongest = modes.unstable_root[0]
     starts = [f"{number(mu, 3)} at {quantity(p, 'Pa', 3)}" for mu, p in zip(onset(modes), modes.pressure, strict=True)
               if mu is not None]
-    return (f"{len(unstable)} different frequencies are unstable at the operating points; the strongest,"
+    amount = "One frequency is" if len(unstable) == 1 else f"{len(unstable)} different frequencies are"
+    return (f"{amount} unstable at the operating points; the strongest,"
             f" {quantity(strongest.imag / TWO_PI, 'Hz')}, grows with {quantity(strongest.real, '1/s', 3)}. In the sweep"
             f" the first instability appears at friction {', '.join(starts) or 'beyond the sweep'}. A growth rate says"
             " that squeal can start, not how loud it becomes.")
@@ -77,7 +79,7 @@ def _shape_caption(modes, index):
     root, point = modes.unstable_root[index], modes.unstable_operating[index]
     return (f"Unstable mode at {quantity(root.imag / TWO_PI, 'Hz')}, growth {quantity(root.real, '1/s', 3)}, at"
             f" {quantity(modes.operating_pressure[point], 'Pa', 3)},"
-            f" {quantity(modes.operating_speed[point], 'rad/s')}. Colour: amplitude, yellow largest.")
+            f" {quantity(modes.operating_speed[point], 'rad/s')}. {COLOURS}")
 
 
 def _table(modes, most=12):

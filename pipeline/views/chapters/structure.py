@@ -7,6 +7,7 @@ from pipeline.views.chapter import Chapter, Figure, Table
 from pipeline.views.readable import number, percent, quantity, span
 from pipeline.views.scene import render
 
+COLOURS = "Colour: displacement along the axis, orange and purple opposite, white at rest."
 NO_PICTURES = "Pictures of meshes and mode shapes need OpenGL (on Linux: libEGL), which this machine does not offer."
 
 
@@ -24,9 +25,10 @@ def chapter(structure, look):
         f"Finite-element bodies {', '.join(str(n).replace('_', ' ') for n in structure.body_name)}, pressed together"
         f" by the piston at {span(structure.pressure, 'Pa')}; {len(structure.contact_area)} contact patches,"
         f" {percent(open_share)} of them open at the middle pressure.",
-        f"The free disc has {len(structure.free_frequency)} modes up to {quantity(structure.free_frequency.max(), 'Hz')}"
-        "; squeal needs two modes of the assembled brake close together, so the frequencies below decide where it can"
-        " appear. The pressure distribution of the pads shows where they would wear first.",
+        f"The free disc has {len(structure.free_frequency)} modes up to"
+        f" {quantity(structure.free_frequency.max(), 'Hz')}; squeal needs two modes of the assembled brake"
+        " close together, so the frequencies below decide where it can appear. The pressure distribution of the pads"
+        " shows where they would wear first.",
         figures, (_bodies(structure), _free_modes(structure)), () if pictures else (NO_PICTURES,))
 
 
@@ -38,7 +40,7 @@ def _assembly(structure, picture):
 
 def _mode(disc, mode, picture):
     return Figure(picture, f"Disc on its mount, {quantity(disc.frequency[mode], 'Hz')}, mostly"
-                  f" {shapes.diameters(disc, mode)} nodal diameters along the axis.", small=True)
+                  f" {shapes.diameters(disc, mode)} nodal diameters. {COLOURS}", small=True)
 
 
 def _pads(structure, look):

@@ -1,0 +1,218 @@
+"""The reduced sliding model: bodies in reduced coordinates q, joints, and points that slide with friction.
+
+    M q'' + (C + W G + sum_j c_j b_j b_j^T) q' + (K + W^2 Kc + sum_j k_j b_j b_j^T) q = sum_i (n_i N_i + t_i T_i) + f,
+
+W is the speed of the drive, f the force of the inputs. Contact i opens along its normal row, n_i q > 0; N_i >= 0
+presses the rubbed body away, T_i is the friction force on it, along the sliding velocity v_i = lever_i W. About steady
+sliding under the preload N0:
+
+    N = N0 - k n q - c n q',    T = sgn(v) mu N,    slip = |v| - sgn(v) t q',                                       (1)
+    dT = -sgn(v) (mu + p dmu/dp) (k n q + c n q') - N0 dmu/dslip t q',                                              (2)
+    dL = -(mu N0 / |v|) l q',                                                                                       (3)
+
+where (3) is friction-induced damping: friction turns with the slip velocity when the contact moves sideways. Rows stay
+where they are as the bodies deform (no follower terms of the normal). Every effect and every solver acts on this
+object; no contact at all, free bodies and negative speeds are legal. A displacement u imposed on the far end of a joint
+is the force k u along its row.
+"""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from pipeline.contract.errors import ConfigError
+
+
+@dataclass(frozen=True)
+class Joints:
+    """Springs and dampers along the rows b (j, n): elongation b q; stiffness (j,) N/m, damping (j,) N s/m."""
+
+    name: tuple
+    rows: np.ndarray
+    stiffness: np.ndarray
+    damping: np.ndarray
+
+
+@dataclass(frozen=True)
+class Contacts:
+    """Sliding points: rows (c, n) of the relative displacement, and the state about which they are linearised.
+
+    ``lever`` (c,) is the sliding speed per speed of the drive (the radius in m on a disc, 1 on a belt), ``position``
+    (c, 3) m, ``area`` (c,) m^2, ``preload`` (c,) N, ``stiffness`` (c,) N/m normal stiffness (0 where open), ``damping``
+    (c,) N s/m normal damping.
+    """
+
+    normal: np.ndarray
+    tangent: np.ndarray
+    lateral: np.ndarray
+    position: np.ndarray
+    area: np.ndarray
+    lever: np.ndarray
+    preload: np.ndarray
+    stiffness: np.ndarray
+    damping: np.ndarray
+
+    @property
+    def pressure(self):
+        """Static contact pressure (c,) in Pa."""
+        return self.preload / self.area
+
+
+@dataclass(frozen=True)
+class FrictionState:
+    """Friction about the steady state, each () or (c,): mu, its slope over pressure (1/Pa) and slip speed (s/m)."""
+
+    coefficient: np.ndarray | float
+    pressure_slope: np.ndarray | float = 0.0
+    speed_slope: np.ndarray | float = 0.0
+
+
+@dataclass(frozen=True)
+class SlidingModel:
+    """Matrices (n, n) of the bodies, without joints and contacts; input rows (i, n), sensor rows (s, n).
+
+    ``gyroscopic`` is per unit of ``speed``, ``centrifugal`` per squared speed; ``coordinate_body`` (n,) is the index of
+    the body of each coordinate in ``body_name``.
+    """
+
+    body_name: tuple
+    coordinate_body: np.ndarray
+    mass: np.ndarray
+    damping: np.ndarray
+    gyroscopic: np.ndarray
+    stiffness: np.ndarray
+    centrifugal: np.ndarray
+    joints: Joints
+    contacts: Contacts
+    input_name: tuple
+    input_rows: np.ndarray
+    sensor_name: tuple
+    sensor_rows: np.ndarray
+    speed: float
+
+    @property
+    def size(self):
+        """Number of coordinates n."""
+        return len(self.mass)
+
+    @property
+    def sliding_speed(self):
+        """Sliding velocity (c,) of the contacts, m/s, signed."""
+        return self.contacts.lever * self.speed
+
+    def supported(self, gyroscopic=True, centrifugal=True):
+        """(M, C, K) of the bodies with their joints, contacts left out."""
+        joints = self.joints
+        damping = self.damping + spread(joints.rows, joints.damping, joints.rows)
+        stiffness = self.stiffness + spread(joints.rows, joints.stiffness, joints.rows)
+        if gyroscopic:
+            damping = damping + self.speed * self.gyroscopic
+        if centrifugal:
+            stiffness = stiffness + self.speed**2 * self.centrifugal
+        return self.mass, damping, stiffness
+
+    def frictionless(self, gyroscopic=True, centrifugal=True):
+        """(M, C, K) with the normal stiffness and damping of the closed contacts, and no friction."""
+        mass, damping, stiffness = self.supported(gyroscopic, centrifugal)
+        contacts = self.contacts
+        return (mass, damping + spread(contacts.normal, contacts.damping, contacts.normal),
+                stiffness + spread(contacts.normal, contacts.stiffness, contacts.normal))
+
+    def friction_matrices(self, friction, friction_damping=True):
+        """(C_f, K_f), both (n, n), of the linearised friction forces (2) and, if wanted, (3).
+
+        ``friction`` is a FrictionState or a plain coefficient. Raises ConfigError for friction-induced damping where a
+        loaded contact does not slide.
+        """
+        state = friction if isinstance(friction, FrictionState) else FrictionState(friction)
+        contacts = self.contacts
+        coupling = self._direction() * (state.coefficient + contacts.pressure * state.pressure_slope)
+        damping = (spread(contacts.tangent, coupling * contacts.damping, contacts.normal)
+                   + spread(contacts.tangent, contacts.preload * state.speed_slope, contacts.tangent))
+        if friction_damping:
+            damping = damping + spread(contacts.lateral, self._turning_drag(state.coefficient), contacts.lateral)
+        return damping, spread(contacts.tangent, coupling * contacts.stiffness, contacts.normal)
+
+    def linearised(self, friction, friction_damping=True, gyroscopic=True, centrifugal=True):
+        """(M, C, K) about steady sliding with friction; terms as in the methods above, and all at once.
+
+        K is unsymmetric through friction, C through friction and the gyroscopic terms.
+        """
+        mass, damping, stiffness = self.frictionless(gyroscopic, centrifugal)
+        friction_drag, friction_stiffness = self.friction_matrices(friction, friction_damping)
+        return mass, damping + friction_drag, stiffness + friction_stiffness
+
+    def held(self, *bodies):
+        """The model with the named bodies rigid and held: their coordinates are dropped."""
+        unknown = set(bodies) - set(self.body_name)
+        if unknown:
+            raise ConfigError("sliding model: body", f"one of {', '.join(self.body_name)}", ", ".join(sorted(unknown)))
+        gone = [self.body_name.index(b) for b in bodies]
+        return self.restricted(np.flatnonzero(~np.isin(self.coordinate_body, gone)))
+
+    def restricted(self, kept):
+        """The model in the coordinates ``kept`` (indices) alone, the others held at zero."""
+        changed = self.projected(np.eye(self.size)[:, kept])
+        return replace(changed, coordinate_body=self.coordinate_body[kept])
+
+    def projected(self, basis):
+        """The model in coordinates r with q = ``basis`` r, (n, m); ``coordinate_body`` is -1 where bodies mix."""
+        def on(rows):
+            return rows @ basis
+
+        matrices = {name: basis.T @ getattr(self, name) @ basis
+                    for name in ("mass", "damping", "gyroscopic", "stiffness", "centrifugal")}
+        contacts = replace(self.contacts, normal=on(self.contacts.normal), tangent=on(self.contacts.tangent),
+                           lateral=on(self.contacts.lateral))
+        return replace(self, **matrices, joints=replace(self.joints, rows=on(self.joints.rows)), contacts=contacts,
+                       input_rows=on(self.input_rows), sensor_rows=on(self.sensor_rows),
+                       coordinate_body=np.full(basis.shape[1], -1))
+
+    def with_joints_scaled(self, group, factor):
+        """The model with stiffness and damping of all joints whose name contains ``group`` times ``factor``."""
+        chosen = np.array([group in name for name in self.joints.name], bool)
+        if not chosen.any():
+            raise ConfigError("sliding model: joint", f"part of one of {', '.join(self.joints.name)}", repr(group))
+        scale = np.where(chosen, factor, 1.0)
+        return replace(self, joints=replace(self.joints, stiffness=self.joints.stiffness * scale,
+                                            damping=self.joints.damping * scale))
+
+    def at_speed(self, speed):
+        """The model at another speed of its drive."""
+        return replace(self, speed=float(speed))
+
+    def _direction(self):
+        """Sign of sliding (c,); a drive at rest counts as about to turn forwards."""
+        return np.where(self.sliding_speed < 0, -1.0, 1.0)
+
+    def _turning_drag(self, coefficient):
+        """mu N0 / |v| (c,) in N s/m of equation (3); 0 where there is no friction force."""
+        force, speed = coefficient * self.contacts.preload, abs(self.sliding_speed)
+        if np.any((force != 0) & (speed == 0)):
+            raise ConfigError("friction-induced damping", "every loaded contact to slide", "a sliding speed of 0",
+                              "give a speed, or leave friction_damping out")
+        return np.divide(force, speed, out=np.zeros_like(force), where=speed > 0)
+
+
+def sliding_model(reduced, state, speed):
+    """The sliding model of a product ReducedModel (or any object with its fields).
+
+    ``state`` is the row of its preload table, ``speed`` the disc speed in rad/s; the lever of a contact is its radius.
+    """
+    joints = Joints(tuple(reduced.joint_name), reduced.joint_rows, reduced.joint_stiffness, reduced.joint_damping)
+    contacts = Contacts(
+        normal=reduced.contact_normal, tangent=reduced.contact_tangent, lateral=reduced.contact_lateral,
+        position=reduced.contact_position, area=reduced.contact_area,
+        lever=np.hypot(reduced.contact_position[:, 0], reduced.contact_position[:, 1]),
+        preload=reduced.preload[state], stiffness=reduced.contact_stiffness[state],
+        damping=np.zeros(len(reduced.contact_area)))
+    matrices = {name: getattr(reduced, name) for name in ("mass", "damping", "gyroscopic", "stiffness", "centrifugal")}
+    return SlidingModel(
+        body_name=tuple(reduced.body_name), coordinate_body=reduced.coordinate_body, **matrices, joints=joints,
+        contacts=contacts, input_name=tuple(reduced.input_name), input_rows=reduced.input_rows,
+        sensor_name=tuple(reduced.sensor_name), sensor_rows=reduced.sensor_rows, speed=float(speed))
+
+
+def spread(left, weight, right):
+    """sum_i weight_i left_i^T right_i, (n, n), of rows (r, n)."""
+    return (left.T * np.broadcast_to(weight, len(left))) @ right

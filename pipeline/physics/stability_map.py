@@ -1,0 +1,34 @@
+"""Growth rate of small motions of the pads about steady sliding on the rigid disc, over the stiffness of the joints."""
+
+import numpy as np
+
+from pipeline.physics.pad_system import linearised, preloaded_modes, sliding_state, static_start
+from pipeline.physics.patch_contact import SUB_DISCS
+from pipeline.physics.quadratic_modes import quadratic_roots, upper_half
+
+
+def sliding_roots(system, highest_frequency=np.inf):
+    """Roots s (1/s) of the linearised system about steady sliding, one of each conjugate pair.
+
+    Friction and its slopes over pressure and slip are those of the law at the sliding state, averaged over the
+    four sub-discs. ``highest_frequency`` (Hz) bounds the frictionless modes in which the roots are sought.
+    """
+    averaged = on_average(system)
+    modal, _ = preloaded_modes(averaged, static_start(averaged, "stability map: static start"), highest_frequency)
+    state = sliding_state(modal, np.zeros(len(modal.mass)), "stability map: steady sliding")
+    stiffness, damping = linearised(modal, state)
+    roots = quadratic_roots(modal.mass, damping, stiffness)
+    return roots[upper_half(roots)]
+
+
+def on_average(system):
+    """The same system where every patch spans one round of the four sub-discs: all have equal shares at all times."""
+    contact = system.contact
+    whole_round = np.full_like(contact.half_angle, SUB_DISCS * np.pi / contact.sectors)
+    return system._replace(contact=contact._replace(half_angle=whole_round))
+
+
+def stability_map(build, caliper_factors, abutment_factors, highest_frequency=np.inf):
+    """(caliper, abutment) largest growth rate in 1/s; ``build(caliper factor, abutment factor)`` is the PadSystem."""
+    return np.array([[sliding_roots(build(caliper, abutment), highest_frequency).real.max()
+                      for abutment in abutment_factors] for caliper in caliper_factors])

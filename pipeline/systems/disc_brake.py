@@ -1,0 +1,170 @@
+"""The disc brake: a stepped disc, two pads with backplates, and a floating caliper.
+
+Axes: disc axis z, the disc turns about +z, the pads are centred on the x axis. The outer pad
+(fingers) lies at z > 0, the inner pad (piston) at z < 0; the friction ring is centred on z = 0.
+The disc enters the pads at their leading end (negative angle) and leaves at the trailing end.
+
+Values: the disc is fitted to Table 1 of the 2021 paper (calibration, not validation); pads and
+caliper are of ordinary passenger-car size, since the paper keeps its own secret. The caliper
+housing is solid: its bore and the piston are not meshed.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from pipeline.contract.errors import ConfigError
+from pipeline.physics.elasticity import isotropic, orthotropic
+from pipeline.physics.mesh import Mesh, boundary_faces, face_normals, read_mesh, revolve
+from pipeline.systems.disc_brake_rows import Contacts, Joints, Rows, contacts, joints, piston_rows, sensor_rows
+
+BODIES = ("disc", "pad_outer", "pad_inner", "caliper")
+#: a mount counts as rigid when the web bends into it over less than this share of the clamped width
+_BENDING_SHARE = 0.25
+#: decay length of contact pressure with separation, share of the rms height (Persson 2007, PRL 99, 125502)
+_SEPARATION_SHARE = 0.4
+
+
+@dataclass(frozen=True)
+class ElasticBody:
+    """Mesh, material row of each element, material table, rigidly held nodes."""
+
+    mesh: Mesh
+    element_material: np.ndarray
+    material_name: tuple
+    density: np.ndarray
+    elasticity: np.ndarray
+    damping_ratio: float
+    supported: np.ndarray
+
+
+@dataclass(frozen=True)
+class DiscBrake:
+    """Bodies in the order of BODIES, their joints, contacts, sensors and the piston row."""
+
+    bodies: tuple
+    joints: Joints
+    contacts: Contacts
+    sensors: Rows
+    sensor_position: np.ndarray
+    sensor_direction: np.ndarray
+    piston: Rows
+    pad_area: float
+
+
+def build(parameters):
+    """The brake of ``parameters``: attributes disc, pad, caliper, joints, sensors as the stage declares them.
+
+    Raises ConfigError where parts intersect or do not meet.
+    """
+    _check(parameters)
+    bodies = (disc(parameters.disc), pad(parameters, +1), pad(parameters, -1), caliper(parameters))
+    touching = contacts([b.mesh for b in bodies], parameters)
+    sensors, position, direction = sensor_rows([b.mesh for b in bodies], parameters)
+    meshes = [b.mesh for b in bodies]
+    return DiscBrake(bodies, joints(meshes, parameters), touching, sensors, position, direction,
+                     piston_rows(meshes, parameters), float(touching.area[touching.pad == 1].sum()))
+
+
+def disc(parameters):
+    """Stepped disc: friction ring centred on z = 0, web flush with the inner face, clamped by the bolts."""
+    mesh = read_mesh(parameters.mesh_file) if parameters.mesh_file else disc_mesh(parameters)
+    elasticity = isotropic(parameters.young, parameters.poisson)
+    return ElasticBody(mesh, np.zeros(len(mesh.element), int), ("cast iron",), np.array([parameters.density]),
+                       elasticity[None], parameters.damping_ratio, clamped_nodes(mesh, parameters))
+
+
+def disc_mesh(parameters):
+    """Revolved section of web and ring, one cell across the web and one more across the ring."""
+    p = parameters
+    web = np.linspace(p.bore_radius, p.ring_inner_radius, p.web_cells + 1)
+    ring = np.linspace(p.ring_inner_radius, p.ring_outer_radius, p.ring_cells + 1)
+    height = np.array([0, p.web_thickness, p.ring_thickness]) - p.ring_thickness / 2
+    mask = np.ones((p.web_cells + p.ring_cells, p.angular_cells, 2), bool)
+    mask[:p.web_cells, :, 1] = False
+    return revolve(np.r_[web, ring[1:]], np.linspace(0, 2 * np.pi, p.angular_cells + 1), height, mask)
+
+
+def clamped_nodes(mesh, parameters):
+    """Nodes of the inner face that the bolts press on the hub: within the pressure cones of 30 degrees.
+
+    The hub is rigid. Rough metal faces under pressure p are a foundation of stiffness k = p / (0.4 Sq)
+    per area, into which the web bends over the length (E t^3 / 3k)^(1/4). That must be far less than
+    the clamped width, else the mount is no rigid support (ConfigError).
+    """
+    p = parameters
+    reach = p.bolt_circle_radius + p.bolt_head_radius + p.web_thickness * np.tan(np.pi / 6)
+    face = boundary_faces(mesh)
+    normal, middle = face_normals(mesh.node, face)
+    bottom = (normal[:, 2] < -0.99) & (np.hypot(middle[:, 0], middle[:, 1]) < reach)
+    if not bottom.any() or not p.bore_radius < p.bolt_circle_radius or not reach < p.ring_inner_radius:
+        raise ConfigError("structure.disc", "bolts between the bore and the ring",
+                          f"clamped out to {reach:g} m", "check bolt circle, bore and ring radii")
+    pressure = p.bolt_count * p.bolt_preload / (np.pi * (reach**2 - p.bore_radius**2))
+    interface, width = pressure / (_SEPARATION_SHARE * p.flange_roughness), reach - p.bore_radius
+    bending = (p.young * p.web_thickness**3 / (3 * interface))**0.25
+    if bending > _BENDING_SHARE * width:
+        raise ConfigError("structure.disc.bolt_preload",
+                          f"a mount that the web enters by less than {_BENDING_SHARE * width:.2g} m",
+                          f"{bending:.2g} m", "tighten the bolts or smooth the flange")
+    return np.unique(face[bottom])
+
+
+def pad(parameters, side):
+    """Lining on the disc face of ``side`` (+1 outer, -1 inner) and its steel backplate; patches divide the mesh."""
+    p, face = parameters.pad, parameters.disc.ring_thickness / 2
+    radius = np.linspace(p.inner_radius, p.outer_radius, p.patches_radial * p.cells_per_patch + 1)
+    angle = np.linspace(-p.angle / 2, p.angle / 2, p.patches_angular * p.cells_per_patch + 1)
+    depth = face + np.r_[np.linspace(0, p.lining_thickness, p.lining_layers + 1),
+                         p.lining_thickness + p.backplate_thickness]
+    mesh = revolve(radius, angle, depth if side > 0 else -depth[::-1])
+    layer = mesh.cell[:, 2] if side > 0 else p.lining_layers - mesh.cell[:, 2]
+    lining = orthotropic((p.lining_young_radial, p.lining_young_tangential, p.lining_young_normal),
+                         (p.lining_poisson,) * 3,
+                         (p.lining_shear_normal, p.lining_shear_normal, p.lining_shear_in_plane))
+    return ElasticBody(mesh, (layer == p.lining_layers).astype(int), ("lining", "steel"),
+                       np.array([p.lining_density, p.backplate_density]),
+                       np.array([lining, isotropic(p.backplate_young, p.backplate_poisson)]), p.damping_ratio,
+                       np.empty(0, int))
+
+
+def caliper(parameters):
+    """C-shaped caliper: fingers above the outer pad, bridge over the rim, solid housing below the inner pad."""
+    p, height = parameters.caliper, pad_height(parameters)
+    radius = np.r_[np.linspace(p.inner_radius, p.bridge_inner_radius, p.radial_cells + 1), p.bridge_outer_radius]
+    front, back = -height - p.piston_gap, height
+    line = np.r_[np.linspace(front - p.housing_depth, front, p.housing_cells + 1),
+                 np.linspace(front, back, p.bridge_cells + 1)[1:], back + p.finger_thickness]
+    middle = (line[:-1] + line[1:]) / 2
+    mask = np.ones((len(radius) - 1, p.angular_cells, len(middle)), bool)
+    mask[:-1, :, (middle > front) & (middle < back)] = False
+    mesh = revolve(radius, np.linspace(-p.angle / 2, p.angle / 2, p.angular_cells + 1), line, mask)
+    return ElasticBody(mesh, np.zeros(len(mesh.element), int), ("ductile iron",), np.array([p.density]),
+                       isotropic(p.young, p.poisson)[None], p.damping_ratio, np.empty(0, int))
+
+
+def pad_height(parameters):
+    """Distance of the back of the backplates from the middle plane of the disc."""
+    return parameters.disc.ring_thickness / 2 + parameters.pad.lining_thickness + parameters.pad.backplate_thickness
+
+
+def _check(parameters):
+    d, p, c = parameters.disc, parameters.pad, parameters.caliper
+    rules = (
+        (d.bore_radius < d.ring_inner_radius < d.ring_outer_radius, "disc", "bore < ring inner < ring outer radius",
+         f"{d.bore_radius:g}, {d.ring_inner_radius:g}, {d.ring_outer_radius:g} m"),
+        (0 < d.web_thickness < d.ring_thickness, "disc.web_thickness", "a web thinner than the ring",
+         f"{d.web_thickness:g} of {d.ring_thickness:g} m"),
+        (p.inner_radius < p.outer_radius, "pad", "inner < outer radius", f"{p.inner_radius:g}, {p.outer_radius:g} m"),
+        (d.ring_inner_radius <= p.inner_radius and p.outer_radius <= d.ring_outer_radius, "pad",
+         f"pads that lie on the ring, {d.ring_inner_radius:g} to {d.ring_outer_radius:g} m",
+         f"{p.inner_radius:g} to {p.outer_radius:g} m"),
+        (c.bridge_inner_radius > d.ring_outer_radius, "caliper.bridge_inner_radius",
+         f"a bridge outside the disc, beyond {d.ring_outer_radius:g} m", f"{c.bridge_inner_radius:g} m: intersection"),
+        (c.inner_radius < c.bridge_inner_radius < c.bridge_outer_radius, "caliper",
+         "inner < bridge inner < bridge outer radius",
+         f"{c.inner_radius:g}, {c.bridge_inner_radius:g}, {c.bridge_outer_radius:g} m"),
+    )
+    for holds, where, expected, found in rules:
+        if not holds:
+            raise ConfigError(f"structure.{where}", expected, found)

@@ -1,0 +1,87 @@
+"""Stage comparison: every published fact beside our number, with tolerance and doubt."""
+
+from dataclasses import fields
+from fnmatch import fnmatch
+
+from pipeline.computed.friction import friction_rows
+from pipeline.computed.modes import disc_mode_rows, squeal_rows, system_mode_rows
+from pipeline.computed.motion import motion_rows
+from pipeline.contract import ConfigError, Context, InputFile, Section, option, stage
+from pipeline.products import Comparison, ComplexModes, MicroFriction, Multibody, Squeal, Structure
+from pipeline.published import load
+
+#: size in SI of the printed units that the chain computes
+_SIZE = {"1": 1.0, "%": 0.01, "um": 1e-6, "MPa": 1e6, "rad/s": 1.0, "Hz": 1.0}
+_REASON = {"condition": "a condition of the authors' work, not a result", "derived": "follows from other rows",
+           "input": "an input of the authors, not a result"}
+_UNCOMPUTED = "the chain does not compute it"
+
+
+class Settings(Section):
+    """What the case is compared with, and which rows it was tuned on."""
+
+    reference: InputFile | None = option(None, "published facts, e.g. data/reference/disc_brake.yaml; none = no rows")
+    tuned: dict[str, str] = option({}, "key of a fact, or a pattern such as mode_*_test: what was tuned on it")
+
+
+@stage
+def comparison(micro_friction: MicroFriction, structure: Structure, complex_modes: ComplexModes, multibody: Multibody,
+               squeal: Squeal, settings: Settings, context: Context) -> Comparison:
+    """Put the published numbers beside ours.
+
+    A statement without a number is compared where it puts bounds on a number of ours. Inputs are shown
+    and not compared: to choose as the authors did is no evidence. A printed value that is read as
+    another one is shown as printed, and the row is not counted.
+
+    Method:
+    Published facts come from {reference}; each of our values is computed from the products of this case. Table 1 is
+    paired by multiplicity, by nodal diameters where they can be inferred, and then by frequency.
+    """
+    facts = load(settings.reference) if settings.reference else ()
+    tuned = _tuned(settings.tuned, facts)
+    known = {fact.key: fact.value * _SIZE[fact.unit] for fact in facts if fact.value is not None and fact.unit in _SIZE}
+    ours = {**friction_rows(micro_friction, known), **motion_rows(multibody, known),
+            **disc_mode_rows(structure, facts), **system_mode_rows(complex_modes, known), **squeal_rows(squeal, known)}
+    rows = [_row(fact, ours.get(fact.key), tuned.get(fact.key, "")) for fact in facts]
+    return Comparison(**{field.name: [row[field.name] for row in rows] for field in fields(Comparison)})
+
+
+def _tuned(patterns, facts):
+    """Fact key -> what was tuned on it."""
+    for pattern in patterns:
+        if facts and not any(fnmatch(fact.key, pattern) for fact in facts):
+            raise ConfigError(f"comparison.tuned.{pattern}", "a key of the reference file, or a pattern of keys",
+                              "none that fits", f"keys are such as {', '.join(fact.key for fact in facts[:3])}")
+    return {fact.key: what for pattern, what in patterns.items() for fact in facts if fnmatch(fact.key, pattern)}
+
+
+def _row(fact, ours, tuned):
+    """The fields of one row."""
+    value = None if ours is None or ours.value is None else ours.value / _SIZE[fact.unit]
+    verdict, counted = _verdict(fact, value)
+    said = f"the paper says: {fact.statement}{_bounds(fact)}" if fact.statement else ""
+    formed = _REASON.get(fact.role, _UNCOMPUTED) if ours is None else ours.note
+    return {"row": fact.quantity, "section": fact.part, "unit": fact.unit, "published": fact.value or 0.0,
+            "published_known": int(fact.value is not None), "ours": value or 0.0, "ours_known": int(value is not None),
+            "tolerance": (fact.tolerance or 0.0) * counted, "verdict": verdict, "tuned": tuned, "source": fact.source,
+            "doubt": fact.doubt, "note": "; ".join(filter(None, (said, formed, _reading(fact, value))))}
+
+
+def _verdict(fact, value):
+    """Verdict, and whether the row counts as compared."""
+    if value is None or not fact.comparable or fact.role == "input" or fact.read_as is not None:
+        return "not comparable", False
+    return ("within" if fact.met_by(value) else "outside"), True
+
+
+def _bounds(fact):
+    bounds = (("at least", fact.lower), ("at most", fact.upper))
+    told = " and ".join(f"{word} {bound:g}" for word, bound in bounds if bound is not None)
+    return f" (holds for {told})" if told else ""
+
+
+def _reading(fact, value):
+    if fact.read_as is None or value is None:
+        return ""
+    return (f"not counted, because the printed value is doubted; {'within' if fact.met_by(value) else 'outside'} the"
+            f" tolerance of {fact.tolerance:g} {fact.unit} about {fact.read_as:g} {fact.unit}, as which it is read")

@@ -1,0 +1,164 @@
+"""Stage multibody: flexible pads and caliper on a rigid disc of four sub-discs with friction from the map."""
+
+from dataclasses import dataclass
+from functools import partial
+from itertools import product
+from typing import Literal
+
+import numpy as np
+
+from pipeline.contract import ConfigError, Context, Quantities, Quantity, Section, option, stage
+from pipeline.physics import multibody as exudyn_model
+from pipeline.physics import newmark
+from pipeline.physics.contact_history import contact_history
+from pipeline.physics.friction_law import FrictionLaw
+from pipeline.physics.oscillation import FEWEST_PERIODS, dominant_frequency, growth_rate
+from pipeline.physics.pad_motion import gravity_rows, sliding_axes
+from pipeline.physics.pad_system import pad_system, preloaded_modes, static_start
+from pipeline.physics.sliding_model import sliding_model
+from pipeline.physics.stability_map import stability_map
+from pipeline.products import FrictionMap, Multibody, ReducedModel
+
+DISC = "disc"
+#: joints that carry the caliper and those that guide the pads, by a part of their names
+CALIPER, ABUTMENT = ("guide_pin", "finger", "piston"), ("abutment",)
+INTEGRATORS = {"exudyn": exudyn_model.integrate, "newmark": newmark.integrate}
+
+
+class Settings(Section):
+    """Operating points, the tessellated disc, time stepping and the stability map."""
+
+    pressures: Quantities("Pa", gt=0) = option(("1 MPa", "2 MPa", "3 MPa"), "nominal pad pressures")
+    speeds: Quantities("rad/s", gt=0) = option(("8.5 rad/s", "10.25 rad/s", "12 rad/s"), "disc speeds")
+    coupling: Literal["one_way"] = option(
+        "one_way", "one_way: the disc is rigid here, and its modes answer to the forces afterwards, as in the paper")
+    sectors: int = option(16, "sectors per revolution, dealt to the four sub-discs in turn; a multiple of 4", ge=4)
+    bedding: Quantities("m", ge=0) = option(
+        ("2 mm", "4 mm", "6 mm", "8 mm"), "distance that each sub-disc has slid on the friction map at the start")
+    bedding_share: float = option(0.01, "part of the distance slid that counts on the friction map", ge=0)
+    stick_speed: Quantity("m/s", gt=0) = option("1 mm/s", "slip below which friction is regularised")
+    ramp: Quantity("s", ge=0) = option("2 ms", "time in which friction rises after the static, friction-free start")
+    duration: Quantity("s", gt=0) = option("0.3 s", "simulated time of each operating point")
+    step: Quantity("s", gt=0) = option("10 us", "time step")
+    record_every: int = option(2, "every so many steps one sample is kept", ge=1)
+    integrator: Literal["exudyn", "newmark"] = option("exudyn", "exudyn's trapezoidal rule, or the same rule in numba")
+    highest_frequency: Quantity("Hz", gt=0) = option(
+        "50 kHz", "modes of the preloaded pads and caliper above it follow quasi-statically only at the start")
+    lowest_frequency: Quantity("Hz", gt=0) = option(
+        "100 Hz", "lowest frequency that counts as oscillation, above the passing of the sub-discs")
+    caliper_factors: Quantities("1", gt=0) = option((0.25, 0.5, 1.0, 2.0, 4.0), "stability map: caliper stiffness")
+    abutment_factors: Quantities("1", gt=0) = option((0.25, 0.5, 1.0, 2.0, 4.0), "stability map: abutment stiffness")
+    stability_frequency: Quantity("Hz", gt=0) = option("20 kHz", "highest mode of the stability map")
+
+
+@dataclass(frozen=True)
+class _Run:
+    """What one operating point gives: fields of the product without their first dimension."""
+
+    time: np.ndarray
+    fields: dict
+
+
+@stage
+def multibody(model: ReducedModel, friction_map: FrictionMap, settings: Settings, context: Context) -> Multibody:
+    """Move the flexible pads on four rigid sub-discs with friction from the map.
+
+    Coupling is one way, as in the paper: the disc is rigid here and the contact forces excite its
+    modes in the stage 'response'.
+
+    Method:
+    Reduced pads and caliper on a rigid disc ({coupling} coupling) whose {sectors} sectors belong to four jointed
+    sub-discs in turn; friction of each contact patch from the friction map at its pressure, its slip and the distance
+    of its sub-disc (start: {bedding} m, gaining {bedding_share} of the distance slid). Static start without friction,
+    friction raised in {ramp} s, then the implicit trapezoidal rule ({integrator}) in steps of {step} s over {duration}
+    s, with preloaded modes up to {highest_frequency} Hz. The stability map holds the largest growth rate of the
+    linearised system with scaled joint stiffnesses.
+    """
+    shortest = settings.ramp + FEWEST_PERIODS / settings.lowest_frequency
+    if settings.duration < shortest:
+        raise ConfigError("multibody.duration", f"at least {shortest:.3g} s: the ramp and {FEWEST_PERIODS} periods of"
+                          " the lowest frequency", f"{settings.duration:g} s")
+    if DISC not in model.body_name:
+        raise ConfigError("multibody: reduced model", f"a body called '{DISC}'", ", ".join(model.body_name))
+    points = list(product(settings.pressures, settings.speeds))
+    law = FrictionLaw(friction_map.pressure, friction_map.speed, friction_map.distance, friction_map.friction)
+    runs = context.map(partial(_operate, model=model, law=law, settings=settings), points, "operating points")
+    fields = {name: np.array([run.fields[name] for run in runs]) for name in runs[0].fields}
+    pressure, speed = np.array(points).T
+    return Multibody(pressure=pressure, speed=speed, time=runs[0].time, pad_name=_pads(model)[1],
+                     caliper_factor=settings.caliper_factors, abutment_factor=settings.abutment_factors, **fields)
+
+
+def _operate(point, model, law, settings):
+    """Transient, oscillation and stability map of one operating point (pressure, speed)."""
+    build = partial(_system, model, law, settings, point)
+    system = build(1.0, 1.0)
+    start = static_start(system, _where(point))
+    modal, modes = preloaded_modes(system, start, settings.highest_frequency)
+    time, displacement, velocity = INTEGRATORS[settings.integrator](
+        modal, np.zeros(modes.shape[1]), settings.step, round(settings.duration / settings.step),
+        settings.record_every, scale=np.linalg.norm(modes.T @ system.load))
+    pads, names = _pads(model)
+    history = contact_history(modal.contact, np.searchsorted(pads, model.contact_pad), len(names), time, displacement,
+                              velocity)
+    rows = _motion_rows(model, pads)
+    motion = (rows @ modes) @ displacement.T + (rows @ start)[:, :, None]
+    stability = stability_map(build, settings.caliper_factors, settings.abutment_factors, settings.stability_frequency)
+    return _Run(time, {
+        "pad_motion": motion, "patch_force": history.patch, "normal_force": history.normal.astype(np.float32),
+        "friction_force": history.friction.astype(np.float32), "mean_friction": _mean_friction(history),
+        "separated_share": history.separated, "outside_map_share": history.outside, "stability": stability,
+        **_oscillation(motion[:, 0], time, settings)})
+
+
+def _system(model, law, settings, point, caliper, abutment):
+    pressure, speed = point
+    sliding = sliding_model(model, 0, speed).held(DISC)
+    sliding = _stiffer(_stiffer(sliding, CALIPER, caliper), ABUTMENT, abutment)
+    return pad_system(sliding, pressure * model.input_area, model.law_closure, model.law_pressure, law,
+                      settings.bedding, settings.bedding_share, settings.sectors, settings.ramp, settings.stick_speed)
+
+
+def _stiffer(sliding, groups, factor):
+    present = [group for group in groups if any(group in name for name in sliding.joints.name)]
+    if not present:
+        raise ConfigError("multibody: stability map", f"a joint called {' or '.join(groups)}",
+                          ", ".join(sliding.joints.name))
+    for group in present:
+        sliding = sliding.with_joints_scaled(group, factor)
+    return sliding
+
+
+def _pads(model):
+    """(bodies, names without 'pad_') of the pads in contact, in the order of the bodies."""
+    bodies = np.unique(model.contact_pad)
+    return bodies, [str(model.body_name[b]).removeprefix("pad_") for b in bodies]
+
+
+def _motion_rows(model, pads):
+    """(pad, 3, coordinate) rows of the centres of gravity in the coordinates of pads and caliper."""
+    kept = model.coordinate_body != list(model.body_name).index(DISC)
+    rows = np.zeros((len(pads), 3, len(kept)))
+    for row, pad in zip(rows, pads, strict=True):
+        own = np.flatnonzero(model.coordinate_body == pad)
+        recovery = model.recovery[model.visible_body == pad][:, :, own]
+        axes = sliding_axes(model.contact_position[model.contact_pad == pad])
+        row[:, own] = gravity_rows(model.mass[np.ix_(own, own)], recovery, axes)
+    return rows[:, :, kept]
+
+
+def _mean_friction(history):
+    half = history.normal.shape[1] // 2
+    return history.friction[:, half:].sum() / history.normal[:, half:].sum()
+
+
+def _oscillation(along, time, settings):
+    """Frequency and growth rate of the pad that moves more, once friction acts fully."""
+    step, acting = time[1] - time[0], time >= settings.ramp
+    moved = along[np.argmax(np.std(along[:, acting], axis=1)), acting]
+    frequency = dominant_frequency(moved, step, settings.lowest_frequency)
+    return {"oscillation_frequency": frequency, "growth_rate": growth_rate(moved, step, frequency)}
+
+
+def _where(point):
+    return f"multibody: static start at {point[0] / 1e6:g} MPa"

@@ -1,0 +1,97 @@
+"""From finite elements to the reduced sliding model that every solver and every effect works on."""
+
+from functools import partial
+
+import numpy as np
+import scipy.sparse as sp
+from scipy.linalg import block_diag
+
+from pipeline.contract import Context, Quantity, Section, option, stage
+from pipeline.physics.body_reduction import ElasticBody, reduce_body
+from pipeline.products import ReducedModel, Structure
+
+#: rows of the structure that carry forces, then those that only observe
+FORCES = ("joint_rows", "contact_normal", "contact_tangent", "contact_lateral", "piston_rows")
+SENSORS = "sensor_rows"
+
+
+class Settings(Section):
+    """How many coordinates the bodies keep."""
+
+    fixed_below: Quantity("Hz", gt=0) = option("30 kHz", "limit of the fixed-interface modes of pads and caliper")
+    residual_below: Quantity("Hz", gt=0) = option("150 kHz", "limit of the pseudo-frequencies of the disc's residual"
+                                                  " response to contact forces; higher = stiffer detail kept")
+
+
+@stage
+def reduced_model(structure: Structure, settings: Settings, context: Context) -> ReducedModel:
+    """Reduce the brake to interface coordinates and modes.
+
+    Method:
+    Pads and caliper were reduced by Craig-Bampton with averaged interfaces and fixed-interface modes below
+    {fixed_below:.3g} Hz, the disc by its modes and residual response to contact forces with pseudo-frequencies below
+    {residual_below:.3g} Hz.
+    """
+    bodies = [_elastic_body(structure, name, index) for index, name in enumerate(structure.body_name)]
+    reduce = partial(reduce_body, fixed_below=settings.fixed_below, residual_below=settings.residual_below,
+                     solver=context.solver)
+    terms = context.map(reduce, bodies, "reducing bodies")
+    sizes = [len(t.mass) for t in terms]
+    told = (f"{name} {size}" for name, size in zip(structure.body_name, sizes, strict=True))
+    context.log(f"reduced coordinates: {', '.join(told)}")
+    matrices = {name: block_diag(*(getattr(t, name) for t in terms))
+                for name in ("mass", "damping", "gyroscopic", "stiffness", "centrifugal")}
+    rows = _split_rows(structure, np.hstack([t.rows for t in terms]))
+    return ReducedModel(
+        body_name=structure.body_name, coordinate_body=np.repeat(np.arange(len(terms)), sizes), **matrices, **rows,
+        **_copied(structure), **_surfaces(terms, sizes))
+
+
+def _elastic_body(structure, name, index):
+    """One body with its part of every row; modes go along only where they are used."""
+    body = getattr(structure, name)
+    incidences = [getattr(structure, field) for field in (*FORCES, SENSORS)]
+    rows = sp.vstack([_body_rows(i, index, 3 * len(body.node)) for i in incidences], format="csr")
+    count = len(body.frequency) if len(body.supported) else 0
+    return ElasticBody(
+        name=name, node=body.node, element=body.element, kind=str(body.kind), material=body.element_material,
+        density=body.density, elasticity=body.elasticity, damping_ratio=float(body.damping_ratio),
+        supported=body.supported, rows=rows, interface=np.arange(sum(int(i.rows) for i in incidences[:-1])),
+        turns=name == "disc", frequency=body.frequency[:count],
+        modes=body.shape[:count].reshape(count, 3 * len(body.node)).T)
+
+
+def _body_rows(incidence, body, size):
+    """(rows, 3n) sparse: the part of the rows that one body moves."""
+    chosen = incidence.body == body
+    place = incidence.row[chosen], 3 * incidence.node[chosen] + incidence.axis[chosen]
+    return sp.csr_matrix((incidence.weight[chosen], place), (int(incidence.rows), size))
+
+
+def _split_rows(structure, rows):
+    """The stacked reduced rows, back under their names."""
+    ends = np.cumsum([int(getattr(structure, field).rows) for field in (*FORCES, SENSORS)])
+    parts = dict(zip((*FORCES, SENSORS), np.split(rows, ends[:-1]), strict=True))
+    pistons = parts.pop("piston_rows")
+    return {**parts, "input_rows": pistons, "input_name": [f"piston_{k + 1}" for k in range(len(pistons))],
+            "input_area": np.full(len(pistons), float(structure.piston_area))}
+
+
+def _copied(structure):
+    """What the reduction leaves as it is."""
+    kept = ("joint_name", "joint_stiffness", "joint_damping", "contact_pad", "contact_position", "contact_area",
+            "pressure", "preload", "contact_stiffness", "law_closure", "law_pressure", "sensor_name",
+            "sensor_position", "sensor_direction")
+    return {name: getattr(structure, name) for name in kept}
+
+
+def _surfaces(terms, sizes):
+    """Surface nodes of all bodies in one numbering, with their recovery in all coordinates."""
+    counts = [len(t.position) for t in terms]
+    first, column = np.cumsum([0, *counts]), np.cumsum([0, *sizes])
+    recovery = np.zeros((first[-1], 3, column[-1]), np.float32)
+    for k, t in enumerate(terms):
+        recovery[first[k]:first[k + 1], :, column[k]:column[k + 1]] = t.recovery
+    return {"visible_position": np.vstack([t.position for t in terms]),
+            "visible_body": np.repeat(np.arange(len(terms)), counts),
+            "visible_face": np.vstack([t.face + first[k] for k, t in enumerate(terms)]), "recovery": recovery}

@@ -1,0 +1,186 @@
+"""Stage response: vibration of the elastic brake under the contact forces of the multi-body simulation."""
+
+from dataclasses import dataclass, replace
+from functools import partial
+from typing import Literal
+
+import numpy as np
+
+from pipeline.contract import ConfigError, Context, Quantity, Section, option, stage
+from pipeline.physics.force_mapping import circle_table
+from pipeline.physics.mesh import Mesh, boundary_faces
+from pipeline.physics.modal_response import Points, fixed_points, modal_response, undamped_modes
+from pipeline.physics.sliding_model import sliding_model
+from pipeline.physics.spectra import power_spectrum
+from pipeline.products import Multibody, ReducedModel, Response, Structure
+
+#: samples per period of the highest mode below which its velocity is not shown faithfully
+_SAMPLES_PER_PERIOD = 2.5
+
+
+class Settings(Section):
+    """How the contact forces enter the elastic brake, and which modes answer."""
+
+    coupling: Literal["assembly", "disc"] = option(
+        "assembly", "assembly: the whole brake, its contact coupled in normal direction; disc: the disc alone, turning")
+    forces: Literal["friction", "friction_and_normal"] = option(
+        "friction_and_normal", "which contact forces are applied")
+    load: Literal["fluctuation", "whole"] = option(
+        "fluctuation", "fluctuation: from equilibrium at the first sample; whole: raised from zero during 'ramp'")
+    ramp: Quantity("s", gt=0) = option("10 ms", "half-cosine rise of the whole load")
+    highest_frequency: Quantity("Hz", gt=0) = option("20 kHz", "modes below it are superposed")
+    resolution: Quantity("Hz", gt=0) = option("50 Hz", "distance of the lines of the spectra")
+    settling: Quantity("s", ge=0) = option("50 ms", "begin of the signals that the spectra leave out")
+    circle_angles: int = option(1440, "disc coupling: angles at which mode shapes are tabulated around a circle", ge=8)
+
+
+@dataclass(frozen=True)
+class _Superposition:
+    """Modes, where the forces act on them and where they are seen."""
+
+    angular_frequency: np.ndarray
+    damping: np.ndarray
+    force_points: Points
+    sensor_points: Points
+    turning: float = 0.0
+
+
+@stage
+def response(structure: Structure, model: ReducedModel, multibody: Multibody, settings: Settings,
+             context: Context) -> Response:
+    """Superpose the modes of the elastic brake under the contact forces.
+
+    With coupling 'assembly' the contact is a spring between pads and disc, as in the paper (section
+    2.1.6), and the pair of normal forces acts on both ends of that spring: most of it is taken up by
+    the spring next to it and never reaches a mode. The paper saw no mode remarkably excited; this is
+    one reason. Along sliding the pads are free in both models, so that they answer a second time, at
+    resonance, to friction that already follows their own motion: a tone at the frequency of the pad
+    oscillation is exaggerated. 'forces: friction' leaves the normal pair out; 'coupling: disc' loads the disc without
+    contact springs, in its own rotating frame, at points that stay in place while it turns (gyroscopic
+    and centrifugal terms are left out there: it turns by a hundredth of a radian per radian of its
+    slowest mode).
+
+    A load 'fluctuation' is the force less its first sample: the motion about the static equilibrium
+    from which the multi-body simulation starts.
+
+    Method:
+    The contact forces of the multi-body simulation ({forces}, {load}) load the real modes of the brake below
+    {highest_frequency} Hz (coupling: {coupling}); the modes are superposed by the exact recursion for piecewise-linear
+    forces, with their viscous damping taken diagonal. Spectra are Welch estimates with {resolution} Hz between lines,
+    after {settling} s.
+    """
+    step = _checked_step(multibody.time, settings)
+    build = {"assembly": _assembly, "disc": _turning_disc}[settings.coupling]
+    sensors, superpositions = build(structure, model, multibody, settings)
+    components = {"friction": (multibody.friction_force,),
+                  "friction_and_normal": (multibody.normal_force, multibody.friction_force)}[settings.forces]
+    tasks = [(superposition, [component[operating] for component in components])
+             for operating, superposition in enumerate(superpositions)]
+    velocity = np.array(context.map(partial(_vibrate, step=step, settings=settings), tasks, "modal superposition"))
+    frequency, spectrum = power_spectrum(velocity[..., multibody.time >= settings.settling].astype(float), 1 / step,
+                                         settings.resolution)
+    return Response(
+        pressure=multibody.pressure, speed=multibody.speed, time=multibody.time, velocity=velocity,
+        sensor_name=structure.sensor_name[sensors], sensor_position=structure.sensor_position[sensors],
+        frequency=frequency, velocity_spectrum=spectrum, coupling=settings.coupling, **_mode_table(superpositions))
+
+
+def _checked_step(time, settings):
+    step = (time[-1] - time[0]) / (len(time) - 1)
+    longest = 1 / (_SAMPLES_PER_PERIOD * settings.highest_frequency)
+    if step > longest * (1 + 1e-9):
+        raise ConfigError("response.highest_frequency", f"force samples at most {longest:.3g} s apart", f"{step:.3g} s",
+                          "record the multi-body forces more often, or lower the highest frequency")
+    if settings.settling >= time[-1]:
+        raise ConfigError("response.settling", f"less than the simulated {time[-1]:.3g} s",
+                          f"{settings.settling:.3g} s")
+    return step
+
+
+def _assembly(structure, model, multibody, settings):
+    """Sensors and, per operating point, the modes of the whole brake about the preload of its pressure."""
+    superpositions = []
+    for pressure, speed in zip(multibody.pressure, multibody.speed, strict=True):
+        sliding = sliding_model(model, _preload_state(model, pressure), speed)
+        mass, damping, stiffness = sliding.frictionless(gyroscopic=False)
+        angular, shape = undamped_modes(mass, stiffness, settings.highest_frequency)
+        rows = _chosen(settings, sliding.contacts.normal, sliding.contacts.tangent)
+        superpositions.append(_Superposition(angular, np.einsum("cm,cm->m", shape, damping @ shape),
+                                             fixed_points(rows @ shape), fixed_points(sliding.sensor_rows @ shape)))
+    return np.arange(len(model.sensor_name)), superpositions
+
+
+def _chosen(settings, normal, tangent):
+    """Rows of the forces that are applied, in the order of the forces."""
+    return tangent if settings.forces == "friction" else np.concatenate([normal, tangent])
+
+
+def _preload_state(model, pressure):
+    state = int(np.argmin(np.abs(model.pressure - pressure)))
+    if not np.isclose(model.pressure[state], pressure, rtol=1e-6):
+        raise ConfigError("response: pressure of the operating point", f"one of {model.pressure.tolist()} Pa",
+                          f"{pressure:g} Pa", "solve the preload of the structure at this pressure")
+    return state
+
+
+def _turning_disc(structure, model, multibody, settings):
+    """Sensors on the disc and, per operating point, the modes of the disc alone under points that stay in place."""
+    body, disc = list(structure.body_name).index("disc"), structure.disc
+    rows = structure.sensor_rows
+    elsewhere = set(rows.row[rows.body != body])
+    sensors = np.array([s for s in range(len(structure.sensor_name)) if s not in elsewhere], dtype=int)
+    if not len(sensors):
+        raise ConfigError("response.coupling", "a sensor on the disc", "none", "declare one in the structure")
+    kept = disc.frequency < settings.highest_frequency
+    angular = 2 * np.pi * disc.frequency[kept]
+    read = partial(_circle_points, disc, disc.shape[kept], settings.circle_angles)
+    outwards = np.where(structure.contact_pad == list(structure.body_name).index("pad_outer"), 1.0, -1.0)
+    none = np.zeros_like(outwards)
+    normal, tangent = np.stack([none, none, -outwards], axis=1), np.stack([none, none - 1, none], axis=1)
+    directions = _chosen(settings, normal, tangent)
+    positions = np.tile(structure.contact_position, (len(directions) // len(outwards), 1))
+    seen = structure.sensor_position[sensors]
+    base = _Superposition(angular, 2 * disc.damping_ratio * angular, read(positions, directions),
+                          read(seen, _cylindrical(seen, structure.sensor_direction[sensors])))
+    return sensors, [replace(base, turning=speed) for speed in multibody.speed]
+
+
+def _circle_points(disc, shape, angles, position, direction):
+    """Points of the laboratory at ``position`` (p, 3) with cylindrical ``direction`` (p, 3), on the turning disc."""
+    radius, height = np.hypot(position[:, 0], position[:, 1]), position[:, 2]
+    circles, circle = np.unique(np.round(np.column_stack([radius, height, direction]), 9), axis=0, return_inverse=True)
+    face = boundary_faces(Mesh(disc.node, disc.element, disc.kind.item(), np.zeros((len(disc.element), 3), int)))
+    table = [circle_table(disc.node, face, shape, c[0], c[1], c[2:], angles) for c in circles]
+    return Points(np.array(table), circle.ravel(), np.arctan2(position[:, 1], position[:, 0]))
+
+
+def _cylindrical(position, direction):
+    """Cartesian directions in radial, tangential and axial components."""
+    radial = position[:, :2] / np.linalg.norm(position[:, :2], axis=1, keepdims=True)
+    x, y = direction[:, 0], direction[:, 1]
+    return np.column_stack([radial[:, 0] * x + radial[:, 1] * y, radial[:, 0] * y - radial[:, 1] * x, direction[:, 2]])
+
+
+def _vibrate(task, step, settings):
+    """(sensor, time) velocity at one operating point."""
+    superposition, components = task
+    s, forces = superposition, np.concatenate(components).T.astype(float)
+    velocity = modal_response(s.angular_frequency, s.damping, step, _applied(forces, step, settings), s.force_points,
+                              s.sensor_points, s.turning)[1]
+    return velocity.T.astype(np.float32)
+
+
+def _applied(forces, step, settings):
+    if settings.load == "fluctuation":
+        return forces - forces[0]
+    rise = np.minimum(np.arange(len(forces)) * step / settings.ramp, 1)
+    return forces * (0.5 - 0.5 * np.cos(np.pi * rise))[:, None]
+
+
+def _mode_table(superpositions):
+    """Frequencies and damping ratios of all modes, with their operating point."""
+    angular = np.concatenate([s.angular_frequency for s in superpositions])
+    damping = np.concatenate([s.damping for s in superpositions])
+    ratio = np.divide(damping, 2 * angular, out=np.zeros_like(angular), where=angular > 0)
+    operating = np.repeat(np.arange(len(superpositions)), [len(s.angular_frequency) for s in superpositions])
+    return {"mode_operating": operating, "mode_frequency": angular / (2 * np.pi), "mode_damping": ratio}

@@ -1,0 +1,85 @@
+"""Stage squeal: squeal events and band levels of the response."""
+
+from functools import partial
+
+import numpy as np
+
+from pipeline.contract import ConfigError, Context, Quantity, Section, option, stage
+from pipeline.physics.spectra import band_power, level, third_octave_bands
+from pipeline.physics.squeal_detector import Detector, detect, frames, loudest
+from pipeline.products import Response, Squeal
+
+
+class Settings(Section):
+    """What counts as squeal."""
+
+    lowest_frequency: Quantity("Hz", gt=0) = option("1.25 kHz", "begin of the squeal band (SAE J2521)")
+    highest_frequency: Quantity("Hz", gt=0) = option(
+        "20 kHz", "end of the squeal band (SAE J2521: 16 kHz; the paper squeals at 16.6 and 17.8 kHz)")
+    reference: Quantity("m/s", gt=0) = option("1 nm/s", "reference velocity of all levels (ISO 1683)")
+    threshold: Quantity("m/s", gt=0) = option(
+        "0.7 mm/s", "root mean square velocity of a tone that is squeal; about 70 dB sound pressure half a metre away")
+    window: Quantity("s", gt=0) = option("10 ms", "length of a frame; its inverse is the distance of the lines")
+    overlap: float = option(0.75, "share of a frame that the next one repeats", ge=0.5, le=0.8)
+    prominence: float = option(10.0, "height of a tone above the spectrum beside it, dB", gt=0)
+    dynamic_range: float = option(30.0, "a tone this far below the strongest is a side lobe of the window, dB", gt=0)
+    drift: Quantity("Hz", gt=0) = option("100 Hz", "largest change of the frequency of an event from frame to frame")
+    gap: Quantity("s", ge=0) = option("10 ms", "longest interruption of an event")
+    shortest: Quantity("s", ge=0) = option("30 ms", "shortest event")
+    settling: Quantity("s", ge=0) = option("50 ms", "begin of the signals that is not searched")
+
+
+@stage
+def squeal(response: Response, settings: Settings, context: Context) -> Squeal:
+    """Find squeal events and band levels in the sensor velocities.
+
+    The level is a velocity level: no radiation, no A-weighting.
+
+    Method:
+    A squeal event is a tone between {lowest_frequency} and {highest_frequency} Hz of at least {threshold} m/s root
+    mean square (levels re {reference} m/s) for at least {shortest} s, in Hann frames of {window} s that overlap by
+    {overlap}; tones that drift by less than {drift} Hz from frame to frame are one event. Third-octave levels are
+    sums of the velocity spectra.
+    """
+    if settings.lowest_frequency >= settings.highest_frequency:
+        raise ConfigError("squeal.lowest_frequency", f"less than highest_frequency, {settings.highest_frequency:g} Hz",
+                          f"{settings.lowest_frequency:g} Hz")
+    detector = _detector(settings)
+    searched = response.time >= settings.settling
+    if not searched.any():
+        raise ConfigError("squeal.settling", f"less than the simulated {response.time[-1]:.3g} s",
+                          f"{settings.settling:.3g} s")
+    rate = (len(response.time) - 1) / (response.time[-1] - response.time[0])
+    search = partial(_search, rate=rate, detector=detector)
+    found = context.map(search, [velocity[:, searched] for velocity in response.velocity], "squeal detection")
+    middle = third_octave_bands(settings.lowest_frequency, settings.highest_frequency)
+    power = band_power(response.frequency, response.velocity_spectrum, middle)
+    peaks = np.array([[peak for peak, _ in sensors] for sensors in found])
+    return Squeal(
+        pressure=response.pressure, speed=response.speed, sensor_name=response.sensor_name,
+        reference=settings.reference, threshold=detector.threshold,
+        peak_level=peaks[..., 0], peak_frequency=peaks[..., 1],
+        band=middle, band_level=level(power, settings.reference), **_events(found, response.time[searched][0]))
+
+
+def _detector(settings):
+    return Detector((settings.lowest_frequency, settings.highest_frequency),
+                    float(level(settings.threshold**2, settings.reference)), settings.reference, settings.window,
+                    settings.overlap, settings.prominence, settings.dynamic_range, settings.drift, settings.gap,
+                    settings.shortest)
+
+
+def _search(velocity, rate, detector):
+    """For each sensor of one operating point: (level, frequency) of the loudest tone, and the events."""
+    every = [frames(signal.astype(float), rate, detector) for signal in velocity]
+    return [(loudest(found, detector), detect(found, detector)) for found in every]
+
+
+def _events(found, begin):
+    """The event table; times count from the static start."""
+    rows = [(operating, sensor, event.frequency, event.level, begin + event.start, event.duration)
+            for operating, sensors in enumerate(found) for sensor, (_, events) in enumerate(sensors)
+            for event in events]
+    names = ("operating", "sensor", "frequency", "level", "start", "duration")
+    columns = zip(*rows, strict=True) if rows else [()] * len(names)
+    return {f"event_{name}": np.array(column) for name, column in zip(names, columns, strict=True)}

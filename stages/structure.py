@@ -1,0 +1,235 @@
+"""Stage structure: finite elements of disc, pads and caliper, their real modes, joints, contacts and preload."""
+
+from functools import partial
+from typing import Literal
+
+import numpy as np
+import scipy.sparse as sp
+
+from pipeline.contract import Context, InputFile, Quantities, Quantity, Section, option, stage
+from pipeline.physics.disc_modes import describe
+from pipeline.physics.eigen import lowest_modes
+from pipeline.physics.elasticity import assemble
+from pipeline.physics.static_contact import condense, contact_law, solve_preload
+from pipeline.products import Body, FrictionMap, Incidence, Structure
+from pipeline.systems.disc_brake import BODIES, build
+
+#: the contact law is tabulated up to so many times the largest nominal pressure
+_LAW_RANGE = 20
+#: motions of a free disc below this share of the frequency limit are rigid
+_RIGID_SHARE = 0.01
+
+
+class Disc(Section):
+    """Stepped disc, its mount and its mesh."""
+
+    ring_inner_radius: Quantity("m", gt=0) = option("66.2 mm", "inner radius of the friction ring")
+    ring_outer_radius: Quantity("m", gt=0) = option("156.7 mm", "outer radius of the friction ring")
+    ring_thickness: Quantity("m", gt=0) = option("6.87 mm", "thickness of the friction ring")
+    bore_radius: Quantity("m", gt=0) = option("35.1 mm", "radius of the bore")
+    web_thickness: Quantity("m", gt=0) = option("4.26 mm", "thickness of the web, flush with the inner face")
+    young: Quantity("Pa", gt=0) = option("120 GPa", "Young's modulus")
+    poisson: float = option(0.27, "Poisson's ratio", gt=-1, lt=0.5)
+    density: Quantity("kg/m^3", gt=0) = option("7200 kg/m^3", "density")
+    damping_ratio: float = option(0.001, "damping ratio of the disc modes", ge=0)
+    bolt_count: int = option(5, "bolts of the mount", ge=1)
+    bolt_preload: Quantity("N", gt=0) = option("40 kN", "preload of one bolt")
+    bolt_circle_radius: Quantity("m", gt=0) = option("45 mm", "radius of the bolt circle")
+    bolt_head_radius: Quantity("m", gt=0) = option("8 mm", "radius under the bolt head")
+    flange_roughness: Quantity("m", gt=0) = option("2 um", "rms height Sq of the flange against the hub, both faces")
+    web_cells: int = option(4, "elements across the web, radially", ge=1)
+    ring_cells: int = option(10, "elements across the ring, radially", ge=1)
+    angular_cells: int = option(90, "elements around", ge=8)
+    mesh_file: InputFile | None = option(None, "mesh of hexahedra to use instead (meshio, metres, same axes)")
+
+
+class Pad(Section):
+    """Annular pad: orthotropic lining on a steel backplate."""
+
+    inner_radius: Quantity("m", gt=0) = option("95 mm", "inner radius")
+    outer_radius: Quantity("m", gt=0) = option("150 mm", "outer radius")
+    angle: Quantity("rad", gt=0, lt=3) = option("50 deg", "angle that the pad spans")
+    lining_thickness: Quantity("m", gt=0) = option("11 mm", "thickness of the friction lining")
+    backplate_thickness: Quantity("m", gt=0) = option("5.5 mm", "thickness of the backplate")
+    lining_young_radial: Quantity("Pa", gt=0) = option("6 GPa", "Young's modulus of the lining, radial")
+    lining_young_tangential: Quantity("Pa", gt=0) = option("6 GPa", "Young's modulus of the lining, along sliding")
+    lining_young_normal: Quantity("Pa", gt=0) = option("1.5 GPa", "Young's modulus of the lining, through thickness")
+    lining_poisson: float = option(0.2, "Poisson's ratios of the lining", gt=-0.5, lt=0.5)
+    lining_shear_normal: Quantity("Pa", gt=0) = option("1.2 GPa", "shear moduli with the thickness direction")
+    lining_shear_in_plane: Quantity("Pa", gt=0) = option("2.5 GPa", "in-plane shear modulus")
+    lining_density: Quantity("kg/m^3", gt=0) = option("2600 kg/m^3", "density of the lining")
+    backplate_young: Quantity("Pa", gt=0) = option("207 GPa", "Young's modulus of the backplate")
+    backplate_poisson: float = option(0.29, "Poisson's ratio of the backplate", gt=-1, lt=0.5)
+    backplate_density: Quantity("kg/m^3", gt=0) = option("7820 kg/m^3", "density of the backplate")
+    damping_ratio: float = option(0.01, "damping ratio of the pad modes", ge=0)
+    patches_angular: int = option(6, "contact patches along sliding", ge=1)
+    patches_radial: int = option(3, "contact patches across", ge=1)
+    cells_per_patch: int = option(2, "elements per patch and direction", ge=1)
+    lining_layers: int = option(2, "elements through the lining", ge=1)
+
+
+class Caliper(Section):
+    """Floating caliper: fingers, bridge and solid housing."""
+
+    inner_radius: Quantity("m", gt=0) = option("97 mm", "inner radius of fingers and housing")
+    bridge_inner_radius: Quantity("m", gt=0) = option("162 mm", "inner radius of the bridge over the rim")
+    bridge_outer_radius: Quantity("m", gt=0) = option("180 mm", "outer radius of the bridge")
+    angle: Quantity("rad", gt=0, lt=3) = option("48 deg", "angle that the caliper spans")
+    finger_thickness: Quantity("m", gt=0) = option("15 mm", "thickness of the finger plate")
+    housing_depth: Quantity("m", gt=0) = option("45 mm", "depth of the cylinder housing")
+    piston_gap: Quantity("m", gt=0) = option("4 mm", "distance of housing and inner backplate")
+    young: Quantity("Pa", gt=0) = option("170 GPa", "Young's modulus")
+    poisson: float = option(0.275, "Poisson's ratio", gt=-1, lt=0.5)
+    density: Quantity("kg/m^3", gt=0) = option("7100 kg/m^3", "density")
+    damping_ratio: float = option(0.004, "damping ratio of the caliper modes", ge=0)
+    radial_cells: int = option(4, "elements across the fingers, radially", ge=1)
+    angular_cells: int = option(8, "elements around", ge=2)
+    housing_cells: int = option(3, "elements along the housing", ge=1)
+    bridge_cells: int = option(3, "elements along the bridge between housing and fingers", ge=1)
+
+
+class Joints(Section):
+    """Springs and dampers of what is not meshed."""
+
+    abutment_stiffness: Quantity("N/m", gt=0) = option("50 MN/m", "trailing abutment of a pad, along sliding")
+    clip_stiffness: Quantity("N/m", gt=0) = option("1 MN/m", "clip at the leading end of a pad, along sliding")
+    abutment_radial_stiffness: Quantity("N/m", gt=0) = option("5 MN/m", "abutment of a pad end, radial")
+    finger_stiffness: Quantity("N/m", gt=0) = option("400 MN/m", "fingers on the outer backplate, normal")
+    finger_shear_stiffness: Quantity("N/m", gt=0) = option("20 MN/m", "fingers on the outer backplate, each direction"
+                                                           " in the plane")
+    piston_stiffness: Quantity("N/m", gt=0) = option("0.1 MN/m", "piston seal, normal; the pressure is held, so the"
+                                                     " brake fluid adds none")
+    piston_shear_stiffness: Quantity("N/m", gt=0) = option("20 MN/m", "piston on the inner backplate, each direction"
+                                                           " in the plane")
+    guide_pin_stiffness: Quantity("N/m", gt=0) = option("20 MN/m", "one guide pin across its axis")
+    guide_pin_axial_stiffness: Quantity("N/m", gt=0) = option("100 kN/m", "boot of one guide pin, axial")
+    loss_time: Quantity("s", ge=0) = option("5 us", "damping over stiffness of every joint")
+    clamping_radius: Quantity("m", gt=0) = option("122 mm", "radius of the centre of fingers and piston")
+    clamping_height: Quantity("m", gt=0) = option("32 mm", "radial distance of their bearing spots")
+    finger_distance: Quantity("m", gt=0) = option("60 mm", "distance of the fingers along sliding")
+    piston_distance: Quantity("m", gt=0) = option("32 mm", "distance of the piston's bearing spots along sliding")
+    guide_pin_radius: Quantity("m", gt=0) = option("150 mm", "radius of the guide pins")
+    spot_size: Quantity("m", gt=0) = option("6 mm", "size of a bearing spot")
+
+
+class Sensor(Section):
+    """A laser point on the friction ring."""
+
+    name: str = option(..., "name of the sensor")
+    radius: Quantity("m", gt=0) = option(..., "radius of the point")
+    angle: Quantity("rad") = option(..., "angle from the middle of the pads, along the disc's rotation")
+    face: Literal["outer", "inner"] = option("outer", "face of the ring")
+    direction: Literal["axial", "radial", "tangential"] = option("axial", "measured component")
+
+
+class Settings(Section):
+    """Geometry, materials, joints, meshes and preload."""
+
+    disc: Disc = option(Disc(), "brake disc")
+    pad: Pad = option(Pad(), "both pads")
+    caliper: Caliper = option(Caliper(), "caliper")
+    joints: Joints = option(Joints(), "joints")
+    sensors: tuple[Sensor, ...] = option(
+        tuple({"name": f"ring_{angle}", "radius": "150 mm", "angle": f"{angle} deg"} for angle in (90, 120, 150, 210)),
+        "points on the friction ring", min_length=1)
+    pressures: Quantities("Pa", gt=0) = option(("1 MPa", "2 MPa", "3 MPa"), "nominal pad pressures of the preload")
+    sliding_distance: Quantity("m", ge=0) = option("10 mm", "sliding distance at which the interface is taken")
+    frequency_max: Quantity("Hz", gt=0) = option("20 kHz", "modes of all bodies below it")
+    free_frequency_max: Quantity("Hz", gt=0) = option("4.5 kHz", "modes of the free disc below it")
+
+
+@stage
+def structure(friction_map: FrictionMap, settings: Settings, context: Context) -> Structure:
+    """Mesh disc, pads and caliper; solve their preload and real modes.
+
+    Method:
+    Disc, pads and caliper were meshed with quadratic hexahedra (2 x 2 x 2 points); fingers, piston, abutments and guide
+    pins are springs and dampers. The disc is clamped where the bolts press it on a rigid hub. The normal contact law
+    follows from the interface stiffness after {sliding_distance:.3g} m of sliding; the preload is static and free of
+    friction. Real modes were computed below {frequency_max:.3g} Hz.
+    """
+    brake = build(settings)
+    free, *modes = _all_modes(brake, settings, context)
+    bodies = {name: _body(body, *found) for name, body, found in zip(BODIES, brake.bodies, modes, strict=True)}
+    law = _law(friction_map, settings)
+    diameters, out_of_plane = describe(brake.bodies[0].mesh.node, free[1])
+    contacts = brake.contacts
+    return Structure(
+        body_name=BODIES, **bodies, free_frequency=free[0], free_diameters=diameters,
+        free_out_of_plane=out_of_plane, joint_name=brake.joints.name, joint_rows=_incidence(brake.joints.rows),
+        joint_stiffness=brake.joints.stiffness, joint_damping=brake.joints.damping, contact_pad=contacts.pad,
+        contact_position=contacts.position, contact_area=contacts.area, contact_normal=_incidence(contacts.normal),
+        contact_tangent=_incidence(contacts.tangent), contact_lateral=_incidence(contacts.lateral),
+        **_preload(brake, law, settings, context), law_closure=law[0], law_pressure=law[1],
+        sensor_name=[s.name for s in settings.sensors], sensor_position=brake.sensor_position,
+        sensor_direction=brake.sensor_direction, sensor_rows=_incidence(brake.sensors),
+        piston_rows=_incidence(brake.piston), piston_area=brake.pad_area)
+
+
+def _all_modes(brake, settings, context):
+    """(frequency, shape (3n, m)) of the free disc without rigid motions, then of the bodies on their supports."""
+    disc = brake.bodies[0]
+    tasks = [(disc, np.empty(0, int), settings.free_frequency_max)]
+    tasks += [(body, body.supported, settings.frequency_max) for body in brake.bodies]
+    found = context.map(partial(_modes, context.solver), tasks, "real modes")
+    frequency, shape = found[0]
+    elastic = frequency > _RIGID_SHARE * settings.free_frequency_max
+    return [(frequency[elastic], shape[:, elastic]), *found[1:]]
+
+
+def _modes(solver, task):
+    body, supported, below = task
+    stiffness, mass = _matrices(body)
+    free = _free(body, supported)
+    frequency, found = lowest_modes(stiffness[free][:, free], mass[free][:, free], solver, below=below)
+    shape = np.zeros((stiffness.shape[0], len(frequency)))
+    shape[free] = found
+    return frequency, shape
+
+
+def _matrices(body):
+    mesh = body.mesh
+    return assemble(mesh.node, mesh.element, mesh.kind, body.element_material, body.density, body.elasticity)
+
+
+def _free(body, supported):
+    return np.setdiff1d(np.arange(3 * len(body.mesh.node)), 3 * supported[:, None] + np.arange(3))
+
+
+def _body(body, frequency, shape):
+    mesh = body.mesh
+    return Body(node=mesh.node, element=mesh.element, kind=mesh.kind, element_material=body.element_material,
+                material_name=body.material_name, density=body.density, elasticity=body.elasticity,
+                damping_ratio=body.damping_ratio, frequency=frequency,
+                shape=shape.T.reshape(len(frequency), -1, 3), supported=body.supported)
+
+
+def _law(friction_map, settings):
+    """Closure and pressure of the interface at the sliding distance."""
+    stiffness = [np.interp(settings.sliding_distance, friction_map.distance, row)
+                 for row in friction_map.normal_stiffness]
+    return contact_law(friction_map.pressure, stiffness, _LAW_RANGE * max(settings.pressures))
+
+
+def _preload(brake, law, settings, context):
+    """Contact force, stiffness and status at every pressure."""
+    stiffness = sp.block_diag([_matrices(body)[0] for body in brake.bodies], format="csr")
+    joints = brake.joints.rows.matrix
+    stiffness = stiffness + joints.T @ sp.diags(brake.joints.stiffness) @ joints
+    sizes = np.cumsum([0, *(3 * len(b.mesh.node) for b in brake.bodies)])
+    free = np.concatenate([first + _free(b, b.supported) for first, b in zip(sizes, brake.bodies, strict=False)])
+    normal, piston = (rows.matrix[:, free] for rows in (brake.contacts.normal, brake.piston))
+    compliance, closure = condense(stiffness[free][:, free], normal, piston.toarray()[0] * brake.pad_area,
+                                   context.solver)
+    found = [solve_preload(compliance, p * closure, brake.contacts.area, *law) for p in settings.pressures]
+    return {"pressure": settings.pressures, "preload": [f.force for f in found],
+            "contact_stiffness": [f.stiffness for f in found], "closed": [f.closed.astype(int) for f in found]}
+
+
+def _incidence(rows):
+    parts = [part.tocoo() for part in rows.parts]
+    body = np.repeat(np.arange(len(parts)), [part.nnz for part in parts])
+    row, column, weight = (np.concatenate([getattr(part, name) for part in parts]) for name in ("row", "col", "data"))
+    used = weight != 0
+    return Incidence(rows=parts[0].shape[0], row=row[used], body=body[used], node=column[used] // 3,
+                     axis=column[used] % 3, weight=weight[used])

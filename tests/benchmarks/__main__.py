@@ -1,0 +1,71 @@
+"""'make bench': seconds of the kernels and of every stage, each in one table. Prints; asserts nothing.
+
+Kernels: median of repeated calls in this process, one thread, after one warm-up call.
+Stages: the quick case from nothing, wall and CPU seconds as its products tell them.
+"""
+
+import argparse
+import json
+import statistics
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+from pipeline.contract import store
+from stages import NAMES
+from tests.benchmarks.kernels import KERNELS
+
+ROOT = Path(__file__).parents[2]
+
+
+def main():
+    """Parse the command line and print the tables."""
+    parser = argparse.ArgumentParser(prog="make bench", description=__doc__)
+    parser.add_argument("--runs", type=int, default=5, help="counted calls of each kernel")
+    parser.add_argument("--case", type=Path, default=ROOT / "configs" / "disc_brake_quick.yaml", help="case to time")
+    parser.add_argument("--only", choices=("kernels", "stages"), help="one of the two tables")
+    chosen = parser.parse_args()
+    if chosen.only != "stages":
+        print_kernels(chosen.runs)
+    if chosen.only != "kernels":
+        print_stages(chosen.case)
+
+
+def print_kernels(runs):
+    """One line a kernel: median seconds, spread, and the rate that its work amounts to."""
+    print(f"{'kernel':<58} {'median s':>9} {'min':>9} {'max':>9}   rate")
+    for kernel in KERNELS:
+        call, amount, unit = kernel()
+        call()
+        seconds = [_timed(call) for _ in range(runs)]
+        middle = statistics.median(seconds)
+        rate = f"{amount / middle:,.0f} {unit}/s"
+        print(f"{kernel.__doc__.splitlines()[0]:<58} {middle:9.4f} {min(seconds):9.4f} {max(seconds):9.4f}   {rate}")
+
+
+def _timed(call):
+    begin = time.perf_counter()
+    call()
+    return time.perf_counter() - begin
+
+
+def print_stages(case):
+    """One line a stage of ``case``, run in an empty folder."""
+    with tempfile.TemporaryDirectory() as folder:
+        begin = time.perf_counter()
+        subprocess.run([sys.executable, "-m", "pipeline", "run", case, "--run", folder], check=True, cwd=ROOT,
+                       stdout=subprocess.DEVNULL)
+        whole = time.perf_counter() - begin
+        print(f"\n{'stage of ' + case.stem:<24} {'wall s':>8} {'CPU s':>8} {'file MB':>8}")
+        for name in NAMES:
+            path = Path(folder) / f"{name}.h5"
+            told = store.provenance(path)
+            print(f"{name:<24} {told['wall_seconds']:8.2f} {told['cpu_seconds']:8.2f} {path.stat().st_size / 1e6:8.1f}")
+        packages = json.loads(told["packages"])
+    print(f"{'whole command':<24} {whole:8.2f}    {', '.join(f'{k} {v}' for k, v in packages.items())}")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,66 @@
+"""Growth rates of the linearised system against closed forms and against the transient."""
+
+import numpy as np
+import pytest
+
+from pipeline.physics.closed_form.two_mode_flutter import onset_friction, roots_over_friction
+from pipeline.physics.newmark import integrate
+from pipeline.physics.oscillation import dominant_frequency, growth_rate
+from pipeline.physics.pad_system import sliding_state, static_start
+from pipeline.physics.patch_contact import contact_state, patch_shares
+from pipeline.physics.stability_map import on_average, sliding_roots, stability_map
+from tests.physics.small_pads import flutter, random_assembly
+
+MODES = {"k11": 9e6, "k22": 1.1e7, "k12": 1.2e6, "k_friction": 4e6}
+
+
+@pytest.mark.exact
+@pytest.mark.parametrize("excess", [0.8, 1.3])
+def test_roots_are_those_of_two_mode_flutter(excess):
+    friction = excess * onset_friction(**MODES)
+    expected = roots_over_friction(**MODES, friction=friction)
+    expected = expected[expected.imag > 0]
+    found = sliding_roots(flutter(**MODES, friction=friction))
+    np.testing.assert_allclose(np.sort_complex(found), np.sort_complex(expected), atol=1e-4)
+
+
+@pytest.mark.exact
+def test_the_transient_grows_with_the_linearised_rate():
+    friction = 1.3 * onset_friction(**MODES)
+    system = flutter(**MODES, friction=friction)
+    root = max(sliding_roots(system), key=lambda s: s.real)
+    disturbed = sliding_state(system, static_start(system)) * (1 + 1e-7)
+    _, moved, _ = integrate(system, disturbed, 2e-6, 25000)
+    signal = moved[:, 0]
+    assert dominant_frequency(signal, 2e-6) == pytest.approx(root.imag / (2 * np.pi), rel=5e-3)
+    assert growth_rate(signal, 2e-6, root.imag / (2 * np.pi)) == pytest.approx(root.real, rel=1e-2)
+
+
+@pytest.mark.exact
+def test_the_map_holds_the_largest_rate_of_each_stiffness():
+    def build(caliper, abutment):
+        return flutter(MODES["k11"] * abutment, MODES["k22"] * caliper, MODES["k12"], MODES["k_friction"], 0.6)
+
+    found = stability_map(build, (0.8, 1.0), (0.9, 1.0, 1.3))
+    expected = [[roots_over_friction(MODES["k11"] * a, MODES["k22"] * c, MODES["k12"], MODES["k_friction"],
+                                     0.6).real.max() for a in (0.9, 1.0, 1.3)] for c in (0.8, 1.0)]
+    np.testing.assert_allclose(found, expected, atol=1e-4)
+    assert found.max() > 10 and found.min() < 1e-3
+
+
+@pytest.mark.exact
+def test_rising_friction_over_pressure_counts_in_the_rate():
+    system = flutter(**MODES, friction=0.6)
+    state = sliding_state(system, static_start(system))
+    pressure = contact_state(system.contact, 0.0, state, 0 * state).normal[0] / system.contact.area[0]
+    table = system.contact.friction * np.array([0.5, 1.5])[:, None, None]
+    axis = np.array([0.0, 2 * pressure])
+    rising = system._replace(contact=system.contact._replace(friction=table, friction_pressure=axis))
+    expected = roots_over_friction(**MODES, friction=0.6 + 0.5 * 0.6).real.max()
+    assert sliding_roots(rising).real.max() == pytest.approx(expected, rel=1e-6)
+
+
+@pytest.mark.exact
+def test_averaged_patches_lie_on_all_sub_discs_alike():
+    contact = on_average(random_assembly()).contact
+    np.testing.assert_allclose(patch_shares(contact.angle, contact.half_angle, 0.77, contact.sectors), 0.25, atol=1e-12)

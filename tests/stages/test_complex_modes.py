@@ -1,0 +1,96 @@
+"""Stage complex_modes on a brake of a few elements."""
+
+from dataclasses import fields
+
+import numpy as np
+import pytest
+
+from pipeline.physics.quadratic_modes import quadratic_roots
+from pipeline.physics.sliding_model import FrictionState, sliding_model
+from stages.complex_modes import Settings, complex_modes
+from stages.reduced_model import Settings as Reduction
+from stages.reduced_model import reduced_model
+from tests.stages.small_structure import small_friction_map, small_structure
+
+SETTINGS = {"friction_steps": 7, "speeds": ("8 rad/s", "12 rad/s"), "frequency_max": "8 kHz"}
+
+
+@pytest.fixture(scope="module")
+def model():
+    return reduced_model(small_structure(), settings=Reduction(fixed_below="20 kHz"))
+
+
+@pytest.fixture(scope="module")
+def modes(model):
+    return complex_modes(model, small_friction_map(), settings=Settings(**SETTINGS))
+
+
+def changed(product, **values):
+    return type(product)(**{**{f.name: getattr(product, f.name) for f in fields(product)}, **values})
+
+
+@pytest.mark.exact
+def test_without_friction_every_root_decays_or_is_neutral(model):
+    modes = complex_modes(model, small_friction_map(0.0), settings=Settings(**SETTINGS))
+    assert len(modes.unstable_root) == 0 and not modes.operating_friction.any()
+    assert (modes.operating_root.real < 1e-6 * abs(modes.operating_root)).all()
+
+
+@pytest.mark.exact
+def test_roots_without_friction_and_damping_are_the_real_modes(model):
+    bare = changed(model, damping=0 * model.damping, joint_damping=0 * model.joint_damping)
+    modes = complex_modes(bare, small_friction_map(), settings=Settings(**{**SETTINGS, "gyroscopic": False}))
+    start = modes.root[:, 0]
+    np.testing.assert_allclose(start.imag, 2 * np.pi * modes.real_frequency, rtol=1e-8)
+    assert abs(start.real).max() < 1e-6 * abs(start).max()
+
+
+@pytest.mark.exact
+def test_unstable_roots_are_those_of_the_whole_reduced_model(model, modes):
+    assert len(modes.unstable_root) > 0
+    for number, root in zip(modes.unstable_operating, modes.unstable_root, strict=True):
+        state = list(model.pressure).index(modes.operating_pressure[number])
+        whole = sliding_model(model, state, modes.operating_speed[number])
+        direct = quadratic_roots(*whole.linearised(FrictionState(0.5)))
+        assert abs(direct - root).min() < 5e-5 * abs(root)
+    assert (np.diff(modes.unstable_root.real) <= 0).all()
+    np.testing.assert_allclose(abs(modes.unstable_shape).max(axis=(1, 2)), 1.0, rtol=1e-5)
+    np.testing.assert_allclose(modes.operating_friction, 0.5)
+
+
+def test_sweep_meets_the_operating_points(model):
+    one_speed = Settings(**{**SETTINGS, "speeds": ("10 rad/s",), "friction_max": 0.5, "friction_damping": False})
+    modes = complex_modes(model, small_friction_map(), settings=one_speed)
+    swept = np.sort_complex(modes.root[:, -1])
+    met = [abs(swept[k] - root).min() for k in range(2) for root in modes.operating_root[k]]
+    assert np.max(met) < 1e-6 * abs(swept).max()
+    assert modes.root.shape == (2, 7, modes.real_frequency.shape[1])
+
+
+def test_vibrating_roots_are_followed_without_jumps(model):
+    """Modes that friction does not overdamp move by less than their distance to the next one."""
+    fine = Settings(**{**SETTINGS, "friction_steps": 41, "friction_damping": False})
+    roots = complex_modes(model, small_friction_map(), settings=fine).root
+    assert abs(np.diff(roots, axis=1)).max() < 0.02 * abs(roots).max()
+
+
+def test_terms_can_be_left_out(model):
+    still = {"friction_damping": False, "gyroscopic": False, "centrifugal": False}
+    without = complex_modes(model, small_friction_map(), settings=Settings(**SETTINGS, **still))
+    with_all = complex_modes(model, small_friction_map(), settings=Settings(**SETTINGS))
+    assert abs(without.operating_root - with_all.operating_root).max() > 1.0
+    speeds = without.operating_root.reshape(2, 2, -1)
+    np.testing.assert_array_equal(speeds[:, 0], speeds[:, 1])
+
+
+@pytest.mark.parametrize("change", [{"pad_modulus": 1.5e9}, {"caliper_stiffness": 6e7}])
+def test_pads_and_caliper_move_the_roots(modes, change):
+    other = reduced_model(small_structure(**change), settings=Reduction(fixed_below="20 kHz"))
+    moved = complex_modes(other, small_friction_map(), settings=Settings(**SETTINGS))
+    count = min(moved.operating_root.shape[1], modes.operating_root.shape[1])
+    assert abs(moved.operating_root[:, :count] - modes.operating_root[:, :count]).max() > 10.0
+
+
+def test_same_bits_twice(model, modes):
+    again = complex_modes(model, small_friction_map(), settings=Settings(**SETTINGS))
+    assert all(np.array_equal(getattr(again, f.name), getattr(modes, f.name)) for f in fields(modes))

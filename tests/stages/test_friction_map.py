@@ -1,0 +1,42 @@
+"""Stage friction_map: refined table and its CSV companion."""
+
+import csv
+import io
+
+import numpy as np
+import pytest
+
+from pipeline.products import MicroFriction
+from stages.friction_map import Settings, friction_map
+
+
+@pytest.fixture
+def computed():
+    pressure, speed, distance = np.array([1e6, 2e6, 3e6]), np.array([1.1, 1.5]), np.array([0.0, 1e-3, 1e-2])
+    friction = 0.4 + 0.03e-6 * pressure[:, None, None] + 0.01 * speed[:, None] + 8.0 * distance
+    table = dict.fromkeys(("real_area", "wear_depth", "largest_wear", "flash_temperature", "full_slip_distance",
+                           "limit_at_speed"), np.zeros_like(friction))
+    maps = dict.fromkeys(("contact_pressure_new", "contact_pressure_worn", "pad_wear", "disc_wear"), np.zeros((2, 2)))
+    return MicroFriction(pressure=pressure, speed=speed, distance=distance, friction=friction,
+                         friction_std=friction / 20, normal_stiffness=1e12 * friction, shear_limit=13.5e6,
+                         x=np.arange(2.0), y=np.arange(2.0), refinement=[8.0], refinement_area=[0.03], **table, **maps)
+
+
+def test_computed_points_stay_and_nothing_overshoots(computed):
+    parts = Settings(pressure_subdivisions=4, speed_subdivisions=2, distance_subdivisions=5)
+    made = friction_map(computed, settings=parts)
+    assert made.friction.shape == (9, 3, 11)
+    np.testing.assert_allclose(made.friction[::4, ::2, ::5], computed.friction, rtol=1e-14)
+    assert made.friction.max() <= computed.friction.max() * (1 + 1e-14)
+    np.testing.assert_array_equal(made.computed_speed, computed.speed)
+    np.testing.assert_allclose(made.normal_stiffness[::4, ::5], computed.normal_stiffness.mean(axis=1), rtol=1e-14)
+
+
+def test_csv_holds_every_point_with_units(computed):
+    made = friction_map(computed, settings=Settings())
+    rows = list(csv.reader(io.StringIO(friction_map.companions(made)["friction_map.csv"])))
+    assert rows[0] == ["pressure [Pa]", "speed [m/s]", "distance [m]", "friction [1]", "friction_std [1]"]
+    table = np.array(rows[1:], dtype=float)
+    assert len(table) == made.friction.size
+    np.testing.assert_allclose(table[:, 3].reshape(made.friction.shape), made.friction, rtol=1e-9)
+    np.testing.assert_allclose(table[-1, :3], [3e6, 1.5, 1e-2], rtol=1e-9)

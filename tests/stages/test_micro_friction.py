@@ -1,0 +1,75 @@
+"""Stage micro_friction at tiny size."""
+
+import numpy as np
+import pytest
+
+from pipeline.contract import ConfigError, ConvergenceError
+from stages.micro_friction import Settings, micro_friction
+from stages.surface import Settings as SurfaceSettings
+from stages.surface import surface
+
+TINY = {"pressures": ["1 MPa", "3 MPa"], "disc_speeds": ["8.5 rad/s", "12 rad/s"], "cycles": 4,
+        "recorded_distances": ["0 mm", "2.5 mm", "10 mm"], "realisations": 2, "refinement": [1.0, 2.0]}
+
+
+def rough(**changes):
+    return surface(settings=SurfaceSettings(nodes=32, shortest_wavelength="125 um", **changes))
+
+
+@pytest.fixture(scope="module")
+def result():
+    return micro_friction(rough(), settings=Settings(**TINY))
+
+
+def test_axes_are_sliding_speeds_and_cycle_distances(result):
+    np.testing.assert_allclose(result.speed, [8.5 * 0.128, 12 * 0.128])
+    np.testing.assert_allclose(result.distance, [0.0, 2.5e-3, 10e-3])
+    assert result.friction.shape == (2, 2, 3)
+
+
+@pytest.mark.exact
+def test_friction_is_limit_times_area_over_pressure(result):
+    expected = result.limit_at_speed * result.real_area / result.pressure[:, None, None]
+    np.testing.assert_allclose(result.friction, expected, rtol=1e-4)
+    assert result.shear_limit == pytest.approx(0.1 * 234e6 / np.sqrt(3.0), rel=1e-14)
+
+
+def test_running_in(result):
+    assert np.all(np.diff(result.friction, axis=2) > 0.0)
+    assert np.all(result.wear_depth[:, :, 0] == 0.0) and np.all(np.diff(result.wear_depth, axis=2) > 0.0)
+    assert np.all(result.friction_std > 0.0)
+    assert np.all(result.real_area[1] > result.real_area[0])
+    np.testing.assert_allclose(result.refinement, [4.0, 8.0])
+    assert result.refinement_area[1] < result.refinement_area[0]
+
+
+@pytest.mark.exact
+def test_worn_volume(result):
+    solids = Settings(**TINY)
+    assert result.pad_wear.mean() == pytest.approx(solids.pad.wear_coefficient * 3e6 * 10e-3, rel=1e-12)
+    assert result.disc_wear.mean() == pytest.approx(solids.disc.wear_coefficient * 3e6 * 10e-3, rel=1e-12)
+
+
+def test_another_surface_gives_another_friction(result):
+    other = micro_friction(rough(disc={"kind": "generated", "seed": 9}), settings=Settings(**TINY))
+    assert np.abs(other.friction / result.friction - 1.0).max() > 0.01
+
+
+def test_same_seed_same_bits(result):
+    again = micro_friction(rough(), settings=Settings(**TINY))
+    np.testing.assert_array_equal(again.friction, result.friction)
+    np.testing.assert_array_equal(again.contact_pressure_worn, result.contact_pressure_worn)
+
+
+@pytest.mark.parametrize("wrong", [{"recorded_distances": ["0 mm", "1 mm", "10 mm"]},
+                                   {"recorded_distances": ["2.5 mm", "10 mm"]}, {"recorded_distances": ["0 mm"]},
+                                   {"recorded_distances": ["0 mm", "10 mm", "5 mm"]}, {"pressures": ["3 MPa", "1 MPa"]},
+                                   {"disc_speeds": ["12 rad/s", "12 rad/s"]}])
+def test_axes_that_do_not_rise_are_refused(wrong):
+    with pytest.raises(ConfigError, match=rf"micro_friction\.{next(iter(wrong))}"):
+        micro_friction(rough(), settings=Settings(**{**TINY, **wrong}))
+
+
+def test_non_convergence_raises():
+    with pytest.raises(ConvergenceError, match="normal contact"):
+        micro_friction(rough(), settings=Settings(**TINY, max_iterations=2))

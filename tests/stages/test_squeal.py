@@ -1,0 +1,60 @@
+"""Squeal events and levels of tones of known size."""
+
+import numpy as np
+import pytest
+
+from pipeline.contract import ConfigError
+from pipeline.physics.spectra import power_spectrum
+from pipeline.products import Response
+from stages.squeal import Settings, squeal
+from tests.views.products_for_views import filled
+
+RATE = 50e3
+TIME = np.arange(10000) / RATE
+
+
+def find(velocity, **settings):
+    """Squeal of one operating point with the sensors ``velocity`` (sensor, time)."""
+    velocity = np.asarray(velocity, dtype=np.float32)[None]
+    frequency, spectrum = power_spectrum(velocity.astype(float), RATE, 50.0)
+    found = filled(Response, pressure=[1e6], speed=[8.5], time=TIME, velocity=velocity, frequency=frequency,
+                   sensor_name=[str(s) for s in range(velocity.shape[1])], velocity_spectrum=spectrum)
+    return squeal(found, settings=Settings.model_validate({"settling": "20 ms", **settings}))
+
+
+def tone(frequency, root_mean_square, start=0.0):
+    return np.where(start <= TIME, np.sqrt(2) * root_mean_square * np.sin(2 * np.pi * frequency * TIME), 0)
+
+
+def test_tones_at_two_sensors():
+    found = find([tone(16600, 2e-3), tone(4000, 1e-5) + tone(9000, 5e-3, 0.1)])
+    assert found.threshold == pytest.approx(20 * np.log10(0.7e-3 / 1e-9))
+    assert list(found.event_sensor) == [0, 1]
+    np.testing.assert_allclose(found.event_frequency, [16600, 9000], atol=5)
+    np.testing.assert_allclose(found.event_level, 20 * np.log10([2e6, 5e6]), atol=0.1)
+    np.testing.assert_allclose(found.event_start, [0.02, 0.1], atol=0.006)
+    np.testing.assert_allclose(found.peak_level[0], found.event_level, atol=1e-9)
+    band = found.band_level[0, 0, np.argmin(np.abs(found.band - 16000))]
+    assert band == pytest.approx(20 * np.log10(2e6), abs=0.1)
+
+
+def test_quiet_brake_has_levels_but_no_event():
+    """Null test: below the threshold nothing squeals, and the loudest tone is still told."""
+    found = find([tone(5000, 1e-5)])
+    assert found.event_level.size == 0
+    assert found.peak_frequency[0, 0] == pytest.approx(5000, abs=1)
+    assert found.peak_level[0, 0] == pytest.approx(80, abs=0.1)
+
+
+def test_settling_is_not_searched():
+    burst = np.where(TIME < 0.015, tone(5000, 5e-3), 0)
+    assert find([burst], shortest="5 ms").event_level.size == 0
+    assert find([burst], shortest="5 ms", settling="0 s").event_level.size == 1
+
+
+@pytest.mark.parametrize("settings, said", [({"settling": "1 s"}, "settling"), ({"window": "1 s"}, "at least"),
+                                            ({"highest_frequency": "30 kHz"}, "half the sampling rate"),
+                                            ({"lowest_frequency": "20 kHz"}, "lowest_frequency")])
+def test_settings_that_do_not_fit_the_signals(settings, said):
+    with pytest.raises(ConfigError, match=said):
+        find([tone(5000, 1e-5)], **settings)

@@ -1,0 +1,52 @@
+"""Stage surface: generated and scanned bodies, refusals."""
+
+import numpy as np
+import pytest
+
+from pipeline.contract import ConfigError
+from pipeline.contract.settings import fill
+from pipeline.physics.rough_surface import self_affine
+from stages.surface import Settings, surface
+
+SMALL = {"nodes": 32, "shortest_wavelength": "125 um"}
+
+
+def test_generated_surfaces():
+    made = surface(settings=Settings(**SMALL))
+    assert made.disc_height.shape == (32, 32) and list(made.body) == ["disc", "pad"]
+    np.testing.assert_allclose(made.rms_height, [3.5e-6, 3.8e-6], rtol=1e-12)
+    np.testing.assert_allclose(made.nodes_per_wavelength, 4.0)
+    assert made.source[1] == "generated: plateau_pad, seed 2"
+    assert made.disc_depth[-1] == pytest.approx(1e-3)
+    assert made.power_spectrum.shape == (2, made.wavenumber.size)
+
+
+def test_a_scan_replaces_a_generator(tmp_path):
+    heights = 1e-7 * self_affine(np.random.default_rng(3), 80, 1.2e-3, 60e-6, 300e-6, 0.8)
+    heights[7, 9] += 1e-5
+    head = "# Channel: Topography\n# Width: 1200 um\n# Height: 1200 um\n# Value units: m\n"
+    (tmp_path / "pad.txt").write_text(head + "\n".join(" ".join(f"{v:.6e}" for v in row) for row in heights))
+    scan = {"kind": "scan", "file": str(tmp_path / "pad.txt"), "rms_height": "2 um", "reason": "test"}
+    made = surface(settings=fill(Settings, {**SMALL, "pad": scan}, "case: surface"))
+    assert made.source[1] == "pad.txt"
+    assert made.rms_height[1] == pytest.approx(2e-6, rel=1e-12)
+    assert made.outlier_share[1] >= 1 / 6400 and made.filled_share[1] >= 1 / 6400
+    turned = surface(settings=fill(Settings, {**SMALL, "pad": {**scan, "transposed": True}}, "case: surface"))
+    np.testing.assert_allclose(turned.pad_height, made.pad_height.T, atol=1e-8)
+
+
+def test_a_scan_needs_its_height_and_reason(tmp_path):
+    (tmp_path / "pad.txt").write_text("")
+    scan = {"kind": "scan", "file": str(tmp_path / "pad.txt"), "rms_height": "2 um"}
+    with pytest.raises(ConfigError, match="reason"):
+        fill(Settings, {"pad": scan}, "case: surface")
+
+
+def test_a_missing_scan_is_refused_before_anything_runs():
+    with pytest.raises(ConfigError, match="expected a file, found none"):
+        fill(Settings, {"disc": {"kind": "scan", "file": "none.x3p", "rms_height": "2 um", "reason": "test"}}, "case")
+
+
+def test_a_wavelength_below_two_nodes_is_refused():
+    with pytest.raises(ConfigError, match="two grid spacings"):
+        surface(settings=Settings(nodes=32, shortest_wavelength="40 um"))

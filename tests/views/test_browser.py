@@ -1,0 +1,81 @@
+"""The page in a headless Chromium: no console message, no request that leaves the file, no overflow on a phone."""
+
+import json
+import shutil
+import subprocess
+from html import escape, unescape
+from urllib.parse import urlsplit
+
+import pytest
+
+from stages.report import Settings, report
+from tests.views import products_for_views as small
+
+CHROMIUM = shutil.which("chromium")
+FLAGS = ("--headless", "--hide-scrollbars", "--no-sandbox", "--disable-gpu", "--no-first-run",
+         "--disable-background-networking", "--disable-component-update", "--disable-sync",
+         "--host-resolver-rules=MAP * ~NOTFOUND", "--enable-logging=stderr", "--v=0", "--dump-dom")
+PHONE, DESKTOP = 380, 1280
+#: a screen of the width of the frame; Chromium's own windows are never narrower than 500 pixels
+SCREEN = """<!DOCTYPE html><title>screen</title><link rel="icon" href="data:,"><body style="margin:0">
+<iframe style="border:0" width="{width}" height="4000" srcdoc="{page}"></iframe><script>
+addEventListener("load", () => {{
+const inside = document.querySelector("iframe").contentDocument, images = [...inside.images];
+document.title = JSON.stringify({{wide: inside.documentElement.scrollWidth, images: images.length,
+broken: images.filter(i => !i.naturalWidth).length, text: inside.querySelector("h1").textContent}}); }})
+</script>"""
+
+pytestmark = pytest.mark.skipif(CHROMIUM is None, reason="no chromium on this machine (Debian package 'chromium')")
+
+
+@pytest.fixture(scope="module")
+def html():
+    from pipeline.contract import Context
+
+    few = Settings(dots_per_inch=50, mode_pictures=1)
+    return report(**small.products(), settings=few, context=Context(case=small.case())).html.item()
+
+
+def opened(folder, html):
+    """Open ``html`` as a file: (document after loading, console lines, requests of the page that leave the file)."""
+    page, log = folder / "report.html", folder / "net.json"
+    page.write_text(html, encoding="utf-8")
+    run = subprocess.run([CHROMIUM, *FLAGS, f"--user-data-dir={folder / 'profile'}", f"--log-net-log={log}",
+                          "--window-size=1280,4000", page.as_uri()],
+                         capture_output=True, text=True, timeout=120, check=True)
+    console = [line for line in run.stderr.splitlines() if ":CONSOLE:" in line]
+    return run.stdout, console, _requests(json.loads(log.read_text()))
+
+
+def _requests(log):
+    """Addresses that the page asked for; Chromium's own services carry no initiating origin."""
+    started = log["constants"]["logEventTypes"]["URL_REQUEST_START_JOB"]
+    asked = [e["params"] for e in log["events"] if e["type"] == started and "url" in e.get("params", {})]
+    return [a["url"] for a in asked
+            if a.get("initiator") != "not an origin" and urlsplit(a["url"]).scheme not in ("file", "data")]
+
+
+def test_the_page_opens_without_message_and_without_request(html, tmp_path):
+    document, console, requests = opened(tmp_path, html)
+    assert "It squeals at 2 of 9" in document
+    assert console == []
+    assert requests == []
+
+
+@pytest.mark.parametrize("width", [PHONE, DESKTOP], ids=["phone", "desktop"])
+def test_every_picture_loads_and_nothing_is_wider_than_the_screen(html, width, tmp_path):
+    document, console, requests = opened(tmp_path, SCREEN.format(width=width, page=escape(html)))
+    found = json.loads(unescape(document.partition("<title>")[2].partition("</title>")[0]))
+    assert found["text"] == "It squeals at 2 of 9 operating points"
+    assert found["wide"] == width
+    assert found["images"] > 30
+    assert found["broken"] == 0
+    assert console == []
+    assert requests == []
+
+
+def test_a_page_that_speaks_or_asks_is_caught(tmp_path):
+    wrong = '<!DOCTYPE html><title>x</title><img src="http://127.0.0.1:9/a.png"><script>console.error("no")</script>'
+    _, console, requests = opened(tmp_path, wrong)
+    assert any("no" in line for line in console)
+    assert requests == ["http://127.0.0.1:9/a.png"]

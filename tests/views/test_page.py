@@ -1,0 +1,96 @@
+"""The page: every section, the case's settings, nothing from outside, same bytes twice."""
+
+import re
+from pathlib import Path
+
+import pytest
+
+from pipeline.contract.context import Case
+from pipeline.views import case as case_view
+from pipeline.views.chapter import Look
+from pipeline.views.limits import limits
+from pipeline.views.page import page, plan
+from tests.views import products_for_views as small
+
+LOOK = Look(dpi=50, shapes=0)
+
+
+@pytest.fixture(scope="module")
+def products():
+    return {name: p for name, p in small.products().items() if name not in ("structure", "model")}
+
+
+@pytest.fixture(scope="module")
+def html(products):
+    return page([build() for build in plan(products, LOOK)], products, small.case(), LOOK)
+
+
+def test_every_section_is_there_in_the_order_of_the_chain(html):
+    anchors = re.findall(r'<section id="(\w+)">', html)
+    assert anchors == ["table", "surface", "micro_friction", "friction_map", "complex_modes", "multibody", "response",
+                       "squeal", "comparison", "limits", "settings", "methods"]
+    assert set(re.findall(r'<a href="#(\w+)">', html)) == set(anchors)
+
+
+def test_nothing_is_loaded_from_outside(html):
+    sources = re.findall(r'(?:src|href|srcset|action|data)="([^"]*)"', html)
+    assert sources
+    assert all(source.startswith(("data:", "#")) for source in sources)
+    assert "url(" not in html
+    assert "@import" not in html
+    assert "<script" not in html
+
+
+def test_figures_are_numbered_without_gaps(html):
+    numbers = [int(n) for n in re.findall(r"<b>Figure (\d+)\.</b>", html)]
+    assert numbers == list(range(1, len(numbers) + 1))
+    assert len(numbers) > 20
+
+
+def test_settings_show_value_origin_and_source(html):
+    assert "13.5\u202fMPa" in html
+    assert "Figure 10c" in html
+    assert "largest shear stress of a spot" in html
+    assert "1 tuned" in html
+    assert "1, 2, 3\u202fMPa" in html
+
+
+def test_the_table_shows_every_row_of_the_comparison(html):
+    for row in small.comparison().row:
+        assert f"<td>{row}</td>" in html
+    assert "prints 337.3 Hz" in html
+
+
+def test_the_same_inputs_give_the_same_bytes(html, products):
+    assert page([build() for build in plan(products, LOOK)], products, small.case(), LOOK) == html
+
+
+def test_text_of_the_case_cannot_break_the_page(products):
+    wicked = Case(name="x", title='<img src="//example.org/a.png">', methods={"surface": "a < b & c"})
+    text = page([], {}, wicked, LOOK)
+    assert "<img src" not in text
+    assert "a &lt; b &amp; c" in text
+
+
+def test_a_case_without_settings_has_no_such_section():
+    text = page([], {}, Case(name="bare"), LOOK)
+    assert 'id="settings"' not in text
+    assert 'id="methods"' not in text
+    assert 'id="table"' not in text
+
+
+def test_limits_follow_the_products():
+    assert limits({}) == ()
+    assert any("dB(A)" in text for text in limits({"squeal": 1}))
+    assert not any("dB(A)" in text for text in limits({"response": 1}))
+
+
+@pytest.mark.exact
+def test_settings_are_written_for_reading():
+    assert case_view.written(True, "") == "yes"
+    assert case_view.written(None, "") == "—"
+    assert case_view.written(7, "") == "7"
+    assert case_view.written("turned", "") == "turned"
+    assert case_view.written(Path("/somewhere/plu-1.plu"), "") == "plu-1.plu"
+    assert case_view.written((1e6, 2.5e6), "Pa") == "1, 2.5\u202fMPa"
+    assert case_view.tuned(small.case()) == (("micro_friction.shear_limit", "13.5\u202fMPa"),)

@@ -1,0 +1,98 @@
+"""Every picture is drawn, has the same bytes twice, and changes with the data it claims to show."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from pipeline.views import (
+    agreement,
+    complex_mode_map,
+    contact_spots,
+    friction,
+    pad_motion,
+    preload,
+    sound,
+    surfaces,
+)
+from tests.views import products_for_views as small
+
+LINES = (16600.0, 17800.0)
+PICTURES = {
+    "height map": (lambda p: surfaces.height_map(p, "disc", 60), small.surface, "disc_height"),
+    "profile": (surfaces.profile, small.surface, "pad_height"),
+    "heights": (surfaces.height_distribution, small.surface, "pad_height"),
+    "spectrum": (surfaces.power_spectrum, small.surface, "power_spectrum"),
+    "spots new": (lambda p: contact_spots.contact_spots(p, "new", 60), small.micro_friction, "contact_pressure_new"),
+    "spots worn": (lambda p: contact_spots.contact_spots(p, "worn", 60), small.micro_friction, "contact_pressure_worn"),
+    "wear": (lambda p: contact_spots.wear_map(p, "pad", 60), small.micro_friction, "pad_wear"),
+    "area": (lambda p: friction.over_distance(p, "real_area"), small.micro_friction, "real_area"),
+    "wear depth": (lambda p: friction.over_distance(p, "wear_depth"), small.micro_friction, "wear_depth"),
+    "friction": (lambda p: friction.over_distance(p, "friction"), small.micro_friction, "friction"),
+    "over pressure": (friction.over_pressure, small.micro_friction, "friction"),
+    "convergence": (friction.convergence, small.micro_friction, "refinement_area"),
+    "map": (friction.friction_map, small.friction_map, "friction"),
+    "preload": (lambda p: preload.contact_pressure(p, 1, 60), small.structure, "preload"),
+    "roots": (lambda p: complex_mode_map.growth_over_frequency(p, LINES, 60), small.complex_modes, "root"),
+    "growth sweep": (complex_mode_map.growth_over_friction, small.complex_modes, "root"),
+    "frequency sweep": (complex_mode_map.frequency_over_friction, small.complex_modes, "root"),
+    "operating roots": (lambda p: complex_mode_map.operating_growth(p, 60), small.complex_modes, "operating_root"),
+    "motion": (lambda p: pad_motion.pad_motion(p, 8, 60), small.multibody, "pad_motion"),
+    "forces": (lambda p: pad_motion.patch_forces(p, 8, 0, 60), small.multibody, "patch_force"),
+    "growth": (lambda p: pad_motion.growth(p, 60), small.multibody, "growth_rate"),
+    "stability": (lambda p: pad_motion.stability_map(p, 8, 60), small.multibody, "stability"),
+    "spectra": (lambda p: sound.spectra(p, [0, 8], 0, LINES, 60), small.response, "velocity_spectrum"),
+    "occurrence": (lambda p: sound.occurrence(p, 60), small.squeal, "peak_level"),
+    "levels": (lambda p: sound.level_frequency(p, LINES), small.squeal, "event_level"),
+    "bands": (lambda p: sound.band_levels(p, [0, 8], 0), small.squeal, "band_level"),
+    "agreement": (agreement.agreement, small.comparison, "ours"),
+}
+
+
+@pytest.mark.parametrize("name", PICTURES)
+def test_a_picture_shows_its_data_with_the_same_bytes_twice(name):
+    draw, build, field = PICTURES[name]
+    product = build()
+    first = draw(product)
+    assert first.startswith(b"\x89PNG") if isinstance(first, bytes) else "<svg" in first
+    assert draw(product) == first
+    values = getattr(product, field)
+    assert draw(replace(product, **{field: values * np.linspace(0.7, 1.1, values.size).reshape(values.shape)})) != first
+
+
+def test_a_line_drawing_says_neither_when_nor_by_whom_it_was_drawn():
+    picture = surfaces.power_spectrum(small.surface())
+    assert "<dc:" not in picture
+
+
+def test_fields_of_nothing_are_drawn():
+    worn = small.micro_friction()
+    empty = replace(worn, contact_pressure_new=0 * worn.contact_pressure_new, pad_wear=0 * worn.pad_wear)
+    assert contact_spots.contact_spots(empty, "new", 40)
+    assert contact_spots.wear_map(empty, "pad", 40)
+    assert sound.level_frequency(small.squeal(quiet=True), ())
+    assert complex_mode_map.growth_over_friction(small.complex_modes(stable=True))
+
+
+@pytest.mark.exact
+def test_operating_points_find_their_tile():
+    from pipeline.views.style import operating_grid
+
+    pressures, speeds, grid = operating_grid([1.0, 3.0, 1.0], [8.0, 8.0, 12.0], [10.0, 20.0, 30.0])
+    assert pressures.tolist() == [1.0, 3.0]
+    assert speeds.tolist() == [8.0, 12.0]
+    np.testing.assert_array_equal(grid, [[10.0, 30.0], [20.0, np.nan]])
+
+
+@pytest.mark.exact
+def test_an_envelope_keeps_every_peak():
+    from pipeline.views.style import envelope
+
+    time = np.linspace(0, 1, 100_000)
+    signal = np.sin(2 * np.pi * 400 * time)
+    signal[31_415] = 7.0
+    shown_time, shown = envelope(time, signal, bins=500)
+    assert len(shown) == len(shown_time) == 1000
+    assert shown.max() == 7.0
+    assert shown.min() == signal.min()
+    assert envelope(time[:50], signal[:50])[1] is not None

@@ -1,0 +1,56 @@
+"""The first screen says what the products say."""
+
+from dataclasses import replace
+
+import numpy as np
+
+from pipeline.views.verdict import published_squeal, verdict
+from tests.views import products_for_views as small
+
+
+def words(given):
+    return " ".join(answer for _, answer in given.answers)
+
+
+def test_squeal_is_told_with_place_level_and_frequency():
+    told = verdict(small.products(), (("micro_friction.shear_limit", "13.5 MPa"),))
+    assert told.tone == "squeal"
+    assert told.headline == "It squeals at 2 of 9 operating points"
+    assert "3\u202fMPa, 12\u202frad/s" in words(told)
+    assert "92 dB" in words(told)
+    assert "16.6\u202fkHz" in words(told)
+
+
+def test_agreement_counts_only_what_was_not_tuned():
+    told = words(verdict(small.products(), ()))
+    assert "Of 7 published facts, 5 can be judged" in told
+    assert "4 hold within their tolerance, 3 of them because something was tuned" in told
+    assert "leaves 1 as evidence" in told
+
+
+def test_a_peak_without_unstable_mode_is_called_forced():
+    squeal = small.squeal()
+    moved = replace(squeal, peak_frequency=0.8 * squeal.peak_frequency)
+    assert "forced vibration" in words(verdict(small.products(squeal=moved), ()))
+    assert "forced vibration" not in words(verdict(small.products(), ()))
+    stable = verdict(small.products(complex_modes=small.complex_modes(stable=True)), ())
+    assert "No mode is unstable" in words(stable)
+
+
+def test_quiet_and_unstable_brakes_are_told_apart():
+    quiet = small.products(squeal=small.squeal(quiet=True))
+    assert verdict(quiet, ()).headline == "No peak exceeds the squeal threshold, but 1 mode is unstable"
+    still = small.products(squeal=small.squeal(quiet=True), complex_modes=small.complex_modes(stable=True))
+    assert verdict(still, ()).headline == "No squeal predicted"
+    assert verdict(still, ()).tone == "quiet"
+
+
+def test_a_case_that_ends_early_gets_no_verdict():
+    told = verdict({"surface": small.surface()}, ())
+    assert told.headline.startswith("No verdict")
+    assert told.facts == ()
+
+
+def test_published_squeal_lines_come_from_the_comparison_in_hertz():
+    np.testing.assert_allclose(published_squeal(small.comparison()), [16600.0, 17800.0])
+    assert published_squeal(None) == ()
