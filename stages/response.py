@@ -55,9 +55,11 @@ def response(structure: Structure, model: ReducedModel, multibody: Multibody, se
     the spring next to it and never reaches a mode. The paper saw no mode remarkably excited; this is
     one reason. Along sliding the pads are free in both models, so that they answer a second time, at
     resonance, to friction that already follows their own motion: a tone at the frequency of the pad
-    oscillation is exaggerated. 'forces: friction' leaves the normal pair out; 'coupling: disc' loads the disc without
-    contact springs, in its own rotating frame, at points that stay in place while it turns (gyroscopic
-    and centrifugal terms are left out there: it turns by a hundredth of a radian per radian of its
+    oscillation is exaggerated.
+
+    'forces: friction' leaves the normal pair out. 'coupling: disc' loads the disc without contact
+    springs, in its own rotating frame, at points that stay in place while it turns (gyroscopic and
+    centrifugal terms are left out there: it turns by a hundredth of a radian per radian of its
     slowest mode).
 
     A load 'fluctuation' is the force less its first sample: the motion about the static equilibrium

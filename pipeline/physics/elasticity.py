@@ -19,11 +19,13 @@ _CUBE = np.array([
     (0, 0, .5), (1, 0, .5), (1, 1, .5), (0, 1, .5),
     (0, .5, .5), (1, .5, .5), (.5, 0, .5), (.5, 1, .5), (.5, .5, 0), (.5, .5, 1), (.5, .5, .5)])
 _SQUARE = np.array([(0, 0), (1, 0), (1, 1), (0, 1), (.5, 0), (1, .5), (.5, 1), (0, .5), (.5, .5)])
-#: meshio cell type -> (scikit-fem element, reference vertices, order of quadrature, order for the stiffness).
-#: The 2 x 2 x 2 points of hexahedron20 make thin parts bend freely; its hourglass shapes cannot spread to neighbours.
-_ELEMENT = {"hexahedron": ("ElementHex1", _CUBE[:8], 3, 3), "hexahedron20": ("ElementHexS2", _CUBE[:20], 5, 3),
-            "hexahedron27": ("ElementHex2", _CUBE, 5, 5), "quad": ("ElementQuad1", _SQUARE[:4], 3, 3),
-            "quad8": ("ElementQuadS2", _SQUARE[:8], 5, 5), "quad9": ("ElementQuad2", _SQUARE, 5, 5)}
+#: meshio cell type -> (scikit-fem element, reference vertices, order of quadrature)
+_ELEMENT = {"hexahedron": ("ElementHex1", _CUBE[:8], 3), "hexahedron20": ("ElementHexS2", _CUBE[:20], 5),
+            "hexahedron27": ("ElementHex2", _CUBE, 5), "quad": ("ElementQuad1", _SQUARE[:4], 3),
+            "quad8": ("ElementQuadS2", _SQUARE[:8], 5), "quad9": ("ElementQuad2", _SQUARE, 5)}
+#: share of the 2 x 2 x 2 points in the stiffness: they let thin parts bend freely, the rest holds hourglass shapes
+_REDUCED_SHARE = {"hexahedron20": 0.95}
+_REDUCED_ORDER = 3
 #: (row, column) of the symmetric tensor behind each of the six strains
 _VOIGT = ((0, 0), (1, 1), (2, 2), (1, 2), (0, 2), (0, 1))
 _BATCH = 256
@@ -80,7 +82,10 @@ def assemble(node, element, kind, material, density, elasticity):
     def masses(gradient, shape, volume, rows):
         return (_products(shape, shape, volume * density[material[rows]][:, None]),)
 
-    stiffness, = _element_matrices(node, element, kind, stiffnesses, reduced=True)
+    stiffness, = _element_matrices(node, element, kind, stiffnesses)
+    if kind in _REDUCED_SHARE:
+        reduced, = _element_matrices(node, element, kind, stiffnesses, _REDUCED_ORDER)
+        stiffness += _REDUCED_SHARE[kind] * (reduced - stiffness)
     mass, = _element_matrices(node, element, kind, masses)
     return sum_blocks(stiffness, element, len(node)), _sum_scalars(mass, element, len(node))
 
@@ -158,11 +163,11 @@ def shape_functions(kind, point):
 
 
 @cache
-def quadrature(kind, reduced=False):
+def quadrature(kind, order=None):
     """Gauss points (q, d) and weights (q,) of the reference cell, sum of weights 1."""
     from skfem.quadrature import get_quadrature
 
-    point, weight = get_quadrature(_finite_element(kind)[0], _ELEMENT[kind][3 if reduced else 2])
+    point, weight = get_quadrature(_finite_element(kind)[0], order or _ELEMENT[kind][2])
     return point.T, weight
 
 
@@ -177,9 +182,9 @@ def _finite_element(kind):
     return finite, np.argmin(distance, axis=1)
 
 
-def _element_matrices(node, element, kind, matrices, reduced=False):
+def _element_matrices(node, element, kind, matrices, order=None):
     """Run ``matrices(gradient, shape, volume, rows)`` over batches of elements; join the results."""
-    point, weight = quadrature(kind, reduced)
+    point, weight = quadrature(kind, order)
     shape, reference_gradient = shape_functions(kind, point)
     results = []
     for start in range(0, len(element), _BATCH):

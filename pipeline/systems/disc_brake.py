@@ -76,8 +76,11 @@ def disc(parameters):
 
 def disc_mesh(parameters):
     """Revolved section of web and ring, one cell across the web and one more across the ring."""
-    p = parameters
-    web = np.linspace(p.bore_radius, p.ring_inner_radius, p.web_cells + 1)
+    p, reach = parameters, _clamped_radius(parameters)
+    clamped = int(np.clip(round(p.web_cells * (reach - p.bore_radius) / (p.ring_inner_radius - p.bore_radius)),
+                          1, p.web_cells - 1))
+    web = np.r_[np.linspace(p.bore_radius, reach, clamped + 1),
+                np.linspace(reach, p.ring_inner_radius, p.web_cells - clamped + 1)[1:]]
     ring = np.linspace(p.ring_inner_radius, p.ring_outer_radius, p.ring_cells + 1)
     height = np.array([0, p.web_thickness, p.ring_thickness]) - p.ring_thickness / 2
     mask = np.ones((p.web_cells + p.ring_cells, p.angular_cells, 2), bool)
@@ -92,14 +95,12 @@ def clamped_nodes(mesh, parameters):
     per area, into which the web bends over the length (E t^3 / 3k)^(1/4). That must be far less than
     the clamped width, else the mount is no rigid support (ConfigError).
     """
-    p = parameters
-    reach = p.bolt_circle_radius + p.bolt_head_radius + p.web_thickness * np.tan(np.pi / 6)
+    p, reach = parameters, _clamped_radius(parameters)
     face = boundary_faces(mesh)
     normal, middle = face_normals(mesh.node, face)
     bottom = (normal[:, 2] < -0.99) & (np.hypot(middle[:, 0], middle[:, 1]) < reach)
-    if not bottom.any() or not p.bore_radius < p.bolt_circle_radius or not reach < p.ring_inner_radius:
-        raise ConfigError("structure.disc", "bolts between the bore and the ring",
-                          f"clamped out to {reach:g} m", "check bolt circle, bore and ring radii")
+    if not bottom.any():
+        raise ConfigError("structure.disc.mesh_file", f"faces towards -z within {reach:g} m to clamp", "none")
     pressure = p.bolt_count * p.bolt_preload / (np.pi * (reach**2 - p.bore_radius**2))
     interface, width = pressure / (_SEPARATION_SHARE * p.flange_roughness), reach - p.bore_radius
     bending = (p.young * p.web_thickness**3 / (3 * interface))**0.25
@@ -108,6 +109,12 @@ def clamped_nodes(mesh, parameters):
                           f"a mount that the web enters by less than {_BENDING_SHARE * width:.2g} m",
                           f"{bending:.2g} m", "tighten the bolts or smooth the flange")
     return np.unique(face[bottom])
+
+
+def _clamped_radius(parameters):
+    """Outer radius of the pressure cones of the bolts where they reach the hub."""
+    p = parameters
+    return p.bolt_circle_radius + p.bolt_head_radius + p.web_thickness * np.tan(np.pi / 6)
 
 
 def pad(parameters, side):
@@ -153,6 +160,8 @@ def _check(parameters):
     rules = (
         (d.bore_radius < d.ring_inner_radius < d.ring_outer_radius, "disc", "bore < ring inner < ring outer radius",
          f"{d.bore_radius:g}, {d.ring_inner_radius:g}, {d.ring_outer_radius:g} m"),
+        (d.bore_radius < d.bolt_circle_radius and _clamped_radius(d) < d.ring_inner_radius, "disc.bolt_circle_radius",
+         "bolts whose pressure cones end between bore and ring", f"a clamped radius of {_clamped_radius(d):g} m"),
         (0 < d.web_thickness < d.ring_thickness, "disc.web_thickness", "a web thinner than the ring",
          f"{d.web_thickness:g} of {d.ring_thickness:g} m"),
         (p.inner_radius < p.outer_radius, "pad", "inner < outer radius", f"{p.inner_radius:g}, {p.outer_radius:g} m"),

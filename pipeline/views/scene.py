@@ -96,8 +96,8 @@ def _encoded(picture):
 
     rows = np.flatnonzero((picture < 250).any(axis=(1, 2)))
     first, last = (rows[0], rows[-1]) if len(rows) else (0, len(picture))
-    stream = BytesIO()
-    reduced = Image.fromarray(picture[max(first - 16, 0):last + 17]).quantize(200, method=Image.Quantize.MEDIANCUT, dither=Image.Dither.NONE)
+    stream, cut = BytesIO(), Image.fromarray(picture[max(first - 16, 0):last + 17])
+    reduced = cut.quantize(200, method=Image.Quantize.MEDIANCUT, dither=Image.Dither.NONE)
     reduced.save(stream, format="PNG", optimize=True)
     return stream.getvalue()
 

@@ -23,8 +23,8 @@ MATERIAL = orthotropic((6e9, 5e9, 1.5e9), (0.2, 0.22, 0.25), (1.2e9, 1.1e9, 2.5e
 def skewed_block(kind):
     mesh = block(np.linspace(0, 1, 3), np.linspace(0, 0.8, 3), np.linspace(0, 0.5, 3), kind=kind)
     x, y, z = mesh.node.T
-    warp = 0.06 * np.sin(np.pi * x) * np.sin(np.pi * y / 0.8) * np.sin(2 * np.pi * z / 0.5 + 1)
-    return mesh if kind != "hexahedron" else type(mesh)(mesh.node + warp[:, None], mesh.element, kind, mesh.cell)
+    warp = 0.06 * np.sin(np.pi * x) * np.sin(np.pi * y / 0.8) * np.sin(np.pi * z / 0.5)
+    return type(mesh)(mesh.node + warp[:, None] * (kind == "hexahedron"), mesh.element, kind, mesh.cell)
 
 
 def matrices(mesh, density=2500.0, material=MATERIAL):
@@ -110,7 +110,7 @@ def test_gyroscopic_matrices_of_a_wave_around_a_ring():
 
 def test_inverted_and_unknown_elements_are_refused():
     mesh = rod(1)
-    turned = mesh.element[:, [4, 5, 6, 7, 0, 1, 2, 3, *range(8, 27)]]
+    turned = mesh.element[:, [4, 5, 6, 7, 0, 1, 2, 3, *range(12, 16), *range(8, 12), *range(16, 24), 25, 24, 26]]
     with pytest.raises(ConfigError, match="Jacobian"):
         assemble(mesh.node, turned, mesh.kind, np.zeros(1, int), [1.0], [isotropic(1, 0.3)])
     with pytest.raises(ConfigError, match="hexahedron20"):

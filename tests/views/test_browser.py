@@ -8,9 +8,6 @@ from urllib.parse import urlsplit
 
 import pytest
 
-from stages.report import Settings, report
-from tests.views import products_for_views as small
-
 CHROMIUM = shutil.which("chromium")
 FLAGS = ("--headless", "--hide-scrollbars", "--no-sandbox", "--disable-gpu", "--no-first-run",
          "--disable-background-networking", "--disable-component-update", "--disable-sync",
@@ -26,14 +23,6 @@ broken: images.filter(i => !i.naturalWidth).length, text: inside.querySelector("
 </script>"""
 
 pytestmark = pytest.mark.skipif(CHROMIUM is None, reason="no chromium on this machine (Debian package 'chromium')")
-
-
-@pytest.fixture(scope="module")
-def html():
-    from pipeline.contract import Context
-
-    few = Settings(dots_per_inch=50, mode_pictures=1)
-    return report(**small.products(), settings=few, context=Context(case=small.case())).html.item()
 
 
 def opened(folder, html):
