@@ -29,7 +29,7 @@ class Settings(Section):
     friction_steps: int = option(41, "points of the sweep, both ends included", ge=2)
     frequency_max: Quantity("Hz", gt=0) = option("20 kHz", "real modes below it span the motion")
     smallest_correction: float = option(
-        1e-4, "static corrections for friction and dampers below this share of the modal amplitude are left out", ge=0)
+        1e-3, "corrections for friction and damping below this share of the modal amplitude are left out", ge=0)
     sliding_distance: Quantity("m", ge=0) = option("10 mm", "sliding distance at which the friction map is read")
     friction_slopes: bool = option(True, "friction that changes with pressure and slip speed, at the operating points")
     friction_damping: bool = option(True, "friction that turns with the slip velocity damps sideways motion")
@@ -68,7 +68,7 @@ def complex_modes(model: ReducedModel, friction_map: FrictionMap, settings: Sett
 
     Method:
     All complex modes were computed at {friction_steps} friction coefficients from 0 to {friction_max:.3g} and at the
-    operating points of the friction map, on the real modes below {frequency_max:.3g} Hz and their static friction
+    operating points of the friction map, on the real modes below {frequency_max:.3g} Hz and their friction
     corrections; a mode counts as unstable when its growth rate exceeds {neutral:.1g} of its angular frequency.
     """
     models = [sliding_model(model, k, np.mean(settings.speeds)) for k in range(len(model.pressure))]

@@ -14,7 +14,8 @@ from pipeline.physics.contact_history import contact_history
 from pipeline.physics.friction_law import FrictionLaw
 from pipeline.physics.oscillation import FEWEST_PERIODS, dominant_frequency, growth_rate
 from pipeline.physics.pad_motion import gravity_rows, sliding_axes
-from pipeline.physics.pad_system import pad_system, preloaded_modes, static_start
+from pipeline.physics.pad_system import pad_system, static_start
+from pipeline.physics.preloaded_modes import preloaded_modes
 from pipeline.physics.sliding_model import sliding_model
 from pipeline.physics.stability_map import stability_map
 from pipeline.products import FrictionMap, Multibody, ReducedModel
@@ -37,18 +38,21 @@ class Settings(Section):
         ("2 mm", "4 mm", "6 mm", "8 mm"), "distance that each sub-disc has slid on the friction map at the start")
     bedding_share: float = option(0.01, "part of the distance slid that counts on the friction map", ge=0)
     stick_speed: Quantity("m/s", gt=0) = option("1 mm/s", "slip below which friction is regularised")
+    damping_speed: Quantity("m/s", gt=0) = option(
+        "1 m/s", "closing speed that doubles the contact pressure: damping of the normal contact")
     ramp: Quantity("s", ge=0) = option("2 ms", "time in which friction rises after the static, friction-free start")
     duration: Quantity("s", gt=0) = option("0.3 s", "simulated time of each operating point")
     step: Quantity("s", gt=0) = option("10 us", "time step")
     record_every: int = option(2, "every so many steps one sample is kept", ge=1)
     integrator: Literal["exudyn", "newmark"] = option("exudyn", "exudyn's trapezoidal rule, or the same rule in numba")
     highest_frequency: Quantity("Hz", gt=0) = option(
-        "50 kHz", "modes of the preloaded pads and caliper above it follow quasi-statically only at the start")
+        "12 kHz", "highest mode of the preloaded pads and caliper; above it they answer statically to contact forces")
+    correction_damping: float = option(0.3, "damping ratio of these static answers", gt=0)
     lowest_frequency: Quantity("Hz", gt=0) = option(
         "100 Hz", "lowest frequency that counts as oscillation, above the passing of the sub-discs")
     caliper_factors: Quantities("1", gt=0) = option((0.25, 0.5, 1.0, 2.0, 4.0), "stability map: caliper stiffness")
     abutment_factors: Quantities("1", gt=0) = option((0.25, 0.5, 1.0, 2.0, 4.0), "stability map: abutment stiffness")
-    stability_frequency: Quantity("Hz", gt=0) = option("20 kHz", "highest mode of the stability map")
+    stability_frequency: Quantity("Hz", gt=0) = option("10 kHz", "highest mode of the stability map")
 
 
 @dataclass(frozen=True)
@@ -71,8 +75,8 @@ def multibody(model: ReducedModel, friction_map: FrictionMap, settings: Settings
     sub-discs in turn; friction of each contact patch from the friction map at its pressure, its slip and the distance
     of its sub-disc (start: {bedding} m, gaining {bedding_share} of the distance slid). Static start without friction,
     friction raised in {ramp} s, then the implicit trapezoidal rule ({integrator}) in steps of {step} s over {duration}
-    s, with preloaded modes up to {highest_frequency} Hz. The stability map holds the largest growth rate of the
-    linearised system with scaled joint stiffnesses.
+    s, with preloaded modes up to {highest_frequency} Hz and static answers to the contact forces. The stability map
+    holds the largest growth rate of the linearised system with scaled joint stiffnesses.
     """
     shortest = settings.ramp + FEWEST_PERIODS / settings.lowest_frequency
     if settings.duration < shortest:
@@ -94,7 +98,7 @@ def _operate(point, model, law, settings):
     build = partial(_system, model, law, settings, point)
     system = build(1.0, 1.0)
     start = static_start(system, _where(point))
-    modal, modes = preloaded_modes(system, start, settings.highest_frequency)
+    modal, modes = preloaded_modes(system, start, settings.highest_frequency, settings.correction_damping)
     time, displacement, velocity = INTEGRATORS[settings.integrator](
         modal, np.zeros(modes.shape[1]), settings.step, round(settings.duration / settings.step),
         settings.record_every, scale=np.linalg.norm(modes.T @ system.load))
@@ -103,7 +107,8 @@ def _operate(point, model, law, settings):
                               velocity)
     rows = _motion_rows(model, pads)
     motion = (rows @ modes) @ displacement.T + (rows @ start)[:, :, None]
-    stability = stability_map(build, settings.caliper_factors, settings.abutment_factors, settings.stability_frequency)
+    stability = stability_map(build, settings.caliper_factors, settings.abutment_factors, settings.stability_frequency,
+                              settings.correction_damping)
     return _Run(time, {
         "pad_motion": motion, "patch_force": history.patch, "normal_force": history.normal.astype(np.float32),
         "friction_force": history.friction.astype(np.float32), "mean_friction": _mean_friction(history),
@@ -116,7 +121,8 @@ def _system(model, law, settings, point, caliper, abutment):
     sliding = sliding_model(model, 0, speed).held(DISC)
     sliding = _stiffer(_stiffer(sliding, CALIPER, caliper), ABUTMENT, abutment)
     return pad_system(sliding, pressure * model.input_area, model.law_closure, model.law_pressure, law,
-                      settings.bedding, settings.bedding_share, settings.sectors, settings.ramp, settings.stick_speed)
+                      settings.bedding, settings.bedding_share, settings.sectors, settings.ramp, settings.stick_speed,
+                      settings.damping_speed)
 
 
 def _stiffer(sliding, groups, factor):

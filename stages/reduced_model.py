@@ -18,9 +18,10 @@ SENSORS = "sensor_rows"
 class Settings(Section):
     """How many coordinates the bodies keep."""
 
-    fixed_below: Quantity("Hz", gt=0) = option("30 kHz", "limit of the fixed-interface modes of pads and caliper")
-    residual_below: Quantity("Hz", gt=0) = option("150 kHz", "limit of the pseudo-frequencies of the disc's residual"
-                                                  " response to contact forces; higher = stiffer detail kept")
+    fixed_below: Quantity("Hz", gt=0) = option("20 kHz", "limit of the fixed-interface modes of pads and caliper")
+    residual_below: Quantity("Hz", gt=0) = option(
+        "400 kHz", "limit of the pseudo-frequencies of residual shapes: the disc's response to contact forces, the"
+        " inertia that moving interfaces leave to pads and caliper")
 
 
 @stage
@@ -29,8 +30,8 @@ def reduced_model(structure: Structure, settings: Settings, context: Context) ->
 
     Method:
     Pads and caliper were reduced by Craig-Bampton with averaged interfaces and fixed-interface modes below
-    {fixed_below:.3g} Hz, the disc by its modes and residual response to contact forces with pseudo-frequencies below
-    {residual_below:.3g} Hz.
+    {fixed_below:.3g} Hz, the disc to its modes; to both were added residual shapes with pseudo-frequencies below
+    {residual_below:.3g} Hz, for what interface accelerations and contact forces excite beyond these modes.
     """
     bodies = [_elastic_body(structure, name, index) for index, name in enumerate(structure.body_name)]
     reduce = partial(reduce_body, fixed_below=settings.fixed_below, residual_below=settings.residual_below,

@@ -74,7 +74,7 @@ def reduce_body(body, fixed_below, residual_below, solver):
         raise ConfigError(f"reduced model: {body.name}", "a turning body on rigid supports", "none",
                           "hold the nodes of its mount")
     else:
-        reduced = craig_bampton(stiffness, mass, interface, fixed_below, solver)
+        reduced = craig_bampton(stiffness, mass, interface, fixed_below, solver, residual_below)
     size = reduced.shape.shape[1]
     whirl, centrifugal = _rotation(body, free, factor, reduced.shape) if body.turns else (np.zeros((size, size)),) * 2
     return BodyTerms(reduced.mass, modal_damping(reduced.mass, reduced.stiffness, body.damping_ratio), whirl,

@@ -30,7 +30,7 @@ def contact_history(contact, pad, pads, time, displacement, velocity):
     patch, separated, outside, evaluations = np.zeros((pads, SUB_DISCS, samples)), 0, 0, 0
     for k in range(samples):
         state = contact_state(contact, time[k], displacement[k], velocity[k])
-        along, aside = contact.tangent @ velocity[k], contact.lateral @ velocity[k]
+        along, aside = contact.rows[1] @ velocity[k], contact.rows[2] @ velocity[k]
         for i in range(size):
             normal[i, k], friction[i, k] = state.normal[i], state.friction[i, 0]
             if state.normal[i] == 0.0:

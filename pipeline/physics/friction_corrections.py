@@ -1,11 +1,13 @@
-"""A small basis for complex modes: real modes of the frictionless system and static corrections for friction.
+"""A small basis for complex modes: real modes of the frictionless system and corrections for friction and damping.
 
-Real modes alone do not converge the growth rates, because friction and dampers load the bodies locally. The part of
-the response that the real modes Phi (frequencies W) below a limit leave out is static: with the modes H above it,
+Real modes alone do not converge the growth rates, because friction and dampers load the bodies locally. What the real
+modes phi (frequencies w) below a limit leave out of the response to these forces, each at its own frequency, is known
+from the modes H (frequencies W) above it:
 
-    X = H W_H^-2 H^T [K_f Phi, C Phi W],    friction coefficient 1, C of joints and friction,
+    x = H (W^2 - w^2)^-1 H^T K_f phi,    y = H (W^2 - w^2)^-1 H^T w C phi,    friction coefficient 1.
 
-orthonormalised in the mass. Its singular values are amplitudes per unit of modal amplitude.
+With w = 0 in the bracket these would be static corrections, which converge more slowly near the limit. The corrections
+are orthonormalised in the mass; their singular values are amplitudes per unit of modal amplitude.
 """
 
 from dataclasses import dataclass
@@ -25,23 +27,23 @@ class FrictionBasis:
     corrections: int
 
 
-def friction_basis(model, below, friction_damping=True, smallest=1e-4):
-    """Real modes of a SlidingModel below a frequency [Hz] and their static corrections, largest first.
+def friction_basis(model, below, friction_damping=True, smallest=1e-3):
+    """Real modes of a SlidingModel below a frequency [Hz] and their corrections, largest first.
 
     The real modes are those of closed contacts without friction, damping and gyroscopic terms. Corrections with
-    amplitudes below ``smallest`` per unit of modal amplitude are left out; ``smallest`` = inf leaves out all. Raises
+    amplitudes up to ``smallest`` per unit of modal amplitude are left out; ``smallest`` = inf leaves out all. Raises
     ConfigError where no mode lies below the frequency.
     """
     mass, damping, stiffness = model.frictionless(gyroscopic=False)
     square, modes = eigh(stiffness, mass)
-    angular = np.sqrt(np.maximum(square, 0.0))
-    low = angular < 2 * np.pi * below
+    low = square < (2 * np.pi * below) ** 2
+    frequency = np.sqrt(np.maximum(square, 0.0)) / (2 * np.pi)
     if not low.any():
-        raise ConfigError("real modes", f"a mode below {below:g} Hz", f"the lowest at {angular[0] / (2 * np.pi):g} Hz")
+        raise ConfigError("real modes", f"a mode below {below:g} Hz", f"the lowest at {frequency[0]:g} Hz")
     real, high = modes[:, low], modes[:, ~low]
     drag, follower = model.friction_matrices(1.0, friction_damping)
-    drag = drag + damping - model.damping
-    force = np.hstack((follower @ real, drag @ real * angular[low]))
-    direction, size, _ = np.linalg.svd((high.T @ force) / square[~low, None], full_matrices=False)
+    force = np.hstack((follower @ real, (damping + drag) @ real * (2 * np.pi * frequency[low])))
+    response = (high.T @ force) / (square[~low, None] - np.tile(square[low], 2))
+    direction, size, _ = np.linalg.svd(response, full_matrices=False)
     corrections = high @ direction[:, size > smallest]
-    return FrictionBasis(np.hstack((real, corrections)), angular[low] / (2 * np.pi), corrections.shape[1])
+    return FrictionBasis(np.hstack((real, corrections)), frequency[low], corrections.shape[1])

@@ -4,7 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 from numba import njit
-from scipy.linalg import cho_factor, cho_solve, eigh
+from scipy.linalg import cho_factor, cho_solve
 
 from pipeline.contract.errors import ConfigError, ConvergenceError
 from pipeline.physics.patch_contact import SUB_DISCS, PatchContact, contact_force, contact_tangent
@@ -24,25 +24,27 @@ class PadSystem(NamedTuple):
     contact: PatchContact
 
 
-def pad_system(sliding, input_force, closure, pressure, friction, bedding, bedding_share, sectors, ramp, stick_speed):
+def pad_system(sliding, input_force, closure, pressure, friction, bedding, bedding_share, sectors, ramp, stick_speed,
+               damping_speed):
     """PadSystem of a SlidingModel without its disc (``sliding.held("disc")``), at the speed of that model.
 
     ``input_force`` (i,) N; ``closure`` (k,) m and ``pressure`` (k,) Pa: normal law; ``friction``: FrictionLaw;
     ``bedding`` (4,) m: distance of the sub-discs on the friction map at the start; ``bedding_share``: part of the
-    distance slid that counts on the map; ``sectors`` per revolution; ``ramp`` s; ``stick_speed`` m/s. Raises
-    ConfigError.
+    distance slid that counts on the map; ``sectors`` per revolution; ``ramp`` s; ``stick_speed`` and
+    ``damping_speed`` m/s. Raises ConfigError.
     """
     _check(closure, pressure, bedding, sectors)
     contacts, (mass, damping, stiffness) = sliding.contacts, sliding.supported()
     contact = PatchContact(
-        normal=contacts.normal, tangent=contacts.tangent, lateral=contacts.lateral,
+        rows=np.array([contacts.normal, contacts.tangent, contacts.lateral]),
         opening=np.zeros(len(contacts.area)), area=contacts.area, radius=contacts.lever,
         angle=np.arctan2(contacts.position[:, 1], contacts.position[:, 0]),
         half_angle=np.sqrt(contacts.area) / (2 * contacts.lever), closure=closure, pressure=pressure,
         friction_pressure=friction.pressure, friction_speed=friction.speed, friction_distance=friction.distance,
         friction=friction.friction, bedding=np.array(bedding),
         bedding_speed=bedding_share * sliding.speed * np.mean(contacts.lever), disc_speed=float(sliding.speed),
-        sectors=int(sectors), ramp=float(ramp), stick_speed=float(stick_speed))
+        sectors=int(sectors), ramp=float(ramp), stick_speed=float(stick_speed),
+        damping_speed=float(damping_speed))
     arrays = {name: np.array(value) for name, value in contact._asdict().items() if isinstance(value, np.ndarray)}
     return PadSystem(mass, damping, stiffness, input_force @ sliding.input_rows, contact._replace(**arrays))
 
@@ -71,24 +73,6 @@ def tangent(system, time, displacement, velocity):
     return system.stiffness + stiffness, system.damping + damping
 
 
-def preloaded_modes(system, start, highest_frequency=np.inf):
-    """(system in modal coordinates, modes (n, m)): q = start + modes @ coordinates, unit masses.
-
-    The modes are those of the frictionless system linearised about its static state ``start`` (n,), up to
-    ``highest_frequency`` in Hz. The static state stays exact, whatever is left out; the contact law stays nonlinear.
-    """
-    stiffness, _ = linearised(without_friction(system), start)
-    square, modes = eigh((stiffness + stiffness.T) / 2, system.mass)
-    modes = np.ascontiguousarray(modes[:, square <= (2 * np.pi * highest_frequency) ** 2])
-    contact = system.contact._replace(
-        normal=system.contact.normal @ modes, tangent=system.contact.tangent @ modes,
-        lateral=system.contact.lateral @ modes, opening=system.contact.opening + system.contact.normal @ start)
-    return PadSystem(
-        mass=np.eye(modes.shape[1]), damping=modes.T @ system.damping @ modes,
-        stiffness=modes.T @ system.stiffness @ modes, load=modes.T @ (system.load - system.stiffness @ start),
-        contact=contact), modes
-
-
 def without_friction(system):
     """The same system with a friction coefficient of zero everywhere."""
     return system._replace(contact=system.contact._replace(friction=np.zeros_like(system.contact.friction)))
@@ -96,10 +80,10 @@ def without_friction(system):
 
 def static_start(system, where="static start"):
     """Displacement (n,) in equilibrium with the load before friction acts. Raises ConvergenceError."""
-    frictionless, contact = without_friction(system), system.contact
+    frictionless, contact, normal = without_friction(system), system.contact, system.contact.rows[0]
     slope = contact.area * (contact.pressure[1] - contact.pressure[0]) / (contact.closure[1] - contact.closure[0])
-    closed = system.stiffness + (contact.normal.T * slope) @ contact.normal
-    guess = cho_solve(cho_factor(closed), system.load - contact.normal.T @ (slope * contact.opening))
+    closed = system.stiffness + (normal.T * slope) @ normal
+    guess = cho_solve(cho_factor(closed), system.load - normal.T @ (slope * contact.opening))
     return _equilibrium(frictionless, guess, where)
 
 

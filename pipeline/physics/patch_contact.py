@@ -6,11 +6,12 @@ distance and therefore has its own friction. A contact patch overlaps one sector
 shared by overlap, so that all forces stay continuous while the disc turns.
 
 At contact i, with the rows n_i (positive opens), t_i (along sliding) and l_i (lateral) of the pad's motion:
-    closure c = -(n_i q + opening),  N = A p(c),
+    closure c = -(n_i q + opening),  N = A p(c) (1 + c' / damping_speed), never negative,
     slip of the disc against the pad v = (Omega r_i - t_i q', -l_i q'),
     friction on the pad F = ramp(t) N sum_d w_id(t) mu(p, |v|, s_d(t)) g(|v|) v / |v|.
 g = 1 except for |v| < stick_speed, where it is the cubic x (3 - x^2) / 2 of x = |v| / stick_speed: sticking is replaced
-by creep slower than that.
+by creep slower than that. The damping of the normal law follows Hunt & Crossley (J. Appl. Mech. 42 (1975) 440): it
+vanishes with the pressure, so that no force jumps where contact opens.
 """
 
 from typing import NamedTuple
@@ -26,9 +27,7 @@ SUB_DISCS = 4
 class PatchContact(NamedTuple):
     """Contact points of pads on the sub-discs, all in SI units; c contacts, n coordinates."""
 
-    normal: np.ndarray          # (c, n) normal rows, positive opens
-    tangent: np.ndarray         # (c, n) tangent rows, along sliding
-    lateral: np.ndarray         # (c, n) lateral rows
+    rows: np.ndarray            # (3, c, n) rows of the motion: normal (positive opens), along sliding, lateral
     opening: np.ndarray         # (c,) m, normal displacement where all coordinates are zero
     area: np.ndarray            # (c,) m^2
     radius: np.ndarray          # (c,) m, distance from the disc axis
@@ -46,6 +45,7 @@ class PatchContact(NamedTuple):
     sectors: int                # per revolution, a multiple of 4
     ramp: float                 # s, time in which friction rises from nothing
     stick_speed: float          # m/s, slip below which friction is regularised
+    damping_speed: float        # m/s, closing speed that doubles the contact pressure
 
 
 class ContactState(NamedTuple):
@@ -54,6 +54,7 @@ class ContactState(NamedTuple):
     normal: np.ndarray          # (c,) N
     friction: np.ndarray        # (c, 2) N, along sliding and laterally
     stiffness: np.ndarray       # (c,) N/m, dN/dclosure
+    damping: np.ndarray         # (c,) N s/m, dN/d(closing speed)
     coupling: np.ndarray        # (c, 2) d friction / dN = (mu + p dmu/dp) v / |v|
     drag: np.ndarray            # (c, 3) N s/m, d friction / dv: along-along, along-lateral, lateral-lateral
     share: np.ndarray           # (c, 4) part of the patch on each sub-disc
@@ -107,37 +108,42 @@ def friction_share(time, ramp):
 
 
 @njit(cache=True)
-def sub_disc_friction(contact, time, shares, pressure, slip):
-    """(mu, dmu/dpressure, dmu/dslip) of one patch with ``shares`` (4,) on the sub-discs."""
+def sub_disc_friction(pressure, slip, share, distance, pressures, speeds, distances, table):
+    """(mu, dmu/dpressure, dmu/dslip) of a patch with ``share`` (4,) on sub-discs that have slid ``distance`` (4,)."""
     mu, over_pressure, over_slip = 0.0, 0.0, 0.0
     for d in range(SUB_DISCS):
-        if shares[d] > 0.0:
+        if share[d] > 0.0:
             value, pressure_slope, slip_slope, _ = friction_at(
-                pressure, slip, contact.bedding[d] + contact.bedding_speed * time, contact.friction_pressure,
-                contact.friction_speed, contact.friction_distance, contact.friction)
-            mu += shares[d] * value
-            over_pressure += shares[d] * pressure_slope
-            over_slip += shares[d] * slip_slope
+                pressure, slip, distance[d], pressures, speeds, distances, table)
+            mu += share[d] * value
+            over_pressure += share[d] * pressure_slope
+            over_slip += share[d] * slip_slope
     return mu, over_pressure, over_slip
 
 
 @njit(cache=True)
 def contact_state(contact, time, displacement, velocity):
     """ContactState at generalised ``displacement`` (n,) and ``velocity`` (n,)."""
-    closure = -(contact.normal @ displacement + contact.opening)
-    along, aside = contact.tangent @ velocity, contact.lateral @ velocity
+    size, n = contact.rows.shape[1:]
+    closure = -(contact.rows[0] @ displacement + contact.opening)
+    speed = (contact.rows.reshape(3 * size, n) @ velocity).reshape(3, size)
     shares = patch_shares(contact.angle, contact.half_angle, contact.disc_speed * time, contact.sectors)
-    acting, size = friction_share(time, contact.ramp), closure.size
-    normal, friction, stiffness = np.zeros(size), np.zeros((size, 2)), np.zeros(size)
-    coupling, drag = np.zeros((size, 2)), np.zeros((size, 3))
+    acting, distance = friction_share(time, contact.ramp), contact.bedding + contact.bedding_speed * time
+    pressures, speeds = contact.friction_pressure, contact.friction_speed
+    distances, table = contact.friction_distance, contact.friction
+    normal, stiffness, damping = np.zeros(size), np.zeros(size), np.zeros(size)
+    friction, coupling, drag = np.zeros((size, 2)), np.zeros((size, 2)), np.zeros((size, 3))
     for i in range(size):
-        pressure, slope = normal_law(closure[i], contact.closure, contact.pressure)
-        if slope == 0.0:
+        elastic, slope = normal_law(closure[i], contact.closure, contact.pressure)
+        growth = 1.0 - speed[0, i] / contact.damping_speed
+        if slope == 0.0 or growth <= 0.0:
             continue
-        normal[i], stiffness[i] = contact.area[i] * pressure, contact.area[i] * slope
-        slip_x, slip_y = contact.disc_speed * contact.radius[i] - along[i], -aside[i]
+        pressure, damping[i] = elastic * growth, contact.area[i] * elastic / contact.damping_speed
+        normal[i], stiffness[i] = contact.area[i] * pressure, contact.area[i] * slope * growth
+        slip_x, slip_y = contact.disc_speed * contact.radius[i] - speed[1, i], -speed[2, i]
         slip = np.hypot(slip_x, slip_y)
-        mu, over_pressure, over_slip = sub_disc_friction(contact, time, shares[i], pressure, slip)
+        mu, over_pressure, over_slip = sub_disc_friction(
+            pressure, slip, shares[i], distance, pressures, speeds, distances, table)
         part, part_slope = sliding_part(slip, contact.stick_speed)
         x, y = (slip_x / slip, slip_y / slip) if slip > 0.0 else (1.0, 0.0)
         force, slide = acting * normal[i] * mu * part, acting * part * (mu + pressure * over_pressure)
@@ -146,27 +152,31 @@ def contact_state(contact, time, displacement, velocity):
         friction[i, 0], friction[i, 1], coupling[i, 0], coupling[i, 1] = force * x, force * y, slide * x, slide * y
         drag[i, 0], drag[i, 2] = radial * x * x + turning * y * y, radial * y * y + turning * x * x
         drag[i, 1] = (radial - turning) * x * y
-    return ContactState(normal, friction, stiffness, coupling, drag, shares)
+    return ContactState(normal, friction, stiffness, damping, coupling, drag, shares)
 
 
 @njit(cache=True)
 def contact_force(contact, time, displacement, velocity):
     """Generalised force (n,) of all contacts on the pads."""
     state = contact_state(contact, time, displacement, velocity)
-    sliding = np.ascontiguousarray(state.friction.T)
-    return state.normal @ contact.normal + sliding[0] @ contact.tangent + sliding[1] @ contact.lateral
+    size, n = contact.rows.shape[1:]
+    forces = np.empty((3, size))
+    forces[0], forces[1:] = state.normal, state.friction.T
+    return forces.reshape(3 * size) @ contact.rows.reshape(3 * size, n)
 
 
 @njit(cache=True)
 def contact_tangent(contact, time, displacement, velocity):
     """(stiffness, damping), both (n, n): minus the derivatives of ``contact_force``; exact, unsymmetric."""
     state = contact_state(contact, time, displacement, velocity)
-    size, n = contact.normal.shape
-    pressed, slid_x, slid_y = np.empty((size, n)), np.empty((size, n)), np.empty((size, n))
+    size, n = contact.rows.shape[1:]
+    pressed, damped = np.empty((size, n)), np.empty((size, n))
+    slid_x, slid_y = np.empty((size, n)), np.empty((size, n))
     for i in range(size):
-        t, side = contact.tangent[i], contact.lateral[i]
-        pressed[i] = state.stiffness[i] * (
-            contact.normal[i] + state.coupling[i, 0] * t + state.coupling[i, 1] * side)
-        slid_x[i] = state.drag[i, 0] * t + state.drag[i, 1] * side
-        slid_y[i] = state.drag[i, 1] * t + state.drag[i, 2] * side
-    return pressed.T @ contact.normal, slid_x.T @ contact.tangent + slid_y.T @ contact.lateral
+        normal, along, aside = contact.rows[0, i], contact.rows[1, i], contact.rows[2, i]
+        acting = normal + state.coupling[i, 0] * along + state.coupling[i, 1] * aside
+        pressed[i], damped[i] = state.stiffness[i] * acting, state.damping[i] * acting
+        slid_x[i] = state.drag[i, 0] * along + state.drag[i, 1] * aside
+        slid_y[i] = state.drag[i, 1] * along + state.drag[i, 2] * aside
+    damping = damped.T @ contact.rows[0] + slid_x.T @ contact.rows[1] + slid_y.T @ contact.rows[2]
+    return pressed.T @ contact.rows[0], damping

@@ -37,7 +37,7 @@ class ReducedBody:
     frequency: np.ndarray
 
 
-def craig_bampton(stiffness, mass, rows, below, solver):
+def craig_bampton(stiffness, mass, rows, below, solver, residual_below=None):
     """Interface coordinates ``rows @ u`` and all fixed-interface modes below a frequency.
 
     Parameters
@@ -45,6 +45,9 @@ def craig_bampton(stiffness, mass, rows, below, solver):
     stiffness, mass : (n, n) sparse symmetric [N/m, kg]
     rows : (r, n) sparse, linearly independent, restraining all rigid motions of the body
     below : frequency limit of the fixed-interface modes [Hz]
+    residual_below : the inertia of the constraint modes drives motions that the fixed-interface modes lack; their
+        leading part, static and interface held, is added as pseudo-modes up to this frequency [Hz] (none by default).
+        Errors then fall with the fourth instead of the second power of frequency over ``below``.
     solver : direct solver, see ``linear_solver.factorise``
 
     Raises ConfigError where the rows leave a rigid motion free or depend on one another.
@@ -55,6 +58,10 @@ def craig_bampton(stiffness, mass, rows, below, solver):
                           "reduce a body without interfaces to its modes")
     held = _held(stiffness, rows, solver)
     frequency, fixed = _fixed_modes(held, mass, rows, below, solver)
+    if residual_below is not None:
+        driven = _without(fixed, mass, held.solve(mass @ held.constraint))
+        more = _pseudo_modes(stiffness, mass, driven, residual_below)
+        frequency, fixed = np.concatenate((frequency, more[0])), np.hstack((fixed, more[1]))
     shape = np.hstack((held.constraint, fixed))
     return ReducedBody(shape, projected(mass, shape), projected(stiffness, shape), rows.shape[0], frequency)
 
@@ -67,9 +74,7 @@ def attachment(stiffness, mass, rows, frequency, modes, below, factor):
     them the static response to interface forces is exact. ``factor`` is that of the stiffness.
     """
     static = factor.solve(sp.csr_matrix(rows).T.toarray())
-    residual = static - modes @ (modes.T @ (mass @ static))
-    residual -= modes @ (modes.T @ (mass @ residual))
-    pseudo_frequency, pseudo = _pseudo_modes(stiffness, mass, residual, below)
+    pseudo_frequency, pseudo = _pseudo_modes(stiffness, mass, _without(modes, mass, static), below)
     shape, frequency = np.hstack((modes, pseudo)), np.concatenate((frequency, pseudo_frequency))
     return ReducedBody(shape, np.eye(len(frequency)), np.diag((2 * np.pi * frequency) ** 2), 0, frequency)
 
@@ -180,6 +185,13 @@ def _held_modes_below(stiffness, mass, rows, below, solver):
         return None
     flexibility = rows @ dynamic.solve(rows.T.toarray())
     return dynamic.negative - int((np.linalg.eigvalsh((flexibility + flexibility.T) / 2) < 0).sum())
+
+
+def _without(modes, mass, shapes):
+    """The part of ``shapes`` outside the mass-orthonormal ``modes``; projected twice against rounding."""
+    for _ in range(2):
+        shapes = shapes - modes @ (modes.T @ (mass @ shapes))
+    return shapes
 
 
 def _pseudo_modes(stiffness, mass, residual, below):

@@ -2,19 +2,22 @@
 
 import numpy as np
 
-from pipeline.physics.pad_system import linearised, preloaded_modes, sliding_state, static_start
+from pipeline.physics.pad_system import linearised, sliding_state, static_start
 from pipeline.physics.patch_contact import SUB_DISCS
+from pipeline.physics.preloaded_modes import preloaded_modes
 from pipeline.physics.quadratic_modes import quadratic_roots, upper_half
 
 
-def sliding_roots(system, highest_frequency=np.inf):
+def sliding_roots(system, highest_frequency=np.inf, correction_damping=0.3):
     """Roots s (1/s) of the linearised system about steady sliding, one of each conjugate pair.
 
     Friction and its slopes over pressure and slip are those of the law at the sliding state, averaged over the
-    four sub-discs. ``highest_frequency`` (Hz) bounds the frictionless modes in which the roots are sought.
+    four sub-discs. ``highest_frequency`` (Hz) bounds the preloaded modes in which the roots are sought,
+    beside static answers with the damping ratio ``correction_damping``.
     """
     averaged = on_average(system)
-    modal, _ = preloaded_modes(averaged, static_start(averaged, "stability map: static start"), highest_frequency)
+    start = static_start(averaged, "stability map: static start")
+    modal, _ = preloaded_modes(averaged, start, highest_frequency, correction_damping)
     state = sliding_state(modal, np.zeros(len(modal.mass)), "stability map: steady sliding")
     stiffness, damping = linearised(modal, state)
     roots = quadratic_roots(modal.mass, damping, stiffness)
@@ -28,7 +31,7 @@ def on_average(system):
     return system._replace(contact=contact._replace(half_angle=whole_round))
 
 
-def stability_map(build, caliper_factors, abutment_factors, highest_frequency=np.inf):
+def stability_map(build, caliper_factors, abutment_factors, highest_frequency=np.inf, correction_damping=0.3):
     """(caliper, abutment) largest growth rate in 1/s; ``build(caliper factor, abutment factor)`` is the PadSystem."""
-    return np.array([[sliding_roots(build(caliper, abutment), highest_frequency).real.max()
+    return np.array([[sliding_roots(build(caliper, abutment), highest_frequency, correction_damping).real.max()
                       for abutment in abutment_factors] for caliper in caliper_factors])

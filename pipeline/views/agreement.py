@@ -1,7 +1,10 @@
 """Picture of the comparison: how far each value lies from the published one, in tolerances."""
 
+from textwrap import wrap
+
 import numpy as np
 
+from pipeline.views.readable import number
 from pipeline.views.style import BLUE, FAINT, INK, RED, drawing, svg
 
 
@@ -9,14 +12,15 @@ def agreement(comparison):
     """SVG, one dot per comparable row: deviation / tolerance; hollow where something was tuned."""
     rows = comparable(comparison)
     deviation = (comparison.ours[rows] - comparison.published[rows]) / comparison.tolerance[rows]
-    with drawing(0.8 + 0.21 * len(rows), left=2.1, top=0.1) as figure:
+    with drawing(0.8 + 0.29 * len(rows), left=2.15, top=0.1) as figure:
         axes = figure.subplots()
         axes.axvspan(-1, 1, color="#dfeaf3", lw=0)
         axes.axvline(0, color=FAINT, lw=0.9)
         for place, (row, value) in enumerate(zip(rows, deviation, strict=True)):
             _dot(axes, place, value, bool(comparison.tuned[row]))
-        axes.set_yticks(range(len(rows)), [_short(comparison.row[row]) for row in rows], fontsize=7)
-        axes.set(xlim=(-3.4, 3.4), ylim=(len(rows) - 0.4, -0.6), xlabel="deviation from the paper / tolerance")
+        axes.set_yticks(range(len(rows)), [_wrapped(comparison.row[row]) for row in rows], fontsize=7.5,
+                        linespacing=1.0)
+        axes.set(xlim=(-3.4, 3.4), ylim=(len(rows) - 0.4, -0.6), xlabel="deviation / tolerance")
         return svg(figure)
 
 
@@ -39,10 +43,10 @@ def _dot(axes, place, value, tuned):
     marker = (">" if value > 0 else "<") if beyond else ("o" if abs(value) <= 1.0 else "D")
     axes.plot(np.clip(value, -3.2, 3.2), place, marker=marker, color=colour, mfc=face, ms=5.5, mew=1.4)
     if beyond:
-        axes.annotate(f"{value:+.0f}", (np.clip(value, -3.2, 3.2), place), fontsize=7, color=INK, va="center",
+        axes.annotate(number(value, 2), (np.clip(value, -3.2, 3.2), place), fontsize=7, color=INK, va="center",
                       xytext=(-7 if value > 0 else 7, 0), textcoords="offset points",
                       ha="right" if value > 0 else "left")
 
 
-def _short(name, longest=34):
-    return name if len(name) <= longest else name[: longest - 1] + "…"
+def _wrapped(name, width=36):
+    return "\n".join(wrap(str(name), width, max_lines=2, placeholder=" …"))

@@ -30,12 +30,14 @@ class Figure:
 
 @dataclass(frozen=True)
 class Table:
-    """Rows of text under a head; ``numeric`` columns are set to the right."""
+    """Rows of text under a head; ``numeric`` columns are set to the right, ``wide`` ones hold sentences."""
 
     head: tuple
     rows: tuple
-    title: str = ""
+    title: str
     numeric: tuple = ()
+    wide: tuple = ()
+    folded: bool = False
 
 
 @dataclass(frozen=True)

@@ -8,6 +8,7 @@ from pipeline.views.style import (
     FAINT,
     INK,
     LINES,
+    RED,
     SEQUENTIAL,
     colour_bar,
     drawing,
@@ -25,25 +26,44 @@ def growth_over_frequency(modes, published, dpi):
     """PNG of all roots of the friction sweep, highest pressure; dotted lines at the ``published`` frequencies (Hz)."""
     roots = modes.root[-1]
     friction = np.broadcast_to(modes.friction[:, None], roots.shape)
-    with drawing(bar=True) as figure:
+    with drawing(left=0.86, bar=True) as figure:
         axes = figure.subplots()
         _frequency_lines(axes, published)
         axes.axhline(0.0, color=INK, lw=0.9)
         shown = axes.scatter(roots.imag / TWO_PI / 1e3, roots.real, c=friction, s=7, cmap=SEQUENTIAL, lw=0)
-        axes.set(xlabel="frequency / kHz", ylabel="growth rate / 1/s", ylim=_limits(roots.real))
+        axes.set(xlabel="frequency / kHz", ylabel="growth rate / 1/s", ylim=_limits(roots.real),
+                 xlim=(0, 1.03 * roots.imag.max() / TWO_PI / 1e3))
         colour_bar(axes, shown, "coefficient of friction")
         return png(figure, dpi)
 
 
 def growth_over_friction(modes, count=6):
     """SVG of the growth rate of the ``count`` most unstable modes over friction, highest pressure."""
-    return _sweep(modes, modes.root[-1].real, "growth rate / 1/s", count, zero=True)
+    with drawing(3.4, top=0.55) as figure:
+        axes = figure.subplots()
+        axes.axhline(0.0, color=INK, lw=0.9)
+        for line, branch in enumerate(strongest(modes, count)):
+            frequency = modes.root[-1, -1, branch].imag / TWO_PI / 1e3
+            axes.plot(modes.friction, modes.root[-1, :, branch].real, color=COLOURS[line % 6], ls=LINES[line % 6],
+                      label=f"{frequency:.2f} kHz")
+        axes.set(xlabel="coefficient of friction", ylabel="growth rate / 1/s")
+        legend(axes)
+        return svg(figure)
 
 
-def frequency_over_friction(modes, count=6):
-    """SVG of the frequency shift of the same modes against their frequency at the lowest friction."""
-    frequency = modes.root[-1].imag / TWO_PI
-    return _sweep(modes, frequency - frequency[0], "frequency shift / Hz", count, zero=False)
+def lock_in(modes, width=0.05):
+    """SVG of all frequencies within ``width`` of the strongest unstable mode over friction; red where unstable."""
+    roots = modes.root[-1]
+    middle = roots[np.argmax(roots[:, strongest(modes, 1)[0]].real), strongest(modes, 1)[0]].imag / TWO_PI / 1e3
+    frequency = roots.imag / TWO_PI / 1e3
+    near = (np.abs(frequency / middle - 1.0) < width).any(axis=0)
+    with drawing(3.4) as figure:
+        axes = figure.subplots()
+        axes.plot(modes.friction, frequency[:, near], ".", color=FAINT, ms=3.5)
+        axes.plot(modes.friction, np.where(roots.real > 0.0, frequency, np.nan)[:, near], "o", color=RED, ms=5.5)
+        axes.set(xlabel="coefficient of friction", ylabel="frequency / kHz",
+                 ylim=(middle * (1 - width), middle * (1 + width)))
+        return svg(figure)
 
 
 def strongest(modes, count):
@@ -65,26 +85,12 @@ def operating_growth(modes, dpi):
         return png(figure, dpi)
 
 
-def _sweep(modes, values, label, count, zero):
-    with drawing(3.4, top=0.55) as figure:
-        axes = figure.subplots()
-        if zero:
-            axes.axhline(0.0, color=INK, lw=0.9)
-        for line, root in enumerate(strongest(modes, count)):
-            frequency = modes.root[-1, -1, root].imag / TWO_PI / 1e3
-            axes.plot(modes.friction, values[:, root], color=COLOURS[line % 6], ls=LINES[line % 6],
-                      label=f"{frequency:.2f} kHz")
-        axes.set(xlabel="coefficient of friction", ylabel=label)
-        legend(axes)
-        return svg(figure)
-
-
 def _frequency_lines(axes, published):
     for frequency in published:
         axes.axvline(frequency / 1e3, color=FAINT, lw=1.1, ls=":")
 
 
 def _limits(growth):
-    low, high = np.percentile(growth, 5), growth.max()
-    span = max(high - low, 1.0)
-    return low - 0.05 * span, high + 0.08 * span
+    """The unstable roots and as much again of the damped ones, three times over."""
+    highest = max(growth.max(), 0.05 * np.abs(np.median(growth)), 1.0)
+    return max(growth.min(), -3.0 * highest), 1.1 * highest

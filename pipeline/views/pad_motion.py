@@ -60,7 +60,8 @@ def stability_map(multibody, operating, dpi):
 
     values = multibody.stability[operating]
     largest = max(np.abs(multibody.stability).max(), 1e-6)
-    norm = SymLogNorm(linthresh=0.02 * largest, vmin=-largest, vmax=largest)
+    norm = SymLogNorm(linthresh=0.03 * largest, vmin=-largest, vmax=largest)
+    ticks = largest * np.array([-1.0, -0.1, 0.0, 0.1, 1.0])
     with drawing(bar=True) as figure:
         axes = figure.subplots()
         mesh = axes.pcolormesh(multibody.abutment_factor, multibody.caliper_factor, values, cmap=SIGNED, norm=norm,
@@ -74,7 +75,7 @@ def stability_map(multibody, operating, dpi):
             axis.set_ticks(ticks, [f"{t:.3g}" for t in ticks])
             axis.set_minor_locator(_none())
         axes.grid(False)
-        colour_bar(axes, mesh, "largest growth rate / 1/s")
+        colour_bar(axes, mesh, "largest growth rate / 1/s").set_ticks(ticks, labels=[number(t, 2) for t in ticks])
         return png(figure, dpi)
 
 

@@ -28,7 +28,7 @@ def page(chapters, products, case, look):
     found = products.get("comparison")
     return _template().render(
         case=case, chapters=chapters, verdict=verdict(products, case_view.tuned(case)),
-        key_figure=_key_figure(products, look), key_table=comparison.table(found) if found is not None else None,
+        key_figure=_key_figure(products, look), key_tables=comparison.tables(found) if found is not None else (),
         stages=case_view.stages(case), limits=limits(products))
 
 

@@ -1,30 +1,36 @@
-"""Pictures of the preload: contact pressure of the pads on the disc."""
+"""Picture of the preload: contact pressure of the pads on the disc."""
 
 import numpy as np
 
-from pipeline.views.style import SEQUENTIAL, colour_bar, drawing, png
+from pipeline.views.style import FAINT, SEQUENTIAL, colour_bar, drawing, png
 
 
-def contact_pressure(structure, pad, dpi):
-    """PNG of the contact pressure under the pad of body number ``pad``, middle pressure; crosses where it is open."""
-    state = len(structure.pressure) // 2
-    here = structure.contact_pad == pad
-    x, y = 1e3 * structure.contact_position[here, :2].T
-    area = structure.contact_area[here]
-    pressure = 1e-6 * structure.preload[state, here] / area
-    is_open = structure.closed[state, here] == 0
-    with drawing(3.0, bar=True) as figure:
-        axes = figure.subplots()
-        shown = axes.scatter(x[~is_open], y[~is_open], c=pressure[~is_open], s=_marker(x, y), cmap=SEQUENTIAL,
-                             marker="s", vmin=0.0)
-        axes.scatter(x[is_open], y[is_open], marker="x", color="#8a8f98", s=14)
-        axes.set(xlabel="x / mm", ylabel="y / mm", aspect="equal")
-        axes.margins(0.08)
-        colour_bar(axes, shown, "contact pressure / MPa")
+def contact_pressure(structure, dpi):
+    """PNG of the contact pressure under every pad at the middle pressure; crosses where a patch is open.
+
+    Along sliding and radius, as seen from the pad: the disc moves to the right.
+    """
+    state, pads = len(structure.pressure) // 2, np.unique(structure.contact_pad)
+    pressure = 1e-6 * structure.preload[state] / structure.contact_area
+    with drawing(0.6 + 1.5 * len(pads), top=0.3, bar=True) as figure:
+        grid = figure.subplots(len(pads), sharex=True, squeeze=False)[:, 0]
+        for axes, pad in zip(grid, pads, strict=True):
+            here = structure.contact_pad == pad
+            shown = _patches(axes, structure, here, pressure, structure.closed[state] == 1)
+            axes.set(ylabel="radius / mm", aspect="equal")
+            axes.set_title(str(structure.body_name[pad]).replace("_", " "), loc="left", pad=3)
+        grid[-1].set_xlabel("along sliding / mm")
+        colour_bar(list(grid), shown, "contact pressure / MPa")
         return png(figure, dpi)
 
 
-def _marker(x, y):
-    """Marker area in points^2 so that the patches nearly touch."""
-    width = max(np.ptp(x), np.ptp(y), 1e-9)
-    return float(np.clip((220.0 / width) ** 2 * np.ptp(x) * np.ptp(y) / max(len(x), 1) * 0.6, 6.0, 400.0))
+def _patches(axes, structure, here, pressure, closed):
+    x, y = structure.contact_position[:, :2].T
+    middle = np.angle(np.sum((x + 1j * y)[here]))
+    radius, angle = np.hypot(x, y), np.angle((x + 1j * y) * np.exp(-1j * middle))
+    along, size = 1e3 * angle * radius[here].mean(), 2.1e3 * np.sqrt(structure.contact_area[here].mean())
+    shown = axes.scatter(along[here & closed], 1e3 * radius[here & closed], c=pressure[here & closed], s=size**2,
+                         cmap=SEQUENTIAL, marker="s", lw=0, vmin=0.0, vmax=pressure.max())
+    axes.scatter(along[here & ~closed], 1e3 * radius[here & ~closed], marker="x", color=FAINT, s=size**2 / 4)
+    axes.margins(0.12, 0.25)
+    return shown

@@ -30,6 +30,7 @@ class Solid:
     scalar: np.ndarray | None = None    # (point,), -1 ... 1
     colour: str = "#9aa3ad"
     edges: bool = False
+    opacity: float = 1.0
 
 
 @dataclass(frozen=True)
@@ -81,7 +82,8 @@ def _add(plotter, solid, pyvista):
     if solid.scalar is not None:
         grid.point_data["colour"] = solid.scalar
     skin = grid.extract_surface(algorithm="dataset_surface", nonlinear_subdivision=0 if solid.edges else 2)
-    look = {"show_edges": solid.edges, "edge_color": "#3a4048", "line_width": 1, "smooth_shading": False}
+    look = {"show_edges": solid.edges, "edge_color": "#3a4048", "line_width": 1, "smooth_shading": False,
+            "opacity": solid.opacity}
     if solid.scalar is None:
         plotter.add_mesh(skin, color=solid.colour, **look)
     else:

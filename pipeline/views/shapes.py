@@ -11,8 +11,9 @@ BODY_COLOURS = {"disc": "#b8bec6", "pad_outer": ORANGE, "pad_inner": GREEN, "cal
 def assembly(structure):
     """Scene of all bodies with the edges of their elements."""
     bodies = [(str(name), getattr(structure, str(name))) for name in structure.body_name]
-    return Scene(tuple(Solid(body.node, body.element, body.kind.item(), colour=BODY_COLOURS.get(name, SKY), edges=True)
-                       for name, body in bodies))
+    return Scene(tuple(
+        Solid(body.node, body.element, body.kind.item(), colour=BODY_COLOURS.get(name, SKY), edges=True,
+              opacity=0.35 if name == "caliper" else 1.0) for name, body in bodies), direction=(0.7, -1.0, 1.0))
 
 
 def disc_mode(disc, mode):
@@ -47,5 +48,5 @@ def distinct(frequency, count):
 def _displaced(points, cells, kind, displacement):
     size = np.ptp(points, axis=0).max()
     largest = max(np.linalg.norm(displacement, axis=1).max(), 1e-300)
-    axial = displacement[:, 2] / max(np.abs(displacement[:, 2]).max(), 1e-300)
+    axial = displacement[:, 2] / max(np.percentile(np.abs(displacement[:, 2]), 92), 1e-300)
     return Solid(points + 0.06 * size / largest * displacement, cells, kind, scalar=axial)

@@ -19,9 +19,9 @@ SEQUENTIAL, HEIGHTS, SIGNED = "viridis", "cividis", "PuOr_r"
 
 WIDTH, HEIGHT = 4.6, 3.2
 RC = {
-    "font.family": "DejaVu Sans", "font.size": 10.5, "axes.labelsize": 10.5, "xtick.labelsize": 9.5,
-    "ytick.labelsize": 9.5, "legend.fontsize": 9.5, "legend.handlelength": 1.6, "legend.columnspacing": 1.2,
-    "legend.frameon": False, "text.color": INK, "axes.edgecolor": FAINT,
+    "font.family": "DejaVu Sans", "font.size": 10.5, "axes.labelsize": 10.5, "axes.titlesize": 10,
+    "xtick.labelsize": 9.5, "ytick.labelsize": 9.5, "legend.fontsize": 9.5, "legend.handlelength": 1.6,
+    "legend.columnspacing": 1.2, "legend.frameon": False, "text.color": INK, "axes.edgecolor": FAINT,
     "axes.labelcolor": INK, "xtick.color": INK, "ytick.color": INK, "axes.spines.top": False,
     "axes.spines.right": False, "axes.grid": True, "grid.color": "#e3e6ea", "grid.linewidth": 0.6,
     "axes.axisbelow": True, "lines.linewidth": 1.6, "lines.markersize": 4.5, "axes.unicode_minus": True,
@@ -31,15 +31,15 @@ RC = {
 
 
 @contextmanager
-def drawing(height=HEIGHT, left=0.72, right=0.15, top=0.34, bar=False):
+def drawing(height=HEIGHT, left=0.72, right=0.15, top=None, bar=False):
     """An empty matplotlib Figure in the style of the report; margins in inches, ``bar`` keeps room for a colour bar."""
     from matplotlib import style
     from matplotlib.figure import Figure
 
     with style.context(RC, after_reset=True):
-        figure = Figure(figsize=(WIDTH, height))
-        figure.subplots_adjust(left=left / WIDTH, right=1.0 - (0.78 if bar else right) / WIDTH, bottom=0.52 / height,
-                               top=1.0 - (0.14 if bar else top) / height)
+        figure, top = Figure(figsize=(WIDTH, height)), (0.14 if bar else 0.34) if top is None else top
+        figure.subplots_adjust(left=left / WIDTH, right=1.0 - (0.78 if bar else right) / WIDTH,
+                               bottom=0.52 / height, top=1.0 - top / height, hspace=0.35)
         yield figure
 
 
@@ -68,7 +68,8 @@ def image(axes, x, y, values, label, **look):
 
 def colour_bar(axes, shown, label, **look):
     """Colour bar in the margin that ``drawing(bar=True)`` keeps."""
-    return axes.figure.colorbar(shown, ax=axes, label=label, fraction=0.045, pad=0.03, aspect=24, **look)
+    figure = shown.axes.figure
+    return figure.colorbar(shown, ax=axes, label=label, fraction=0.045, pad=0.03, aspect=24, **look)
 
 
 def operating_grid(pressure, speed, values):

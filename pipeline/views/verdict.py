@@ -104,7 +104,7 @@ def _tuned(products, tuned_settings):
     settings = [f"{name} = {value}" for name, value in tuned_settings]
     shown = rows or settings[:6]
     more = f" ({plural(len(settings), 'setting')} marked tuned; all below)" if settings else ""
-    return f"{'; '.join(shown)}{more}." if shown else ""
+    return f"{'; '.join(shown)}{more}." if shown else "Nothing in this case is marked as tuned."
 
 
 def _facts(products):

@@ -15,12 +15,12 @@ def contacts(normal, tangent, lateral=None, friction=0.4, speed=10.0, stiffness=
     friction = np.full((2, 2, 2), friction) if np.isscalar(friction) else friction
     closure = np.array([0.0, FAR / 2, FAR])
     contact = PatchContact(
-        normal=normal, tangent=tangent, lateral=lateral, opening=np.zeros(count), area=np.full(count, area),
+        rows=np.array([normal, tangent, lateral]), opening=np.zeros(count), area=np.full(count, area),
         radius=np.full(count, 0.1), angle=np.linspace(-0.5, 0.5, count), half_angle=np.full(count, 0.05),
         closure=closure, pressure=stiffness / area * closure, friction_pressure=np.array([0.0, 1e9]),
         friction_speed=np.array([0.0, 100.0]), friction_distance=np.array([0.0, 1.0]),
         friction=friction, bedding=np.full(4, 0.5), bedding_speed=0.0, disc_speed=speed,
-        sectors=16, ramp=0.0, stick_speed=1e-3)
+        sectors=16, ramp=0.0, stick_speed=1e-3, damping_speed=np.inf)
     return contact._replace(**more)
 
 
@@ -53,7 +53,7 @@ def random_assembly(seed=1, size=12, count=8):
         *rows, closure=closure, pressure=pressure, opening=-np.interp(preload / area, pressure, closure), area=area,
         friction_pressure=pressures, friction_speed=speeds, friction_distance=distances, friction=friction,
         bedding=np.array([1, 3, 5, 7]) * 1e-3, bedding_speed=0.02, speed=9.0, ramp=1e-3,
-        half_angle=np.full(count, 0.3))
+        damping_speed=2.0, half_angle=np.full(count, 0.3))
     basis, _ = np.linalg.qr(rng.normal(size=(size, size)))
     stiffness = 0.05 * (basis * (2 * np.pi * np.geomspace(300, 2e4, size)) ** 2) @ basis.T
     stiffness = (stiffness + stiffness.T) / 2

@@ -57,8 +57,8 @@ def test_free_square_plate():
     assert frequency[6:] == pytest.approx(expected, rel=4e-3)
 
 
-def test_stepped_disc_against_the_section_model_and_between_solvers():
-    """Every mode below 6 kHz, in number and within 1 %, by each installed solver."""
+def test_stepped_disc_against_the_section_model():
+    """Every mode below 6 kHz, in number and within 1 %."""
     web, ring, height = np.linspace(0.035, 0.066, 4), np.linspace(0.066, 0.157, 7), np.array([-0.0034, 0.0008, 0.0034])
     radius = np.r_[web, ring[1:]]
     mask = np.ones((9, 2), bool)
@@ -70,12 +70,17 @@ def test_stepped_disc_against_the_section_model_and_between_solvers():
     for diameters in range(12):
         found = section_frequencies(radius, height, mask, 1.2e11, 0.27, 7200.0, diameters, 12)
         reference += [f for f in found if 1 < f < 6000 for _ in range(1 + (diameters > 0))]
-    found = {}
-    for solver in available():
-        found[solver], shape = lowest_modes(stiffness, mass, solver, below=6000)
-        assert shape.T @ (mass @ shape) == pytest.approx(np.eye(len(found[solver])), abs=1e-8)
-        assert found[solver][6:] == pytest.approx(sorted(reference), rel=1e-2)
-    assert found["superlu"][6:] == pytest.approx(found[FASTEST][6:], rel=1e-8)
+    frequency, shape = lowest_modes(stiffness, mass, FASTEST, below=6000)
+    assert shape.T @ (mass @ shape) == pytest.approx(np.eye(len(frequency)), abs=1e-8)
+    assert frequency[6:] == pytest.approx(sorted(reference), rel=1e-2)
+
+
+def test_solvers_agree():
+    mesh = revolve(np.linspace(0.05, 0.15, 4), np.linspace(0, 2 * np.pi, 25), np.linspace(0, 0.01, 2))
+    stiffness, mass = body(mesh)
+    found = [lowest_modes(stiffness, mass, solver, below=3000)[0] for solver in available()]
+    assert len(found[0]) > 10
+    assert found[-1][6:] == pytest.approx(found[0][6:], rel=1e-8)
 
 
 def test_modes_repeat_bit_for_bit_and_point_upwards():

@@ -13,7 +13,8 @@ pytestmark = pytest.mark.exact
 def laplacian(side=8):
     line = sp.diags([-1.0, 2.0, -1.0], [-1, 0, 1], shape=(side, side))
     one = sp.identity(side)
-    return (sp.kron(sp.kron(line, one), one) + sp.kron(one, sp.kron(line, one)) + sp.kron(one, sp.kron(one, line))).tocsr()
+    plane = sp.kron(line, one) + sp.kron(one, line)
+    return (sp.kron(plane, one) + sp.kron(sp.kron(one, one), line)).tocsr()
 
 
 @pytest.fixture(params=available())
@@ -42,7 +43,8 @@ def test_unsymmetric_and_complex(solver):
 
 def test_saddle_point_with_empty_diagonal(solver):
     matrix = sp.bmat([[sp.identity(3), np.ones((3, 1))], [np.ones((1, 3)), None]])
-    assert np.allclose(factorise(matrix, solver).solve(np.arange(4.0)), np.linalg.solve(matrix.toarray(), np.arange(4.0)))
+    rhs = np.arange(4.0)
+    assert np.allclose(factorise(matrix, solver).solve(rhs), np.linalg.solve(matrix.toarray(), rhs))
 
 
 @pytest.mark.parametrize("broken", ["floating", "empty row", "not finite"])

@@ -7,7 +7,8 @@ from pipeline.contract.errors import ConvergenceError
 from pipeline.physics import newmark
 from pipeline.physics.friction_law import FrictionLaw
 from pipeline.physics.multibody import integrate
-from pipeline.physics.pad_system import preloaded_modes, static_start
+from pipeline.physics.pad_system import static_start
+from pipeline.physics.preloaded_modes import preloaded_modes
 from tests.physics.small_pads import block_on_belt, random_assembly
 
 
@@ -121,16 +122,17 @@ def add_sub_discs(multibody, speed):
 def plain_contact_force(contact, time, displacement, velocity, turned):
     """(force on the pads, torque on each sub-disc), written again with numpy: each sub-disc at its body's angle."""
     law = FrictionLaw(contact.friction_pressure, contact.friction_speed, contact.friction_distance, contact.friction)
-    closure = -(contact.normal @ displacement + contact.opening)
-    pressure = np.interp(closure, contact.closure, contact.pressure)
-    slip = np.array([contact.disc_speed * contact.radius - contact.tangent @ velocity, -contact.lateral @ velocity])
+    closure = -(contact.rows[0] @ displacement + contact.opening)
+    closing = 1 - contact.rows[0] @ velocity / contact.damping_speed
+    pressure = np.interp(closure, contact.closure, contact.pressure) * closing
+    slip = np.array([contact.disc_speed * contact.radius - contact.rows[1] @ velocity, -contact.rows[2] @ velocity])
     acting = 0.5 * (1 - np.cos(np.pi * min(time / contact.ramp, 1)))
-    force, torque = pressure * contact.area @ contact.normal, np.zeros(4)
+    force, torque = pressure * contact.area @ contact.rows[0], np.zeros(4)
     for sub_disc in range(4):
         share = overlap(contact, sub_disc, turned[sub_disc])
         friction, _ = law.evaluate(pressure, np.hypot(*slip), contact.bedding[sub_disc] + contact.bedding_speed * time)
         along, aside = acting * friction * share * pressure * contact.area * slip / np.hypot(*slip)
-        force = force + along @ contact.tangent + aside @ contact.lateral
+        force = force + along @ contact.rows[1] + aside @ contact.rows[2]
         torque[sub_disc] = -along @ contact.radius
     return force, torque
 

@@ -80,9 +80,10 @@ def test_forces_are_those_of_the_friction_map():
     velocity = np.random.default_rng(5).normal(size=rest.size) * 0.2
     start = static_start(system)
     state = contact_state(contact, time, start, velocity)
-    closure = -(contact.normal @ start + contact.opening)
-    pressure = np.interp(closure, contact.closure, contact.pressure)
-    slip = np.array([contact.disc_speed * contact.radius - contact.tangent @ velocity, -contact.lateral @ velocity])
+    closure = -(contact.rows[0] @ start + contact.opening)
+    closing = 1 - contact.rows[0] @ velocity / contact.damping_speed
+    pressure = np.interp(closure, contact.closure, contact.pressure) * closing
+    slip = np.array([contact.disc_speed * contact.radius - contact.rows[1] @ velocity, -contact.rows[2] @ velocity])
     law = FrictionLaw(contact.friction_pressure, contact.friction_speed, contact.friction_distance, contact.friction)
     distance = contact.bedding + contact.bedding_speed * time
     friction, _ = law.evaluate(pressure[:, None], np.hypot(*slip)[:, None], distance)

@@ -2,9 +2,10 @@
 
 from pipeline.views.agreement import agreement, comparable, judged
 from pipeline.views.chapter import Chapter, Figure, Table
-from pipeline.views.readable import THIN, number
+from pipeline.views.readable import THIN, number, plural
 
 HEAD = ("quantity", "paper", "ours", "tolerance", "verdict", "tuned", "doubt", "source", "how ours was formed")
+WIDE = (0, 6, 8)
 
 
 def chapter(comparison, look):
@@ -20,9 +21,27 @@ def chapter(comparison, look):
         figures)
 
 
-def table(comparison):
-    """The table paper / ours / tolerance / verdict / tuned / doubt."""
-    return Table(HEAD, tuple(_row(comparison, r) for r in range(len(comparison.row))), "Paper / ours", (1, 2, 3))
+def tables(comparison):
+    """The tables paper / ours / tolerance / verdict / tuned / doubt: what is judged, then folded all the rest."""
+    rows, summary = judged(comparison), _summary(comparison)
+    others = [row for row in range(len(comparison.row)) if row not in rows]
+    parts = ((rows, f"{plural(len(rows), 'fact')} judged", False),
+             (others, f"{plural(len(others), 'published fact')} that cannot be judged", True))
+    return summary + tuple(Table(HEAD, tuple(_row(comparison, r) for r in chosen), title, (1, 2, 3), WIDE, folded)
+                 for chosen, title, folded in parts if chosen)
+
+
+def _summary(comparison):
+    """How many facts of each part of the paper are judged, hold, and were tuned on."""
+    rows = []
+    for part in dict.fromkeys(map(str, comparison.section)):
+        here = [row for row in judged(comparison) if comparison.section[row] == part]
+        held = [row for row in here if comparison.verdict[row] == "within"]
+        tuned = sum(bool(comparison.tuned[row]) for row in held)
+        if here:
+            rows.append((part, *map(str, (len(here), len(held), tuned, len(held) - tuned))))
+    head = ("part of the paper", "judged", "hold", "of these tuned", "evidence")
+    return (Table(head, tuple(rows), "In short", (1, 2, 3, 4)),) if rows else ()
 
 
 def _row(comparison, row):

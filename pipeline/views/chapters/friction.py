@@ -51,16 +51,16 @@ def _curves(product):
         Figure(friction.over_pressure(product),
                "Coefficient of friction over pressure at three sliding distances. Over the speeds computed it changes"
                f" by at most {number(speed, 2)}."),
-        Figure(friction.convergence(product),
-               f"Real contact area at the middle pressure when the grid is refined: {_change(product)}"))
+        *_convergence(product))
 
 
-def _change(product):
+def _convergence(product):
     area = product.refinement_area
     if len(area) < 2:
-        return f"one grid only, {percent(area[0])}."
-    return (f"the last refinement changes it by {percent(abs(area[-1] / area[-2] - 1), 2)}; this is the error of the"
-            " grid.")
+        return ()
+    change = percent(abs(area[-1] / area[-2] - 1), 2)
+    return (Figure(friction.convergence(product), "Real contact area at the middle pressure when the grid is refined:"
+                   f" the last refinement changes it by {change}; this is the error of the grid."),)
 
 
 def friction_map(product, look):

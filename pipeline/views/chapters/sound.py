@@ -13,7 +13,7 @@ def response(product, published, look):
     points = list(dict.fromkeys(extremes(product)))
     figures = tuple(Figure(pictures.spectra(product, points, sensor, published, look.dpi),
                            f"Velocity spectrum at sensor {name}." + _dotted(published))
-                    for sensor, name in enumerate(product.sensor_name[:4]))
+                    for sensor, name in enumerate(product.sensor_name[:2]))
     effective = product.velocity.astype(float).std(axis=2)
     return Chapter(
         "response", "Vibration at the sensors",
@@ -71,7 +71,7 @@ def _table(product, most=15):
                   quantity(product.event_start[e], "s", 3), quantity(product.event_duration[e], "s", 3)) for e in order)
     title = f"Loudest {len(rows)} of {plural(len(product.event_level), 'event')}"
     return (Table(("operating point", "sensor", "frequency", "level / dB", "begin", "duration"), rows, title,
-                  (2, 3, 4, 5)),)
+                  (2, 3, 4, 5), folded=True),)
 
 
 def _dotted(published):

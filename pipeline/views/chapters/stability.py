@@ -10,6 +10,7 @@ from pipeline.views.readable import number, quantity, span
 from pipeline.views.scene import render
 
 TWO_PI = 2.0 * np.pi
+NEUTRAL = 1e-6     # growth rates below this share of the angular frequency are rounding
 
 
 def chapter(modes, model, published, look):
@@ -24,14 +25,14 @@ def chapter(modes, model, published, look):
         "Complex modes of the brake with sliding friction: a mode with positive growth rate grows by itself until"
         f" something limits it. Friction is swept over {span(modes.friction, '1')} at"
         f" {span(modes.pressure, 'Pa')}; {modes.corrections.item()} static friction corrections complete the modal"
-        " base.",
+        f" base. {COLOURS}",
         _conclusion(modes), figures, _table(modes),
         (NO_PICTURES,) if drawn is None else ())
 
 
 def onset(modes):
     """Lowest friction of the sweep with an unstable root, per pressure; None where all are stable."""
-    unstable = (modes.root.real > 0.0).any(axis=2)
+    unstable = (modes.root.real > NEUTRAL * np.abs(modes.root)).any(axis=2)
     return [modes.friction[np.argmax(row)] if row.any() else None for row in unstable]
 
 
@@ -63,23 +64,24 @@ def _maps(modes, published, look):
     pressure = quantity(modes.pressure[-1], "Pa", 3)
     return (
         Figure(pictures.growth_over_frequency(modes, published, look.dpi),
-               f"All modes of the friction sweep at {pressure}; colour: friction. Above zero: unstable.{note}"),
+               f"All modes of the friction sweep at {pressure}; colour: friction. Above zero: unstable;"
+               f" strongly damped modes lie below the frame.{note}"),
         Figure(pictures.operating_growth(modes, look.dpi),
                "Largest growth rate at each operating point, with friction from the map"
                f" ({span(modes.operating_friction, '1')})."),
         Figure(pictures.growth_over_friction(modes),
                f"Growth rate over friction of the least stable modes at {pressure}: where a line crosses zero, that"
                " mode begins to squeal."),
-        Figure(pictures.frequency_over_friction(modes),
-               "Frequency shift of the same modes: two modes that couple move towards each other before one of them"
-               " becomes unstable."))
+        Figure(pictures.lock_in(modes),
+               "Frequencies around the strongest of them; large red dots: unstable. Two lines that run into each other"
+               " and stay together are two modes that friction couples."))
 
 
 def _shape_caption(modes, index):
     root, point = modes.unstable_root[index], modes.unstable_operating[index]
     return (f"Unstable mode at {quantity(root.imag / TWO_PI, 'Hz')}, growth {quantity(root.real, '1/s', 3)}, at"
             f" {quantity(modes.operating_pressure[point], 'Pa', 3)},"
-            f" {quantity(modes.operating_speed[point], 'rad/s')}. {COLOURS}")
+            f" {quantity(modes.operating_speed[point], 'rad/s')}.")
 
 
 def _table(modes, most=12):

@@ -7,7 +7,7 @@ from pipeline.views.chapter import Chapter, Figure, Table
 from pipeline.views.readable import number, percent, quantity, span
 from pipeline.views.scene import render
 
-COLOURS = "Colour: displacement along the axis, orange and purple opposite, white at rest."
+COLOURS = "In the pictures of modes orange and purple move in opposite directions along the axis; white is at rest."
 NO_PICTURES = "Pictures of meshes and mode shapes need OpenGL (on Linux: libEGL), which this machine does not offer."
 
 
@@ -15,7 +15,7 @@ def chapter(structure, look):
     """Chapter of the product Structure."""
     chosen = shapes.distinct(structure.disc.frequency, look.shapes)
     pictures = render([shapes.assembly(structure), *(shapes.disc_mode(structure.disc, mode) for mode in chosen)])
-    figures = _pads(structure, look)
+    figures = (_pads(structure, look),)
     if pictures:
         figures = (_assembly(structure, pictures[0]), *figures, *(
             _mode(structure.disc, mode, picture) for mode, picture in zip(chosen, pictures[1:], strict=True)))
@@ -24,7 +24,7 @@ def chapter(structure, look):
         "structure", "The brake: meshes, preload, modes",
         f"Finite-element bodies {', '.join(str(n).replace('_', ' ') for n in structure.body_name)}, pressed together"
         f" by the piston at {span(structure.pressure, 'Pa')}; {len(structure.contact_area)} contact patches,"
-        f" {percent(open_share)} of them open at the middle pressure.",
+        f" {percent(open_share)} of them open at the middle pressure. {COLOURS}",
         f"The free disc has {len(structure.free_frequency)} modes up to"
         f" {quantity(structure.free_frequency.max(), 'Hz')}; squeal needs two modes of the assembled brake"
         " close together, so the frequencies below decide where it can appear. The pressure distribution of the pads"
@@ -40,21 +40,20 @@ def _assembly(structure, picture):
 
 def _mode(disc, mode, picture):
     return Figure(picture, f"Disc on its mount, {quantity(disc.frequency[mode], 'Hz')}, mostly"
-                  f" {shapes.diameters(disc, mode)} nodal diameters. {COLOURS}", small=True)
+                  f" {shapes.diameters(disc, mode)} nodal diameters.", small=True)
 
 
 def _pads(structure, look):
     middle = len(structure.pressure) // 2
-    figures = []
+    told = []
     for pad in np.unique(structure.contact_pad):
         here = structure.contact_pad == pad
         pressure = structure.preload[middle, here] / structure.contact_area[here]
-        name = str(structure.body_name[pad]).replace("_", " ")
-        figures.append(Figure(preload.contact_pressure(structure, pad, look.dpi),
-                              f"Contact pressure under the {name} at nominal"
-                              f" {quantity(structure.pressure[middle], 'Pa', 3)}: {span(pressure, 'Pa')}, resultant"
-                              f" {quantity(structure.preload[middle, here].sum(), 'N', 3)}. Crosses: open."))
-    return tuple(figures)
+        told.append(f"{str(structure.body_name[pad]).replace('_', ' ')} {span(pressure, 'Pa')}, resultant"
+                    f" {quantity(structure.preload[middle, here].sum(), 'N', 3)}")
+    return Figure(preload.contact_pressure(structure, look.dpi),
+                  f"Contact pressure of the pads at rest, nominal {quantity(structure.pressure[middle], 'Pa', 3)}:"
+                  f" {'; '.join(told)}. Seen from the pad, the disc moves to the right; crosses: open.")
 
 
 def _bodies(structure):
@@ -72,4 +71,4 @@ def _free_modes(structure, most=20):
     rows = tuple((quantity(f, "Hz"), str(d), number(out, 2)) for f, d, out in zip(
         structure.free_frequency[:most], structure.free_diameters, structure.free_out_of_plane, strict=False))
     title = f"Free disc, first {len(rows)} of {len(structure.free_frequency)} elastic modes"
-    return Table(("frequency", "nodal diameters", "axial share of modal mass"), rows, title, (0, 1, 2))
+    return Table(("frequency", "nodal diameters", "axial share of modal mass"), rows, title, (0, 1, 2), folded=True)

@@ -1,0 +1,71 @@
+"""The kernels that 'make bench' times. Each function makes its data and returns (call, amount of work, its unit)."""
+
+import numpy as np
+
+from pipeline.physics.eigen import lowest_modes
+from pipeline.physics.elasticity import assemble, isotropic
+from pipeline.physics.layered_solid import graded_depth, layered_compliance
+from pipeline.physics.linear_solver import available
+from pipeline.physics.mesh import revolve
+from pipeline.physics.modal_response import fixed_points, modal_response
+from pipeline.physics.quadratic_modes import quadratic_roots
+from pipeline.physics.rough_contact import solve_normal_contact
+from pipeline.physics.rough_surface import plateau_pad, turned_disc
+
+_IRON = isotropic(120e9, 0.27)
+
+
+def compliance():
+    """surface compliance of a graded block, 128 x 128"""
+    depth = graded_depth(1e-3 / 128, 1e-3, 1.5)
+    return lambda: layered_compliance((128, 128), (1e-3 / 128,) * 2, depth, 110e9, 0.26), 128**2, "nodes"
+
+
+def contact():
+    """normal contact of two rough surfaces, 128 x 128"""
+    depth = graded_depth(1e-3 / 128, 1e-3, 1.5)
+    pair = layered_compliance((128, 128), (1e-3 / 128,) * 2, depth, 0.235e9, 0.25)
+    shape = {"roughness_wavelength": 250e-6, "hurst": 0.8}
+    disc = turned_disc(128, 1e-3, 62.5e-6, seed=1, rms_height=3.5e-6, feed=250e-6, marks_share=0.9, outbreak_share=0.03,
+                       outbreak_size=80e-6, outbreak_depth=3.0, **shape)
+    pad = plateau_pad(128, 1e-3, 62.5e-6, seed=2, rms_height=3.8e-6, plateau_share=0.25, plateau_size=250e-6,
+                      plateau_height=1.0, plateau_roughness=6.0, edge_width=0.2, **shape)
+    return lambda: solve_normal_contact(-pad - disc, pair.normal, 2e6, tolerance=1e-4), 128**2, "nodes"
+
+
+def _ring(sectors):
+    mesh = revolve(np.linspace(0.0662, 0.1567, 6), np.linspace(0, 2 * np.pi, sectors + 1), np.linspace(0, 0.00687, 2))
+    return mesh.node, mesh.element, mesh.kind, np.zeros(len(mesh.element), int), np.array([7200.0]), _IRON[None]
+
+
+def assembly():
+    """stiffness and mass of a hex20 ring"""
+    ring = _ring(72)
+    return lambda: assemble(*ring), 3 * len(ring[0]), "DOF"
+
+
+def modes():
+    """30 modes of a hex20 ring by shift-invert Lanczos"""
+    stiffness, mass = assemble(*_ring(48))
+    return lambda: lowest_modes(stiffness, mass, available()[0], count=30), 30, "modes"
+
+
+def roots():
+    """all roots of a reduced quadratic problem, 200 coordinates"""
+    random = np.random.default_rng(1)
+    noise = random.standard_normal((200, 200))
+    stiffness = np.diag(np.linspace(1e6, 1e10, 200)) + 1e5 * noise
+    return lambda: quadratic_roots(np.eye(200), np.eye(200), stiffness), 1, "problems"
+
+
+def superposition():
+    """modal superposition, 100 modes x 50,000 steps x 8 forces"""
+    random = np.random.default_rng(2)
+    angular = 2 * np.pi * np.linspace(200, 20e3, 100)
+    forces = random.standard_normal((50_000, 8))
+    force_points, sensor_points = (fixed_points(random.standard_normal((n, 100))) for n in (8, 2))
+    return (lambda: modal_response(angular, 0.004 * angular, 1e-5, forces, force_points, sensor_points), 5_000_000,
+            "mode-steps")
+
+
+KERNELS = (compliance, contact, assembly, modes, roots, superposition)

@@ -1,0 +1,21 @@
+"""Nodal diameters and axial share of known shapes."""
+
+import numpy as np
+import pytest
+
+from pipeline.physics.disc_modes import describe
+from pipeline.physics.mesh import revolve
+
+pytestmark = pytest.mark.exact
+
+
+def test_axial_and_in_plane_waves():
+    mesh = revolve(np.linspace(0.1, 0.2, 3), np.linspace(0, 2 * np.pi, 25), np.linspace(0, 0.01, 2))
+    angle = np.arctan2(mesh.node[:, 1], mesh.node[:, 0])
+    shape = np.zeros((len(mesh.node), 3, 3))
+    shape[:, 2, 0] = np.cos(3 * angle)
+    shape[:, 2, 1] = 1.0
+    shape[:, 0, 2], shape[:, 1, 2] = np.cos(5 * angle) * np.cos(angle), np.cos(5 * angle) * np.sin(angle)
+    diameters, share = describe(mesh.node, shape.reshape(-1, 3))
+    assert list(diameters) == [3, 0, 5]
+    assert share == pytest.approx([1, 1, 0])

@@ -1,0 +1,84 @@
+"""The stage on a coarse brake: modes, contact law, preload and what changes them."""
+
+import numpy as np
+import pytest
+
+from pipeline.contract import ConfigError, Context
+from pipeline.physics.linear_solver import available
+from pipeline.products import FrictionMap
+from stages.structure import Joints, Settings, structure
+from tests.systems.test_disc_brake import COARSE
+
+pytestmark = pytest.mark.exact
+QUICK = {**COARSE, "frequency_max": "4 kHz", "free_frequency_max": "1 kHz", "pressures": ["1 MPa", "3 MPa"]}
+
+
+def friction_map(stiffness=(5e11, 1e12, 1.4e12)):
+    table = np.outer(stiffness, [1.0, 1.2])
+    return FrictionMap(pressure=[1e6, 2e6, 3e6], speed=[1.0], distance=[0.0, 0.02],
+                       friction=np.full((3, 1, 2), 0.5), friction_std=np.zeros((3, 1, 2)), normal_stiffness=table,
+                       computed_pressure=[1e6, 2e6, 3e6], computed_speed=[1.0])
+
+
+def run(stiffness=(5e11, 1e12, 1.4e12), **changes):
+    return structure(friction_map(stiffness), Settings(**{**QUICK, **changes}), context=Context(solver=available()[0]))
+
+
+@pytest.fixture(scope="module")
+def brake():
+    return run()
+
+
+def test_pads_carry_the_piston_force(brake):
+    """The seal spring keeps at most 1 % of it; both pads are pressed alike, stiffer under more pressure."""
+    for force, pressure in zip(brake.preload, brake.pressure, strict=True):
+        for pad in (1, 2):
+            assert force[brake.contact_pad == pad].sum() == pytest.approx(pressure * brake.piston_area, rel=1e-2)
+    assert brake.closed.all()
+    assert (brake.contact_stiffness[1] >= brake.contact_stiffness[0]).all()
+
+
+def test_preload_is_even_about_the_middle_of_the_pad(brake):
+    """Without friction, leading and trailing patches mirror one another."""
+    force = brake.preload[0].reshape(2, 6, 3)
+    assert force == pytest.approx(force[:, ::-1], rel=0.05)
+
+
+def test_modes_of_free_and_mounted_bodies(brake):
+    assert list(brake.free_diameters[:5]) == [2, 2, 0, 3, 3]
+    assert brake.free_frequency[:5] == pytest.approx([259.4, 259.4, 431.6, 660.1, 660.1], rel=5e-3)
+    assert brake.disc.frequency[0] > brake.free_frequency[0]
+    assert brake.pad_outer.frequency[:6] == pytest.approx(0, abs=1)
+    assert not brake.disc.shape[:, brake.disc.supported].any()
+    assert brake.pad_outer.frequency[6:] == pytest.approx(brake.pad_inner.frequency[6:])
+
+
+def test_law_follows_the_interface_stiffness(brake):
+    slope = np.diff(brake.law_pressure) / np.diff(brake.law_closure)
+    middle = (brake.law_pressure[1:] + brake.law_pressure[:-1]) / 2
+    expected = np.interp(middle, [1e6, 2e6, 3e6], 1.1 * np.array([5e11, 1e12, 1.4e12]))
+    inside = (middle > 1e6) & (middle < 3e6)
+    assert slope[inside] == pytest.approx(expected[inside], rel=1e-2)
+
+
+@pytest.mark.parametrize("changes", [
+    {"stiffness": (2e11, 5e11, 7e11)}, {"joints": Joints(finger_stiffness="100 MN/m")},
+    {"caliper": COARSE["caliper"].model_copy(update={"young": 8e10})},
+    {"pad": COARSE["pad"].model_copy(update={"lining_young_normal": 8e8})}])
+def test_interface_joint_caliper_and_lining_change_the_preload(brake, changes):
+    assert np.abs(run(**changes).preload / brake.preload - 1).max() > 1e-3
+
+
+def test_same_bits_again(brake):
+    again = run()
+    assert np.array_equal(again.preload, brake.preload)
+    assert np.array_equal(again.disc.shape, brake.disc.shape)
+
+
+def test_settings_without_unit_or_size_are_refused():
+    with pytest.raises(ValueError, match="quantity in m"):
+        Settings(disc={"ring_thickness": 7})
+    with pytest.raises(ValueError, match="greater than 0"):
+        Settings(disc={"ring_thickness": "-7 mm"})
+    with pytest.raises(ConfigError, match="pads that lie on the ring"):
+        run(pad=COARSE["pad"].model_copy(update={"inner_radius": 0.05}))
