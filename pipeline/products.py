@@ -198,12 +198,12 @@ class ComplexModes:
     real_frequency: Array = quantity("Hz", "pressure branch", "frequencies without friction and damping")
     operating_pressure: Array = quantity("Pa", "operating", "pressure of the operating point")
     operating_speed: Array = quantity("rad/s", "operating", "disc speed of the operating point")
-    operating_friction: Array = quantity("1", "operating", "friction coefficient from the map, mean over contacts")
+    operating_friction: Array = quantity("1", "operating", "friction coefficient from the map, mean weighted by preload")
     operating_root: Array = quantity("1/s", "operating branch", "roots at the operating point", complex)
     unstable_operating: Array = count("unstable", "operating point of the unstable mode")
     unstable_root: Array = quantity("1/s", "unstable", "roots with positive real part, strongest first", complex)
     unstable_shape: Array = quantity("1", "unstable visible xyz", "their shapes on the surface nodes, largest = 1", complex)
-    corrections: Array = count("", "static friction correction vectors added to the real modes")
+    corrections: Array = count("", "correction vectors for friction and damping added to the real modes")
 
 
 @product(version=1)
@@ -218,7 +218,7 @@ class Multibody:
     patch_force: Array = quantity("N", "operating pad sub_disc time", "normal force of each sub-disc on each pad")
     normal_force: Array = quantity("N", "operating contact time", "normal force at each contact point", np.float32)
     friction_force: Array = quantity("N", "operating contact time", "friction force on the pad along sliding", np.float32)
-    mean_friction: Array = quantity("1", "operating", "friction over normal force, mean over the second half")
+    mean_friction: Array = quantity("1", "operating", "friction over normal force, mean after settling")
     growth_rate: Array = quantity("1/s", "operating", "growth rate of the pad oscillation, fitted to its envelope")
     oscillation_frequency: Array = quantity("Hz", "operating", "dominant frequency of the pad oscillation along sliding")
     separated_share: Array = quantity("1", "operating", "share of contact samples without contact")

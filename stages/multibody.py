@@ -41,6 +41,7 @@ class Settings(Section):
     damping_speed: Quantity("m/s", gt=0) = option(
         "1 m/s", "closing speed that doubles the contact pressure: damping of the normal contact")
     ramp: Quantity("s", ge=0) = option("2 ms", "time in which friction rises after the static, friction-free start")
+    settling: Quantity("s", ge=0) = option("0.1 s", "begin of the motion whose oscillation and friction are evaluated")
     duration: Quantity("s", gt=0) = option("0.3 s", "simulated time of each operating point")
     step: Quantity("s", gt=0) = option("10 us", "time step")
     record_every: int = option(2, "every so many steps one sample is kept", ge=1)
@@ -78,9 +79,9 @@ def multibody(model: ReducedModel, friction_map: FrictionMap, settings: Settings
     s, with preloaded modes up to {highest_frequency} Hz and static answers to the contact forces. The stability map
     holds the largest growth rate of the linearised system with scaled joint stiffnesses.
     """
-    shortest = settings.ramp + FEWEST_PERIODS / settings.lowest_frequency
+    shortest = settings.settling + FEWEST_PERIODS / settings.lowest_frequency
     if settings.duration < shortest:
-        raise ConfigError("multibody.duration", f"at least {shortest:.3g} s: the ramp and {FEWEST_PERIODS} periods of"
+        raise ConfigError("multibody.duration", f"at least {shortest:.3g} s: settling and {FEWEST_PERIODS} periods of"
                           " the lowest frequency", f"{settings.duration:g} s")
     if DISC not in model.body_name:
         raise ConfigError("multibody: reduced model", f"a body called '{DISC}'", ", ".join(model.body_name))
@@ -111,7 +112,8 @@ def _operate(point, model, law, settings):
                               settings.correction_damping)
     return _Run(time, {
         "pad_motion": motion, "patch_force": history.patch, "normal_force": history.normal.astype(np.float32),
-        "friction_force": history.friction.astype(np.float32), "mean_friction": _mean_friction(history),
+        "friction_force": history.friction.astype(np.float32),
+        "mean_friction": _mean_friction(history, time >= settings.settling),
         "separated_share": history.separated, "outside_map_share": history.outside, "stability": stability,
         **_oscillation(motion[:, 0], time, settings)})
 
@@ -153,15 +155,14 @@ def _motion_rows(model, pads):
     return rows[:, :, kept]
 
 
-def _mean_friction(history):
-    half = history.normal.shape[1] // 2
-    return history.friction[:, half:].sum() / history.normal[:, half:].sum()
+def _mean_friction(history, settled):
+    return history.friction[:, settled].sum() / history.normal[:, settled].sum()
 
 
 def _oscillation(along, time, settings):
-    """Frequency and growth rate of the pad that moves more, once friction acts fully."""
-    step, acting = time[1] - time[0], time >= settings.ramp
-    moved = along[np.argmax(np.std(along[:, acting], axis=1)), acting]
+    """Frequency and growth rate of the pad that moves more, once settled."""
+    step, settled = time[1] - time[0], time >= settings.settling
+    moved = along[np.argmax(np.std(along[:, settled], axis=1)), settled]
     frequency = dominant_frequency(moved, step, settings.lowest_frequency)
     return {"oscillation_frequency": frequency, "growth_rate": growth_rate(moved, step, frequency)}
 

@@ -162,7 +162,7 @@ def locked(folder):
     """Hold the run folder for this process alone; it is freed however the process ends."""
     try:
         folder.mkdir(parents=True, exist_ok=True)
-        handle = os.open(folder / ".lock", os.O_RDWR | os.O_CREAT)
+        handle = os.open(folder / ".lock", os.O_RDWR | os.O_CREAT, 0o644)
     except OSError as error:
         raise ProductError(folder, "a run folder that can be written", error.strerror,
                            "choose another with --run, or mend its permissions") from None

@@ -1,8 +1,8 @@
 """One finite-element body in reduced coordinates: matrices, rows of the sliding model and shapes of its surface.
 
-A body without rigid supports keeps interface coordinates and fixed-interface modes (Craig-Bampton); a supported body
-keeps its modes and their residual static response to interface forces. A body that turns about z gets gyroscopic and
-centrifugal terms.
+A body without rigid supports keeps interface coordinates, fixed-interface modes and the residual inertia of its moving
+interface (Craig-Bampton); a supported body keeps its modes and its residual static response to interface forces. A body
+that turns about z gets gyroscopic and centrifugal terms.
 """
 
 from dataclasses import dataclass
@@ -60,7 +60,7 @@ def reduce_body(body, fixed_below, residual_below, solver):
     """BodyTerms of an ElasticBody.
 
     ``fixed_below`` [Hz] limits the fixed-interface modes of a free body, ``residual_below`` [Hz] the pseudo-frequencies
-    of the residual response of a supported one. Raises ConfigError for a turning body without supports.
+    of the residual shapes of both kinds. Raises ConfigError for a turning body without supports.
     """
     stiffness, mass = assemble(body.node, body.element, body.kind, body.material, body.density, body.elasticity)
     free = np.setdiff1d(np.arange(3 * len(body.node)), 3 * body.supported[:, None] + np.arange(3))

@@ -34,7 +34,7 @@ def integrate(system, start, step, steps, record_every=1, scale=None):
         raise ConvergenceError(f"multibody: exudyn at t = {solver.it.currentTime:.6g} s",
                                f"a residual below {TOLERANCE:g} of the load", f"{solver.conv.residual / scale:.3g}",
                                "take a shorter step")
-    return np.arange(len(states)) * (step * record_every), states[:, 0], states[:, 1]
+    return np.arange(states.shape[1]) * (step * record_every), *states
 
 
 def _add_assembly(multibody, system, start):
@@ -67,15 +67,15 @@ def _sparse(matrix):
 
 
 def _record(multibody, start, step, steps, record_every):
-    """(m, 2, n) array that the solver fills with displacement and velocity as it goes."""
-    states = np.zeros((steps // record_every + 1, 2, np.size(start)))
+    """(2, m, n) array that the solver fills with displacement and velocity as it goes."""
+    states = np.zeros((2, steps // record_every + 1, np.size(start)))
     states[0, 0] = start
 
     def after_step(multibody, time):
         count = round(time / step)
         if count % record_every == 0:
-            states[count // record_every] = (multibody.systemData.GetODE2Coordinates(),
-                                             multibody.systemData.GetODE2Coordinates_t())
+            states[:, count // record_every] = (multibody.systemData.GetODE2Coordinates(),
+                                                multibody.systemData.GetODE2Coordinates_t())
         return True
 
     multibody.SetPostStepUserFunction(after_step)

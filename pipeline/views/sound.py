@@ -17,10 +17,16 @@ def spectra(response, operatings, sensor, published, dpi):
             density = np.maximum(response.velocity_spectrum[operating, sensor], 1e-30)
             axes.semilogy(kilohertz, density, color=COLOURS[line % 6], ls=LINES[line % 6], lw=0.9,
                           label=_operating(response, operating))
-        axes.set(xlabel="frequency / kHz", ylabel="velocity spectral density / m²/s²/Hz", xlim=(0, _highest(response)),
+        axes.set(xlabel="frequency / kHz", ylabel="velocity spectral density / m²/s²/Hz",
+                 xlim=(0, 1e-3 * highest_frequency(response)),
                  ylim=_decades(response.velocity_spectrum[operatings, sensor]))
         legend(axes)
         return png(figure, dpi)
+
+
+def highest_frequency(response):
+    """End of the frequency axis in Hz: a little above the highest mode that can answer."""
+    return min(1.1 * response.mode_frequency.max(), response.frequency[-1])
 
 
 def occurrence(squeal, dpi):
@@ -88,11 +94,6 @@ def _frame(axes, product, marked):
     column, row = (np.unique(v, return_inverse=True)[1] for v in (product.speed, product.pressure))
     for x, y in zip(column[marked], row[marked], strict=True):
         axes.add_patch(Rectangle((x - 0.46, y - 0.46), 0.92, 0.92, fill=False, ec=RED, lw=2.5))
-
-
-def _highest(response):
-    """End of the frequency axis in kHz: a little above the highest mode that can answer."""
-    return min(1.1 * response.mode_frequency.max(), response.frequency[-1]) / 1e3
 
 
 def _decades(density):

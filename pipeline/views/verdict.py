@@ -94,8 +94,8 @@ def _sure(products):
     within = judged(comparison, "within")
     tuned = sum(bool(comparison.tuned[row]) for row in within)
     return (f"Of {len(comparison.row)} published facts, {len(judged(comparison))} can be judged by this chain;"
-            f" {len(within)} hold within their tolerance, {tuned} of them because something was tuned to reach them."
-            f" That leaves {len(within) - tuned} as evidence for the model.")
+            f" {len(within)} hold within their tolerance, {tuned or 'none'} of them because something was tuned to"
+            f" reach them. That leaves {len(within) - tuned} as evidence for the model.")
 
 
 def _tuned(products, tuned_settings):

@@ -43,7 +43,7 @@ def test_corrections_converge_the_growth_rate_where_real_modes_do_not(rubbed_blo
     direct = lowest_growing(rubbed_block)
     corrected, plain = [], []
     for below in (20e3, 40e3, 60e3):
-        basis = friction_basis(rubbed_block, below, friction_damping=False)
+        basis = friction_basis(rubbed_block, below, friction_damping=False, smallest=1e-6)
         corrected.append(lowest_growing(rubbed_block.projected(basis.shape)).real)
         plain.append(lowest_growing(rubbed_block.projected(basis.shape[:, :len(basis.frequency)])).real)
     error, without = (abs(np.array(growth) / direct.real - 1) for growth in (corrected, plain))
@@ -55,9 +55,6 @@ def test_corrections_converge_the_growth_rate_where_real_modes_do_not(rubbed_blo
 def test_basis_is_mass_orthonormal_and_can_be_cut(rubbed_block):
     basis = friction_basis(rubbed_block, 40e3)
     np.testing.assert_allclose(basis.shape.T @ rubbed_block.mass @ basis.shape, np.eye(basis.shape.shape[1]), atol=1e-9)
-    contacts = len(rubbed_block.contacts.area)
-    assert 0 < friction_basis(rubbed_block, 40e3, friction_damping=False).corrections <= contacts
-    assert basis.corrections <= 2 * contacts
     cut = friction_basis(rubbed_block, 40e3, smallest=1e-2)
     assert 0 < cut.corrections < basis.corrections
     np.testing.assert_array_equal(cut.shape, basis.shape[:, :cut.shape.shape[1]])

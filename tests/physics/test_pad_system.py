@@ -63,4 +63,5 @@ def test_wrong_patches_and_laws_are_refused(change, expected):
     flat = FrictionLaw(*([1.0],) * 3, np.ones((1, 1, 1)))
     given = {"closure": np.array([0.0, 1.0]), "pressure": np.array([0.0, 1.0]), "bedding": (1.0,) * 4, "sectors": 16}
     with pytest.raises(ConfigError, match=expected):
-        pad_system(None, None, friction=flat, bedding_share=1.0, ramp=0.0, stick_speed=1.0, damping_speed=1.0, **{**given, **change})
+        pad_system(None, None, friction=flat, bedding_share=1.0, ramp=0.0, stick_speed=1.0, damping_speed=1.0,
+                   **{**given, **change})

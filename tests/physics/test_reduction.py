@@ -61,6 +61,21 @@ def test_craig_bampton_converges_to_the_full_modes_of_a_free_plate(plate):
 
 
 @pytest.mark.exact
+def test_residual_inertia_squares_the_errors_of_craig_bampton(plate):
+    """Errors fall with the fourth power of frequency instead of the second: by 16 and 4 when the limit doubles."""
+    node, stiffness, mass = plate
+    full = lowest_modes(stiffness, mass, "superlu", count=9, shift=1e3)[0][6:]
+    for residual_below, least in ((None, 2.0), (np.inf, 3.0)):
+        bodies = [craig_bampton(stiffness, mass, patch_rows(node), below, "superlu", residual_below)
+                  for below in (40e3, 160e3)]
+        coarse, fine = (frequencies(body)[6:9] / full - 1 for body in bodies)
+        assert np.log2(coarse.max() / fine.max()) / 2 > least
+        rows = patch_rows(node) @ bodies[0].shape
+        np.testing.assert_allclose(rows[:, 12:], 0.0, atol=1e-8 * abs(bodies[0].shape).max())
+    assert coarse.max() < 1e-6
+
+
+@pytest.mark.exact
 def test_rigid_motions_and_static_interface_loads_are_exact(plate):
     node, stiffness, mass = plate
     rows = patch_rows(node)

@@ -7,7 +7,8 @@ from pipeline.contract.errors import ConfigError
 from stages.multibody import Settings, multibody
 from tests.stages.small_brake import CONTACT_AREA, small_brake, small_map
 
-QUICK = {"pressures": ("1 MPa", "3 MPa"), "speeds": ("8.5 rad/s",), "duration": "20 ms", "lowest_frequency": "350 Hz",
+QUICK = {"pressures": ("1 MPa", "3 MPa"), "speeds": ("8.5 rad/s",), "duration": "20 ms", "settling": "2 ms",
+         "lowest_frequency": "350 Hz",
          "caliper_factors": (1.0, 2.0), "abutment_factors": (0.5, 1.0, 2.0)}
 
 

@@ -46,13 +46,9 @@ def unreduced(structure):
 @pytest.mark.exact
 def test_frequencies_of_the_closed_brake_are_those_of_the_unreduced_one(structure, model):
     full, _ = lowest_modes(*unreduced(structure), "superlu", count=30, shift=100.0)
-    finer = reduced_model(structure, settings=Settings(fixed_below="60 kHz"))
-    errors = []
-    for reduced in (model, finer):
-        mass, _, stiffness = sliding_model(reduced, 0, 0.0).frictionless()
-        errors.append(np.sqrt(eigh(stiffness, mass, eigvals_only=True)[:30]) / (2 * np.pi * full) - 1)
-    assert np.min(errors) > -1e-6
-    assert errors[0].max() < 2e-3 and errors[1].max() < errors[0].max() / 2
+    mass, _, stiffness = sliding_model(model, 0, 0.0).frictionless()
+    error = np.sqrt(eigh(stiffness, mass, eigvals_only=True)[:30]) / (2 * np.pi * full) - 1
+    assert error.min() > -1e-7 and error.max() < 1e-5
 
 
 @pytest.mark.exact

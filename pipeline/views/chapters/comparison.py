@@ -40,7 +40,7 @@ def _summary(comparison):
         tuned = sum(bool(comparison.tuned[row]) for row in held)
         if here:
             rows.append((part, *map(str, (len(here), len(held), tuned, len(held) - tuned))))
-    head = ("part of the paper", "judged", "hold", "of these tuned", "evidence")
+    head = ("part", "judged", "hold", "tuned", "evidence")
     return (Table(head, tuple(rows), "In short", (1, 2, 3, 4)),) if rows else ()
 
 

@@ -11,8 +11,9 @@ from pipeline.views.readable import number, plural, quantity, span
 def response(product, published, look):
     """Chapter of the product Response."""
     points = list(dict.fromkeys(extremes(product)))
-    figures = tuple(Figure(pictures.spectra(product, points, sensor, published, look.dpi),
-                           f"Velocity spectrum at sensor {name}." + _dotted(published))
+    lines = tuple(f for f in published if f < pictures.highest_frequency(product))
+    figures = tuple(Figure(pictures.spectra(product, points, sensor, lines, look.dpi),
+                           f"Velocity spectrum at sensor {name}." + _dotted(lines))
                     for sensor, name in enumerate(product.sensor_name[:2]))
     effective = product.velocity.astype(float).std(axis=2)
     return Chapter(
