@@ -66,7 +66,8 @@ class Bars:
 
     def log(self, message):
         """One line above the bars."""
-        (self._live.console if self._live else self.console).print(message, highlight=False, markup=False)
+        if self.console.is_terminal:
+            (self._live.console if self._live else self.console).print(message, highlight=False, markup=False)
 
 
 @dataclass(frozen=True)

@@ -22,6 +22,7 @@ def _chain_schema(name, stages):
         definitions.update({f"{stage.name}.{key}": _annotated(value) for key, value in inner.items()})
         sections[stage.name] = {**_annotated(section), "title": stage.name, "description": stage.summary}
     head = {"chain": {"const": name}, "title": {"type": "string"}, "description": {"type": "string"},
+            "based_on": {"type": "string", "description": "another case, whose values hold where this one is silent"},
             "solver": {"enum": list(SOLVERS), "default": "auto"}}
     return {"type": "object", "properties": {**head, **sections}, "required": ["chain"],
             "additionalProperties": False, "$defs": definitions}

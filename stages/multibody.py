@@ -41,7 +41,7 @@ class Settings(Section):
     damping_speed: Quantity("m/s", gt=0) = option(
         "1 m/s", "closing speed that doubles the contact pressure: damping of the normal contact")
     ramp: Quantity("s", ge=0) = option("2 ms", "time in which friction rises after the static, friction-free start")
-    settling: Quantity("s", ge=0) = option("0.1 s", "begin of the motion whose oscillation and friction are evaluated")
+    settling: Quantity("s", ge=0) = option("20 ms", "begin of the motion whose oscillation and friction are evaluated")
     duration: Quantity("s", gt=0) = option("0.3 s", "simulated time of each operating point")
     step: Quantity("s", gt=0) = option("10 us", "time step")
     record_every: int = option(2, "every so many steps one sample is kept", ge=1)
@@ -50,7 +50,7 @@ class Settings(Section):
         "12 kHz", "highest mode of the preloaded pads and caliper; above it they answer statically to contact forces")
     correction_damping: float = option(0.3, "damping ratio of these static answers", gt=0)
     lowest_frequency: Quantity("Hz", gt=0) = option(
-        "100 Hz", "lowest frequency that counts as oscillation, above the passing of the sub-discs")
+        "200 Hz", "lowest frequency that counts as oscillation, above the passing of the sub-discs")
     caliper_factors: Quantities("1", gt=0) = option((0.25, 0.5, 1.0, 2.0, 4.0), "stability map: caliper stiffness")
     abutment_factors: Quantities("1", gt=0) = option((0.25, 0.5, 1.0, 2.0, 4.0), "stability map: abutment stiffness")
     stability_frequency: Quantity("Hz", gt=0) = option("10 kHz", "highest mode of the stability map")
@@ -96,7 +96,8 @@ def multibody(model: ReducedModel, friction_map: FrictionMap, settings: Settings
 
 def _operate(point, model, law, settings):
     """Transient, oscillation and stability map of one operating point (pressure, speed)."""
-    build = partial(_system, model, law, settings, point)
+    sliding = sliding_model(model, 0, point[1]).held(DISC)
+    build = partial(_system, sliding, point[0] * model.input_area, (model.law_closure, model.law_pressure), law, settings)
     system = build(1.0, 1.0)
     start = static_start(system, _where(point))
     modal, modes = preloaded_modes(system, start, settings.highest_frequency, settings.correction_damping)
@@ -118,13 +119,10 @@ def _operate(point, model, law, settings):
         **_oscillation(motion[:, 0], time, settings)})
 
 
-def _system(model, law, settings, point, caliper, abutment):
-    pressure, speed = point
-    sliding = sliding_model(model, 0, speed).held(DISC)
-    sliding = _stiffer(_stiffer(sliding, CALIPER, caliper), ABUTMENT, abutment)
-    return pad_system(sliding, pressure * model.input_area, model.law_closure, model.law_pressure, law,
-                      settings.bedding, settings.bedding_share, settings.sectors, settings.ramp, settings.stick_speed,
-                      settings.damping_speed)
+def _system(sliding, input_force, normal_law, friction_law, settings, caliper, abutment):
+    scaled = _stiffer(_stiffer(sliding, CALIPER, caliper), ABUTMENT, abutment)
+    return pad_system(scaled, input_force, *normal_law, friction_law, settings.bedding, settings.bedding_share,
+                      settings.sectors, settings.ramp, settings.stick_speed, settings.damping_speed)
 
 
 def _stiffer(sliding, groups, factor):

@@ -12,7 +12,7 @@ from pipeline.contract.context import Case
 from pipeline.contract.errors import ConfigError
 
 #: top-level keys beside the sections of the stages
-HEAD = ("chain", "title", "description", "solver")
+HEAD = ("chain", "title", "description", "solver", "based_on")
 SOLVERS = ("auto", "pypardiso", "superlu")
 
 
@@ -74,9 +74,7 @@ def load(path, chains, stage_of, overrides=(), measured=None):
     measured : function, name of a public recording -> its local file
     """
     path = Path(path)
-    document = documents.read_yaml(path)
-    if not isinstance(document, dict):
-        raise ConfigError(path, "a mapping of sections", repr(document)[:60])
+    document = _read(path)
     for item in overrides:
         _override(document, item)
     name = document.get("chain")
@@ -87,6 +85,28 @@ def load(path, chains, stage_of, overrides=(), measured=None):
     case = CaseFile(path, document, stages, measured)
     case.sections  # noqa: B018 - refuses a bad case before anything is computed
     return case
+
+
+def _read(path, readers=()):
+    """The document at ``path``, laid over the one that its key ``based_on`` names."""
+    document = documents.read_yaml(path)
+    if not isinstance(document, dict):
+        raise ConfigError(path, "a mapping of sections", repr(document)[:60])
+    base = document.get("based_on")
+    if base is None:
+        return document
+    file = path.parent / str(base)
+    if file.resolve() in [reader.resolve() for reader in (*readers, path)]:
+        raise ConfigError(f"{path}: based_on", "a file that does not lead back here", repr(base))
+    return _laid_over(_read(file, (*readers, path)), document)
+
+
+def _laid_over(base, own):
+    """``own`` where it speaks, ``base`` elsewhere; a mapping of another ``kind`` replaces the whole mapping."""
+    plain = all(isinstance(d, dict) and "value" not in d for d in (base, own))
+    if not plain or own.get("kind", base.get("kind")) != base.get("kind"):
+        return own
+    return {**base, **{key: _laid_over(base.get(key), value) for key, value in own.items()}}
 
 
 def _override(document, item):
@@ -124,6 +144,6 @@ def _check_keys(path, document, stages):
             raise ConfigError(f"{path}: {key}: unknown section; {hint}")
     if document.get("solver", "auto") not in SOLVERS:
         raise ConfigError(f"{path}: solver", f"one of {', '.join(SOLVERS)}", repr(document["solver"]))
-    for key in ("title", "description"):
+    for key in ("title", "description", "based_on"):
         if not isinstance(document.get(key, ""), str):
             raise ConfigError(f"{path}: {key}", "text", repr(document[key]))

@@ -31,8 +31,9 @@ def growth_over_frequency(modes, published, dpi):
         _frequency_lines(axes, published)
         axes.axhline(0.0, color=INK, lw=0.9)
         shown = axes.scatter(roots.imag / TWO_PI / 1e3, roots.real, c=friction, s=7, cmap=SEQUENTIAL, lw=0)
-        axes.set(xlabel="frequency / kHz", ylabel="growth rate / 1/s", ylim=_limits(roots.real),
-                 xlim=(0, 1.03 * roots.imag.max() / TWO_PI / 1e3))
+        low, high = _limits(roots.real)
+        axes.set(xlabel="frequency / kHz", ylabel="growth rate / 1/s", ylim=(low, high),
+                 xlim=(0, 1.03 * roots.imag[roots.real >= low].max() / TWO_PI / 1e3))
         colour_bar(axes, shown, "coefficient of friction")
         return png(figure, dpi)
 

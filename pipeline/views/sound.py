@@ -19,7 +19,7 @@ def spectra(response, operatings, sensor, published, dpi):
                           label=_operating(response, operating))
         axes.set(xlabel="frequency / kHz", ylabel="velocity spectral density / m²/s²/Hz",
                  xlim=(0, 1e-3 * highest_frequency(response)),
-                 ylim=_decades(response.velocity_spectrum[operatings, sensor]))
+                 ylim=_decades(response.velocity_spectrum[operatings, sensor][:, response.frequency < highest_frequency(response)]))
         legend(axes)
         return png(figure, dpi)
 
@@ -97,5 +97,6 @@ def _frame(axes, product, marked):
 
 
 def _decades(density):
+    """Limits from a little below the quietest spectrum to above the highest peak."""
     highest = max(float(density.max()), 1e-30)
-    return 1e-9 * highest, 5.0 * highest
+    return max(1e-14 * highest, 0.03 * float(np.median(density, axis=-1).min())), 5.0 * highest

@@ -104,6 +104,8 @@ def _tuned(products, tuned_settings):
     settings = [f"{name} = {value}" for name, value in tuned_settings]
     shown = rows or settings[:6]
     more = f" ({plural(len(settings), 'setting')} marked tuned; all below)" if settings else ""
+    if settings and comparison is not None and not rows:
+        more += ". The comparison does not say which facts they were tuned on, so part of what holds is no evidence"
     return f"{'; '.join(shown)}{more}." if shown else "Nothing in this case is marked as tuned."
 
 

@@ -6,8 +6,8 @@ from tests.chain.conftest import QUICK, brakechain, contents
 
 CHANGES = {
     "scan": "surface.pad.seed=4711",
-    "pad modulus": "structure.pad.young_normal=2.1 GPa",
-    "caliper stiffness": "structure.joints.guide_pin_axial=7e6 N/m",
+    "pad modulus": "structure.pad.lining_young_normal=1.4 GPa",
+    "caliper stiffness": "structure.joints.guide_pin_stiffness=18 MN/m",
 }
 
 

@@ -66,3 +66,25 @@ def test_bad_overrides_are_refused(config, override):
 def test_a_missing_file_is_told(tmp_path):
     with pytest.raises(ConfigError, match="none.yaml: expected a YAML file, found none"):
         loaded(tmp_path / "none.yaml")
+
+
+def test_a_case_may_be_based_on_another(config):
+    other = config.with_name("other.yaml")
+    other.write_text("based_on: toy.yaml\ntitle: Another\ndoubled: {factor: 7}\n")
+    case_ = loaded(other)
+    assert case_.sections["source"].duration == 3.0 and case_.sections["doubled"].factor == 7.0
+    assert case_.card("").origins["source"]["duration"]["origin"] == "stated" and case_.card("").title == "Another"
+
+
+def test_another_kind_replaces_the_whole_mapping():
+    base = {"pad": {"kind": "generated", "seed": 3}, "n": {"value": 3, "origin": "stated"}}
+    assert case._laid_over(base, {"pad": {"kind": "scan", "file": "a"}})["pad"] == {"kind": "scan", "file": "a"}
+    assert case._laid_over(base, {"pad": {"seed": 4}})["pad"] == {"kind": "generated", "seed": 4}
+    assert case._laid_over(base, {"n": 4})["n"] == 4
+
+
+def test_a_circle_of_cases_is_refused(tmp_path):
+    (tmp_path / "a.yaml").write_text("based_on: b.yaml")
+    (tmp_path / "b.yaml").write_text("based_on: a.yaml")
+    with pytest.raises(ConfigError, match="a file that does not lead back here"):
+        loaded(tmp_path / "a.yaml")
