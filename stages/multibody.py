@@ -97,7 +97,8 @@ def multibody(model: ReducedModel, friction_map: FrictionMap, settings: Settings
 def _operate(point, model, law, settings):
     """Transient, oscillation and stability map of one operating point (pressure, speed)."""
     sliding = sliding_model(model, 0, point[1]).held(DISC)
-    build = partial(_system, sliding, point[0] * model.input_area, (model.law_closure, model.law_pressure), law, settings)
+    normal_law = model.law_closure, model.law_pressure
+    build = partial(_system, sliding, point[0] * model.input_area, normal_law, law, settings)
     system = build(1.0, 1.0)
     start = static_start(system, _where(point))
     modal, modes = preloaded_modes(system, start, settings.highest_frequency, settings.correction_damping)

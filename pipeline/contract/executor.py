@@ -117,9 +117,10 @@ class DaskCluster:
 
         futures = [self._client.submit(run_task, function, item, pure=False) for item in items]
         try:
-            for future in completed(futures):
-                self.spent_elsewhere += future.result()[1]
-                done()
+            with self._client.as_current():
+                for future in completed(futures):
+                    self.spent_elsewhere += future.result()[1]
+                    done()
         except BaseException:
             self._client.cancel(futures)
             raise

@@ -11,7 +11,7 @@ import numpy as np
 from pipeline.contract.errors import ConvergenceError
 from pipeline.physics.pad_system import force, tangent
 
-TOLERANCE = 1e-7
+TOLERANCE = 1e-8
 #: the Jacobian is renewed when an iteration leaves more than this part of the residual
 CONTRACTION = 0.1
 
@@ -19,7 +19,7 @@ CONTRACTION = 0.1
 def integrate(system, start, step, steps, record_every=1, scale=None):
     """(time (m,), displacement (m, n), velocity (m, n)) at every ``record_every``-th step from rest at ``start``.
 
-    ``system`` is a PadSystem, ``step`` in s. Every step ends with a residual below 1e-7 of ``scale`` (N in the
+    ``system`` is a PadSystem, ``step`` in s. Every step ends with a residual below 1e-8 of ``scale`` (N in the
     system's coordinates; default the load). Raises ConvergenceError naming the time and the residual otherwise.
     """
     import exudyn

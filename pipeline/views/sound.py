@@ -8,18 +8,17 @@ from pipeline.views.style import COLOURS, FAINT, INK, LINES, MARKERS, RED, SEQUE
 
 def spectra(response, operatings, sensor, published, dpi):
     """PNG of the velocity spectra at one sensor for some operating points; dotted lines at ``published`` squeal."""
-    kilohertz = response.frequency / 1e3
+    shown = response.frequency < highest_frequency(response)
+    kilohertz, spectrum = response.frequency[shown] / 1e3, response.velocity_spectrum[:, sensor, shown]
     with drawing(3.4) as figure:
         axes = figure.subplots()
         for frequency in published:
             axes.axvline(frequency / 1e3, color=FAINT, lw=1.1, ls=":")
         for line, operating in enumerate(operatings):
-            density = np.maximum(response.velocity_spectrum[operating, sensor], 1e-30)
-            axes.semilogy(kilohertz, density, color=COLOURS[line % 6], ls=LINES[line % 6], lw=0.9,
-                          label=_operating(response, operating))
+            axes.semilogy(kilohertz, np.maximum(spectrum[operating], 1e-30), color=COLOURS[line % 6],
+                          ls=LINES[line % 6], lw=0.9, label=_operating(response, operating))
         axes.set(xlabel="frequency / kHz", ylabel="velocity spectral density / m²/s²/Hz",
-                 xlim=(0, 1e-3 * highest_frequency(response)),
-                 ylim=_decades(response.velocity_spectrum[operatings, sensor][:, response.frequency < highest_frequency(response)]))
+                 xlim=(0, kilohertz[-1]), ylim=_decades(spectrum[operatings]))
         legend(axes)
         return png(figure, dpi)
 

@@ -95,7 +95,7 @@ def _sure(products):
     tuned = sum(bool(comparison.tuned[row]) for row in within)
     return (f"Of {len(comparison.row)} published facts, {len(judged(comparison))} can be judged by this chain;"
             f" {len(within)} hold within their tolerance, {tuned or 'none'} of them because something was tuned to"
-            f" reach them. That leaves {len(within) - tuned} as evidence for the model.")
+            f" reach them. At most {len(within) - tuned} can count as evidence for the model.")
 
 
 def _tuned(products, tuned_settings):

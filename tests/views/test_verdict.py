@@ -25,7 +25,7 @@ def test_agreement_counts_only_what_was_not_tuned():
     told = words(verdict(small.products(), ()))
     assert "Of 7 published facts, 5 can be judged" in told
     assert "4 hold within their tolerance, 3 of them because something was tuned" in told
-    assert "leaves 1 as evidence" in told
+    assert "At most 1 can count as evidence" in told
 
 
 def test_a_peak_without_unstable_mode_is_called_forced():
@@ -54,3 +54,12 @@ def test_a_case_that_ends_early_gets_no_verdict():
 def test_published_squeal_lines_come_from_the_comparison_in_hertz():
     np.testing.assert_allclose(published_squeal(small.comparison()), [16600.0, 17800.0])
     assert published_squeal(None) == ()
+
+
+def test_tuned_settings_without_tuned_facts_are_told():
+    comparison = small.comparison()
+    untold = replace(comparison, tuned=[""] * len(comparison.row))
+    settings = (("micro_friction.shear_limit", "13.5 MPa"),)
+    assert "does not say which facts" in words(verdict(small.products(comparison=untold), settings))
+    assert "does not say which facts" not in words(verdict(small.products(), settings))
+    assert "Nothing in this case is marked as tuned" in words(verdict(small.products(comparison=untold), ()))
