@@ -42,14 +42,16 @@ def _options(*which):
                             help="folder of the products  [default: data/runs/<case>]"),
         "set": click.option("--set", "overrides", multiple=True, metavar="A.B=V",
                             help="override one setting, e.g. multibody.duration=\"0.1 s\"; may be repeated"),
-        "from": click.option("--from", "first", metavar="STAGE", help="begin here; earlier products are taken as they are"),
+        "from": click.option("--from", "first", metavar="STAGE",
+                             help="begin here; earlier products are taken as they are"),
         "until": click.option("--until", "last", metavar="STAGE", help="end after this stage"),
         "force": click.option("--force", multiple=True, metavar="STAGE", help="compute this stage even if up to date"),
         "again": click.option("--force", "again", is_flag=True, help="compute even if up to date"),
         "dry": click.option("--dry-run", is_flag=True, help="say what would be computed and why; compute nothing"),
         "workers": click.option("--workers", type=click.IntRange(1), metavar="N",
                                 help="processes for independent tasks  [default: one per core]"),
-        "scheduler": click.option("--scheduler", metavar="ADDRESS", help="use the Dask cluster at this address instead"),
+        "scheduler": click.option("--scheduler", metavar="ADDRESS",
+                                  help="use the Dask cluster at this address instead"),
         "debug": click.option("--debug", is_flag=True, expose_value=False, help="show the traceback of an error"),
     }
 
@@ -136,7 +138,8 @@ def _because(reasons, most=3):
 
 def _show_plan(states):
     for state in states:
-        click.echo(f"{state.stage.name:<16} {'would run: ' + _because(state.reasons) if state.reasons else 'up to date'}")
+        told = f"would run: {_because(state.reasons)}" if state.reasons else "up to date"
+        click.echo(f"{state.stage.name:<16} {told}")
     if not any(state.reasons for state in states):
         click.echo("nothing to compute")
 

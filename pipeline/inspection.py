@@ -26,7 +26,7 @@ def describe(path):
 
 
 def _line(name, attributes, dataset):
-    sizes = ", ".join(f"{d}: {n}" for d, n in zip(store.dimensions(dataset), dataset.shape))
+    sizes = ", ".join(f"{d}: {n}" for d, n in zip(store.dimensions(dataset), dataset.shape, strict=True))
     unit = "" if attributes["units"] == "1" else f" {attributes['units']}"
     label = f"{_indent(name)}{_leaf(name)}" + (f" ({sizes})" if sizes else "")
     return f"{label:<56} {_range(dataset)}{unit}   {attributes['long_name']}"

@@ -214,7 +214,7 @@ class Multibody:
     speed: Array = quantity("rad/s", "operating", "disc speed")
     time: Array = quantity("s", "time", "time after the static start")
     pad_name: Array = text("pad", "pads: outer, inner")
-    pad_motion: Array = quantity("m", "operating pad xyz time", "displacement of the centre of gravity of the pads; x = along sliding at the pad centre, y = axial, z = radial")
+    pad_motion: Array = quantity("m", "operating pad xyz time", "displacement of the centres of gravity; x along sliding, y axial, z radial")
     patch_force: Array = quantity("N", "operating pad sub_disc time", "normal force of each sub-disc on each pad")
     normal_force: Array = quantity("N", "operating contact time", "normal force at each contact point", np.float32)
     friction_force: Array = quantity("N", "operating contact time", "friction force on the pad along sliding", np.float32)

@@ -67,9 +67,9 @@ def complex_modes(model: ReducedModel, friction_map: FrictionMap, settings: Sett
     """Find the complex modes over friction and at the operating points.
 
     Method:
-    All complex modes were computed at {friction_steps} friction coefficients from 0 to {friction_max:.3g} and at the
-    operating points of the friction map, on the real modes below {frequency_max:.3g} Hz and their friction
-    corrections; a mode counts as unstable when its growth rate exceeds {neutral:.1g} of its angular frequency.
+    All complex modes were computed at {friction_steps} friction coefficients from 0 to {friction_max} and at the
+    operating points of the friction map, on the real modes below {frequency_max} and their friction
+    corrections; a mode counts as unstable when its growth rate exceeds {neutral} of its angular frequency.
     """
     models = [sliding_model(model, k, np.mean(settings.speeds)) for k in range(len(model.pressure))]
     states = context.map(partial(_state, settings), models, "real modes")

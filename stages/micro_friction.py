@@ -66,10 +66,10 @@ def micro_friction(surface: Surface, settings: Settings, context: Context) -> Mi
     Method:
     Two rough elastic blocks of hex8 finite elements, condensed exactly to their surface by DFT, are pressed together
     (Polonsky and Keer's conjugate gradients) and sheared to full slip under the shear limit {third_body_factor} *
-    {disc_strength} Pa / sqrt(3); Archard wear on both surfaces follows in {cycles} cycles. The coefficient of friction
+    {disc_strength} / sqrt(3); Archard wear on both surfaces follows in {cycles} cycles. The coefficient of friction
     is the sum of shear over the sum of normal force, with the real area corrected for its perimeter (Yastrebov et al.
     2017), mean over one pass of the slider and {realisations} relative positions of the patches. Speed enters through a
-    rate term ({rate_coefficient}) and thermal softening ({softening} 1/K) of the limit. The modulus of the pad surface,
+    rate term ({rate_coefficient}) and thermal softening ({softening}) of the limit. The modulus of the pad surface,
     the third-body factor and the wear coefficients are tuned to the published contact area, friction and approach.
     """
     for name in ("pressures", "disc_speeds"):

@@ -74,9 +74,9 @@ def multibody(model: ReducedModel, friction_map: FrictionMap, settings: Settings
     Method:
     Reduced pads and caliper on a rigid disc ({coupling} coupling) whose {sectors} sectors belong to four jointed
     sub-discs in turn; friction of each contact patch from the friction map at its pressure, its slip and the distance
-    of its sub-disc (start: {bedding} m, gaining {bedding_share} of the distance slid). Static start without friction,
-    friction raised in {ramp} s, then the implicit trapezoidal rule ({integrator}) in steps of {step} s over {duration}
-    s, with preloaded modes up to {highest_frequency} Hz and static answers to the contact forces. The stability map
+    of its sub-disc (start: {bedding}, gaining {bedding_share} of the distance slid). Static start without friction,
+    friction raised in {ramp}, then the implicit trapezoidal rule ({integrator}) in steps of {step} over {duration},
+    with preloaded modes up to {highest_frequency} and static answers to the contact forces. The stability map
     holds the largest growth rate of the linearised system with scaled joint stiffnesses.
     """
     shortest = settings.settling + FEWEST_PERIODS / settings.lowest_frequency

@@ -30,8 +30,8 @@ def reduced_model(structure: Structure, settings: Settings, context: Context) ->
 
     Method:
     Pads and caliper were reduced by Craig-Bampton with averaged interfaces and fixed-interface modes below
-    {fixed_below:.3g} Hz, the disc to its modes; to both were added residual shapes with pseudo-frequencies below
-    {residual_below:.3g} Hz, for what interface accelerations and contact forces excite beyond these modes.
+    {fixed_below}, the disc to its modes; to both were added residual shapes with pseudo-frequencies below
+    {residual_below}, for what interface accelerations and contact forces excite beyond these modes.
     """
     bodies = [_elastic_body(structure, name, index) for index, name in enumerate(structure.body_name)]
     reduce = partial(reduce_body, fixed_below=settings.fixed_below, residual_below=settings.residual_below,

@@ -67,9 +67,9 @@ def response(structure: Structure, model: ReducedModel, multibody: Multibody, se
 
     Method:
     The contact forces of the multi-body simulation ({forces}, {load}) load the real modes of the brake below
-    {highest_frequency} Hz (coupling: {coupling}); the modes are superposed by the exact recursion for piecewise-linear
-    forces, with their viscous damping taken diagonal. Spectra are Welch estimates with {resolution} Hz between lines,
-    after {settling} s.
+    {highest_frequency} (coupling: {coupling}); the modes are superposed by the exact recursion for piecewise-linear
+    forces, with their viscous damping taken diagonal. Spectra are Welch estimates with {resolution} between lines,
+    after {settling}.
     """
     step = _checked_step(multibody.time, settings)
     build = {"assembly": _assembly, "disc": _turning_disc}[settings.coupling]

@@ -36,9 +36,9 @@ def squeal(response: Response, settings: Settings, context: Context) -> Squeal:
     The level is a velocity level: no radiation, no A-weighting.
 
     Method:
-    A squeal event is a tone between {lowest_frequency} and {highest_frequency} Hz of at least {threshold} m/s root
-    mean square (levels re {reference} m/s) for at least {shortest} s, in Hann frames of {window} s that overlap by
-    {overlap}; tones that drift by less than {drift} Hz from frame to frame are one event. Third-octave levels are
+    A squeal event is a tone between {lowest_frequency} and {highest_frequency} of at least {threshold} root
+    mean square (levels re {reference}) for at least {shortest}, in Hann frames of {window} that overlap by
+    {overlap}; tones that drift by less than {drift} from frame to frame are one event. Third-octave levels are
     sums of the velocity spectra.
     """
     if settings.lowest_frequency >= settings.highest_frequency:

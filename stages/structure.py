@@ -145,8 +145,8 @@ def structure(friction_map: FrictionMap, settings: Settings, context: Context) -
     Method:
     Disc, pads and caliper were meshed with quadratic hexahedra (95 % of the stiffness from 2 x 2 x 2 points); fingers,
     piston, abutments and guide pins are springs and dampers. The disc is clamped where the bolts press it on a rigid
-    hub. The normal contact law follows from the interface stiffness after {sliding_distance:.3g} m of sliding; the
-    preload is static and free of friction. Real modes were computed below {frequency_max:.3g} Hz.
+    hub. The normal contact law follows from the interface stiffness after {sliding_distance} of sliding; the
+    preload is static and free of friction. Real modes were computed below {frequency_max}.
     """
     brake = build(settings)
     free, *modes = _all_modes(brake, settings, context)

@@ -73,8 +73,8 @@ def surface(settings: Settings, context: Context) -> Surface:
     """Rough surfaces of disc and pad, from scans or seeded generators.
 
     Method:
-    Both surfaces live on one periodic patch of {patch_length} m edge with {nodes} nodes per edge and no wavelength
-    below {shortest_wavelength} m. Scans lose outliers by a local median test, holes by harmonic filling and their
+    Both surfaces live on one periodic patch of {patch_length} edge with {nodes} nodes per edge and no wavelength
+    below {shortest_wavelength}. Scans lose outliers by a local median test, holes by harmonic filling and their
     quadratic form, fade periodically at the margins and are scaled to the declared rms height; generated surfaces are
     a turned disc (tool marks, roughness, grain outbreaks) and a pad of rough plateaus over a smoother matrix.
     """

@@ -60,7 +60,7 @@ class CaseFile:
         origins = {s.name: {k.removeprefix(f"{s.name}."): v for k, v in self._split[1].items()
                             if k.startswith(f"{s.name}.")} for s in self.stages}
         column = lambda i: {name: {row[0]: row[i] for row in rows} for name, rows in told.items()}  # noqa: E731
-        methods = {s.name: s.method.format(**dict(self.sections[s.name])) for s in self.stages}
+        methods = {s.name: s.method for s in self.stages}
         return Case(self.name, self.document.get("title", ""), self.document.get("description", ""), column(1),
                     origins, column(2), column(3), methods, version)
 

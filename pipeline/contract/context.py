@@ -22,7 +22,7 @@ class Case:
     origins: dict = field(default_factory=dict)     # stage -> {dotted key: {origin, source}}
     units: dict = field(default_factory=dict)       # stage -> {dotted key: SI unit}
     meanings: dict = field(default_factory=dict)    # stage -> {dotted key: meaning}
-    methods: dict = field(default_factory=dict)     # stage -> sentence
+    methods: dict = field(default_factory=dict)     # stage -> sentence with {setting} in it
     version: str = ""
 
 

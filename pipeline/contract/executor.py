@@ -53,7 +53,8 @@ class LocalProcesses:
         """Results in the order of ``items``; ``done()`` is called after each."""
         if self._pool is None:
             os.environ.update(ONE_THREAD)
-            self._pool = ProcessPoolExecutor(self.workers, multiprocessing.get_context("spawn"), _follow, (os.getpid(),))
+            spawn = multiprocessing.get_context("spawn")
+            self._pool = ProcessPoolExecutor(self.workers, spawn, _follow, (os.getpid(),))
         futures = [self._pool.submit(run_task, function, item) for item in items]
         try:
             for future in as_completed(futures):

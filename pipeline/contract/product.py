@@ -108,6 +108,6 @@ def _as_array(value, dtype, where):
 def _check_dimensions(array, dims, sizes, where):
     if array.ndim != len(dims):
         raise ProductError(where, f"dimensions {dims}", f"shape {array.shape}")
-    for dim, size in zip(dims, array.shape):
+    for dim, size in zip(dims, array.shape, strict=True):
         if sizes.setdefault(dim, size) != size:
             raise ProductError(where, f"{sizes[dim]} along '{dim}' as in the fields before", f"{size}")

@@ -49,7 +49,7 @@ class Run:
         for name, products in stage.inputs.items():
             writer = self.producer(products)
             if writer is None and name not in stage.optional:
-                raise ConfigError(f"{stage.name}.{name}", f"a stage of the chain that writes {products[0].name}", "none")
+                raise ConfigError(f"{stage.name}.{name}", f"a stage before it that writes {products[0].name}", "none")
             chosen[name] = writer.output if writer else None
         return chosen
 

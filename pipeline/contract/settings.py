@@ -17,7 +17,7 @@ from typing import Annotated, get_args
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationError, ValidationInfo, WithJsonSchema
 
 from pipeline.contract.errors import BrakechainError, ConfigError
-from pipeline.contract.units import to_si
+from pipeline.contract.units import example, to_si
 
 #: what an annotated YAML value may say beside its value
 ORIGINS = ("stated", "inferred", "measured", "tuned", "assumed", "user")
@@ -39,7 +39,7 @@ class Unit:
 
 def Quantity(unit, **bounds):  # noqa: N802 - reads as a type in annotations
     """A float in the SI unit ``unit``; ``bounds`` are pydantic's gt, ge, lt, le."""
-    spelt = {"type": ["string", "number"], "description": f"quantity in {unit}"}
+    spelt = {"type": ["string", "number"], "examples": [example(unit)], "x-unit": unit}
     return Annotated[float, BeforeValidator(lambda v: _in_si(v, unit)), Field(**bounds), WithJsonSchema(spelt),
                      Unit(unit)]
 

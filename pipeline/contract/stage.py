@@ -2,8 +2,9 @@
 
 import inspect
 import types
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Callable, Union, get_args, get_origin, get_type_hints
+from typing import Union, get_args, get_origin, get_type_hints
 
 from pipeline.contract.context import Context
 from pipeline.contract.errors import ProductError

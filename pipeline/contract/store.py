@@ -128,7 +128,8 @@ def provenance(path):
 def _opened(path):
     if not Path(path).exists():
         product = Path(path).stem
-        raise ProductError(path, f"the product {product}", "no file", f"run 'brakechain {product.replace('_', '-')}' first")
+        command = f"brakechain {product.replace('_', '-')}"
+        raise ProductError(path, f"the product {product}", "no file", f"run '{command}' first")
     try:
         return h5py.File(path, "r")
     except OSError as error:

@@ -23,15 +23,15 @@ def to_si(value, unit, where):
 
     Raises ConfigError that names ``where``, the unit expected and what was found.
     """
-    example = "a number" if unit == "1" else f'a quantity in {unit}, such as "{_example(unit)}"'
+    expected = "a number" if unit == "1" else f'a quantity in {unit}, such as "{example(unit)}"'
     if isinstance(value, numbers.Real) and not isinstance(value, bool):
         if unit != "1":
-            raise ConfigError(where, example, f"{value!r} without a unit", "write the unit after the number")
+            raise ConfigError(where, expected, f"{value!r} without a unit", "write the unit after the number")
         return float(value)
     spelt = _NUMBER.fullmatch(value) if isinstance(value, str) else None
     if not spelt or (unit != "1" and not spelt["unit"]):
-        raise ConfigError(where, example, repr(value))
-    return _convert(value, unit, lambda: ConfigError(where, example, repr(value)))
+        raise ConfigError(where, expected, repr(value))
+    return _convert(value, unit, lambda: ConfigError(where, expected, repr(value)))
 
 
 def _convert(text, unit, refusal):
@@ -55,5 +55,8 @@ def _registry():
     return pint.UnitRegistry()
 
 
-def _example(unit):
+def example(unit):
+    """A quantity in ``unit`` as a user may write it."""
+    if unit == "1":
+        return "0.4"
     return {"m": "12 mm", "Pa": "2 MPa", "s": "0.1 s", "m^2/N": "3e-6 mm^2/N", "m/s": "1 m/s"}.get(unit, f"1 {unit}")

@@ -19,6 +19,16 @@ def stages(case):
     return entries
 
 
+def methods(case):
+    """(stage, sentence) with every {setting} of the sentence in its convenient unit."""
+    return tuple((stage, _told(case, stage, sentence)) for stage, sentence in case.methods.items())
+
+
+def _told(case, stage, sentence):
+    settings, units = case.settings.get(stage, {}), case.units.get(stage, {})
+    return sentence.format(**{key: written(value, units.get(key, "")) for key, value in settings.items()})
+
+
 def tuned(case):
     """(dotted name, value) of every setting whose origin is 'tuned'."""
     return tuple((f"{entry['name']}.{row['key']}", row["value"]) for entry in stages(case) for row in entry["rows"]

@@ -29,7 +29,7 @@ def page(chapters, products, case, look):
     return _template().render(
         case=case, chapters=chapters, verdict=verdict(products, case_view.tuned(case)),
         key_figure=_key_figure(products, look), key_tables=comparison.tables(found) if found is not None else (),
-        stages=case_view.stages(case), limits=limits(products))
+        stages=case_view.stages(case), methods=case_view.methods(case), limits=limits(products))
 
 
 def _key_figure(products, look):

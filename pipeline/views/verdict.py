@@ -83,8 +83,8 @@ def _why(products):
     apart = abs(nearest / peak - 1)
     if apart <= NEAR:
         return f"{strongest} The loudest peak has an unstable mode at its side: {quantity(nearest, 'Hz')}."
-    return (f"{strongest} The loudest peak has none within {percent(NEAR)} (nearest {quantity(nearest, 'Hz')}): read it"
-            " as forced vibration, not as self-excited squeal.")
+    return (f"{strongest} The loudest peak has none within {percent(NEAR)} (nearest {quantity(nearest, 'Hz')}): it is"
+            " forced by the pads, whose motion the multi-body simulation computes on a rigid disc.")
 
 
 def _sure(products):

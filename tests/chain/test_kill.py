@@ -17,9 +17,9 @@ DIE_IN_MID_WRITE = """
 import os, sys
 from pipeline.__main__ import main
 from pipeline.contract import store
-whole = store.publish
+whole, victim = store.publish, sys.argv[1]
 def dying(partial, path):
-    if path.name == sys.argv[1]:
+    if path.name == victim:
         size = partial.stat().st_size
         os.truncate(partial, size // 2)
         os.kill(os.getpid(), 9)
@@ -39,8 +39,9 @@ def killed_after(seconds, folder):
 
 
 def killed_while_writing(product, folder):
-    done = subprocess.run([sys.executable, "-c", DIE_IN_MID_WRITE, f"{product}.h5", "run", str(QUICK), "--run", str(folder)],
-                          cwd=ROOT, capture_output=True, timeout=900, env={**os.environ, "PYTHONPATH": str(ROOT)})
+    command = [sys.executable, "-c", DIE_IN_MID_WRITE, f"{product}.h5", "run", str(QUICK), "--run", str(folder)]
+    done = subprocess.run(command, cwd=ROOT, capture_output=True, timeout=900,
+                          env={**os.environ, "PYTHONPATH": str(ROOT)})
     return done.returncode
 
 

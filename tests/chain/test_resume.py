@@ -18,13 +18,13 @@ def test_a_second_run_computes_nothing_and_says_so(finished):
 
 
 def test_a_changed_setting_reruns_its_stage_and_what_follows(copy):
-    change = ("--run", copy, "--set", "multibody.duration=0.01 s")
+    change = ("--run", copy, "--set", "multibody.duration=0.025 s")
     planned = brakechain("run", QUICK, *change, "--dry-run").stdout
     before = contents(copy)
     told = brakechain("run", QUICK, *change).stdout
     for name in NAMES[:NAMES.index("multibody")]:
         assert f"{name:<16} up to date" in planned and f"\n{name} " not in f"\n{told}"
-    assert "multibody        would run: setting duration: " in planned and "-> 0.01" in planned
+    assert "multibody        would run: setting duration: " in planned and "-> 0.025" in planned
     for name in NAMES[NAMES.index("multibody"):]:
         assert f"{name:<16} would run" in planned and f"\n{name} " in f"\n{told}"
     changed = {name for name, content in contents(copy).items() if content != before[name]}

@@ -31,7 +31,7 @@ def test_sections_origins_and_methods(config):
     assert toy.sections["source"].duration == 3.0 and toy.sections["doubled"].factor == 4.0
     card = toy.card("0.1")
     assert card.origins["source"] == {"duration": {"origin": "stated", "source": "page 2"}}
-    assert card.methods["source"] == "Signals of 3 s were made." and card.units["source"]["duration"] == "s"
+    assert card.methods["source"] == "Signals of {duration} were made." and card.units["source"]["duration"] == "s"
 
 
 def test_overrides_replace_the_value_and_keep_the_origin(config):
@@ -57,7 +57,8 @@ def test_refusals(tmp_path, text, message):
     assert message in str(error.value) and "bad.yaml" in str(error.value)
 
 
-@pytest.mark.parametrize("override", ["duration=3 s", "source.duration", "source.duration.x.y=3", "source.durations=1 s"])
+@pytest.mark.parametrize("override", ["duration=3 s", "source.duration", "source.duration.x.y=3",
+                                      "source.durations=1 s"])
 def test_bad_overrides_are_refused(config, override):
     with pytest.raises(ConfigError):
         loaded(config, override)

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from pipeline.contract import Context, ConfigError, ProductError, case, fingerprint, runner, store
+from pipeline.contract import ConfigError, Context, ProductError, case, fingerprint, runner, store
 from tests.contract.toy import CHAINS, load
 from tests.contract.toy.products import Doubled
 

@@ -32,7 +32,8 @@ def test_defaults_and_units():
 @pytest.mark.parametrize("values, message", [
     ({"stepz": 3}, "c.yaml: s.stepz: unknown key; did you mean 'steps'?"),
     ({"ring": {"thicknes": "1 mm"}}, "c.yaml: s.ring.thicknes: unknown key; did you mean 'thickness'?"),
-    ({"ring": {"thickness": "1 kg"}}, "c.yaml: s.ring.thickness: expected a quantity in m, such as \"12 mm\", found '1 kg'"),
+    ({"ring": {"thickness": "1 kg"}},
+     "c.yaml: s.ring.thickness: expected a quantity in m, such as \"12 mm\", found '1 kg'"),
     ({"ring": {"thickness": "-1 mm"}}, "c.yaml: s.ring.thickness: input should be greater than 0, found '-1 mm'"),
     ({"pressures": []}, "c.yaml: s.pressures: "), ({"steps": 4.5}, "c.yaml: s.steps: "),
     ({"pressures": ["1 MPa", "2 m"]}, "c.yaml: s.pressures.1: expected a quantity in Pa"),

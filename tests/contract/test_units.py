@@ -16,7 +16,8 @@ def test_every_unit_is_coherent_si(unit):
 
 @pytest.mark.parametrize("text, unit, value", [
     ("12 mm", "m", 0.012), ("2 MPa", "Pa", 2e6), ("3.3e-6 mm^2/N", "m^2/N", 3.3e-12), ("40 %", "1", 0.4),
-    ("0.3", "1", 0.3), (0.3, "1", 0.3), ("600 rpm", "rad/s", 62.83185307179586), ("4 degrees", "rad", 0.06981317007977318),
+    ("0.3", "1", 0.3), (0.3, "1", 0.3), ("600 rpm", "rad/s", 62.83185307179586),
+    ("4 degrees", "rad", 0.06981317007977318),
     ("5 N*s/m", "N s/m", 5.0), ("1e3 1/s", "1/s", 1000.0),
 ])
 def test_conversion(text, unit, value):

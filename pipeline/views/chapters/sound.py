@@ -15,10 +15,11 @@ def response(product, published, look):
     figures = tuple(Figure(pictures.spectra(product, points, sensor, lines, look.dpi),
                            f"Velocity spectrum at sensor {name}." + _dotted(lines))
                     for sensor, name in enumerate(product.sensor_name[:2]))
+    superposed = span(np.bincount(product.mode_operating, minlength=len(product.pressure)), "1")
     effective = product.velocity.astype(float).std(axis=2)
     return Chapter(
         "response", "Vibration at the sensors",
-        f"The contact forces excite {len(product.mode_frequency)} modes up to"
+        f"At each operating point the contact forces excite {superposed} modes up to"
         f" {quantity(product.mode_frequency.max(), 'Hz')} (superposed exactly); forces enter the {product.coupling}."
         f" Spectra at lowest and highest load, resolution"
         f" {quantity(product.frequency[1] - product.frequency[0], 'Hz', 3)}.",

@@ -18,7 +18,7 @@ def source(settings: Settings, context: Context) -> Source:
     """Make signals.
 
     Method:
-    Signals of {duration:g} s were made.
+    Signals of {duration} were made.
     """
     time = np.arange(settings.duration)
     return Source(time=time, label=["a", "b"], signal=settings.level * np.ones((2, len(time))), root=[1j, 2 + 3j],
