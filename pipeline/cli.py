@@ -131,9 +131,11 @@ def _tell(state, seconds):
     click.echo(f"{state.stage.name:<16} {seconds:8.1f} s   {_because(state.reasons)}")
 
 
-def _because(reasons, most=3):
+def _because(reasons, most=3, longest=100):
+    """The first reasons in one line."""
     more = f" and {len(reasons) - most} more" if len(reasons) > most else ""
-    return "; ".join(reasons[:most]) + more
+    shown = [reason if len(reason) <= longest else f"{reason[:longest]} ..." for reason in reasons[:most]]
+    return "; ".join(shown) + more
 
 
 def _show_plan(states):

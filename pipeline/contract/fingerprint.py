@@ -30,18 +30,23 @@ def reasons(before, now):
         return ["not computed yet"]
     told = [f"{name} {before.get(name)} -> {getattr(now, name)}" for name in ("version", "solver")
             if before.get(name) != getattr(now, name)]
-    told += _differences("setting ", before.get("settings", {}), now.settings, show=True)
-    told += _differences("input ", before.get("inputs", {}), now.inputs)
-    told += _differences("code ", before.get("code", {}), now.code)
+    settings, code = before.get("settings", {}), before.get("code", {})
+    told += [_setting(key, settings.get(key), now.settings.get(key)) for key in _changed(settings, now.settings)]
+    told += [f"input {key} changed" for key in _changed(before.get("inputs", {}), now.inputs)]
+    told += [f"code {', '.join(_changed(code, now.code))} changed"] if code != now.code else []
     if before.get("case") != now.case and not told:
         told.append("the case file changed")
     return told
 
 
-def _differences(kind, before, now, show=False):
-    """'setting a: 1 -> 2', 'input b changed', ... for every key that differs."""
-    keys = [k for k in {**before, **now} if before.get(k) != now.get(k)]
-    return [f"{kind}{k}: {before.get(k)} -> {now.get(k)}" if show else f"{kind}{k} changed" for k in keys]
+def _changed(before, now):
+    return [key for key in {**before, **now} if before.get(key) != now.get(key)]
+
+
+def _setting(key, before, now, most=60):
+    """'setting duration: 0.3 -> 0.1', or only that it changed where the values are long."""
+    values = f"{before} -> {now}"
+    return f"setting {key}: {values}" if len(values) <= most else f"setting {key} changed"
 
 
 def settings_of(section):
