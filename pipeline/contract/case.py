@@ -23,6 +23,7 @@ class CaseFile:
     path: Path
     document: dict      # as read, overrides applied, origins included
     stages: tuple       # the stages of its chain, in order
+    folders: tuple      # where files that it names are looked for: its own folder, then those it is based on
     measured: object = None     # name of a public recording -> its local file
 
     @property
@@ -41,7 +42,7 @@ class CaseFile:
     @cached_property
     def sections(self):
         """stage name -> filled settings; ConfigError for anything not understood."""
-        context = {"folder": self.path.parent, "measured": self.measured}
+        context = {"folders": self.folders, "measured": self.measured}
         return {s.name: settings.fill(s.settings, self._split[0][s.name], f"{self.path}: {s.name}", context)
                 for s in self.stages}
 
@@ -74,7 +75,7 @@ def load(path, chains, stage_of, overrides=(), measured=None):
     measured : function, name of a public recording -> its local file
     """
     path = Path(path)
-    document = _read(path)
+    document, folders = _read(path)
     for item in overrides:
         _override(document, item)
     name = document.get("chain")
@@ -82,23 +83,24 @@ def load(path, chains, stage_of, overrides=(), measured=None):
         raise ConfigError(f"{path}: chain", f"one of {', '.join(chains)}", repr(name))
     stages = tuple(stage_of(each) for each in chains[name])
     _check_keys(path, document, stages)
-    case = CaseFile(path, document, stages, measured)
+    case = CaseFile(path, document, stages, folders, measured)
     case.sections  # noqa: B018 - refuses a bad case before anything is computed
     return case
 
 
 def _read(path, readers=()):
-    """The document at ``path``, laid over the one that its key ``based_on`` names."""
+    """The document at ``path`` laid over the one that its key ``based_on`` names, and the folders of both."""
     document = documents.read_yaml(path)
     if not isinstance(document, dict):
         raise ConfigError(path, "a mapping of sections", repr(document)[:60])
     base = document.get("based_on")
     if base is None:
-        return document
+        return document, (path.parent,)
     file = path.parent / str(base)
     if file.resolve() in [reader.resolve() for reader in (*readers, path)]:
         raise ConfigError(f"{path}: based_on", "a file that does not lead back here", repr(base))
-    return _laid_over(_read(file, (*readers, path)), document)
+    below, folders = _read(file, (*readers, path))
+    return _laid_over(below, document), (path.parent, *folders)
 
 
 def _laid_over(base, own):

@@ -62,14 +62,14 @@ def _in_si(value, unit):
 
 
 def _existing(value, info: ValidationInfo):
-    """Resolve a file named in the YAML: 'measured:NAME', or a path from the YAML's folder or from here."""
+    """Resolve a file named in the YAML: 'measured:NAME', or a path from the YAML's folders or from here."""
     context = info.context or {}
     if str(value).startswith("measured:"):
         try:
             return context["measured"](str(value).removeprefix("measured:"))
         except (BrakechainError, KeyError) as error:
             raise ValueError(str(error)) from None
-    candidates = [Path(context.get("folder", ".")) / str(value), Path(str(value))]
+    candidates = dict.fromkeys(Path(folder) / str(value) for folder in (*context.get("folders", ()), "."))
     found = next((path for path in candidates if path.is_file()), None)
     if found is None:
         raise ValueError(f"expected a file, found none at {' or '.join(repr(str(c)) for c in candidates)}")
@@ -103,7 +103,7 @@ def split_origins(values, path=""):
 def fill(cls, values, where, context=None):
     """Build section ``cls`` from a plain mapping; ``where`` is 'file.yaml: stage' for messages.
 
-    ``context`` tells how files are found: {"folder": Path, "measured": name -> Path}.
+    ``context`` tells how files are found: {"folders": Paths, "measured": name -> Path}.
     """
     if not isinstance(values, dict):
         raise ConfigError(where, "a mapping of settings", repr(values))

@@ -5,6 +5,7 @@ The one door of SurfaceTopography. Maps are (ny, nx) in m, NaN where the instrum
 
 import contextlib
 import io
+import logging
 import warnings
 from dataclasses import dataclass
 
@@ -161,7 +162,12 @@ def _refuse_constant(heights, where):
 
 @contextlib.contextmanager
 def _quiet_readers():
-    """Readers that try formats in turn print, warn and leave files to the collector: none of it concerns the user."""
-    with warnings.catch_warnings(), contextlib.redirect_stdout(io.StringIO()):
-        warnings.simplefilter("ignore")
-        yield
+    """Readers that try formats in turn print, log, warn and leave files open: none of it concerns the user."""
+    before = logging.root.manager.disable
+    logging.disable(logging.CRITICAL)
+    try:
+        with warnings.catch_warnings(), contextlib.redirect_stdout(io.StringIO()):
+            warnings.simplefilter("ignore")
+            yield
+    finally:
+        logging.disable(before)

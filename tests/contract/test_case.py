@@ -77,6 +77,13 @@ def test_a_case_may_be_based_on_another(config):
     assert case_.card("").origins["source"]["duration"]["origin"] == "stated" and case_.card("").title == "Another"
 
 
+def test_files_are_found_beside_the_case_and_beside_its_base(config, tmp_path):
+    (tmp_path / "own").mkdir()
+    other = tmp_path / "own" / "other.yaml"
+    other.write_text("based_on: ../toy.yaml")
+    assert loaded(other).folders == (other.parent, other.parent / "..")
+
+
 def test_another_kind_replaces_the_whole_mapping():
     base = {"pad": {"kind": "generated", "seed": 3}, "n": {"value": 3, "origin": "stated"}}
     assert case._laid_over(base, {"pad": {"kind": "scan", "file": "a"}})["pad"] == {"kind": "scan", "file": "a"}

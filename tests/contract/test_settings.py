@@ -55,7 +55,7 @@ def test_every_mistake_is_told_at_once():
 
 def test_files_are_found_from_the_folder_of_the_yaml_or_by_name_of_the_measurement(tmp_path):
     (tmp_path / "a.dat").write_text("x")
-    context = {"folder": tmp_path, "measured": {"scan": tmp_path / "a.dat"}.__getitem__}
+    context = {"folders": [tmp_path], "measured": {"scan": tmp_path / "a.dat"}.__getitem__}
     assert fill(Settings, {"scan": "a.dat"}, "c", context).scan == tmp_path / "a.dat"
     assert fill(Settings, {"scan": "measured:scan"}, "c", context).scan == tmp_path / "a.dat"
     with pytest.raises(ConfigError, match="other"):

@@ -1,0 +1,77 @@
+"""Bad input: one sentence with where, expected, found and remedy; the exit code tells the kind; no traceback."""
+
+import h5py
+import numpy as np
+import pytest
+
+from tests.chain.conftest import QUICK, brakechain
+
+
+def refused(code, *args):
+    """Message of a command that must end with ``code`` and without a traceback."""
+    told = brakechain(*args, code=code).stderr
+    assert told.startswith("error: ") and "Traceback" not in told
+    return told
+
+
+def scan(tmp_path, name, heights):
+    """A matrix of heights (um) as the text format of an instrument, and the case that reads it as the pad."""
+    file = tmp_path / name
+    if heights is not None:
+        np.savetxt(file, heights)
+    case = tmp_path / "own.yaml"
+    pad = f"{{kind: scan, file: {name}, rms_height: 4 um, reason: none}}"
+    case.write_text(f"based_on: {QUICK}\nsurface: {{pad: {pad}}}\n")
+    return case
+
+
+@pytest.mark.parametrize("name, heights, message", [
+    ("missing.txt", None, "surface.pad.scan.file: expected a file, found none at"),
+    ("empty.txt", np.zeros((0, 0)), "empty.txt"),
+    ("constant.txt", np.ones((64, 64)), "constant.txt"),
+    ("nan.txt", np.full((64, 64), np.nan), "nan.txt"),
+])
+def test_a_scan_that_is_none(tmp_path, name, heights, message):
+    told = refused(2, "surface", scan(tmp_path, name, heights), "--run", tmp_path / "run")
+    assert message in told and "expected" in told
+
+
+def test_an_unreadable_scan(tmp_path):
+    case = scan(tmp_path, "noise.x3p", None)
+    (tmp_path / "noise.x3p").write_bytes(bytes(range(256)) * 10)
+    assert "noise.x3p" in refused(2, "surface", case, "--run", tmp_path / "run")
+
+
+@pytest.mark.parametrize("override, message", [
+    ("structure.disc.ring_thickness=-1 mm", "disc.ring_thickness: input should be greater than 0, found '-1 mm'"),
+    ("structure.disc.ring_thickness=7 kg", "disc.ring_thickness: expected a quantity in m, such as \"12 mm\""),
+    ("structure.disc.ring_thicknes=7 mm", "did you mean 'ring_thickness'?"),
+])
+def test_a_disc_that_is_none(tmp_path, override, message):
+    assert message in refused(2, "run", QUICK, "--run", tmp_path / "run", "--set", override)
+    assert not (tmp_path / "run").exists(), "the whole case is checked before anything is made"
+
+
+def test_a_disc_that_its_pads_do_not_touch(copy):
+    told = refused(2, "structure", QUICK, "--run", copy, "--set", "structure.pad.outer_radius=190 mm", "--set",
+                   "structure.pad.inner_radius=170 mm")
+    assert "expected" in told and "pad" in told
+
+
+def test_a_product_of_another_version_or_in_pieces(copy):
+    with h5py.File(copy / "response.h5", "a") as h5:
+        h5.attrs["version"] = 99
+    told = refused(4, "squeal", QUICK, "--run", copy, "--force")
+    assert "response.h5: expected response version 1, found response version 99; rerun the stage that writes it" in told
+    (copy / "response.h5").write_bytes((copy / "response.h5").read_bytes()[:2000])
+    assert "truncated or damaged" in refused(4, "squeal", QUICK, "--run", copy, "--force")
+
+
+def test_a_run_folder_that_cannot_be_written(tmp_path):
+    (tmp_path / "file").write_text("")
+    assert "expected a run folder that can be written" in refused(4, "run", QUICK, "--run", tmp_path / "file" / "run")
+
+
+def test_a_computation_that_does_not_converge(copy):
+    told = refused(3, "micro-friction", QUICK, "--run", copy, "--set", "micro_friction.max_iterations=2")
+    assert "expected" in told and "found" in told
