@@ -24,7 +24,7 @@ $(READY): requirements.lock pyproject.toml
 		{ echo "error: PYTHON=$(PYTHON): expected Python 3.11 or newer; try: make PYTHON=python3.12 $(MAKECMDGOALS)"; exit 2; }
 	$(PYTHON) -m venv .venv
 	$(BIN)/python -m pip install --quiet --require-hashes --only-binary :all: -r requirements.lock
-	$(BIN)/python -m pip install --quiet --no-deps --editable .
+	$(BIN)/python -m pip install --quiet --no-deps --no-build-isolation --editable .
 	@touch $@
 
 run: $(READY)    ## run the chain of CASE; what is up to date is kept

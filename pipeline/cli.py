@@ -3,6 +3,7 @@
 import json
 import os
 import sys
+import traceback
 from pathlib import Path
 
 import click
@@ -92,10 +93,14 @@ def _run(config, folder, overrides, first, last, force, dry_run, workers, schedu
     from pipeline.contract import executor
 
     job = _job(config, folder, overrides)
+    first, last, *force = (name and name.replace("-", "_") for name in (first, last, *force))
     names = [s.name for s in job.case.stages]
     for name in force:
         if name not in names:
             raise click.BadParameter(f"expected one of {', '.join(names)}, found {name!r}", param_hint="--force")
+    for stale in job.stale_before(first):
+        why = _because(stale.reasons)
+        click.echo(f"note: {stale.stage.name} is out of date ({why}) and is taken as it is", err=True)
     if dry_run:
         _show_plan(job.plan(first, last, frozenset(force)))
         return
@@ -180,6 +185,7 @@ def inspect(file):
 
 @cli.command()
 @click.argument("name", required=False)
+@_options("debug")
 def schema(name):
     """Print the JSON schema of the YAML of chain NAME, for editors  [default: all chains]."""
     from pipeline.schema import case_schema
@@ -192,6 +198,7 @@ def schema(name):
 
 
 @cli.command()
+@_options("debug")
 def completion():
     """Say how to switch on completion of commands in your shell."""
     for shell, file in (("bash", "~/.bashrc"), ("zsh", "~/.zshrc")):
@@ -220,7 +227,7 @@ def main():
 
 def _fail(error, message, code):
     if "--debug" in sys.argv:
-        raise error
+        traceback.print_exception(error)
     click.echo(f"error: {message}", err=True)
     sys.exit(code)
 

@@ -24,14 +24,16 @@ def _chain_schema(name, stages):
     head = {"chain": {"const": name}, "title": {"type": "string"}, "description": {"type": "string"},
             "based_on": {"type": "string", "description": "another case, whose values hold where this one is silent"},
             "solver": {"enum": list(SOLVERS), "default": "auto"}}
-    return {"type": "object", "properties": {**head, **sections}, "required": ["chain"],
-            "additionalProperties": False, "$defs": definitions}
+    named = [{"required": ["chain"]}, {"required": ["based_on"]}]
+    return {"type": "object", "properties": {**head, **sections}, "anyOf": named, "additionalProperties": False,
+            "$defs": definitions}
 
 
 def _annotated(section):
     """``section`` where every value may also be written with its origin."""
     if "properties" not in section:
         return section
+    section = {key: value for key, value in section.items() if key != "required"}    # a base case may hold the rest
     return {**section, "properties": {key: _with_origin(value) for key, value in section["properties"].items()}}
 
 

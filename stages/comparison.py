@@ -21,10 +21,16 @@ class Settings(Section):
     """What the case is compared with, and which rows it was tuned on."""
 
     reference: InputFile | None = option(None, "published facts, e.g. data/reference/disc_brake.yaml; none = no rows")
-    tuned: dict[str, str] = option({}, "key of a fact, or a pattern such as mode_*_test: what was tuned on it")
+    tuned: dict[str, str] | None = option({}, "key of a fact, or a pattern such as mode_*_test: what was tuned on it")
 
 
-@stage
+def _check(sections):
+    """Refuse an unreadable reference, or tuned keys that it does not hold, before anything is computed."""
+    settings = sections["comparison"]
+    _tuned(settings.tuned or {}, load(settings.reference) if settings.reference else ())
+
+
+@stage(check=_check)
 def comparison(micro_friction: MicroFriction, structure: Structure, complex_modes: ComplexModes, multibody: Multibody,
                squeal: Squeal, settings: Settings, context: Context) -> Comparison:
     """Put the published numbers beside ours.
@@ -38,10 +44,13 @@ def comparison(micro_friction: MicroFriction, structure: Structure, complex_mode
     paired by multiplicity, by nodal diameters where they can be inferred, and then by frequency.
     """
     facts = load(settings.reference) if settings.reference else ()
-    tuned = _tuned(settings.tuned, facts)
+    tuned = _tuned(settings.tuned or {}, facts)
     known = {fact.key: fact.value * _SIZE[fact.unit] for fact in facts if fact.value is not None and fact.unit in _SIZE}
     ours = {**friction_rows(micro_friction, known), **motion_rows(multibody, known),
             **disc_mode_rows(structure, facts), **system_mode_rows(complex_modes, known), **squeal_rows(squeal, known)}
+    for fact in facts:
+        if fact.key in ours and fact.unit not in _SIZE:
+            raise ConfigError(f"{settings.reference}: {fact.key}.unit", f"one of {', '.join(_SIZE)}", repr(fact.unit))
     rows = [_row(fact, ours.get(fact.key), tuned.get(fact.key, "")) for fact in facts]
     return Comparison(**{field.name: [row[field.name] for row in rows] for field in fields(Comparison)})
 

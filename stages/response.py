@@ -45,7 +45,20 @@ class _Superposition:
     turning: float = 0.0
 
 
-@stage
+def _check(sections):
+    """Refuse, before anything is computed, operating points without preload and signals that end before they settle."""
+    motion, solved = sections["multibody"], sections["structure"].pressures
+    for pressure in motion.pressures:
+        if not np.isclose(solved, pressure, rtol=1e-6).any():
+            raise ConfigError("multibody.pressures", f"pressures among structure.pressures, {list(solved)} Pa",
+                              f"{pressure:g} Pa", "add it to structure.pressures")
+    for name in ("response", "squeal"):
+        if sections[name].settling >= motion.duration:
+            raise ConfigError(f"{name}.settling", f"less than multibody.duration, {motion.duration:g} s",
+                              f"{sections[name].settling:g} s")
+
+
+@stage(check=_check)
 def response(structure: Structure, model: ReducedModel, multibody: Multibody, settings: Settings,
              context: Context) -> Response:
     """Superpose the modes of the elastic brake under the contact forces.

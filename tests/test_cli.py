@@ -40,6 +40,8 @@ def test_every_stage_command_has_the_same_form(name):
     ("chain: disc_brake\nmultibdy: {}", 2, "multibdy: unknown section; did you mean 'multibody'?"),
     ("chain: disc_brake\nmultibody: {duratoin: 1 s}", 2, "multibody.duratoin: unknown key; did you mean 'duration'?"),
     ("chain: disc_brake\nmultibody: {duration: 3 kg}", 2, "multibody.duration: expected a quantity in s"),
+    ("chain: disc_brake\nmultibody: {pressures: [4 MPa]}", 2, "multibody.pressures: expected pressures among"),
+    ("chain: disc_brake\nresponse: {settling: 3 s}", 2, "response.settling: expected less than multibody.duration"),
     ("chain: none", 2, "chain: expected one of disc_brake"),
 ])
 def test_bad_cases_are_one_sentence_without_traceback(tmp_path, text, code, message):
@@ -50,7 +52,8 @@ def test_bad_cases_are_one_sentence_without_traceback(tmp_path, text, code, mess
 
 
 def test_debug_shows_the_traceback(tmp_path):
-    assert "Traceback" in brakechain("run", tmp_path / "none.yaml", "--debug").stderr
+    done = brakechain("run", tmp_path / "none.yaml", "--debug")
+    assert "Traceback" in done.stderr and done.returncode == 2
 
 
 def test_files_have_their_own_exit_code(tmp_path):

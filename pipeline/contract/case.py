@@ -2,11 +2,12 @@
 
 import hashlib
 import json
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from difflib import get_close_matches
 from functools import cached_property
 from pathlib import Path
 
+from pipeline import __version__
 from pipeline.contract import documents, settings
 from pipeline.contract.context import Case
 from pipeline.contract.errors import ConfigError
@@ -35,35 +36,58 @@ class CaseFile:
         return self.document.get("solver", "auto")
 
     @cached_property
-    def _split(self):
-        plain, origins = settings.split_origins({s.name: self.document.get(s.name) or {} for s in self.stages})
-        return plain, origins
+    def _plain(self):
+        return {s.name: settings.without_origins(self.given(s), f"{self.path}: {s.name}") for s in self.stages}
 
     @cached_property
     def sections(self):
         """stage name -> filled settings; ConfigError for anything not understood."""
         context = {"folders": self.folders, "measured": self.measured}
-        return {s.name: settings.fill(s.settings, self._split[0][s.name], f"{self.path}: {s.name}", context)
+        return {s.name: settings.fill(s.settings, self._plain[s.name], f"{self.path}: {s.name}", context)
                 for s in self.stages}
 
     def given(self, stage):
         """The settings of a stage as the YAML gives them, with origins."""
-        return self.document.get(stage.name) or {}
+        section = self.document.get(stage.name)
+        return {} if section is None else section
 
     @property
     def digest(self):
-        """SHA-256 of the whole case, for a stage that shows it."""
-        return hashlib.sha256(json.dumps(self.document, sort_keys=True, default=str).encode()).hexdigest()
+        """SHA-256 of all that a stage may tell about the case."""
+        return hashlib.sha256(json.dumps(asdict(self.card(__version__)), default=str).encode()).hexdigest()
 
     def card(self, version):
         """What the report may tell about the case."""
         told = {s.name: list(settings.leaves(self.sections[s.name])) for s in self.stages}
-        origins = {s.name: {k.removeprefix(f"{s.name}."): v for k, v in self._split[1].items()
-                            if k.startswith(f"{s.name}.")} for s in self.stages}
-        column = lambda i: {name: {row[0]: row[i] for row in rows} for name, rows in told.items()}  # noqa: E731
+        values, units, meanings = ({name: {row[0]: row[i] for row in rows} for name, rows in told.items()}
+                                   for i in (1, 2, 3))
+        values = {name: {key: _file_name(value) for key, value in rows.items()} for name, rows in values.items()}
+        origins = {s.name: {key: _origin(self.given(s), key.split(".")) for key in values[s.name]} for s in self.stages}
         methods = {s.name: s.method for s in self.stages}
-        return Case(self.name, self.document.get("title", ""), self.document.get("description", ""), column(1),
-                    origins, column(2), column(3), methods, version)
+        return Case(self.name, self.document.get("title", ""), self.document.get("description", ""), values, origins,
+                    units, meanings, methods, version)
+
+
+def _file_name(value):
+    """A file by its name: where it lies on this machine is nobody's business."""
+    return value.name if isinstance(value, Path) else value
+
+
+def _origin(given, steps):
+    """What the YAML says of one setting: its annotation, or that of what holds it; 'user' of a bare value; else {}."""
+    said = {}
+    for step in steps:
+        if isinstance(given, dict) and "value" in given:
+            said, given = {k: v for k, v in given.items() if k != "value"}, given["value"]
+        if isinstance(given, dict) and step in given:
+            given = given[step]
+        elif isinstance(given, list) and step.isdigit() and int(step) < len(given):
+            given = given[int(step)]
+        else:
+            return said
+    if isinstance(given, dict) and "value" in given:
+        said = {k: v for k, v in given.items() if k != "value"}
+    return {"origin": "user", **said}
 
 
 def load(path, chains, stage_of, overrides=(), measured=None):
@@ -84,7 +108,8 @@ def load(path, chains, stage_of, overrides=(), measured=None):
     stages = tuple(stage_of(each) for each in chains[name])
     _check_keys(path, document, stages)
     case = CaseFile(path, document, stages, folders, measured)
-    case.sections  # noqa: B018 - refuses a bad case before anything is computed
+    for stage in stages:
+        stage.check(case.sections)
     return case
 
 
@@ -105,6 +130,8 @@ def _read(path, readers=()):
 
 def _laid_over(base, own):
     """``own`` where it speaks, ``base`` elsewhere; a mapping of another ``kind`` replaces the whole mapping."""
+    if own is None and isinstance(base, dict):
+        return base
     plain = all(isinstance(d, dict) and "value" not in d for d in (base, own))
     if not plain or own.get("kind", base.get("kind")) != base.get("kind"):
         return own
@@ -119,7 +146,9 @@ def _override(document, item):
     place = document
     for step in steps[:-1]:
         inner = _step(place, step, item)
-        place = inner["value"] if isinstance(inner, dict) and "value" in inner else inner
+        if isinstance(inner, dict) and "value" in inner:    # what is overridden is no longer what was annotated
+            inner = place[int(step) if isinstance(place, list) else step] = inner["value"]
+        place = inner
     last = int(steps[-1]) if isinstance(place, list) and steps[-1].isdigit() else steps[-1]
     try:
         place[last] = documents.parse_value(text)

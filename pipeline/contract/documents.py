@@ -6,19 +6,20 @@ import yaml
 
 from pipeline.contract.errors import ConfigError
 
+_MERGE = "tag:yaml.org,2002:merge"
+
 
 class _StrictLoader(yaml.SafeLoader):
     """SafeLoader that refuses a key given twice."""
 
     def construct_mapping(self, node, deep=False):
-        self.flatten_mapping(node)
-        seen = {}
+        lines = {}
         for key_node, _ in node.value:
-            key = self.construct_object(key_node, deep=True)
-            line = key_node.start_mark.line + 1
-            if seen.setdefault(str(key), line) != line:
+            key, line = key_node.value, key_node.start_mark.line + 1
+            if key in lines and key_node.tag != _MERGE:
                 raise ConfigError(f"{node.start_mark.name}:{line}", f"'{key}' once",
-                                  f"it again (first in line {seen[str(key)]})", "keep one of the two")
+                                  f"it again (first in line {lines[key]})", "keep one of the two")
+            lines[key] = line
         return super().construct_mapping(node, deep)
 
 
@@ -30,7 +31,8 @@ def read_yaml(path):
     path = Path(path)
     try:
         with path.open(encoding="utf-8") as stream:
-            return yaml.load(stream, _StrictLoader) or {}
+            document = yaml.load(stream, _StrictLoader)
+            return {} if document is None else _unshared(document)
     except FileNotFoundError:
         raise ConfigError(path, "a YAML file", "none", "check the path") from None
     except (OSError, UnicodeDecodeError) as error:
@@ -39,6 +41,13 @@ def read_yaml(path):
         mark = getattr(error, "problem_mark", None)
         where = f"{path}:{mark.line + 1}" if mark else path
         raise ConfigError(where, "valid YAML", getattr(error, "problem", None) or str(error)) from None
+
+
+def _unshared(value):
+    """``value`` with a list or mapping of its own wherever the document repeats one by an alias."""
+    if isinstance(value, dict):
+        return {key: _unshared(inner) for key, inner in value.items()}
+    return [_unshared(inner) for inner in value] if isinstance(value, list) else value
 
 
 def parse_value(text):

@@ -8,18 +8,26 @@ import os
 import threading
 import time
 from concurrent.futures import ProcessPoolExecutor, as_completed
+from concurrent.futures.process import BrokenProcessPool
 
 from threadpoolctl import threadpool_limits
 
-from pipeline.contract.errors import ConfigError
+from pipeline.contract.errors import BrakechainError, ConfigError
+from pipeline.contract.fingerprint import project_digest
 from pipeline.environment import ONE_THREAD
 
 #: solvers with global state: one task at a time in a process, also in a worker with several threads
 _ONE_TASK = threading.Lock()
 
 
-def run_task(function, item):
-    """One task, as every executor runs it: its result and the CPU seconds it took."""
+def run_task(function, item, code=None):
+    """One task, as every executor runs it: its result and the CPU seconds it took.
+
+    ``code`` is the digest of the project that the task belongs to; a worker with another one refuses.
+    """
+    if code is not None and code != project_digest():
+        raise ConfigError("--scheduler: a worker", "the same brakechain code as here", "other code",
+                          "install the same version there and restart the worker")
     os.environ.update(ONE_THREAD)
     with _ONE_TASK, threadpool_limits(1):
         begin = time.process_time()
@@ -60,6 +68,9 @@ class LocalProcesses:
             for future in as_completed(futures):
                 self.spent_elsewhere += future.result()[1]
                 done()
+        except BrokenProcessPool:
+            raise BrakechainError("local processes", "workers that live until the end", "one ended from outside",
+                                  "most often memory ran out: try --workers 1") from None
         except BaseException:
             for future in futures:
                 future.cancel()
@@ -85,43 +96,39 @@ def _follow(parent):
 class DaskCluster:
     """The workers of the Dask scheduler at ``address``; they must run the same brakechain."""
 
-    def __init__(self, address, code):
-        self.spent_elsewhere = 0.0
+    def __init__(self, address):
+        self.spent_elsewhere, self._code = 0.0, project_digest()
         try:
             from distributed import Client
         except ImportError:
             raise ConfigError("--scheduler", "the package 'distributed'", "none",
-                              "pip install 'brakechain[cluster]'") from None
+                              "install it: python -m pip install distributed") from None
         try:
             self._client = Client(address, timeout=10, set_as_default=False)
         except (OSError, ValueError, TimeoutError) as error:
             raise ConfigError("--scheduler", "a Dask scheduler that answers", f"{address} ({error})",
                               "start one with 'dask scheduler' and 'dask worker ADDRESS'") from None
-        self._check(address, code)
-
-    def _check(self, address, code):
         try:
             self._client.wait_for_workers(1, timeout=20)
         except TimeoutError:
             self._client.close()
             raise ConfigError("--scheduler", "at least one worker", f"none at {address}",
                               f"start one with 'dask worker {address}'") from None
-        for worker, found in self._client.run(_project_code).items():
-            if found != code:
-                self._client.close()
-                raise ConfigError(f"--scheduler: worker {worker}", "the same brakechain code as here", "other code",
-                                  "install the same version there and restart the worker")
 
     def map(self, function, items, done):
         """Results in the order of ``items``; ``done()`` is called after each."""
+        from distributed import KilledWorker
         from distributed import as_completed as completed
 
-        futures = [self._client.submit(run_task, function, item, pure=False) for item in items]
+        futures = [self._client.submit(run_task, function, item, self._code, pure=False) for item in items]
         try:
             with self._client.as_current():
                 for future in completed(futures):
                     self.spent_elsewhere += future.result()[1]
                     done()
+        except (KilledWorker, ModuleNotFoundError) as error:
+            raise BrakechainError("--scheduler", "workers that run brakechain until the end", str(error),
+                                  "install this version there, with enough memory, and restart the worker") from None
         except BaseException:
             self._client.cancel(futures)
             raise
@@ -131,14 +138,8 @@ class DaskCluster:
         self._client.close()
 
 
-def _project_code():
-    from pipeline.contract.fingerprint import project_digest
-
-    return project_digest()
-
-
 def choose(workers, scheduler):
     """The executor that the command line asks for."""
     if scheduler:
-        return DaskCluster(scheduler, _project_code())
+        return DaskCluster(scheduler)
     return LocalProcesses(workers) if workers > 1 else InProcess()

@@ -7,7 +7,7 @@ import platform
 import subprocess
 import time
 from contextlib import contextmanager
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, field
 from importlib import metadata
 from pathlib import Path
 
@@ -34,6 +34,10 @@ class Run:
     case: object        # case.CaseFile
     folder: Path
     solver: str         # resolved, joins every hash
+    code: dict = field(init=False)      # stage -> digests of its code when this run began
+
+    def __post_init__(self):
+        object.__setattr__(self, "code", {s.name: fingerprint.code_of(s.run.__module__) for s in self.case.stages})
 
     def path(self, product):
         return self.folder / f"{product.name}.h5"
@@ -64,8 +68,8 @@ class Run:
                 return None
             inputs[name] = [product.name, found[2]]
         settings = fingerprint.settings_of(self.case.sections[stage.name])
-        code = fingerprint.code_of(stage.run.__module__)
         digest = self.case.digest if stage.reads_case else ""
+        code = self.code[stage.name]
         return fingerprint.Fingerprint(stage.output.version, self.solver, settings, inputs, code, digest)
 
     def state(self, stage, stale=frozenset()):
@@ -94,6 +98,12 @@ class Run:
             stale.update({stage.output.name} if state.reasons else ())
             states.append(state)
         return states
+
+    def stale_before(self, first):
+        """States of the stages before ``first`` whose products are there and out of date."""
+        earlier = [s for s in self.plan() if s.path.exists()] if first else []
+        names = [s.name for s in self.case.stages]
+        return [s for s in earlier if s.reasons and names.index(s.stage.name) < names.index(first)]
 
     def _span(self, first, last):
         names = [s.name for s in self.case.stages]
@@ -130,15 +140,20 @@ class Run:
         with context.stage(stage):
             output = stage.run(**inputs, settings=self.case.sections[stage.name], context=context)
         seconds = time.perf_counter() - wall
+        if fingerprint.code_of(stage.run.__module__) != self.code[stage.name]:
+            raise ProductError(f"stage {stage.name}", "the same code from begin to end", "code that changed meanwhile",
+                               "run again")
         companions = stage.companions(output) if stage.companions else {}
-        for name, content in companions.items():
-            store.write_companion(self.folder / name, content)
+        for name in companions:     # gone first: a product never stands beside the companions of another one
+            (self.folder / name).unlink(missing_ok=True)
         store.write(output, self.path(stage.output), {
             "stage": stage.name, "brakechain": __version__, "git_commit": git_commit(),
             "settings": json.dumps(self.case.given(stage), default=str), "fingerprint": json.dumps(asdict(now)),
             "companions": json.dumps(sorted(companions)), "packages": json.dumps(_packages()),
             "python": platform.python_version(), "machine": platform.machine(), "wall_seconds": seconds,
             "cpu_seconds": _cpu_seconds(context) - cpu})
+        for name, content in companions.items():
+            store.write_companion(self.folder / name, content)
         return seconds
 
 

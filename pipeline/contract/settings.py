@@ -27,7 +27,7 @@ ANNOTATION = {"value", "origin", "source", "doubt", "choose"}
 class Section(BaseModel):
     """One YAML section; unknown keys are refused and values are frozen."""
 
-    model_config = ConfigDict(extra="forbid", frozen=True, validate_default=True)
+    model_config = ConfigDict(extra="forbid", frozen=True, validate_default=True, allow_inf_nan=False)
 
 
 @dataclass(frozen=True)
@@ -80,24 +80,26 @@ def _existing(value, info: ValidationInfo):
 InputFile = Annotated[Path, BeforeValidator(_existing), WithJsonSchema({"type": "string", "description": "a file"})]
 
 
-def split_origins(values, path=""):
-    """Separate ``{value:, origin:, source:}`` annotations from the values.
-
-    Returns (plain values, {dotted key: {"origin": ..., "source": ...}}).
-    """
+def without_origins(values, where):
+    """``values`` with each ``{value:, origin:, source:}`` replaced by its value; ConfigError for a bad annotation."""
     if isinstance(values, dict):
-        if "value" in values and set(values) <= ANNOTATION:
-            said = {k: v for k, v in values.items() if k != "value"}
-            if said.get("origin", "user") not in ORIGINS:
-                raise ConfigError(f"{path}.origin", f"one of {', '.join(ORIGINS)}", repr(said["origin"]))
-            plain, inner = split_origins(values["value"], path)
-            return plain, {path: said, **inner}
-        pairs = {k: split_origins(v, f"{path}.{k}" if path else str(k)) for k, v in values.items()}
-        return {k: p for k, (p, _) in pairs.items()}, {k: v for _, o in pairs.values() for k, v in o.items()}
+        if "value" in values:
+            _check_annotation(values, where)
+            return without_origins(values["value"], where)
+        return {key: without_origins(value, f"{where}.{key}") for key, value in values.items()}
     if isinstance(values, list):
-        pairs = [split_origins(v, f"{path}.{i}") for i, v in enumerate(values)]
-        return [p for p, _ in pairs], {k: v for _, o in pairs for k, v in o.items()}
-    return values, {}
+        return [without_origins(value, f"{where}.{index}") for index, value in enumerate(values)]
+    return values
+
+
+def _check_annotation(values, where):
+    for key in values:
+        if key not in ANNOTATION:
+            near = get_close_matches(str(key), ANNOTATION, 1)
+            raise ConfigError(f"{where}.{key}: unknown key beside 'value'; "
+                              + (f"did you mean '{near[0]}'?" if near else f"known: {', '.join(sorted(ANNOTATION))}"))
+    if values.get("origin", "user") not in ORIGINS:
+        raise ConfigError(f"{where}.origin", f"one of {', '.join(ORIGINS)}", repr(values["origin"]))
 
 
 def fill(cls, values, where, context=None):
@@ -132,7 +134,7 @@ def _unit(info):
 
 
 def _sentence(cls, error, where):
-    place = ".".join([where, *map(str, error["loc"])])
+    place = ".".join([where, *(str(step) for step in error["loc"] if not _is_tag(cls, error["loc"], step))])
     if error["type"] == "extra_forbidden":
         known = sorted(_known_keys(cls, error["loc"][:-1]))
         near = get_close_matches(str(error["loc"][-1]), known, 1)
@@ -145,9 +147,33 @@ def _sentence(cls, error, where):
     return f"{place}: {message[0].lower()}{message[1:]}{found}"
 
 
+def _is_tag(cls, location, step):
+    """True for the 'kind' that pydantic puts into the location of an error in a choice of sections."""
+    return location.index(step) > 0 and step in _kinds(_within(cls, location[:location.index(step)]))
+
+
 def _known_keys(cls, location):
+    options = _within(cls, location)
+    return options[0].model_fields if options else {}
+
+
+def _within(cls, location):
+    """The sections that may stand at ``location`` of section ``cls``."""
+    options = [cls]
     for step in location:
-        annotation = cls.model_fields[step].annotation if step in getattr(cls, "model_fields", {}) else cls
-        options = [annotation, *getattr(annotation, "__args__", ())]
-        cls = next((a for a in options if isinstance(a, type) and issubclass(a, BaseModel)), cls)
-    return getattr(cls, "model_fields", {})
+        if step in _kinds(options):
+            options = [o for o in options if o.model_fields["kind"].default == step]
+        else:
+            found = [o.model_fields[step].annotation for o in options if step in o.model_fields]
+            options = [s for annotation in found for s in _sections(annotation)] or options
+    return options
+
+
+def _kinds(options):
+    return {o.model_fields["kind"].default for o in options if "kind" in o.model_fields} if len(options) > 1 else set()
+
+
+def _sections(annotation):
+    if isinstance(annotation, type) and issubclass(annotation, BaseModel):
+        return [annotation]
+    return [s for inner in get_args(annotation) for s in _sections(inner)]

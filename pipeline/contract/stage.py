@@ -25,17 +25,18 @@ class Stage:
     summary: str        # first docstring line: the CLI help
     method: str         # docstring paragraph after 'Method:': the sentence of the report
     companions: Callable | None     # product -> {file name: str or bytes}, written beside it
-    reads_case: bool    # True for the report: the whole YAML joins its hash
+    reads_case: bool    # True for the report: all it may tell about the case joins its hash
+    check: Callable     # {stage: settings} -> None; refuses settings that do not fit those of other stages
 
     def __call__(self, *args, **kwargs):
         """Run the pure function; ``context`` may be left out."""
         return self.run(*args, **{"context": Context(), **kwargs})
 
 
-def stage(run=None, *, companions=None, reads_case=False):
+def stage(run=None, *, companions=None, reads_case=False, check=lambda sections: None):
     """Turn ``def name(a: ProductA, settings: Settings, context: Context) -> Name`` into a Stage."""
     if run is None:
-        return lambda function: stage(function, companions=companions, reads_case=reads_case)
+        return lambda function: stage(function, companions=companions, reads_case=reads_case, check=check)
     hints = get_type_hints(run)
     output, settings = hints.pop("return", None), hints.pop("settings", None)
     context = hints.pop("context", None)
@@ -52,7 +53,7 @@ def stage(run=None, *, companions=None, reads_case=False):
     summary, _, method = doc.partition("Method:")
     optional = frozenset(name for name, hint in hints.items() if type(None) in get_args(hint))
     return Stage(run.__name__, run, inputs, optional, output, settings, summary.strip().splitlines()[0],
-                 " ".join(method.split()), companions, reads_case)
+                 " ".join(method.split()), companions, reads_case, check)
 
 
 def _products(hint):

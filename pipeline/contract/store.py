@@ -16,6 +16,11 @@ import numpy as np
 from pipeline.contract.errors import ProductError
 from pipeline.contract.product import is_product
 
+
+class DamagedFile(ProductError):
+    """An HDF5 file that is not whole."""
+
+
 _NO_COORDINATE = "This is a netCDF dimension but not a netCDF variable."
 
 
@@ -43,15 +48,18 @@ def write(item, path, provenance, content=None):
             h5.create_group("provenance").attrs.update(provenance)
         publish(partial, path)
     except OSError as error:
-        raise ProductError(path, "a file that can be written", str(error), "check space and permissions") from error
+        raise _unwritable(path, error) from error
 
 
 def write_companion(path, content):
     """Write text or bytes beside a product, whole or not at all."""
     path = Path(path)
     partial = path.with_name(f".{path.name}.partial")
-    partial.write_bytes(content.encode() if isinstance(content, str) else content)
-    publish(partial, path)
+    try:
+        partial.write_bytes(content.encode() if isinstance(content, str) else content)
+        publish(partial, path)
+    except OSError as error:
+        raise _unwritable(path, error) from error
 
 
 def publish(partial, path):
@@ -111,11 +119,13 @@ def read(cls, path):
 
 
 def identity(path):
-    """(product, version, content hash) of a file, or None where there is no readable product."""
+    """(product, version, content hash) of a file, or None where there is none or a damaged one."""
+    if not Path(path).exists():
+        return None
     try:
         with _opened(path) as h5:
             return tuple(h5.attrs[k] for k in ("product", "version", "content"))
-    except (ProductError, KeyError):
+    except (DamagedFile, KeyError, OSError, RuntimeError):
         return None
 
 
@@ -132,12 +142,19 @@ def _opened(path):
         raise ProductError(path, f"the product {product}", "no file", f"run '{command}' first")
     try:
         return h5py.File(path, "r")
+    except (PermissionError, BlockingIOError) as error:
+        raise ProductError(path, "a file that can be read", error.strerror or str(error),
+                           "check its permissions, and that no other program writes it") from None
     except OSError as error:
         raise _damaged(path, error) from None
 
 
+def _unwritable(path, error):
+    return ProductError(path, "a file that can be written", str(error), "check space and permissions")
+
+
 def _damaged(path, error):
-    return ProductError(path, "a whole HDF5 product", f"a truncated or damaged file ({error})",
+    return DamagedFile(path, "a whole HDF5 product", f"a truncated or damaged file ({error})",
                         "delete it and rerun the stage that writes it")
 
 

@@ -15,6 +15,7 @@ SI = frozenset({
 })
 
 
+_ANGULAR = {"radian", "degree", "turn", "revolution", "cycle", "revolutions_per_minute", "revolutions_per_second"}
 _NUMBER = re.compile(r"\s*[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?\s*(?P<unit>.*)")
 
 
@@ -39,9 +40,19 @@ def _convert(text, unit, refusal):
 
     try:
         quantity = _registry().Quantity(text)
+        if _mixes_turns(quantity, unit):
+            raise refusal()
         return float(quantity.to("dimensionless" if unit == "1" else _for_pint(unit)).magnitude)
     except (pint.PintError, ArithmeticError, ValueError, TypeError, AttributeError, tokenize.TokenError):
         raise refusal() from None
+
+
+def _mixes_turns(quantity, unit):
+    """True for hertz where rad/s is meant, or turns and angles where hertz is: pint ignores that factor of 2 pi."""
+    named = set(map(str, quantity.units._units))
+    if "rad" in unit:
+        return any(name.endswith("hertz") for name in named)
+    return unit == "Hz" and bool(named & _ANGULAR)
 
 
 def _for_pint(unit):

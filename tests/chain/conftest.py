@@ -1,5 +1,6 @@
 """One undisturbed run of the quick case, made once for all tests of the chain."""
 
+import hashlib
 import shutil
 import subprocess
 import sys
@@ -23,8 +24,10 @@ def brakechain(*args, code=0):
 
 
 def contents(folder):
-    """product -> content hash of every product in a run folder."""
-    return {name: store.identity(folder / f"{name}.h5")[2] for name in NAMES if (folder / f"{name}.h5").exists()}
+    """File -> content hash of every product in a run folder, and SHA-256 of what stands beside them."""
+    products = {name: store.identity(folder / f"{name}.h5")[2] for name in NAMES if (folder / f"{name}.h5").exists()}
+    beside = (p for p in folder.iterdir() if p.suffix in (".csv", ".html"))
+    return products | {p.name: hashlib.sha256(p.read_bytes()).hexdigest() for p in beside}
 
 
 @pytest.fixture(scope="session")

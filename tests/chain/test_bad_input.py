@@ -26,7 +26,7 @@ def scan(tmp_path, name, heights):
 
 
 @pytest.mark.parametrize("name, heights, message", [
-    ("missing.txt", None, "surface.pad.scan.file: expected a file, found none at"),
+    ("missing.txt", None, "surface.pad.file: expected a file, found none at"),
     ("empty.txt", np.zeros((0, 0)), "empty.txt"),
     ("constant.txt", np.ones((64, 64)), "constant.txt"),
     ("nan.txt", np.full((64, 64), np.nan), "nan.txt"),

@@ -7,7 +7,7 @@ from tests.chain.conftest import QUICK, brakechain, contents
 
 
 def test_every_product_is_there(finished):
-    assert set(contents(finished)) == set(NAMES)
+    assert set(contents(finished)) == {*NAMES, "friction_map.csv", "report.html"}
     assert (finished / "report.html").stat().st_size > 50_000 and (finished / "friction_map.csv").exists()
     assert not [p.name for p in finished.glob(".*") if p.name != ".lock"]
 
@@ -41,6 +41,8 @@ def test_one_step_is_one_command(copy):
 def test_until_and_from(copy):
     told = brakechain("run", QUICK, "--run", copy, "--until", "friction_map", "--force", "surface").stdout
     assert "surface" in told and "squeal" not in told
+    told = brakechain("run", QUICK, "--run", copy, "--from", "squeal", "--force", "squeal").stdout
+    assert "squeal" in told and "multibody" not in told
     assert "expected one of" in brakechain("run", QUICK, "--run", copy, "--from", "nothing", code=2).stderr
 
 

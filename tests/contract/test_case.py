@@ -2,7 +2,7 @@
 
 import pytest
 
-from pipeline.contract import ConfigError, case
+from pipeline.contract import ConfigError, case, documents
 from tests.contract.toy import CHAINS, load
 
 YAML = """
@@ -30,13 +30,28 @@ def test_sections_origins_and_methods(config):
     toy = loaded(config)
     assert toy.sections["source"].duration == 3.0 and toy.sections["doubled"].factor == 4.0
     card = toy.card("0.1")
-    assert card.origins["source"] == {"duration": {"origin": "stated", "source": "page 2"}}
+    assert card.origins["source"] == {"duration": {"origin": "stated", "source": "page 2"}, "level": {}}
     assert card.methods["source"] == "Signals of {duration} were made." and card.units["source"]["duration"] == "s"
 
 
-def test_overrides_replace_the_value_and_keep_the_origin(config):
+def test_overrides_replace_the_value_and_its_origin(config):
     toy = loaded(config, "source.duration=5 s", "doubled.factor=3")
     assert toy.sections["source"].duration == 5.0 and toy.sections["doubled"].factor == 3.0
+    assert toy.card("").origins["source"] == {"duration": {"origin": "user"}, "level": {}}
+
+
+def test_origins_reach_what_they_hold_and_bare_values_are_the_users():
+    given = {"a": {"value": [1, {"b": 2}], "origin": "stated"}, "c": 3}
+    assert case._origin(given, ["a", "1", "b"]) == {"origin": "stated"}
+    assert case._origin(given, ["c"]) == {"origin": "user"} and case._origin(given, ["d"]) == {}
+
+
+def test_an_alias_is_a_copy(tmp_path):
+    path = tmp_path / "alias.yaml"
+    path.write_text("a: &list [1, 2]\nb: *list\n")
+    document = documents.read_yaml(path)
+    document["a"][0] = 9
+    assert document["b"] == [1, 2]
 
 
 @pytest.mark.parametrize("text, message", [
@@ -44,6 +59,8 @@ def test_overrides_replace_the_value_and_keep_the_origin(config):
     ("chain: toy\nsuorce: {}", "suorce: unknown section; did you mean 'source'?"),
     ("chain: toy\nsource: {duration: -3 s}", "source.duration: input should be greater than 0"),
     ("chain: toy\nsource: {}\nsource: {}", "expected 'source' once, found it again"),
+    ("chain: toy\nsource: {duration: 1 s, duration: 2 s}", "expected 'duration' once, found it again"),
+    ("chain: toy\nsource: {duration: {value: 1 s, orgin: user}}", "duration.orgin: unknown key beside"),
     ("chain: [toy", "expected valid YAML"), ("- 1", "expected a mapping of sections"),
     ("chain: toy\nsolver: fast", "solver: expected one of auto, pypardiso, superlu"),
     ("chain: toy\ntitle: [1]", "title: expected text"),
@@ -89,6 +106,7 @@ def test_another_kind_replaces_the_whole_mapping():
     assert case._laid_over(base, {"pad": {"kind": "scan", "file": "a"}})["pad"] == {"kind": "scan", "file": "a"}
     assert case._laid_over(base, {"pad": {"seed": 4}})["pad"] == {"kind": "generated", "seed": 4}
     assert case._laid_over(base, {"n": 4})["n"] == 4
+    assert case._laid_over(base, {"pad": None})["pad"] == base["pad"], "an empty section adds nothing"
 
 
 def test_a_circle_of_cases_is_refused(tmp_path):

@@ -9,8 +9,8 @@ from contextlib import contextmanager
 import numpy as np
 import pytest
 
-from pipeline.contract import ConfigError, ConvergenceError
-from pipeline.contract.executor import DaskCluster, InProcess, LocalProcesses, choose
+from pipeline.contract import BrakechainError, ConfigError, ConvergenceError
+from pipeline.contract.executor import DaskCluster, InProcess, LocalProcesses, choose, run_task
 
 
 def work(seed):
@@ -45,6 +45,21 @@ def test_local_processes_give_the_bits_of_this_process():
 def test_errors_arrive_as_they_were_raised(executor):
     with running(executor), pytest.raises(ConvergenceError, match="point 2: expected residual below 1e-8, found 1e-3"):
         executor.map(fail, range(4), lambda: None)
+
+
+def test_a_worker_with_other_code_refuses():
+    with pytest.raises(ConfigError, match="expected the same brakechain code as here, found other code"):
+        run_task(work, 1, "other")
+
+
+def end(item):
+    """A task that memory ran out for."""
+    os.kill(os.getpid(), 9)
+
+
+def test_a_worker_that_dies_is_told():
+    with running(LocalProcesses(1)) as pool, pytest.raises(BrakechainError, match="most often memory ran out"):
+        pool.map(end, [1], lambda: None)
 
 
 def test_a_scheduler_that_does_not_answer():

@@ -64,6 +64,29 @@ def test_code_is_followed_through_imports():
     assert "pipeline.cli" not in code and "pipeline.contract.runner" not in code
 
 
+def test_code_that_changes_while_it_runs_is_refused(config, monkeypatch):
+    known, calls = fingerprint.code_of, []
+    monkeypatch.setattr(fingerprint, "code_of", lambda module: {**known(module), "n": calls.append(1) or len(calls)})
+    with pytest.raises(ProductError, match="code that changed meanwhile; run again"):
+        job(config).execute(Context())
+    assert not (config.parent / "run" / "source.h5").exists()
+
+
+def test_death_between_product_and_companion_is_noticed(config, monkeypatch):
+    job(config).execute(Context())
+    with monkeypatch.context() as patch, pytest.raises(KeyboardInterrupt):
+        patch.setattr(store, "write_companion", lambda *_: (_ for _ in ()).throw(KeyboardInterrupt))
+        job(config, "doubled.factor=3").execute(Context())
+    assert job(config).execute(Context()) == 1
+    assert "2000.0" in (config.parent / "run" / "doubled.csv").read_text()
+
+
+def test_earlier_stages_that_are_out_of_date_are_told(config):
+    job(config).execute(Context())
+    stale = job(config, "source.level=2 kPa").stale_before("doubled")
+    assert [s.stage.name for s in stale] == ["source"] and not job(config).stale_before("doubled")
+
+
 def test_damage_and_missing_companions_are_repaired(config):
     job(config).execute(Context())
     folder = config.parent / "run"

@@ -5,7 +5,7 @@ from typing import Literal
 import pytest
 
 from pipeline.contract import ConfigError, InputFile, Quantities, Quantity, Section, option
-from pipeline.contract.settings import fill, leaves, split_origins
+from pipeline.contract.settings import fill, leaves, without_origins
 
 
 class Ring(Section):
@@ -63,12 +63,10 @@ def test_files_are_found_from_the_folder_of_the_yaml_or_by_name_of_the_measureme
 
 
 def test_origins_are_split_from_values():
-    given = {"ring": {"thickness": {"value": "7 mm", "origin": "stated", "source": "Table 1"}}, "steps": 3}
-    plain, origins = split_origins(given)
-    assert plain == {"ring": {"thickness": "7 mm"}, "steps": 3}
-    assert origins == {"ring.thickness": {"origin": "stated", "source": "Table 1"}}
-    with pytest.raises(ConfigError, match="ring.origin: expected one of stated"):
-        split_origins({"ring": {"value": 1, "origin": "guessed"}})
+    given = {"ring": {"thickness": {"value": "7 mm", "origin": "stated", "source": "Table 1"}}, "steps": [{"value": 3}]}
+    assert without_origins(given, "c.yaml: s") == {"ring": {"thickness": "7 mm"}, "steps": [3]}
+    with pytest.raises(ConfigError, match="c.yaml: s.ring.origin: expected one of stated"):
+        without_origins({"ring": {"value": 1, "origin": "guessed"}}, "c.yaml: s")
 
 
 def test_leaves_tell_units_and_meanings():

@@ -24,6 +24,12 @@ def test_conversion(text, unit, value):
     assert to_si(text, unit, "x") == pytest.approx(value, rel=1e-12)
 
 
+@pytest.mark.parametrize("text, unit", [("60 rpm", "Hz"), ("100 rad/s", "Hz"), ("2 Hz", "rad/s"), ("2 kHz", "rad/s")])
+def test_turns_and_angles_are_not_mixed(text, unit):
+    with pytest.raises(ConfigError, match="expected a quantity in"):
+        to_si(text, unit, "x")
+
+
 @pytest.mark.parametrize("value", ["3 kg", "3", 3, "three mm", "12 mn mm", True, None, [1], "mm"])
 def test_refuses_what_is_no_length(value):
     with pytest.raises(ConfigError, match="a.yaml: disc.thickness: expected a quantity in m"):
