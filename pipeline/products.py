@@ -37,12 +37,13 @@ class Surface:
     power_spectrum: Array = quantity("m^4", "body wavenumber", "isotropic (radially averaged) power spectrum")
 
 
-@product(version=1)
+@product(version=2)
 class MicroFriction:
     """Friction, real contact area and wear of the rough pair over pressure, speed and sliding distance."""
 
     pressure: Array = quantity("Pa", "pressure", "nominal contact pressure")
     speed: Array = quantity("m/s", "speed", "sliding speed")
+    disc_speed: Array = quantity("rad/s", "speed", "speed of the disc that slides so at the effective radius")
     distance: Array = quantity("m", "distance", "sliding distance")
     friction: Array = quantity("1", "pressure speed distance", "coefficient of friction, shear over normal force")
     friction_std: Array = quantity("1", "pressure speed distance", "standard error of the friction coefficient")

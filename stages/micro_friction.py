@@ -38,8 +38,12 @@ class Lining(Section):
 class Settings(Section):
     """Operating points, solids, shear limit and wear of the rough pair."""
 
-    pressures: Quantities("Pa", gt=0) = option(("1 MPa", "2 MPa", "3 MPa"), "nominal contact pressures, rising")
-    disc_speeds: Quantities("rad/s", gt=0) = option(("8.5 rad/s", "10.25 rad/s", "12 rad/s"), "disc speeds, rising")
+    pressures: Quantities("Pa", gt=0) = option(
+        ("0.5 MPa", "1 MPa", "2 MPa", "3 MPa", "6 MPa"),
+        "nominal contact pressures, rising; they span the range that the contact patches reach")
+    disc_speeds: Quantities("rad/s", gt=0) = option(
+        ("6.5 rad/s", "8.5 rad/s", "10.25 rad/s", "12 rad/s", "14.5 rad/s"),
+        "disc speeds, rising; they span the range that the slip of the contact patches reaches")
     effective_radius: Quantity("m", gt=0) = option("128 mm", "radius at which the disc speed is the sliding speed")
     disc: Iron = option(Iron(), "cast iron of the disc")
     pad: Lining = option(Lining(), "surface layer of the pad")
@@ -86,8 +90,9 @@ def micro_friction(surface: Surface, settings: Settings, context: Context) -> Mi
                         settings.refinement, "convergence of the contact area")
     shown = records[len(settings.pressures) // 2 * settings.realisations]
     return MicroFriction(
-        pressure=settings.pressures, speed=speeds, distance=np.array(recorded) * _cycle_distance(settings),
-        **_table(records, settings), shear_limit=_shear_limit(settings), x=surface.x, y=surface.y,
+        pressure=settings.pressures, speed=speeds, disc_speed=settings.disc_speeds,
+        distance=np.array(recorded) * _cycle_distance(settings), **_table(records, settings),
+        shear_limit=_shear_limit(settings), x=surface.x, y=surface.y,
         refinement=np.array(settings.refinement) * surface.nodes_per_wavelength[0], refinement_area=areas,
         **{name: getattr(shown, name) for name in
            ("contact_pressure_new", "contact_pressure_worn", "pad_wear", "disc_wear")})

@@ -23,6 +23,7 @@ def result():
 
 def test_axes_are_sliding_speeds_and_cycle_distances(result):
     np.testing.assert_allclose(result.speed, [8.5 * 0.128, 12 * 0.128])
+    np.testing.assert_array_equal(result.disc_speed, [8.5, 12.0])
     np.testing.assert_allclose(result.distance, [0.0, 2.5e-3, 10e-3])
     assert result.friction.shape == (2, 2, 3)
 

@@ -64,7 +64,7 @@ def micro_friction(nodes=48):
     field = np.random.default_rng(2).normal(size=(nodes, nodes))
     x = np.linspace(0, 1e-3, nodes)
     return filled(
-        MicroFriction, pressure=PRESSURE, speed=SPEED, distance=distance, friction=friction,
+        MicroFriction, pressure=PRESSURE, speed=SPEED, disc_speed=OMEGA, distance=distance, friction=friction,
         friction_std=0.02 * friction, real_area=area, wear_depth=7e-7 * worn * np.ones((3, 3, 1)),
         largest_wear=6e-6 * worn * np.ones((3, 3, 1)),
         normal_stiffness=1e12 * (1 + worn) * np.ones((3, 3, 1)), flash_temperature=5 + 0 * area, shear_limit=13.5e6,
