@@ -50,7 +50,9 @@ class MicroFriction:
     real_area: Array = quantity("1", "pressure speed distance", "real contact area share, perimeter-corrected")
     wear_depth: Array = quantity("m", "pressure speed distance", "approach of both mean planes by wear, at equal load")
     largest_wear: Array = quantity("m", "pressure speed distance", "largest wear of one surface node")
-    normal_stiffness: Array = quantity("Pa/m", "pressure speed distance", "interface stiffness dp/d(approach), bulk removed")
+    normal_stiffness: Array = quantity("Pa/m", "pressure speed distance", "interface stiffness dp/d(approach) without the"
+                                       " uniform compliance of the blocks")
+    block_compliance: Array = quantity("m/Pa", "", "uniform compliance of both blocks, which the stiffness leaves out")
     flash_temperature: Array = quantity("K", "pressure speed distance", "mean flash temperature rise of the contact spots")
     full_slip_distance: Array = quantity("m", "pressure speed distance", "displacement at which every contact node slips")
     shear_limit: Array = quantity("Pa", "", "shear limit at reference speed and temperature")

@@ -35,6 +35,14 @@ def test_friction_is_limit_times_area_over_pressure(result):
     assert result.shear_limit == pytest.approx(0.1 * 234e6 / np.sqrt(3.0), rel=1e-14)
 
 
+@pytest.mark.exact
+def test_block_compliance_is_thickness_over_oedometric_modulus(result):
+    solids = Settings(**TINY)
+    expected = sum(1e-3 * (1 + nu) * (1 - 2 * nu) / (s.youngs_modulus * (1 - nu))
+                   for s in (solids.pad, solids.disc) for nu in [s.poisson_ratio])
+    assert result.block_compliance == pytest.approx(expected, rel=1e-12)
+
+
 def test_running_in(result):
     assert np.all(np.diff(result.friction, axis=2) > 0.0)
     assert np.all(result.wear_depth[:, :, 0] == 0.0) and np.all(np.diff(result.wear_depth, axis=2) > 0.0)
