@@ -1,6 +1,6 @@
 """What the chain leaves out, as far as its products took part in the case."""
 
-from pipeline.views.readable import number, quantity
+from pipeline.views.readable import number, percent, quantity
 
 
 def _bulk(micro):
@@ -13,6 +13,16 @@ def _bulk(micro):
             " brake model deform with their own moduli instead.")
 
 
+def _grid(micro):
+    area = micro.refinement_area
+    if len(area) < 2:
+        return "Grid of the rough pair: this case did not refine it, so the error of friction by the grid is unknown."
+    change = area[-1] / area[-2] - 1.0
+    return (f"Grid of the rough pair: its last refinement {'lowers' if change < 0 else 'raises'} the real contact area"
+            f" by {percent(abs(change), 2)}, and friction, which is proportional to the area, by as much; the standard"
+            " error, from positions of the patches alone, does not hold it.")
+
+
 #: (products that must be there, sentence or the function of these products that writes it)
 LIMITS = (
     (("micro_friction",), "Third body: one shear limit stands for the film between pad and disc. Its growth,"
@@ -22,6 +32,7 @@ LIMITS = (
     (("micro_friction",), "Heat: the flash temperature of the spots may lower the shear limit, but disc and pad do not"
      " warm up, and no material constant changes with temperature or moisture."),
     (("micro_friction",), _bulk),
+    (("micro_friction",), _grid),
     (("structure",), "The real geometry: the paper prints no drawing. Shapes and stiffnesses are inferred or tuned as"
      " their origin says; bolts, bushings, shims, hydraulics, suspension and test bench are springs or left out."),
     (("complex_modes",), "Complex modes are linear: no limit cycle, no amplitude, no dependence on the angle of the"
