@@ -37,19 +37,22 @@ class Surface:
     power_spectrum: Array = quantity("m^4", "body wavenumber", "isotropic (radially averaged) power spectrum")
 
 
-@product(version=1)
+@product(version=2)
 class MicroFriction:
     """Friction, real contact area and wear of the rough pair over pressure, speed and sliding distance."""
 
     pressure: Array = quantity("Pa", "pressure", "nominal contact pressure")
     speed: Array = quantity("m/s", "speed", "sliding speed")
+    disc_speed: Array = quantity("rad/s", "speed", "speed of the disc that slides so at the effective radius")
     distance: Array = quantity("m", "distance", "sliding distance")
     friction: Array = quantity("1", "pressure speed distance", "coefficient of friction, shear over normal force")
     friction_std: Array = quantity("1", "pressure speed distance", "standard error of the friction coefficient")
     real_area: Array = quantity("1", "pressure speed distance", "real contact area share, perimeter-corrected")
     wear_depth: Array = quantity("m", "pressure speed distance", "approach of both mean planes by wear, at equal load")
     largest_wear: Array = quantity("m", "pressure speed distance", "largest wear of one surface node")
-    normal_stiffness: Array = quantity("Pa/m", "pressure speed distance", "interface stiffness dp/d(approach), bulk removed")
+    normal_stiffness: Array = quantity("Pa/m", "pressure speed distance", "interface stiffness dp/d(approach) without the"
+                                       " uniform compliance of the blocks")
+    block_compliance: Array = quantity("m/Pa", "", "uniform compliance of both blocks, which the stiffness leaves out")
     flash_temperature: Array = quantity("K", "pressure speed distance", "mean flash temperature rise of the contact spots")
     full_slip_distance: Array = quantity("m", "pressure speed distance", "displacement at which every contact node slips")
     shear_limit: Array = quantity("Pa", "", "shear limit at reference speed and temperature")

@@ -25,9 +25,10 @@ class Iron(Section):
 
 
 class Lining(Section):
-    """Surface layer of the pad, far softer than its bulk; modulus and wear are tuned to the published contact area."""
+    """Pad on the scale of its roughness; modulus and wear are tuned to the published contact area and approach."""
 
-    youngs_modulus: Quantity("Pa", gt=0) = option("0.235 GPa", "Young's modulus")
+    youngs_modulus: Quantity("Pa", gt=0) = option("0.235 GPa", "effective Young's modulus of the asperities, tuned to"
+                                                  " the real contact area; the bulk of the lining has its own")
     poisson_ratio: float = option(0.25, "Poisson ratio", ge=0, lt=0.5)
     conductivity: Quantity("W/m/K", gt=0) = option("1 W/m/K", "thermal conductivity")
     density: Quantity("kg/m^3", gt=0) = option("2200 kg/m^3", "density")
@@ -38,11 +39,15 @@ class Lining(Section):
 class Settings(Section):
     """Operating points, solids, shear limit and wear of the rough pair."""
 
-    pressures: Quantities("Pa", gt=0) = option(("1 MPa", "2 MPa", "3 MPa"), "nominal contact pressures, rising")
-    disc_speeds: Quantities("rad/s", gt=0) = option(("8.5 rad/s", "10.25 rad/s", "12 rad/s"), "disc speeds, rising")
+    pressures: Quantities("Pa", gt=0) = option(
+        ("0.5 MPa", "1 MPa", "2 MPa", "3 MPa", "6 MPa"),
+        "nominal contact pressures, rising; they span the range that the contact patches reach")
+    disc_speeds: Quantities("rad/s", gt=0) = option(
+        ("6.5 rad/s", "8.5 rad/s", "10.25 rad/s", "12 rad/s", "14.5 rad/s"),
+        "disc speeds, rising; they span the range that the slip of the contact patches reaches")
     effective_radius: Quantity("m", gt=0) = option("128 mm", "radius at which the disc speed is the sliding speed")
     disc: Iron = option(Iron(), "cast iron of the disc")
-    pad: Lining = option(Lining(), "surface layer of the pad")
+    pad: Lining = option(Lining(), "pad on the scale of its roughness")
     disc_strength: Quantity("Pa", gt=0) = option("234 MPa", "sigma_e of the disc in tau_max = factor sigma_e / sqrt(3)")
     third_body_factor: float = option(0.1, "shear strength of the third body over that of the disc", gt=0, le=1)
     rate_coefficient: float = option(0.015, "relative rise of the shear limit per unit of ln(speed)", ge=0)
@@ -69,7 +74,7 @@ def micro_friction(surface: Surface, settings: Settings, context: Context) -> Mi
     {disc_strength} / sqrt(3); Archard wear on both surfaces follows in {cycles} cycles. The coefficient of friction
     is the sum of shear over the sum of normal force, with the real area corrected for its perimeter (Yastrebov et al.
     2017), mean over one pass of the slider and {realisations} relative positions of the patches. Speed enters through a
-    rate term ({rate_coefficient}) and thermal softening ({softening}) of the limit. The modulus of the pad surface,
+    rate term ({rate_coefficient}) and thermal softening ({softening}) of the limit. The modulus of the asperities,
     the third-body factor and the wear coefficients are tuned to the published contact area, friction and approach.
     """
     for name in ("pressures", "disc_speeds"):
@@ -78,16 +83,18 @@ def micro_friction(surface: Surface, settings: Settings, context: Context) -> Mi
     recorded = _recorded_cycles(settings)
     offsets = np.random.default_rng(settings.seed).integers(0, surface.x.size, (settings.realisations, 2))
     offsets[0] = 0
+    pair = _pair(surface, settings, 1.0)
     tasks = [(pressure, offset) for pressure in settings.pressures for offset in offsets]
-    run = partial(_slide, pair=_pair(surface, settings, 1.0), speeds=speeds, recorded=recorded, settings=settings)
+    run = partial(_slide, pair=pair, speeds=speeds, recorded=recorded, settings=settings)
     records = context.map(run, tasks, "sliding of the rough pair")
     middle = settings.pressures[len(settings.pressures) // 2]
     areas = context.map(partial(_area_on_grid, surface=surface, settings=settings, pressure=middle),
                         settings.refinement, "convergence of the contact area")
     shown = records[len(settings.pressures) // 2 * settings.realisations]
     return MicroFriction(
-        pressure=settings.pressures, speed=speeds, distance=np.array(recorded) * _cycle_distance(settings),
-        **_table(records, settings), shear_limit=_shear_limit(settings), x=surface.x, y=surface.y,
+        pressure=settings.pressures, speed=speeds, disc_speed=settings.disc_speeds,
+        distance=np.array(recorded) * _cycle_distance(settings), **_table(records, settings),
+        block_compliance=pair.compliance.normal[0, 0], shear_limit=_shear_limit(settings), x=surface.x, y=surface.y,
         refinement=np.array(settings.refinement) * surface.nodes_per_wavelength[0], refinement_area=areas,
         **{name: getattr(shown, name) for name in
            ("contact_pressure_new", "contact_pressure_worn", "pad_wear", "disc_wear")})

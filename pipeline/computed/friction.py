@@ -1,8 +1,14 @@
 """Friction, real contact area and wear as the paper's section 3.1 states them."""
 
+from dataclasses import fields
+
 import numpy as np
 
 from pipeline.computed import SAME, Ours, correlation, index_of, ours, ratio
+
+#: rows of new surfaces
+_START_ROWS = ("real_area_start", "real_area_rises_with_pressure", "largest_wear_first",
+               "friction_pressure_difference_start", "friction_speed_over_pressure")
 
 #: rows that need a run as long as the paper's
 _RUN_ROWS = ("real_area_growth", "real_area_growth_rises_with_pressure", "wear_depth", "wear_depth_over_pressure",
@@ -12,13 +18,38 @@ _RUN_ROWS = ("real_area_growth", "real_area_growth_rises_with_pressure", "wear_d
 
 
 def friction_rows(micro, known):
-    """Rows of the product MicroFriction at its middle speed; ``known`` = published values in SI by key."""
+    """Rows of the product MicroFriction at its middle speed; ``known`` = published values in SI by key.
+
+    Only pressures and speeds within the paper's range are looked at: the table may reach farther.
+    """
+    settings, micro = _settings(micro), _published_points(micro, known)
+    if not micro.friction.size:
+        note = "no computed point lies within the paper's pressures and speeds"
+        return {**settings, **dict.fromkeys((*_START_ROWS, *_RUN_ROWS), Ours(None, note))}
     end = known.get("distance_last", micro.distance[-1])
     if micro.distance[-1] < end * (1 - SAME):
         note = f"our run ends after {1e3 * micro.distance[-1]:.3g} mm of sliding, the paper's after {1e3 * end:.3g} mm"
-        return {**_settings(micro), **_new_surfaces(micro, known), **dict.fromkeys(_RUN_ROWS, Ours(None, note))}
-    return {**_settings(micro), **_new_surfaces(micro, known), **_area_and_wear(micro, known, end),
+        return {**settings, **_new_surfaces(micro, known), **dict.fromkeys(_RUN_ROWS, Ours(None, note))}
+    return {**settings, **_new_surfaces(micro, known), **_area_and_wear(micro, known, end),
             **_friction(micro, known, end)}
+
+
+def _published_points(micro, known):
+    """The product at its pressures and disc speeds within the paper's range."""
+    axes = {"pressure": micro.pressure, "speed": micro.disc_speed}
+    kept = {name: _within(axis, known.get(f"{name}_lowest", 0.0), known.get(f"{name}_highest", np.inf))
+            for name, axis in axes.items()}
+    values = {field.name: getattr(micro, field.name) for field in fields(micro)}
+    for field in fields(micro):
+        for axis, dimension in enumerate(field.metadata["dims"]):
+            if dimension in kept:
+                values[field.name] = values[field.name].compress(kept[dimension], axis)
+    return type(micro)(**values)
+
+
+def _within(axis, low, high):
+    """Mask of the values from ``low`` to ``high``."""
+    return (axis >= low * (1 - SAME)) & (axis <= high * (1 + SAME))
 
 
 def _settings(micro):
@@ -38,8 +69,8 @@ def _new_surfaces(micro, known):
     return {
         "real_area_start": ours(None if low is None else area[low], "lowest pressure, middle speed, new surfaces"),
         "real_area_rises_with_pressure": ours(_smallest(area[1:] / area[:-1]), "middle speed, new surfaces"),
-        "largest_wear_first": ours(largest, f"largest of all operating points after {1e6 * cycle:.3g} um, the distance"
-                                   " of one of the paper's iterations, by interpolation from new"),
+        "largest_wear_first": ours(largest, f"largest of the paper's operating points after {1e6 * cycle:.3g} um, the"
+                                   " distance of one of the paper's iterations, by interpolation from new"),
         "friction_pressure_difference_start": ours(_spread(friction), "middle speed, new surfaces"),
         "friction_speed_over_pressure": ours(influence, "largest differences, all else equal"),
     }
@@ -57,7 +88,7 @@ def _area_and_wear(micro, known, end):
         "real_area_growth_rises_with_pressure": ours(steeper, f"highest over lowest pressure, {note}"),
         "wear_depth": ours(depth.mean(), f"mean over pressure, {note}"),
         "wear_depth_over_pressure": ours(ratio(_spread(depth), depth.mean()), note),
-        "largest_wear_last": ours(_at(micro, micro.largest_wear, end).max(), "largest of all operating points"),
+        "largest_wear_last": ours(_at(micro, micro.largest_wear, end).max(), "largest of the paper's operating points"),
     }
 
 
@@ -71,8 +102,8 @@ def _friction(micro, known, end):
     influence = ratio(np.ptp(curves, axis=0).max(), np.ptp(curves, axis=1).max())
     return {
         "friction_pressure_difference_end": ours(_spread(curves[-1]), note),
-        "friction_lowest": ours(micro.friction.min(), "smallest of the table"),
-        "friction_highest": ours(micro.friction.max(), "largest of the table"),
+        "friction_lowest": ours(micro.friction.min(), "smallest of the paper's operating points"),
+        "friction_highest": ours(micro.friction.max(), "largest of the paper's operating points"),
         "friction_rises_with_pressure": ours(_smallest(np.diff(curves)), "middle speed, the paper's three distances"),
         "friction_rises_with_distance": ours((curves[-1] - curves[0]).min(), "middle speed, smallest over pressure"),
         "friction_distance_over_pressure": ours(influence, "largest differences, the paper's three distances"),

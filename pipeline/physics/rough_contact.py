@@ -85,7 +85,9 @@ def contact_area(contact):
 def interface_stiffness(gap, compliance, contact, tolerance, max_iterations, step=0.02):
     """dp / d(approach) in Pa/m about a solution: central difference over +-``step`` of the mean pressure.
 
-    The uniform compliance of the blocks (wavenumber 0) is removed: what remains belongs to the rough interface.
+    The uniform compliance of the blocks (wavenumber 0) is removed: what remains belongs to the rough interface. A
+    brake model fills the depth of the blocks with the bulk of pad and disc; the moduli of the blocks are effective
+    values of the asperities and say nothing about that bulk.
     """
     mean = contact.pressure.mean()
     low, high = (solve_normal_contact(gap, compliance, mean * factor, contact.pressure, tolerance, max_iterations)

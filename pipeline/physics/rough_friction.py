@@ -98,9 +98,13 @@ def slide(pair, mean_pressure, speeds, recorded, wearing, shearing, solving):
 
 
 def _measure(worn, pair, mean_pressure, speeds, stroke, shearing, solving):
-    """Figures per speed of one state, mean over the slider's positions, and the contact pressure at the first."""
+    """Figures per speed of one state, mean over the slider's positions, and the contact pressure at the first.
+
+    The interface stiffness is the mean over the first, the middle and the last position.
+    """
     contacts = _pass(worn, pair, mean_pressure, stroke, solving)
-    stiffness = interface_stiffness(worn.gap(0), pair.compliance.normal, contacts[0], **vars(solving))
+    stiffness = np.mean([interface_stiffness(worn.gap(position), pair.compliance.normal, contacts[position],
+                                             **vars(solving)) for position in {0, stroke // 2, stroke}])
     sheared = [[_shear(c.pressure, speed, pair, shearing, solving) for speed in speeds] for c in contacts]
     figures = {name: np.mean([[f[name] for f in row] for row in sheared], axis=0) for name in sheared[0][0]}
     same = {"approach": np.mean([c.approach for c in contacts]), "normal_stiffness": stiffness,

@@ -101,7 +101,8 @@ def test_corrected_area_converges_at_eight_nodes_per_wavelength(rough):
 
 
 @pytest.mark.exact
-def test_interface_stiffness_does_not_know_the_thickness_of_the_blocks(rough):
+def test_interface_stiffness_leaves_out_the_uniform_compliance_of_the_blocks(rough):
+    """Blocks twice as thick give twice the uniform compliance under the same rough interface."""
     stiffness = []
     for thickness in (2.0, 4.0):
         block = layered_compliance((64, 64), (1 / 64, 1 / 64), graded_depth(1 / 64, thickness, 1.3), YOUNG, POISSON)

@@ -23,6 +23,7 @@ def result():
 
 def test_axes_are_sliding_speeds_and_cycle_distances(result):
     np.testing.assert_allclose(result.speed, [8.5 * 0.128, 12 * 0.128])
+    np.testing.assert_array_equal(result.disc_speed, [8.5, 12.0])
     np.testing.assert_allclose(result.distance, [0.0, 2.5e-3, 10e-3])
     assert result.friction.shape == (2, 2, 3)
 
@@ -32,6 +33,14 @@ def test_friction_is_limit_times_area_over_pressure(result):
     expected = result.limit_at_speed * result.real_area / result.pressure[:, None, None]
     np.testing.assert_allclose(result.friction, expected, rtol=1e-4)
     assert result.shear_limit == pytest.approx(0.1 * 234e6 / np.sqrt(3.0), rel=1e-14)
+
+
+@pytest.mark.exact
+def test_block_compliance_is_thickness_over_oedometric_modulus(result):
+    solids = Settings(**TINY)
+    expected = sum(1e-3 * (1 + nu) * (1 - 2 * nu) / (s.youngs_modulus * (1 - nu))
+                   for s in (solids.pad, solids.disc) for nu in [s.poisson_ratio])
+    assert result.block_compliance == pytest.approx(expected, rel=1e-12)
 
 
 def test_running_in(result):

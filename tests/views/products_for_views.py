@@ -64,10 +64,11 @@ def micro_friction(nodes=48):
     field = np.random.default_rng(2).normal(size=(nodes, nodes))
     x = np.linspace(0, 1e-3, nodes)
     return filled(
-        MicroFriction, pressure=PRESSURE, speed=SPEED, distance=distance, friction=friction,
+        MicroFriction, pressure=PRESSURE, speed=SPEED, disc_speed=OMEGA, distance=distance, friction=friction,
         friction_std=0.02 * friction, real_area=area, wear_depth=7e-7 * worn * np.ones((3, 3, 1)),
         largest_wear=6e-6 * worn * np.ones((3, 3, 1)),
         normal_stiffness=1e12 * (1 + worn) * np.ones((3, 3, 1)), flash_temperature=5 + 0 * area, shear_limit=13.5e6,
+        block_compliance=3.5e-12,
         y=x, x=x, contact_pressure_new=np.clip(field - 1.8, 0, None) * 5e7,
         contact_pressure_worn=np.clip(field - 1.5, 0, None) * 4e7, pad_wear=np.clip(field - 1.4, 0, None) * 2e-6,
         disc_wear=np.clip(field - 1.4, 0, None) * 2e-7, refinement=[4.0, 8.0, 16.0],

@@ -71,6 +71,13 @@ def test_limits_follow_the_products():
     assert not any("dB(A)" in text for text in limits({"response": 1}))
 
 
+def test_limits_tell_the_size_of_what_the_interface_leaves_out():
+    """Uniform compliance 3.5 um/MPa against an interface of 2 MPa/um; the last grid lowers the area from 3.1 to 3 %."""
+    told = "\n".join(limits({"micro_friction": small.micro_friction()}))
+    assert "blocks, 3.5 µm/MPa" in told and "keeps 0.5 µm/MPa at 1\u202fMPa and" in told
+    assert "lowers the real contact area by 3.2\u202f%" in told
+
+
 @pytest.mark.exact
 def test_settings_are_written_for_reading():
     assert case_view.written(True, "") == "yes"

@@ -38,16 +38,17 @@ def _spots(product, look, point, new, worn):
 
 def _curves(product):
     first, last = product.real_area[:, :, 0].mean(axis=1), product.real_area[:, :, -1].mean(axis=1)
+    scatter = product.friction_std.max(axis=(1, 2))
     speed = abs(product.friction[:, -1] - product.friction[:, 0]).max()
     return (
         Figure(friction.over_distance(product, "real_area"),
                f"Real contact area grows from {span(100 * first, '1')} % to {span(100 * last, '1')} %"
-               " (lowest to highest pressure)."),
+               f" ({span(product.pressure, 'Pa')})."),
         Figure(friction.over_distance(product, "wear_depth"),
                f"Approach of the two bodies by wear: {span(product.wear_depth[:, :, -1], 'm')} at the end."),
         Figure(friction.over_distance(product, "friction"),
-               "Coefficient of friction over sliding distance; band: standard error, at most"
-               f" {number(product.friction_std.max(), 2)}."),
+               "Coefficient of friction over sliding distance; band: standard error over positions of the patches, at"
+               f" most {number(scatter.max(), 2)}, at {quantity(product.pressure[scatter.argmax()], 'Pa', 3)}."),
         Figure(friction.over_pressure(product),
                "Coefficient of friction over pressure at three sliding distances. Over the speeds computed it changes"
                f" by at most {number(speed, 2)}."),
@@ -58,9 +59,11 @@ def _convergence(product):
     area = product.refinement_area
     if len(area) < 2:
         return ()
-    change = percent(abs(area[-1] / area[-2] - 1), 2)
+    change = abs(area[-1] / area[-2] - 1)
     return (Figure(friction.convergence(product), "Real contact area at the middle pressure when the grid is refined:"
-                   f" the last refinement changes it by {change}; this is the error of the grid."),)
+                   f" the last refinement changes it by {percent(change, 2)}. Friction is proportional to it: the grid"
+                   f" adds an error of up to {number(change * product.friction.max(), 2)} to the standard error of"
+                   " friction."),)
 
 
 def friction_map(product, look):
