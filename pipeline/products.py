@@ -246,13 +246,14 @@ class Response:
     coupling: Array = text("", "how forces enter: assembly or disc")
 
 
-@product(version=1)
+@product(version=2)
 class Squeal:
     """Squeal events at the sensors, and levels per band."""
 
     pressure: Array = quantity("Pa", "operating", "nominal pad pressure")
     speed: Array = quantity("rad/s", "operating", "disc speed")
     sensor_name: Array = text("sensor", "sensor names")
+    coupling: Array = text("", "how forces entered the response: assembly or disc")
     reference: Array = quantity("m/s", "", "reference velocity of the level")
     threshold: Array = quantity("1", "", "level above which a peak is a squeal event, dB")
     peak_level: Array = quantity("1", "operating sensor", "highest level in the squeal band, dB")
