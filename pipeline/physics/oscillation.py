@@ -11,7 +11,7 @@ FRAME_PERIODS, FRAME_OVERLAP = 6, 8
 FEWEST_PERIODS = 6
 #: windows of the envelope whose growth rates are compared
 WINDOWS = 3
-#: share of the largest amplitude below which the begin and the end of an envelope are its floor
+#: share of the largest amplitude below which an envelope is the floor before or after the oscillation
 FLOOR = 0.01
 #: a growth rate has a sign when it exceeds so many standard errors
 DECIDED = 2.0
@@ -61,9 +61,10 @@ def sign_is_decided(rate, deviation):
 
 
 def _heard(envelope):
-    """Frames between the first and the last above the floor; all frames where these are too few for lines."""
-    above = np.flatnonzero(envelope > FLOOR * envelope.max())
-    heard = np.arange(above[0], above[-1] + 1)
+    """Frames around the largest without a break above the floor; all frames where these are too few for lines."""
+    low, largest = np.flatnonzero(envelope < FLOOR * envelope.max()), np.argmax(envelope)
+    begin, end = low[low < largest].max(initial=-1) + 1, low[low > largest].min(initial=envelope.size)
+    heard = np.arange(begin, end)
     return heard if heard.size >= 2 * WINDOWS else np.arange(envelope.size)
 
 

@@ -29,6 +29,12 @@ def test_the_floor_under_a_decayed_oscillation_does_not_count():
     assert fitted == pytest.approx(-150, rel=0.05) and deviation < 0.05 * 150
 
 
+def test_a_floor_that_comes_and_goes_does_not_count():
+    rest = 0.02 * np.sin(2 * np.pi * 800 * TIME) * (TIME > 0.15)
+    fitted, deviation = growth_rate(np.exp(-80 * TIME) * np.sin(2 * np.pi * 800 * TIME) + rest, STEP, 800.0)
+    assert fitted == pytest.approx(-80, rel=0.03) and sign_is_decided(fitted, deviation)
+
+
 @pytest.mark.parametrize("reached", [0.02, 0.06, 0.12])
 def test_growth_that_saturates_is_undecided(reached):
     envelope = 1 / (1 + np.exp(-(TIME - reached) * 400))
