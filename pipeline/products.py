@@ -209,7 +209,7 @@ class ComplexModes:
     corrections: Array = count("", "correction vectors for friction and damping added to the real modes")
 
 
-@product(version=1)
+@product(version=2)
 class Multibody:
     """Motion of the flexible pads on four rigid sub-discs of friction patches, per operating point."""
 
@@ -222,13 +222,16 @@ class Multibody:
     normal_force: Array = quantity("N", "operating contact time", "normal force at each contact point", np.float32)
     friction_force: Array = quantity("N", "operating contact time", "friction force on the pad along sliding", np.float32)
     mean_friction: Array = quantity("1", "operating", "friction over normal force, mean after settling")
-    growth_rate: Array = quantity("1/s", "operating", "growth rate of the pad oscillation, fitted to its envelope")
+    growth_rate: Array = quantity("1/s", "operating", "growth rate of the pad oscillation, fitted to thirds of its envelope")
+    growth_rate_std: Array = quantity("1/s", "operating", "standard error of the growth rate over these thirds")
+    growth_decided: Array = count("operating", "1 where the growth rate exceeds two standard errors: its sign is decided")
     oscillation_frequency: Array = quantity("Hz", "operating", "dominant frequency of the pad oscillation along sliding")
     separated_share: Array = quantity("1", "operating", "share of contact samples without contact")
     outside_map_share: Array = quantity("1", "operating", "share of friction evaluations outside the computed map")
     caliper_factor: Array = quantity("1", "caliper_factor", "factor on the caliper stiffness, stability map")
     abutment_factor: Array = quantity("1", "abutment_factor", "factor on the abutment stiffness, stability map")
     stability: Array = quantity("1/s", "operating caliper_factor abutment_factor", "largest growth rate of the linearised system")
+    stability_root: Array = quantity("Hz", "operating caliper_factor abutment_factor", "frequency of the root that grows so")
 
 
 @product(version=1)
@@ -249,13 +252,14 @@ class Response:
     coupling: Array = text("", "how forces enter: assembly or disc")
 
 
-@product(version=1)
+@product(version=2)
 class Squeal:
     """Squeal events at the sensors, and levels per band."""
 
     pressure: Array = quantity("Pa", "operating", "nominal pad pressure")
     speed: Array = quantity("rad/s", "operating", "disc speed")
     sensor_name: Array = text("sensor", "sensor names")
+    coupling: Array = text("", "how forces entered the response: assembly or disc")
     reference: Array = quantity("m/s", "", "reference velocity of the level")
     threshold: Array = quantity("1", "", "level above which a peak is a squeal event, dB")
     peak_level: Array = quantity("1", "operating sensor", "highest level in the squeal band, dB")

@@ -9,7 +9,7 @@ import numpy as np
 from pipeline.contract import ConfigError, Context, Quantity, Section, option, stage
 from pipeline.physics.force_mapping import circle_table
 from pipeline.physics.mesh import Mesh, boundary_faces
-from pipeline.physics.modal_response import Points, fixed_points, modal_response, undamped_modes
+from pipeline.physics.modal_response import Points, fixed_points, modal_response, sharpened, undamped_modes
 from pipeline.physics.sliding_model import sliding_model
 from pipeline.physics.spectra import power_spectrum
 from pipeline.products import Multibody, ReducedModel, Response, Structure
@@ -22,7 +22,7 @@ class Settings(Section):
     """How the contact forces enter the elastic brake, and which modes answer."""
 
     coupling: Literal["assembly", "disc"] = option(
-        "assembly", "assembly: the whole brake, its contact coupled in normal direction; disc: the disc alone, turning")
+        "disc", "disc: the disc alone, turning; assembly: the whole brake, as in the paper, its contact counted twice")
     forces: Literal["friction", "friction_and_normal"] = option(
         "friction_and_normal", "which contact forces are applied")
     load: Literal["fluctuation", "whole"] = option(
@@ -63,17 +63,20 @@ def response(structure: Structure, model: ReducedModel, multibody: Multibody, se
              context: Context) -> Response:
     """Superpose the modes of the elastic brake under the contact forces.
 
-    With coupling 'assembly' the contact is a spring between pads and disc, as in the paper (section
-    2.1.6), and the pair of normal forces acts on both ends of that spring: most of it is taken up by
-    the spring next to it and never reaches a mode. The paper saw no mode remarkably excited; this is
-    one reason. Along sliding the pads are free in both models, so that they answer a second time, at
-    resonance, to friction that already follows their own motion: a tone at the frequency of the pad
-    oscillation is exaggerated.
+    Coupling 'disc' is the consistent one-way answer: the contact forces were computed on a rigid disc,
+    and load the elastic disc alone, in its own rotating frame, at points that stay in place while it
+    turns (gyroscopic and centrifugal terms are left out: it turns by a hundredth of a radian per radian
+    of its slowest mode).
 
-    'forces: friction' leaves the normal pair out. 'coupling: disc' loads the disc without contact
-    springs, in its own rotating frame, at points that stay in place while it turns (gyroscopic and
-    centrifugal terms are left out there: it turns by a hundredth of a radian per radian of its
-    slowest mode).
+    Coupling 'assembly' is the paper's variant (section 2.1.6): the modes of the whole brake, its contact
+    a spring between pads and disc. It counts the contact twice. The normal forces already contain what
+    that spring does as the pads move, and they load it again; along sliding the pads answer a second
+    time, at resonance, to friction that already follows their own motion. Tones at the frequencies of
+    the pads are exaggerated: at 7 kHz the pair of normal forces adds a tenth to a half to the answer to
+    friction. Without the pads' hold, on the other hand, the disc alone answers several times as much
+    below 1 kHz: only a disc that is elastic in the multi-body simulation itself settles both.
+
+    'forces: friction' leaves the normal pair out.
 
     A load 'fluctuation' is the force less its first sample: the motion about the static equilibrium
     from which the multi-body simulation starts.
@@ -81,7 +84,8 @@ def response(structure: Structure, model: ReducedModel, multibody: Multibody, se
     Method:
     The contact forces of the multi-body simulation ({forces}, {load}) load the real modes of the brake below
     {highest_frequency} (coupling: {coupling}); the modes are superposed by the exact recursion for piecewise-linear
-    forces, with their viscous damping taken diagonal. Spectra are Welch estimates with {resolution} between lines,
+    forces, whose loss of amplitude between samples (sinc^2 of frequency times sampling interval) is divided out, with
+    their viscous damping taken diagonal. Spectra are Welch estimates with {resolution} between lines,
     after {settling}.
     """
     step = _checked_step(multibody.time, settings)
@@ -180,8 +184,8 @@ def _vibrate(task, step, settings):
     """(sensor, time) velocity at one operating point."""
     superposition, components = task
     s, forces = superposition, np.concatenate(components).T.astype(float)
-    velocity = modal_response(s.angular_frequency, s.damping, step, _applied(forces, step, settings), s.force_points,
-                              s.sensor_points, s.turning)[1]
+    velocity = modal_response(s.angular_frequency, s.damping, step, sharpened(_applied(forces, step, settings)),
+                              s.force_points, s.sensor_points, s.turning)[1]
     return velocity.T.astype(np.float32)
 
 

@@ -57,6 +57,7 @@ def squeal(response: Response, settings: Settings, context: Context) -> Squeal:
     peaks = np.array([[peak for peak, _ in sensors] for sensors in found])
     return Squeal(
         pressure=response.pressure, speed=response.speed, sensor_name=response.sensor_name,
+        coupling=response.coupling,
         reference=settings.reference, threshold=detector.threshold,
         peak_level=peaks[..., 0], peak_frequency=peaks[..., 1],
         band=middle, band_level=level(power, settings.reference), **_events(found, response.time[searched][0]))

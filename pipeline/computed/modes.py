@@ -75,11 +75,13 @@ def squeal_rows(squeal, known):
     """Squeal events: their number, their distinct frequencies, and the one nearest each line of the test bench."""
     frequency = np.sort(squeal.event_frequency)
     lines = np.count_nonzero(np.diff(frequency) > _ONE_LINE) + bool(len(frequency))
-    counted = ours(len(frequency), "events at all operating points and sensors; our pressure and speed are constant")
-    rows = {"squeal_lines": ours(lines, f"distinct frequencies, more than {_ONE_LINE:.0f} Hz apart"),
+    heard = f"response of the {'disc alone' if squeal.coupling == 'disc' else 'whole assembly'}"
+    counted = ours(len(frequency), f"events at all operating points and sensors, {heard}; our pressure and speed are"
+                   " constant")
+    rows = {"squeal_lines": ours(lines, f"distinct frequencies, more than {_ONE_LINE:.0f} Hz apart; {heard}"),
             "no_mode_excited": counted, "no_squeal_at_constant_load": counted}
     for key in ("squeal_line_1", "squeal_line_2"):
         if key in known:
             nearest = frequency[np.argmin(np.abs(frequency - known[key]))] if len(frequency) else np.nan
-            rows[key] = ours(nearest, "nearest squeal event", "no squeal event in our response")
+            rows[key] = ours(nearest, f"nearest squeal event, {heard}", f"no squeal event in our {heard}")
     return rows

@@ -37,7 +37,8 @@ def _low_load(multibody, low):
     shared = max(abs(correlation(motion, force)) for motion, force in zip((outer, inner), normal, strict=True))
     return {
         "pads_in_phase": ours(correlation(outer, inner), "correlation over the whole run"),
-        "damped_at_low_load": ours(damping_ratio(multibody, low), "- growth rate over angular frequency"),
+        "damped_at_low_load": ours(damping_ratio(multibody, low) if multibody.growth_decided[low] else None,
+                                   _damping_note(multibody, low), _damping_note(multibody, low)),
         "pads_and_forces_not_correlated": ours(shared, "whole run, the larger of both pads, sum of its patch forces"),
     }
 
@@ -48,7 +49,7 @@ def _high_load(multibody, high):
     map_ = multibody.stability[high]
     influence = ratio(np.ptp(map_[:, abutment]), np.ptp(map_[caliper]))
     return {
-        "critically_stable_at_high_load": ours(damping_ratio(multibody, high), "- growth rate over angular frequency"),
+        "critically_stable_at_high_load": ours(damping_ratio(multibody, high), _damping_note(multibody, high)),
         "caliper_decides": ours(influence, "linearised at the highest pressure and speed, over the factors"
                                 f" {multibody.caliper_factor.min():g} to {multibody.caliper_factor.max():g}"),
     }
@@ -89,6 +90,13 @@ def _patches(multibody):
 def damping_ratio(multibody, operating):
     """Damping ratio of the pad oscillation, negative when it grows; nan where nothing oscillates."""
     return ratio(-multibody.growth_rate[operating], _TWO_PI * multibody.oscillation_frequency[operating])
+
+
+def _damping_note(multibody, operating):
+    """How the damping ratio was formed, its standard error, and whether its sign is decided."""
+    rate, deviation = multibody.growth_rate[operating], multibody.growth_rate_std[operating]
+    decided = "" if multibody.growth_decided[operating] else ": sign undecided"
+    return f"- growth rate over angular frequency; growth rate {rate:.3g} +- {deviation:.2g} 1/s{decided}"
 
 
 def _amplitude(multibody, operating):

@@ -3,13 +3,14 @@
 Each mode obeys q'' + c q' + omega^2 q = sum of (participation of point i) * (force at point i),
 with the forces linear between samples. The step from sample to sample is then exact
 (Nigam & Jennings 1969): no period error, whatever the step, while a trapezoidal step of 5 us
-shifts 16.6 kHz by -2.2 %.
+shifts 16.6 kHz by -2.2 %. Forces that were sampled from a smooth signal are to be ``sharpened`` first.
 """
 
 from dataclasses import dataclass
 
 import numpy as np
 from numba import njit
+from scipy.fft import irfft, rfft, rfftfreq
 from scipy.linalg import eigh, expm
 
 from pipeline.contract.errors import ConfigError
@@ -81,6 +82,20 @@ def modal_response(angular_frequency, damping, time_step, forces, force_points, 
     displacement, velocity = np.zeros(shape), np.zeros(shape)
     _march(matrices, forces, _rows(force_points), _rows(sensor_points), -turning * time_step, displacement, velocity)
     return displacement, velocity
+
+
+def sharpened(samples, axis=0):
+    """Samples whose straight-line interpolation has the amplitudes of the sampled signal.
+
+    Straight lines through samples of a tone at frequency f, dt apart, weaken it by sinc^2(f dt) (0.8 dB at f dt = 1/6,
+    7.9 dB at the limit 1/2). Every line of the spectrum is divided by it, after the straight line from the first to the
+    last sample, which nothing weakens, has been taken out. What straight lines add above 1 / (2 dt), images at
+    1 / dt - f, remains: it meets no mode below 1 / (2 dt).
+    """
+    samples = np.moveaxis(np.asarray(samples, dtype=float), axis, -1)
+    trend = samples[..., :1] + (samples[..., -1:] - samples[..., :1]) * np.linspace(0, 1, samples.shape[-1])
+    lines = rfft(samples - trend, axis=-1) / np.sinc(rfftfreq(samples.shape[-1]))**2
+    return np.moveaxis(trend + irfft(lines, samples.shape[-1], axis=-1), -1, axis)
 
 
 def step_matrices(angular_frequency, damping, step):

@@ -12,6 +12,8 @@ from pipeline.physics.patch_contact import SUB_DISCS, PatchContact, contact_forc
 STATIC_ITERATIONS = 100
 STATIC_TOLERANCE = 1e-12
 STATIC_HALVINGS = 20
+#: patches whose radii and heights differ by less than this share of the radius lie on one circle
+SAME_CIRCLE = 1e-6
 
 
 class PadSystem(NamedTuple):
@@ -39,7 +41,7 @@ def pad_system(sliding, input_force, closure, pressure, friction, bedding, beddi
         rows=np.array([contacts.normal, contacts.tangent, contacts.lateral]),
         opening=np.zeros(len(contacts.area)), area=contacts.area, radius=contacts.lever,
         angle=np.arctan2(contacts.position[:, 1], contacts.position[:, 0]),
-        half_angle=np.sqrt(contacts.area) / (2 * contacts.lever), closure=closure, pressure=pressure,
+        half_angle=half_angles(contacts.position, contacts.area), closure=closure, pressure=pressure,
         friction_pressure=friction.pressure, friction_speed=friction.speed, friction_distance=friction.distance,
         friction=friction.friction, bedding=np.array(bedding),
         bedding_speed=bedding_share * sliding.speed * np.mean(contacts.lever), disc_speed=float(sliding.speed),
@@ -47,6 +49,21 @@ def pad_system(sliding, input_force, closure, pressure, friction, bedding, beddi
         damping_speed=float(damping_speed))
     arrays = {name: np.array(value) for name, value in contact._asdict().items() if isinstance(value, np.ndarray)}
     return PadSystem(mass, damping, stiffness, input_force @ sliding.input_rows, contact._replace(**arrays))
+
+
+def half_angles(position, area):
+    """(c,) half of the angle in rad that each patch spans: patches on one circle meet halfway, without overlap.
+
+    ``position`` (c, 3) m: centroids, the disc turning about z; ``area`` (c,) m^2: a patch alone on its circle
+    (radius and height, so that the pads are apart) counts as square.
+    """
+    radius, angle = np.hypot(position[:, 0], position[:, 1]), np.arctan2(position[:, 1], position[:, 0])
+    circle = np.column_stack([radius, position[:, 2]])
+    apart = np.abs(np.angle(np.exp(1j * (angle[:, None] - angle))))
+    apart[np.linalg.norm(circle[:, None] - circle, axis=2) > SAME_CIRCLE * radius] = np.inf
+    np.fill_diagonal(apart, np.inf)
+    nearest = apart.min(axis=1)
+    return np.where(np.isfinite(nearest), nearest / 2, np.sqrt(area) / (2 * radius))
 
 
 def _check(closure, pressure, bedding, sectors):

@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from pipeline.contract.errors import ConfigError
 from pipeline.physics.pad_system import linearised, sliding_state, static_start
 from pipeline.physics.patch_contact import SUB_DISCS
 from pipeline.physics.preloaded_modes import preloaded_modes
@@ -32,6 +33,19 @@ def on_average(system):
 
 
 def stability_map(build, caliper_factors, abutment_factors, highest_frequency=np.inf, correction_damping=0.3):
-    """(caliper, abutment) largest growth rate in 1/s; ``build(caliper factor, abutment factor)`` is the PadSystem."""
-    return np.array([[sliding_roots(build(caliper, abutment), highest_frequency, correction_damping).real.max()
-                      for abutment in abutment_factors] for caliper in caliper_factors])
+    """(largest growth rate in 1/s, frequency of its root in Hz), both (caliper, abutment).
+
+    ``build(caliper factor, abutment factor)`` is the PadSystem. Roots beyond ``highest_frequency`` (Hz) belong to the
+    static answers, whose frequencies mean nothing, and do not count. Raises ConfigError where no root is left.
+    """
+    fastest = np.array([[_fastest(sliding_roots(build(caliper, abutment), highest_frequency, correction_damping),
+                                  highest_frequency) for abutment in abutment_factors] for caliper in caliper_factors])
+    return fastest.real, fastest.imag / (2 * np.pi)
+
+
+def _fastest(roots, highest_frequency):
+    meant = roots[np.abs(roots) < 2 * np.pi * highest_frequency]
+    if not meant.size:
+        raise ConfigError("stability map: highest frequency", f"above {np.abs(roots).min() / (2 * np.pi):.4g} Hz,"
+                          " the lowest root", f"{highest_frequency:g} Hz")
+    return meant[np.argmax(meant.real)]

@@ -53,9 +53,10 @@ def patch_forces(multibody, operating, pad, dpi):
 
 
 def growth(multibody, dpi):
-    """PNG of the fitted growth rate of the pad oscillation at each operating point, with its frequency."""
-    texts = [f"{number(g, 3)} 1/s\n{number(f, 3)} Hz" for g, f in zip(
-        multibody.growth_rate, multibody.oscillation_frequency, strict=True)]
+    """PNG of the growth rate of the pad oscillation at each operating point, with its standard error and frequency."""
+    texts = [f"{number(g, 3)} ± {number(s, 2)} 1/s\n{number(f, 3)} Hz" + ("" if sure else "\nundecided")
+             for g, s, sure, f in zip(multibody.growth_rate, multibody.growth_rate_std, multibody.growth_decided,
+                                      multibody.oscillation_frequency, strict=True)]
     with drawing(3.0, bar=True) as figure:
         tiles(figure.subplots(), multibody.pressure, multibody.speed, multibody.growth_rate, texts,
               "growth rate / 1/s", **symmetric(multibody.growth_rate))

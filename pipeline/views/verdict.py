@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from pipeline.views.agreement import judged
-from pipeline.views.chapters.motion import extremes, point
+from pipeline.views.chapters.motion import extremes, point, rate_in_words
 from pipeline.views.chapters.stability import distinct_unstable
 from pipeline.views.readable import number, percent, plural, quantity, span
 
@@ -132,7 +132,7 @@ def _modes(product):
 
 def _motion(product):
     high = extremes(product)[1]
-    return "pad growth rate, highest load", (f"{quantity(product.growth_rate[high], '1/s', 3)} at"
+    return "pad growth rate, highest load", (f"{rate_in_words(product, high)} at"
                                              f" {quantity(product.oscillation_frequency[high], 'Hz', 3)}")
 
 

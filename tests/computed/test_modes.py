@@ -56,10 +56,10 @@ def test_nearest_complex_mode_with_its_neighbours():
     assert rows["complex_mode_at_line_2"].value is None
 
 
-def squealing(frequency):
+def squealing(frequency, coupling="assembly"):
     events = {f"event_{name}": np.zeros(len(frequency), int) for name in ("operating", "sensor")}
     more = {f"event_{name}": np.zeros(len(frequency)) for name in ("level", "start", "duration")}
-    return filled(Squeal, event_frequency=frequency, **events, **more)
+    return filled(Squeal, event_frequency=frequency, coupling=coupling, **events, **more)
 
 
 def test_squeal_lines():
@@ -67,5 +67,7 @@ def test_squeal_lines():
     rows = squeal_rows(squealing([16620.0, 3000.0, 16580.0]), known)
     assert (rows["squeal_lines"].value, rows["no_mode_excited"].value) == (2, 3)
     assert rows["squeal_line_1"].value in (16580.0, 16620.0)
+    assert all(row.note.count("response of the whole assembly") == 1 for row in rows.values())
+    assert "disc alone" in squeal_rows(squealing([3000.0], coupling="disc"), known)["squeal_lines"].note
     quiet = squeal_rows(squealing([]), known)
     assert (quiet["squeal_lines"].value, quiet["squeal_line_2"].value) == (0, None)

@@ -22,7 +22,8 @@ def motion(**given):
     factors = np.array([0.5, 1.0, 2.0])
     stability = 6 * factors[:, None] + 2 * factors + np.zeros((4, 1, 1))
     values = {"pressure": PRESSURE, "speed": SPEED, "time": TIME, "pad_motion": pads, "patch_force": force,
-              "growth_rate": GROWTH, "oscillation_frequency": np.full(4, FREQUENCY), "caliper_factor": factors,
+              "growth_rate": GROWTH, "growth_rate_std": np.ones(4), "growth_decided": [1, 1, 1, 0],
+              "oscillation_frequency": np.full(4, FREQUENCY), "caliper_factor": factors,
               "abutment_factor": factors, "stability": stability}
     return filled(Multibody, **{**values, **given})
 
@@ -50,6 +51,13 @@ def test_rows_of_operating_points_that_were_not_run_are_left_out():
     rows = motion_rows(motion(pressure=np.repeat([1.5e6, 3e6], 2)), KNOWN)
     assert "damped_at_low_load" not in rows and "amplitude_rises_with_pressure" not in rows
     assert "critically_stable_at_high_load" in rows
+
+
+def test_a_growth_rate_within_two_standard_errors_has_no_sign():
+    rows = motion_rows(motion(growth_rate_std=np.full(4, 6.0), growth_decided=[0, 0, 1, 0]), KNOWN)
+    assert rows["damped_at_low_load"].value is None
+    assert rows["damped_at_low_load"].note.endswith("growth rate -10 +- 6 1/s: sign undecided")
+    assert rows["critically_stable_at_high_load"].note.endswith("growth rate 0 +- 6 1/s: sign undecided")
 
 
 def test_nothing_moves():

@@ -5,7 +5,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from pipeline.contract.errors import ConfigError
-from pipeline.physics.modal_response import Points, fixed_points, modal_response, undamped_modes
+from pipeline.physics.modal_response import Points, fixed_points, modal_response, sharpened, undamped_modes
 
 STEP, SAMPLES = 1e-3, 400
 TIME = STEP * np.arange(SAMPLES)
@@ -88,6 +88,27 @@ def test_sine_force_converges_with_the_square_of_its_sampling():
         errors.append(np.abs(found - exact).max())
     orders = np.log2(np.divide(errors[:-1], errors[1:]))
     np.testing.assert_allclose(orders, 2, atol=0.1)
+
+
+@pytest.mark.exact
+def test_sharpened_samples_keep_the_amplitude_of_a_sine_near_the_limit():
+    """A sine at 0.8 of 0.4 samples per period drives a mode beside it: steady amplitude of the continuous sine."""
+    cycles, mode, damping = 0.8 * 0.4, 2 * np.pi * 0.3 / STEP, 0.06 * 2 * np.pi * 0.3 / STEP
+    drive = 2 * np.pi * cycles / STEP
+    exact = drive / abs(mode**2 - drive**2 + 1j * damping * drive)
+    force = np.sin(2 * np.pi * cycles * np.arange(2000))
+    late = slice(500, 1500)                          # 320 whole periods
+    tone = np.exp(-2j * np.pi * cycles * np.arange(1000)) / 500
+    found, weakened = (abs(one_mode(f, mode, damping)[1][late] @ tone) for f in (sharpened(force), force))
+    assert found == pytest.approx(exact, rel=0.02)
+    assert weakened / found == pytest.approx(np.sinc(cycles)**2, rel=0.01)
+
+
+@pytest.mark.exact
+def test_constant_and_linear_samples_are_sharp():
+    samples = np.column_stack([np.full(101, 3.0), np.linspace(-1, 5, 101)])
+    np.testing.assert_allclose(sharpened(samples), samples, atol=1e-13)
+    np.testing.assert_allclose(sharpened(samples.T, axis=1), samples.T, atol=1e-13)
 
 
 @pytest.mark.exact

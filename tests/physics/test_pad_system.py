@@ -6,12 +6,13 @@ import pytest
 from pipeline.contract.errors import ConfigError, ConvergenceError
 from pipeline.physics.friction_law import FrictionLaw
 from pipeline.physics.pad_system import (
+    half_angles,
     linearised,
     pad_system,
     sliding_state,
     static_start,
 )
-from pipeline.physics.patch_contact import contact_state
+from pipeline.physics.patch_contact import contact_state, patch_shares
 from tests.physics.small_pads import block_on_belt, flutter, random_assembly
 
 
@@ -46,6 +47,34 @@ def test_linearised_stiffness_is_the_closed_form_of_flutter():
     stiffness, damping = linearised(system, sliding_state(system, static_start(system)))
     np.testing.assert_allclose(stiffness, [[k11, k12 - mu * k_friction], [k12, k22]], rtol=1e-9)
     np.testing.assert_allclose(damping, 0, atol=1e-12)
+
+
+def pad_of_patches(along, across, height=0.003):
+    """Centroids and areas of the annular-sector patches of one pad, which spans 0.87 rad from 95 to 150 mm."""
+    edge, rim = np.linspace(-0.435, 0.435, along + 1), np.linspace(0.095, 0.15, across + 1)
+    angle, radius = np.meshgrid((edge[1:] + edge[:-1]) / 2, (rim[1:] + rim[:-1]) / 2, indexing="ij")
+    area = np.tile((edge[1] - edge[0]) / 2 * (rim[1:]**2 - rim[:-1]**2), along)
+    centre = np.column_stack([(radius * np.cos(angle)).ravel(), (radius * np.sin(angle)).ravel(),
+                              np.full(area.size, height)])
+    return centre, area, angle.ravel()
+
+
+@pytest.mark.exact
+def test_patches_of_a_pad_meet_without_gap_or_overlap():
+    """Partition of unity: on each circle the patches together carry each sub-disc by the share of the whole pad."""
+    (centre, area, angle), (other, _, _) = pad_of_patches(6, 3), pad_of_patches(6, 3, -0.003)
+    half = half_angles(np.vstack([centre, other]), np.tile(area, 2))
+    np.testing.assert_allclose(half, 0.435 / 6, rtol=1e-12)
+    for turned in np.linspace(0, 1.6, 23):
+        patches = patch_shares(angle, half[:18], turned, 16).reshape(6, 3, 4).mean(axis=0)
+        whole = patch_shares(np.zeros(3), np.full(3, 0.435), turned, 16)
+        np.testing.assert_allclose(patches, whole, atol=1e-12)
+
+
+@pytest.mark.exact
+def test_a_patch_alone_on_its_circle_is_square():
+    np.testing.assert_allclose(half_angles(np.array([[0.0, 0.1, 0.0], [0.12, 0.0, 0.0]]), np.array([4e-4, 9e-4])),
+                               [0.1, 0.125], rtol=1e-12)
 
 
 def test_an_assembly_that_nothing_holds_does_not_pass():

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from pipeline.contract.errors import ConfigError
 from pipeline.physics.closed_form.two_mode_flutter import onset_friction, roots_over_friction
 from pipeline.physics.newmark import integrate
 from pipeline.physics.oscillation import dominant_frequency, growth_rate
@@ -33,7 +34,7 @@ def test_the_transient_grows_with_the_linearised_rate():
     _, moved, _ = integrate(system, disturbed, 2e-6, 25000)
     signal = moved[:, 0]
     assert dominant_frequency(signal, 2e-6) == pytest.approx(root.imag / (2 * np.pi), rel=5e-3)
-    assert growth_rate(signal, 2e-6, root.imag / (2 * np.pi)) == pytest.approx(root.real, rel=1e-2)
+    assert growth_rate(signal, 2e-6, root.imag / (2 * np.pi))[0] == pytest.approx(root.real, rel=1e-2)
 
 
 @pytest.mark.exact
@@ -41,11 +42,28 @@ def test_the_map_holds_the_largest_rate_of_each_stiffness():
     def build(caliper, abutment):
         return flutter(MODES["k11"] * abutment, MODES["k22"] * caliper, MODES["k12"], MODES["k_friction"], 0.6)
 
-    found = stability_map(build, (0.8, 1.0), (0.9, 1.0, 1.3))
-    expected = [[roots_over_friction(MODES["k11"] * a, MODES["k22"] * c, MODES["k12"], MODES["k_friction"],
-                                     0.6).real.max() for a in (0.9, 1.0, 1.3)] for c in (0.8, 1.0)]
-    np.testing.assert_allclose(found, expected, atol=1e-4)
+    found, frequency = stability_map(build, (0.8, 1.0), (0.9, 1.0, 1.3))
+    roots = np.array([[roots_over_friction(MODES["k11"] * a, MODES["k22"] * c, MODES["k12"], MODES["k_friction"], 0.6)
+                       for a in (0.9, 1.0, 1.3)] for c in (0.8, 1.0)])
+    np.testing.assert_allclose(found, roots.real.max(axis=2), atol=1e-4)
     assert found.max() > 10 and found.min() < 1e-3
+    growing, nearest = found > 10, np.abs(roots.imag / (2 * np.pi) - frequency[..., None]).min(axis=2)
+    np.testing.assert_allclose(nearest, 0, atol=1e-4)
+    winner = np.take_along_axis(roots, roots.real.argmax(axis=2)[..., None], axis=2)[..., 0]
+    np.testing.assert_allclose(frequency[growing], np.abs(winner.imag[growing]) / (2 * np.pi), atol=1e-4)
+
+
+@pytest.mark.exact
+def test_roots_beyond_the_highest_frequency_do_not_count():
+    def build(caliper, abutment):
+        return random_assembly(size=40, count=6)
+
+    everything = sliding_roots(build(1, 1), 4e3, 1e-6)
+    rate, frequency = (value.item() for value in stability_map(build, (1.0,), (1.0,), 4e3, 1e-6))
+    assert rate == everything[np.abs(everything) < 2 * np.pi * 4e3].real.max()
+    assert frequency < 4e3 and np.abs(everything).max() > 2 * np.pi * 4e3
+    with pytest.raises(ConfigError, match="the lowest root"):
+        stability_map(build, (1.0,), (1.0,), 1.0)
 
 
 @pytest.mark.exact

@@ -24,8 +24,10 @@ def outcome():
 def test_every_operating_point_and_pad_is_there(outcome):
     assert outcome.pressure.tolist() == [1e6, 3e6] and outcome.speed.tolist() == [8.5, 8.5]
     assert outcome.pad_name.tolist() == ["outer", "inner"]
-    assert outcome.pad_motion.shape == (2, 2, 3, 1001) and outcome.patch_force.shape == (2, 2, 4, 1001)
+    assert outcome.pad_motion.shape == (2, 2, 3, 2001) and outcome.patch_force.shape == (2, 2, 4, 2001)
     assert outcome.time[-1] == pytest.approx(0.02) and outcome.stability.shape == (2, 2, 3)
+    assert outcome.stability_root.shape == (2, 2, 3) and (outcome.stability_root < 10e3).all()
+    assert (outcome.growth_rate_std >= 0).all() and set(outcome.growth_decided) <= {0, 1}
 
 
 @pytest.mark.exact
@@ -81,6 +83,7 @@ def test_caliper_and_abutment_count(outcome):
 @pytest.mark.parametrize(("changed", "message"), [
     ({"sectors": 18}, "multiple of 4"), ({"bedding": ("1 mm",)}, "one per sub-disc"),
     ({"duration": "4 ms"}, "periods of the lowest"),
+    ({"step": "6 us"}, "highest frequency turns by 0.4 rad"),
 ])
 def test_wrong_settings_are_refused(changed, message):
     with pytest.raises(ConfigError, match=message):

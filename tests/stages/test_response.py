@@ -44,7 +44,7 @@ def sensors(names):
 def respond(normal, friction, structure=None, **settings):
     multibody = motion(np.atleast_2d(normal), np.atleast_2d(friction))
     return response(structure or sensors(["disc", "pad"]), brake(), multibody,
-                    settings=Settings.model_validate({**QUICK, **settings}))
+                    settings=Settings.model_validate({**QUICK, "coupling": "assembly", **settings}))
 
 
 def test_against_the_equations_of_motion():
@@ -102,10 +102,11 @@ def test_settings_that_do_not_fit_the_signals(settings, said):
 def test_pressure_without_preload():
     multibody = motion(TIME[None], TIME[None], pressure=np.array([2e6]), speed=(8.5,))
     with pytest.raises(ConfigError, match="preload"):
-        response(sensors(["disc", "pad"]), brake(), multibody, settings=Settings.model_validate(QUICK))
+        response(sensors(["disc", "pad"]), brake(), multibody,
+                 settings=Settings.model_validate({**QUICK, "coupling": "assembly"}))
 
 
-def ring_structure(shapes, contact_angles=(0.3, 0.3), sides=(1, 2)):
+def ring_structure(shapes, contact_angles=(0.3, 0.3), sides=(1, 2), place=0.3):
     """A ring with given axial shapes of the angle; contacts outer and inner; a sensor on the disc, one elsewhere."""
     mesh = revolve(np.linspace(0.08, 0.15, 4), np.linspace(0, 2 * np.pi, 37), np.array([-0.004, 0.004]))
     shape = np.zeros((len(shapes), len(mesh.node), 3))
@@ -115,14 +116,14 @@ def ring_structure(shapes, contact_angles=(0.3, 0.3), sides=(1, 2)):
     rows = filled(Incidence, rows=2, row=[0, 1], body=[0, 1], node=[0, 0], axis=[2, 2], weight=[1.0, 1.0])
     position = [[0.12 * np.cos(a), 0.12 * np.sin(a), 0.004 if s == 1 else -0.004]
                 for a, s in zip(contact_angles, sides, strict=True)]
-    seen = [0.14 * np.cos(0.3), 0.14 * np.sin(0.3), 0.004]
+    seen = [0.14 * np.cos(place), 0.14 * np.sin(place), 0.004]
     return filled(Structure, body_name=["disc", "pad_outer", "pad_inner", "caliper"], disc=disc,
                   contact_pad=list(sides), contact_position=position, sensor_name=["disc_face", "pad"],
                   sensor_position=[seen, seen], sensor_direction=[[0, 0, 1.0]] * 2, sensor_rows=rows)
 
 
-def turn(structure, normal, **settings):
-    multibody = motion(normal, 0 * normal, speed=(0.0, 12.0))
+def turn(structure, normal, speed=(0.0, 12.0), **settings):
+    multibody = motion(normal, 0 * normal, speed=speed)
     chosen = Settings.model_validate({**QUICK, "coupling": "disc", "load": "whole", "ramp": "1 ms", **settings})
     return response(structure, brake(), multibody, settings=chosen)
 
@@ -144,6 +145,31 @@ def test_turning_is_seen_by_shapes_that_vary_around_only():
     np.testing.assert_allclose(even[1], even[0], atol=1e-6 * np.abs(even).max())
     waves = turn(ring_structure([lambda a: np.cos(3 * a), lambda a: np.sin(3 * a)]), force).velocity
     assert np.abs(waves[1] - waves[0]).max() > 0.01 * np.abs(waves[0]).max()
+
+
+def three_diameters(speed, drive, place):
+    """Velocity at the angle ``place`` of a ring that turns at ``speed``, with shapes cos 3a and sin 3a and a force
+    -sin(drive t) at the angle 0.3: the pair of modes is one complex oscillator, driven at drive -+ 3 speed."""
+    omega, loss, motion = 2 * np.pi * 500.0, 0.02 * 2 * np.pi * 500.0, 0
+    slow, fast = np.roots([1, loss, omega**2])
+    for sign in (1, -1):
+        pace = 1j * (sign * drive - 3 * speed)
+        size = -sign / 2j * np.exp(0.9j) / (pace**2 + loss * pace + omega**2)
+        first, second = np.linalg.solve([[1, 1], [slow, fast]], [-size, -size * pace])
+        motion = motion + size * pace * np.exp(pace * TIME) + sum(
+            part * root * np.exp(root * TIME) for part, root in ((first, slow), (second, fast)))
+    return (np.exp(-3j * (place - speed * TIME)) * motion).real
+
+
+@pytest.mark.exact
+def test_the_disc_turns_forwards_under_points_at_rest():
+    structure = ring_structure([lambda a: np.cos(3 * a), lambda a: np.sin(3 * a)], place=0.5)
+    force = np.stack([np.sin(3000 * TIME), 0 * TIME])
+    found = turn(structure, force, speed=(40.0, -40.0), load="fluctuation").velocity[:, 0]
+    forwards, backwards = (three_diameters(speed, 3000.0, 0.5) for speed in (40.0, -40.0))
+    size = np.abs(forwards).max()
+    np.testing.assert_allclose(found, [forwards, backwards], atol=0.02 * size)
+    assert np.abs(forwards - backwards).max() > 0.2 * size
 
 
 def test_disc_without_a_sensor_is_refused():

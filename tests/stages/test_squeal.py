@@ -17,8 +17,9 @@ def find(velocity, **settings):
     """Squeal of one operating point with the sensors ``velocity`` (sensor, time)."""
     velocity = np.asarray(velocity, dtype=np.float32)[None]
     frequency, spectrum = power_spectrum(velocity.astype(float), RATE, 50.0)
-    found = filled(Response, pressure=[1e6], speed=[8.5], time=TIME, velocity=velocity, frequency=frequency,
-                   sensor_name=[str(s) for s in range(velocity.shape[1])], velocity_spectrum=spectrum)
+    found = filled(Response, pressure=[1e6], speed=[8.5], coupling="disc", time=TIME, velocity=velocity,
+                   frequency=frequency, velocity_spectrum=spectrum,
+                   sensor_name=[str(s) for s in range(velocity.shape[1])])
     return squeal(found, settings=Settings.model_validate({"settling": "20 ms", **settings}))
 
 
@@ -29,7 +30,7 @@ def tone(frequency, root_mean_square, start=0.0):
 def test_tones_at_two_sensors():
     found = find([tone(16600, 2e-3), tone(4000, 1e-5) + tone(9000, 5e-3, 0.1)])
     assert found.threshold == pytest.approx(20 * np.log10(0.7e-3 / 1e-9))
-    assert list(found.event_sensor) == [0, 1]
+    assert list(found.event_sensor) == [0, 1] and found.coupling == "disc"
     np.testing.assert_allclose(found.event_frequency, [16600, 9000], atol=5)
     np.testing.assert_allclose(found.event_level, 20 * np.log10([2e6, 5e6]), atol=0.1)
     np.testing.assert_allclose(found.event_start, [0.02, 0.1], atol=0.006)

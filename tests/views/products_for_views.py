@@ -147,8 +147,10 @@ def multibody(samples=3000):
         Multibody, pressure=OPERATING_PRESSURE, speed=OPERATING_SPEED, time=time,
         pad_name=["outer", "inner"], pad_motion=motion, patch_force=force, normal_force=contact,
         friction_force=contact, mean_friction=np.linspace(0.41, 0.5, 9),
-        growth_rate=rate, oscillation_frequency=np.full(9, 180.0), separated_share=np.zeros(9),
-        outside_map_share=np.full(9, 0.01), caliper_factor=factors, abutment_factor=factors, stability=stability)
+        growth_rate=rate, growth_rate_std=np.full(9, 3.0), growth_decided=np.abs(rate) >= 6.0,
+        oscillation_frequency=np.full(9, 180.0), separated_share=np.zeros(9),
+        outside_map_share=np.full(9, 0.01), caliper_factor=factors, abutment_factor=factors, stability=stability,
+        stability_root=np.full(stability.shape, 812.0))
 
 
 def response(samples=2000):

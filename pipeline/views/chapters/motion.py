@@ -10,7 +10,8 @@ from pipeline.views.readable import THIN, number, percent, quantity, span
 def chapter(multibody, look):
     """Chapter of the product Multibody."""
     low, high = extremes(multibody)
-    growing = int((multibody.growth_rate > 0).sum())
+    decided = multibody.growth_decided > 0
+    growing, points = int((decided & (multibody.growth_rate > 0)).sum()), len(decided)
     figures = [_motion(multibody, low, look), _motion(multibody, high, look), _forces(multibody, low, look),
                _forces(multibody, high, look),
                Figure(pictures.growth(multibody, look.dpi), "Growth rate fitted to the envelope of the pad oscillation"
@@ -21,11 +22,13 @@ def chapter(multibody, look):
         "Flexible pads on a disc made of four rigid sub-discs of friction patches; each patch takes its friction from"
         f" the map. {len(multibody.pressure)} operating points, {quantity(multibody.time[-1], 's', 3)} each; shown are"
         " the lowest and the highest load, as in Figures 13 to 16 of the paper.",
-        f"The oscillation is damped at {len(multibody.growth_rate) - growing} and growing at {growing} of"
-        f" {len(multibody.growth_rate)} operating points. The mean friction was {span(multibody.mean_friction, '1')};"
+        f"The oscillation is damped at {decided.sum() - growing}, growing at {growing} and undecided (within two"
+        f" standard errors of zero) at {points - decided.sum()} of {points} operating points."
+        f" The mean friction was {span(multibody.mean_friction, '1')};"
         f" contact was lost for {span(100 * multibody.separated_share, '1', 2)} % of the samples, and"
         f" {span(100 * multibody.outside_map_share, '1', 2)} % of the friction evaluations fell outside the computed"
-        " map. How firmly the caliper and the abutments hold the pads decides the result: see the stability map.",
+        " map. How firmly the caliper and the abutments hold the pads decides the result: see the stability map,"
+        f" whose fastest roots lie at {span(multibody.stability_root, 'Hz')}.",
         tuple(figures))
 
 
@@ -40,12 +43,19 @@ def point(product, operating):
     return f"{quantity(product.pressure[operating], 'Pa', 3)}, {quantity(product.speed[operating], 'rad/s')}"
 
 
+def rate_in_words(multibody, operating):
+    """'grows with 8 ± 2 1/s', or 'undecided, 3 ± 4 1/s'."""
+    rate, deviation = multibody.growth_rate[operating], multibody.growth_rate_std[operating]
+    if not multibody.growth_decided[operating]:
+        return f"undecided, {number(rate, 3)} ± {quantity(deviation, '1/s', 2)}"
+    return f"{'grows' if rate > 0 else 'decays'} with {number(abs(rate), 3)} ± {quantity(deviation, '1/s', 2)}"
+
+
 def _motion(multibody, operating, look):
-    rate = multibody.growth_rate[operating]
     second = multibody.pad_motion[operating, :, 0, len(multibody.time) // 2:]
     return Figure(pictures.pad_motion(multibody, operating, look.dpi),
-                  f"Pads along sliding at {point(multibody, operating)}: {'grows' if rate > 0 else 'decays'} with"
-                  f" {quantity(abs(rate), '1/s', 3)} at {quantity(multibody.oscillation_frequency[operating], 'Hz')};"
+                  f"Pads along sliding at {point(multibody, operating)}: {rate_in_words(multibody, operating)} at"
+                  f" {quantity(multibody.oscillation_frequency[operating], 'Hz')};"
                   f" {quantity(np.ptp(second, axis=1).max(), 'm', 3)} peak to peak in the second half.")
 
 
