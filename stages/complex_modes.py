@@ -1,5 +1,6 @@
 """Complex modes of the brake over friction, and at the operating points of the friction map.
 
+Friction moves the load between the contacts, so the system is linearised about steady sliding with that friction.
 A root s = sigma + i omega with sigma > 0 is a squeal candidate: it says which motion can grow, not how loud it ends up.
 """
 
@@ -11,9 +12,17 @@ from scipy.linalg import eigvalsh
 
 from pipeline.contract import Context, Quantities, Quantity, Section, option, stage
 from pipeline.physics.friction_corrections import FrictionBasis, friction_basis
-from pipeline.physics.friction_law import FrictionLaw, friction_at
+from pipeline.physics.friction_law import FrictionLaw
 from pipeline.physics.quadratic_modes import follow_roots, quadratic_modes, quadratic_roots, upper_half
 from pipeline.physics.sliding_model import FrictionState, SlidingModel, sliding_model
+from pipeline.physics.sliding_state import (
+    ClosureResponse,
+    SlidingState,
+    closure_response,
+    from_map,
+    model_about,
+    steady_sliding,
+)
 from pipeline.products import ComplexModes, FrictionMap, ReducedModel
 
 #: friction values of one task of the fan-out
@@ -33,6 +42,8 @@ class Settings(Section):
     sliding_distance: Quantity("m", ge=0) = option("10 mm", "sliding distance at which the friction map is read")
     friction_slopes: bool = option(True, "friction that changes with pressure and slip speed, at the operating points")
     friction_damping: bool = option(True, "friction that turns with the slip velocity damps sideways motion")
+    damping_speed: Quantity("m/s", gt=0) = option(
+        "1 m/s", "closing speed that doubles the contact pressure: damping of the normal contact, as in multibody")
     gyroscopic: bool = option(True, "gyroscopic terms of the disc")
     centrifugal: bool = option(True, "centrifugal terms of the disc")
     neutral: float = option(1e-6, "growth below this share of abs(s) counts as neither growth nor decay", ge=0)
@@ -40,25 +51,30 @@ class Settings(Section):
 
 @dataclass(frozen=True)
 class _State:
-    """One preload state: the model at the speed of the sweep, projected on its basis."""
+    """One pressure: the model without friction, at the speed of the sweep, projected on its basis."""
 
     model: SlidingModel
+    response: ClosureResponse
+    input_force: np.ndarray
     basis: FrictionBasis
 
 
 @dataclass(frozen=True)
-class _Point:
-    """One operating point."""
+class _Outcome:
+    """One operating point: its sliding state, its roots, and the motion (n, g) of the growing ones."""
 
-    state: int
-    model: SlidingModel
-    friction: FrictionState
+    speed: float
+    sliding: SlidingState
+    root: np.ndarray
+    growing: np.ndarray
+    motion: np.ndarray
+    corrections: int
 
     @property
     def mean_friction(self):
-        """Friction coefficient, mean over the contacts weighted by their preload; 0 without load."""
-        preload = self.model.contacts.preload
-        return float(preload @ self.friction.coefficient / preload.sum()) if preload.any() else 0.0
+        """Friction coefficient, mean over the contacts weighted by their force."""
+        force = self.sliding.contact.force
+        return float(force @ self.sliding.friction.coefficient / force.sum())
 
 
 @stage
@@ -68,59 +84,78 @@ def complex_modes(model: ReducedModel, friction_map: FrictionMap, settings: Sett
 
     Method:
     All complex modes were computed at {friction_steps} friction coefficients from 0 to {friction_max} and at the
-    operating points of the friction map, on the real modes below {frequency_max} and their friction
-    corrections; a mode counts as unstable when its growth rate exceeds {neutral} of its angular frequency.
+    operating points of the friction map, each about its own steady sliding state, on the real modes below
+    {frequency_max} and their friction corrections; a closing speed of {damping_speed} doubles the contact pressure
+    (contact damping), and a mode counts as unstable when its growth rate exceeds {neutral} of its angular frequency.
     """
-    models = [sliding_model(model, k, np.mean(settings.speeds)) for k in range(len(model.pressure))]
-    states = context.map(partial(_state, settings), models, "real modes")
+    normal_law = model.law_closure, model.law_pressure
+    loads = model.pressure[:, None] * model.input_area
+    models = [(sliding_model(model, k, np.mean(settings.speeds)), load) for k, load in enumerate(loads)]
+    states = context.map(partial(_state, settings, normal_law), models, "real modes")
     friction = np.linspace(0.0, settings.friction_max, settings.friction_steps)
-    roots = _sweep(states, friction, settings, context)
-    points = [_point(k, s.model.at_speed(v), friction_map, settings)
-              for k, s in enumerate(states) for v in settings.speeds]
-    modes = context.map(partial(_operating_modes, settings), points, "operating points")
+    roots = _sweep(states, normal_law, friction, settings, context)
+    law = FrictionLaw(friction_map.pressure, friction_map.speed, friction_map.distance, friction_map.friction)
+    points = [(m.at_speed(speed), load) for m, load in models for speed in settings.speeds]
+    outcomes = context.map(partial(_operate, settings, normal_law, law), points, "operating points")
     branches = min(max(len(s.basis.frequency) for s in states), *(s.model.size for s in states))
     return ComplexModes(
         pressure=model.pressure, friction=friction, root=[r[:, :branches] for r in roots],
         real_frequency=[_lowest_frequencies(s.model, branches) for s in states],
-        operating_pressure=[model.pressure[p.state] for p in points], operating_speed=[p.model.speed for p in points],
-        operating_friction=[p.mean_friction for p in points],
-        operating_root=[_lowest(m.value, branches) for m in modes],
-        **_unstable(points, modes, states, model.recovery, settings),
-        corrections=max(s.basis.corrections for s in states))
+        operating_pressure=np.repeat(model.pressure, len(settings.speeds)),
+        operating_speed=[o.speed for o in outcomes], operating_friction=[o.mean_friction for o in outcomes],
+        operating_open=[np.sum(~o.sliding.contact.closed) for o in outcomes],
+        operating_root=[_lowest(o.root, branches) for o in outcomes], **_unstable(outcomes, model.recovery),
+        corrections=max([s.basis.corrections for s in states] + [o.corrections for o in outcomes]))
 
 
-def _state(settings, model):
-    basis = friction_basis(model, settings.frequency_max, settings.friction_damping, settings.smallest_correction)
-    return _State(model.projected(basis.shape), basis)
+def _state(settings, normal_law, task):
+    """The model about its state without friction, on a basis that serves all states of the sweep."""
+    model, input_force = task
+    response = closure_response(model, settings.centrifugal)
+    still = steady_sliding(model, response, input_force, *normal_law, friction=0.0)
+    model = model_about(model, still.contact, settings.damping_speed)
+    basis = _basis(model, settings, contact_stiffness=still.contact.stiffness.max())
+    return _State(model.projected(basis.shape), response, input_force, basis)
 
 
-def _sweep(states, friction, settings, context):
+def _basis(model, settings, contact_stiffness=0.0):
+    return friction_basis(model, settings.frequency_max, settings.friction_damping, settings.smallest_correction,
+                          contact_stiffness, settings.centrifugal)
+
+
+def _sweep(states, normal_law, friction, settings, context):
     """Roots (friction, n) of every state, followed over friction from the lowest without friction upwards."""
     chunks = np.array_split(friction, -(-len(friction) // _CHUNK))
-    results = context.map(partial(_roots_over_friction, settings), [(s.model, c) for s in states for c in chunks],
+    results = context.map(partial(_roots_over_friction, settings, normal_law), [(s, c) for s in states for c in chunks],
                           "friction sweep")
     roots = [np.vstack(results[k:k + len(chunks)]) for k in range(0, len(results), len(chunks))]
     return [follow_roots(r[:, np.argsort(abs(r[0]), kind="stable")]) for r in roots]
 
 
-def _roots_over_friction(settings, task):
-    """One root of each conjugate pair at each friction coefficient, (friction, n)."""
-    model, friction = task
-    roots = [quadratic_roots(*_linearised(model, mu, settings)) for mu in friction]
-    return np.array([r[upper_half(r)] for r in roots])
+def _roots_over_friction(settings, normal_law, task):
+    """One root of each conjugate pair at each friction coefficient, (friction, n), about its own sliding state."""
+    state, friction = task
+    roots = []
+    for mu in friction:
+        sliding = steady_sliding(state.model, state.response, state.input_force, *normal_law, friction=mu)
+        about = model_about(state.model, sliding.contact, settings.damping_speed)
+        found = quadratic_roots(*_linearised(about, mu, settings))
+        roots.append(found[upper_half(found)])
+    return np.array(roots)
 
 
-def _point(state, model, friction_map, settings):
-    """Operating point with the friction of the map at the static pressure and sliding speed of each contact."""
-    law = FrictionLaw(friction_map.pressure, friction_map.speed, friction_map.distance, friction_map.friction)
-    places = zip(model.contacts.pressure, abs(model.sliding_speed), strict=True)
-    read = np.array([friction_at(p, v, settings.sliding_distance, *law.table) for p, v in places]).reshape(-1, 4)
-    slopes = read[:, 1:3] * settings.friction_slopes
-    return _Point(state, model, FrictionState(read[:, 0], *slopes.T))
-
-
-def _operating_modes(settings, point):
-    return quadratic_modes(*_linearised(point.model, point.friction, settings))
+def _operate(settings, normal_law, law, task):
+    """Sliding state with the friction of the map, and the modes about it on a basis of its own."""
+    model, input_force = task
+    response = closure_response(model, settings.centrifugal)
+    sliding = steady_sliding(model, response, input_force, *normal_law, from_map(law, settings.sliding_distance))
+    model = model_about(model, sliding.contact, settings.damping_speed)
+    basis = _basis(model, settings)
+    friction = sliding.friction if settings.friction_slopes else FrictionState(sliding.friction.coefficient)
+    modes = quadratic_modes(*_linearised(model.projected(basis.shape), friction, settings))
+    root, limit = modes.value, 2 * np.pi * settings.frequency_max
+    grows = (root.real > settings.neutral * abs(root)) & (root.imag >= 0) & (abs(root) < limit)
+    return _Outcome(model.speed, sliding, root, root[grows], basis.shape @ modes.right[:, grows], basis.corrections)
 
 
 def _linearised(model, friction, settings):
@@ -128,13 +163,10 @@ def _linearised(model, friction, settings):
                             centrifugal=settings.centrifugal)
 
 
-def _unstable(points, modes, states, recovery, settings):
+def _unstable(outcomes, recovery):
     """Growing modes below the frequency limit, strongest first, with their shapes on the surface."""
-    found = []
-    for number, (point, mode) in enumerate(zip(points, modes, strict=True)):
-        root, limit = mode.value, 2 * np.pi * settings.frequency_max
-        grows = (root.real > settings.neutral * abs(root)) & (root.imag >= 0) & (abs(root) < limit)
-        found += [(number, root[k], states[point.state].basis.shape @ mode.right[:, k]) for k in np.flatnonzero(grows)]
+    found = [(number, root, motion) for number, outcome in enumerate(outcomes)
+             for root, motion in zip(outcome.growing, outcome.motion.T, strict=True)]
     found.sort(key=lambda f: -f[1].real)
     shapes = [_normalised(recovery @ q.astype(np.complex64)) for _, _, q in found]
     return {"unstable_operating": [f[0] for f in found], "unstable_root": [f[1] for f in found],

@@ -16,6 +16,7 @@ import numpy as np
 from scipy.linalg import eigh
 
 from pipeline.contract.errors import ConfigError
+from pipeline.physics.sliding_model import spread
 
 
 @dataclass(frozen=True)
@@ -27,14 +28,15 @@ class FrictionBasis:
     corrections: int
 
 
-def friction_basis(model, below, friction_damping=True, smallest=1e-3):
+def friction_basis(model, below, friction_damping=True, smallest=1e-3, contact_stiffness=0.0, centrifugal=True):
     """Real modes of a SlidingModel below a frequency [Hz] and their corrections, largest first.
 
     The real modes are those of closed contacts without friction, damping and gyroscopic terms. Corrections with
-    amplitudes up to ``smallest`` per unit of modal amplitude are left out; ``smallest`` = inf leaves out all. Raises
-    ConfigError where no mode lies below the frequency.
+    amplitudes up to ``smallest`` per unit of modal amplitude are left out; ``smallest`` = inf leaves out all. Where the
+    basis shall serve states whose contacts are stiffer or softer, corrections for a change by ``contact_stiffness``
+    (() or (c,) N/m) join them. Raises ConfigError where no mode lies below the frequency.
     """
-    mass, damping, stiffness = model.frictionless(gyroscopic=False)
+    mass, damping, stiffness = model.frictionless(gyroscopic=False, centrifugal=centrifugal)
     square, modes = eigh(stiffness, mass)
     low = square < (2 * np.pi * below) ** 2
     frequency = np.sqrt(np.maximum(square, 0.0)) / (2 * np.pi)
@@ -42,8 +44,10 @@ def friction_basis(model, below, friction_damping=True, smallest=1e-3):
         raise ConfigError("real modes", f"a mode below {below:g} Hz", f"the lowest at {frequency[0]:g} Hz")
     real, high = modes[:, low], modes[:, ~low]
     drag, follower = model.friction_matrices(1.0, friction_damping)
-    force = np.hstack((follower @ real, (damping + drag) @ real * (2 * np.pi * frequency[low])))
-    response = (high.T @ force) / (square[~low, None] - np.tile(square[low], 2))
+    rows = model.contacts.normal
+    force = np.hstack((follower @ real, spread(rows, contact_stiffness, rows) @ real,
+                       (damping + drag) @ real * (2 * np.pi * frequency[low])))
+    response = (high.T @ force) / (square[~low, None] - np.tile(square[low], 3))
     direction, size, _ = np.linalg.svd(response, full_matrices=False)
     corrections = high @ direction[:, size > smallest]
     return FrictionBasis(np.hstack((real, corrections)), frequency[low], corrections.shape[1])

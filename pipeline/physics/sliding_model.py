@@ -126,7 +126,7 @@ class SlidingModel:
         """
         state = friction if isinstance(friction, FrictionState) else FrictionState(friction)
         contacts = self.contacts
-        coupling = self._direction() * (state.coefficient + contacts.pressure * state.pressure_slope)
+        coupling = self.direction() * (state.coefficient + contacts.pressure * state.pressure_slope)
         damping = (spread(contacts.tangent, coupling * contacts.damping, contacts.normal)
                    + spread(contacts.tangent, contacts.preload * state.speed_slope, contacts.tangent))
         if friction_damping:
@@ -181,7 +181,7 @@ class SlidingModel:
         """The model at another speed of its drive."""
         return replace(self, speed=float(speed))
 
-    def _direction(self):
+    def direction(self):
         """Sign of sliding (c,); a drive at rest counts as about to turn forwards."""
         return np.where(self.sliding_speed < 0, -1.0, 1.0)
 

@@ -73,13 +73,13 @@ def solve_preload(compliance, free_closure, area, law_closure, law_pressure):
         raise ConfigError("preload", "pads that touch the disc under the load",
                           f"gaps of at least {-free_closure.max():g} m", "check the piston force and the positions")
     closure = np.full_like(free_closure, law_closure[1])
-    force, slope = _law(closure, area, law_closure, law_pressure)
+    force, slope = normal_force(closure, area, law_closure, law_pressure)
     miss = closure - free_closure + compliance @ force
     for _ in range(_STEPS):
         step = np.linalg.solve(np.eye(len(area)) + compliance * slope, miss)
         for halving in range(_HALVINGS):
             trial = closure - step / 2**halving
-            force, slope = _law(trial, area, law_closure, law_pressure)
+            force, slope = normal_force(trial, area, law_closure, law_pressure)
             trial_miss = trial - free_closure + compliance @ force
             if np.linalg.norm(trial_miss) < np.linalg.norm(miss) or halving == _HALVINGS - 1:
                 break
@@ -91,7 +91,7 @@ def solve_preload(compliance, free_closure, area, law_closure, law_pressure):
                            f"{np.abs(balance).max() / force.max():.1e}", "raise the load or soften the contact law")
 
 
-def _law(closure, area, law_closure, law_pressure):
+def normal_force(closure, area, law_closure, law_pressure):
     """Force and stiffness of each patch; the last slope of the table continues beyond its end."""
     last = len(law_closure) - 2
     low = np.clip(np.searchsorted(law_closure, closure, side="right") - 1, 0, last)

@@ -77,6 +77,18 @@ def test_corrections_converge_the_damping_that_friction_induces(rubbed_block):
 
 
 @pytest.mark.exact
+def test_corrections_for_contact_stiffness_serve_another_state_of_the_contacts(rubbed_block):
+    """The basis of closed contacts where friction has opened every other one and doubled the rest."""
+    contacts = rubbed_block.contacts
+    moved = replace(rubbed_block, contacts=replace(contacts, stiffness=contacts.stiffness * np.resize([0, 2], 14)))
+    direct, errors = lowest_growing(moved), []
+    for change in (0.0, 2e7):
+        basis = friction_basis(rubbed_block, 40e3, friction_damping=False, smallest=1e-6, contact_stiffness=change)
+        errors.append(abs(lowest_growing(moved.projected(basis.shape)) / direct - 1))
+    assert errors[1] < errors[0] / 5 and errors[1] < 1e-3
+
+
+@pytest.mark.exact
 def test_no_corrections_without_closed_contacts(rubbed_block):
     open_contacts = replace(rubbed_block.contacts, stiffness=np.zeros(len(rubbed_block.contacts.area)))
     opened = replace(rubbed_block, contacts=replace(open_contacts, preload=np.zeros(len(open_contacts.area))))

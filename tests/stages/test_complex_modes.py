@@ -5,14 +5,18 @@ from dataclasses import fields
 import numpy as np
 import pytest
 
+from pipeline.contract.errors import ConvergenceError
 from pipeline.physics.quadratic_modes import quadratic_roots
 from pipeline.physics.sliding_model import sliding_model
+from pipeline.physics.sliding_state import closure_response, model_about, steady_sliding
 from stages.complex_modes import Settings, complex_modes
 from stages.reduced_model import Settings as Reduction
 from stages.reduced_model import reduced_model
 from tests.stages.small_structure import small_friction_map, small_structure
 
 SETTINGS = {"friction_steps": 7, "speeds": ("8 rad/s", "12 rad/s"), "frequency_max": "8 kHz"}
+#: m/s; a damping speed at which contacts are as good as undamped
+NO_DAMPING = 1e12
 
 
 @pytest.fixture(scope="module")
@@ -29,6 +33,14 @@ def changed(product, **values):
     return type(product)(**{**{f.name: getattr(product, f.name) for f in fields(product)}, **values})
 
 
+def sliding(model, state, speed, friction, damping_speed=1.0):
+    """(SlidingModel about steady sliding at a constant friction coefficient, forces (c,) of its contacts)."""
+    about = sliding_model(model, state, speed)
+    found = steady_sliding(about, closure_response(about), model.pressure[state] * model.input_area,
+                           model.law_closure, model.law_pressure, friction)
+    return model_about(about, found.contact, damping_speed), found.contact.force
+
+
 @pytest.mark.exact
 def test_without_friction_every_root_decays_or_is_neutral(model):
     modes = complex_modes(model, small_friction_map(0.0), settings=Settings(**SETTINGS))
@@ -39,25 +51,41 @@ def test_without_friction_every_root_decays_or_is_neutral(model):
 @pytest.mark.exact
 def test_roots_without_friction_and_damping_are_the_real_modes(model):
     bare = changed(model, damping=0 * model.damping, joint_damping=0 * model.joint_damping)
-    modes = complex_modes(bare, small_friction_map(), settings=Settings(**{**SETTINGS, "gyroscopic": False}))
+    settings = Settings(**SETTINGS, gyroscopic=False, damping_speed=f"{NO_DAMPING} m/s")
+    modes = complex_modes(bare, small_friction_map(), settings=settings)
     start = modes.root[:, 0]
     np.testing.assert_allclose(start.imag, 2 * np.pi * modes.real_frequency, rtol=1e-8)
     assert abs(start.real).max() < 1e-6 * abs(start).max()
 
 
-@pytest.mark.exact
-@pytest.mark.parametrize("friction_damping", [True, False])
-def test_roots_converge_to_those_of_the_whole_reduced_model(model, friction_damping):
-    """Roots up to half of the frequency limit, the more corrections the better."""
-    direct = quadratic_roots(*sliding_model(model, 0, 8.0).linearised(0.5, friction_damping=friction_damping))
-    errors = []
-    for smallest in (1e-3, 1e-5):
-        settings = Settings(**SETTINGS, friction_damping=friction_damping, smallest_correction=smallest)
+def basis_errors(model, smallest, friction_damping, damping_speed):
+    """Largest relative error of the roots up to half of the frequency limit, against the whole reduced model."""
+    whole, _ = sliding(model, 0, 8.0, 0.5, damping_speed)
+    direct, errors = quadratic_roots(*whole.linearised(0.5, friction_damping=friction_damping)), []
+    for share in smallest:
+        settings = Settings(**SETTINGS, friction_damping=friction_damping, smallest_correction=share,
+                            damping_speed=f"{damping_speed} m/s")
         roots = complex_modes(model, small_friction_map(), settings=settings).operating_root[0]
         slow = roots[(abs(roots) < np.pi * 8e3) & (roots.imag > 10 * abs(roots.real))]
         assert len(slow) > 15
         errors.append((abs(direct[:, None] - slow).min(axis=0) / abs(slow)).max())
+    return errors
+
+
+@pytest.mark.exact
+@pytest.mark.parametrize("friction_damping", [True, False])
+def test_roots_converge_to_those_of_the_whole_reduced_model(model, friction_damping):
+    """The more corrections the better; contacts without damping."""
+    errors = basis_errors(model, (1e-3, 1e-5), friction_damping, NO_DAMPING)
     assert errors[0] < 5e-4 and errors[1] < errors[0] / 4
+
+
+@pytest.mark.exact
+@pytest.mark.parametrize("friction_damping", [True, False])
+def test_roots_converge_with_damped_contacts(model, friction_damping):
+    """Damping of the contacts loads them locally as well and needs more corrections."""
+    errors = basis_errors(model, (1e-2, 1e-3, 1e-4), friction_damping, 1.0)
+    assert errors[0] > 2 * errors[1] and errors[1] > 2 * errors[2] and errors[2] < 5e-4
 
 
 def test_unstable_modes_come_strongest_first_with_their_shapes(model):
@@ -71,12 +99,36 @@ def test_unstable_modes_come_strongest_first_with_their_shapes(model):
 
 
 def test_sweep_meets_the_operating_points(model):
-    one_speed = Settings(**{**SETTINGS, "speeds": ("10 rad/s",), "friction_max": 0.5, "friction_damping": False})
-    modes = complex_modes(model, small_friction_map(), settings=one_speed)
-    swept = np.sort_complex(modes.root[:, -1])
-    met = [abs(swept[k] - root).min() for k in range(2) for root in modes.operating_root[k]]
-    assert np.max(met) < 1e-6 * abs(swept).max()
-    assert modes.root.shape == (2, 7, modes.real_frequency.shape[1])
+    """Both stand on a basis of their own: that of the sweep on the state without friction. They converge together."""
+    apart = []
+    for smallest in (3e-4, 1e-5):
+        one_speed = Settings(**SETTINGS | {"speeds": ("10 rad/s",), "friction_max": 0.5, "friction_damping": False},
+                             smallest_correction=smallest)
+        modes = complex_modes(model, small_friction_map(), settings=one_speed)
+        slow = [root[(abs(root) < np.pi * 8e3) & (root.imag > 10 * abs(root.real))] for root in modes.operating_root]
+        apart.append(max((abs(modes.root[k, -1][:, None] - slow[k]).min(axis=0) / abs(slow[k])).max() for k in (0, 1)))
+    assert len(slow[0]) > 15 and modes.root.shape == (2, 7, modes.real_frequency.shape[1])
+    assert apart[0] < 5e-4 and apart[1] < apart[0] / 4
+
+
+@pytest.mark.exact
+def test_friction_moves_the_load_and_with_it_the_roots(model):
+    """Linear contacts that stay closed keep their stiffness: only damping N / damping_speed shows the moved load."""
+    state, force = sliding(model, 0, 8.0, 0.5)
+    still, resting = sliding(model, 0, 8.0, 0.0)
+    assert abs(force - resting).max() > 0.2 * resting.max()
+    np.testing.assert_allclose(state.contacts.stiffness, still.contacts.stiffness)
+    np.testing.assert_allclose(state.contacts.damping, force)
+    roots = [quadratic_roots(*m.linearised(0.5, friction_damping=False)) for m in (state, still)]
+    assert abs(roots[0] - roots[1]).max() > 1.0
+
+
+def test_contacts_that_open_are_counted(model):
+    """Friction of 1.2 tips a pad off one contact; more than that tips it over, and there is no steady sliding."""
+    still, tipped = (complex_modes(model, small_friction_map(mu), settings=Settings(**SETTINGS)) for mu in (0.0, 1.2))
+    assert not still.operating_open.any() and (tipped.operating_open == 1).all()
+    with pytest.raises(ConvergenceError, match="steady sliding"):
+        complex_modes(model, small_friction_map(2.0), settings=Settings(**SETTINGS))
 
 
 def test_vibrating_roots_are_followed_without_jumps(model):
