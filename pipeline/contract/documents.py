@@ -56,8 +56,3 @@ def parse_value(text):
         return yaml.load(text, _StrictLoader)
     except yaml.YAMLError as error:
         raise ConfigError(f"--set ...={text}", "a YAML value", getattr(error, "problem", str(error))) from None
-
-
-def write_yaml(document):
-    """``document`` as YAML text, keys in their order."""
-    return yaml.safe_dump(document, sort_keys=False, allow_unicode=True)

@@ -101,9 +101,9 @@ class Run:
 
     def stale_before(self, first):
         """States of the stages before ``first`` whose products are there and out of date."""
-        earlier = [s for s in self.plan() if s.path.exists()] if first else []
-        names = [s.name for s in self.case.stages]
-        return [s for s in earlier if s.reasons and names.index(s.stage.name) < names.index(first)]
+        taken = len(self.case.stages) - len(self._span(first, None))
+        earlier = self.plan()[:taken] if taken else []
+        return [state for state in earlier if state.reasons and state.path.exists()]
 
     def _span(self, first, last):
         names = [s.name for s in self.case.stages]
@@ -159,7 +159,7 @@ class Run:
 
 def _stored(path):
     """Fingerprint and companions of the product at ``path``; None where there is no readable one."""
-    if not path.exists() or store.identity(path) is None:
+    if store.identity(path) is None:
         return None
     try:
         told = store.provenance(path)
