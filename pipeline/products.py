@@ -110,7 +110,7 @@ class Incidence:
     weight: Array = quantity("1", "entry", "weight")
 
 
-@product(version=1)
+@product(version=2)
 class Structure:
     """FE bodies of the brake, their joints, contacts and sensors, and the solved preload."""
 
@@ -126,7 +126,7 @@ class Structure:
     joint_rows: Incidence = part("joint elongation rows (both ends included; a joint to ground has one end)")
     joint_stiffness: Array = quantity("N/m", "joint", "joint stiffness, linearised about the preload")
     joint_damping: Array = quantity("N s/m", "joint", "joint damping")
-    contact_pad: Array = count("contact", "body of the pad of the contact, index into body_name")
+    contact_body: Array = count("contact", "body that slides on the disc at the contact, index into body_name")
     contact_position: Array = quantity("m", "contact xyz", "centroid of the contact patch on the disc face")
     contact_area: Array = quantity("m^2", "contact", "area of the contact patch")
     contact_normal: Incidence = part("normal relative displacement, pad minus disc, positive opens")
@@ -146,7 +146,7 @@ class Structure:
     piston_area: Array = quantity("m^2", "", "pad area on which the nominal pressure acts; piston force = pressure * area")
 
 
-@product(version=1)
+@product(version=2)
 class ReducedModel:
     """The reduced sliding model: everything that a solver or an effect needs of a sliding system.
 
@@ -167,9 +167,10 @@ class ReducedModel:
     joint_rows: Array = quantity("1", "joint coordinate", "joint elongation rows")
     joint_stiffness: Array = quantity("N/m", "joint", "joint stiffness")
     joint_damping: Array = quantity("N s/m", "joint", "joint damping")
-    contact_pad: Array = count("contact", "body of the pad of the contact")
+    contact_body: Array = count("contact", "body that slides on the drive at the contact")
     contact_position: Array = quantity("m", "contact xyz", "centroid of the contact patch")
     contact_area: Array = quantity("m^2", "contact", "area of the contact patch")
+    contact_lever: Array = quantity("m", "contact", "sliding speed per speed of the drive: the radius on a disc, 1 m on a belt")
     contact_normal: Array = quantity("1", "contact coordinate", "normal rows, pad minus disc, positive opens")
     contact_tangent: Array = quantity("1", "contact coordinate", "tangent rows, pad minus disc, along sliding")
     contact_lateral: Array = quantity("1", "contact coordinate", "lateral rows, pad minus disc, radial")

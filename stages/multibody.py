@@ -124,7 +124,7 @@ def _operate(point, model, law, settings):
         modal, np.zeros(modes.shape[1]), settings.step, round(settings.duration / settings.step),
         settings.record_every, scale=np.linalg.norm(modes.T @ system.load))
     pads, names = _pads(model)
-    history = contact_history(modal.contact, np.searchsorted(pads, model.contact_pad), len(names), time, displacement,
+    history = contact_history(modal.contact, np.searchsorted(pads, model.contact_body), len(names), time, displacement,
                               velocity)
     rows = _motion_rows(model, pads)
     motion = (rows @ modes) @ displacement.T + (rows @ start)[:, :, None]
@@ -156,7 +156,7 @@ def _stiffer(sliding, groups, factor):
 
 def _pads(model):
     """(bodies, names without 'pad_') of the pads in contact, in the order of the bodies."""
-    bodies = np.unique(model.contact_pad)
+    bodies = np.unique(model.contact_body)
     return bodies, [str(model.body_name[b]).removeprefix("pad_") for b in bodies]
 
 
@@ -167,7 +167,7 @@ def _motion_rows(model, pads):
     for row, pad in zip(rows, pads, strict=True):
         own = np.flatnonzero(model.coordinate_body == pad)
         recovery = model.recovery[model.visible_body == pad][:, :, own]
-        axes = sliding_axes(model.contact_position[model.contact_pad == pad])
+        axes = sliding_axes(model.contact_position[model.contact_body == pad])
         row[:, own] = gravity_rows(model.mass[np.ix_(own, own)], recovery, axes)
     return rows[:, :, kept]
 

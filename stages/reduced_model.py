@@ -80,10 +80,11 @@ def _split_rows(structure, rows):
 
 def _copied(structure):
     """What the reduction leaves as it is."""
-    kept = ("joint_name", "joint_stiffness", "joint_damping", "contact_pad", "contact_position", "contact_area",
+    kept = ("joint_name", "joint_stiffness", "joint_damping", "contact_body", "contact_position", "contact_area",
             "pressure", "preload", "contact_stiffness", "law_closure", "law_pressure", "sensor_name",
             "sensor_position", "sensor_direction")
-    return {name: getattr(structure, name) for name in kept}
+    radius = np.hypot(structure.contact_position[:, 0], structure.contact_position[:, 1])
+    return {"contact_lever": radius, **{name: getattr(structure, name) for name in kept}}
 
 
 def _surfaces(terms, sizes):

@@ -153,7 +153,7 @@ def _turning_disc(structure, model, multibody, settings):
     kept = disc.frequency < settings.highest_frequency
     angular = 2 * np.pi * disc.frequency[kept]
     read = partial(_circle_points, disc, disc.shape[kept], settings.circle_angles)
-    outwards = np.where(structure.contact_pad == list(structure.body_name).index("pad_outer"), 1.0, -1.0)
+    outwards = np.where(structure.contact_body == list(structure.body_name).index("pad_outer"), 1.0, -1.0)
     none = np.zeros_like(outwards)
     normal, tangent = np.stack([none, none, -outwards], axis=1), np.stack([none, none - 1, none], axis=1)
     directions = _chosen(settings, normal, tangent)

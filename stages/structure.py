@@ -157,7 +157,7 @@ def structure(friction_map: FrictionMap, settings: Settings, context: Context) -
     return Structure(
         body_name=BODIES, **bodies, free_frequency=free[0], free_diameters=diameters,
         free_out_of_plane=out_of_plane, joint_name=brake.joints.name, joint_rows=_incidence(brake.joints.rows),
-        joint_stiffness=brake.joints.stiffness, joint_damping=brake.joints.damping, contact_pad=contacts.pad,
+        joint_stiffness=brake.joints.stiffness, joint_damping=brake.joints.damping, contact_body=contacts.pad,
         contact_position=contacts.position, contact_area=contacts.area, contact_normal=_incidence(contacts.normal),
         contact_tangent=_incidence(contacts.tangent), contact_lateral=_incidence(contacts.lateral),
         **_preload(brake, law, settings, context), law_closure=law[0], law_pressure=law[1],

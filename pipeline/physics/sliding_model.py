@@ -37,7 +37,7 @@ class Joints:
 class Contacts:
     """Sliding points: rows (c, n) of the relative displacement, and the state about which they are linearised.
 
-    ``lever`` (c,) is the sliding speed per speed of the drive (the radius in m on a disc, 1 on a belt), ``position``
+    ``lever`` (c,) is the sliding speed per speed of the drive (the radius in m on a disc, 1 m on a belt), ``position``
     (c, 3) m, ``area`` (c,) m^2, ``preload`` (c,) N, ``stiffness`` (c,) N/m normal stiffness (0 where open), ``damping``
     (c,) N s/m normal damping.
     """
@@ -197,13 +197,14 @@ class SlidingModel:
 def sliding_model(reduced, state, speed):
     """The sliding model of a product ReducedModel (or any object with its fields).
 
-    ``state`` is the row of its preload table, ``speed`` the disc speed in rad/s; the lever of a contact is its radius.
+    ``state`` is the row of its preload table, ``speed`` the speed of the drive in rad/s; a belt counts as a drum of
+    radius 1 m.
     """
     joints = Joints(tuple(reduced.joint_name), reduced.joint_rows, reduced.joint_stiffness, reduced.joint_damping)
     contacts = Contacts(
         normal=reduced.contact_normal, tangent=reduced.contact_tangent, lateral=reduced.contact_lateral,
         position=reduced.contact_position, area=reduced.contact_area,
-        lever=np.hypot(reduced.contact_position[:, 0], reduced.contact_position[:, 1]),
+        lever=reduced.contact_lever,
         preload=reduced.preload[state], stiffness=reduced.contact_stiffness[state],
         damping=np.zeros(len(reduced.contact_area)))
     matrices = {name: getattr(reduced, name) for name in ("mass", "damping", "gyroscopic", "stiffness", "centrifugal")}

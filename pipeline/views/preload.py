@@ -10,12 +10,12 @@ def contact_pressure(structure, dpi):
 
     Along sliding and radius, as seen from the pad: the disc moves to the right.
     """
-    state, pads = len(structure.pressure) // 2, np.unique(structure.contact_pad)
+    state, pads = len(structure.pressure) // 2, np.unique(structure.contact_body)
     pressure = 1e-6 * structure.preload[state] / structure.contact_area
     with drawing(0.6 + 1.5 * len(pads), top=0.3, bar=True) as figure:
         grid = figure.subplots(len(pads), sharex=True, squeeze=False)[:, 0]
         for axes, pad in zip(grid, pads, strict=True):
-            here = structure.contact_pad == pad
+            here = structure.contact_body == pad
             shown = _patches(axes, structure, here, pressure, structure.closed[state] == 1)
             axes.set(ylabel="radius / mm", aspect="equal")
             axes.set_title(str(structure.body_name[pad]).replace("_", " "), loc="left", pad=3)

@@ -28,7 +28,7 @@ def small_structure(pad_modulus=1e9, caliper_stiffness=3e7, modes_below=12e3):
         body_name=NAMES, **bodies, free_frequency=[1.0], free_diameters=[2], free_out_of_plane=[1.0],
         joint_name=names, joint_rows=incidence(joints), joint_damping=np.full(len(names), 20.0),
         joint_stiffness=np.where(np.array(names) == "finger", caliper_stiffness, 1e7),
-        contact_pad=pads, contact_position=place, contact_area=area, **contact_rows(meshes, place, pads),
+        contact_body=pads, contact_position=place, contact_area=area, **contact_rows(meshes, place, pads),
         pressure=[1e6, 2e6], preload=np.outer([1e6, 2e6], area),
         contact_stiffness=np.full((2, len(pads)), CONTACT_STIFFNESS), closed=np.ones((2, len(pads)), int),
         law_closure=[0.0, 1e-5], law_pressure=[0.0, 1e6], sensor_name=["rim"], sensor_position=[[0.1, 0.0, 0.01]],

@@ -55,11 +55,11 @@ def test_frequencies_of_the_closed_brake_are_those_of_the_unreduced_one(structur
 @pytest.mark.parametrize(("body", "side"), [(OUTER, 1.0), (INNER, -1.0)])
 def test_rigid_motion_of_a_pad_opens_its_contacts_alike(model, body, side):
     along = rigid_translation(model, body, [0.0, 0.0, 1.0])
-    np.testing.assert_allclose(model.contact_normal @ along, np.where(model.contact_pad == body, side, 0.0), atol=1e-5)
+    np.testing.assert_allclose(model.contact_normal @ along, np.where(model.contact_body == body, side, 0.0), atol=1e-5)
     np.testing.assert_allclose(model.contact_tangent @ along, 0.0, atol=1e-5)
     outwards = rigid_translation(model, body, [1.0, 0.0, 0.0])
     angle = np.arctan2(model.contact_position[:, 1], model.contact_position[:, 0])
-    touched = model.contact_pad == body
+    touched = model.contact_body == body
     np.testing.assert_allclose(model.contact_lateral @ outwards, np.cos(angle) * touched, atol=1e-5)
     np.testing.assert_allclose(model.contact_tangent @ outwards, -np.sin(angle) * touched, atol=1e-5)
 

@@ -118,7 +118,7 @@ def ring_structure(shapes, contact_angles=(0.3, 0.3), sides=(1, 2), place=0.3):
                 for a, s in zip(contact_angles, sides, strict=True)]
     seen = [0.14 * np.cos(place), 0.14 * np.sin(place), 0.004]
     return filled(Structure, body_name=["disc", "pad_outer", "pad_inner", "caliper"], disc=disc,
-                  contact_pad=list(sides), contact_position=position, sensor_name=["disc_face", "pad"],
+                  contact_body=list(sides), contact_position=position, sensor_name=["disc_face", "pad"],
                   sensor_position=[seen, seen], sensor_direction=[[0, 0, 1.0]] * 2, sensor_rows=rows)
 
 

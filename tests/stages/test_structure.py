@@ -33,7 +33,7 @@ def test_pads_carry_the_piston_force(brake):
     """The seal spring keeps at most 1 % of it; both pads are pressed alike, stiffer under more pressure."""
     for force, pressure in zip(brake.preload, brake.pressure, strict=True):
         for pad in (1, 2):
-            assert force[brake.contact_pad == pad].sum() == pytest.approx(pressure * brake.piston_area, rel=1e-2)
+            assert force[brake.contact_body == pad].sum() == pytest.approx(pressure * brake.piston_area, rel=1e-2)
     assert brake.closed.all()
     assert (brake.contact_stiffness[1] >= brake.contact_stiffness[0]).all()
 

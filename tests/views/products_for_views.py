@@ -96,7 +96,7 @@ def structure():
         Structure, body_name=list(bodies), **bodies, free_frequency=[259.4, 259.4, 431.6, 660.1, 660.1],
         free_diameters=[2, 2, 0, 3, 3], free_out_of_plane=[1.0, 1.0, 1.0, 0.99, 0.99],
         joint_name=["abutment_outer_leading"], joint_stiffness=[1e7], joint_damping=[10.0],
-        contact_pad=np.repeat([1, 2], 6), contact_position=position, contact_area=np.full(12, 2e-4),
+        contact_body=np.repeat([1, 2], 6), contact_position=position, contact_area=np.full(12, 2e-4),
         pressure=PRESSURE, preload=preload,
         contact_stiffness=preload * 1e5, closed=np.ones((3, 12), dtype=int), law_closure=[0.0, 1e-6],
         law_pressure=[0.0, 1e6], sensor_name=SENSORS, sensor_position=np.zeros((2, 3)),

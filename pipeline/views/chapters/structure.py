@@ -46,8 +46,8 @@ def _mode(disc, mode, picture):
 def _pads(structure, look):
     middle = len(structure.pressure) // 2
     told = []
-    for pad in np.unique(structure.contact_pad):
-        here = structure.contact_pad == pad
+    for pad in np.unique(structure.contact_body):
+        here = structure.contact_body == pad
         pressure = structure.preload[middle, here] / structure.contact_area[here]
         told.append(f"{str(structure.body_name[pad]).replace('_', ' ')} {span(pressure, 'Pa')}, resultant"
                     f" {quantity(structure.preload[middle, here].sum(), 'N', 3)}")
