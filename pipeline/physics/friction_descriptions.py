@@ -26,11 +26,11 @@ TOLERANCE = 1e-6
 
 @dataclass(frozen=True)
 class Sliding:
-    """n coordinates, c contacts on a drive: ``normal`` (c, n), ``tangent`` (2, c, n); N = area scale (e^(c/l) - 1).
+    """n coordinates, c contacts on a drive: ``normal`` (c, n), ``tangent`` (2, c, n).
 
-    ``load`` (n,) N, modulated by 1 + ``modulation`` sin(2 pi ``frequency`` t); ``drive`` (2,) m/s turns to and fro by
-    ``swing`` rad at the same frequency. ``pressure_scale`` N and ``length`` m are those of the normal law, ``stiffness``
-    N/m per contact the tangential one.
+    Normal law N = ``pressure_scale`` (exp(closure / ``length``) - 1), N and m; ``stiffness`` N/m is the tangential one
+    of each contact. ``load`` (n,) N, modulated by 1 + ``modulation`` sin(2 pi ``frequency`` t); ``drive`` (2,) m/s
+    turns to and fro by ``swing`` rad at the same frequency.
     """
 
     mass: np.ndarray
