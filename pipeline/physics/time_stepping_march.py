@@ -101,14 +101,14 @@ def _see(rows, pairs, seen):
 
 
 @njit(cache=True, fastmath=_FAST)
-def _loss_rate(linear, pairs):
+def _loss_rate(power, drag, pairs):
     """Power of the dampers, W."""
-    if linear.power.size:
+    if power.size:
         state = pairs.ravel()
-        return state @ (linear.power @ state)
+        return state @ (power @ state)
     total = 0.0
     for b in range(pairs.shape[1]):
-        total += linear.drag[b] * pairs[1, b] ** 2
+        total += drag[b] * pairs[1, b] ** 2
     return total
 
 
@@ -144,6 +144,10 @@ def march(linear, law, friction, lever, drive, inputs, pairs, force, status, ste
     the work of inputs and dampers is summed.
     """
     contacts, count = law.gap.size, linear.input_rows.shape[0]
+    # functions of the loop take the arrays that they need: a whole tuple of arrays costs more than their work
+    one_step, first, last, rows, response = linear.step, linear.first, linear.last, linear.rows, linear.response
+    input_rows, power, drag, share = linear.input_rows, linear.power, linear.drag, record.share
+    holds = (linear.hold[0] > 0, linear.hold[1] > 0)
     free, seen, after = np.zeros((4, contacts)), np.zeros((4, contacts)), np.zeros_like(pairs)
     held, summed, turning = force.copy(), np.zeros((2, contacts)), np.zeros(1)
     free_flat, seen_flat, held_flat, force_flat = free.ravel(), seen.ravel(), held.ravel(), force.ravel()
@@ -157,19 +161,19 @@ def march(linear, law, friction, lever, drive, inputs, pairs, force, status, ste
     sliding[:] = turning[0] * lever
     way[:] = step * turning[0] * lever
     if not varies:
-        _push(linear.first, 2 * contacts, begin, steady)
-        _push(linear.last, 2 * contacts, begin, steady)
-    _see(linear.input_rows, pairs, place)
-    _see(linear.rows, pairs, seen_flat)
+        _push(first, 2 * contacts, begin, steady)
+        _push(last, 2 * contacts, begin, steady)
+    _see(input_rows, pairs, place)
+    _see(rows, pairs, seen_flat)
     _keep(linear, law, record, 0, pairs, watched, seen, force, sliding[1], status, 1, work)
-    loss = _loss_rate(linear, pairs) if book else 0.0
+    loss = _loss_rate(power, drag, pairs) if book else 0.0
     for number in range(1, steps + 1):
-        _advance(linear.step, steady, pairs, after)
+        _advance(one_step, steady, pairs, after)
         if varies:
             begin[:] = end
             read(inputs, number * step, end)
-            _push(linear.first, 2 * contacts, begin, after)
-            _push(linear.last, 2 * contacts, end, after)
+            _push(first, 2 * contacts, begin, after)
+            _push(last, 2 * contacts, end, after)
         if contacts:
             if turns:
                 read(drive, number * step, turning)
@@ -177,20 +181,20 @@ def march(linear, law, friction, lever, drive, inputs, pairs, force, status, ste
                     sliding[0, i], sliding[1, i] = sliding[1, i], lever[i] * turning[0]
                     way[i] = 0.5 * step * (sliding[0, i] + sliding[1, i])
             held_flat[:] = force_flat
-            if not (linear.hold[0] and linear.hold[1]):
-                _push(linear.first, 0, held_flat, after)
-            _see(linear.rows, after, free_flat)
-            code, contact = solve_contacts(law, friction, linear.response, free, seen, held, sliding, way, force,
+            if not (holds[0] and holds[1]):
+                _push(first, 0, held_flat, after)
+            _see(rows, after, free_flat)
+            code, contact = solve_contacts(law, friction, response, free, seen, held, sliding, way, force,
                                            status, before)
             if code != SOLVED:
                 return code, number, contact
-            _push(linear.last, 0, force_flat, after)
-            _account(linear, law, held, force, free, seen, way, status, record, summed, work)
+            _push(last, 0, force_flat, after)
+            _account(response, holds, held, force, free, seen, way, status, share, summed, work)
         if book:
-            rate = _loss_rate(linear, after)
+            rate = _loss_rate(power, drag, after)
             work[DAMPING] += 0.5 * step * (loss + rate)
             loss = rate
-            _see(linear.input_rows, after, place_after)
+            _see(input_rows, after, place_after)
             for i in range(count):
                 work[INPUT] += 0.5 * (begin[i] + end[i]) * (place_after[i] - place[i])
                 place[i] = place_after[i]
@@ -205,7 +209,7 @@ def march(linear, law, friction, lever, drive, inputs, pairs, force, status, ste
 
 
 @njit(cache=True)
-def _account(linear, law, held, force, free, seen, way, status, record, summed, work):
+def _account(response, holds, held, force, free, seen, way, status, share, summed, work):
     """Observables at the end of the step into ``seen``; mean forces, their work, the status of the step."""
     contacts = seen.shape[1]
     for i in range(contacts):
@@ -214,14 +218,14 @@ def _account(linear, law, held, force, free, seen, way, status, record, summed, 
             total = free[o, i]
             for j in range(contacts):
                 for f in range(2):
-                    total += linear.response[o, f, i, j] * force[f, j]
+                    total += response[o, f, i, j] * force[f, j]
             seen[o, i] = total
-        mean_n = force[0, i] if linear.hold[0] else 0.5 * (held[0, i] + force[0, i])
-        mean_t = force[1, i] if linear.hold[1] else 0.5 * (held[1, i] + force[1, i])
+        mean_n = force[0, i] if holds[0] else 0.5 * (held[0, i] + force[0, i])
+        mean_t = force[1, i] if holds[1] else 0.5 * (held[1, i] + force[1, i])
         summed[0, i] += mean_n
         summed[1, i] += mean_t
         slid -= seen[2, i]
         work[NORMAL] += mean_n * (seen[0, i] - moved)
         work[SLIDING] += mean_t * slid
         work[FRICTION] += mean_t * (way[i] - slid)
-        record.share[i, status[i]] += 1.0
+        share[i, status[i]] += 1.0
