@@ -157,6 +157,7 @@ def _related_tones(found, frame, detector):
     """Frequencies, levels, orders and fundamentals of the tones of the band in one frame, strongest first."""
     frequency, levels = _tones(found, frame, detector, detector.band)
     below, _ = _tones(found, frame, detector, (detector.lowest_fundamental, detector.band[0]))
+    below = below[below >= detector.lowest_fundamental]
     order, fundamental = ladders(np.concatenate([frequency, below]), detector.accuracy * found.frequency[1],
                                  detector.chance)
     return frequency, levels, order[:len(frequency)], fundamental[:len(frequency)]
