@@ -45,9 +45,9 @@ def squeal(response: Response, settings: Settings, context: Context) -> Squeal:
     Method:
     A squeal event is a tone between {lowest_frequency} and {highest_frequency} of at least {threshold} root
     mean square (levels re {reference}) for at least {shortest}, in Hann frames of {window} that overlap by
-    {overlap}; tones that drift by less than {drift} from frame to frame are one event. It is a harmonic
-    if most of its frames hold a lower tone as strong as that, from {lowest_fundamental} up, of which it is a whole
-    multiple, each frequency being known to {line_accuracy} of the distance of the lines, and if at most
+    {overlap}; tones that drift by less than {drift} from frame to frame are one event. It is a harmonic if
+    more than a third of its frames hold a lower tone of that level, from {lowest_fundamental} up, of which it is a
+    whole multiple, each frequency being known to {line_accuracy} of the distance of the lines, and if at most
     {largest_chance} of all unrelated tones would pass so. Third-octave levels are sums of the velocity spectra.
     """
     if settings.lowest_frequency >= settings.highest_frequency:

@@ -17,6 +17,9 @@ from pipeline.physics.spectra import level
 
 #: how much lower a tone midway between two lines of a Hann spectrum looks [dB], rounded up
 _BETWEEN_LINES = 1.5
+#: share of the frames of a harmonic that must tell its order: a modulated one is missed in many, while a tone of no
+#: relation that wanders matches in about the chance allowed, and a steady one in all of them or in none
+_TOLD = 1 / 3
 
 
 @dataclass(frozen=True)
@@ -36,7 +39,8 @@ class Detector:
     lowest_fundamental : tones from here to the band, too, may have harmonics in it [Hz]; they must pass the same
         threshold, prominence and range, and are no events
     accuracy : largest error of a frequency between the lines, as a share of their distance. Exact for one steady
-        tone; a tone 30 dB stronger eight lines away moves it by up to 0.05
+        tone; a tone 30 dB stronger eight lines away moves it by up to 0.05. Modulated tones err more and are then
+        missed as harmonics, frame by frame
     chance : largest share of unrelated tones that may pass as harmonics of one fundamental (see ``harmonics``)
     """
 
@@ -81,7 +85,7 @@ class Event:
     level : largest [dB]
     start, duration : [s]
     fundamental : mean frequency of the tone of which it is a multiple [Hz]; of an own tone, its own
-    order : the multiple, in more than half of its frames; 1 = a tone of its own
+    order : the multiple, in more than a third of its frames; 1 = a tone of its own
     """
 
     frequency: float
@@ -214,9 +218,10 @@ def _event(track, found):
 
 
 def _origin(track, frequency, power):
-    """(fundamental, order) of an event: the order that more than half of its frames tell, else a tone of its own."""
-    order = int(np.bincount(track.order).argmax())
-    told = np.equal(track.order, order)
-    if order == 1 or 2 * np.count_nonzero(told) <= len(told):
+    """(fundamental, order) of an event: the order above 1 that most frames tell, if enough do, else its own tone."""
+    orders = np.array(track.order)
+    order = int(np.bincount(orders[orders > 1], minlength=2).argmax())
+    told = orders == order
+    if order < 2 or told.mean() <= _TOLD:
         return frequency, 1
     return float(np.average(np.array(track.fundamental)[told], weights=power[told])), order

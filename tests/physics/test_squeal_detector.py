@@ -150,9 +150,9 @@ def test_a_fundamental_may_not_be_lower_than_the_lowest():
 
 
 @pytest.mark.exact
-def test_the_order_is_that_of_most_frames():
-    assert related(tone(800, 10e-3, 0, 0.6) + tone(1600, 3e-3)) == {1600: (2, 800)}
-    assert related(tone(800, 10e-3, 0, 0.4) + tone(1600, 3e-3)) == {1600: (1, 1600)}
+def test_more_than_a_third_of_the_frames_must_tell_the_order():
+    assert related(tone(800, 10e-3, 0, 0.4) + tone(1600, 3e-3)) == {1600: (2, 800)}
+    assert related(tone(800, 10e-3, 0, 0.3) + tone(1600, 3e-3)) == {1600: (1, 1600)}
 
 
 @pytest.mark.exact
@@ -163,10 +163,15 @@ def test_harmonics_follow_a_fundamental_that_drifts():
 
 
 def test_the_accuracy_holds_beside_a_tone_that_is_30_db_stronger():
-    """A strong tone eight lines away moves a frequency by at most the accuracy told."""
-    for apart in np.linspace(800, 900, 21):
-        (event,) = [e for e in events(tone(800, 30e-3) + tone(800 + apart, 1.05e-3)) if e.frequency > 1250]
-        assert abs(event.frequency - 800 - apart) <= DETECTOR.accuracy / DETECTOR.window
+    """A strong tone eight lines away moves a frequency by at most the accuracy told, and by a tenth of it or more."""
+    detector = replace(DETECTOR, threshold=110.0, range=40.0, drift=20.0, shortest=0.002, gap=0.0)
+    errors = []
+    for apart in np.linspace(800, 900, 9):
+        for phase in np.linspace(0, np.pi, 5):
+            weak = 30e-3 / 10**(30 / 20) * np.sqrt(2) * np.sin(2 * np.pi * (755 + apart) * TIME + phase)
+            found = events((tone(755, 30e-3) + weak)[:2000], detector)
+            errors += [abs(e.frequency - 755 - apart) for e in found if e.frequency > 1400]
+    assert 0.1 < max(errors) * DETECTOR.window / DETECTOR.accuracy <= 1
 
 
 def test_bad_input():

@@ -53,9 +53,10 @@ def squeal(product, published, look):
 
 def occurrence_caption(product):
     """Where the loudest peak lies and how it compares with the threshold."""
-    harmonics = " and of harmonics of a lower tone among them" if (product.event_order > 1).any() else ""
+    harmonics = (product.event_order > 1).any()
+    among = ", and of those that are no harmonics of a lower tone (own tones)" if harmonics else ""
     return ("Highest velocity level in the squeal band at each operating point, its frequency and number of events"
-            f"{harmonics}."
+            f"{among}."
             f" Framed: squeal. Loudest {number(product.peak_level.max(), 3)} dB; line in the colour bar: threshold,"
             f" {number(product.threshold, 3)} dB re {quantity(product.reference, 'm/s', 3)}.")
 
