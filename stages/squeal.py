@@ -34,6 +34,8 @@ class Settings(Section):
         gt=0, le=0.5)
     largest_chance: float = option(
         0.1, "largest share of unrelated tones that may pass as harmonics of one fundamental", gt=0, lt=1)
+    told_share: float = option(
+        0.33, "share of the frames of an event that must be told as the same harmonic", ge=0.1, lt=1)
 
 
 @stage
@@ -46,7 +48,7 @@ def squeal(response: Response, settings: Settings, context: Context) -> Squeal:
     A squeal event is a tone between {lowest_frequency} and {highest_frequency} of at least {threshold} root
     mean square (levels re {reference}) for at least {shortest}, in Hann frames of {window} that overlap by
     {overlap}; tones that drift by less than {drift} from frame to frame are one event. It is a harmonic if
-    more than a third of its frames hold a lower tone of that level, from {lowest_fundamental} up, of which it is a
+    more than {told_share} of its frames hold a lower tone of that level, from {lowest_fundamental} up, of which it is a
     whole multiple, each frequency being known to {line_accuracy} of the distance of the lines, and if at most
     {largest_chance} of all unrelated tones would pass so. Third-octave levels are sums of the velocity spectra.
     """
@@ -79,7 +81,8 @@ def _detector(settings):
     return Detector((settings.lowest_frequency, settings.highest_frequency),
                     float(level(settings.threshold**2, settings.reference)), settings.reference, settings.window,
                     settings.overlap, settings.prominence, settings.dynamic_range, settings.drift, settings.gap,
-                    settings.shortest, settings.lowest_fundamental, settings.line_accuracy, settings.largest_chance)
+                    settings.shortest, settings.lowest_fundamental, settings.line_accuracy, settings.largest_chance,
+                    settings.told_share)
 
 
 def _search(velocity, rate, detector):

@@ -17,9 +17,6 @@ from pipeline.physics.spectra import level
 
 #: how much lower a tone midway between two lines of a Hann spectrum looks [dB], rounded up
 _BETWEEN_LINES = 1.5
-#: share of the frames of a harmonic that must tell its order: a modulated one is missed in many, while a tone of no
-#: relation that wanders matches in about the chance allowed, and a steady one in all of them or in none
-_TOLD = 1 / 3
 
 
 @dataclass(frozen=True)
@@ -42,6 +39,8 @@ class Detector:
         tone; a tone 30 dB stronger eight lines away moves it by up to 0.05. Modulated tones err more and are then
         missed as harmonics, frame by frame
     chance : largest share of unrelated tones that may pass as harmonics of one fundamental (see ``harmonics``)
+    told : share of the frames of a harmonic that must tell its order. A modulated one is missed in many; a tone of no
+        relation that wanders matches in about ``chance`` of them, a steady one in all or in none
     """
 
     band: tuple
@@ -57,6 +56,7 @@ class Detector:
     lowest_fundamental: float
     accuracy: float
     chance: float
+    told: float
 
 
 @dataclass(frozen=True)
@@ -85,7 +85,7 @@ class Event:
     level : largest [dB]
     start, duration : [s]
     fundamental : mean frequency of the tone of which it is a multiple [Hz]; of an own tone, its own
-    order : the multiple, in more than a third of its frames; 1 = a tone of its own
+    order : the multiple, in more than the share ``told`` of its frames; 1 = a tone of its own
     """
 
     frequency: float
@@ -149,7 +149,7 @@ def detect(found, detector):
         ended += late
         growing = [t for t in growing if t not in late]
         _extend(growing, frame, *_related_tones(found, frame, detector), detector)
-    events = [_event(track, found) for track in ended + growing]
+    events = [_event(track, found, detector) for track in ended + growing]
     return sorted((e for e in events if e.duration >= detector.shortest), key=lambda e: (e.start, e.frequency))
 
 
@@ -207,21 +207,21 @@ def _extend(growing, frame, frequency, levels, orders, fundamentals, detector):
         nearest.fundamental.append(fundamental)
 
 
-def _event(track, found):
+def _event(track, found, detector):
     """An event reaches half a hop beyond its frames, or to the ends of the signal."""
     first, last = track.frame[0], track.frame[-1]
     start = 0.0 if first == 0 else found.time[first] - found.hop / 2
     end = found.duration if last == len(found.time) - 1 else found.time[last] + found.hop / 2
     power = 10**(np.array(track.level) / 10)
     frequency = float(np.average(track.frequency, weights=power))
-    return Event(frequency, max(track.level), start, end - start, *_origin(track, frequency, power))
+    return Event(frequency, max(track.level), start, end - start, *_origin(track, frequency, power, detector))
 
 
-def _origin(track, frequency, power):
+def _origin(track, frequency, power, detector):
     """(fundamental, order) of an event: the order above 1 that most frames tell, if enough do, else its own tone."""
     orders = np.array(track.order)
     order = int(np.bincount(orders[orders > 1], minlength=2).argmax())
     told = orders == order
-    if order < 2 or told.mean() <= _TOLD:
+    if order < 2 or told.mean() <= detector.told:
         return frequency, 1
     return float(np.average(np.array(track.fundamental)[told], weights=power[told])), order

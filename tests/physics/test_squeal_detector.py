@@ -11,7 +11,7 @@ from pipeline.physics.squeal_detector import Detector, detect, frames, loudest
 RATE = 100e3
 TIME = np.arange(100000) / RATE
 #: reference 1 nm/s; the threshold is 1 mm/s
-DETECTOR = Detector((1250.0, 20000.0), 120.0, 1e-9, 0.01, 0.75, 10.0, 30.0, 100.0, 0.01, 0.02, 400.0, 0.05, 0.1)
+DETECTOR = Detector((1250.0, 20000.0), 120.0, 1e-9, 0.01, 0.75, 10.0, 30.0, 100.0, 0.01, 0.02, 400.0, 0.05, 0.1, 0.33)
 
 
 def tone(frequency, root_mean_square, start=0.0, end=1.0):
