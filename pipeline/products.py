@@ -254,7 +254,7 @@ class Response:
     coupling: Array = text("", "how forces enter: assembly or disc")
 
 
-@product(version=2)
+@product(version=3)
 class Squeal:
     """Squeal events at the sensors, and levels per band."""
 
@@ -274,6 +274,8 @@ class Squeal:
     event_level: Array = quantity("1", "event", "largest level, dB")
     event_start: Array = quantity("s", "event", "begin")
     event_duration: Array = quantity("s", "event", "duration")
+    event_fundamental: Array = quantity("Hz", "event", "tone whose whole multiple the event is; its own frequency if of none")
+    event_order: Array = count("event", "the multiple: 1 = a tone of its own, 2 and more = a harmonic")
 
 
 @product(version=1)

@@ -6,6 +6,7 @@ import numpy as np
 
 from pipeline.views.agreement import judged
 from pipeline.views.chapters.motion import extremes, point, rate_in_words
+from pipeline.views.chapters.sound import origin
 from pipeline.views.chapters.stability import distinct_unstable
 from pipeline.views.readable import number, percent, plural, quantity, span
 
@@ -64,7 +65,19 @@ def _where(products):
     operating, sensor = np.unravel_index(np.argmax(squeal.peak_level), squeal.peak_level.shape)
     return (f"Loudest at {point(squeal, operating)}: {number(squeal.peak_level[operating, sensor], 3)} dB"
             f" re {quantity(squeal.reference, 'm/s', 3)} at {quantity(squeal.peak_frequency[operating, sensor], 'Hz')},"
-            f" sensor {squeal.sensor_name[sensor]}; threshold {number(squeal.threshold, 3)} dB.")
+            f" sensor {squeal.sensor_name[sensor]}; threshold {number(squeal.threshold, 3)} dB."
+            f"{_harmonics(squeal, squeal.peak_frequency[operating, sensor])}")
+
+
+def _harmonics(squeal, peak):
+    """What the loudest peak is a harmonic of, and how many events are none."""
+    above = squeal.event_order > 1
+    if not above.any():
+        return ""
+    loudest = int(np.argmax(squeal.event_level))
+    there = above[loudest] and abs(squeal.event_frequency[loudest] / peak - 1) <= NEAR
+    told = f" It is the {origin(squeal, loudest)}." if there else ""
+    return f"{told} Among {plural(len(above), 'event')}: {plural(np.count_nonzero(above), 'harmonic')} of a lower tone."
 
 
 def _why(products):

@@ -65,6 +65,12 @@ def test_a_line_drawing_says_neither_when_nor_by_whom_it_was_drawn():
     assert "<dc:" not in picture
 
 
+def test_harmonics_look_different_from_own_tones():
+    own, above = small.squeal(), small.squeal(harmonic=True)
+    assert sound.level_frequency(own, LINES) != sound.level_frequency(above, LINES)
+    assert sound.occurrence(own, 60) != sound.occurrence(above, 60)
+
+
 def test_fields_of_nothing_are_drawn():
     worn = small.micro_friction()
     empty = replace(worn, contact_pressure_new=0 * worn.contact_pressure_new, pad_wear=0 * worn.pad_wear)
