@@ -49,9 +49,12 @@ def test_without_friction_every_root_decays_or_is_neutral(model):
 
 
 @pytest.mark.exact
-def test_roots_without_friction_and_damping_are_the_real_modes(model):
+@pytest.mark.parametrize("centrifugal", [True, False])
+def test_roots_without_friction_and_damping_are_the_real_modes(model, centrifugal):
+    """At speeds that let a centrifugal term show wherever one is left in."""
     bare = changed(model, damping=0 * model.damping, joint_damping=0 * model.joint_damping)
-    settings = Settings(**SETTINGS, gyroscopic=False, damping_speed=f"{NO_DAMPING} m/s")
+    settings = Settings(**SETTINGS | {"speeds": ("80 rad/s", "120 rad/s")}, gyroscopic=False, centrifugal=centrifugal,
+                        damping_speed=f"{NO_DAMPING} m/s")
     modes = complex_modes(bare, small_friction_map(), settings=settings)
     start = modes.root[:, 0]
     np.testing.assert_allclose(start.imag, 2 * np.pi * modes.real_frequency, rtol=1e-8)
