@@ -103,6 +103,7 @@ def complex_modes(model: ReducedModel, friction_map: FrictionMap, settings: Sett
         real_frequency=[_lowest_frequencies(s.model, branches, settings.centrifugal) for s in states],
         operating_pressure=np.repeat(model.pressure, len(settings.speeds)),
         operating_speed=[o.speed for o in outcomes], operating_friction=[o.mean_friction for o in outcomes],
+        operating_force=[o.sliding.contact.force for o in outcomes],
         operating_open=[np.sum(~o.sliding.contact.closed) for o in outcomes],
         operating_root=[_lowest(o.root, branches) for o in outcomes], **_unstable(outcomes, model.recovery),
         corrections=max([s.basis.corrections for s in states] + [o.corrections for o in outcomes]))
