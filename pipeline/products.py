@@ -192,7 +192,7 @@ class ReducedModel:
     recovery: Array = quantity("1", "visible xyz coordinate", "displacement of the surface nodes per coordinate", np.float32)
 
 
-@product(version=2)
+@product(version=3)
 class ComplexModes:
     """Complex modes of the sliding system over friction, and at each operating point of the map."""
 
@@ -203,6 +203,7 @@ class ComplexModes:
     operating_pressure: Array = quantity("Pa", "operating", "pressure of the operating point")
     operating_speed: Array = quantity("rad/s", "operating", "disc speed of the operating point")
     operating_friction: Array = quantity("1", "operating", "friction coefficient from the map, mean weighted by normal force")
+    operating_force: Array = quantity("N", "operating contact", "normal contact force in steady sliding, 0 when open")
     operating_open: Array = count("operating", "contacts that steady sliding leaves open")
     operating_root: Array = quantity("1/s", "operating branch", "roots at the operating point", complex)
     unstable_operating: Array = count("unstable", "operating point of the unstable mode")

@@ -38,7 +38,7 @@ class Settings(Section):
     friction_steps: int = option(41, "points of the sweep, both ends included", ge=2)
     frequency_max: Quantity("Hz", gt=0) = option("20 kHz", "real modes below it span the motion")
     smallest_correction: float = option(
-        1e-3, "corrections for friction and damping below this share of the modal amplitude are left out", ge=0)
+        1e-5, "corrections for friction and damping below this share of the modal amplitude are left out", ge=0)
     sliding_distance: Quantity("m", ge=0) = option("10 mm", "sliding distance at which the friction map is read")
     friction_slopes: bool = option(True, "friction that changes with pressure and slip speed, at the operating points")
     friction_damping: bool = option(True, "friction that turns with the slip velocity damps sideways motion")
@@ -100,9 +100,10 @@ def complex_modes(model: ReducedModel, friction_map: FrictionMap, settings: Sett
     branches = min(max(len(s.basis.frequency) for s in states), *(s.model.size for s in states))
     return ComplexModes(
         pressure=model.pressure, friction=friction, root=[r[:, :branches] for r in roots],
-        real_frequency=[_lowest_frequencies(s.model, branches) for s in states],
+        real_frequency=[_lowest_frequencies(s.model, branches, settings.centrifugal) for s in states],
         operating_pressure=np.repeat(model.pressure, len(settings.speeds)),
         operating_speed=[o.speed for o in outcomes], operating_friction=[o.mean_friction for o in outcomes],
+        operating_force=[o.sliding.contact.force for o in outcomes],
         operating_open=[np.sum(~o.sliding.contact.closed) for o in outcomes],
         operating_root=[_lowest(o.root, branches) for o in outcomes], **_unstable(outcomes, model.recovery),
         corrections=max([s.basis.corrections for s in states] + [o.corrections for o in outcomes]))
@@ -184,7 +185,7 @@ def _lowest(roots, count):
     return half[np.argsort(abs(half), kind="stable")[:count]]
 
 
-def _lowest_frequencies(model, count):
+def _lowest_frequencies(model, count, centrifugal):
     """The ``count`` lowest frequencies (Hz) of the closed system without friction, damping and gyroscopic terms."""
-    mass, _, stiffness = model.frictionless(gyroscopic=False)
+    mass, _, stiffness = model.frictionless(gyroscopic=False, centrifugal=centrifugal)
     return np.sqrt(np.maximum(eigvalsh(stiffness, mass), 0.0))[:count] / (2 * np.pi)

@@ -49,9 +49,12 @@ def test_without_friction_every_root_decays_or_is_neutral(model):
 
 
 @pytest.mark.exact
-def test_roots_without_friction_and_damping_are_the_real_modes(model):
+@pytest.mark.parametrize("centrifugal", [True, False])
+def test_roots_without_friction_and_damping_are_the_real_modes(model, centrifugal):
+    """At speeds that let a centrifugal term show wherever one is left in."""
     bare = changed(model, damping=0 * model.damping, joint_damping=0 * model.joint_damping)
-    settings = Settings(**SETTINGS, gyroscopic=False, damping_speed=f"{NO_DAMPING} m/s")
+    settings = Settings(**SETTINGS | {"speeds": ("80 rad/s", "120 rad/s")}, gyroscopic=False, centrifugal=centrifugal,
+                        damping_speed=f"{NO_DAMPING} m/s")
     modes = complex_modes(bare, small_friction_map(), settings=settings)
     start = modes.root[:, 0]
     np.testing.assert_allclose(start.imag, 2 * np.pi * modes.real_frequency, rtol=1e-8)
@@ -123,10 +126,21 @@ def test_friction_moves_the_load_and_with_it_the_roots(model):
     assert abs(roots[0] - roots[1]).max() > 1.0
 
 
+@pytest.mark.exact
+def test_the_forces_of_steady_sliding_are_kept(model, modes):
+    """Pressures outermost, speeds within; with the friction of the map and without."""
+    still = complex_modes(model, small_friction_map(0.0), settings=Settings(**SETTINGS))
+    for number, (state, speed) in enumerate([(0, 8.0), (0, 12.0), (1, 8.0), (1, 12.0)]):
+        for found, friction in ((still, 0.0), (modes, 0.5)):
+            _, force = sliding(model, state, speed, friction)
+            np.testing.assert_allclose(found.operating_force[number], force, rtol=1e-6)
+
+
 def test_contacts_that_open_are_counted(model):
     """Friction of 1.2 tips a pad off one contact; more than that tips it over, and there is no steady sliding."""
     still, tipped = (complex_modes(model, small_friction_map(mu), settings=Settings(**SETTINGS)) for mu in (0.0, 1.2))
     assert not still.operating_open.any() and (tipped.operating_open == 1).all()
+    np.testing.assert_array_equal(np.sum(tipped.operating_force == 0, axis=1), tipped.operating_open)
     with pytest.raises(ConvergenceError, match="steady sliding"):
         complex_modes(model, small_friction_map(2.0), settings=Settings(**SETTINGS))
 

@@ -127,7 +127,9 @@ def complex_modes(stable=False):
     return filled(
         ComplexModes, pressure=PRESSURE, friction=friction, root=root, real_frequency=np.tile(frequency, (3, 1)),
         operating_pressure=OPERATING_PRESSURE, operating_speed=OPERATING_SPEED, operating_friction=mu,
-        operating_root=at, unstable_operating=operating[order], unstable_root=at[operating, which][order],
+        operating_force=OPERATING_PRESSURE[:, None] * 2e-4 * np.append(np.linspace(2.2, 0.4, 11), 0.0),
+        operating_open=np.ones(9, dtype=int), operating_root=at, unstable_operating=operating[order],
+        unstable_root=at[operating, which][order],
         unstable_shape=shape, corrections=55)
 
 

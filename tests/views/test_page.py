@@ -46,6 +46,13 @@ def test_settings_show_value_origin_and_source(html):
     assert "1, 2, 3\u202fMPa" in html
 
 
+def test_the_load_of_the_pads_is_told_without_friction_and_in_steady_sliding(html):
+    """The first patch goes from 560 to 880 N, the last from 240 to 0 N; the largest force without friction is 560 N."""
+    assert "without friction, nominal 2\u202fMPa" in html and "none of 12 patches open. Beside it" in html
+    assert "steady sliding at 10.25\u202frad/s with friction 0.46" in html and "1 of 12 patches open." in html
+    assert "by up to 57\u202f% of the largest force without friction" in html
+
+
 def test_the_table_shows_every_row_of_the_comparison(html):
     for row in small.comparison().row:
         assert f"<td>{row}</td>" in html

@@ -93,6 +93,7 @@ def _table(modes, most=12):
         root, point = modes.unstable_root[index], modes.unstable_operating[index]
         rows.append((quantity(root.imag / TWO_PI, "Hz", 5), quantity(root.real, "1/s", 3),
                      number(-root.real / abs(root) * 100, 2), quantity(modes.operating_pressure[point], "Pa", 3),
-                     quantity(modes.operating_speed[point], "rad/s"), number(modes.operating_friction[point], 3)))
-    return (Table(("frequency", "growth rate", "damping ratio / %", "pressure", "disc speed", "friction"), tuple(rows),
-                  "Unstable modes, strongest first, each frequency once", tuple(range(6))),)
+                     quantity(modes.operating_speed[point], "rad/s"), number(modes.operating_friction[point], 3),
+                     str(modes.operating_open[point])))
+    head = "frequency", "growth rate", "damping ratio / %", "pressure", "disc speed", "friction", "open patches"
+    return (Table(head, tuple(rows), "Unstable modes, strongest first, each frequency once", tuple(range(7))),)
