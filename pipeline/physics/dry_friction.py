@@ -95,9 +95,9 @@ def falling(static, kinetic, decay_speed, **options):
 
 def kernel(friction, contacts):
     """FrictionKernel of a Friction for so many contacts."""
-    law = friction.law
-    stiffness = np.ascontiguousarray(np.broadcast_to(np.asarray(friction.stiffness, float), contacts))
-    return FrictionKernel(*law.table, float(friction.distance), float(friction.static_factor),
+    table = (np.array(part) for part in friction.law.table)
+    stiffness = np.array(np.broadcast_to(np.asarray(friction.stiffness, float), contacts))
+    return FrictionKernel(*table, float(friction.distance), float(friction.static_factor),
                           DESCRIPTIONS[friction.description], stiffness, float(friction.exponent))
 
 

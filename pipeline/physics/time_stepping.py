@@ -151,7 +151,7 @@ def simulate(model, law, friction=None, *, step, duration, drive=None, inputs=No
     pairs, force, status = _begin(model, system, normal, dry, start, _speed_at_start(model, drive))
     record = _empty(linear, steps // record_every + 1)
     code, number, contact = march(
-        linear, normal, dry, np.ascontiguousarray(model.contacts.lever, dtype=float),
+        linear, normal, dry, _own(model.contacts.lever),
         _history(model.speed if drive is None else drive, 1, "drive"), _inputs(model, inputs), pairs, force, status,
         float(step), steps, int(record_every), bool(book), record)
     if code != SOLVED:
@@ -188,7 +188,12 @@ def _linear(model, system, law, friction, step):
     arrays = (np.moveaxis(matrices[0], 0, 2), first, last, rows, response, system.observed(model.input_rows)[0],
               system.observed(model.sensor_rows), hold.astype(float), system.squared, np.diag(system.damping), energy,
               power)
-    return LinearKernel(*(np.ascontiguousarray(a, dtype=float) for a in arrays))
+    return LinearKernel(*(_own(a) for a in arrays))
+
+
+def _own(values):
+    """A writable, contiguous copy: one type of array for all compiled calls."""
+    return np.array(values, dtype=float, order="C")
 
 
 def _forms(system):
@@ -204,7 +209,7 @@ def _normal_kernel(law, contacts):
     count = len(contacts.area)
 
     def each(value):
-        return np.ascontiguousarray(np.broadcast_to(np.asarray(value, float), count))
+        return _own(np.broadcast_to(np.asarray(value, float), count))
 
     kind = {Hard: HARD, Penalty: PENALTY, Table: TABLE, Lagrange: LAGRANGE}[type(law)]
     if isinstance(law, Table) and (len(law.closure) < 2 or law.closure[0] != 0 or law.pressure[0] != 0
@@ -216,8 +221,7 @@ def _normal_kernel(law, contacts):
         raise ConfigError("time stepping: gamma", "between 0.5 and 1", f"{law.gamma:g}")
     if isinstance(law, Penalty) and not np.all(np.asarray(law.stiffness) > 0):
         raise ConfigError("time stepping: contact stiffness", "above 0", f"{np.min(law.stiffness):g} N/m")
-    table = [np.ascontiguousarray(getattr(law, name, np.array([0.0, 1.0])), dtype=float)
-             for name in ("closure", "pressure")]
+    table = [_own(getattr(law, name, [0.0, 1.0])) for name in ("closure", "pressure")]
     return NormalKernel(kind, each(law.gap), each(contacts.area), each(getattr(law, "stiffness", 0.0)),
                         each(getattr(law, "damping", 0.0)), *table, float(getattr(law, "damping_speed", np.inf)),
                         float(getattr(law, "restitution", 0.0)))
@@ -259,7 +263,7 @@ def _begin(model, system, normal, dry, start, speed):
     mu = [coefficient(dry, force[0, i] / contacts.area[i], slip[i]) for i in range(len(gap))]
     force[1] = np.sign(slip) * mu * force[0] if start.friction is None else start.friction
     status = np.where(closed, np.where(slip == 0, STICK, SLIP), OPEN).astype(np.int64)
-    return np.ascontiguousarray(system.to_pairs(start.displacement, start.velocity)), force, status
+    return _own(system.to_pairs(start.displacement, start.velocity)), force, status
 
 
 def _speed_at_start(model, drive):
@@ -270,7 +274,7 @@ def _speed_at_start(model, drive):
 
 def _history(given, width, where):
     history = given if isinstance(given, History) else History(np.reshape(given, (1, width)), 1.0)
-    value = np.ascontiguousarray(history.value, dtype=float).reshape(len(history.value), -1)
+    value = _own(np.reshape(history.value, (len(history.value), -1)))
     if value.shape[1] != width or not np.isfinite(value).all() or not history.interval > 0:
         raise ConfigError(f"time stepping: {where}", f"finite samples of {width} values at a positive interval",
                           f"{value.shape[1]} values at {history.interval:g} s")

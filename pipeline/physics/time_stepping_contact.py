@@ -96,6 +96,8 @@ def solve_contacts(law, friction, response, free, past, held, drive, way, force,
                 change, where = moved, i
             size = max(size, abs(normal) + abs(tangent))
             force[0, i], force[1, i] = normal, tangent
+            if status[i] == SLIP:
+                before[i] = SLIP        # what has broken loose is no longer held by static friction in this step
         if count == 1 or change <= TOLERANCE * size:
             return SOLVED, 0
     return UNCONVERGED, where
@@ -172,6 +174,8 @@ def _yielding(law, friction, i, y, r, past, held, drive, way, guess, before):
             speed = abs(drive[1] - (y[3] + r[3, 0] * normal + r[3, 1] * tangent))
             tangent_new, slope, sliding = _drawn(friction, i, held[1], slip, normal, normal / law.area[i], speed,
                                                  before)
+            if sliding:
+                before = SLIP       # once loose in this step, no longer held by static friction
         change = (tangent_new - tangent) / (1.0 + slope * r[2, 1])
         tangent += change
         if abs(change) <= LOCAL_TOLERANCE * (abs(tangent) + normal):
