@@ -13,6 +13,7 @@ from pipeline.products import (
     Squeal,
     Structure,
     Surface,
+    Transient,
 )
 
 
@@ -26,8 +27,8 @@ class Settings(Section):
 @stage(companions=lambda product: {"report.html": product.html.item()}, reads_case=True)
 def report(surface: Surface | None, micro_friction: MicroFriction | None, friction_map: FrictionMap | None,
            structure: Structure | None, model: ReducedModel | None, complex_modes: ComplexModes | None,
-           multibody: Multibody | None, response: Response | None, squeal: Squeal | None,
-           comparison: Comparison | None, settings: Settings, context: Context) -> Report:
+           multibody: Multibody | None, transient: Transient | None, response: Response | None,
+           squeal: Squeal | None, comparison: Comparison | None, settings: Settings, context: Context) -> Report:
     """Write one HTML page with pictures, tables, settings and methods.
 
     Method:
@@ -39,7 +40,7 @@ def report(surface: Surface | None, micro_friction: MicroFriction | None, fricti
 
     products = {"surface": surface, "micro_friction": micro_friction, "friction_map": friction_map,
                 "structure": structure, "model": model, "complex_modes": complex_modes, "multibody": multibody,
-                "response": response, "squeal": squeal, "comparison": comparison}
+                "transient": transient, "response": response, "squeal": squeal, "comparison": comparison}
     look = Look(settings.dots_per_inch, settings.mode_pictures)
     chapters = []
     builders = plan(products, look)

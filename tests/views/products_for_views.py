@@ -239,7 +239,8 @@ def products(**replaced):
     """Every product the report reads, by the name of its argument; ``replaced`` overrides."""
     return {"surface": surface(), "micro_friction": micro_friction(), "friction_map": friction_map(),
             "structure": structure(), "model": reduced_model(), "complex_modes": complex_modes(),
-            "multibody": multibody(), "response": response(), "squeal": squeal(), "comparison": comparison(),
+            "multibody": multibody(), "transient": transient(), "response": response(), "squeal": squeal(),
+            "comparison": comparison(),
             **replaced}
 
 
