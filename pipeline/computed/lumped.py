@@ -5,7 +5,8 @@ import numpy as np
 from pipeline.computed import ours, ratio
 
 _STICKS = 1
-_NEUTRAL = 1e-6
+#: growth below this share of the largest root is rounding
+_NEUTRAL = 1e-8
 
 
 def lumped_rows(products, facts, known):

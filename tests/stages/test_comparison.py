@@ -75,8 +75,9 @@ def test_misprint_is_shown_as_printed_and_not_counted():
     longer = type(base)(**{**values, "free_frequency": [259.4, 3500.0, 3600.0], "free_diameters": [2, 0, 4],
                            "free_out_of_plane": [1.0, 1.0, 1.0]})
     settings = Settings.model_validate({"reference": str(FILE)})
-    found = row(comparison(micro_friction(), longer, complex_modes(), multibody(), squeal(), None, None, settings=settings),
-                "mode_18_simulation")
+    compared = comparison(micro_friction(), longer, complex_modes(), multibody(), squeal(), None, None,
+                          settings=settings)
+    found = row(compared, "mode_18_simulation")
     assert (found["published"], found["ours"]) == (337.3, 3500.0)
     assert (found["verdict"], found["tolerance"]) == ("not comparable", 0)
     assert "within the tolerance of 177 Hz about 3537.3 Hz" in found["note"]
