@@ -11,6 +11,7 @@ from pipeline.physics.closed_form.two_mode_flutter import onset_friction, roots_
 from pipeline.physics.dry_friction import constant, tabulated
 from pipeline.physics.oscillation import dominant_frequency, growth_rate
 from pipeline.physics.time_stepping import Hard, History, Lagrange, Penalty, Start, Table, imposed, simulate
+from pipeline.physics.time_stepping_linear import modal_system
 from pipeline.physics.time_stepping_start import steady_start
 from tests.physics.lumps import ball, belt, lumps, random_structure
 
@@ -342,11 +343,16 @@ def run(model=None, law=None, friction=None, **options):
     ({"law": Table(np.array([0.1, 1.0]), np.array([0.0, 1.0]))}, "rise from 0"), ({"inputs": [1.0]}, "one force"),
     ({"law": Table(np.array([0, 1e-9]), np.array([0, 1e3]))}, "8 steps in a period of the contact"),
     ({"friction": constant(0.3, description="elastic", stiffness=1e12)}, "stiffness of contact 0"),
-    ({"duration": 0.0}, "positive step"), ({"drive": np.nan}, "finite samples"),
-    ({"model": lumps([1.0], normal=[[0.0]], tangent=[[1.0]]), "inputs": [0.0]}, "normal force moves")])
+    ({"duration": 0.0}, "positive step"), ({"drive": np.nan}, "finite samples")])
 def test_what_cannot_be_computed_is_refused(options, said):
     with pytest.raises(ConfigError, match=said):
         run(**options)
+
+
+def test_modes_without_the_motion_of_a_contact_are_refused():
+    model = lumps([1.0, 1.0], np.eye(2), [100.0, 1e8], normal=[[0.0, 1.0]], tangent=[[1.0, 0.0]], speed=0.1)
+    with pytest.raises(ConfigError, match="normal force moves"):
+        run(model, system=modal_system(model, highest=10.0))
 
 
 def test_unknown_joint_is_refused():

@@ -115,7 +115,7 @@ def test_squeal_is_found_in_the_motion():
     motion = move(**CYCLING)
     found = squeal(motion, settings=SquealSettings.model_validate(
         {"lowest_frequency": "100 Hz", "highest_frequency": "500 Hz", "window": "50 ms", "settling": "0.7 s",
-         "threshold": "1 mm/s"}))
+         "lowest_fundamental": "100 Hz", "threshold": "1 mm/s"}))
     np.testing.assert_allclose(found.peak_frequency, motion.cycle_frequency, atol=4)
     assert {*found.event_operating} == {0, 1} and found.coupling == "transient"
 
