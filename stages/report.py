@@ -5,6 +5,7 @@ from pipeline.products import (
     Comparison,
     ComplexModes,
     FrictionMap,
+    Lumped,
     MicroFriction,
     Multibody,
     ReducedModel,
@@ -27,8 +28,9 @@ class Settings(Section):
 @stage(companions=lambda product: {"report.html": product.html.item()}, reads_case=True)
 def report(surface: Surface | None, micro_friction: MicroFriction | None, friction_map: FrictionMap | None,
            structure: Structure | None, model: ReducedModel | None, complex_modes: ComplexModes | None,
-           multibody: Multibody | None, transient: Transient | None, response: Response | None,
-           squeal: Squeal | None, comparison: Comparison | None, settings: Settings, context: Context) -> Report:
+           multibody: Multibody | None, response: Response | None, squeal: Squeal | None,
+           lumped: Lumped | None, transient: Transient | None, comparison: Comparison | None, settings: Settings,
+           context: Context) -> Report:
     """Write one HTML page with pictures, tables, settings and methods.
 
     Method:
@@ -39,8 +41,9 @@ def report(surface: Surface | None, micro_friction: MicroFriction | None, fricti
     from pipeline.views.page import page, plan
 
     products = {"surface": surface, "micro_friction": micro_friction, "friction_map": friction_map,
-                "structure": structure, "model": model, "complex_modes": complex_modes, "multibody": multibody,
-                "transient": transient, "response": response, "squeal": squeal, "comparison": comparison}
+                "structure": structure, "lumped": lumped, "model": model, "complex_modes": complex_modes,
+                "multibody": multibody, "response": response, "transient": transient, "squeal": squeal,
+                "comparison": comparison}
     look = Look(settings.dots_per_inch, settings.mode_pictures)
     chapters = []
     builders = plan(products, look)
