@@ -40,7 +40,8 @@ class Contacts:
 
     ``lever`` (c,) is the sliding speed per speed of the drive (the radius in m on a disc, 1 m on a belt), ``position``
     (c, 3) m, ``area`` (c,) m^2, ``preload`` (c,) N, ``stiffness`` (c,) N/m normal stiffness (0 where open), ``damping``
-    (c,) N s/m normal damping, ``gap`` (c,) m in the origin of the coordinates, negative where parts are set to press.
+    (c,) N s/m normal damping, ``gap`` (c,) m in the origin of the coordinates, negative where parts are set to press;
+    ``waviness``: each a Waviness of the surface under one contact, which only transients see.
     """
 
     normal: np.ndarray
@@ -53,6 +54,7 @@ class Contacts:
     stiffness: np.ndarray
     damping: np.ndarray
     gap: np.ndarray | float = 0.0
+    waviness: tuple = ()
 
     @property
     def fixed(self):
@@ -79,7 +81,7 @@ class SlidingModel:
     """Matrices (n, n) of the bodies, without joints and contacts; input rows (i, n), sensor rows (s, n).
 
     ``gyroscopic`` is per unit of ``speed``, ``centrifugal`` per squared speed; ``coordinate_body`` (n,) is the index of
-    the body of each coordinate in ``body_name``.
+    the body of each coordinate in ``body_name``. ``elements``: each a nonlinear Element, which only transients see.
     """
 
     body_name: tuple
@@ -96,6 +98,7 @@ class SlidingModel:
     sensor_name: tuple
     sensor_rows: np.ndarray
     speed: float
+    elements: tuple = ()
 
     @property
     def size(self):
@@ -173,6 +176,7 @@ class SlidingModel:
                            lateral=on(self.contacts.lateral))
         return replace(self, **matrices, joints=replace(self.joints, rows=on(self.joints.rows)), contacts=contacts,
                        input_rows=on(self.input_rows), sensor_rows=on(self.sensor_rows),
+                       elements=tuple(replace(e, row=on(e.row)) for e in self.elements),
                        coordinate_body=np.full(basis.shape[1], -1))
 
     def with_joints_scaled(self, group, factor):

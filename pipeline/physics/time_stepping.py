@@ -15,6 +15,8 @@ import numpy as np
 
 from pipeline.contract.errors import ConfigError, ConvergenceError
 from pipeline.physics.dry_friction import RIGID, coefficient, constant, kernel
+from pipeline.physics.element_forces import TOO_STIFF, UNSETTLED
+from pipeline.physics.elements import element_kernel
 from pipeline.physics.time_stepping_contact import (
     HARD,
     JAMMED,
@@ -31,6 +33,7 @@ from pipeline.physics.time_stepping_contact import (
     NormalKernel,
     table_force,
 )
+from pipeline.physics.time_stepping_elements import no_memory, surface_shift
 from pipeline.physics.time_stepping_linear import modal_system, newmark_matrices, step_matrices
 from pipeline.physics.time_stepping_march import HistoryKernel, LinearKernel, Record, march
 
@@ -83,16 +86,23 @@ class History:
 
 @dataclass(frozen=True)
 class Start:
-    """Displacement and velocity (n,) at time 0; normal and friction force (c,) where they are known."""
+    """Displacement and velocity (n,) at time 0; normal and friction force (c,) where they are known.
+
+    ``memory`` (s,) of the elements, by default 0: those with memory draw with no force where the motion starts;
+    ``angle`` rad of the drive and ``age`` s that passed before.
+    """
 
     displacement: np.ndarray
     velocity: np.ndarray
     normal: np.ndarray | None = None
     friction: np.ndarray | None = None
+    memory: np.ndarray | None = None
+    angle: float = 0.0
+    age: float = 0.0
 
     def kicked(self, velocity):
         """The same with ``velocity`` (n,) added."""
-        return Start(self.displacement, self.velocity + velocity, self.normal, self.friction)
+        return replace(self, velocity=self.velocity + velocity)
 
 
 @dataclass(frozen=True)
@@ -102,7 +112,7 @@ class Motion:
     ``normal_force`` and ``friction_force`` are means since the record before; ``status`` is 0 open, 1 sticking, 2
     sliding; ``status_share`` (c, 3) counts every step. ``stored`` is kinetic and strain energy of bodies and joints;
     ``sliding_loss`` the work of friction on the slip; ``normal_work`` and ``friction_work`` those of the contact
-    forces on the bodies.
+    forces on the bodies, ``element_work`` that of the elements; ``elongation`` and ``element_force`` are (e, r).
     """
 
     time: np.ndarray
@@ -120,13 +130,17 @@ class Motion:
     normal_work: np.ndarray
     friction_work: np.ndarray
     sliding_loss: np.ndarray
+    element_work: np.ndarray
+    elongation: np.ndarray
+    element_force: np.ndarray
     end: Start
 
     @property
     def imbalance(self):
         """Largest error of the energy balance over the largest energy that has passed; 0 without any."""
-        given = self.input_work + self.normal_work + self.friction_work - self.damping_loss
-        passed = max(abs(e).max() for e in (self.stored, self.input_work, self.damping_loss, self.friction_work))
+        given = self.input_work + self.normal_work + self.friction_work + self.element_work - self.damping_loss
+        passed = max(abs(e).max() for e in (self.stored, self.input_work, self.damping_loss, self.friction_work,
+                                            self.element_work))
         return abs(self.stored - self.stored[0] - given).max() / passed if passed else 0.0
 
 
@@ -148,15 +162,21 @@ def simulate(model, law, friction=None, *, step, duration, drive=None, inputs=No
     linear = _linear(model, system, law, friction or constant(0.0), step)
     normal, dry = _normal_kernel(law, model.contacts), kernel(friction or constant(0.0), len(model.contacts.area))
     _check(system, linear, normal, dry, model, step)
-    pairs, force, status = _begin(model, system, normal, dry, start, _speed_at_start(model, drive))
-    record = _empty(linear, steps // record_every + 1)
+    rest = np.zeros(model.size)
+    start = Start(rest, rest) if start is None else start
+    elements = _elements(model, system, linear)
+    memory = no_memory(elements) if start.memory is None else _own(start.memory)
+    pairs, force, status = _begin(model, system, normal, dry, start, _speed_at_start(model, drive), elements)
+    record = _empty(linear, elements, steps // record_every + 1, start.angle)
     code, number, contact = march(
-        linear, normal, dry, _own(model.contacts.lever),
+        linear, normal, dry, elements, _own(model.contacts.lever),
         _history(model.speed if drive is None else drive, 1, "drive"), _inputs(model, inputs), pairs, force, status,
-        float(step), steps, int(record_every), bool(book), record)
+        memory, float(start.age), float(step), steps, int(record_every), bool(book), record)
     if code != SOLVED:
-        raise _failure(code, number * step, contact, step)
-    return _motion(record, step * record_every, steps, Start(*system.from_pairs(record.end), *force))
+        raise _failure(code, number * step, contact, step, model)
+    end = Start(*system.from_pairs(record.end), *force, record.memory, float(record.angle[0]),
+                start.age + steps * step)
+    return _motion(record, step * record_every, steps, end)
 
 
 def imposed(model, joint):
@@ -170,11 +190,11 @@ def imposed(model, joint):
 
 
 def _linear(model, system, law, friction, step):
-    """LinearKernel: rows of the contacts and inputs, seen and driven through one step."""
+    """LinearKernel: rows of contacts, inputs and elements, seen and driven through one step."""
     contacts, count = model.contacts, len(model.contacts.area)
     matrices = (newmark_matrices(system, step, law.gamma) if isinstance(law, Lagrange)
                 else step_matrices(system, step))
-    forced = system.driven(np.vstack((contacts.normal, contacts.tangent, model.input_rows)))
+    forced = system.driven(np.vstack((contacts.normal, contacts.tangent, model.input_rows, -_element_rows(model))))
     first, last = (np.einsum("bxy,ryb->rxb", matrix, forced) for matrix in matrices[1:])
     hold = np.array([isinstance(law, Hard), kernel(friction, count).description == RIGID])
     if isinstance(law, Lagrange):
@@ -189,6 +209,22 @@ def _linear(model, system, law, friction, step):
               system.observed(model.input_rows)[0], _stacked(system.observed(model.sensor_rows)), hold, system.squared,
               np.diag(system.damping), energy, power)
     return LinearKernel(*(_own(a) for a in arrays))
+
+
+def _element_rows(model):
+    return np.array([e.row for e in model.elements], float).reshape(-1, model.size)
+
+
+def _elements(model, system, linear):
+    """ElementKernel: rows of the elements, seen and driven through one step, with those of the contacts."""
+    count, elements = len(model.contacts.area), len(model.elements)
+    seen = system.observed(_element_rows(model))
+    drawn, pressed = linear.last[len(linear.last) - elements:], linear.last[:2 * count]
+    contact_rows = linear.rows.reshape(4, count, *linear.rows.shape[1:])
+    arrays = {"rows": _stacked(seen), "own": np.einsum("oeax,fax->oef", seen, drawn),
+              "to_contacts": np.einsum("ocax,fax->ocf", contact_rows, drawn),
+              "to_elements": np.einsum("oeax,fax->oef", seen, pressed).reshape(2, elements, 2, count)}
+    return element_kernel(model.elements, model.contacts.waviness, **{n: _own(a) for n, a in arrays.items()})
 
 
 def _stacked(rows):
@@ -253,12 +289,15 @@ def _check(system, linear, normal, dry, model, step):
                               f"{step:.3g} s", "shorten the step, soften the contact, or take hard contacts")
 
 
-def _begin(model, system, normal, dry, start, speed):
+def _begin(model, system, normal, dry, start, speed, elements):
     """Pairs (2, m), forces (2, c) and status (c,) at time 0."""
-    contacts, rest = model.contacts, np.zeros(model.size)
-    start = Start(rest, rest) if start is None else start
+    contacts = model.contacts
     gap = normal.gap + contacts.normal @ start.displacement
     rate, slip = contacts.normal @ start.velocity, contacts.lever * speed - contacts.tangent @ start.velocity
+    if len(elements.waviness):
+        shift = np.zeros((2, len(gap)))
+        surface_shift(elements.waviness, (float(start.age), float(start.angle), float(speed)), shift)
+        gap, rate = gap + shift[0], rate + shift[1]
     force = np.zeros((2, len(gap)))
     if normal.kind == PENALTY:
         force[0] = np.where(gap < 0, np.maximum(-normal.stiffness * gap - normal.damping * rate, 0.0), 0.0)
@@ -296,21 +335,28 @@ def _inputs(model, inputs):
     return _history(np.zeros(count) if inputs is None else inputs, count, "inputs")
 
 
-def _empty(linear, kept):
+def _empty(linear, elements, kept, angle):
     sensors, contacts = len(linear.sensors) // 2, len(linear.rows) // 4
     return Record(*np.zeros((2, sensors, kept)), *np.zeros((4, contacts, kept)),
-                  np.zeros((contacts, kept), np.int8), np.zeros(kept), np.zeros((5, kept)), np.zeros((contacts, 3)),
-                  np.zeros(linear.step.shape[1:]))
+                  np.zeros((contacts, kept), np.int8), np.zeros(kept), np.zeros((6, kept)),
+                  *np.zeros((2, len(elements.kind), kept)), np.zeros((contacts, 3)), np.zeros(linear.step.shape[1:]),
+                  no_memory(elements), np.array([float(angle)]))
 
 
 def _motion(record, interval, steps, end):
     return Motion(interval * np.arange(len(record.stored)), record.displacement, record.velocity, record.gap,
                   record.normal, record.friction, record.slip, record.status, record.share / steps, record.stored,
-                  *record.work, end)
+                  *record.work, record.elongation, record.element_force, end)
 
 
-def _failure(code, time, contact, step):
+def _failure(code, time, contact, step, model):
     """The error that says what failed, when and where."""
+    if code in (TOO_STIFF, UNSETTLED):
+        where = f"time stepping at t = {time:.6g} s, element {model.elements[contact].name}"
+        if code == TOO_STIFF:
+            return ConfigError(where, "at least 8 steps in a period of the element", f"steps of {step:.3g} s",
+                               "shorten the step, or soften the element")
+        return ConvergenceError(where, "a force that settles", "none after the last sweep", "take a shorter step")
     where = f"time stepping at t = {time:.6g} s, contact {contact}"
     if code == TOO_LONG:
         return ConfigError(where, "at least 8 steps in a period of the contact", f"steps of {step:.3g} s",

@@ -1,8 +1,9 @@
 """The loop over time steps, compiled: linear step of the pairs, contact forces, bookkeeping.
 
 Per step: the pairs go on with the forces known so far, the contacts see the motion that this leads to and find their
-forces, these are added. Energies are summed at every step: work is (mean force) x (displacement of the step), which is
-exact for forces constant over the step; loss in dampers by the trapezoidal rule.
+forces, these are added; nonlinear elements, where there are any, are solved together with them. Energies are summed at
+every step: work is (mean force) x (displacement of the step), which is exact for forces constant over the step; loss in
+dampers by the trapezoidal rule.
 """
 
 from typing import NamedTuple
@@ -11,19 +12,27 @@ import numpy as np
 from numba import njit
 
 from pipeline.physics.time_stepping_contact import SOLVED, solve_contacts
+from pipeline.physics.time_stepping_elements import (
+    first_forces,
+    middle_angle,
+    settle_element_books,
+    shift_work,
+    solve_together,
+    surface_shift,
+)
 
 DIVERGED = 4
 #: sums may be reordered to use the width of the processor; nothing else is relaxed
 _FAST = {"reassoc", "contract", "nsz"}
-INPUT, DAMPING, NORMAL, FRICTION, SLIDING = range(5)
+INPUT, DAMPING, NORMAL, FRICTION, SLIDING, ELEMENTS = range(6)
 
 
 class LinearKernel(NamedTuple):
-    """Linear step of m pairs under c contacts and i inputs: forces are N (c), T (c), inputs (i)."""
+    """Linear step of m pairs under c contacts, i inputs and e elements: forces are N (c), T (c), inputs, elements."""
 
     step: np.ndarray        # (2, 2, m)
-    first: np.ndarray       # (2 c + i, 2, m) effect of the forces at the begin of the step
-    last: np.ndarray        # (2 c + i, 2, m) effect of the forces at its end, or of forces constant over it
+    first: np.ndarray       # (2 c + i + e, 2, m) effect of the forces at the begin of the step
+    last: np.ndarray        # (2 c + i + e, 2, m) effect of the forces at its end, or of forces constant over it
     rows: np.ndarray        # (4 c, 2, m) observables: displacement, velocity along n, then along t
     response: np.ndarray    # (4, 2, c, c) of the observables to ``last``
     input_rows: np.ndarray  # (i, 2, m) displacement along the inputs
@@ -53,9 +62,13 @@ class Record(NamedTuple):
     slip: np.ndarray            # (c, r)
     status: np.ndarray          # (c, r)
     stored: np.ndarray          # (r,)
-    work: np.ndarray            # (5, r) input, damping, normal, friction, sliding
+    work: np.ndarray            # (6, r) input, damping, normal, friction, sliding, elements
+    elongation: np.ndarray      # (e, r)
+    element_force: np.ndarray   # (e, r)
     share: np.ndarray           # (c, 3) steps open, sticking, sliding
     end: np.ndarray             # (2, m) pairs after the last step
+    memory: np.ndarray          # (s,) of the elements after the last step
+    angle: np.ndarray           # (1,) rad of the drive, at time 0, then after the last step
 
 
 @njit(cache=True)
@@ -137,11 +150,18 @@ def _keep(linear, law, record, row, pairs, watched, seen, force, drive, status, 
 
 
 @njit(cache=True)
-def march(linear, law, friction, lever, drive, inputs, pairs, force, status, step, steps, every, book, record):
-    """(code, step number, contact): fills ``record`` from ``pairs``, ``force`` and ``status`` at time 0.
+def _keep_elements(record, row, place, drawn):
+    for k in range(drawn.size):
+        record.elongation[k, row], record.element_force[k, row] = place[0, k], drawn[k]
 
-    ``lever`` (c,), ``drive`` HistoryKernel of the drive speed, ``inputs`` of the input forces; ``book``: whether
-    the work of inputs and dampers is summed.
+
+@njit(cache=True)
+def march(linear, law, friction, elements, lever, drive, inputs, pairs, force, status, memory, age, step, steps, every,
+          book, record):
+    """(code, step number, contact or element): fills ``record`` from ``pairs``, ``force``, ``status``, ``memory``.
+
+    ``lever`` (c,), ``drive`` HistoryKernel of the drive speed, ``inputs`` of the input forces; ``age`` s passed before
+    time 0; ``book``: whether the work of inputs and dampers is summed.
     """
     contacts, count = law.gap.size, linear.input_rows.shape[0]
     # functions of the loop take the arrays that they need: a whole tuple of arrays costs more than their work
@@ -151,7 +171,7 @@ def march(linear, law, friction, lever, drive, inputs, pairs, force, status, ste
     free, seen, after = np.zeros((4, contacts)), np.zeros((4, contacts)), np.zeros_like(pairs)
     held, summed, turning = force.copy(), np.zeros((2, contacts)), np.zeros(1)
     free_flat, seen_flat, held_flat, force_flat = free.ravel(), seen.ravel(), held.ravel(), force.ravel()
-    sliding, way, work, before = np.zeros((2, contacts)), np.zeros(contacts), np.zeros(5), status.copy()
+    sliding, way, work, before = np.zeros((2, contacts)), np.zeros(contacts), np.zeros(6), status.copy()
     begin, end, watched = np.zeros(count), np.zeros(count), np.zeros(linear.sensors.shape[0])
     place, place_after = np.zeros(count), np.zeros(count)
     varies, turns, steady = inputs.value.shape[0] > 1, drive.value.shape[0] > 1, np.zeros_like(pairs)
@@ -163,8 +183,22 @@ def march(linear, law, friction, lever, drive, inputs, pairs, force, status, ste
     if not varies:
         _push(first, 2 * contacts, begin, steady)
         _push(last, 2 * contacts, begin, steady)
+    count_e, waves = elements.kind.size, elements.waviness.shape[0] > 0
+    special, angle, spin = count_e > 0 or waves, record.angle[0], np.zeros(1)
+    alone, shift, shift_before = np.zeros((4, contacts)), np.zeros((2, contacts)), np.zeros((2, contacts))
+    lonely, now, later = np.zeros((2, count_e)), np.zeros((2, count_e)), np.zeros((2, count_e))
+    drawn, drawn_before, remembered, earlier = np.zeros(count_e), np.zeros(count_e), memory.copy(), status.copy()
     _see(input_rows, pairs, place)
     _see(rows, pairs, seen_flat)
+    if special:
+        read(drive, 0.0, spin)
+        instant = (age, angle, spin[0])
+        surface_shift(elements.waviness, instant, shift)
+        seen[0] += shift[0]
+        seen[1] += shift[1]
+        _see(elements.rows, pairs, now.ravel())
+        first_forces(elements, now, memory, drawn, instant)
+        _keep_elements(record, 0, now, drawn)
     _keep(linear, law, record, 0, pairs, watched, seen, force, sliding[1], status, 1, work)
     loss = _loss_rate(power, drag, pairs) if book else 0.0
     for number in range(1, steps + 1):
@@ -174,6 +208,15 @@ def march(linear, law, friction, lever, drive, inputs, pairs, force, status, ste
             read(inputs, number * step, end)
             _push(first, 2 * contacts, begin, after)
             _push(last, 2 * contacts, end, after)
+        if special:
+            drawn_before[:] = drawn
+            shift_before[:] = shift
+            remembered[:] = memory
+            spun = spin[0]
+            read(drive, number * step, spin)
+            angle = middle_angle(angle, spun, spin[0], step)
+            instant = (age + number * step, angle, spin[0])
+            _push(first, 2 * contacts + count, drawn, after)
         if contacts:
             if turns:
                 read(drive, number * step, turning)
@@ -184,10 +227,29 @@ def march(linear, law, friction, lever, drive, inputs, pairs, force, status, ste
             if not (holds[0] and holds[1]):
                 _push(first, 0, held_flat, after)
             _see(rows, after, free_flat)
-            code, contact = solve_contacts(law, friction, response, free, seen, held, sliding, way, force,
-                                           status, before)
+            if not special:
+                code, contact = solve_contacts(law, friction, response, free, seen, held, sliding, way, force,
+                                               status, before)
+                if code != SOLVED:
+                    return code, number, contact
+        if special:
+            surface_shift(elements.waviness, instant, shift)
+            for i in range(contacts):
+                free[0, i] += shift[0, i]
+                free[1, i] += shift[1, i]
+            alone[:] = free
+            earlier[:] = status
+            _see(elements.rows, after, lonely.ravel())
+            code, contact = solve_together(law, friction, response, elements, alone, free, seen, held, sliding, way,
+                                           force, status, earlier, before, lonely, later, now[0], remembered, memory,
+                                           drawn, instant)
             if code != SOLVED:
                 return code, number, contact
+            _push(last, 2 * contacts + count, drawn, after)
+            work[ELEMENTS] += settle_element_books(now[0], later[0], drawn_before, drawn)
+            work[NORMAL] -= shift_work(shift_before[0], shift[0], held, force, holds[0])
+            now, later = later, now
+        if contacts:
             _push(last, 0, force_flat, after)
             _account(response, holds, held, force, free, seen, way, status, share, summed, work)
         if book:
@@ -203,8 +265,12 @@ def march(linear, law, friction, lever, drive, inputs, pairs, force, status, ste
             if not np.isfinite(np.sum(pairs)):
                 return DIVERGED, number, 0
             _keep(linear, law, record, number // every, pairs, watched, seen, summed, sliding[1], status, every, work)
+            if special:
+                _keep_elements(record, number // every, now, drawn)
             summed[:] = 0.0
     record.end[:] = pairs
+    record.memory[:] = memory
+    record.angle[0] = angle
     return SOLVED, 0, 0
 
 

@@ -1,0 +1,159 @@
+"""Forces of nonlinear elements, compiled: one function for all kinds, and their solution over one time step.
+
+F is the force that an element draws with at both ends of its row, positive where it resists elongation e = b q with
+rate v; bodies feel -F b. Kinds with memory are functions of the elongation since the begin of the step and of what
+they remember from there:
+
+    polynomial  F = k1 e + k2 e^2 + k3 e^3
+    power       F = c |v|^(p - 1) v
+    sliders     F = k1 e + sum_j clip(F_j + k_j de, -L_j, L_j)      parallel Jenkins elements (Iwan 1966)
+    dry         F = clip(F + k de, -L(v), L(v)), L = F_c (1 + r exp(-|v| / v_s)), F_c of each direction
+    bouc_wen    F = k1 e + k z, dz = (1 - |z / d|^n (s + (1 - s) sgn(z de))) de       (Wen 1976, s = beta d^n)
+    gap         F = k_stop (e - i) + k_inner i, i = clip(e, -lower, upper)
+    softening   F = -k (1 - exp(-t / tau)) e
+    wave        F = -(k u + c u'), u = a cos(order * angle + 2 pi f t - phase)
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+from numba import njit
+
+from pipeline.physics.time_stepping_contact import LARGEST_STIFFNESS, SOLVED
+
+POLYNOMIAL, POWER, SLIDERS, DRY, BOUC_WEN, GAP, SOFTENING, WAVE = range(8)
+#: codes of a step that has no solution, beside those of the contacts
+TOO_STIFF, UNSETTLED = 5, 6
+#: sizes of the way of a Bouc-Wen element after which nothing is left of where it started
+FORGOTTEN = 40.0
+SWEEPS, ITERATIONS, TOLERANCE, LOCAL_TOLERANCE = 500, 100, 1e-10, 1e-13
+
+
+class ElementKernel(NamedTuple):
+    """e elements, as the compiled loops need them; memory and sliders of element k are ``first[k]:first[k + 1]``."""
+
+    kind: np.ndarray            # (e,)
+    parameter: np.ndarray       # (e, 6) in the order of the law's fields
+    first: np.ndarray           # (e + 1,)
+    stiffness: np.ndarray       # (s,) N/m of sliders
+    limit: np.ndarray           # (s,) N of sliders
+    rows: np.ndarray            # (2 e, 2, m) elongation, then its rate, from the pairs
+    own: np.ndarray             # (2, e, e) of elongation and rate to the forces at the end of the step
+    to_contacts: np.ndarray     # (4, c, e) of the observables of the contacts to these forces
+    to_elements: np.ndarray     # (2, e, 2, c) of elongation and rate to the contact forces
+    waviness: np.ndarray        # (w, 5) contact, amplitude (m), order, frequency (Hz), phase (rad)
+
+
+@njit(cache=True)
+def wave(amplitude, order, frequency, phase, instant):
+    """(u, u') at ``instant``: (time s, angle rad and speed rad/s of the drive)."""
+    time, angle, turning = instant
+    argument = order * angle + 2 * np.pi * frequency * time - phase
+    return (amplitude * np.cos(argument),
+            -amplitude * (order * turning + 2 * np.pi * frequency) * np.sin(argument))
+
+
+@njit(cache=True)
+def element_force(kernel, k, elongation, rate, begin, remembered, memory, instant):
+    """(F, dF/de, dF/dv) of element ``k``; ``memory`` (s,) is filled with what it remembers at the end.
+
+    ``begin`` is the elongation where it remembered ``remembered``.
+    """
+    kind, p, one, last = kernel.kind[k], kernel.parameter[k], kernel.first[k], kernel.first[k + 1]
+    moved = elongation - begin
+    if kind == POLYNOMIAL:
+        return (elongation * (p[0] + elongation * (p[1] + elongation * p[2])),
+                p[0] + elongation * (2 * p[1] + 3 * elongation * p[2]), 0.0)
+    if kind == POWER:
+        steep = p[0] * abs(rate) ** (p[1] - 1)
+        return steep * rate, 0.0, p[1] * steep
+    if kind == SLIDERS:
+        force, slope = p[0] * elongation, p[0]
+        for s in range(one, last):
+            trial = remembered[s] + kernel.stiffness[s] * moved
+            memory[s] = min(max(trial, -kernel.limit[s]), kernel.limit[s])
+            force += memory[s]
+            if abs(trial) <= kernel.limit[s]:
+                slope += kernel.stiffness[s]
+        return force, slope, 0.0
+    if kind == DRY:
+        rise = 1.0 + p[3] * np.exp(-abs(rate) / p[4])
+        trial = remembered[one] + p[0] * moved
+        memory[one] = min(max(trial, -p[2] * rise), p[1] * rise)
+        return memory[one], p[0] if memory[one] == trial else 0.0, 0.0
+    if kind == BOUC_WEN:
+        memory[one], slope = _bouc_wen(remembered[one], moved, p[2], p[3], p[4])
+        return p[0] * elongation + p[1] * memory[one], p[0] + p[1] * slope, 0.0
+    if kind == GAP:
+        inner = min(max(elongation, -p[2]), p[3])
+        return (p[0] * (elongation - inner) + p[1] * inner, p[1] if inner == elongation else p[0], 0.0)
+    if kind == SOFTENING:
+        slope = -p[0] * (1.0 - np.exp(-instant[0] / p[1]))
+        return slope * elongation, slope, 0.0
+    place, speed = wave(p[2], p[3], p[4], p[5], instant)
+    return -(p[0] * place + p[1] * speed), 0.0, 0.0
+
+
+@njit(cache=True)
+def _bouc_wen_slope(z, way, size, exponent, shape):
+    return 1.0 - (abs(z) / size) ** exponent * (shape + (1.0 - shape) * np.sign(z * way))
+
+
+@njit(cache=True)
+def _bouc_wen(z, way, size, exponent, shape):
+    """(z, dz/de) after ``way`` m, by classical Runge-Kutta steps over a quarter of the size at most."""
+    way = min(max(way, -FORGOTTEN * size), FORGOTTEN * size)
+    parts = int(np.ceil(4 * abs(way) / size)) if way != 0.0 else 1
+    h = way / parts
+    for _ in range(parts):
+        a = _bouc_wen_slope(z, way, size, exponent, shape)
+        b = _bouc_wen_slope(z + 0.5 * h * a, way, size, exponent, shape)
+        c = _bouc_wen_slope(z + 0.5 * h * b, way, size, exponent, shape)
+        d = _bouc_wen_slope(z + h * c, way, size, exponent, shape)
+        z += h * (a + 2 * b + 2 * c + d) / 6
+    return z, _bouc_wen_slope(z, way, size, exponent, shape)
+
+
+@njit(cache=True)
+def solve_elements(kernel, free, begin, remembered, memory, force, instant):
+    """(code, element) after filling ``force`` (e,) N, from a guess, and ``memory``, at the end of the step.
+
+    ``free`` (2, e) are elongation and rate without the forces ``force``, ``begin`` (e,) elongations at the begin of
+    the step. Elements are visited in turn, each solved by Newton's method, until no force changes.
+    """
+    count = force.size
+    for _ in range(SWEEPS):
+        change, size, where = 0.0, 0.0, 0
+        for k in range(count):
+            place, rate = free[0, k], free[1, k]
+            for j in range(count):
+                if j != k:
+                    place += kernel.own[0, k, j] * force[j]
+                    rate += kernel.own[1, k, j] * force[j]
+            found, code = _one_element(kernel, k, place, rate, begin[k], remembered, memory, force[k], instant)
+            if code != SOLVED:
+                return code, k
+            if abs(found - force[k]) > change:
+                change, where = abs(found - force[k]), k
+            size = max(size, abs(found))
+            force[k] = found
+        if count == 1 or change <= TOLERANCE * size:
+            return SOLVED, 0
+    return UNSETTLED, where
+
+
+@njit(cache=True)
+def _one_element(kernel, k, place, rate, begin, remembered, memory, guess, instant):
+    """(F, code) of element ``k``, its elongation and rate being ``place`` and ``rate`` without its own force."""
+    give, mobile, force = kernel.own[0, k, k], kernel.own[1, k, k], guess
+    for _ in range(ITERATIONS):
+        drawn, slope, drag = element_force(kernel, k, place + give * force, rate + mobile * force, begin, remembered,
+                                           memory, instant)
+        against = 1.0 - slope * give - drag * mobile
+        if abs(slope * give) > LARGEST_STIFFNESS or against <= 0.0:
+            return 0.0, TOO_STIFF
+        change = (drawn - force) / against
+        force += change
+        if abs(change) <= LOCAL_TOLERANCE * max(abs(force), abs(drawn)):
+            return force, SOLVED
+    return 0.0, UNSETTLED

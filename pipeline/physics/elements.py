@@ -1,0 +1,177 @@
+"""Nonlinear elements of a SlidingModel: each a force along an elongation row, with or without memory.
+
+    replace(model, elements=(Element("stop", row, Gap(stop=1e6, upper=1e-4)),))
+
+The laws and their signs are those of ``element_forces``. Every law has values at which its force is exactly 0. Joints
+carry the linear part; an element that takes something away from a joint does so by a negative ``linear``.
+"""
+
+from dataclasses import astuple, dataclass
+
+import numpy as np
+
+from pipeline.contract.errors import ConfigError
+from pipeline.physics import element_forces as kinds
+
+
+@dataclass(frozen=True)
+class Polynomial:
+    """F = linear e + quadratic e^2 + cubic e^3, in N/m, N/m^2, N/m^3. Duffing's is ``cubic``."""
+
+    linear: float = 0.0
+    quadratic: float = 0.0
+    cubic: float = 0.0
+
+
+@dataclass(frozen=True)
+class Power:
+    """F = coefficient |v|^(exponent - 1) v: 1 viscous (N s/m), 2 quadratic damping (N s^2/m^2)."""
+
+    coefficient: float = 0.0
+    exponent: float = 2.0
+
+
+@dataclass(frozen=True)
+class Sliders:
+    """Jenkins elements in parallel, ``stiffness`` (s,) N/m each held up to ``limit`` (s,) N, and ``linear`` e."""
+
+    stiffness: np.ndarray
+    limit: np.ndarray
+    linear: float = 0.0
+
+
+@dataclass(frozen=True)
+class Dry:
+    """Dry friction with a small elastic way before it slides: ``stiffness`` N/m, sliding force of each direction in N.
+
+    At the speed v the force is (1 + rise exp(-|v| / decay_speed)) times that of its direction.
+    """
+
+    stiffness: float
+    forward: float = 0.0
+    backward: float = 0.0
+    rise: float = 0.0
+    decay_speed: float = 1.0
+
+
+@dataclass(frozen=True)
+class BoucWen:
+    """Hysteresis that forgets with the way: k z up to k ``size``, and ``linear`` e; ``shape`` in 0.5 to 1, n >= 1."""
+
+    linear: float = 0.0
+    stiffness: float = 0.0
+    size: float = 1.0
+    exponent: float = 1.0
+    shape: float = 0.5
+
+
+@dataclass(frozen=True)
+class Gap:
+    """Stops of stiffness ``stop`` N/m beyond -lower and upper (m), and the stiffness ``inner`` between them.
+
+    Backlash of a joint is ``inner`` = minus its stiffness, which vanishes with the gap.
+    """
+
+    stop: float = 0.0
+    inner: float = 0.0
+    lower: float = np.inf
+    upper: float = np.inf
+
+
+@dataclass(frozen=True)
+class Softening:
+    """F = -stiffness (1 - exp(-t / time)) e: a spring that loses ``stiffness`` N/m as it warms up."""
+
+    stiffness: float = 0.0
+    time: float = 1.0
+
+
+@dataclass(frozen=True)
+class Wave:
+    """The far end of a spring and damper moves by u = amplitude cos(order angle + 2 pi frequency t - phase).
+
+    ``angle`` is that of the drive since time 0; m, Hz, rad. With stiffness 1 N/m ``amplitude`` is a force in N along
+    the row.
+    """
+
+    stiffness: float = 0.0
+    damping: float = 0.0
+    amplitude: float = 0.0
+    order: float = 0.0
+    frequency: float = 0.0
+    phase: float = 0.0
+
+
+_KIND = {Polynomial: kinds.POLYNOMIAL, Power: kinds.POWER, Sliders: kinds.SLIDERS, Dry: kinds.DRY,
+         BoucWen: kinds.BOUC_WEN, Gap: kinds.GAP, Softening: kinds.SOFTENING, Wave: kinds.WAVE}
+
+
+@dataclass(frozen=True)
+class Element:
+    """A law along the elongation ``row`` (n,) of a model; ``name`` for messages."""
+
+    name: str
+    row: np.ndarray
+    law: object
+
+    def __post_init__(self):
+        if type(self.law) not in _KIND:
+            raise ConfigError(f"element {self.name}", f"one of {', '.join(c.__name__ for c in _KIND)}",
+                              type(self.law).__name__)
+        _check(self.name, self.law)
+
+
+@dataclass(frozen=True)
+class Waviness:
+    """Shape of the surface under ``contact``, whose gap grows by u = amplitude cos(order angle + 2 pi f t - phase)."""
+
+    contact: int
+    amplitude: float
+    order: float
+    phase: float = 0.0
+    frequency: float = 0.0
+
+
+def iwan(stiffness, force, exponent=0.0, count=40, elastic=False):
+    """Sliders of a joint that slips in full at ``force`` N, ``stiffness`` N/m while nothing slips.
+
+    Their slip ways are spread as phi^exponent up to phi_max = (exponent + 2) / (exponent + 1) force / stiffness
+    (Segalman, J. Appl. Mech. 72 (2005) 752, with beta = 0), so that the loss of a cycle grows as the power
+    exponent + 3 of its amplitude; -1 < exponent <= 0. The ways are cut into ``count`` bands, each of its exact
+    stiffness and force. ``elastic`` takes ``stiffness`` away again: what the slip of a joint changes.
+    """
+    if not (-1 < exponent <= 0 and force > 0 and stiffness >= 0 and count >= 1):
+        raise ConfigError("iwan", "-1 < exponent <= 0, force > 0, stiffness >= 0, count >= 1",
+                          f"{exponent:g}, {force:g} N, {stiffness:g} N/m, {count}")
+    edge = np.linspace(0, 1, count + 1) ** 2
+    share, strength = np.diff(edge ** (exponent + 1)), np.diff(edge ** (exponent + 2))
+    empty = 0.0 if stiffness == 0 else 1.0
+    return Sliders(stiffness * share, empty * force * strength, -stiffness if elastic else 0.0)
+
+
+def element_kernel(elements, waviness, **linear):
+    """ElementKernel of Elements and Waviness; ``linear``: its arrays that depend on the modes and the step."""
+    sliders = [(e.law.stiffness, e.law.limit) if isinstance(e.law, Sliders)
+               else ([0.0], [0.0]) if isinstance(e.law, Dry | BoucWen) else ([], []) for e in elements]
+    parameter = np.zeros((len(elements), 6))
+    for k, element in enumerate(elements):
+        law = element.law
+        values = (law.linear,) if isinstance(law, Sliders) else astuple(law)
+        parameter[k, :len(values)] = values
+    waves = [(w.contact, w.amplitude, w.order, w.frequency, w.phase) for w in waviness]
+    return kinds.ElementKernel(
+        np.array([_KIND[type(e.law)] for e in elements], np.int64), parameter,
+        np.cumsum([0, *(len(s[0]) for s in sliders)]),
+        *(np.concatenate([np.empty(0), *(np.asarray(s[part], float) for s in sliders)]) for part in (0, 1)),
+        waviness=np.array(waves, float).reshape(-1, 5), **linear)
+
+
+def _check(name, law):
+    wrong = {Power: lambda p: p.exponent < 1, Dry: lambda p: min(p.forward, p.backward) < 0 or p.stiffness < 0
+             or p.decay_speed <= 0 or p.rise <= -1,
+             BoucWen: lambda p: p.size <= 0 or p.exponent < 1 or not 0.5 <= p.shape <= 1,
+             Gap: lambda p: p.lower < 0 or p.upper < 0, Softening: lambda p: p.time <= 0,
+             Sliders: lambda p: np.shape(p.stiffness) != np.shape(p.limit) or np.min(p.limit, initial=0) < 0}
+    values = [v for v in law.__dict__.values() if not np.isinf(v).any()] if isinstance(law, Gap) else astuple(law)
+    if not all(np.isfinite(v).all() for v in values) or wrong.get(type(law), lambda p: False)(law):
+        raise ConfigError(f"element {name}", f"values as the description of {type(law).__name__} says", str(law))
