@@ -1,0 +1,130 @@
+"""What is left of the equation of motion of a bench when measured motions and forces are put into it.
+
+    r = M q'' + C q' + K q + sum_k b_k F_k - sum_i (n_i N_i + t_i T_i) - f        (n, samples), N
+
+r is linear in every parameter that the forces are linear in, which makes it the cheap test of a missing term: no
+simulation, no start state. Displacements are filtered without shift in phase before they are differentiated; r is
+filtered and decimated in the same way, which keeps it linear (Gautier, Janot & Vandanjon, IEEE Trans. Control Syst.
+Technol. 21 (2013) 428).
+"""
+
+import numpy as np
+from numba import njit
+from scipy.integrate import cumulative_trapezoid
+from scipy.signal import butter, decimate, sosfiltfilt
+
+from pipeline.contract.errors import ConfigError
+from pipeline.physics.bench import MOTIONS, run_drive, run_inputs
+from pipeline.physics.dry_friction import Friction
+from pipeline.physics.element_forces import element_force
+from pipeline.physics.elements import element_kernel
+from pipeline.physics.time_stepping import Penalty, Table
+from pipeline.physics.time_stepping_elements import no_memory, surface_shift
+
+_SMALLEST_SHARE = 1e-9
+
+
+def equation_residual(bench, run, measured, corner=None, order=4, decimation=1, trim=0):
+    """Residual (n, samples) of measured displacements ``measured`` {channel: (samples,)} and the inputs of ``run``.
+
+    ``corner`` Hz of the Butterworth filter (``order``, run forth and back), None for none; every ``decimation``-th
+    sample is kept, behind a low pass; ``trim`` samples are left out at both ends first. Channels are read as the bench
+    scales them. Raises ConfigError where the channels do not give every coordinate, or a contact does not yield.
+    """
+    motion = coordinates(bench, run, measured)
+    if corner is not None:
+        if not 0 < corner < run.sample_rate / 2:
+            raise ConfigError("equation residual: corner", f"between 0 and {run.sample_rate / 2:g} Hz",
+                              f"{corner:g} Hz")
+        motion = sosfiltfilt(butter(order, 2 * corner / run.sample_rate, output="sos"), motion, axis=1)
+    residual = forces_missing(bench, run, motion)
+    residual = residual[:, trim:residual.shape[1] - trim]
+    return decimate(residual, decimation, axis=1, zero_phase=True) if decimation > 1 else residual
+
+
+def coordinates(bench, run, measured):
+    """Displacements (n, samples) that the displacement channels in ``measured`` show, gain, offset and delay undone."""
+    model, rows, values = bench.model, [], []
+    for channel in bench.channels:
+        if channel.quantity != MOTIONS[0] or channel.name not in measured:
+            continue
+        rows.append(model.sensor_rows[model.sensor_name.index(channel.source)])
+        shown = np.asarray(measured[channel.name], float) - channel.offset - channel.drift * run.time
+        values.append(np.interp(run.time + channel.delay, run.time, shown / channel.gain))
+    rows = np.reshape(np.array(rows, float), (-1, model.size))
+    share = np.linalg.svd(rows, compute_uv=False)
+    if len(rows) < model.size or share[-1] < _SMALLEST_SHARE * share[0]:
+        raise ConfigError("equation residual", f"displacement channels that give all {model.size} coordinates",
+                          f"{len(rows)} channels", "measure more points, hold bodies, or simulate instead")
+    return np.linalg.pinv(rows) @ np.array(values)
+
+
+def forces_missing(bench, run, motion):
+    """r (n, samples) of displacements (n, samples), differentiated by central differences."""
+    model, interval = bench.model, 1 / run.sample_rate
+    speed = np.gradient(motion, interval, axis=1, edge_order=2)
+    mass, damping, stiffness = model.supported()
+    inertia = np.gradient(speed, interval, axis=1, edge_order=2)
+    inertia[:, 1:-1] = (motion[:, 2:] - 2 * motion[:, 1:-1] + motion[:, :-2]) / interval**2
+    residual = mass @ inertia + damping @ speed + stiffness @ motion
+    turning = np.broadcast_to(run_drive(bench, run), run.samples)
+    angle = cumulative_trapezoid(turning, dx=interval, initial=0.0)
+    instants = np.column_stack((run.time, angle, turning))
+    residual = residual + _elements(model, motion, speed, instants) - _contacts(bench, motion, speed, instants)
+    forces = np.array([np.broadcast_to(f, run.samples) for f in run_inputs(bench, run)]).reshape(-1, run.samples)
+    return residual - model.input_rows.T @ forces
+
+
+def _elements(model, motion, speed, instants):
+    """sum_k b_k F_k (n, samples)."""
+    count = len(model.elements)
+    rows = np.array([e.row for e in model.elements], float).reshape(-1, model.size)
+    kernel = element_kernel(model.elements, (), rows=np.zeros((2 * count, 2, 1)), own=np.zeros((2, count, count)),
+                            to_contacts=np.zeros((4, 0, count)), to_elements=np.zeros((2, count, 2, 0)))
+    return rows.T @ _along(kernel, rows @ motion, rows @ speed, instants, no_memory(kernel))
+
+
+@njit(cache=True)
+def _along(kernel, place, rate, instants, memory):
+    """Forces (e, samples) along elongations ``place`` and their ``rate`` (e, samples)."""
+    force, after = np.zeros_like(place), memory.copy()
+    for s in range(place.shape[1]):
+        instant = (instants[s, 0], instants[s, 1], instants[s, 2])
+        for k in range(place.shape[0]):
+            begin = place[k, max(s - 1, 0)]
+            force[k, s] = element_force(kernel, k, place[k, s], rate[k, s], begin, memory, after, instant)[0]
+        memory[:] = after
+    return force
+
+
+def _contacts(bench, motion, speed, instants):
+    """sum_i (n_i N_i + t_i T_i) (n, samples), sliding everywhere."""
+    contacts, fixed = bench.model.contacts, bench.model.contacts.fixed
+    normal = np.where(fixed, contacts.preload, 0.0)[:, None] * np.ones(motion.shape[1])
+    for i in np.flatnonzero(~fixed):
+        normal[i] = _pressed(bench, i, motion, speed, instants)
+    slip = contacts.lever[:, None] * instants[:, 2] - contacts.tangent @ speed
+    friction: Friction = bench.friction
+    drawn = np.sign(slip) * friction.at_speed(slip, normal / contacts.area[:, None]) * normal
+    return contacts.normal.T @ normal + contacts.tangent.T @ drawn
+
+
+def _pressed(bench, i, motion, speed, instants):
+    """Normal force (samples,) of contact ``i`` by its law."""
+    law, contacts = bench.law, bench.model.contacts
+    if not isinstance(law, Penalty | Table):
+        raise ConfigError(f"equation residual: contact {i}", "a contact law that yields", type(law).__name__,
+                          "give the contact a stiffness, or simulate instead")
+    shift = np.zeros((2, len(contacts.area), len(instants)))
+    waves = np.array([(w.contact, w.amplitude, w.order, w.frequency, w.phase) for w in contacts.waviness])
+    for s, instant in enumerate(instants if len(waves) else ()):
+        surface_shift(waves, tuple(instant), shift[:, :, s])
+    gap = np.broadcast_to(law.gap, len(contacts.area))[i] + contacts.normal[i] @ motion + shift[0, i]
+    closing = -(contacts.normal[i] @ speed + shift[1, i])
+    closure = np.maximum(-gap, 0.0)
+    if isinstance(law, Penalty):
+        stiffness, damping = (np.broadcast_to(v, len(contacts.area))[i] for v in (law.stiffness, law.damping))
+        return np.where(closure > 0, np.maximum(stiffness * closure + damping * closing, 0.0), 0.0)
+    last = (law.pressure[-1] - law.pressure[-2]) / (law.closure[-1] - law.closure[-2])
+    pressure = np.interp(closure, law.closure, law.pressure) + last * np.maximum(closure - law.closure[-1], 0.0)
+    return contacts.area[i] * pressure * np.maximum(1 + closing / law.damping_speed, 0.0)
