@@ -1,0 +1,25 @@
+"""A spring from a point to the ground: F = k x along the direction of its sensor, as of a fixture or a cable."""
+
+from dataclasses import replace
+
+import numpy as np
+
+from pipeline.effects.effect import Effect
+from pipeline.inference.priors import HalfNormal, Parameter
+
+
+def parameters(typical):
+    return (Parameter("stiffness", "N/m", 0.1 * typical.stiffness, HalfNormal(0.2 * typical.stiffness), null=0.0),)
+
+
+def apply(bench, place, values):
+    model = bench.model
+    row = model.sensor_rows[model.sensor_name.index(place)]
+    return replace(bench, model=replace(model, stiffness=model.stiffness + values["stiffness"] * np.outer(row, row)))
+
+
+EFFECT = Effect(
+    name="added_stiffness", summary="a support at a point that the model leaves out", place="point",
+    stage="structure", parameters=parameters, apply=apply, linear=("stiffness",),
+    source="D. J. Ewins, Modal Testing, 2nd ed. (2000): supports of the structure",
+    valid="Valid while the support is elastic and does not lift off.")

@@ -1,0 +1,26 @@
+"""Dry friction that a joint has in one direction only: F = F_a for v > 0 (F_a > 0), or for v < 0 (F_a < 0).
+
+It comes on top of what resists in both directions; either sign takes energy out.
+"""
+
+from pipeline.effects.effect import Effect
+from pipeline.effects.stick import stick_stiffness
+from pipeline.inference.priors import Normal, Parameter
+from pipeline.physics.elements import Dry, Element
+
+
+def parameters(typical):
+    return (Parameter("force", "N", 0.1 * typical.force, Normal(0.0, 0.2 * typical.force), null=0.0),)
+
+
+def apply(bench, place, values):
+    row, _, _ = bench.joint(place)
+    law = Dry(stick_stiffness(bench, row), max(values["force"], 0.0), max(-values["force"], 0.0))
+    return bench.with_elements(Element(f"asymmetric_friction {place}", row, law))
+
+
+EFFECT = Effect(
+    name="asymmetric_friction", summary="dry friction that is larger in one direction", place="joint",
+    stage="friction", parameters=parameters, apply=apply, linear=("force",),
+    source="B. Armstrong-Helouvry, P. Dupont, C. Canudas de Wit, Automatica 30 (1994) 1083",
+    valid="Valid while the normal force in the joint stays the same.")

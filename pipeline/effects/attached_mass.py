@@ -1,0 +1,25 @@
+"""A mass at a point: m x'' along the direction of its sensor, as of an accelerometer that the model leaves out."""
+
+from dataclasses import replace
+
+import numpy as np
+
+from pipeline.effects.effect import Effect
+from pipeline.inference.priors import HalfNormal, Parameter
+
+
+def parameters(typical):
+    return (Parameter("mass", "kg", 0.05 * typical.mass, HalfNormal(0.1 * typical.mass), null=0.0),)
+
+
+def apply(bench, place, values):
+    model = bench.model
+    row = model.sensor_rows[model.sensor_name.index(place)]
+    return replace(bench, model=replace(model, mass=model.mass + values["mass"] * np.outer(row, row)))
+
+
+EFFECT = Effect(
+    name="attached_mass", summary="a mass that moves with a point", place="point", stage="structure",
+    parameters=parameters, apply=apply, linear=("mass",),
+    source="D. J. Ewins, Modal Testing, 2nd ed. (2000): mass loading by transducers",
+    valid="Valid while the mass is rigid and moves along its sensor only.")

@@ -1,0 +1,30 @@
+"""An arm or fixture in series with a joint: 1 / k' = 1 / k + s, the damper going on in parallel.
+
+s is the compliance of the arm; the mass of the arm is left to the neighbours.
+"""
+
+from dataclasses import replace
+
+import numpy as np
+
+from pipeline.effects.effect import Effect
+from pipeline.inference.priors import HalfNormal, Parameter
+
+
+def parameters(typical):
+    size = 0.1 / typical.stiffness
+    return (Parameter("compliance", "m/N", size, HalfNormal(2 * size), null=0.0),)
+
+
+def apply(bench, place, values):
+    joints = bench.model.joints
+    series = 1 + np.where([name == place for name in joints.name], values["compliance"], 0.0) * joints.stiffness
+    changed = replace(joints, stiffness=joints.stiffness / series)
+    return replace(bench, model=replace(bench.model, joints=changed))
+
+
+EFFECT = Effect(
+    name="compliant_arm", summary="a support that gives way in series with a joint", place="joint", stage="structure",
+    parameters=parameters, apply=apply,
+    source="springs in series",
+    valid="Valid below the first frequency of the arm itself.")

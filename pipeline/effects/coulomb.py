@@ -1,0 +1,27 @@
+"""Coulomb friction in a joint: F = F_c sgn(v).
+
+Before it slides the joint gives way elastically, by as little as the step of the bench resolves: 8 steps in a period
+of the mass on that spring, which is numerics, no physics.
+"""
+
+from pipeline.effects.effect import Effect
+from pipeline.effects.stick import stick_stiffness
+from pipeline.inference.priors import HalfNormal, Parameter
+from pipeline.physics.elements import Dry, Element
+
+
+def parameters(typical):
+    return (Parameter("force", "N", 0.2 * typical.force, HalfNormal(0.3 * typical.force), null=0.0),)
+
+
+def apply(bench, place, values):
+    row, _, _ = bench.joint(place)
+    law = Dry(stick_stiffness(bench, row), values["force"], values["force"])
+    return bench.with_elements(Element(f"coulomb {place}", row, law))
+
+
+EFFECT = Effect(
+    name="coulomb", summary="dry friction of one size in both directions", place="joint", stage="friction",
+    parameters=parameters, apply=apply, linear=("force",),
+    source="C.-A. Coulomb, Theorie des machines simples (1785)",
+    valid="Valid while the normal force in the joint stays the same and the joint slides more than it sticks.")

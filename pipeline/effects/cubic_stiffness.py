@@ -1,0 +1,22 @@
+"""Cubic stiffness of a joint: F = k_3 e^3, hardening for k_3 > 0."""
+
+from pipeline.effects.effect import Effect
+from pipeline.inference.priors import Normal, Parameter
+from pipeline.physics.elements import Element, Polynomial
+
+
+def parameters(typical):
+    size = 0.1 * typical.force / typical.length**3
+    return (Parameter("coefficient", "N/m^3", size, Normal(0.0, 2 * size), null=0.0),)
+
+
+def apply(bench, place, values):
+    law = Polynomial(cubic=values["coefficient"])
+    return bench.with_elements(Element(f"cubic_stiffness {place}", bench.joint(place)[0], law))
+
+
+EFFECT = Effect(
+    name="cubic_stiffness", summary="a joint that gets stiffer (or softer) with deflection, alike both ways",
+    place="joint", stage="structure", parameters=parameters, apply=apply, linear=("coefficient",),
+    source="G. Duffing, Erzwungene Schwingungen bei veraenderlicher Eigenfrequenz (1918)",
+    valid="Valid while the force grows with deflection: k + 3 k_3 e^2 > 0.")

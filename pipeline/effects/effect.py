@@ -1,0 +1,87 @@
+"""What an effect is: a piece of physics that a bench may lack, where it can be, and how it changes the bench.
+
+    changed = compose(bench, (Term(effect, "joint_0", {"coefficient": 1e9}),))
+
+An effect never changes what it is given. Where every parameter that has a null stands at it, the changed bench
+answers bit for bit as before. Effects are put on in the order of STAGES, within a stage in that of the terms.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from pipeline.contract.errors import ConfigError
+from pipeline.effects.typical import Typical, places, typical
+
+#: order in which effects are put on: what others refer to (joints, masses) first, sensors last
+STAGES = ("structure", "contact", "friction", "excitation", "measurement")
+
+
+@dataclass(frozen=True)
+class Effect:
+    """One effect.
+
+    ``summary``: its sentence in a report; ``place``: kind of place; ``stage``: one of STAGES; ``parameters(typical)``:
+    its Parameters, with priors of these sizes, whose supports are the bounds of sign and passivity; ``apply(bench,
+    place, values)``: the equation; ``source``; ``valid``: "Valid while ..."; ``linear``: parameters that the forces
+    are linear in; ``kind``: physics or sensor.
+    """
+
+    name: str
+    summary: str
+    place: str
+    stage: str
+    parameters: Callable
+    apply: Callable
+    source: str
+    valid: str
+    linear: tuple = ()
+    kind: str = "physics"
+
+    def places(self, bench):
+        """Names of the places of a bench where the effect can be."""
+        return places(self.place, bench)
+
+    def at(self, bench, place, runs):
+        """Parameters with priors of the sizes that nominal ``runs`` have at ``place``."""
+        return self.parameters(typical(self.place, bench, place, runs))
+
+    def on(self, bench, place, values):
+        """The bench with this effect. ConfigError for unknown places, other names, values beyond the bounds."""
+        if place not in self.places(bench):
+            raise ConfigError(f"effect {self.name}: place", f"one of {', '.join(self.places(bench)) or 'none here'}",
+                              repr(place))
+        known = {p.name: p for p in self.parameters(Typical())}
+        if set(known) != set(values):
+            raise ConfigError(f"effect {self.name}: parameters", ", ".join(known), ", ".join(values) or "none")
+        for name, value in values.items():
+            low, high = known[name].prior.support
+            if not low <= value <= high:
+                raise ConfigError(f"effect {self.name}: {name}", f"{low:g} to {high:g} {known[name].unit}",
+                                  f"{value:g}")
+        return self.apply(bench, place, values)
+
+
+@dataclass(frozen=True)
+class Term:
+    """An effect at a place with values {parameter: value}."""
+
+    effect: Effect
+    place: str
+    values: dict
+
+
+def compose(bench, terms):
+    """The bench with all ``terms`` on it, in the declared order, whatever theirs is between stages."""
+    for term in sorted(terms, key=lambda t: STAGES.index(t.effect.stage)):
+        bench = term.effect.on(bench, term.place, term.values)
+    return bench
+
+
+def null_values(parameters):
+    """{name: value} at which the effect vanishes: nulls, and nominal values of what only shapes it."""
+    return {p.name: p.nominal if p.null is None else p.null for p in parameters}
+
+
+def shaped_values(parameters, share=0.5):
+    """{name: value} at the quantile ``share`` of each prior; 0 lies in the middle of those of either sign."""
+    return {p.name: float(p.prior.quantile(share)) for p in parameters}

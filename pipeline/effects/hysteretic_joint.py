@@ -1,0 +1,29 @@
+"""Micro-slip in a joint: sliders in parallel, whose slip ways are spread as phi^x, take over a share of its stiffness.
+
+    F = sum_j clip(F_j + k_j de, -L_j, L_j) - s k e,    sum_j k_j = s k
+
+The loss of a cycle grows as the power x + 3 of its amplitude, and the joint softens; nothing changes for small motion.
+"""
+
+from pipeline.effects.effect import Effect
+from pipeline.inference.priors import LogNormal, Parameter, Uniform
+from pipeline.physics.elements import Element, iwan
+
+
+def parameters(typical):
+    return (Parameter("share", "1", 0.3, Uniform(0.0, 1.0), null=0.0),
+            Parameter("slip_force", "N", typical.force, LogNormal(typical.force, 0.7)),
+            Parameter("exponent", "1", -0.3, Uniform(-0.9, 0.0)))
+
+
+def apply(bench, place, values):
+    row, stiffness, _ = bench.joint(place)
+    law = iwan(values["share"] * stiffness, values["slip_force"], values["exponent"], elastic=True)
+    return bench.with_elements(Element(f"hysteretic_joint {place}", row, law))
+
+
+EFFECT = Effect(
+    name="hysteretic_joint", summary="micro-slip in a joint: loss and softening that grow with amplitude",
+    place="joint", stage="structure", parameters=parameters, apply=apply,
+    source="W. D. Iwan, J. Appl. Mech. 33 (1966) 893; D. J. Segalman, J. Appl. Mech. 72 (2005) 752",
+    valid="Valid while the preload of the joint stays the same and its share slips within the joint.")

@@ -1,0 +1,22 @@
+"""Quadratic damping of a joint: F = c_2 |v| v, as of a turbulent fluid."""
+
+from pipeline.effects.effect import Effect
+from pipeline.inference.priors import HalfNormal, Parameter
+from pipeline.physics.elements import Element, Power
+
+
+def parameters(typical):
+    size = 0.1 * typical.force / typical.speed**2
+    return (Parameter("coefficient", "N s^2/m^2", size, HalfNormal(2 * size), null=0.0),)
+
+
+def apply(bench, place, values):
+    law = Power(values["coefficient"], 2.0)
+    return bench.with_elements(Element(f"quadratic_damping {place}", bench.joint(place)[0], law))
+
+
+EFFECT = Effect(
+    name="quadratic_damping", summary="a joint whose damping grows with speed", place="joint", stage="structure",
+    parameters=parameters, apply=apply, linear=("coefficient",),
+    source="J. R. Morison et al., Petroleum Trans. AIME 189 (1950) 149: the drag term",
+    valid="Valid while the flow that resists is turbulent.")

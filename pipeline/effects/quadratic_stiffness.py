@@ -1,0 +1,22 @@
+"""Quadratic stiffness of a joint: F = k_2 e^2, stiffer one way than the other."""
+
+from pipeline.effects.effect import Effect
+from pipeline.inference.priors import Normal, Parameter
+from pipeline.physics.elements import Element, Polynomial
+
+
+def parameters(typical):
+    size = 0.1 * typical.force / typical.length**2
+    return (Parameter("coefficient", "N/m^2", size, Normal(0.0, 2 * size), null=0.0),)
+
+
+def apply(bench, place, values):
+    law = Polynomial(quadratic=values["coefficient"])
+    return bench.with_elements(Element(f"quadratic_stiffness {place}", bench.joint(place)[0], law))
+
+
+EFFECT = Effect(
+    name="quadratic_stiffness", summary="a joint that is stiffer one way than the other", place="joint",
+    stage="structure", parameters=parameters, apply=apply, linear=("coefficient",),
+    source="H. von Helmholtz, Die Lehre von den Tonempfindungen (1863)",
+    valid="Valid while the force grows with deflection: k + 2 k_2 e > 0.")

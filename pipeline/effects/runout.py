@@ -1,0 +1,36 @@
+"""Runout: the surface under the contacts rises and falls with the angle of the drive, whatever the load.
+
+    gap_i + a cos(n (theta - theta_i) - phase)
+
+theta_i is the angle at which contact i sits, n the order (1: a tilted disc).
+"""
+
+from dataclasses import replace
+
+import numpy as np
+
+from pipeline.effects.effect import Effect
+from pipeline.inference.priors import HalfNormal, Parameter, Uniform
+from pipeline.physics.elements import Waviness
+
+
+def parameters(typical):
+    size = 0.1 * typical.length
+    return (Parameter("amplitude", "m", size, HalfNormal(2 * size), null=0.0),
+            Parameter("order", "1", 1.0, Uniform(0.5, 8.5)), Parameter("phase", "rad", 0.0, Uniform(-np.pi, np.pi)))
+
+
+def apply(bench, place, values):
+    contacts, order = bench.model.contacts, values["order"]
+    angle = np.arctan2(contacts.position[:, 1], contacts.position[:, 0])
+    waves = tuple(Waviness(int(i), values["amplitude"], order, order * float(angle[i]) + values["phase"])
+                  for i in bench.contacts(place))
+    changed = replace(contacts, waviness=(*contacts.waviness, *waves))
+    return replace(bench, model=replace(bench.model, contacts=changed))
+
+
+EFFECT = Effect(
+    name="runout", summary="a surface that runs out: its motion follows the angle of the drive", place="contact",
+    stage="excitation", parameters=parameters, apply=apply,
+    source="H. Jacobsson, Proc. IMechE D 217 (2003) 419: side-face runout",
+    valid="Valid while contacts are short against the wave, and waves small against radii.")

@@ -1,0 +1,20 @@
+"""A gain that is off: the channel shows (1 + g) times what it should."""
+
+from dataclasses import replace
+
+from pipeline.effects.effect import Effect
+from pipeline.inference.priors import Parameter, Uniform
+
+
+def parameters(typical):
+    return (Parameter("error", "1", 0.1, Uniform(-0.9, 1.0), null=0.0),)
+
+
+def apply(bench, place, values):
+    return bench.with_channels(lambda c: replace(c, gain=c.gain * (1 + values["error"])) if c.name == place else c)
+
+
+EFFECT = Effect(
+    name="sensor_gain", summary="a channel with a wrong gain", place="channel", stage="measurement", kind="sensor",
+    parameters=parameters, apply=apply, source="calibration: ISO 16063-21 (2003)",
+    valid="Valid while the gain is the same in all runs and at all frequencies.")

@@ -1,0 +1,23 @@
+"""A joint that softens as it warms up: k(t) = k (1 - d (1 - exp(-t / tau)))."""
+
+from pipeline.effects.effect import Effect
+from pipeline.inference.priors import LogNormal, Parameter, Uniform
+from pipeline.physics.elements import Element, Softening
+
+
+def parameters(typical):
+    return (Parameter("drop", "1", 0.1, Uniform(0.0, 0.8), null=0.0),
+            Parameter("time", "s", 0.5 * typical.time, LogNormal(0.5 * typical.time, 1.0)))
+
+
+def apply(bench, place, values):
+    row, stiffness, _ = bench.joint(place)
+    law = Softening(values["drop"] * stiffness, values["time"])
+    return bench.with_elements(Element(f"thermal_softening {place}", row, law))
+
+
+EFFECT = Effect(
+    name="thermal_softening", summary="a joint that loses stiffness as it warms up", place="joint",
+    stage="structure", parameters=parameters, apply=apply, linear=("drop",),
+    source="one lumped heat capacity under constant power; modulus linear in temperature",
+    valid="Valid while heating is steady from the begin of each run, which starts cold.")

@@ -1,0 +1,50 @@
+"""Small benches on which every effect can be seen."""
+
+from dataclasses import replace
+
+import numpy as np
+
+from pipeline.physics.bench import Bench, Channel, Run
+from pipeline.physics.dry_friction import constant
+from pipeline.physics.time_stepping import Hard, Penalty, Start, Table
+from tests.physics.lumps import lumps
+
+RATE = 2000.0
+
+
+def sprung(law=None, mass=1.0, stiffness=400.0, damping=0.4, step=1e-4):
+    """One mass on one joint, pushed by input_0, seen by ``x``, ``v``, ``a``."""
+    channels = tuple(Channel(n, q, "sensor_0") for n, q in (("x", "displacement"), ("v", "velocity"),
+                                                            ("a", "acceleration")))
+    return Bench(lumps([mass], [[1.0]], [stiffness], [damping]), law or Hard(), constant(0.0), step, channels)
+
+
+def let_go(place, speed=0.0, duration=0.5):
+    """A run of ``sprung`` from a place (m) and a speed (m/s)."""
+    return Run("let go", duration, RATE, start=Start(np.array([place]), np.array([speed])))
+
+
+def rubbing(law=None, friction=None, speed=2.0, step=1e-4):
+    """A mass that slides on two contacts, a tilting block: x along, y away, a little rotation; pressed by input_1."""
+    rows = [[1, 0, 0], [0, 1, 0], [0, 0, 1]]
+    model = lumps([1.0, 1.0, 0.5], rows, [4e3, 500.0, 300.0], [6.0, 5.0, 4.0], [[0.1, 1, 0.3], [0.1, 1, -0.3]],
+                  [[1, 0, 0.1], [1, 0, 0.1]], speed)
+    contacts = replace(model.contacts, position=np.array([[0.1, 0, 0], [0, 0.1, 0]]), area=np.full(2, 1e-3))
+    channels = (Channel("x", "displacement", "sensor_0"), Channel("y", "displacement", "sensor_1"),
+                Channel("turn", "displacement", "sensor_2"), Channel("n", "normal_force", "contact"),
+                Channel("t", "friction_force", "contact"))
+    return Bench(replace(model, contacts=contacts), law or Penalty(2e4), friction or constant(0.3), step, channels,
+                 {"left": (0,), "right": (1,)}, settled=True)
+
+
+def tabled():
+    """The contact law of ``rubbing`` as a table."""
+    return Table(np.array([0.0, 1e-2]), np.array([0.0, 2e4 * 1e-2 / 1e-3]))
+
+
+def pressed(duration=0.3):
+    """A run of ``rubbing``: pressed by 40 N, shaken along and across, the drive slowing down through its range."""
+    run = Run("pressed", duration, RATE, conditions={"input_1": -40.0})
+    swing = np.sin(60 * run.time)
+    return replace(run, inputs={"input_0": 6 * swing, "input_1": -40 + 8 * np.sin(35 * run.time)},
+                   drive=2.0 - 1.5 * run.time / duration)

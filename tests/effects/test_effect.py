@@ -1,0 +1,131 @@
+"""What every effect of the catalogue owes, and how effects are put together."""
+
+import pickle
+from dataclasses import replace
+from importlib import import_module
+
+import numpy as np
+import pytest
+
+from pipeline.contract.errors import ConfigError
+from pipeline.effects import CATALOGUE, named
+from pipeline.effects.effect import STAGES, Term, compose, null_values, shaped_values
+from pipeline.effects.typical import CHANNEL, Typical
+from pipeline.physics.bench import respond
+from pipeline.physics.equation_residual import equation_residual
+from tests.effects.benches import pressed, rubbing, tabled
+
+BASE, RUN = rubbing(), pressed()
+ANSWER = respond(BASE, RUN)
+UPPER = 0.75        # quartile: in the middle of a prior of either sign lies the null
+
+
+def everywhere(effect, bench=BASE):
+    """(place, parameters) at each place of the bench."""
+    return [(place, effect.at(bench, place, (RUN,))) for place in effect.places(bench)]
+
+
+def each(test):
+    return pytest.mark.parametrize("effect", CATALOGUE, ids=[e.name for e in CATALOGUE])(test)
+
+
+@each
+def test_null_is_the_base_bit_for_bit(effect):
+    for bench, answer in ((BASE, ANSWER), (rubbing(tabled()), respond(rubbing(tabled()), RUN))):
+        for place, parameters in everywhere(effect, bench):
+            assert any(p.null is not None for p in parameters)
+            found = respond(effect.on(bench, place, null_values(parameters)), RUN)
+            for name, values in answer.items():
+                np.testing.assert_array_equal(found[name], values)
+
+
+@each
+def test_finite_over_the_prior(effect):
+    random = np.random.default_rng(5)
+    for place, parameters in everywhere(effect)[:2]:
+        draws = [shaped_values(parameters, share) for share in (0.03, 0.5, 0.97)]
+        draws += [{p.name: float(p.prior.sample(random)) for p in parameters} for _ in range(3)]
+        for values in draws:
+            assert all(np.isfinite(v).all() for v in respond(effect.on(BASE, place, values), RUN).values()), values
+
+
+@each
+def test_visible_where_the_prior_puts_it(effect):
+    for place, parameters in everywhere(effect)[:1]:
+        found = respond(effect.on(BASE, place, shaped_values(parameters, UPPER)), RUN)
+        change = [np.std(found[n] - v) / np.std(v) for n, v in ANSWER.items()]
+        offset = [abs(np.mean(found[n] - v)) / np.std(v) for n, v in ANSWER.items()]
+        assert max(*change, *offset) > 2e-3
+
+
+@each
+def test_what_is_given_stays_as_it_is(effect):
+    before = pickle.dumps(BASE)
+    for place, parameters in everywhere(effect):
+        effect.on(BASE, place, shaped_values(parameters, UPPER))
+    assert pickle.dumps(BASE) == before
+
+
+@each
+def test_an_effect_describes_itself(effect):
+    module = import_module(f"pipeline.effects.{effect.name}")
+    assert module.__doc__ and effect.summary and effect.source and effect.valid.startswith("Valid ")
+    assert effect.stage in STAGES and effect.kind == ("sensor" if effect.place == CHANNEL else "physics")
+    assert pickle.loads(pickle.dumps(effect)) == effect
+    parameters = effect.parameters(Typical())
+    assert all(p.unit for p in parameters) and set(effect.linear) <= {p.name for p in parameters}
+
+
+@each
+def test_linear_parameters_are_linear_in_the_equation_of_motion(effect):
+    if not effect.linear:
+        assert "apply" in effect.__dict__
+        return
+    place, parameters = everywhere(effect)[0]
+    values, null = shaped_values(parameters, UPPER), null_values(parameters)
+    base = {**values, **{n: null[n] for n in effect.linear}}
+    twice = {**values, **{n: 2 * values[n] for n in effect.linear}}
+    residuals = [equation_residual(effect.on(BASE, place, v), RUN, ANSWER) for v in (base, values, twice)]
+    size = abs(residuals[1] - residuals[0]).max()
+    assert size > 0
+    rough = 0.05 if "friction" in effect.name or effect.name == "coulomb" else 1e-6     # tables, elastic ways
+    assert abs(residuals[2] - 2 * residuals[1] + residuals[0]).max() <= rough * size
+
+
+def test_names_are_unique_and_found():
+    assert len({e.name for e in CATALOGUE}) == len(CATALOGUE)
+    assert named("runout").name == "runout"
+
+
+def test_the_order_of_stages_is_declared_and_does_not_depend_on_that_of_the_terms():
+    softer = Term(named("compliant_arm"), "joint_0", {"compliance": 1e-4})
+    play = Term(named("sensor_gain"), "x", {"error": 0.2})
+    fall = Term(named("falling_friction"), "contact", {"rise": 0.3, "decay_speed": 0.5})
+    one, other = (respond(compose(BASE, terms), RUN) for terms in ((softer, play, fall), (fall, play, softer)))
+    for name in one:
+        np.testing.assert_array_equal(one[name], other[name])
+    assert not np.array_equal(one["x"], ANSWER["x"])
+
+
+def test_pairs_can_be_composed():
+    """Each effect with the next one in the catalogue, both at the upper quartile of their priors."""
+    for first, second in zip(CATALOGUE, CATALOGUE[1:], strict=False):
+        terms = [Term(e, *((p, shaped_values(q, UPPER)) for p, q in everywhere(e)[:1]).__next__())
+                 for e in (first, second)]
+        found = respond(compose(BASE, terms), RUN)
+        assert all(np.isfinite(v).all() for v in found.values()), (first.name, second.name)
+
+
+@pytest.mark.parametrize("place, values, said", [
+    ("nowhere", {"damping": 1.0}, "joint_0"), ("joint_0", {"drag": 1.0}, "damping"), ("joint_0", {"damping": -1.0}, "0 to"),
+    ("joint_0", {}, "none")])
+def test_wrong_places_names_and_signs_are_refused(place, values, said):
+    with pytest.raises(ConfigError, match=said):
+        named("joint_damping").on(BASE, place, values)
+
+
+def test_no_contact_no_place():
+    contacts = BASE.model.contacts
+    empty = replace(contacts, **{n: getattr(contacts, n)[:0] for n in ("normal", "tangent", "lateral", "position",
+                                                                      "area", "lever", "preload")})
+    assert named("runout").places(replace(BASE, groups={}, model=replace(BASE.model, contacts=empty))) == ()
