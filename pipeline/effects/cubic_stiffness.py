@@ -7,7 +7,7 @@ from pipeline.physics.elements import Element, Polynomial
 
 def parameters(typical):
     size = 0.1 * typical.force / typical.length**3
-    return (Parameter("coefficient", "N/m^3", size, Normal(0.0, 2 * size), null=0.0),)
+    return (Parameter("coefficient", "N/m^3", size, Normal(0.0, size), null=0.0),)
 
 
 def apply(bench, place, values):

@@ -26,6 +26,8 @@ POLYNOMIAL, POWER, SLIDERS, DRY, BOUC_WEN, GAP, SOFTENING, WAVE = range(8)
 TOO_STIFF, UNSETTLED = 5, 6
 #: sizes of the way of a Bouc-Wen element after which nothing is left of where it started
 FORGOTTEN = 40.0
+#: relative rounding of an elongation that is a sum of a few terms
+ROUNDING = 4 * np.finfo(np.float64).eps
 SWEEPS, ITERATIONS, TOLERANCE, LOCAL_TOLERANCE = 500, 100, 1e-10, 1e-13
 
 
@@ -115,45 +117,49 @@ def _bouc_wen(z, way, size, exponent, shape):
 
 
 @njit(cache=True)
-def solve_elements(kernel, free, begin, remembered, memory, force, instant):
+def solve_elements(kernel, free, begin, remembered, memory, force, grain, instant):
     """(code, element) after filling ``force`` (e,) N, from a guess, and ``memory``, at the end of the step.
 
     ``free`` (2, e) are elongation and rate without the forces ``force``, ``begin`` (e,) elongations at the begin of
-    the step. Elements are visited in turn, each solved by Newton's method, until no force changes.
+    the step. Elements are visited in turn, each solved by Newton's method, until no force changes by more than a
+    tolerance or by more than the rounding of its elongation and rate, which is left in ``grain`` (e,) N.
     """
     count = force.size
     for _ in range(SWEEPS):
-        change, size, where = 0.0, 0.0, 0
+        settled, size, where = True, 0.0, 0
+        for k in range(count):
+            size = max(size, abs(force[k]))
         for k in range(count):
             place, rate = free[0, k], free[1, k]
             for j in range(count):
                 if j != k:
                     place += kernel.own[0, k, j] * force[j]
                     rate += kernel.own[1, k, j] * force[j]
-            found, code = _one_element(kernel, k, place, rate, begin[k], remembered, memory, force[k], instant)
+            found, grain[k], code = _one_element(kernel, k, place, rate, begin[k], remembered, memory, force[k],
+                                                 instant)
             if code != SOLVED:
                 return code, k
-            if abs(found - force[k]) > change:
-                change, where = abs(found - force[k]), k
-            size = max(size, abs(found))
+            if abs(found - force[k]) > TOLERANCE * max(size, abs(found)) + grain[k]:
+                settled, where = False, k
             force[k] = found
-        if count == 1 or change <= TOLERANCE * size:
+        if count == 1 or settled:
             return SOLVED, 0
     return UNSETTLED, where
 
 
 @njit(cache=True)
 def _one_element(kernel, k, place, rate, begin, remembered, memory, guess, instant):
-    """(F, code) of element ``k``, its elongation and rate being ``place`` and ``rate`` without its own force."""
+    """(F, its rounding, code) of element ``k``, its elongation and rate being ``place`` and ``rate`` without its own force."""
     give, mobile, force = kernel.own[0, k, k], kernel.own[1, k, k], guess
     for _ in range(ITERATIONS):
-        drawn, slope, drag = element_force(kernel, k, place + give * force, rate + mobile * force, begin, remembered,
-                                           memory, instant)
+        elongation, speed = place + give * force, rate + mobile * force
+        drawn, slope, drag = element_force(kernel, k, elongation, speed, begin, remembered, memory, instant)
+        grain = ROUNDING * (abs(slope * elongation) + abs(drag * speed))
         against = 1.0 - slope * give - drag * mobile
         if abs(slope * give) > LARGEST_STIFFNESS or against <= 0.0:
-            return 0.0, TOO_STIFF
+            return 0.0, 0.0, TOO_STIFF
         change = (drawn - force) / against
         force += change
-        if abs(change) <= LOCAL_TOLERANCE * max(abs(force), abs(drawn)):
-            return force, SOLVED
-    return 0.0, UNSETTLED
+        if abs(change) <= LOCAL_TOLERANCE * max(abs(force), abs(drawn)) + grain:
+            return force, grain, SOLVED
+    return 0.0, 0.0, UNSETTLED

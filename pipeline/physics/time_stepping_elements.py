@@ -43,7 +43,7 @@ def solve_together(law, friction, response, elements, alone, free, seen, held, s
     (c,) is the status at the begin, ``drawn`` (e,) the element forces.
     """
     contacts, count = law.gap.size, drawn.size
-    loose = place.copy()
+    loose, grain = place.copy(), np.zeros(count)
     for _ in range(ROUNDS):
         for i in range(contacts):
             for o in range(4):
@@ -57,7 +57,7 @@ def solve_together(law, friction, response, elements, alone, free, seen, held, s
                                            before)
             if code != SOLVED:
                 return code, contact
-        change, size = 0.0, 0.0
+        settled, size = True, 0.0
         for k in range(count):
             for o in range(2):
                 total = lonely[o, k]
@@ -66,12 +66,14 @@ def solve_together(law, friction, response, elements, alone, free, seen, held, s
                         total += elements.to_elements[o, k, f, i] * force[f, i]
                 loose[o, k] = total
             place[0, k] = drawn[k]
-        code, number = solve_elements(elements, loose, begin, remembered, memory, drawn, instant)
+        code, number = solve_elements(elements, loose, begin, remembered, memory, drawn, grain, instant)
         if code != SOLVED:
             return code, number
         for k in range(count):
-            change, size = max(change, abs(drawn[k] - place[0, k])), max(size, abs(drawn[k]))
-        if contacts == 0 or count == 0 or change <= TOLERANCE * size:
+            size = max(size, abs(drawn[k]))
+        for k in range(count):
+            settled = settled and abs(drawn[k] - place[0, k]) <= TOLERANCE * size + grain[k]
+        if contacts == 0 or settled:
             for k in range(count):
                 for o in range(2):
                     place[o, k] = loose[o, k]

@@ -43,8 +43,8 @@ def tabled():
 
 
 def pressed(duration=0.3):
-    """A run of ``rubbing``: pressed by 40 N, shaken along and across, the drive slowing down through its range."""
+    """A run of ``rubbing``: pressed by 40 N, shaken along and across, the drive slowing down and turning round."""
     run = Run("pressed", duration, RATE, conditions={"input_1": -40.0})
     swing = np.sin(60 * run.time)
     return replace(run, inputs={"input_0": 6 * swing, "input_1": -40 + 8 * np.sin(35 * run.time)},
-                   drive=2.0 - 1.5 * run.time / duration)
+                   drive=2.0 - 2.5 * run.time / duration)

@@ -76,20 +76,16 @@ def test_an_effect_describes_itself(effect):
     assert all(p.unit for p in parameters) and set(effect.linear) <= {p.name for p in parameters}
 
 
-@each
+@pytest.mark.parametrize("effect", [e for e in CATALOGUE if e.linear], ids=lambda e: e.name)
 def test_linear_parameters_are_linear_in_the_equation_of_motion(effect):
-    if not effect.linear:
-        assert "apply" in effect.__dict__
-        return
     place, parameters = everywhere(effect)[0]
     values, null = shaped_values(parameters, UPPER), null_values(parameters)
     base = {**values, **{n: null[n] for n in effect.linear}}
-    twice = {**values, **{n: 2 * values[n] for n in effect.linear}}
-    residuals = [equation_residual(effect.on(BASE, place, v), RUN, ANSWER) for v in (base, values, twice)]
-    size = abs(residuals[1] - residuals[0]).max()
-    assert size > 0
-    rough = 0.05 if "friction" in effect.name or effect.name == "coulomb" else 1e-6     # tables, elastic ways
-    assert abs(residuals[2] - 2 * residuals[1] + residuals[0]).max() <= rough * size
+    half = {**values, **{n: values[n] / 2 for n in effect.linear}}
+    none, some, full = (equation_residual(effect.on(BASE, place, v), RUN, ANSWER) for v in (base, half, values))
+    assert abs(some - none).max() > 0
+    elastic = place == "joint_0" and effect.stage == "friction"     # a way to stick that grows with the force
+    assert np.linalg.norm(full - 2 * some + none) <= (0.1 if elastic else 1e-6) * np.linalg.norm(some - none)
 
 
 def test_names_are_unique_and_found():
@@ -110,15 +106,15 @@ def test_the_order_of_stages_is_declared_and_does_not_depend_on_that_of_the_term
 def test_pairs_can_be_composed():
     """Each effect with the next one in the catalogue, both at the upper quartile of their priors."""
     for first, second in zip(CATALOGUE, CATALOGUE[1:], strict=False):
-        terms = [Term(e, *((p, shaped_values(q, UPPER)) for p, q in everywhere(e)[:1]).__next__())
-                 for e in (first, second)]
+        terms = [Term(e, place, shaped_values(parameters, UPPER)) for e in (first, second)
+                 for place, parameters in everywhere(e)[:1]]
         found = respond(compose(BASE, terms), RUN)
         assert all(np.isfinite(v).all() for v in found.values()), (first.name, second.name)
 
 
 @pytest.mark.parametrize("place, values, said", [
-    ("nowhere", {"damping": 1.0}, "joint_0"), ("joint_0", {"drag": 1.0}, "damping"), ("joint_0", {"damping": -1.0}, "0 to"),
-    ("joint_0", {}, "none")])
+    ("nowhere", {"damping": 1.0}, "joint_0"), ("joint_0", {"drag": 1.0}, "damping"),
+    ("joint_0", {"damping": -1.0}, "0 to"), ("joint_0", {}, "none")])
 def test_wrong_places_names_and_signs_are_refused(place, values, said):
     with pytest.raises(ConfigError, match=said):
         named("joint_damping").on(BASE, place, values)

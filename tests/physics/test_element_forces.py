@@ -165,7 +165,7 @@ def test_coupled_elements_are_solved_together():
     own = -np.array([[[0.01, 0.004], [0.004, 0.02]], [[0, 0], [0, 0]]])
     kernel, force = compiled(Polynomial(3.0), Polynomial(5.0), own=own), np.zeros(2)
     free = np.array([[0.5, -0.2], [0.0, 0.0]])
-    code, _ = solve_elements(kernel, free, np.zeros(2), np.zeros(0), np.zeros(0), force, REST)
+    code, _ = solve_elements(kernel, free, np.zeros(2), np.zeros(0), np.zeros(0), force, np.zeros(2), REST)
     stiffness = np.diag([3.0, 5.0])
     assert code == SOLVED
     exact = np.linalg.solve(np.eye(2) - stiffness @ own[0], stiffness @ free[0])
@@ -174,5 +174,6 @@ def test_coupled_elements_are_solved_together():
 
 def test_an_element_too_stiff_for_the_step_is_told():
     kernel = compiled(Polynomial(3.0), own=-np.array([[[0.05]], [[0.0]]]))
-    code, element = solve_elements(kernel, np.ones((2, 1)), np.zeros(1), np.zeros(0), np.zeros(0), np.zeros(1), REST)
+    code, element = solve_elements(kernel, np.ones((2, 1)), np.zeros(1), np.zeros(0), np.zeros(0), np.zeros(1),
+                                   np.zeros(1), REST)
     assert (code, element) == (TOO_STIFF, 0)
