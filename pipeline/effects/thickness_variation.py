@@ -17,8 +17,9 @@ def parameters(typical):
 
 
 def apply(bench, place, values):
+    # minus: against the normal, so that the contact is pressed
     row = bench.model.contacts.normal[bench.contacts(place)].mean(axis=0)
-    law = Wave(1.0, 0.0, values["force"], values["order"], 0.0, values["phase"])
+    law = Wave(-1.0, 0.0, values["force"], values["order"], 0.0, values["phase"])
     return bench.with_elements(Element(f"thickness_variation {place}", row, law))
 
 

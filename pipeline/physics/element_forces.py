@@ -88,7 +88,7 @@ def element_force(kernel, k, elongation, rate, begin, remembered, memory, instan
         return p[0] * elongation + p[1] * memory[one], p[0] + p[1] * slope, 0.0
     if kind == GAP:
         inner = min(max(elongation, -p[2]), p[3])
-        return (p[0] * (elongation - inner) + p[1] * inner, p[1] if inner == elongation else p[0], 0.0)
+        return (p[0] * (elongation - inner) + p[1] * inner, p[1] if -p[2] < elongation < p[3] else p[0], 0.0)
     if kind == SOFTENING:
         slope = -p[0] * (1.0 - np.exp(-instant[0] / p[1]))
         return slope * elongation, slope, 0.0
@@ -149,7 +149,7 @@ def solve_elements(kernel, free, begin, remembered, memory, force, grain, instan
 
 @njit(cache=True)
 def _one_element(kernel, k, place, rate, begin, remembered, memory, guess, instant):
-    """(F, its rounding, code) of element ``k``, its elongation and rate being ``place`` and ``rate`` without its own force."""
+    """(F, its rounding, code) of element ``k``; ``place``, ``rate``: elongation and rate without its own force."""
     give, mobile, force = kernel.own[0, k, k], kernel.own[1, k, k], guess
     for _ in range(ITERATIONS):
         elongation, speed = place + give * force, rate + mobile * force

@@ -166,6 +166,13 @@ def element_kernel(elements, waviness, **linear):
         waviness=np.array(waves, float).reshape(-1, 5), **linear)
 
 
+def alone(elements):
+    """ElementKernel of Elements that stand for themselves: their force laws, without bodies or a step."""
+    count = len(elements)
+    return element_kernel(elements, (), rows=np.zeros((2 * count, 2, 1)), own=np.zeros((2, count, count)),
+                          to_contacts=np.zeros((4, 0, count)), to_elements=np.zeros((2, count, 2, 0)))
+
+
 def _check(name, law):
     wrong = {Power: lambda p: p.exponent < 1, Dry: lambda p: min(p.forward, p.backward) < 0 or p.stiffness < 0
              or p.decay_speed <= 0 or p.rise <= -1,

@@ -17,7 +17,7 @@ from pipeline.contract.errors import ConfigError
 from pipeline.physics.bench import MOTIONS, run_drive, run_inputs
 from pipeline.physics.dry_friction import Friction
 from pipeline.physics.element_forces import element_force
-from pipeline.physics.elements import element_kernel
+from pipeline.physics.elements import alone
 from pipeline.physics.time_stepping import Penalty, Table
 from pipeline.physics.time_stepping_elements import no_memory, surface_shift
 
@@ -77,10 +77,8 @@ def forces_missing(bench, run, motion):
 
 def _elements(model, motion, speed, instants):
     """sum_k b_k F_k (n, samples)."""
-    count = len(model.elements)
     rows = np.array([e.row for e in model.elements], float).reshape(-1, model.size)
-    kernel = element_kernel(model.elements, (), rows=np.zeros((2 * count, 2, 1)), own=np.zeros((2, count, count)),
-                            to_contacts=np.zeros((4, 0, count)), to_elements=np.zeros((2, count, 2, 0)))
+    kernel = alone(model.elements)
     return rows.T @ _along(kernel, rows @ motion, rows @ speed, instants, no_memory(kernel))
 
 

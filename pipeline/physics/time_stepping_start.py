@@ -6,13 +6,17 @@ With s_i the sign of sliding, the closed contacts C obey
     K q - sum_C (n_i + s_i mu_i t_i) N_i = f,      n_i q + gap_i + c_i(N_i) = 0,
 
 solved together, so that contacts may be what holds a body. Contacts that would pull are opened, gaps that would be
-negative are closed, until neither is left. Friction joints add s_i mu_i N_i t_i to f.
+negative are closed, until neither is left. Friction joints add s_i mu_i N_i t_i to f, nonlinear elements their forces
+at rest by Newton's method: those with memory as if loaded for the first time, dry friction none.
 """
 
 import numpy as np
 
 from pipeline.contract.errors import ConfigError, ConvergenceError
+from pipeline.physics.element_forces import DRY, element_force, wave
+from pipeline.physics.elements import alone
 from pipeline.physics.time_stepping import Penalty, Start, Table
+from pipeline.physics.time_stepping_elements import no_memory
 
 _ROUNDS = 200
 _TOLERANCE = 1e-10
@@ -26,24 +30,50 @@ def steady_start(model, law, friction, inputs):
     """
     contacts = model.contacts
     load, stiffness = np.asarray(inputs, float) @ model.input_rows, model.supported()[2]
-    gap = np.broadcast_to(np.asarray(law.gap, float), len(contacts.area))
+    gap = np.broadcast_to(np.asarray(law.gap, float), len(contacts.area)) + _waves(contacts)
+    elements, memory, rest, slope = alone(model.elements), None, 0.0, 0.0
     fixed = contacts.fixed
     sign, closed, force = np.sign(model.sliding_speed), ~fixed, np.where(fixed, contacts.preload, 0.0)
     for _ in range(_ROUNDS):
         drawn = sign * friction.at_speed(model.sliding_speed, force / contacts.area)
         give, offset = _yielding(law, force, contacts.area)
-        held = load + (drawn * force)[fixed] @ contacts.tangent[fixed]
-        place, found = _solve(stiffness, held, contacts.normal, contacts.normal + drawn[:, None] * contacts.tangent,
-                              gap + offset, give, closed)
+        held = load + (drawn * force)[fixed] @ contacts.tangent[fixed] - rest
+        pushed = contacts.normal + drawn[:, None] * contacts.tangent
+        place, found = _solve(stiffness + slope, held, contacts.normal, pushed, gap + offset, give, closed)
         found = np.where(fixed, force, found)
         wanted = np.where(closed, found > 0, gap + contacts.normal @ place < 0) & ~fixed
         settled = abs(found - force).max(initial=0.0) <= _TOLERANCE * abs(found).max(initial=0.0)
+        if model.elements:
+            counted = rest + slope @ place if np.ndim(slope) else np.zeros(model.size)
+            rest, slope, memory = _drawn(elements, model, place)
+            error = rest + slope @ place - counted
+            settled = settled and abs(error).max() <= _TOLERANCE * max(abs(held).max(), abs(stiffness @ place).max())
         if settled and np.array_equal(wanted, closed | ((found > 0) & ~fixed)):
-            return Start(place, np.zeros(model.size), found, drawn * found)
+            return Start(place, np.zeros(model.size), found, drawn * found, memory)
         closed, force = wanted, np.where(wanted | fixed, found, 0.0)
     raise ConvergenceError("steady sliding", "forces that press on every closed contact", "none",
                            "lower friction or change the tilt (friction that locks has no steady sliding), or start at"
                            " rest")
+
+
+def _waves(contacts):
+    """Height (c,) of the surfaces at time 0."""
+    height = np.zeros(len(contacts.area))
+    for w in contacts.waviness:
+        height[w.contact] += wave(w.amplitude, w.order, w.frequency, w.phase, (0.0, 0.0, 0.0))[0]
+    return height
+
+
+def _drawn(elements, model, place):
+    """(F - S q (n,), S (n, n), memory) of the elements at rest at ``place`` (n,), S the slope of F there."""
+    rows = np.array([e.row for e in model.elements])
+    memory, none = no_memory(elements), no_memory(elements)
+    force, slope = np.zeros((2, len(rows)))
+    for k, row in enumerate(rows):
+        if elements.kind[k] != DRY:
+            force[k], slope[k], _ = element_force(elements, k, float(row @ place), 0.0, 0.0, none, memory,
+                                                  (0.0, 0.0, model.speed))
+    return rows.T @ (force - slope * (rows @ place)), (rows.T * slope) @ rows, memory
 
 
 def _yielding(law, force, area):

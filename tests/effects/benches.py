@@ -48,3 +48,23 @@ def pressed(duration=0.3):
     swing = np.sin(60 * run.time)
     return replace(run, inputs={"input_0": 6 * swing, "input_1": -40 + 8 * np.sin(35 * run.time)},
                    drive=2.0 - 2.5 * run.time / duration)
+
+
+def slider(law=None, friction=None, speed=2.0, area=1e-3, step=1e-4):
+    """A mass of 1 kg on a joint of 400 N/m along a belt, on which input_1 presses it; steady from the begin."""
+    model = lumps([1.0, 1.0], [[1.0, 0.0]], [400.0], [2.0], [[0.0, 1.0]], [[1.0, 0.0]], speed)
+    model = replace(model, contacts=replace(model.contacts, area=np.array([area])))
+    channels = (Channel("x", "displacement", "sensor_0"), Channel("y", "displacement", "sensor_1"),
+                Channel("n", "normal_force", "contact"), Channel("t", "friction_force", "contact"))
+    return Bench(model, law or Penalty(2e4), friction or constant(0.3), step, channels, settled=True)
+
+
+def steady(load=40.0, duration=0.1, speed=None):
+    """A run of ``slider`` under one load (N) at one speed (rad/s)."""
+    return Run("steady", duration, RATE, {"input_1": -load}, drive=speed)
+
+
+def period(values):
+    """Mean time in s between falls through zero, of samples at RATE."""
+    falls = np.flatnonzero((values[:-1] > 0) & (values[1:] <= 0))
+    return np.diff(falls + values[falls] / (values[falls] - values[falls + 1])).mean() / RATE

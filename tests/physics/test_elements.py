@@ -22,6 +22,7 @@ from pipeline.physics.elements import (
     iwan,
 )
 from pipeline.physics.time_stepping import Hard, History, Penalty, Start, simulate
+from pipeline.physics.time_stepping_start import steady_start
 from tests.physics.lumps import belt, lumps, random_structure
 
 
@@ -265,3 +266,27 @@ def test_a_step_too_long_for_an_element_names_it():
     model = with_elements(lumps([1.0], [[1.0]], [100.0]), Polynomial(linear=1e9))
     with pytest.raises(ConfigError, match="element_0.*8 steps"):
         simulate(model, Hard(), step=1e-3, duration=0.1, start=at(1e-3))
+
+
+@pytest.mark.exact
+@pytest.mark.parametrize("law, force", [
+    (Polynomial(0.0, 2e4, 1e8), lambda e: 2e4 * e**2 + 1e8 * e**3),
+    (Gap(stop=500.0, lower=1e-3, upper=1e-3), lambda e: 500 * (e - 1e-3)),
+    (Sliders(np.array([50.0, 80.0]), np.array([0.2, 5.0])), lambda e: 0.2 + 80 * e),
+    (Dry(1e4, 2.0, 2.0), lambda e: 0.0)])
+def test_steady_sliding_with_elements_stands_still(law, force):
+    """k x + F(x) = mu N, and a motion that starts there stays there."""
+    model = with_elements(belt(), law)
+    start = steady_start(model, Hard(), constant(0.3), [0.0, -10.0])
+    x = start.displacement[0]
+    assert 100 * x + force(x) == pytest.approx(3.0, rel=1e-9)
+    motion = simulate(model, Hard(), constant(0.3), step=1e-3, duration=0.5, inputs=[0.0, -10.0], start=start)
+    np.testing.assert_allclose(motion.displacement[0], x, rtol=1e-6)
+
+
+@pytest.mark.exact
+def test_steady_sliding_on_a_wavy_surface_starts_on_it():
+    model = belt()
+    model = replace(model, contacts=replace(model.contacts, waviness=(Waviness(0, 1e-4, 2.0, 0.5),)))
+    start = steady_start(model, Hard(), constant(0.3), [0.0, -10.0])
+    assert start.displacement[1] == pytest.approx(-1e-4 * np.cos(0.5))

@@ -1,0 +1,37 @@
+"""Typical sizes at places of a bench."""
+
+import numpy as np
+import pytest
+
+from pipeline.contract.errors import ConfigError
+from pipeline.effects.typical import CHANNEL, CONTACT, JOINT, POINT, places, typical
+from tests.effects.benches import RATE, let_go, rubbing, slider, sprung, steady
+
+
+@pytest.mark.exact
+def test_sizes_of_a_swinging_mass():
+    found = typical(JOINT, sprung(damping=0.0), "joint_0", (let_go(0.01), let_go(0.02)))
+    assert (found.stiffness, found.mass, found.interval, found.time) == (400.0, pytest.approx(1.0), 1 / RATE, 0.5)
+    assert found.length == pytest.approx(0.02, rel=1e-3) and found.speed == pytest.approx(0.4, rel=1e-3)
+    assert found.force == pytest.approx(8.0, rel=1e-3)
+    assert typical(POINT, sprung(damping=0.0), "sensor_0", (let_go(0.02),)).stiffness == 400.0
+
+
+@pytest.mark.exact
+def test_sizes_of_a_contact():
+    found = typical(CONTACT, slider(), "contact", (steady(speed=-3.0),))
+    assert (found.force, found.speed, found.stiffness) == (pytest.approx(40.0), 3.0, 2e4)
+    assert found.pressure == pytest.approx(40.0 / 1e-3) and found.length == pytest.approx(2e-3)
+
+
+def test_what_a_channel_shows():
+    assert typical(CHANNEL, sprung(), "v", (let_go(0.02),)).shown == pytest.approx(0.4, rel=0.02)
+
+
+def test_places_of_each_kind():
+    bench = rubbing()
+    assert places(JOINT, bench) == ("joint_0", "joint_1", "joint_2")
+    assert places(CONTACT, bench) == ("contact", "left", "right") and places(CONTACT, sprung()) == ()
+    assert np.all(np.isin(("x", "y"), places(CHANNEL, bench)))
+    with pytest.raises(ConfigError, match="one nominal run"):
+        typical(JOINT, bench, "joint_0", ())
