@@ -28,15 +28,12 @@ def apply(bench, place, values):
         return replace(bench, law=replace(law, damping_speed=together))
     if not isinstance(law, Penalty):
         raise ConfigError("effect contact_damping", "contacts that yield", type(law).__name__)
-    count = len(bench.model.contacts.area)
-    damping = np.array(np.broadcast_to(np.asarray(law.damping, float), count))
-    own = bench.contacts(place)
-    damping[own] += np.broadcast_to(law.stiffness, count)[own] * values["length"] * loss
+    damping = np.asarray(law.damping, float) + np.asarray(law.stiffness, float) * values["length"] * loss
     return replace(bench, law=replace(law, damping=damping))
 
 
 EFFECT = Effect(
-    name="contact_damping", summary="damping of contacts along their normals", place="contact", stage="contact",
+    name="contact_damping", summary="damping of contacts along their normals", place="contacts", stage="contact",
     parameters=parameters, apply=apply, linear=("loss",),
     source="K. H. Hunt, F. R. E. Crossley, J. Appl. Mech. 42 (1975) 440",
     valid="Valid while contacts do not stick to each other: the force never pulls.")

@@ -20,10 +20,10 @@ STAGES = ("structure", "contact", "friction", "excitation", "measurement")
 class Effect:
     """One effect.
 
-    ``summary``: its sentence in a report; ``place``: kind of place; ``stage``: one of STAGES; ``parameters(typical)``:
-    its Parameters, with priors of these sizes, whose supports are the bounds of sign and passivity; ``apply(bench,
-    place, values)``: the equation; ``source``; ``valid``: "Valid while ..."; ``linear``: parameters that the forces
-    are linear in; ``kind``: physics or sensor.
+    ``summary``: its sentence in a report; ``place``: kind of place (``typical``); ``stage``: one of STAGES;
+    ``parameters(typical)``: its Parameters, with priors of these sizes, whose supports are the bounds of sign and
+    passivity; ``apply(bench, place, values)``: the equation; ``source``; ``valid``: "Valid while ..."; ``linear``:
+    parameters that the forces are linear in; ``kind``: physics or sensor.
     """
 
     name: str

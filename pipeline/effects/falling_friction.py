@@ -27,7 +27,7 @@ def apply(bench, place, values):
 
 
 EFFECT = Effect(
-    name="falling_friction", summary="friction that falls as sliding gets faster", place="contact", stage="friction",
+    name="falling_friction", summary="friction that falls as sliding gets faster", place="contacts", stage="friction",
     parameters=parameters, apply=apply, linear=("rise",),
     source="L. C. Bo, D. Pavelescu, Wear 82 (1982) 277, with exponent 1; R. Stribeck, Z. VDI 46 (1902) 1341",
     valid="Valid while pressure, temperature and wear do not change friction as fast as speed does.")

@@ -26,7 +26,7 @@ def apply(bench, place, values):
 
 
 EFFECT = Effect(
-    name="micro_slip", summary="contacts that give way before they slide", place="contact", stage="friction",
+    name="micro_slip", summary="contacts that give way before they slide", place="contacts", stage="friction",
     parameters=parameters, apply=apply,
     source="M. Allgaier, L. Gaul, W. Keiper, K. Willner, Mode lock-in and friction modelling (1999), section 4",
     valid="Valid while the way before sliding is short against the vibration along the contact.")

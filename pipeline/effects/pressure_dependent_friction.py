@@ -31,7 +31,7 @@ def apply(bench, place, values):
 
 
 EFFECT = Effect(
-    name="pressure_dependent_friction", summary="friction that changes with pressure", place="contact",
+    name="pressure_dependent_friction", summary="friction that changes with pressure", place="contacts",
     stage="friction", parameters=parameters, apply=apply,
     source="F. P. Bowden, D. Tabor, The Friction and Lubrication of Solids (1950), chapter 5",
     valid="Valid from a thousandth to a thousand times the reference pressure, beyond which friction stays the same.")

@@ -8,8 +8,8 @@ from pipeline.contract.errors import ConfigError
 from pipeline.physics.bench import Channel, respond, run_drive
 from pipeline.physics.time_stepping import Penalty, Table
 
-#: kinds of place that an effect can have
-JOINT, CONTACT, POINT, CHANNEL = "joint", "contact", "point", "channel"
+#: kinds of place that an effect can have; ``contacts`` is all of them, which share one law of contact and of friction
+JOINT, CONTACT, CONTACTS, POINT, CHANNEL = "joint", "contact", "contacts", "point", "channel"
 _SENSOR = "typical"
 
 
@@ -39,8 +39,8 @@ def places(kind, bench):
     """Names of the places of this kind on a bench."""
     model = bench.model
     contact = dict.fromkeys(("contact", *bench.groups)) if len(model.contacts.area) else ()
-    return {JOINT: tuple(model.joints.name), CONTACT: tuple(contact), POINT: tuple(model.sensor_name),
-            CHANNEL: tuple(c.name for c in bench.channels)}[kind]
+    return {JOINT: tuple(model.joints.name), CONTACT: tuple(contact), CONTACTS: tuple(contact)[:1],
+            POINT: tuple(model.sensor_name), CHANNEL: tuple(c.name for c in bench.channels)}[kind]
 
 
 def typical(kind, bench, place, runs):
@@ -54,12 +54,12 @@ def typical(kind, bench, place, runs):
         return Typical(**common, shown=shown[place])
     row, stiffness, damping = _place(kind, bench, place)
     channels = [Channel("length", "displacement", _SENSOR), Channel("speed", "velocity", _SENSOR)]
-    if kind == CONTACT:
+    if kind in (CONTACT, CONTACTS):
         channels.append(Channel("force", "normal_force", place))
     model = replace(bench.model, sensor_name=(*bench.model.sensor_name, _SENSOR),
                     sensor_rows=np.vstack((bench.model.sensor_rows, row)))
     seen = _largest(replace(bench, model=model, channels=tuple(channels)), runs)
-    if kind == CONTACT:
+    if kind in (CONTACT, CONTACTS):
         contacts, own = bench.model.contacts, bench.contacts(place)
         seen["speed"] = drive * abs(contacts.lever[own]).max()
         seen["pressure"] = seen["force"] / contacts.area[own].sum()

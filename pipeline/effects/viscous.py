@@ -24,7 +24,7 @@ def apply(bench, place, values):
 
 
 EFFECT = Effect(
-    name="viscous", summary="friction that rises with the sliding speed", place="contact", stage="friction",
+    name="viscous", summary="friction that rises with the sliding speed", place="contacts", stage="friction",
     parameters=parameters, apply=apply, linear=("slope",),
     source="R. Stribeck, Z. VDI 46 (1902) 1341: the branch of full film",
     valid="Valid below 20 m/s and 20 times the speed of the drive, beyond which friction stays the same.")

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from pipeline.contract.errors import ConfigError
-from pipeline.effects.typical import CHANNEL, CONTACT, JOINT, POINT, places, typical
+from pipeline.effects.typical import CHANNEL, CONTACT, CONTACTS, JOINT, POINT, places, typical
 from tests.effects.benches import RATE, let_go, rubbing, slider, sprung, steady
 
 
@@ -31,6 +31,7 @@ def test_what_a_channel_shows():
 def test_places_of_each_kind():
     bench = rubbing()
     assert places(JOINT, bench) == ("joint_0", "joint_1", "joint_2")
+    assert places(CONTACTS, bench) == ("contact",)
     assert places(CONTACT, bench) == ("contact", "left", "right") and places(CONTACT, sprung()) == ()
     assert np.all(np.isin(("x", "y"), places(CHANNEL, bench)))
     with pytest.raises(ConfigError, match="one nominal run"):
