@@ -63,10 +63,10 @@ def print_stages(case):
                        stdout=subprocess.DEVNULL)
         whole = time.perf_counter() - begin
         print(f"\n{'stage of ' + case.stem:<24} {'wall s':>8} {'CPU s':>8} {'file MB':>8}")
-        for name in NAMES:
-            path = Path(folder) / f"{name}.h5"
+        for path in (p for p in (Path(folder) / f"{name}.h5" for name in NAMES) if p.exists()):
             told = store.provenance(path)
-            print(f"{name:<24} {told['wall_seconds']:8.2f} {told['cpu_seconds']:8.2f} {path.stat().st_size / 1e6:8.1f}")
+            size = path.stat().st_size / 1e6
+            print(f"{path.stem:<24} {told['wall_seconds']:8.2f} {told['cpu_seconds']:8.2f} {size:8.1f}")
         packages = json.loads(told["packages"])
     print(f"{'whole command':<24} {whole:8.2f}    {', '.join(f'{k} {v}' for k, v in packages.items())}")
 

@@ -9,8 +9,7 @@ import time
 
 import pytest
 
-from stages import NAMES
-from tests.chain.conftest import QUICK, ROOT, brakechain, contents
+from tests.chain.conftest import NAMES, QUICK, ROOT, brakechain, contents
 
 #: a run that dies in the middle of writing one product
 DIE_IN_MID_WRITE = """

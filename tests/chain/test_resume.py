@@ -2,8 +2,7 @@
 
 import pytest
 
-from stages import NAMES
-from tests.chain.conftest import QUICK, brakechain, contents
+from tests.chain.conftest import NAMES, QUICK, brakechain, contents
 
 
 def test_every_product_is_there(finished):

@@ -11,6 +11,7 @@ from pipeline.products import (
     Comparison,
     ComplexModes,
     FrictionMap,
+    Lumped,
     MicroFriction,
     Multibody,
     ReducedModel,
@@ -102,6 +103,18 @@ def structure():
         contact_stiffness=preload * 1e5, closed=np.ones((3, 12), dtype=int), law_closure=[0.0, 1e-6],
         law_pressure=[0.0, 1e6], sensor_name=SENSORS, sensor_position=np.zeros((2, 3)),
         sensor_direction=np.tile([0.0, 0.0, 1.0], (2, 1)), piston_area=2.4e-3)
+
+
+def lumped():
+    """Two masses: one pressed onto a belt, tied to ground and to the other."""
+    return filled(
+        Lumped, body_name=["block", "tool"], coordinate_name=["block.x", "block.y", "tool.x"],
+        coordinate_body=[0, 0, 1], mass=np.diag([2.0, 2.0, 5.0]), joint_name=["tie", "link", "dashpot"], joint_stiffness=[800.0, 1e4, 0.0],
+        joint_damping=[0.0, 2.0, 3.0], joint_rows=[[1.0, 0, 0], [1.0, 0, -1.0], [0, 0, 1.0]],
+        contact_name=["tip", "rail"], contact_normal=[[0, 1.0, 0], [0, 0, 0]], contact_tangent=[[1.0, 0, 0], [0, 0, 1.0]], pressure=[1.0],
+        preload=[[20.0, 5.0]], contact_stiffness=[[1e6, 0.0]], input_name=["weight", "motor"], input_area=[20.0, 0.0],
+        input_rows=[[0, -1.0, 0], [0, 0, 1.0]], history_interval=0.1, input_history=np.ones((11, 2)), drive_history=[],
+        sensor_name=["block"], sensor_rows=[[1.0, 0, 0]])
 
 
 def reduced_model():
@@ -238,9 +251,9 @@ def case():
 def products(**replaced):
     """Every product the report reads, by the name of its argument; ``replaced`` overrides."""
     return {"surface": surface(), "micro_friction": micro_friction(), "friction_map": friction_map(),
-            "structure": structure(), "model": reduced_model(), "complex_modes": complex_modes(),
-            "multibody": multibody(), "response": response(), "squeal": squeal(), "comparison": comparison(),
-            **replaced}
+            "structure": structure(), "lumped": lumped(), "model": reduced_model(), "complex_modes": complex_modes(),
+            "multibody": multibody(), "transient": transient(), "response": response(), "squeal": squeal(),
+            "comparison": comparison(), **replaced}
 
 
 def _ring(inner, outer, low, high, start, end, sectors, closed):
