@@ -109,9 +109,10 @@ def lumped():
     """Two masses: one pressed onto a belt, tied to ground and to the other."""
     return filled(
         Lumped, body_name=["block", "tool"], coordinate_name=["block.x", "block.y", "tool.x"],
-        coordinate_body=[0, 0, 1], mass=np.diag([2.0, 2.0, 5.0]), joint_name=["tie", "link", "dashpot"], joint_stiffness=[800.0, 1e4, 0.0],
-        joint_damping=[0.0, 2.0, 3.0], joint_rows=[[1.0, 0, 0], [1.0, 0, -1.0], [0, 0, 1.0]],
-        contact_name=["tip", "rail"], contact_normal=[[0, 1.0, 0], [0, 0, 0]], contact_tangent=[[1.0, 0, 0], [0, 0, 1.0]], pressure=[1.0],
+        coordinate_body=[0, 0, 1], mass=np.diag([2.0, 2.0, 5.0]), joint_name=["tie", "link", "dashpot"],
+        joint_stiffness=[800.0, 1e4, 0.0], joint_damping=[0.0, 2.0, 3.0],
+        joint_rows=[[1.0, 0, 0], [1.0, 0, -1.0], [0, 0, 1.0]], contact_name=["tip", "rail"],
+        contact_normal=[[0, 1.0, 0], [0, 0, 0]], contact_tangent=[[1.0, 0, 0], [0, 0, 1.0]], pressure=[1.0],
         preload=[[20.0, 5.0]], contact_stiffness=[[1e6, 0.0]], input_name=["weight", "motor"], input_area=[20.0, 0.0],
         input_rows=[[0, -1.0, 0], [0, 0, 1.0]], history_interval=0.1, input_history=np.ones((11, 2)), drive_history=[],
         sensor_name=["block"], sensor_rows=[[1.0, 0, 0]])
