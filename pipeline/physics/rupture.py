@@ -85,6 +85,15 @@ def at_rest(lower, upper, interface):
                   interface.pressure.copy())
 
 
+def opening(interface, motion):
+    """(s,) m, gap of every slave node at the present state."""
+    upper, lower = motion.upper[0, 1, 0], motion.lower[0, 1, -1]
+    slave, master = (upper, lower) if interface.slave_above else (lower, upper)
+    right = np.minimum(interface.master + 1, master.size - 1)
+    across = (1.0 - interface.weight) * master[interface.master] + interface.weight * master[right]
+    return interface.gap + (slave - across if interface.slave_above else across - slave)
+
+
 def stable_step(lower, upper):
     """Longest stable time step in s of both plates."""
     return min(largest_step(lower), largest_step(upper))
