@@ -45,7 +45,7 @@ class Studies(Section):
                                               "shear over pressure of the phase diagram")
     damping_shares: tuple[float, ...] = option((0.025, 0.05, 0.1, 0.2, 0.4), "stiffness damping of the sensitivity study")
     poisson_ratios: tuple[float, ...] = option((0.25, 0.28, 0.31), "Poisson ratio of both solids")
-    mesh_poisson: float | None = option(0.31, "Poisson ratio at which the mesh study is repeated; none = not", lt=0.5)
+    mesh_poisson: float | None = option(None, "Poisson ratio at which the mesh study is repeated; none = not", lt=0.5)
 
 
 class Settings(Section):
@@ -223,7 +223,8 @@ def _angles(history, system, base, told):
             expected[k, j] = angle
             field = picture[1] if j == 0 else picture[0][:, ::-1] * np.array([1.0, -1.0])[:, None, None]
             tangent = solid.shear_speed * when * np.cos(angle)      # deeper, the circular wave of the nucleation leads
-            found = fronts.mach_angle_of(field, grid.spacing, tip, side, (3.0 * grid.spacing, 0.8 * tangent))
+            found = fronts.mach_angle_of(field, grid.spacing, tip, side, (2.0 * grid.spacing, 0.9 * tangent),
+                                         8.0 * grid.spacing)
             known[k, j], seen[k, j] = np.isfinite(found), np.nan_to_num(found)
     return {"mach_known": known.astype(int), "mach_angle": seen, "mach_expected": expected}
 

@@ -3,7 +3,8 @@
 A dilatational wave runs ahead of a slow front and may make the interface slip a little before the pulse comes. The
 arrival of the pulse at a node is therefore not the first slip there: it is the moment at which the slip rate passes
 half of its peak on the rise to that peak. Walking outwards from the nucleation zone, peaks come later and later; where
-the peak falls back in time by more than ``_FALL`` only the precursor has passed, and the pulse ends there.
+the peak (median of ``_NEAR`` nodes) falls back in time by more than ``_FALL`` only the precursor has passed, and the
+pulse ends there.
 """
 
 from typing import NamedTuple
@@ -15,6 +16,7 @@ from pipeline.physics.rupture import SLIP
 LEFT, RIGHT = -1, 1
 #: fall of the peak time, over the time itself, at which the pulse has ended and the precursor begins
 _FALL = 0.3
+_NEAR = 7
 #: share of the run at its end in which a front that still moves has not stopped
 _RECENT = 0.06
 
@@ -53,9 +55,9 @@ def arrivals(record, x, centre, half_width):
     inside = np.abs(x - centre) <= half_width
     reached[inside] = slipped[inside]
     for side in (LEFT, RIGHT):
-        latest = 0.0
-        for i in _outwards(x, centre, half_width, side):
-            moment = record.time[peak[i]]
+        latest, order = 0.0, _outwards(x, centre, half_width, side)
+        moments = _smooth(record.time[peak[order]])
+        for i, moment in zip(order, moments, strict=True):
             if not slipped[i] or moment < (1.0 - _FALL) * latest or peak[i] == last:
                 break
             reached[i], latest = True, max(latest, moment)
@@ -116,8 +118,10 @@ def _verb(side):
 
 
 def straight_speed(x, time):
-    """(speed, standard error) in m/s of the straight line of arrival time over position."""
-    (slope, _), covariance = np.polyfit(x, time, 1, cov=True)
+    """(speed, standard error) in m/s of the straight line of arrival over position; late outliers left out once."""
+    off = np.abs(time - np.polyval(np.polyfit(x, time, 1), x))
+    kept = off <= max(4.0 * np.median(off), 1e-3 * np.ptp(time))
+    (slope, _), covariance = np.polyfit(x[kept], time[kept], 1, cov=True)
     return (abs(1.0 / slope), np.sqrt(covariance[0, 0]) / slope**2) if slope else (0.0, 0.0)
 
 
@@ -138,31 +142,39 @@ def slip_profiles(record, step, times):
     return total[np.clip(np.rint(np.asarray(times) / step).astype(int) - 1, 0, len(total) - 1)]
 
 
-def mach_angle_of(velocity, spacing, tip, side, depths):
-    """Angle in rad between the interface and the ridge of rotation rate behind a front tip; nan without a ridge.
+def mach_angle_of(velocity, spacing, tip, side, depths, lag):
+    """Angle in rad between the interface and the strongest straight ridge of rotation rate behind a front tip.
 
-    ``velocity`` (2, rows, columns) with row 0 at the interface, ``tip`` m from the left edge, ``depths`` (low, high) m.
+    ``velocity`` (2, rows, columns) with row 0 at the interface, ``tip`` m from the left edge, ``depths`` (low, high) m
+    between which the ridge is summed, ``lag`` m: how far behind the tip it may leave the interface. nan where fewer
+    than four rows lie between the depths, or where the strongest line is the flattest or steepest tried.
     """
-    across = np.gradient(velocity[1], spacing, axis=1) - np.gradient(velocity[0], spacing, axis=0)
-    rows = np.arange(max(2, int(np.ceil(depths[0] / spacing))), int(depths[1] / spacing) + 1)
+    turning = np.gradient(velocity[1], spacing, axis=1) - np.gradient(velocity[0], spacing, axis=0)
+    rows = np.arange(max(1, int(np.ceil(depths[0] / spacing))), int(depths[1] / spacing) + 1)
     if rows.size < 4:
         return np.nan
+    angles = np.radians(np.arange(15.0, 86.0, 1.0))
     x = spacing * np.arange(velocity.shape[2])
-    place = np.empty(rows.size)
-    for k, row in enumerate(rows):
-        behind = side * (tip - x)
-        near = np.flatnonzero((behind > 0.0) & (behind < 4.0 * row * spacing))
-        if near.size < 3:
-            return np.nan
-        place[k] = behind[near[np.abs(across[row, near]).argmax()]]
-    slope = np.polyfit(rows * spacing, place, 1)[0]
-    return np.arctan2(1.0, slope)
+    best, found = -1.0, np.nan
+    for behind in np.arange(0.0, lag + 0.25 * spacing, 0.5 * spacing):
+        place = tip - side * (behind + rows[:, None] * spacing / np.tan(angles))
+        stack = np.abs(np.mean([np.interp(p, x, turning[r]) for r, p in zip(rows, place, strict=True)], axis=0))
+        top = int(stack.argmax())
+        if stack[top] > best:
+            best, found = stack[top], angles[top] if 0 < top < angles.size - 1 else np.nan
+    return float(found)
 
 
 def _outwards(x, centre, half_width, side):
     """Node numbers outside the nucleation zone on one side, from the centre outwards."""
     nodes = np.flatnonzero(side * (x - centre) > half_width)
     return nodes if side == RIGHT else nodes[::-1]
+
+
+def _smooth(values):
+    """Median over ``_NEAR`` neighbours, fewer at the ends."""
+    half = _NEAR // 2
+    return np.array([np.median(values[max(0, i - half):i + half + 1]) for i in range(values.size)])
 
 
 def _episode(rate, peak):
