@@ -15,8 +15,8 @@ def test_a_frictionless_patch_slips_like_a_static_crack():
     lower, upper = plates(5e-5, length=12e-3, height=6e-3, solids=(SOFT, SOFT))
     x = 5e-5 * np.arange(lower.columns) - 6e-3
     free = np.abs(x) < 5.99e-4
-    stuck = solve_preload(lower, upper, 2.0, 1e6, 0.5, "superlu")
-    cracked = solve_preload(lower, upper, np.where(free, 0.0, 2.0), 1e6, 0.5, "superlu")
+    stuck = solve_preload(lower, upper, 10.0, 1e6, 0.5, "superlu")
+    cracked = solve_preload(lower, upper, np.where(free, 0.0, 10.0), 1e6, 0.5, "superlu")
     middle = np.abs(x) < 4.1e-4
     slope, height = np.polyfit(x[middle] ** 2, cracked.slip[middle] ** 2, 1)
     expected = 2 * (1 - SOFT.poisson_ratio) * stuck.shear[x.size // 2] / SOFT.shear_modulus
