@@ -8,6 +8,7 @@ from pathlib import Path
 CHAINS = {
     "disc_brake": ("surface", "micro_friction", "friction_map", "structure", "reduced_model", "complex_modes",
                    "multibody", "response", "squeal", "comparison", "report"),
+    "bimaterial_rupture": ("rupture", "comparison", "report"),
 }
 
 #: every stage once, in the order of its first chain

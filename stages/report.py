@@ -10,6 +10,7 @@ from pipeline.products import (
     ReducedModel,
     Report,
     Response,
+    Rupture,
     Squeal,
     Structure,
     Surface,
@@ -27,7 +28,7 @@ class Settings(Section):
 def report(surface: Surface | None, micro_friction: MicroFriction | None, friction_map: FrictionMap | None,
            structure: Structure | None, model: ReducedModel | None, complex_modes: ComplexModes | None,
            multibody: Multibody | None, response: Response | None, squeal: Squeal | None,
-           comparison: Comparison | None, settings: Settings, context: Context) -> Report:
+           comparison: Comparison | None, rupture: Rupture | None, settings: Settings, context: Context) -> Report:
     """Write one HTML page with pictures, tables, settings and methods.
 
     Method:
@@ -39,7 +40,8 @@ def report(surface: Surface | None, micro_friction: MicroFriction | None, fricti
 
     products = {"surface": surface, "micro_friction": micro_friction, "friction_map": friction_map,
                 "structure": structure, "model": model, "complex_modes": complex_modes, "multibody": multibody,
-                "response": response, "squeal": squeal, "comparison": comparison}
+                "response": response, "squeal": squeal, "comparison": comparison,
+                "rupture": rupture}
     look = Look(settings.dots_per_inch, settings.mode_pictures)
     chapters = []
     builders = plan(products, look)

@@ -39,11 +39,12 @@ class Friction(Section):
 class Studies(Section):
     """Variations of the main run; an empty list leaves a study out."""
 
-    spacings: Quantities("m", gt=0) | None = option(("50 um", "25 um", "12.5 um"), "mesh study, with and without memory")
+    spacings: Quantities("m", gt=0) | None = option(("50 um", "25 um", "12.5 um"),
+                                                     "mesh study, with and without memory")
     memory_time: Quantity("s", gt=0) = option("20 ns", "memory of the regularised runs of the mesh study")
-    stress_ratios: tuple[float, ...] = option((0.7, 0.8, 0.85, 0.88, 0.9, 0.92, 0.93, 0.94, 0.95, 0.96, 0.97, 0.98, 0.99),
-                                              "shear over pressure of the phase diagram")
-    damping_shares: tuple[float, ...] = option((0.025, 0.05, 0.1, 0.2, 0.4), "stiffness damping of the sensitivity study")
+    stress_ratios: tuple[float, ...] = option(
+        (0.7, 0.8, 0.85, 0.88, 0.9, 0.92, 0.93, 0.94, 0.95, 0.96, 0.97, 0.98, 0.99), "shear over pressure, phase diagram")
+    damping_shares: tuple[float, ...] = option((0.025, 0.05, 0.1, 0.2, 0.4), "stiffness damping, sensitivity study")
     poisson_ratios: tuple[float, ...] = option((0.25, 0.28, 0.31), "Poisson ratio of both solids")
     mesh_poisson: float | None = option(None, "Poisson ratio at which the mesh study is repeated; none = not", lt=0.5)
 
@@ -64,12 +65,11 @@ class Settings(Section):
     side_edges: Literal["reflecting", "absorbing"] = option("reflecting", "side edges: free or absorbing")
     far_edges: Literal["reflecting", "absorbing"] = option("reflecting", "far edges: held or absorbing")
     friction: Friction = option(Friction(), "law of the interface")
-    pressure: Quantity("Pa", gt=0) = option("1 MPa", "mean static pressure; scales all stresses and speeds of particles,"
-                                            " no front")
+    pressure: Quantity("Pa", gt=0) = option("1 MPa", "mean static pressure; scales stresses and particle speeds alone")
     stress_ratio: float = option(0.94, "static shear over pressure at the middle of the interface", ge=0)
     preload: Literal["solved", "uniform"] = option("solved", "solved: shifts u0, v0 with free side edges;"
                                                    " uniform: the same traction everywhere")
-    nucleation_length: Quantity("m", gt=0) = option("0.125 mm", "middle of the interface where friction vanishes at once")
+    nucleation_length: Quantity("m", gt=0) = option("0.125 mm", "middle of the interface, where friction vanishes")
     duration: Quantity("s", gt=0) = option("2.02 us", "time computed")
     profile_step: Quantity("s", gt=0) = option("0.2 us", "time between slip profiles; the last one is at the end")
     frames: int = option(40, "pictures of the velocity field", ge=2, le=400)
@@ -97,7 +97,7 @@ def rupture(settings: Settings, context: Context) -> Rupture:
     {nucleation_length}. Shear over pressure, mesh and damping are inferred: the paper prints none of them. The arrival
     of a pulse is half of its peak slip rate on the rise, which tells it from the P precursor. Coulomb friction between
     unlike solids is ill-posed (Renardy 1992; Adams 1995; Ranjith and Rice 2001): its pulses narrow with the mesh and no
-    limit exists; a Prakash-Clifton memory of the pressure makes one. Mesh, stress, damping and Poisson ratio are varied.
+    limit exists; a Prakash-Clifton memory of the pressure makes one. Mesh, stress, damping and Poisson ratio vary.
     """
     base = _parameters(settings, context.solver)
     system = build(base)
@@ -105,7 +105,7 @@ def rupture(settings: Settings, context: Context) -> Rupture:
     history = run(system.lower, system.upper, system.interface, settings.duration, settings.step_share,
                   settings.frames, (1, 1))
     told = _told(history.record, system, settings)
-    varied = context.map(partial(_vary, base=base, settings=settings), _variations(settings), "variations of the rupture")
+    varied = context.map(partial(_vary, base=base, settings=settings), _variations(settings), "other ruptures")
     return Rupture(**_static(system), **_fronts(history, system, settings, told), **_waves(settings, base),
                    **_angles(history, system, base, told), **_fields(history, system, stride), **_study(varied),
                    **_account(history, system, settings))
@@ -161,7 +161,7 @@ def _study(rows):
     names = [field for field in Rupture.__dataclass_fields__ if field.startswith("study")]
     found = {name: [row[name] for row in rows] for name in names}
     for name in ("study_stop", "study_speed", "study_width", "study_outcome", "study_kind"):
-        found[name] = np.array(found[name], dtype=object if "o" in name[6:8] and not rows else None).reshape(-1, 2)
+        found[name] = np.reshape(found[name], (-1, 2))
     return found
 
 

@@ -56,13 +56,14 @@ class Rupturing:
 
 
 def build(parameters):
-    """Rupturing; ConfigError for a pre-stress above slip, a nucleation zone too small, unlike meshes where not meant."""
+    """Rupturing; ConfigError for a pre-stress above slip, a nucleation zone too small, or solids without wave speeds."""
     p = parameters
     _refuse(p)
     side, far = ABSORBING if p.absorbing_sides else FREE, ABSORBING if p.absorbing_far else FIXED
     sides, inner, outer = [(side, side)] * 2, (FREE, FREE), (far, far)
-    lower = plate(p.lower, p.length, p.height, p.lower_spacing, p.damping_share, [*sides, outer, inner], "rupture.lower")
-    upper = plate(p.upper, p.length, p.height, p.upper_spacing, p.damping_share, [*sides, inner, outer], "rupture.upper")
+    lower, upper = (plate(solid, p.length, p.height, spacing, p.damping_share, [*sides, *rows], f"rupture.{name}")
+                    for name, solid, spacing, rows in (("lower", p.lower, p.lower_spacing, (outer, inner)),
+                                                       ("upper", p.upper, p.upper_spacing, (inner, outer))))
     master, weight, above, length = pairing(lower, upper)
     x, centre = positions(upper if above else lower), 0.5 * p.length
     half_width = 0.5 * p.nucleation_length * (1.0 + 1e-9)

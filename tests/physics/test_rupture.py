@@ -48,8 +48,8 @@ def test_a_stuck_interface_is_one_body():
     advance(lower, upper, law, motion, step, 40)
     for _ in range(40):
         step_plate(whole, rims(whole, step), displacement, velocity, step, np.zeros((3, 2, whole.columns)))
-    np.testing.assert_allclose(motion.lower[0], displacement[:, :lower.rows], atol=1e-12 * np.abs(displacement).max())
-    np.testing.assert_allclose(motion.upper[0], displacement[:, lower.rows - 1:], atol=1e-12 * np.abs(displacement).max())
+    for part, expected in ((motion.lower, displacement[:, :lower.rows]), (motion.upper, displacement[:, lower.rows - 1:])):
+        np.testing.assert_allclose(part[0], expected, atol=1e-12 * np.abs(displacement).max())
 
 
 @pytest.mark.exact
@@ -61,8 +61,9 @@ def test_friction_and_contact_hold_at_every_step():
     limit = record.pressure[:, outside] * (1 + 1e-5)
     assert (record.pressure >= 0).all() and (np.abs(record.shear[:, outside]) <= limit).all()
     sliding = record.state == SLIP
-    np.testing.assert_allclose(record.shear[:, outside][sliding[:, outside]],
-                               (record.pressure * np.sign(record.slip_rate))[:, outside][sliding[:, outside]], rtol=1e-5)
+    strength = record.pressure * np.sign(record.slip_rate)
+    there = sliding & outside
+    np.testing.assert_allclose(record.shear[there], strength[there], rtol=1e-5)
     assert not record.slip_rate[record.state == STICK].any() and sliding.any()
     assert np.abs(opening(law, motion)).max() < 1e-12 * np.abs(motion.slip).max()
 

@@ -51,7 +51,7 @@ def test_slip_at_the_generalised_rayleigh_speed_meets_no_shear():
 
 @pytest.mark.published
 def test_the_intersonic_pulse_of_adams_2001():
-    """'just below the lesser dilatational wave speed', against the slip of the slower solid, for sufficient friction."""
+    """'just below the lesser dilatational wave speed', against the slower solid's slip, for sufficient friction."""
     low, high = intersonic_pulse_speeds(STIFF, SOFT, 1.0)
     assert high == SOFT.dilatational_speed
     assert 0.999 * high < low < high
