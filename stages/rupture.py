@@ -43,8 +43,8 @@ class Studies(Section):
                                                      "mesh study, with and without memory")
     memory_time: Quantity("s", gt=0) = option("20 ns", "memory of the regularised runs of the mesh study")
     stress_ratios: tuple[float, ...] = option(
-        (0.7, 0.8, 0.85, 0.88, 0.9, 0.92, 0.93, 0.94, 0.95, 0.96, 0.97, 0.98, 0.99), "shear over pressure, phase diagram")
-    damping_shares: tuple[float, ...] = option((0.025, 0.05, 0.1, 0.2, 0.4), "stiffness damping, sensitivity study")
+        (0.7, 0.8, 0.85, 0.88, 0.9, 0.92, 0.93, 0.94, 0.95, 0.96, 0.97, 0.98, 0.99), "shear over pressure, phases")
+    damping_shares: tuple[float, ...] = option((0.025, 0.05, 0.1, 0.2, 0.4), "stiffness damping, its study")
     poisson_ratios: tuple[float, ...] = option((0.25, 0.28, 0.31), "Poisson ratio of both solids")
     mesh_poisson: float | None = option(None, "Poisson ratio at which the mesh study is repeated; none = not", lt=0.5)
 

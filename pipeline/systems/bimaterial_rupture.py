@@ -56,7 +56,7 @@ class Rupturing:
 
 
 def build(parameters):
-    """Rupturing; ConfigError for a pre-stress above slip, a nucleation zone too small, or solids without wave speeds."""
+    """Rupturing; ConfigError for a pre-stress above slip, a nucleation zone too small, or no wave speeds."""
     p = parameters
     _refuse(p)
     side, far = ABSORBING if p.absorbing_sides else FREE, ABSORBING if p.absorbing_far else FIXED

@@ -48,7 +48,8 @@ def test_a_stuck_interface_is_one_body():
     advance(lower, upper, law, motion, step, 40)
     for _ in range(40):
         step_plate(whole, rims(whole, step), displacement, velocity, step, np.zeros((3, 2, whole.columns)))
-    for part, expected in ((motion.lower, displacement[:, :lower.rows]), (motion.upper, displacement[:, lower.rows - 1:])):
+    split = (displacement[:, :lower.rows], displacement[:, lower.rows - 1:])
+    for part, expected in zip((motion.lower, motion.upper), split, strict=True):
         np.testing.assert_allclose(part[0], expected, atol=1e-12 * np.abs(displacement).max())
 
 
