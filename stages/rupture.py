@@ -13,7 +13,7 @@ from pipeline.physics.closed_form.wave_speeds import Solid, generalised_rayleigh
 from pipeline.physics.rupture import OPEN
 from pipeline.physics.rupture_history import run
 from pipeline.products import Rupture
-from pipeline.systems.bimaterial_rupture import Parameters, build
+from pipeline.systems.bimaterial_rupture import Parameters, build, refuse
 
 SIDES = {"left": fronts.LEFT, "right": fronts.RIGHT}
 
@@ -82,8 +82,12 @@ class Settings(Section):
 def _check(sections):
     """Refuse what no rupture can be built from before anything is computed."""
     settings = sections["rupture"]
-    for each in _variations(settings):
-        build(replace(_parameters(settings, "superlu"), solved_preload=False, **each["changes"]))
+    base = _parameters(settings, "superlu")
+    refuse(base)
+    for spacing in (base.lower_spacing, base.upper_spacing):
+        _stride(settings, spacing)
+    for changes in ({}, *(each["changes"] for each in _variations(settings))):
+        build(replace(base, solved_preload=False, **changes))
 
 
 @stage(check=_check)

@@ -78,7 +78,7 @@ def front(record, arrival, x, centre, half_width, run_in, side):
         return Front(centre + side * half_width, "died", 0.0, 0.0, "none", 0.0, 0.0, reach)
     stop = x[order[-1]]
     beyond = order[np.abs(x[order] - centre) >= run_in]
-    outcome = _outcome(record, arrival, x, order, beyond, side)
+    outcome = _outcome(record, arrival, order, beyond.size == 0, side)
     if beyond.size < 4:
         return Front(stop, outcome, 0.0, 0.0, "none", 0.0, 0.0, reach)
     speed, error = straight_speed(x[beyond], arrival.arrival[beyond])
@@ -90,13 +90,15 @@ def front(record, arrival, x, centre, half_width, run_in, side):
     return Front(stop, outcome, speed, error, kind, float(np.median(duration)) if passed.size else 0.0, lead, reach)
 
 
-def _outcome(record, arrival, x, order, beyond, side):
-    if beyond.size == 0:
-        return "died"
-    if order[-1] in (0, x.size - 1):
+def _outcome(record, arrival, order, early, side):
+    """What became of a front that reached the nodes ``order``; ``early``: none of them beyond the run-in."""
+    if order[-1] in (0, record.slip_rate.shape[1] - 1):
         return "edge"
-    recent = record.time[-1] - arrival.arrival[order].max() < _RECENT * record.time[-1]
-    return "running" if recent else "stopped"
+    if record.time[-1] - arrival.arrival[order].max() < _RECENT * record.time[-1]:
+        return "running"
+    if early:
+        return "died"
+    return "running" if record.slip_rate[-1, order[-1] + side] != 0.0 else "stopped"
 
 
 def named(left, right, opened):

@@ -58,7 +58,7 @@ class Rupturing:
 def build(parameters):
     """Rupturing; ConfigError for a pre-stress above slip, a nucleation zone too small, or no wave speeds."""
     p = parameters
-    _refuse(p)
+    refuse(p)
     side, far = ABSORBING if p.absorbing_sides else FREE, ABSORBING if p.absorbing_far else FIXED
     sides, inner, outer = [(side, side)] * 2, (FREE, FREE), (far, far)
     lower, upper = (plate(solid, p.length, p.height, spacing, p.damping_share, [*sides, *rows], f"rupture.{name}")
@@ -78,7 +78,9 @@ def build(parameters):
     return Rupturing(lower, upper, interface, x, centre, half_width, preload)
 
 
-def _refuse(p):
+def refuse(parameters):
+    """ConfigError for parameters from which nothing can be built; computes nothing."""
+    p = parameters
     for name, solid in (("upper", p.upper), ("lower", p.lower)):
         checked(solid, f"rupture.{name}")
     if not 0.0 <= p.ratio < p.static_friction:
@@ -87,6 +89,9 @@ def _refuse(p):
     if p.dynamic_friction > p.static_friction:
         raise ConfigError("rupture.friction.dynamic", f"at most the static friction {p.static_friction:g}",
                           f"{p.dynamic_friction:g}")
+    if p.solved_preload and p.lower_spacing != p.upper_spacing:
+        raise ConfigError("rupture.lower_spacing", "matched interface nodes for a solved preload",
+                          f"{p.lower_spacing:g} m against {p.upper_spacing:g} m", "choose the uniform preload")
     coarsest = max(p.upper_spacing, p.lower_spacing)
     if p.nucleation_length < FEWEST * coarsest * (1.0 - 1e-9):
         raise ConfigError("rupture.nucleation_length", f"{FEWEST} or more elements of {coarsest:g} m",

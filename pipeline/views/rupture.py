@@ -37,10 +37,10 @@ def field(rupture, frame, dpi, limit=None):
         for part in (slice(None, _rows_below(rupture)), slice(_rows_below(rupture), None)):
             y = 1e3 * rupture.field_y[part]
             extent = (1e3 * rupture.field_x[0], 1e3 * rupture.field_x[-1], y[0], y[-1])
-            shown = axes.imshow(values[part], origin="lower", extent=extent, aspect="auto", vmin=0, vmax=limit,
+            shown = axes.imshow(values[part], origin="lower", extent=extent, aspect="equal", vmin=0, vmax=limit,
                                 cmap=SEQUENTIAL, interpolation="bilinear")
         _interface(axes, rupture, frame)
-        axes.set(xlabel="x / mm", ylabel="y / mm", ylim=1e3 * rupture.field_y[[0, -1]],
+        axes.set(xlabel="x / mm", ylabel="y / mm", xlim=_reach(rupture), ylim=1e3 * rupture.field_y[[0, -1]],
                  title=f"{1e6 * rupture.frame_time[frame]:.2f} µs")
         axes.grid(False)
         colour_bar(axes, shown, "particle speed / mm/s")
@@ -71,6 +71,12 @@ def animation(rupture, dpi, most=3_000_000):
         if stream.tell() <= most or step >= len(rupture.frame_time):
             return stream.getvalue()
         step += 1
+
+
+def _reach(rupture):
+    """(low, high) mm between which waves from the middle have moved anything at the end of the time."""
+    centre, way = 0.5 * (rupture.x[0] + rupture.x[-1]), 1.15 * rupture.dilatational_speed.max() * rupture.duration
+    return 1e3 * max(centre - way, rupture.x[0]), 1e3 * min(centre + way, rupture.x[-1])
 
 
 def _limit(rupture):
@@ -182,6 +188,9 @@ def mesh_study(rupture):
             panels[0].axhline(float(rupture.generalised_rayleigh_speed), color=FAINT, lw=1.0, ls=":")
         for axes, name in zip(panels, ("right / m/s", "left / m/s", "width right / µm"), strict=True):
             axes.set(ylabel=name, xscale="log")
+        ticks = 1e6 * np.unique(rupture.study_spacing[chosen])
+        panels[2].set_xticks(ticks, [f"{tick:.4g}" for tick in ticks])
+        panels[2].set_xticks([], minor=True)
         panels[2].set(xlabel="spacing / µm")
         panels[2].legend(loc="upper left", fontsize=7.5)
         return svg(figure)
