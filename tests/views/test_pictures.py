@@ -12,6 +12,7 @@ from pipeline.views import (
     friction,
     pad_motion,
     preload,
+    rupture,
     sound,
     surfaces,
 )
@@ -47,6 +48,14 @@ PICTURES = {
     "occurrence": (lambda p: sound.occurrence(p, 60), small.squeal, "peak_level"),
     "levels": (lambda p: sound.level_frequency(p, LINES), small.squeal, "event_level"),
     "bands": (lambda p: sound.band_levels(p, [0, 8], 0), small.squeal, "band_level"),
+    "rupture field": (lambda p: rupture.field(p, 2, 60), small.rupture, "speed_field"),
+    "rupture moving": (lambda p: rupture.animation(p, 50), small.rupture, "speed_field"),
+    "rupture slip": (rupture.slip_profiles, small.rupture, "slip"),
+    "rupture arrivals": (rupture.arrivals, small.rupture, "arrival"),
+    "rupture speed": (rupture.speed_over_x, small.rupture, "front_speed"),
+    "rupture phases": (rupture.phase_diagram, small.rupture, "study_speed"),
+    "rupture mesh": (rupture.mesh_study, small.rupture, "study_width"),
+    "rupture preload": (rupture.static_state, small.rupture, "static_shear"),
     "agreement": (agreement.agreement, small.comparison, "ours"),
 }
 
@@ -122,3 +131,21 @@ def test_an_envelope_keeps_every_peak():
     assert shown.max() == 7.0
     assert shown.min() == signal.min()
     assert envelope(time[:50], signal[:50])[1] is not None
+
+
+@pytest.mark.exact
+def test_an_animation_moves_and_keeps_its_size():
+    from io import BytesIO
+
+    from PIL import Image
+
+    whole = rupture.animation(small.rupture(), 50)
+    assert Image.open(BytesIO(whole)).n_frames == 3
+    shorter = rupture.animation(small.rupture(), 50, most=len(whole) - 1)
+    assert len(shorter) < len(whole)
+
+
+def test_the_interface_shows_its_state():
+    moving = small.rupture()
+    opened = replace(moving, frame_state=2 * moving.frame_state)
+    assert rupture.field(opened, 2, 60) != rupture.field(moving, 2, 60)
