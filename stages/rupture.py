@@ -9,13 +9,16 @@ import numpy as np
 from pipeline.contract import ConfigError, Context, Quantities, Quantity, Section, option, stage
 from pipeline.physics import rupture_fronts as fronts
 from pipeline.physics.closed_form.slip_pulse import intersonic_pulse_speeds
-from pipeline.physics.closed_form.wave_speeds import Solid, generalised_rayleigh_speed, mach_angle, rayleigh_speed
+from pipeline.physics.closed_form.wave_speeds import Solid, generalised_rayleigh_speed, rayleigh_speed
 from pipeline.physics.rupture import OPEN
 from pipeline.physics.rupture_history import run
+from pipeline.physics.rupture_mach import View, front_angle
 from pipeline.products import Rupture
 from pipeline.systems.bimaterial_rupture import Parameters, build, refuse
 
 SIDES = {"left": fronts.LEFT, "right": fronts.RIGHT}
+#: depth in m of the strips in which Mach fronts are looked for
+_STRIP = 1e-3
 
 
 class Material(Section):
@@ -107,7 +110,7 @@ def rupture(settings: Settings, context: Context) -> Rupture:
     system = build(base)
     stride = [_stride(settings, s) for s in (base.lower_spacing, base.upper_spacing)]
     history = run(system.lower, system.upper, system.interface, settings.duration, settings.step_share,
-                  settings.frames, (1, 1))
+                  settings.frames, stride, [int(_STRIP / s) + 1 for s in (base.lower_spacing, base.upper_spacing)])
     told = _told(history.record, system, settings)
     varied = context.map(partial(_vary, base=base, settings=settings), _variations(settings), "other ruptures")
     return Rupture(**_static(system), **_fronts(history, system, settings, told), **_waves(settings, base),
@@ -208,29 +211,15 @@ def _waves(settings, base):
 
 
 def _angles(history, system, base, told):
-    """Mach angles on both sides of both plates, in the picture in which the front has gone two thirds of its way."""
-    arrival = told[0]
-    known, seen, expected = (np.zeros((2, 2)) for _ in range(3))
-    for k, (side, front) in enumerate(zip(SIDES.values(), told[1:3], strict=True)):
-        nodes = np.flatnonzero(arrival.reached & (side * (system.x - system.centre) > system.half_width))
-        if not nodes.size or front.speed == 0.0:
-            continue
-        when = history.frame_time[np.abs(history.frame_time - arrival.arrival[nodes].max() * 2.0 / 3.0).argmin()]
-        passed = system.x[nodes[arrival.arrival[nodes] <= when]]
-        if not passed.size:
-            continue
-        tip, picture = side * (side * passed).max(), history.frames[list(history.frame_time).index(when)]
-        for j, (solid, grid) in enumerate(((base.upper, system.upper), (base.lower, system.lower))):
-            angle = mach_angle(solid.shear_speed, front.speed)
-            if np.isnan(angle):
-                continue
-            expected[k, j] = angle
-            field = picture[1] if j == 0 else picture[0][:, ::-1] * np.array([1.0, -1.0])[:, None, None]
-            tangent = solid.shear_speed * when * np.cos(angle)      # deeper, the circular wave of the nucleation leads
-            found = fronts.mach_angle_of(field, grid.spacing, tip, side, (2.0 * grid.spacing, 0.9 * tangent),
-                                         8.0 * grid.spacing)
-            known[k, j], seen[k, j] = np.isfinite(found), np.nan_to_num(found)
-    return {"mach_known": known.astype(int), "mach_angle": seen, "mach_expected": expected}
+    """Mach angles on both sides of both plates; the lower one is seen upside down."""
+    views = [View(history.frame_time, tuple(pair[1] for pair in history.strips), system.upper.spacing,
+                  base.upper.shear_speed),
+             View(history.frame_time, tuple(pair[0][:, ::-1] * [[[1.0]], [[-1.0]]] for pair in history.strips),
+                  system.lower.spacing, base.lower.shear_speed)]
+    found = np.array([[front_angle(view, told[0], system.x, system.centre, system.half_width, front.speed, side)
+                       for view in views] for side, front in zip(SIDES.values(), told[1:3], strict=True)])
+    return {"mach_known": np.isfinite(found[..., 0]).astype(int), "mach_angle": np.nan_to_num(found[..., 0]),
+            "mach_expected": np.nan_to_num(found[..., 1])}
 
 
 def _stride(settings, spacing):
@@ -245,8 +234,7 @@ def _stride(settings, spacing):
 def _fields(history, system, stride):
     lower, upper = system.lower, system.upper
     below, above = (np.arange(0, grid.rows, by) * grid.spacing for grid, by in ((lower, stride[0]), (upper, stride[1])))
-    shown = [np.concatenate([np.hypot(*v[:, ::by, ::by]) for v, by in zip(pair, stride, strict=True)])
-             for pair in history.frames]
+    shown = [np.concatenate([np.hypot(*velocity) for velocity in pair]) for pair in history.frames]
     rows = np.searchsorted(history.record.time, history.frame_time * (1.0 - 1e-9))
     return {"frame_time": history.frame_time, "frame_state": history.record.state[rows].astype(np.int64),
             "field_x": np.arange(0, upper.columns, stride[1]) * upper.spacing,

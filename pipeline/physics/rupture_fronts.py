@@ -55,7 +55,7 @@ def arrivals(record, x, centre, half_width):
     inside = np.abs(x - centre) <= half_width
     reached[inside] = slipped[inside]
     for side in (LEFT, RIGHT):
-        latest, order = 0.0, _outwards(x, centre, half_width, side)
+        latest, order = 0.0, outwards(x, centre, half_width, side)
         moments = _smooth(record.time[peak[order]])
         for i, moment in zip(order, moments, strict=True):
             if not slipped[i] or moment < (1.0 - _FALL) * latest or peak[i] == last:
@@ -70,7 +70,7 @@ def arrivals(record, x, centre, half_width):
 
 def front(record, arrival, x, centre, half_width, run_in, side):
     """Front of one side; ``run_in`` m from the centre are left out of speed, kind and healing time."""
-    order = _outwards(x, centre, half_width, side)
+    order = outwards(x, centre, half_width, side)
     order = order[arrival.reached[order]]
     slipped = x[arrival.first_slip > 0.0]
     reach = max(0.0, side * (slipped - centre).max(initial=0.0) if side > 0 else (centre - slipped).max(initial=0.0))
@@ -144,30 +144,7 @@ def slip_profiles(record, step, times):
     return total[np.clip(np.rint(np.asarray(times) / step).astype(int) - 1, 0, len(total) - 1)]
 
 
-def mach_angle_of(velocity, spacing, tip, side, depths, lag):
-    """Angle in rad between the interface and the strongest straight ridge of rotation rate behind a front tip.
-
-    ``velocity`` (2, rows, columns) with row 0 at the interface, ``tip`` m from the left edge, ``depths`` (low, high) m
-    between which the ridge is summed, ``lag`` m: how far behind the tip it may leave the interface. nan where fewer
-    than four rows lie between the depths, or where the strongest line is the flattest or steepest tried.
-    """
-    turning = np.gradient(velocity[1], spacing, axis=1) - np.gradient(velocity[0], spacing, axis=0)
-    rows = np.arange(max(1, int(np.ceil(depths[0] / spacing))), int(depths[1] / spacing) + 1)
-    if rows.size < 4:
-        return np.nan
-    angles = np.radians(np.arange(15.0, 86.0, 1.0))
-    x = spacing * np.arange(velocity.shape[2])
-    best, found = -1.0, np.nan
-    for behind in np.arange(0.0, lag + 0.25 * spacing, 0.5 * spacing):
-        place = tip - side * (behind + rows[:, None] * spacing / np.tan(angles))
-        stack = np.abs(np.mean([np.interp(p, x, turning[r]) for r, p in zip(rows, place, strict=True)], axis=0))
-        top = int(stack.argmax())
-        if stack[top] > best:
-            best, found = stack[top], angles[top] if 0 < top < angles.size - 1 else np.nan
-    return float(found)
-
-
-def _outwards(x, centre, half_width, side):
+def outwards(x, centre, half_width, side):
     """Node numbers outside the nucleation zone on one side, from the centre outwards."""
     nodes = np.flatnonzero(side * (x - centre) > half_width)
     return nodes if side == RIGHT else nodes[::-1]

@@ -35,23 +35,28 @@ class History(NamedTuple):
     motion: object              # Motion at the end
     frame_time: np.ndarray      # (f,) s
     frames: tuple               # f pairs (lower, upper) of velocity (2, rows, columns) on every ``stride``-th node
+    strips: tuple               # f pairs (lower, upper) of velocity next to the interface on every node
     energy: Energy
 
 
-def run(lower, upper, interface, duration, step_share=0.9, frames=1, stride=(1, 1)):
+def run(lower, upper, interface, duration, step_share=0.9, frames=1, stride=(1, 1), strip=(1, 1)):
     """History of ``duration`` s in equal steps of about ``step_share`` of the stability limit.
 
-    ``frames``: number of equally spaced pictures, the last at the end; ``stride``: of their nodes, (lower, upper).
+    ``frames``: number of equally spaced pictures, the last at the end; ``stride``: of their nodes, ``strip``: rows of
+    the strips next to the interface, both (lower, upper).
     """
     each = max(1, int(np.ceil(duration / frames / (step_share * stable_step(lower, upper)))))
     step = duration / (each * frames)
-    motion, records, pictures = at_rest(lower, upper, interface), [], []
+    motion, records, pictures, strips = at_rest(lower, upper, interface), [], [], []
     for frame in range(frames):
         records.append(advance(lower, upper, interface, motion, step, each, start=frame * each * step))
         pictures.append(tuple(part[1][:, ::by, ::by].astype(np.float32)
                               for part, by in zip((motion.lower, motion.upper), stride, strict=True)))
+        strips.append((motion.lower[1][:, -strip[0]:].astype(np.float32),
+                       motion.upper[1][:, :strip[1]].astype(np.float32)))
     record = Record(*(np.concatenate(parts) for parts in zip(*records, strict=True)))
     return History(record, step, motion, step * each * np.arange(1, frames + 1), tuple(pictures),
+                   tuple(strips),
                    energies(lower, upper, interface, motion, record, step))
 
 

@@ -11,7 +11,6 @@ from pipeline.physics.rupture_fronts import (
     arrivals,
     front,
     local_speed,
-    mach_angle_of,
     named,
     slip_profiles,
     straight_speed,
@@ -105,20 +104,3 @@ def test_a_late_outlier_does_not_bend_a_straight_line():
     time = X / 900.0
     time[40] += 1e-6
     assert straight_speed(X, time)[0] == pytest.approx(900.0, rel=1e-3)
-
-
-@pytest.mark.exact
-@pytest.mark.parametrize("side", [LEFT, RIGHT])
-@pytest.mark.parametrize("degrees", [32.0, 51.0])
-def test_the_mach_angle_of_a_plane_shear_front(side, degrees):
-    """A velocity step across a straight front: to 2 degrees."""
-    h, tip = 1e-5, 1e-3
-    y, x = np.mgrid[0:60, 0:201] * h
-    behind = side * (tip - x) - y / np.tan(np.radians(degrees))
-    velocity = np.stack([np.tanh(behind / 3e-5), np.zeros_like(behind)])
-    found = mach_angle_of(velocity, h, tip, side, (3e-5, 3e-4), 4e-5)
-    assert np.degrees(found) == pytest.approx(degrees, abs=2.0)
-
-
-def test_too_few_rows_show_no_mach_angle():
-    assert np.isnan(mach_angle_of(np.zeros((2, 5, 50)), 1e-5, 2e-4, LEFT, (1e-5, 2e-5), 0.0))

@@ -45,9 +45,11 @@ def test_absorbing_edges_take_energy():
 def test_pictures_are_taken_at_equal_times():
     lower, upper = plates(length=2e-3, height=1e-3)
     law, _ = interface(lower, upper)
-    history = run(lower, upper, law, 3e-7, frames=3, stride=(2, 4))
+    history = run(lower, upper, law, 3e-7, frames=3, stride=(2, 4), strip=(3, 5))
     assert history.frame_time == pytest.approx([1e-7, 2e-7, 3e-7])
     assert history.record.time[-1] == pytest.approx(3e-7)
     assert [v.shape for v in history.frames[-1]] == [(2, 11, 21), (2, 6, 11)]
+    assert [v.shape for v in history.strips[-1]] == [(2, 3, 41), (2, 5, 41)]
+    np.testing.assert_allclose(history.strips[-1][0][:, -1], history.motion.lower[1][:, -1], rtol=1e-6)
     np.testing.assert_allclose(history.frames[-1][0], history.motion.lower[1][:, ::2, ::2], rtol=1e-6)
     assert np.isclose(history.record.slip_rate.sum(axis=0) * history.step, history.motion.slip, rtol=1e-4).all()
