@@ -69,7 +69,9 @@ class Settings(Section):
     far_edges: Literal["reflecting", "absorbing"] = option("reflecting", "far edges: held or absorbing")
     friction: Friction = option(Friction(), "law of the interface")
     pressure: Quantity("Pa", gt=0) = option("1 MPa", "mean static pressure; scales stresses and particle speeds alone")
-    stress_ratio: float = option(0.94, "static shear over pressure at the middle of the interface", ge=0)
+    stress_ratio: float = option(0.94, "static shear over pressure, while every node sticks", ge=0)
+    ratio_of: Literal["middle", "forces"] = option(
+        "middle", "the ratio is that at the middle of the interface, or that of both forces: the middle has more")
     preload: Literal["solved", "uniform"] = option("solved", "solved: shifts u0, v0 with free side edges;"
                                                    " uniform: the same traction everywhere")
     nucleation_length: Quantity("m", gt=0) = option("0.125 mm", "middle of the interface, where friction vanishes")
@@ -87,10 +89,10 @@ def _check(sections):
     settings = sections["rupture"]
     base = _parameters(settings, "superlu")
     refuse(base)
-    for spacing in (base.lower_spacing, base.upper_spacing):
-        _stride(settings, spacing)
     for changes in ({}, *(each["changes"] for each in _variations(settings))):
         build(replace(base, solved_preload=False, **changes))
+    for spacing in (base.lower_spacing, base.upper_spacing):
+        _stride(settings, spacing)
 
 
 @stage(check=_check)
@@ -126,7 +128,8 @@ def _parameters(settings, solver):
         *solids, settings.length, settings.height, settings.spacing, settings.lower_spacing or settings.spacing,
         settings.damping_share, settings.side_edges == "absorbing", settings.far_edges == "absorbing", law.static,
         law.static if law.dynamic is None else law.dynamic, law.weakening_slip, law.memory_time, law.memory_slip,
-        settings.nucleation_length, settings.pressure, settings.stress_ratio, settings.preload == "solved", solver)
+        settings.nucleation_length, settings.pressure, settings.stress_ratio, settings.preload == "solved",
+        settings.ratio_of == "forces", solver)
 
 
 def _variations(settings):

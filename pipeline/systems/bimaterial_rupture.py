@@ -39,6 +39,7 @@ class Parameters:
     pressure: float
     ratio: float                    # shear over pressure
     solved_preload: bool            # False: uniform tractions
+    ratio_of_forces: bool = False   # solved preload: the ratio of the forces, not of the tractions in the middle
     solver: str = "superlu"
 
 
@@ -71,7 +72,7 @@ def build(parameters):
     preload = None
     pressure, shear, gap = np.full(x.size, p.pressure), np.full(x.size, p.ratio * p.pressure), np.zeros(x.size)
     if p.solved_preload:
-        preload = solve_preload(lower, upper, p.static_friction, p.pressure, p.ratio, p.solver)
+        preload = solve_preload(lower, upper, p.static_friction, p.pressure, p.ratio, p.solver, p.ratio_of_forces)
         pressure, shear, gap = np.maximum(preload.pressure, 0.0), preload.shear, preload.gap
     interface = Interface(pressure, shear, gap, p.static_friction * acting, p.dynamic_friction * acting,
                           p.weakening_slip, p.memory_time, p.memory_slip, length, master, weight, above)

@@ -82,6 +82,16 @@ def test_every_study_has_its_rows():
     assert found.shift.all()
 
 
+def test_the_ratio_of_the_forces_makes_the_middle_slip_before_the_rupture():
+    """With free side edges the shear gathers in the middle: local slip where the limit would be exceeded."""
+    low, high = (of(preload="solved", ratio_of=which, duration="0.1 us", field_spacing="100 um", spacing="100 um")
+                 for which in ("middle", "forces"))
+    assert not low.static_slip.any()
+    slipped = high.static_slip != 0.0
+    assert slipped.any() and not slipped.all()
+    np.testing.assert_allclose(high.static_shear[slipped], high.static_pressure[slipped], rtol=1e-8)
+
+
 @pytest.mark.parametrize("values, message", [
     ({"stress_ratio": 1.2}, "stress_ratio: expected shear over pressure from 0 to below the static friction"),
     ({"nucleation_length": "80 um"}, "nucleation_length: expected 2 or more elements"),

@@ -36,7 +36,10 @@ def _see(rupture):
              f" {quantity(rupture.shift[1], 'm', 3)} towards the upper one." if rupture.shift.any() else
              " The pre-stress is uniform.")
     slipped = int((rupture.static_slip != 0.0).sum())
-    local = f" {slipped} nodes slipped already under it." if slipped else " No node slips under it."
+    ratio = rupture.static_shear / np.maximum(rupture.static_pressure, 1e-9 * rupture.static_pressure.max())
+    local = (f" Shear over pressure is {number(ratio[ratio.size // 2], 3)} in the middle, at most"
+             f" {number(ratio.max(), 3)}, and {number(rupture.static_shear.sum() / rupture.static_pressure.sum(), 3)} of the sums;"
+             f" {f'{slipped} nodes slipped' if slipped else 'no node slips'} under it.")
     return (f"Friction vanishes at the middle of the interface; {quantity(rupture.duration.item(), 's')} are computed"
             f" in steps of {quantity(rupture.step.item(), 's', 3)}.{shift}{local} The arrival of a pulse is half of its"
             " peak slip rate on the rise; first slip of any size may be that of the P wave ahead of it.")
