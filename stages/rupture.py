@@ -78,7 +78,7 @@ class Settings(Section):
     duration: Quantity("s", gt=0) = option("2.02 us", "time computed")
     profile_step: Quantity("s", gt=0) = option("0.2 us", "time between slip profiles; the last one is at the end")
     frames: int = option(40, "pictures of the velocity field", ge=2, le=400)
-    field_spacing: Quantity("m", gt=0) = option("100 um", "node distance of the stored velocity fields")
+    field_spacing: Quantity("m", gt=0) = option("50 um", "node distance of the stored velocity fields")
     run_in: Quantity("m", gt=0) = option("0.25 mm", "distance from the centre left out of the front speeds")
     speed_window: Quantity("m", gt=0) = option("0.2 mm", "window of the speed over x")
     studies: Studies = option(Studies(), "variations of the main run")

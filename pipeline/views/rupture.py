@@ -27,17 +27,22 @@ _SIDES = (BLUE, RED)
 _BRIGHT = 99.7
 
 
-def field(rupture, frame, dpi, limit=None):
-    """PNG of the particle speed in both plates, and of the interface: white sticks, black slips, red is open."""
+def field(rupture, frame, dpi):
+    """PNG of the particle speed in both plates, and of the interface: white sticks, black slips, red is open.
+
+    Colours follow the square root of the speed, so that weak waves show beside the fronts.
+    """
+    from matplotlib.colors import PowerNorm
+
+    norm = PowerNorm(0.5, 0.0, _limit(rupture))
     values = 1e3 * rupture.speed_field[frame]
-    limit = limit or _limit(rupture)
     with drawing(2.9, left=0.62, top=0.34, bar=True) as figure:
         axes = figure.subplots()
         shown = None
         for part in (slice(None, _rows_below(rupture)), slice(_rows_below(rupture), None)):
             y = 1e3 * rupture.field_y[part]
             extent = (1e3 * rupture.field_x[0], 1e3 * rupture.field_x[-1], y[0], y[-1])
-            shown = axes.imshow(values[part], origin="lower", extent=extent, aspect="equal", vmin=0, vmax=limit,
+            shown = axes.imshow(values[part], origin="lower", extent=extent, aspect="equal", norm=norm,
                                 cmap=SEQUENTIAL, interpolation="bilinear")
         _interface(axes, rupture, frame)
         axes.set(xlabel="x / mm", ylabel="y / mm", xlim=_reach(rupture), ylim=1e3 * rupture.field_y[[0, -1]],

@@ -11,7 +11,7 @@ _MOVING = 110
 CLAIM = ("Coulomb friction between unlike solids is ill-posed: short waves on the interface grow without bound"
          " (Renardy 1992; Adams 1995; Ranjith and Rice 2001), so a pulse narrows with the mesh and its speed has no"
          " limit to converge to. Mesh and stiffness damping then act as the missing length. A memory of the pressure"
-         " (Prakash and Clifton) supplies one; its runs converge.")
+         " (Prakash and Clifton) supplies one; the mesh study tells how far its runs have converged.")
 TABLE_2 = ("Table 2 of the paper contradicts itself. Its moduli, densities and Poisson ratio 0.25 do not give its wave"
            " speeds; 0.31 gives all of them but the shear speed of solid 2, which no Poisson ratio gives together with"
            " the others; and the printed moduli make the shear speeds 0.80 apart, not 0.9. The printed constants are"
@@ -37,8 +37,9 @@ def _see(rupture):
              " The pre-stress is uniform.")
     slipped = int((rupture.static_slip != 0.0).sum())
     ratio = rupture.static_shear / np.maximum(rupture.static_pressure, 1e-9 * rupture.static_pressure.max())
+    forces = rupture.static_shear.sum() / rupture.static_pressure.sum()
     local = (f" Shear over pressure is {number(ratio[ratio.size // 2], 3)} in the middle, at most"
-             f" {number(ratio.max(), 3)}, and {number(rupture.static_shear.sum() / rupture.static_pressure.sum(), 3)} of the sums;"
+             f" {number(ratio.max(), 3)}, and {number(forces, 3)} of the sums;"
              f" {f'{slipped} nodes slipped' if slipped else 'no node slips'} under it.")
     return (f"Friction vanishes at the middle of the interface; {quantity(rupture.duration.item(), 's')} are computed"
             f" in steps of {quantity(rupture.step.item(), 's', 3)}.{shift}{local} The arrival of a pulse is half of its"
@@ -74,10 +75,23 @@ def _figures(rupture, look):
         yield Figure(pictures.phase_diagram(rupture), "Phase diagram over shear over pressure, uniform pre-stress: how"
                      " far and how fast both fronts run, and what becomes of them.")
     if (rupture.study == "mesh").any():
-        yield Figure(pictures.mesh_study(rupture), "Mesh study: with Coulomb friction the right pulse narrows with the"
-                     " mesh and its speed climbs; with a memory of the pressure both settle. Dotted: generalised"
-                     " Rayleigh speed.")
+        yield Figure(pictures.mesh_study(rupture), f"Mesh study. {_refined(rupture)} Dotted: generalised Rayleigh"
+                     " speed.")
     yield Figure(pictures.static_state(rupture), "Pressure and shear before the rupture.")
+
+
+def _refined(rupture):
+    """What the last refinement does to the right front, for each law and Poisson ratio of the mesh study."""
+    chosen, told = rupture.study == "mesh", []
+    for poisson, memory in sorted(set(zip(rupture.study_poisson[chosen], rupture.study_memory[chosen], strict=True))):
+        here = np.flatnonzero(chosen & (rupture.study_poisson == poisson) & (rupture.study_memory == memory))
+        fine = here[np.argsort(rupture.study_spacing[here])][:2]
+        speeds, widths = rupture.study_speed[fine, 1], rupture.study_width[fine, 1]
+        if fine.size == 2 and speeds.all() and widths.all():
+            law = f"a memory of {quantity(memory, 's', 3)}" if memory else "Coulomb friction"
+            told.append(f"with {law} and Poisson ratio {number(poisson, 3)} by {percent(speeds[0] / speeds[1] - 1, 2)}"
+                        f" and {percent(widths[0] / widths[1] - 1, 2)}")
+    return f"The last refinement changes speed and width of the right pulse {', '.join(told)}." if told else ""
 
 
 def _fronts(rupture):
