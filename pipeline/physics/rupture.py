@@ -75,6 +75,7 @@ def pairing(lower, upper):
     left = np.minimum(np.floor(place + 1e-9).astype(np.int64), master.columns - 2)
     weight = place - left
     weight[np.abs(weight) < 1e-9] = 0.0
+    weight[np.abs(weight - 1.0) < 1e-9] = 1.0
     return left, weight, above, slave.spacing * nodal_share(slave.columns)
 
 
@@ -124,7 +125,7 @@ def advance(lower, upper, interface, motion, step, steps, start=0.0):
 @njit(cache=True, error_model="numpy")
 def _advance(lower, upper, lower_rim, upper_rim, interface, motion, step, record):
     below, above = np.empty((3, 2, lower.columns)), np.empty((3, 2, upper.columns))
-    matched = np.all(interface.weight == 0.0)
+    matched = np.all((interface.weight == 0.0) | (interface.weight == 1.0))      # every node has its own: diagonal
     pressure, shear = np.empty(interface.pressure.size), np.empty(interface.pressure.size)
     strength = np.empty(pressure.size)
     for count in range(record.time.size):
