@@ -3,7 +3,7 @@ CASE   ?= disc_brake
 PYTHON ?= python3
 ARGS   ?=
 TESTS  ?= tests
-STAGES := surface micro_friction friction_map structure reduced_model complex_modes multibody response squeal comparison report lumped transient
+STAGES := surface micro_friction friction_map structure reduced_model complex_modes multibody response squeal comparison report lumped transient rupture
 
 CONFIG := configs/$(CASE).yaml
 READY  := .venv/.ready

@@ -9,6 +9,7 @@ CHAINS = {
     "disc_brake": ("surface", "micro_friction", "friction_map", "structure", "reduced_model", "complex_modes",
                    "multibody", "response", "squeal", "comparison", "report"),
     "lumped": ("lumped", "reduced_model", "complex_modes", "transient", "comparison", "report"),
+    "bimaterial_rupture": ("rupture", "comparison", "report"),
 }
 
 #: every stage once, in the order of its first chain

@@ -11,6 +11,7 @@ from pipeline.products import (
     ReducedModel,
     Report,
     Response,
+    Rupture,
     Squeal,
     Structure,
     Surface,
@@ -29,8 +30,8 @@ class Settings(Section):
 def report(surface: Surface | None, micro_friction: MicroFriction | None, friction_map: FrictionMap | None,
            structure: Structure | None, model: ReducedModel | None, complex_modes: ComplexModes | None,
            multibody: Multibody | None, response: Response | None, squeal: Squeal | None,
-           lumped: Lumped | None, transient: Transient | None, comparison: Comparison | None, settings: Settings,
-           context: Context) -> Report:
+           lumped: Lumped | None, transient: Transient | None, rupture: Rupture | None,
+           comparison: Comparison | None, settings: Settings, context: Context) -> Report:
     """Write one HTML page with pictures, tables, settings and methods.
 
     Method:
@@ -43,7 +44,7 @@ def report(surface: Surface | None, micro_friction: MicroFriction | None, fricti
     products = {"surface": surface, "micro_friction": micro_friction, "friction_map": friction_map,
                 "structure": structure, "lumped": lumped, "model": model, "complex_modes": complex_modes,
                 "multibody": multibody, "response": response, "transient": transient, "squeal": squeal,
-                "comparison": comparison}
+                "rupture": rupture, "comparison": comparison}
     look = Look(settings.dots_per_inch, settings.mode_pictures)
     chapters = []
     builders = plan(products, look)

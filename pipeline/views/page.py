@@ -3,6 +3,7 @@
 from functools import partial
 
 from pipeline.views import case as case_view
+from pipeline.views import rupture as rupture_pictures
 from pipeline.views import sound as sound_pictures
 from pipeline.views.chapter import Figure
 from pipeline.views.chapters import (
@@ -10,6 +11,7 @@ from pipeline.views.chapters import (
     friction,
     lumped,
     motion,
+    rupture,
     sound,
     stability,
     structure,
@@ -30,7 +32,7 @@ def plan(products, look):
              ("complex_modes", stability.chapter, (model, lines)), ("multibody", motion.chapter, ()),
              ("transient", transient.chapter, ()),
              ("response", sound.response, (lines,)), ("squeal", sound.squeal, (lines,)),
-             ("comparison", comparison.chapter, ()))
+             ("rupture", rupture.chapter, ()), ("comparison", comparison.chapter, ()))
     return [partial(write, products[name], *more, look) for name, write, more in known
             if products.get(name) is not None]
 
@@ -45,7 +47,9 @@ def page(chapters, products, case, look):
 
 
 def _key_figure(products, look):
-    squeal = products.get("squeal")
+    squeal, broken = products.get("squeal"), products.get("rupture")
+    if squeal is None and broken is not None:
+        return Figure(rupture_pictures.slip_profiles(broken), rupture.headline(broken))
     if squeal is None:
         return None
     return Figure(sound_pictures.occurrence(squeal, look.dpi), sound.occurrence_caption(squeal))

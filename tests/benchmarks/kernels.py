@@ -11,11 +11,15 @@ from pipeline.physics.linear_solver import available
 from pipeline.physics.mesh import revolve
 from pipeline.physics.modal_response import fixed_points, modal_response
 from pipeline.physics.pad_system import static_start
+from pipeline.physics.plate_grid import largest_step, plate
+from pipeline.physics.plate_step import plain_step, rims
 from pipeline.physics.preloaded_modes import preloaded_modes
 from pipeline.physics.quadratic_modes import quadratic_roots
 from pipeline.physics.rough_contact import solve_normal_contact
 from pipeline.physics.rough_surface import plateau_pad, turned_disc
+from pipeline.physics.rupture_history import run
 from pipeline.physics.time_stepping import Hard, simulate
+from tests.physics import small_ruptures
 from tests.physics.lumps import random_structure
 from tests.physics.small_pads import random_assembly
 
@@ -109,7 +113,24 @@ def newmark_steps():
     return _stepping(newmark.integrate)
 
 
+def rupture_steps():
+    """rupture of two plates, 20 x 5 mm each at 25 um, 2.02 us"""
+    lower, upper = small_ruptures.plates(2.5e-5, length=20e-3, height=5e-3)
+    law, _ = small_ruptures.interface(lower, upper)
+    steps = run(lower, upper, law, 2.02e-6).record.time.size
+    updates = steps * (lower.rows * lower.columns + upper.rows * upper.columns)
+    return lambda: run(lower, upper, law, 2.02e-6), updates, "node-updates"
+
+
+def rupture_slices():
+    """the step of one plate by numpy slices, same mesh"""
+    grid = plate(small_ruptures.SOFT, 20e-3, 5e-3, 2.5e-5, 0.1, [(0, 0)] * 4)
+    step, state = 0.9 * largest_step(grid), np.zeros((2, 2, grid.rows, grid.columns))
+    rim = rims(grid, step)
+    return lambda: plain_step(grid, rim, state[0], state[1], step), grid.rows * grid.columns, "node-updates"
+
+
 KERNELS = (compliance, contact, assembly, modes, roots, superposition, exudyn_steps, newmark_steps, transient_pin,
-           transient_beam)
+           transient_beam, rupture_steps, rupture_slices)
 #: (kernel, kernel) pairs whose rates compare: the same work done in two ways
-PAIRS = ((newmark_steps, exudyn_steps),)
+PAIRS = ((newmark_steps, exudyn_steps), (rupture_steps, rupture_slices))

@@ -6,16 +6,17 @@ from pipeline.contract import store
 from pipeline.products import Comparison
 from tests.chain.conftest import ROOT, brakechain
 
-#: cases in full resolution; disc_brake_scanned needs recordings as well
-SLOW = {"disc_brake": [pytest.mark.slow], "disc_brake_scanned": [pytest.mark.slow, pytest.mark.measured]}
+#: cases in full resolution, of which a quick variant has tests of its own; disc_brake_scanned needs recordings as well
+SLOW = {**dict.fromkeys(("disc_brake", "bimaterial_rupture", "bimaterial_rupture_fine"), [pytest.mark.slow]),
+        "disc_brake_scanned": [pytest.mark.slow, pytest.mark.measured]}
 CASES = [pytest.param(path, marks=SLOW.get(path.stem, ()), id=path.stem)
-         for path in sorted((ROOT / "configs").glob("*.yaml")) if path.stem != "disc_brake_quick"]
+         for path in sorted((ROOT / "configs").glob("*.yaml")) if not path.stem.endswith("_quick")]
 CLOSED_FORM = ("belt", "two_mode_flutter", "wobbling_disc")
 
 
 @pytest.mark.parametrize("case", CASES)
 def test_a_case_runs_to_its_report(case, tmp_path):
-    """Lumped systems meet every closed form; the quick case is run by its own tests."""
+    """Lumped systems meet every closed form; quick variants are run by tests of their own."""
     brakechain("run", case, "--run", tmp_path / "run")
     assert (tmp_path / "run" / "report.html").stat().st_size > 10_000
     if case.stem in CLOSED_FORM:

@@ -71,10 +71,12 @@ def test_claim_the_evolution_rule_follows_the_curve_best():
 
 
 def test_claim_the_description_makes_no_difference_to_the_result(steady):
-    """Where the contacts slide: mean within 0.1 %, swing of the block within 0.1 %."""
+    """Where the contacts slide on, mean and swing of the block agree within 0.1 %; where contact is lost not."""
     late = {key: count.displacement[100:, -5] for key, count in steady.items()}
     mean, swing = ([f(x) for x in late.values()] for f in (np.mean, np.std))
     assert np.ptp(mean) < 1e-3 * np.mean(mean) and np.ptp(swing) < 1e-3 * np.mean(swing)
+    bouncing = [run(block_on_drive(4, modulation=1.2), name, PAPER_STEP, 200).displacement[100:, -5] for name in NAMES]
+    assert np.ptp([x.mean() for x in bouncing]) > 0.1 * np.mean(bouncing)
 
 
 def test_claim_the_missing_unsymmetric_term_costs_convergence(steady):
@@ -85,20 +87,25 @@ def test_claim_the_missing_unsymmetric_term_costs_convergence(steady):
 
 
 def test_claim_rigid_sticking_converges_always_but_slowly(steady):
-    """Always: yes here. Slowly: not in iterations; each costs more, because the multipliers are unknowns too."""
+    """Always: in steady sliding yes, but not where a stiff contact is lost (steps are halved, see below). Slowly: not
+    in iterations; each costs more, because the multipliers are unknowns too."""
     assert all(steady["rigid", full].converged and not steady["rigid", full].halvings for full in (True, False))
     assert steady["rigid", True].iterations.sum() < 1.1 * steady["elastic", True].iterations.sum()
     assert steady["rigid", True].cost > 3 * steady["elastic", True].cost
 
 
 def test_claim_the_evolution_rule_converges_worst(steady):
-    """On average not: integrated over the step with its own tangent it needs what the elastic stick needs. Its worst
-    step is the worst of all where contact is lost and the unsymmetric term is missing, as the paper says."""
+    """Not confirmed: integrated over the step with its own tangent it needs what the elastic stick needs. Where contact
+    is lost and the unsymmetric term is missing, its worst step is by far the worst of all at one load (120 %), and no
+    worse than the others' at another (200 %): a matter of single steps, not of the description."""
     evolution, elastic = (steady[name, True].iterations.sum() for name in ("evolution", "elastic"))
     assert evolution == pytest.approx(elastic, rel=0.05)
-    worst = {name: run(block_on_drive(4, modulation=1.2), name, PAPER_STEP, 200, False).iterations.max()
-             for name in NAMES}
-    assert worst["evolution"] > 1.5 * max(worst["elastic"], worst["rigid"])
+    ratio = {}
+    for modulation in (1.2, 2.0):
+        problem = block_on_drive(4, modulation=modulation)
+        worst = {name: run(problem, name, PAPER_STEP, 200, False).iterations.max() for name in NAMES}
+        ratio[modulation] = worst["evolution"] / max(worst["elastic"], worst["rigid"])
+    assert ratio[1.2] > 1.5 and ratio[2.0] <= 1
 
 
 def test_steps_that_do_not_converge_are_halved_or_given_up_never_kept():
