@@ -300,3 +300,78 @@ class Report:
     """The report page of a case."""
 
     html: Array = text("", "self-contained page")
+
+
+@product(version=1)
+class InterfaceLaw:
+    """Normal and tangential law of a rough interface from its summits, and the three descriptions of its friction."""
+
+    source: Array = text("", "where the summits come from")
+    summit_density: Array = quantity("1/m^2", "", "summits per area")
+    summit_mean: Array = quantity("m", "", "mean height of the summits above the mean plane")
+    summit_spread: Array = quantity("m", "", "standard deviation of their heights, Gaussian")
+    summit_curvature: Array = quantity("1/m", "", "median of their curvatures")
+    curvature_spread: Array = quantity("1", "", "standard deviation of the logarithm of the curvatures")
+    curvature_correlation: Array = quantity("1", "", "correlation of that logarithm and the height")
+    shear_limit: Array = quantity("Pa", "", "yield stress in shear of the contact spots")
+    gap: Array = quantity("m", "gap", "distance of the mean planes, falling")
+    gap_pressure: Array = quantity("Pa", "gap", "nominal contact pressure at the gap")
+    real_area: Array = quantity("1", "gap", "real contact area share at the gap")
+    normal_stiffness: Array = quantity("Pa/m", "gap", "interface stiffness at the gap")
+    pressure: Array = quantity("Pa", "pressure", "nominal contact pressures of the shear law")
+    displacement: Array = quantity("m", "displacement", "tangential displacement from rest")
+    shear: Array = quantity("Pa", "pressure displacement", "shear stress of the summits")
+    evolution_shear: Array = quantity("Pa", "pressure displacement", "shear stress of the fitted evolution rule")
+    elastic_shear: Array = quantity("Pa", "pressure displacement", "shear stress of the fitted elastic stick")
+    tangential_stiffness: Array = quantity("Pa/m", "pressure", "tangential stiffness at rest, c_t")
+    limit: Array = quantity("Pa", "pressure", "shear stress in full slip, tau_max")
+    exponent: Array = quantity("1", "pressure", "exponent m of dtau/dv = c_t (1 - tau / tau_max)^m")
+    elastic_stiffness: Array = quantity("Pa/m", "pressure", "stiffness of the elastic stick of the same energy")
+    friction: Array = quantity("1", "pressure", "coefficient of friction, tau_max over pressure")
+
+
+@product(version=1)
+class PinOnDisc:
+    """Pin and disc as FE bodies with hub, clamp and guide, their contact and sensors, and the load states.
+
+    The names of Structure, where the thing is the same; the rubbed body is the pin.
+    """
+
+    body_name: Array = text("body", "bodies in order: disc, pin")
+    disc: Body = part("disc on hub, collar and shaft")
+    pin: Body = part("pin with accelerometer and clamp block")
+    joint_name: Array = text("joint", "joint names, e.g. guide")
+    joint_rows: Incidence = part("joint elongation rows; all joints of the clamp end on the ground")
+    joint_stiffness: Array = quantity("N/m", "joint", "joint stiffness")
+    joint_damping: Array = quantity("N s/m", "joint", "joint damping")
+    contact_body: Array = count("contact", "body that slides on the disc at the contact, index into body_name")
+    contact_position: Array = quantity("m", "contact xyz", "centroid of the contact patch on the disc face")
+    contact_area: Array = quantity("m^2", "contact", "area of the contact patch")
+    contact_normal: Incidence = part("normal relative displacement, pin minus disc, positive opens")
+    contact_tangent: Incidence = part("relative displacement pin minus disc along sliding")
+    contact_lateral: Incidence = part("relative displacement pin minus disc radially outwards")
+    load: Array = quantity("kg", "pressure", "weights on the pin")
+    pressure: Array = quantity("Pa", "pressure", "nominal contact pressure of each weight")
+    preload: Array = quantity("N", "pressure contact", "static normal contact force")
+    contact_stiffness: Array = quantity("N/m", "pressure contact", "normal contact stiffness about the preload")
+    closed: Array = count("pressure contact", "1 where the contact is closed")
+    law_closure: Array = quantity("m", "closure", "closure (minus gap) axis of the normal contact law; none = hard contact")
+    law_pressure: Array = quantity("Pa", "closure", "contact pressure at each closure")
+    friction: Array = quantity("1", "pressure", "coefficient of friction of the interface law at each weight")
+    tangential_stiffness: Array = quantity("N/m", "pressure", "tangential contact stiffness at rest, evolution rule")
+    elastic_stiffness: Array = quantity("N/m", "pressure", "tangential contact stiffness of the elastic stick")
+    exponent: Array = quantity("1", "pressure", "exponent of the evolution rule")
+    disc_frequency: Array = quantity("Hz", "disc_mode", "natural frequencies of the disc on its shaft")
+    disc_diameters: Array = count("disc_mode", "nodal diameters of the modes of the disc")
+    disc_out_of_plane: Array = quantity("1", "disc_mode", "share of modal mass that moves along the axis")
+    pin_length: Array = quantity("m", "pin_length", "free lengths of the pin: that of the case, then those compared")
+    pin_frequency: Array = quantity("Hz", "pin_length pin_mode", "natural frequencies of the pin, rigidly clamped, not touching")
+    tilt: Array = quantity("rad", "", "tilt of the pin; positive: clamp upstream")
+    contact_offset: Array = quantity("m", "", "contact off the middle of the tip, along sliding")
+    base_mass: Array = quantity("kg", "", "mass that moves with the clamp")
+    sensor_name: Array = text("sensor", "sensor names")
+    sensor_position: Array = quantity("m", "sensor xyz", "sensor positions")
+    sensor_direction: Array = quantity("1", "sensor xyz", "sensor directions, unit vectors")
+    sensor_rows: Incidence = part("sensor displacement rows")
+    load_rows: Incidence = part("row of the weight: it presses the clamp towards the disc")
+    load_area: Array = quantity("m^2", "", "contact area on which the nominal pressure acts; load = pressure * area")

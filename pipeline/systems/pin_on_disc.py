@@ -159,11 +159,35 @@ def _clamp(meshes, parameters):
              for name, axis, stiffness in (("radial", np.eye(3)[[0]], p.clamp_stiffness / 2),
                                            ("tangential", np.eye(3)[[1]], p.clamp_stiffness / 2))]
     found.append(("clamp_twist", (along(sides[1], along_tilt) - along(sides[0], along_tilt)) / 2, p.clamp_stiffness))
-    found.append(("guide", along((front + rear) / 2, np.eye(3)[[2]]), p.guide_stiffness))
     name, rows, stiffness = zip(*found, strict=True)
     nothing = sp.csr_matrix((len(name), 3 * len(meshes[DISC].node)))
     stiffness = np.array(stiffness)
     return Joints(name, stiffness, stiffness * p.loss_time, Rows((nothing, sp.vstack(rows, format="csr"))))
+
+
+def sliding_flexibility(model, friction, solver):
+    """Closure of the contact per unit of normal force (m/N) in sliding with ``friction``, the guide held still.
+
+    Not above 0, the pin digs in: the friction that a force brings presses harder than the force yields (the axis of the
+    pin leans against the motion inside the friction cone). A weight on a free guide still balances it in the end;
+    a clamp of any inertia does not.
+    """
+    closure = 0.0
+    for number, body in enumerate(model.bodies):
+        mesh = body.mesh
+        stiffness, _ = assemble(mesh.node, mesh.element, mesh.kind, body.element_material, body.density,
+                                body.elasticity)
+        held = [(model.joints.rows.parts[number], model.joints.stiffness)]
+        if number == PIN:
+            held.append((model.load.parts[number], model.joints.stiffness.max()))
+        for rows, springs in held:
+            stiffness = stiffness + rows.T @ sp.diags(np.broadcast_to(springs, rows.shape[0])) @ rows
+        free = np.setdiff1d(np.arange(stiffness.shape[0]), 3 * body.supported[:, None] + np.arange(3))
+        normal, tangent = (rows.parts[number].toarray()[0, free] for rows in (model.contacts.normal,
+                                                                              model.contacts.tangent))
+        moved = factorise(stiffness.tocsr()[free][:, free], solver).solve(normal + friction * tangent)
+        closure += normal @ moved
+    return float(closure)
 
 
 def _section(mesh, parameters, depth):
