@@ -146,14 +146,16 @@ class Structure:
     piston_area: Array = quantity("m^2", "", "pad area on which the nominal pressure acts; piston force = pressure * area")
 
 
-@product(version=2)
+@product(version=3)
 class ReducedModel:
     """The reduced sliding model: everything that a solver or an effect needs of a sliding system.
 
     Equation of motion, s = sliding, q = reduced coordinates:
         M q'' + (C + speed G + sum_j c_j b_j b_j^T) q'
               + (K + speed^2 Kc + sum_j k_j b_j b_j^T) q = sum_i (n_i N_i + t_i T_i) + inputs,
-    N_i >= 0 the contact force on the pad along its normal row n_i, T_i = mu N_i along its tangent row t_i.
+    N_i >= 0 the contact force on the pad along its normal row n_i, T_i = mu N_i along its tangent row t_i. A contact
+    whose normal row is zero is a friction joint: nothing presses it but its preload. Without a normal contact law
+    (size 0) contacts stay as their preload state says; those with a contact_stiffness of 0 as well are hard.
     """
 
     body_name: Array = text("body", "bodies in order")
@@ -171,6 +173,7 @@ class ReducedModel:
     contact_position: Array = quantity("m", "contact xyz", "centroid of the contact patch")
     contact_area: Array = quantity("m^2", "contact", "area of the contact patch")
     contact_lever: Array = quantity("m", "contact", "sliding speed per speed of the drive: the radius on a disc, 1 m on a belt")
+    contact_gap: Array = quantity("m", "contact", "gap where nothing is loaded, negative where parts are set to press")
     contact_normal: Array = quantity("1", "contact coordinate", "normal rows, pad minus disc, positive opens")
     contact_tangent: Array = quantity("1", "contact coordinate", "tangent rows, pad minus disc, along sliding")
     contact_lateral: Array = quantity("1", "contact coordinate", "lateral rows, pad minus disc, radial")
@@ -182,27 +185,34 @@ class ReducedModel:
     input_name: Array = text("input", "inputs, e.g. piston")
     input_rows: Array = quantity("1", "input coordinate", "input rows: generalised force per unit input force")
     input_area: Array = quantity("m^2", "input", "input force per nominal pad pressure")
+    history_interval: Array = quantity("s", "", "time between the samples of the histories, which begin at time 0")
+    input_history: Array = quantity("N", "sample input", "input forces over time, added to the former; none = constant")
+    drive_history: Array = quantity("rad/s", "drive_sample", "speed of the drive over time; none = constant")
     sensor_name: Array = text("sensor", "sensor names")
     sensor_position: Array = quantity("m", "sensor xyz", "sensor positions")
     sensor_direction: Array = quantity("1", "sensor xyz", "sensor directions")
     sensor_rows: Array = quantity("1", "sensor coordinate", "sensor displacement rows")
+    sensor_quantity: Array = text("sensor", "what it measures: displacement, velocity or acceleration")
+    sensor_unit: Array = text("sensor", "unit of its reading")
+    sensor_gain: Array = quantity("1", "sensor", "its reading in that unit per SI unit of its quantity")
     visible_position: Array = quantity("m", "visible xyz", "surface nodes kept for pictures")
     visible_body: Array = count("visible", "body of the surface nodes")
     visible_face: Array = count("face corner", "quadrilaterals of the surface, row numbers of visible_position")
     recovery: Array = quantity("1", "visible xyz coordinate", "displacement of the surface nodes per coordinate", np.float32)
 
 
-@product(version=2)
+@product(version=3)
 class ComplexModes:
     """Complex modes of the sliding system over friction, and at each operating point of the map."""
 
-    pressure: Array = quantity("Pa", "pressure", "nominal pad pressure")
+    pressure: Array = quantity("Pa", "pressure", "nominal pressure of the state")
     friction: Array = quantity("1", "friction", "friction coefficient of the sweep")
     root: Array = quantity("1/s", "pressure friction branch", "s = sigma + i omega, followed over friction", complex)
     real_frequency: Array = quantity("Hz", "pressure branch", "frequencies without friction and damping")
     operating_pressure: Array = quantity("Pa", "operating", "pressure of the operating point")
-    operating_speed: Array = quantity("rad/s", "operating", "disc speed of the operating point")
-    operating_friction: Array = quantity("1", "operating", "friction coefficient from the map, mean weighted by normal force")
+    operating_speed: Array = quantity("rad/s", "operating", "speed of the drive at the operating point")
+    operating_friction: Array = quantity("1", "operating", "friction coefficient, mean weighted by normal force")
+    operating_force: Array = quantity("N", "operating contact", "normal contact force in steady sliding, 0 when open")
     operating_open: Array = count("operating", "contacts that steady sliding leaves open")
     operating_root: Array = quantity("1/s", "operating branch", "roots at the operating point", complex)
     unstable_operating: Array = count("unstable", "operating point of the unstable mode")
@@ -254,7 +264,7 @@ class Response:
     coupling: Array = text("", "how forces enter: assembly or disc")
 
 
-@product(version=2)
+@product(version=3)
 class Squeal:
     """Squeal events at the sensors, and levels per band."""
 
@@ -274,6 +284,8 @@ class Squeal:
     event_level: Array = quantity("1", "event", "largest level, dB")
     event_start: Array = quantity("s", "event", "begin")
     event_duration: Array = quantity("s", "event", "duration")
+    event_fundamental: Array = quantity("Hz", "event", "tone whose whole multiple the event is; its own frequency if of none")
+    event_order: Array = count("event", "the multiple: 1 = a tone of its own, 2 and more = a harmonic")
 
 
 @product(version=1)
@@ -281,7 +293,7 @@ class Comparison:
     """Published values beside ours, row by row."""
 
     row: Array = text("row", "name of the quantity")
-    section: Array = text("row", "part of the paper: friction, modes, multibody, squeal, bench")
+    section: Array = text("row", "part of the source, as its reference file calls it")
     unit: Array = text("row", "unit in which the row is shown")
     published: Array = quantity("1", "row", "published value in that unit (0 where none)")
     published_known: Array = count("row", "1 where the paper gives a value")

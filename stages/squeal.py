@@ -27,6 +27,15 @@ class Settings(Section):
     gap: Quantity("s", ge=0) = option("10 ms", "longest interruption of an event")
     shortest: Quantity("s", ge=0) = option("30 ms", "shortest event")
     settling: Quantity("s", ge=0) = option("50 ms", "begin of the signals that is not searched")
+    lowest_fundamental: Quantity("Hz", gt=0) = option(
+        "400 Hz", "tones from here to the squeal band are no events, but events may be harmonics of them")
+    line_accuracy: float = option(
+        0.05, "largest error of a frequency, as a share of the distance of the lines; a harmonic must be met to it",
+        gt=0, le=0.5)
+    largest_chance: float = option(
+        0.1, "largest share of unrelated tones that may pass as harmonics of one fundamental", gt=0, lt=1)
+    told_share: float = option(
+        0.33, "share of the frames of an event that must be told as the same harmonic", ge=0.1, lt=1)
 
 
 @stage
@@ -38,12 +47,17 @@ def squeal(response: Response, settings: Settings, context: Context) -> Squeal:
     Method:
     A squeal event is a tone between {lowest_frequency} and {highest_frequency} of at least {threshold} root
     mean square (levels re {reference}) for at least {shortest}, in Hann frames of {window} that overlap by
-    {overlap}; tones that drift by less than {drift} from frame to frame are one event. Third-octave levels are
-    sums of the velocity spectra.
+    {overlap}; tones that drift by less than {drift} from frame to frame are one event. It is a harmonic if
+    more than {told_share} of its frames hold a lower tone of that level, from {lowest_fundamental} up, of which it is a
+    whole multiple, each frequency being known to {line_accuracy} of the distance of the lines, and if at most
+    {largest_chance} of all unrelated tones would pass so. Third-octave levels are sums of the velocity spectra.
     """
     if settings.lowest_frequency >= settings.highest_frequency:
         raise ConfigError("squeal.lowest_frequency", f"less than highest_frequency, {settings.highest_frequency:g} Hz",
                           f"{settings.lowest_frequency:g} Hz")
+    if settings.lowest_fundamental > settings.lowest_frequency:
+        raise ConfigError("squeal.lowest_fundamental", f"at most lowest_frequency, {settings.lowest_frequency:g} Hz",
+                          f"{settings.lowest_fundamental:g} Hz")
     detector = _detector(settings)
     searched = response.time >= settings.settling
     if not searched.any():
@@ -67,7 +81,8 @@ def _detector(settings):
     return Detector((settings.lowest_frequency, settings.highest_frequency),
                     float(level(settings.threshold**2, settings.reference)), settings.reference, settings.window,
                     settings.overlap, settings.prominence, settings.dynamic_range, settings.drift, settings.gap,
-                    settings.shortest)
+                    settings.shortest, settings.lowest_fundamental, settings.line_accuracy, settings.largest_chance,
+                    settings.told_share)
 
 
 def _search(velocity, rate, detector):
@@ -78,9 +93,10 @@ def _search(velocity, rate, detector):
 
 def _events(found, begin):
     """The event table; times count from the static start."""
-    rows = [(operating, sensor, event.frequency, event.level, begin + event.start, event.duration)
+    rows = [(operating, sensor, event.frequency, event.level, begin + event.start, event.duration, event.fundamental,
+             event.order)
             for operating, sensors in enumerate(found) for sensor, (_, events) in enumerate(sensors)
             for event in events]
-    names = ("operating", "sensor", "frequency", "level", "start", "duration")
+    names = ("operating", "sensor", "frequency", "level", "start", "duration", "fundamental", "order")
     columns = zip(*rows, strict=True) if rows else [()] * len(names)
     return {f"event_{name}": np.array(column) for name, column in zip(names, columns, strict=True)}

@@ -72,16 +72,22 @@ def system_mode_rows(modes, known):
 
 
 def squeal_rows(squeal, known):
-    """Squeal events: their number, their distinct frequencies, and the one nearest each line of the test bench."""
-    frequency = np.sort(squeal.event_frequency)
+    """Squeal events: their number, their distinct frequencies, and the one nearest each line of the test bench.
+
+    A harmonic of a lower tone is heard as the others are, but it is neither an excited mode nor a squeal frequency of
+    its own: it counts only where the test bench heard nothing at all.
+    """
+    frequency = np.sort(squeal.event_frequency[squeal.event_order == 1])
     lines = np.count_nonzero(np.diff(frequency) > _ONE_LINE) + bool(len(frequency))
     heard = f"response of the {'disc alone' if squeal.coupling == 'disc' else 'whole assembly'}"
-    counted = ours(len(frequency), f"events at all operating points and sensors, {heard}; our pressure and speed are"
-                   " constant")
-    rows = {"squeal_lines": ours(lines, f"distinct frequencies, more than {_ONE_LINE:.0f} Hz apart; {heard}"),
-            "no_mode_excited": counted, "no_squeal_at_constant_load": counted}
+    above, constant = squeal.event_frequency.size - len(frequency), "our pressure and speed are constant"
+    apart = f"{heard}; {above or 'no'} harmonic{'' if above == 1 else 's'} of lower tones left out"
+    rows = {"squeal_lines": ours(lines, f"distinct frequencies, more than {_ONE_LINE:.0f} Hz apart; {apart}"),
+            "no_mode_excited": ours(len(frequency), f"events at all operating points and sensors, {apart}; {constant}"),
+            "no_squeal_at_constant_load": ours(len(frequency) + above, "events at all operating points and sensors,"
+                                               f" {above or 'none'} of them harmonics, {heard}; {constant}")}
     for key in ("squeal_line_1", "squeal_line_2"):
         if key in known:
             nearest = frequency[np.argmin(np.abs(frequency - known[key]))] if len(frequency) else np.nan
-            rows[key] = ours(nearest, f"nearest squeal event, {heard}", f"no squeal event in our {heard}")
+            rows[key] = ours(nearest, f"nearest squeal event, {apart}", f"no squeal event in our {apart}")
     return rows

@@ -24,7 +24,7 @@ class CaseFile:
     path: Path
     document: dict      # as read, overrides applied, origins included
     stages: tuple       # the stages of its chain, in order
-    folders: tuple      # where files that it names are looked for: its own folder, then those it is based on
+    folders: tuple      # where a file is looked for that is not beside the YAML that names it: here, then the bases
     measured: object = None     # name of a public recording -> its local file
 
     @property
@@ -118,7 +118,7 @@ def _read(path, readers=()):
     document = documents.read_yaml(path)
     if not isinstance(document, dict):
         raise ConfigError(path, "a mapping of sections", repr(document)[:60])
-    base = document.get("based_on")
+    document, base = settings.written_in(path.parent, document), document.get("based_on")
     if base is None:
         return document, (path.parent,)
     file = path.parent / str(base)

@@ -12,6 +12,7 @@ from concurrent.futures.process import BrokenProcessPool
 
 from threadpoolctl import threadpool_limits
 
+from pipeline import __version__
 from pipeline.contract.errors import BrakechainError, ConfigError
 from pipeline.contract.fingerprint import project_digest
 from pipeline.environment import ONE_THREAD
@@ -93,8 +94,12 @@ def _follow(parent):
     threading.Thread(target=watch, daemon=True).start()
 
 
+#: expression whose value is the digest of the brakechain where it is evaluated; to ask needs no brakechain there
+_CODE_THERE = "__import__('pipeline.contract.fingerprint', fromlist=['project_digest']).project_digest()"
+
+
 class DaskCluster:
-    """The workers of the Dask scheduler at ``address``; they must run the same brakechain."""
+    """The workers of the Dask scheduler at ``address``; it and they must run the same brakechain."""
 
     def __init__(self, address):
         self.spent_elsewhere, self._code = 0.0, project_digest()
@@ -114,12 +119,31 @@ class DaskCluster:
             self._client.close()
             raise ConfigError("--scheduler", "at least one worker", f"none at {address}",
                               f"start one with 'dask worker {address}'") from None
+        try:
+            self._check_code()
+        except ConfigError:
+            self._client.close()
+            raise
+
+    def _check_code(self):
+        """Refuse a cluster with other code or none: Dask itself would wait for its workers without an end."""
+        answers = self._client.run(eval, _CODE_THERE, on_error="return")
+        try:
+            answers["the scheduler"] = self._client.run_on_scheduler(eval, _CODE_THERE)
+        except Exception as error:      # whatever the code there raises
+            answers["the scheduler"] = error
+        wrong = [f"{answer if isinstance(answer, Exception) else 'other code'} ({machine})"
+                 for machine, answer in answers.items() if answer != self._code]
+        if wrong:
+            raise ConfigError("--scheduler", f"brakechain {__version__} with the same code on the scheduler and its"
+                              " workers as here", "; ".join(wrong), "install it in their environments and restart them")
 
     def map(self, function, items, done):
         """Results in the order of ``items``; ``done()`` is called after each."""
         from distributed import KilledWorker
         from distributed import as_completed as completed
 
+        self._check_code()      # workers may have joined
         futures = [self._client.submit(run_task, function, item, self._code, pure=False) for item in items]
         try:
             with self._client.as_current():

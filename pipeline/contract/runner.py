@@ -1,5 +1,6 @@
 """Run a chain on a run folder: what is up to date stays, what is not is computed and published whole."""
 
+import errno
 import fcntl
 import json
 import os
@@ -133,6 +134,8 @@ class Run:
         return computed
 
     def _compute(self, stage, context):
+        if not os.access(self.folder, os.W_OK | os.X_OK):      # now, not after minutes of computing
+            raise _closed(self.folder, os.strerror(errno.EACCES))
         inputs = {name: store.read(product, self.path(product)) if product else None
                   for name, product in self.filled(stage).items()}
         now = self.fingerprint(stage)
@@ -172,6 +175,11 @@ def _unreadable(path):
     return "its file is damaged" if path.exists() else "not computed yet"
 
 
+def _closed(folder, why):
+    return ProductError(folder, "a run folder that can be written", why,
+                        "choose another with --run, or mend its permissions")
+
+
 @contextmanager
 def locked(folder):
     """Hold the run folder for this process alone; it is freed however the process ends."""
@@ -179,8 +187,7 @@ def locked(folder):
         folder.mkdir(parents=True, exist_ok=True)
         handle = os.open(folder / ".lock", os.O_RDWR | os.O_CREAT, 0o644)
     except OSError as error:
-        raise ProductError(folder, "a run folder that can be written", error.strerror,
-                           "choose another with --run, or mend its permissions") from None
+        raise _closed(folder, error.strerror) from None
     try:
         try:
             fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)

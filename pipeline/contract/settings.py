@@ -61,15 +61,35 @@ def _in_si(value, unit):
         raise ValueError(f"expected {error.expected}, found {error.found}") from None
 
 
+class Written(str):
+    """Text of a YAML document that knows the ``folder`` of the file it stands in: what it may name lies there."""
+
+    folder: Path
+
+
+def written_in(folder, value):
+    """The document ``value`` with every text in it as Written in ``folder``."""
+    if isinstance(value, dict):
+        return {key: written_in(folder, inner) for key, inner in value.items()}
+    if isinstance(value, list):
+        return [written_in(folder, inner) for inner in value]
+    if isinstance(value, str):
+        value = Written(value)
+        value.folder = folder
+    return value
+
+
 def _existing(value, info: ValidationInfo):
-    """Resolve a file named in the YAML: 'measured:NAME', or a path from the YAML's folders or from here."""
+    """Resolve a file: 'measured:NAME', or a path from beside the YAML that names it, its case's folders or here."""
     context = info.context or {}
     if str(value).startswith("measured:"):
         try:
             return context["measured"](str(value).removeprefix("measured:"))
         except (BrakechainError, KeyError) as error:
             raise ValueError(str(error)) from None
-    candidates = dict.fromkeys(Path(folder) / str(value) for folder in (*context.get("folders", ()), "."))
+    beside = (value.folder,) if isinstance(value, Written) else ()
+    folders = (*beside, *context.get("folders", ()), ".")
+    candidates = dict.fromkeys(Path(folder) / str(value) for folder in folders)
     found = next((path for path in candidates if path.is_file()), None)
     if found is None:
         raise ValueError(f"expected a file, found none at {' or '.join(repr(str(c)) for c in candidates)}")

@@ -2,6 +2,7 @@
 
 Overlapping Hann frames give the tones of each instant; tones near each other in frequency from
 frame to frame are one event. A signal may hold many events, one after the other or at once.
+Events that are whole multiples of a lower tone, in the band or below it, say so (``harmonics``).
 """
 
 from dataclasses import dataclass
@@ -11,6 +12,7 @@ from numpy.lib.stride_tricks import sliding_window_view
 from scipy.signal import find_peaks
 
 from pipeline.contract.errors import ConfigError
+from pipeline.physics.harmonics import ladders
 from pipeline.physics.spectra import level
 
 #: how much lower a tone midway between two lines of a Hann spectrum looks [dB], rounded up
@@ -31,6 +33,14 @@ class Detector:
     drift : largest change of frequency from frame to frame [Hz]
     gap : longest interruption inside one event [s]
     shortest : shortest event [s]
+    lowest_fundamental : tones from here to the band, too, may have harmonics in it [Hz]; they must pass the same
+        threshold, prominence and range, and are no events
+    accuracy : largest error of a frequency between the lines, as a share of their distance. Exact for one steady
+        tone; a tone 30 dB stronger eight lines away moves it by up to 0.05. Modulated tones err more and are then
+        missed as harmonics, frame by frame
+    chance : largest share of unrelated tones that may pass as harmonics of one fundamental (see ``harmonics``)
+    told : share of the frames of a harmonic that must tell its order. A modulated one is missed in many; a tone of no
+        relation that wanders matches in about ``chance`` of them, a steady one in all or in none
     """
 
     band: tuple
@@ -43,6 +53,10 @@ class Detector:
     drift: float
     gap: float
     shortest: float
+    lowest_fundamental: float
+    accuracy: float
+    chance: float
+    told: float
 
 
 @dataclass(frozen=True)
@@ -65,21 +79,32 @@ class Frames:
 
 @dataclass(frozen=True)
 class Event:
-    """One squeal event: mean frequency [Hz], largest level [dB], begin and duration [s]."""
+    """One squeal event.
+
+    frequency : mean [Hz]
+    level : largest [dB]
+    start, duration : [s]
+    fundamental : mean frequency of the tone of which it is a multiple [Hz]; of an own tone, its own
+    order : the multiple, in more than the share ``told`` of its frames; 1 = a tone of its own
+    """
 
     frequency: float
     level: float
     start: float
     duration: float
+    fundamental: float
+    order: int
 
 
 @dataclass(eq=False)
 class _Track:
-    """An event that grows: frames, frequencies and levels so far."""
+    """An event that grows: frames, frequencies, levels, orders and fundamentals so far."""
 
     frame: list
     frequency: list
     level: list
+    order: list
+    fundamental: list
 
 
 def frames(signal, rate, detector):
@@ -104,7 +129,7 @@ def frames(signal, rate, detector):
 
 def loudest(found, detector):
     """Level [dB] and frequency [Hz] of the strongest tone of the band in any frame."""
-    inside = _inside(found, detector)
+    inside = _inside(found, detector.band)
     frame, line = np.unravel_index(np.where(inside, found.spectrum, 0).argmax(), found.spectrum.shape)
     frequency, root_mean_square = _refine(found, frame, np.array([line]))
     return float(level(root_mean_square[0]**2, detector.reference)), float(frequency[0])
@@ -123,20 +148,30 @@ def detect(found, detector):
         late = [t for t in growing if found.time[frame] - found.time[t.frame[-1]] > detector.gap + found.hop * 1.5]
         ended += late
         growing = [t for t in growing if t not in late]
-        _extend(growing, frame, *_tones(found, frame, detector), detector)
-    events = [_event(track, found) for track in ended + growing]
+        _extend(growing, frame, *_related_tones(found, frame, detector), detector)
+    events = [_event(track, found, detector) for track in ended + growing]
     return sorted((e for e in events if e.duration >= detector.shortest), key=lambda e: (e.start, e.frequency))
 
 
-def _inside(found, detector):
-    return (found.frequency >= detector.band[0]) & (found.frequency <= detector.band[1])
+def _inside(found, band):
+    return (found.frequency >= band[0]) & (found.frequency <= band[1])
 
 
-def _tones(found, frame, detector):
-    """Frequencies and levels of the tones of one frame, strongest first."""
+def _related_tones(found, frame, detector):
+    """Frequencies, levels, orders and fundamentals of the tones of the band in one frame, strongest first."""
+    frequency, levels = _tones(found, frame, detector, detector.band)
+    below, _ = _tones(found, frame, detector, (detector.lowest_fundamental, detector.band[0]))
+    below = below[below >= detector.lowest_fundamental]
+    order, fundamental = ladders(np.concatenate([frequency, below]), detector.accuracy * found.frequency[1],
+                                 detector.chance)
+    return frequency, levels, order[:len(frequency)], fundamental[:len(frequency)]
+
+
+def _tones(found, frame, detector, band):
+    """Frequencies and levels of the tones of one frame in a band (lowest, highest) [Hz], strongest first."""
     levels = level(found.spectrum[frame]**2, detector.reference)
     lines = find_peaks(levels, detector.threshold - _BETWEEN_LINES, prominence=detector.prominence)[0]
-    lines = lines[_inside(found, detector)[lines]]
+    lines = lines[_inside(found, band)[lines]]
     frequency, root_mean_square = _refine(found, frame, lines)
     levels = level(root_mean_square**2, detector.reference)
     lowest = max(detector.threshold, levels.max(initial=-np.inf) - detector.range)
@@ -155,25 +190,38 @@ def _refine(found, frame, lines):
     return found.frequency[lines] + side * shift * spacing, spectrum[lines] * (1 - shift**2) / np.sinc(shift)
 
 
-def _extend(growing, frame, frequency, levels, detector):
+def _extend(growing, frame, frequency, levels, orders, fundamentals, detector):
     """Give each tone to the nearest event that lived before this frame, or begin a new one."""
     waiting = list(growing)
-    for f, strength in zip(frequency, levels, strict=True):
+    for f, strength, order, fundamental in zip(frequency, levels, orders, fundamentals, strict=True):
         nearest = min(waiting, key=lambda t: abs(t.frequency[-1] - f), default=None)
         if nearest is not None and abs(nearest.frequency[-1] - f) <= detector.drift:
             waiting.remove(nearest)
         else:
-            nearest = _Track([], [], [])
+            nearest = _Track([], [], [], [], [])
             growing.append(nearest)
         nearest.frame.append(frame)
         nearest.frequency.append(f)
         nearest.level.append(strength)
+        nearest.order.append(order)
+        nearest.fundamental.append(fundamental)
 
 
-def _event(track, found):
+def _event(track, found, detector):
     """An event reaches half a hop beyond its frames, or to the ends of the signal."""
     first, last = track.frame[0], track.frame[-1]
     start = 0.0 if first == 0 else found.time[first] - found.hop / 2
     end = found.duration if last == len(found.time) - 1 else found.time[last] + found.hop / 2
     power = 10**(np.array(track.level) / 10)
-    return Event(float(np.average(track.frequency, weights=power)), max(track.level), start, end - start)
+    frequency = float(np.average(track.frequency, weights=power))
+    return Event(frequency, max(track.level), start, end - start, *_origin(track, frequency, power, detector))
+
+
+def _origin(track, frequency, power, detector):
+    """(fundamental, order) of an event: the order above 1 that most frames tell, if enough do, else its own tone."""
+    orders = np.array(track.order)
+    order = int(np.bincount(orders[orders > 1], minlength=2).argmax())
+    told = orders == order
+    if order < 2 or told.mean() <= detector.told:
+        return frequency, 1
+    return float(np.average(np.array(track.fundamental)[told], weights=power[told])), order

@@ -13,9 +13,9 @@ from pipeline.views.verdict import published_squeal, verdict
 def plan(products, look):
     """Functions without arguments, one per chapter whose product is there, in chain order."""
     lines = published_squeal(products.get("comparison"))
-    model = products.get("model")
+    model, modes = products.get("model"), products.get("complex_modes")
     known = (("surface", surface.chapter, ()), ("micro_friction", friction.micro, ()),
-             ("friction_map", friction.friction_map, ()), ("structure", structure.chapter, ()),
+             ("friction_map", friction.friction_map, ()), ("structure", structure.chapter, (modes,)),
              ("complex_modes", stability.chapter, (model, lines)), ("multibody", motion.chapter, ()),
              ("response", sound.response, (lines,)), ("squeal", sound.squeal, (lines,)),
              ("comparison", comparison.chapter, ()))

@@ -66,6 +66,12 @@ def percent(share, digits=3):
     return f"{number(100.0 * float(share), digits)}{THIN}%"
 
 
+def ordinal(order):
+    """'1st', '2nd', '3rd', '11th'."""
+    ending = "th" if order % 100 in (11, 12, 13) else {1: "st", 2: "nd", 3: "rd"}.get(order % 10, "th")
+    return f"{order}{ending}"
+
+
 def plural(amount, noun):
     """'1 mode', '3 modes', 'no modes'."""
     return f"1 {noun}" if amount == 1 else f"{amount or 'no'} {noun}s"

@@ -29,13 +29,17 @@ def highest_frequency(response):
 
 
 def occurrence(squeal, dpi):
-    """PNG of the highest level in the squeal band at each operating point, with its frequency; frame = squeal."""
+    """PNG of the highest level in the squeal band at each operating point, with its frequency; frame = squeal.
+
+    Harmonics of a lower tone are counted among the events, and told.
+    """
     sensor = np.argmax(squeal.peak_level, axis=1)
     row = np.arange(len(sensor))
     level, frequency = squeal.peak_level[row, sensor], squeal.peak_frequency[row, sensor]
     events = np.bincount(squeal.event_operating, minlength=len(level))
-    texts = [f"{lv:.0f} dB\n{f / 1e3:.2f} kHz\n{plural(n, 'event')}"
-             for lv, f, n in zip(level, frequency, events, strict=True)]
+    harmonics = np.bincount(squeal.event_operating[squeal.event_order > 1], minlength=len(level))
+    texts = [f"{lv:.0f} dB\n{f / 1e3:.2f} kHz\n{plural(n, 'event')}" + (f"\n{plural(n - h, 'own tone')}" if h else "")
+             for lv, f, n, h in zip(level, frequency, events, harmonics, strict=True)]
     low, high = min(level.min(), squeal.threshold - 3.0), max(level.max(), squeal.threshold + 3.0)
     with drawing(3.3, bar=True) as figure:
         axes = figure.subplots()
@@ -48,7 +52,10 @@ def occurrence(squeal, dpi):
 
 
 def level_frequency(squeal, published):
-    """SVG of level over frequency: every event, one marker per pressure; highest peaks as grey dots; the threshold."""
+    """SVG of level over frequency: every event, one marker per pressure; highest peaks as grey dots; the threshold.
+
+    Markers are hollow for harmonics of a lower tone.
+    """
     pressures = np.unique(squeal.pressure)
     with drawing() as figure:
         axes = figure.subplots()
@@ -57,10 +64,12 @@ def level_frequency(squeal, published):
         axes.axhline(float(squeal.threshold), color=INK, lw=0.9, ls="--")
         axes.plot(squeal.peak_frequency.ravel() / 1e3, squeal.peak_level.ravel(), ".", color=FAINT, ms=3)
         for index, pressure in enumerate(pressures):
-            here = np.flatnonzero(squeal.pressure[squeal.event_operating] == pressure)
-            axes.plot(squeal.event_frequency[here] / 1e3, squeal.event_level[here], ls="none",
-                      marker=MARKERS[index % 6], color=COLOURS[index % 6], mec="white", mew=0.4,
-                      label=f"{pressure / 1e6:.3g} MPa")
+            here = squeal.pressure[squeal.event_operating] == pressure
+            look = {"ls": "none", "marker": MARKERS[index % 6], "color": COLOURS[index % 6]}
+            for shown, edge in ((here & (squeal.event_order == 1), {"mec": "white", "mew": 0.4}),
+                                (here & (squeal.event_order > 1), {"mfc": "none", "mew": 1.1})):
+                axes.plot(squeal.event_frequency[shown] / 1e3, squeal.event_level[shown], **look, **edge)
+            axes.plot([], [], **look, label=f"{pressure / 1e6:.3g} MPa")
         axes.set(xlabel="frequency / kHz", ylabel="velocity level / dB", xlim=(0, None))
         legend(axes)
         return svg(figure)

@@ -6,6 +6,7 @@ import numpy as np
 
 from pipeline.views.agreement import judged
 from pipeline.views.chapters.motion import extremes, point, rate_in_words
+from pipeline.views.chapters.sound import origin
 from pipeline.views.chapters.stability import distinct_unstable
 from pipeline.views.readable import number, percent, plural, quantity, span
 
@@ -53,7 +54,7 @@ def _headline(products):
         text = f"{start}{plural(unstable, 'mode')} {'is' if unstable == 1 else 'are'} unstable"
         return text[0].upper() + text[1:], "warning"
     if squeal is None and modes is None:
-        return "No verdict: this case ends before the stability of the brake", "warning"
+        return "No verdict: this case ends before the stability of the system", "warning"
     return "No squeal predicted", "quiet"
 
 
@@ -64,7 +65,19 @@ def _where(products):
     operating, sensor = np.unravel_index(np.argmax(squeal.peak_level), squeal.peak_level.shape)
     return (f"Loudest at {point(squeal, operating)}: {number(squeal.peak_level[operating, sensor], 3)} dB"
             f" re {quantity(squeal.reference, 'm/s', 3)} at {quantity(squeal.peak_frequency[operating, sensor], 'Hz')},"
-            f" sensor {squeal.sensor_name[sensor]}; threshold {number(squeal.threshold, 3)} dB.")
+            f" sensor {squeal.sensor_name[sensor]}; threshold {number(squeal.threshold, 3)} dB."
+            f"{_harmonics(squeal, squeal.peak_frequency[operating, sensor])}")
+
+
+def _harmonics(squeal, peak):
+    """What the loudest peak is a harmonic of, and how many events are none."""
+    above = squeal.event_order > 1
+    if not above.any():
+        return ""
+    loudest = int(np.argmax(squeal.event_level))
+    there = above[loudest] and abs(squeal.event_frequency[loudest] / peak - 1) <= NEAR
+    told = f" It is the {origin(squeal, loudest)}." if there else ""
+    return f"{told} Among {plural(len(above), 'event')}: {plural(np.count_nonzero(above), 'harmonic')} of a lower tone."
 
 
 def _why(products):
@@ -72,7 +85,8 @@ def _why(products):
     if modes is None:
         return ""
     if not len(modes.unstable_root):
-        return "No mode is unstable: what the sensors feel is forced by the rotating friction patches."
+        forced = ": what the sensors feel is forced by the rotating friction patches"
+        return f"No mode is unstable{forced if products.get('multibody') is not None else ''}."
     frequencies = modes.unstable_root.imag / TWO_PI
     strongest = (f"The strongest unstable mode, {quantity(frequencies[0], 'Hz')}, grows with"
                  f" {quantity(modes.unstable_root[0].real, '1/s', 3)}.")
@@ -83,8 +97,9 @@ def _why(products):
     apart = abs(nearest / peak - 1)
     if apart <= NEAR:
         return f"{strongest} The loudest peak has an unstable mode at its side: {quantity(nearest, 'Hz')}."
-    return (f"{strongest} The loudest peak has none within {percent(NEAR)} (nearest {quantity(nearest, 'Hz')}): it is"
-            " forced by the pads, whose motion the multi-body simulation computes on a rigid disc.")
+    forced = ": it is forced by the pads, whose motion the multi-body simulation computes on a rigid disc"
+    return (f"{strongest} The loudest peak has none within {percent(NEAR)} (nearest {quantity(nearest, 'Hz')})"
+            f"{forced if products.get('multibody') is not None else ''}.")
 
 
 def _sure(products):

@@ -15,7 +15,7 @@ from pathlib import Path
 
 from pipeline.contract import store
 from stages import NAMES
-from tests.benchmarks.kernels import KERNELS
+from tests.benchmarks.kernels import KERNELS, PAIRS
 
 ROOT = Path(__file__).parents[2]
 
@@ -34,15 +34,19 @@ def main():
 
 
 def print_kernels(runs):
-    """One line a kernel: median seconds, spread, and the rate that its work amounts to."""
+    """One line a kernel: median seconds, spread, and the rate that its work amounts to; then ratios of rates."""
+    rates = {}
     print(f"{'kernel':<58} {'median s':>9} {'min':>9} {'max':>9}   rate")
     for kernel in KERNELS:
         call, amount, unit = kernel()
         call()
         seconds = [_timed(call) for _ in range(runs)]
         middle = statistics.median(seconds)
-        rate = f"{amount / middle:,.0f} {unit}/s"
+        rates[kernel] = amount / middle
+        rate = f"{rates[kernel]:,.0f} {unit}/s"
         print(f"{kernel.__doc__.splitlines()[0]:<58} {middle:9.4f} {min(seconds):9.4f} {max(seconds):9.4f}   {rate}")
+    for first, second in PAIRS:
+        print(f"{first.__name__} over {second.__name__}: {rates[first] / rates[second]:.2f} times the rate")
 
 
 def _timed(call):

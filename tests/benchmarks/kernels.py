@@ -2,15 +2,19 @@
 
 import numpy as np
 
+from pipeline.physics import multibody, newmark
 from pipeline.physics.eigen import lowest_modes
 from pipeline.physics.elasticity import assemble, isotropic
 from pipeline.physics.layered_solid import graded_depth, layered_compliance
 from pipeline.physics.linear_solver import available
 from pipeline.physics.mesh import revolve
 from pipeline.physics.modal_response import fixed_points, modal_response
+from pipeline.physics.pad_system import static_start
+from pipeline.physics.preloaded_modes import preloaded_modes
 from pipeline.physics.quadratic_modes import quadratic_roots
 from pipeline.physics.rough_contact import solve_normal_contact
 from pipeline.physics.rough_surface import plateau_pad, turned_disc
+from tests.physics.small_pads import random_assembly
 
 _IRON = isotropic(120e9, 0.27)
 
@@ -68,4 +72,24 @@ def superposition():
             "mode-steps")
 
 
-KERNELS = (compliance, contact, assembly, modes, roots, superposition)
+def _stepping(integrate, steps=5000):
+    """Steps of 5 us of a reduced model of 40 coordinates on 36 contact patches, as many as the default case has."""
+    system = random_assembly(size=40, count=36)
+    modal, basis = preloaded_modes(system, static_start(system))
+    start, scale = np.zeros(basis.shape[1]), np.linalg.norm(basis.T @ system.load)
+    return lambda: integrate(modal, start, 5e-6, steps, scale=scale), steps, "steps"
+
+
+def exudyn_steps():
+    """pads on patches in exudyn, compiled force function"""
+    return _stepping(multibody.integrate)
+
+
+def newmark_steps():
+    """pads on patches by Newmark's rule in numba, same model"""
+    return _stepping(newmark.integrate)
+
+
+KERNELS = (compliance, contact, assembly, modes, roots, superposition, exudyn_steps, newmark_steps)
+#: (kernel, kernel) pairs whose rates compare: the same work done in two ways
+PAIRS = ((newmark_steps, exudyn_steps),)

@@ -1,5 +1,7 @@
 """Bad input: one sentence with where, expected, found and remedy; the exit code tells the kind; no traceback."""
 
+import os
+
 import h5py
 import numpy as np
 import pytest
@@ -70,6 +72,23 @@ def test_a_product_of_another_version_or_in_pieces(copy):
 def test_a_run_folder_that_cannot_be_written(tmp_path):
     (tmp_path / "file").write_text("")
     assert "expected a run folder that can be written" in refused(4, "run", QUICK, "--run", tmp_path / "file" / "run")
+
+
+def test_a_run_folder_without_permission(tmp_path):
+    """Neither a new folder in one that is write-protected, nor one that became so after a run: nothing is computed."""
+    run = tmp_path / "closed" / "run"
+    run.mkdir(parents=True)
+    (run / ".lock").touch()
+    for folder, asked in ((run.parent, run.parent / "new"), (run, run)):
+        folder.chmod(0o555)
+        try:
+            if os.access(folder, os.W_OK):
+                pytest.skip("permissions do not stop this user, most often root")
+            told = refused(4, "surface", QUICK, "--run", asked)
+        finally:
+            folder.chmod(0o755)
+        assert "expected a run folder that can be written, found Permission denied" in told
+    assert [p.name for p in run.iterdir()] == [".lock"]
 
 
 def test_a_computation_that_does_not_converge(copy):

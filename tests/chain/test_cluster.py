@@ -2,8 +2,10 @@
 
 import os
 import re
+import shutil
 import subprocess
 import sys
+import time
 from contextlib import contextmanager
 
 import pytest
@@ -14,10 +16,10 @@ pytest.importorskip("distributed")
 
 
 @contextmanager
-def process(*args):
-    """A Dask process of our own on the loopback interface; ended with the test."""
-    started = subprocess.Popen([sys.executable, "-m", "dask", *args], stderr=subprocess.PIPE, text=True, cwd=ROOT,
-                               env={**os.environ, "PYTHONPATH": str(ROOT)})
+def process(*args, code=ROOT):
+    """A Dask process of our own on the loopback interface, with the project in ``code``; ended with the test."""
+    started = subprocess.Popen([sys.executable, "-m", "dask", *args], stderr=subprocess.PIPE, text=True, cwd=code,
+                               env={**os.environ, "PYTHONPATH": str(code)})
     try:
         yield started
     finally:
@@ -34,10 +36,51 @@ def address_of(scheduler):
     pytest.fail("the scheduler did not tell its address")
 
 
+def scheduler(code=ROOT):
+    return process("scheduler", "--host", "127.0.0.1", "--port", "0", "--no-dashboard", code=code)
+
+
+def worker(address, count, folder, code=ROOT):
+    return process("worker", address, "--nthreads", "1", "--nworkers", str(count), "--no-dashboard",
+                   "--local-directory", str(folder), code=code)
+
+
 def test_the_same_bits_come_back(tmp_path, finished):
-    with process("scheduler", "--host", "127.0.0.1", "--port", "0", "--no-dashboard") as scheduler:
-        address = address_of(scheduler)
-        with process("worker", address, "--nthreads", "1", "--nworkers", "2", "--no-dashboard", "--local-directory",
-                     str(tmp_path)):
+    with scheduler() as started:
+        address = address_of(started)
+        with worker(address, 2, tmp_path):
             brakechain("run", QUICK, "--run", tmp_path / "run", "--scheduler", address)
     assert contents(tmp_path / "run") == contents(finished)
+
+
+def without_brakechain(folder):
+    """A place where the project is not installed."""
+    (folder / "pipeline").mkdir()
+    (folder / "pipeline" / "__init__.py").write_text("raise ModuleNotFoundError('No module named pipeline')\n")
+
+
+def with_another_version(folder):
+    """A place with one line of other code."""
+    for name in ("pipeline", "stages"):
+        shutil.copytree(ROOT / name, folder / name)
+    with (folder / "stages" / "squeal.py").open("a") as file:
+        file.write("# another version\n")
+
+
+@pytest.mark.parametrize("build, found", [(without_brakechain, "No module named pipeline"),
+                                          (with_another_version, "other code")])
+@pytest.mark.parametrize("which", ["worker", "scheduler"])
+def test_a_cluster_with_other_code_or_none_is_refused(tmp_path, which, build, found):
+    """Told once and at once, whichever of its processes it is."""
+    other = tmp_path / "other"
+    other.mkdir()
+    build(other)
+    with scheduler(other if which == "scheduler" else ROOT) as started:
+        address = address_of(started)
+        with worker(address, 1, tmp_path, other if which == "worker" else ROOT):
+            begin = time.monotonic()
+            told = brakechain("surface", QUICK, "--run", tmp_path / "run", "--scheduler", address, code=2).stderr
+    assert told.count("error: ") == 1 and "Traceback" not in told and time.monotonic() - begin < 30
+    where = re.escape("the scheduler") if which == "scheduler" else r"tcp://127.0.0.1:\d+"
+    assert re.search(rf"found {found} \({where}\); install it in their environments and restart them", told)
+    assert not (tmp_path / "run" / "surface.h5").exists()

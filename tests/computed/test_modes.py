@@ -56,10 +56,25 @@ def test_nearest_complex_mode_with_its_neighbours():
     assert rows["complex_mode_at_line_2"].value is None
 
 
-def squealing(frequency, coupling="assembly"):
+def squealing(frequency, coupling="assembly", order=None):
     events = {f"event_{name}": np.zeros(len(frequency), int) for name in ("operating", "sensor")}
     more = {f"event_{name}": np.zeros(len(frequency)) for name in ("level", "start", "duration")}
-    return filled(Squeal, event_frequency=frequency, coupling=coupling, **events, **more)
+    order = np.ones(len(frequency), int) if order is None else np.array(order)
+    return filled(Squeal, event_frequency=frequency, event_order=order, event_fundamental=frequency / order,
+                  coupling=coupling, **events, **more)
+
+
+def test_harmonics_are_no_squeal_frequencies():
+    """The event nearest the first line is a harmonic: the row takes the nearest tone of its own."""
+    known = {"squeal_line_1": 16600.0}
+    rows = squeal_rows(squealing([1620.0, 3000.0, 16610.0, 15000.0], order=[2, 1, 20, 1]), known)
+    assert rows["squeal_line_1"].value == 15000.0
+    assert (rows["squeal_lines"].value, rows["no_mode_excited"].value) == (2, 2)
+    assert rows["no_squeal_at_constant_load"].value == 4
+    assert "2 harmonics of lower tones left out" in rows["squeal_lines"].note
+    only = squeal_rows(squealing([1620.0], order=[2]), known)
+    assert (only["squeal_lines"].value, only["squeal_line_1"].value) == (0, None)
+    assert "1 harmonic of lower tones left out" in only["squeal_line_1"].note
 
 
 def test_squeal_lines():

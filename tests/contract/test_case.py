@@ -1,8 +1,10 @@
 """A case file is checked whole before anything is computed."""
 
+from types import SimpleNamespace
+
 import pytest
 
-from pipeline.contract import ConfigError, case, documents
+from pipeline.contract import ConfigError, InputFile, Section, case, documents, option
 from tests.contract.toy import CHAINS, load
 
 YAML = """
@@ -99,6 +101,37 @@ def test_files_are_found_beside_the_case_and_beside_its_base(config, tmp_path):
     other = tmp_path / "own" / "other.yaml"
     other.write_text("based_on: ../toy.yaml")
     assert loaded(other).folders == (other.parent, other.parent / "..")
+
+
+class Files(Section):
+    """Files that a case names."""
+
+    scan: InputFile = option(..., "one file")
+    more: tuple[InputFile, ...] = option((), "more files")
+
+
+def files_of(path, *overrides):
+    """Filled section 'source' of a case whose only stage reads files."""
+    reader = SimpleNamespace(name="source", settings=Files, check=lambda sections: None)
+    return case.load(path, {"toy": ("source",)}, lambda name: reader, overrides).sections["source"]
+
+
+@pytest.mark.parametrize("named", ["scan.dat", "{value: scan.dat, origin: measured}"])
+def test_a_file_beside_the_yaml_that_names_it_comes_first(tmp_path, named, monkeypatch):
+    """A file of the same name beside a case that is based on it does not stand in for it; nor the other way round."""
+    for folder in ("base", "own", "here"):
+        (tmp_path / folder).mkdir()
+        (tmp_path / folder / "scan.dat").write_text(folder)
+    base, own = tmp_path / "base" / "base.yaml", tmp_path / "own" / "own.yaml"
+    base.write_text(f"chain: toy\nsource: {{scan: {named}, more: [{named}]}}")
+    own.write_text("based_on: ../base/base.yaml")
+    monkeypatch.chdir(tmp_path / "here")
+    assert files_of(own).scan.read_text() == files_of(own).more[0].read_text() == "base"
+    assert files_of(own, "source.scan=scan.dat").scan.read_text() == "own"
+    own.write_text(f"based_on: ../base/base.yaml\nsource: {{scan: {named}}}")
+    assert files_of(own).scan.read_text() == "own" and files_of(own).more[0].read_text() == "base"
+    (tmp_path / "own" / "scan.dat").unlink()
+    assert files_of(own).scan.read_text() == "base", "what is not beside the case is looked for beside its base"
 
 
 def test_another_kind_replaces_the_whole_mapping():

@@ -11,7 +11,7 @@ from pipeline.physics.squeal_detector import Detector, detect, frames, loudest
 RATE = 100e3
 TIME = np.arange(100000) / RATE
 #: reference 1 nm/s; the threshold is 1 mm/s
-DETECTOR = Detector((1250.0, 20000.0), 120.0, 1e-9, 0.01, 0.75, 10.0, 30.0, 100.0, 0.01, 0.02)
+DETECTOR = Detector((1250.0, 20000.0), 120.0, 1e-9, 0.01, 0.75, 10.0, 30.0, 100.0, 0.01, 0.02, 400.0, 0.05, 0.1, 0.33)
 
 
 def tone(frequency, root_mean_square, start=0.0, end=1.0):
@@ -93,6 +93,85 @@ def test_loudest_tone_is_told_below_the_threshold_too():
     peak, frequency = loudest(frames(signal, RATE, DETECTOR), DETECTOR)
     assert peak == pytest.approx(80, abs=0.1)
     assert frequency == pytest.approx(5020, abs=1)
+
+
+def related(signal):
+    """{rounded frequency: (order, rounded fundamental)} of the events of a signal."""
+    return {round(e.frequency): (e.order, round(e.fundamental)) for e in events(signal)}
+
+
+@pytest.mark.exact
+def test_harmonics_of_a_saturated_motion_with_its_fundamental_below_the_band():
+    """sin + its first five harmonics, phase-locked, falling as a saturated motion's do; 812.5 Hz is no line."""
+    order = np.arange(1, 6)
+    signal = sum(20e-3 / n * np.sqrt(2) * np.sin(2 * np.pi * 812.5 * n * TIME + 0.3 * n**2) for n in order)
+    found = {e.order: e for e in events(signal)}
+    assert sorted(found) == [2, 3, 4, 5]
+    for n, event in found.items():
+        assert event.frequency == pytest.approx(812.5 * n, abs=0.5)
+        assert event.fundamental == pytest.approx(812.5, abs=0.5)
+
+
+@pytest.mark.exact
+def test_saturation_itself_makes_the_odd_harmonics():
+    """A clipped sine, clipped at half its height: order 3 is 14 dB below order 1 and has no step between."""
+    signal = 40e-3 * np.clip(np.sin(2 * np.pi * 1530 * TIME), -0.5, 0.5)
+    found = related(signal)
+    assert found[1530] == (1, 1530) and found[4590] == (3, 1530)
+    assert all(order % 2 for order, _ in found.values())
+
+
+@pytest.mark.exact
+def test_two_unrelated_tones_are_their_own():
+    assert related(tone(1850, 5e-3) + tone(4387, 3e-3)) == {1850: (1, 1850), 4387: (1, 4387)}
+
+
+@pytest.mark.exact
+@pytest.mark.parametrize("frequency, order", [(1800.0, 1), (2430.0, 1), (2400.0, 3), (2418.0, 3)])
+def test_an_inharmonic_ratio_to_a_tone_below_the_band(frequency, order):
+    """Order 3 of 800 Hz is met to (3 + 1) * 0.05 * 100 Hz = 20 Hz; 2430 Hz is 30 Hz away."""
+    found = related(tone(800, 10e-3) + tone(frequency, 3e-3))
+    assert found == {round(frequency): (order, 800 if order > 1 else round(frequency))}
+
+
+@pytest.mark.exact
+def test_a_fundamental_must_be_there_at_the_same_time_and_strong():
+    assert related(tone(800, 10e-3, 0, 0.4) + tone(1600, 3e-3, 0.5, 1)) == {1600: (1, 1600)}
+    assert related(tone(800, 0.9e-3) + tone(1600, 3e-3)) == {1600: (1, 1600)}
+
+
+@pytest.mark.exact
+def test_a_fundamental_may_not_be_lower_than_the_lowest():
+    """390 Hz shows on the line of 400 Hz; 1560 Hz is its order 4, which a chance of 13 % lets pass."""
+    signal = tone(390, 10e-3) + tone(1560, 3e-3)
+    for lowest, order in ((400.0, 1), (380.0, 4)):
+        (event,) = events(signal, replace(DETECTOR, chance=0.15, lowest_fundamental=lowest))
+        assert event.order == order
+
+
+@pytest.mark.exact
+def test_more_than_a_third_of_the_frames_must_tell_the_order():
+    assert related(tone(800, 10e-3, 0, 0.4) + tone(1600, 3e-3)) == {1600: (2, 800)}
+    assert related(tone(800, 10e-3, 0, 0.3) + tone(1600, 3e-3)) == {1600: (1, 1600)}
+
+
+@pytest.mark.exact
+def test_harmonics_follow_a_fundamental_that_drifts():
+    phase = 2 * np.pi * (780 * TIME + 20 * TIME**2)
+    (event,) = events(np.sqrt(2) * (10e-3 * np.sin(phase) + 3e-3 * np.sin(2 * phase)))
+    assert (event.order, event.fundamental) == (2, pytest.approx(800, abs=2))
+
+
+def test_the_accuracy_holds_beside_a_tone_that_is_30_db_stronger():
+    """A strong tone eight lines away moves a frequency by at most the accuracy told, and by a tenth of it or more."""
+    detector = replace(DETECTOR, threshold=110.0, range=40.0, drift=20.0, shortest=0.002, gap=0.0)
+    errors = []
+    for apart in np.linspace(800, 900, 9):
+        for phase in np.linspace(0, np.pi, 5):
+            weak = 30e-3 / 10**(30 / 20) * np.sqrt(2) * np.sin(2 * np.pi * (755 + apart) * TIME + phase)
+            found = events((tone(755, 30e-3) + weak)[:2000], detector)
+            errors += [abs(e.frequency - 755 - apart) for e in found if e.frequency > 1400]
+    assert 0.1 < max(errors) * DETECTOR.window / DETECTOR.accuracy <= 1
 
 
 def test_bad_input():

@@ -5,13 +5,14 @@ from dataclasses import fields
 import numpy as np
 import pytest
 
-from pipeline.contract.errors import ConvergenceError
+from pipeline.contract.errors import ConfigError, ConvergenceError
 from pipeline.physics.quadratic_modes import quadratic_roots
 from pipeline.physics.sliding_model import sliding_model
 from pipeline.physics.sliding_state import closure_response, model_about, steady_sliding
 from stages.complex_modes import Settings, complex_modes
 from stages.reduced_model import Settings as Reduction
 from stages.reduced_model import reduced_model
+from tests.stages.small_oscillator import DAMPING, MASS, NORMAL_FORCE, STIFFNESS, small_oscillator
 from tests.stages.small_structure import small_friction_map, small_structure
 
 SETTINGS = {"friction_steps": 7, "speeds": ("8 rad/s", "12 rad/s"), "frequency_max": "8 kHz"}
@@ -49,9 +50,12 @@ def test_without_friction_every_root_decays_or_is_neutral(model):
 
 
 @pytest.mark.exact
-def test_roots_without_friction_and_damping_are_the_real_modes(model):
+@pytest.mark.parametrize("centrifugal", [True, False])
+def test_roots_without_friction_and_damping_are_the_real_modes(model, centrifugal):
+    """At speeds that let a centrifugal term show wherever one is left in."""
     bare = changed(model, damping=0 * model.damping, joint_damping=0 * model.joint_damping)
-    settings = Settings(**SETTINGS, gyroscopic=False, damping_speed=f"{NO_DAMPING} m/s")
+    settings = Settings(**SETTINGS | {"speeds": ("80 rad/s", "120 rad/s")}, gyroscopic=False, centrifugal=centrifugal,
+                        damping_speed=f"{NO_DAMPING} m/s")
     modes = complex_modes(bare, small_friction_map(), settings=settings)
     start = modes.root[:, 0]
     np.testing.assert_allclose(start.imag, 2 * np.pi * modes.real_frequency, rtol=1e-8)
@@ -123,10 +127,21 @@ def test_friction_moves_the_load_and_with_it_the_roots(model):
     assert abs(roots[0] - roots[1]).max() > 1.0
 
 
+@pytest.mark.exact
+def test_the_forces_of_steady_sliding_are_kept(model, modes):
+    """Pressures outermost, speeds within; with the friction of the map and without."""
+    still = complex_modes(model, small_friction_map(0.0), settings=Settings(**SETTINGS))
+    for number, (state, speed) in enumerate([(0, 8.0), (0, 12.0), (1, 8.0), (1, 12.0)]):
+        for found, friction in ((still, 0.0), (modes, 0.5)):
+            _, force = sliding(model, state, speed, friction)
+            np.testing.assert_allclose(found.operating_force[number], force, rtol=1e-6)
+
+
 def test_contacts_that_open_are_counted(model):
     """Friction of 1.2 tips a pad off one contact; more than that tips it over, and there is no steady sliding."""
     still, tipped = (complex_modes(model, small_friction_map(mu), settings=Settings(**SETTINGS)) for mu in (0.0, 1.2))
     assert not still.operating_open.any() and (tipped.operating_open == 1).all()
+    np.testing.assert_array_equal(np.sum(tipped.operating_force == 0, axis=1), tipped.operating_open)
     with pytest.raises(ConvergenceError, match="steady sliding"):
         complex_modes(model, small_friction_map(2.0), settings=Settings(**SETTINGS))
 
@@ -158,3 +173,45 @@ def test_pads_and_caliper_move_the_roots(modes, change):
 def test_same_bits_twice(model, modes):
     again = complex_modes(model, small_friction_map(), settings=Settings(**SETTINGS))
     assert all(np.array_equal(getattr(again, f.name), getattr(modes, f.name)) for f in fields(modes))
+
+
+def oscillator_modes(speeds=("1 rad/s",), **model):
+    """ComplexModes of one mass with friction of its settings, 0.2 + 0.3 exp(-v / 0.5)."""
+    friction = {"coefficient": 0.2, "static": 0.5, "decay_speed": "0.5 m/s"}
+    return complex_modes(small_oscillator(**model), None, settings=Settings(speeds=speeds, friction=friction))
+
+
+@pytest.mark.exact
+def test_a_mass_on_a_belt_has_the_damping_of_falling_friction():
+    """m s^2 + (d + N0 dmu/dv) s + k = 0, in either direction of the belt."""
+    modes = oscillator_modes(speeds=("1 rad/s", "-1 rad/s", "3 rad/s"), on_belt=True)
+    for number, speed in enumerate((1.0, 1.0, 3.0)):
+        slope = -0.3 / 0.5 * np.exp(-speed / 0.5)
+        drag = (DAMPING + NORMAL_FORCE * slope) / MASS
+        root = -drag / 2 + 1j * np.sqrt(STIFFNESS / MASS - drag**2 / 4)
+        assert modes.operating_root[number, 0] == pytest.approx(root)
+        assert modes.operating_friction[number] == pytest.approx(0.2 + 0.3 * np.exp(-speed / 0.5))
+    assert not modes.operating_open.any() and not len(modes.unstable_root)
+
+
+@pytest.mark.exact
+def test_a_mass_without_contacts_keeps_its_root():
+    modes = oscillator_modes()
+    root = -DAMPING / MASS / 2 + 1j * np.sqrt(STIFFNESS / MASS - (DAMPING / MASS) ** 2 / 4)
+    np.testing.assert_allclose(modes.operating_root, root)
+    np.testing.assert_allclose(modes.root, root)
+    assert modes.real_frequency[0, 0] == pytest.approx(np.sqrt(STIFFNESS / MASS) / 2 / np.pi)
+    assert modes.operating_force.shape == (1, 0) and modes.operating_friction[0] == 0
+
+
+def test_hard_contacts_are_not_taken_for_open_ones():
+    with pytest.raises(ConfigError, match="a normal law or a contact stiffness, found hard contacts"):
+        oscillator_modes(hard=True)
+
+
+@pytest.mark.parametrize(("chain", "friction", "found"), [
+    ((), None, "neither this nor a friction map"), (("friction_map",), {"coefficient": 0.4}, "a friction map")])
+def test_friction_comes_from_one_source(chain, friction, found):
+    sections = {"complex_modes": Settings(friction=friction), **dict.fromkeys(chain)}
+    with pytest.raises(ConfigError, match=found):
+        complex_modes.check(sections)

@@ -39,6 +39,15 @@ def test_tones_at_two_sensors():
     assert band == pytest.approx(20 * np.log10(2e6), abs=0.1)
 
 
+def test_a_harmonic_names_its_fundamental_below_the_band():
+    """Fundamental of 810 Hz at one sensor; an own tone at the other."""
+    found = find([tone(810, 10e-3) + tone(1620, 3e-3), tone(4000, 2e-3)])
+    np.testing.assert_array_equal(found.event_order, [2, 1])
+    np.testing.assert_allclose(found.event_fundamental, [810, 4000], atol=2)
+    alone = find([tone(810, 10e-3) + tone(1620, 3e-3)], lowest_fundamental="1 kHz")
+    assert alone.event_order == [1] and alone.event_fundamental == alone.event_frequency
+
+
 def test_quiet_brake_has_levels_but_no_event():
     """Null test: below the threshold nothing squeals, and the loudest tone is still told."""
     found = find([tone(5000, 1e-5)])
@@ -55,7 +64,8 @@ def test_settling_is_not_searched():
 
 @pytest.mark.parametrize("settings, said", [({"settling": "1 s"}, "settling"), ({"window": "1 s"}, "at least"),
                                             ({"highest_frequency": "30 kHz"}, "half the sampling rate"),
-                                            ({"lowest_frequency": "20 kHz"}, "lowest_frequency")])
+                                            ({"lowest_frequency": "20 kHz"}, "lowest_frequency"),
+                                            ({"lowest_fundamental": "2 kHz"}, "lowest_fundamental")])
 def test_settings_that_do_not_fit_the_signals(settings, said):
     with pytest.raises(ConfigError, match=said):
         find([tone(5000, 1e-5)], **settings)

@@ -127,7 +127,9 @@ def complex_modes(stable=False):
     return filled(
         ComplexModes, pressure=PRESSURE, friction=friction, root=root, real_frequency=np.tile(frequency, (3, 1)),
         operating_pressure=OPERATING_PRESSURE, operating_speed=OPERATING_SPEED, operating_friction=mu,
-        operating_root=at, unstable_operating=operating[order], unstable_root=at[operating, which][order],
+        operating_force=OPERATING_PRESSURE[:, None] * 2e-4 * np.append(np.linspace(2.2, 0.4, 11), 0.0),
+        operating_open=np.ones(9, dtype=int), operating_root=at, unstable_operating=operating[order],
+        unstable_root=at[operating, which][order],
         unstable_shape=shape, corrections=55)
 
 
@@ -167,8 +169,8 @@ def response(samples=2000):
                     mode_damping=np.full(120, 0.002), coupling="assembly")
 
 
-def squeal(quiet=False):
-    """Two events at the highest load, or none."""
+def squeal(quiet=False, harmonic=False):
+    """Two events at the highest load, the louder one a harmonic if so wished, or none."""
     band = 1000 * 2 ** (np.arange(0, 14) / 3)
     level = 60 + 4 * np.arange(9)[:, None] + np.array([0.0, -6.0])
     events = 0 if quiet else 2
@@ -177,7 +179,9 @@ def squeal(quiet=False):
         threshold=120.0 if quiet else 88.0, peak_level=level, peak_frequency=np.full((9, 2), SQUEAL_LINE), band=band,
         band_level=level[:, :, None] - 20 + 10 * np.exp(-((band - 16000) / 3000) ** 2),
         event_operating=[7, 8][:events], event_sensor=[0, 0][:events], event_frequency=[16580.0, 16600.0][:events],
-        event_level=[88.5, 92.0][:events], event_start=[0.02, 0.01][:events], event_duration=[0.01, 0.03][:events])
+        event_order=[1, 20 if harmonic else 1][:events],
+        event_fundamental=[16580.0, 830.0 if harmonic else 16600.0][:events], event_level=[88.5, 92.0][:events],
+        event_start=[0.02, 0.01][:events], event_duration=[0.01, 0.03][:events])
 
 
 def comparison():

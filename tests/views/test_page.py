@@ -8,6 +8,7 @@ import pytest
 from pipeline.contract.context import Case
 from pipeline.views import case as case_view
 from pipeline.views.chapter import Look
+from pipeline.views.chapters import sound
 from pipeline.views.limits import limits
 from pipeline.views.page import page
 from tests.views import products_for_views as small
@@ -45,10 +46,25 @@ def test_settings_show_value_origin_and_source(html):
     assert "1, 2, 3\u202fMPa" in html
 
 
+def test_the_load_of_the_pads_is_told_without_friction_and_in_steady_sliding(html):
+    """The first patch goes from 560 to 880 N, the last from 240 to 0 N; the largest force without friction is 560 N."""
+    assert "without friction, nominal 2\u202fMPa" in html and "none of 12 patches open. Beside it" in html
+    assert "steady sliding at 10.25\u202frad/s with friction 0.46" in html and "1 of 12 patches open." in html
+    assert "by up to 57\u202f% of the largest force without friction" in html
+
+
 def test_the_table_shows_every_row_of_the_comparison(html):
     for row in small.comparison().row:
         assert f"<td>{row}</td>" in html
     assert "prints 337.3 Hz" in html
+
+
+def test_the_squeal_chapter_tells_harmonics_from_own_tones():
+    chapter = sound.squeal(small.squeal(harmonic=True), (), LOOK)
+    assert [row[3] for row in chapter.tables[0].rows] == ["20th harmonic of 0.83\u202fkHz", "own tone"]
+    assert "1 harmonic of a lower tone (0.83\u202fkHz), 1 own tone." in chapter.conclude
+    assert "hollow: harmonics" in chapter.figures[0].caption
+    assert "None is a harmonic" in sound.squeal(small.squeal(), (), LOOK).conclude
 
 
 def test_text_of_the_case_cannot_break_the_page():

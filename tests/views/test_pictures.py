@@ -32,7 +32,9 @@ PICTURES = {
     "over pressure": (friction.over_pressure, small.micro_friction, "friction"),
     "convergence": (friction.convergence, small.micro_friction, "refinement_area"),
     "map": (friction.friction_map, small.friction_map, "friction"),
-    "preload": (lambda p: preload.contact_pressure(p, 60), small.structure, "preload"),
+    "preload": (lambda p: preload.contact_pressure(p, preload.loads(p), 60), small.structure, "preload"),
+    "sliding load": (lambda p: preload.contact_pressure(small.structure(), preload.loads(small.structure(), p), 60),
+                     small.complex_modes, "operating_force"),
     "roots": (lambda p: complex_mode_map.growth_over_frequency(p, LINES, 60), small.complex_modes, "root"),
     "growth sweep": (complex_mode_map.growth_over_friction, small.complex_modes, "root"),
     "lock in": (complex_mode_map.lock_in, small.complex_modes, "root"),
@@ -65,6 +67,12 @@ def test_a_line_drawing_says_neither_when_nor_by_whom_it_was_drawn():
     assert "<dc:" not in picture
 
 
+def test_harmonics_look_different_from_own_tones():
+    own, above = small.squeal(), small.squeal(harmonic=True)
+    assert sound.level_frequency(own, LINES) != sound.level_frequency(above, LINES)
+    assert sound.occurrence(own, 60) != sound.occurrence(above, 60)
+
+
 def test_fields_of_nothing_are_drawn():
     worn = small.micro_friction()
     empty = replace(worn, contact_pressure_new=0 * worn.contact_pressure_new, pad_wear=0 * worn.pad_wear)
@@ -72,6 +80,24 @@ def test_fields_of_nothing_are_drawn():
     assert contact_spots.wear_map(empty, "pad", 40)
     assert sound.level_frequency(small.squeal(quiet=True), ())
     assert complex_mode_map.growth_over_friction(small.complex_modes(stable=True))
+
+
+@pytest.mark.exact
+def test_loads_are_those_of_the_middle_pressure_and_speed():
+    brake, modes = small.structure(), small.complex_modes()
+    still, moved = preload.loads(brake, modes)
+    assert (still.title, moved.title) == ("without friction", "sliding, friction 0.46")
+    np.testing.assert_array_equal(still.force, brake.preload[1])
+    np.testing.assert_array_equal(moved.force, modes.operating_force[4])
+    assert still.closed.all() and np.flatnonzero(~moved.closed).tolist() == [11]
+    assert preload.loads(brake)[0].title == still.title and len(preload.loads(brake)) == 1
+
+
+def test_an_open_patch_is_crossed():
+    """A force of nothing differs from one too small for its colour."""
+    brake, (load,) = small.structure(), preload.loads(small.structure())
+    light, none = (replace(load, force=np.append(load.force[:-1], force)) for force in (1e-9, 0.0))
+    assert preload.contact_pressure(brake, (light,), 60) != preload.contact_pressure(brake, (none,), 60)
 
 
 @pytest.mark.exact

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from pipeline.views.readable import number, percent, plural, quantity, span
+from pipeline.views.readable import number, ordinal, percent, plural, quantity, span
 
 pytestmark = pytest.mark.exact
 
@@ -42,4 +42,6 @@ def test_a_span_runs_from_smallest_to_largest():
 
 def test_words():
     assert percent(0.049) == "4.9\u202f%"
+    assert [ordinal(n) for n in (1, 2, 3, 4, 11, 12, 13, 21, 112)] == [
+        "1st", "2nd", "3rd", "4th", "11th", "12th", "13th", "21st", "112th"]
     assert [plural(n, "mode") for n in (0, 1, 3)] == ["no modes", "1 mode", "3 modes"]

@@ -37,6 +37,12 @@ def test_a_peak_without_unstable_mode_is_called_forced():
     assert "No mode is unstable" in words(stable)
 
 
+def test_a_loudest_peak_that_is_a_harmonic_is_told_as_one():
+    told = words(verdict(small.products(squeal=small.squeal(harmonic=True)), ()))
+    assert "It is the 20th harmonic of 0.83\u202fkHz. Among 2 events: 1 harmonic of a lower tone." in told
+    assert "harmonic" not in words(verdict(small.products(), ()))
+
+
 def test_quiet_and_unstable_brakes_are_told_apart():
     quiet = small.products(squeal=small.squeal(quiet=True))
     assert verdict(quiet, ()).headline == "No peak exceeds the squeal threshold, but 1 mode is unstable"

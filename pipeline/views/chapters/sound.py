@@ -5,7 +5,7 @@ import numpy as np
 from pipeline.views import sound as pictures
 from pipeline.views.chapter import Chapter, Figure, Table
 from pipeline.views.chapters.motion import extremes, point
-from pipeline.views.readable import number, plural, quantity, span
+from pipeline.views.readable import THIN, number, ordinal, plural, quantity, span
 
 
 def response(product, published, look):
@@ -36,7 +36,9 @@ def squeal(product, published, look):
         Figure(pictures.level_frequency(product, published),
                f"Level over frequency of {plural(len(product.event_level), 'event')}"
                + (f", {span(product.event_frequency, 'Hz')}, {span(product.event_level, '1')} dB"
-                  if len(product.event_level) else "") + "; grey dots: highest peak of each sensor; dashed: threshold."
+                  if len(product.event_level) else "")
+               + ("; hollow: harmonics of a lower tone" if (product.event_order > 1).any() else "")
+               + "; grey dots: highest peak of each sensor; dashed: threshold."
                + _dotted(published)),
         Figure(pictures.band_levels(product, points, loudest),
                f"Third-octave levels at sensor {product.sensor_name[loudest]}, lowest and highest load."))
@@ -44,15 +46,27 @@ def squeal(product, published, look):
         "squeal", "Squeal",
         f"The detector calls a spectral peak above {number(product.threshold, 3)} dB (velocity, re"
         f" {quantity(product.reference, 'm/s', 3)}) in the squeal band an event, sensor by sensor."
-        " Figure 1 shows where it squeals.",
+        " An event that is a whole multiple of a lower tone, in the band or below it, is told as its harmonic: it is no"
+        " squeal frequency of its own. Figure 1 shows where it squeals.",
         _conclusion(product), figures, _table(product))
 
 
 def occurrence_caption(product):
     """Where the loudest peak lies and how it compares with the threshold."""
-    return ("Highest velocity level in the squeal band at each operating point, its frequency and number of events."
+    harmonics = (product.event_order > 1).any()
+    among = ", and of those that are no harmonics of a lower tone (own tones)" if harmonics else ""
+    return ("Highest velocity level in the squeal band at each operating point, its frequency and number of events"
+            f"{among}."
             f" Framed: squeal. Loudest {number(product.peak_level.max(), 3)} dB; line in the colour bar: threshold,"
             f" {number(product.threshold, 3)} dB re {quantity(product.reference, 'm/s', 3)}.")
+
+
+def origin(product, event):
+    """'2nd harmonic of 0.81 kHz', or 'own tone'."""
+    order = int(product.event_order[event])
+    if order == 1:
+        return "own tone"
+    return f"{ordinal(order)} harmonic of {number(product.event_fundamental[event] / 1e3, 2)}{THIN}kHz"
 
 
 def _conclusion(product):
@@ -61,7 +75,16 @@ def _conclusion(product):
         short = float(product.threshold) - product.peak_level.max()
         return f"No event: the loudest peak stays {number(short, 2)} dB below the threshold."
     return (f"{plural(len(product.event_level), 'event')} at {len(where)} of {len(product.pressure)} operating points:"
-            f" {'; '.join(point(product, o) for o in where)}.")
+            f" {'; '.join(point(product, o) for o in where)}.{_harmonics(product)}")
+
+
+def _harmonics(product):
+    """How many events are harmonics, and of what."""
+    above = product.event_order > 1
+    if not above.any():
+        return " None is a harmonic of a lower tone."
+    of = f"of a lower tone ({span(product.event_fundamental[above] / 1e3, '1', 2)}{THIN}kHz)"
+    return f" {plural(np.count_nonzero(above), 'harmonic')} {of}, {plural(np.count_nonzero(~above), 'own tone')}."
 
 
 def _table(product, most=15):
@@ -69,11 +92,11 @@ def _table(product, most=15):
     if not len(order):
         return ()
     rows = tuple((point(product, product.event_operating[e]), str(product.sensor_name[product.event_sensor[e]]),
-                  quantity(product.event_frequency[e], "Hz"), number(product.event_level[e], 3),
+                  quantity(product.event_frequency[e], "Hz"), origin(product, e), number(product.event_level[e], 3),
                   quantity(product.event_start[e], "s", 3), quantity(product.event_duration[e], "s", 3)) for e in order)
     title = f"Loudest {len(rows)} of {plural(len(product.event_level), 'event')}"
-    return (Table(("operating point", "sensor", "frequency", "level / dB", "begin", "duration"), rows, title,
-                  (2, 3, 4, 5), folded=True),)
+    return (Table(("operating point", "sensor", "frequency", "origin", "level / dB", "begin", "duration"), rows, title,
+                  (2, 4, 5, 6), folded=True),)
 
 
 def _dotted(published):

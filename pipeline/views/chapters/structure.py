@@ -11,24 +11,24 @@ COLOURS = "In the pictures of modes orange and purple move in opposite direction
 NO_PICTURES = "Pictures of meshes and mode shapes need OpenGL (on Linux: libEGL), which this machine does not offer."
 
 
-def chapter(structure, look):
-    """Chapter of the product Structure."""
+def chapter(structure, modes, look):
+    """Chapter of the product Structure; ``modes`` are ComplexModes, for the load in steady sliding, or None."""
+    loads = preload.loads(structure, modes)
     chosen = shapes.distinct(structure.disc.frequency, look.shapes)
     pictures = render([shapes.assembly(structure), *(shapes.disc_mode(structure.disc, mode) for mode in chosen)])
-    figures = (_pads(structure, look),)
+    figures = (_pads(structure, modes, loads, look),)
     if pictures:
         figures = (_assembly(structure, pictures[0]), *figures, *(
             _mode(structure.disc, mode, picture) for mode, picture in zip(chosen, pictures[1:], strict=True)))
-    open_share = 1.0 - structure.closed[len(structure.pressure) // 2].mean()
     return Chapter(
         "structure", "The brake: meshes, preload, modes",
         f"Finite-element bodies {', '.join(str(n).replace('_', ' ') for n in structure.body_name)}, pressed together"
-        f" by the piston at {span(structure.pressure, 'Pa')}; {len(structure.contact_area)} contact patches,"
-        f" {percent(open_share)} of them open at the middle pressure. {COLOURS}",
+        f" by the piston at {span(structure.pressure, 'Pa')}; {len(structure.contact_area)} contact patches."
+        f" {COLOURS}",
         f"The free disc has {len(structure.free_frequency)} modes up to"
         f" {quantity(structure.free_frequency.max(), 'Hz')}; squeal needs two modes of the assembled brake"
-        " close together, so the frequencies below decide where it can appear. The pressure distribution of the pads"
-        " shows where they would wear first.",
+        " close together, so the frequencies below decide where it can appear. The pressure on the pads"
+        f" {'in steady sliding ' * (modes is not None)}shows where they would wear first.",
         figures, (_bodies(structure), _free_modes(structure)), () if pictures else (NO_PICTURES,))
 
 
@@ -43,17 +43,30 @@ def _mode(disc, mode, picture):
                   f" {shapes.diameters(disc, mode)} nodal diameters.", small=True)
 
 
-def _pads(structure, look):
-    middle = len(structure.pressure) // 2
+def _pads(structure, modes, loads, look):
+    nominal = quantity(structure.pressure[len(structure.pressure) // 2], "Pa", 3)
+    told = f"Contact pressure of the pads without friction, nominal {nominal}: {_told(structure, loads[0])}."
+    if modes is not None:
+        point = preload.sliding_point(modes, structure.pressure[len(structure.pressure) // 2])
+        moved = abs(loads[1].force - loads[0].force).max() / loads[0].force.max()
+        told += (f" Beside it the same brake in steady sliding at {quantity(modes.operating_speed[point], 'rad/s')}"
+                 f" with friction {number(modes.operating_friction[point], 2)} from the map, about which its stability"
+                 f" is computed: {_told(structure, loads[1])}. Friction tilts the pads; it changes the force on a patch"
+                 f" by up to {percent(moved, 2)} of the largest force without friction.")
+    return Figure(preload.contact_pressure(structure, loads, look.dpi),
+                  f"{told} Seen from the pad, the disc moves to the right; crosses: patches off the disc (open).")
+
+
+def _told(structure, load):
+    """Range of pressure and resultant of each pad, and how many patches are open."""
     told = []
     for pad in np.unique(structure.contact_body):
         here = structure.contact_body == pad
-        pressure = structure.preload[middle, here] / structure.contact_area[here]
-        told.append(f"{str(structure.body_name[pad]).replace('_', ' ')} {span(pressure, 'Pa')}, resultant"
-                    f" {quantity(structure.preload[middle, here].sum(), 'N', 3)}")
-    return Figure(preload.contact_pressure(structure, look.dpi),
-                  f"Contact pressure of the pads at rest, nominal {quantity(structure.pressure[middle], 'Pa', 3)}:"
-                  f" {'; '.join(told)}. Seen from the pad, the disc moves to the right; crosses: open.")
+        told.append(f"{str(structure.body_name[pad]).replace('_', ' ')}"
+                    f" {span(load.force[here] / structure.contact_area[here], 'Pa')}, resultant"
+                    f" {quantity(load.force[here].sum(), 'N', 3)}")
+    open_ = np.sum(~load.closed)
+    return f"{'; '.join(told)}; {open_ or 'none'} of {len(load.force)} patches open"
 
 
 def _bodies(structure):
