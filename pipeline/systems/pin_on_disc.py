@@ -208,9 +208,9 @@ def _load(meshes):
 
 
 def _sensors(meshes, parameters):
-    """Accelerometer on the upstream side of the pin and laser point on the disc: rows, positions, directions."""
+    """Accelerometer on the outer side of the pin and laser point on the disc: rows, positions, directions."""
     s, p, half = parameters.sensors, parameters.pin, parameters.disc.thickness / 2
-    on_pin = place(np.array([[0, -p.side / 2, s.pin_height]]), parameters)
+    on_pin = place(np.array([[p.side / 2, 0, s.pin_height]]), parameters)
     on_disc = np.array([[s.disc_radius * np.cos(s.disc_angle), s.disc_radius * np.sin(s.disc_angle), half]])
     parts, places, directions = [], [], []
     for body, point, axis in ((PIN, on_pin, 2), (DISC, on_disc, 2), (PIN, on_pin, 1)):
