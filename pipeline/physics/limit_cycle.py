@@ -44,12 +44,19 @@ def cycle(signal, step, window, tolerance, lowest=0.0):
     if not np.any(late):
         return Cycle(0.0, 0.0, 0.0, True, 0.0, 0.0, False)
     frequency = dominant_frequency(late, step, lowest)
-    parts = np.array([np.sqrt(2) * part.std() for part in np.array_split(late, PARTS)])
+    parts = np.array([_effective_amplitude(part) for part in np.array_split(late, PARTS)])
     drift = float(np.ptp(parts) / parts.mean())
     long_enough = window * frequency >= PARTS * PERIODS_PER_PART
     growth = _growth(signal - np.mean(late), step, frequency, parts.mean())
     return Cycle(frequency, float(parts.mean()), drift, bool(long_enough and drift <= tolerance),
                  *(growth or (0.0, 0.0)), growth is not None)
+
+
+def _effective_amplitude(part):
+    """sqrt(2) times the effective value under a Hann window, which part periods at the ends do not disturb."""
+    weight = np.hanning(len(part))
+    middle = weight @ part / weight.sum()
+    return np.sqrt(2 * (weight @ (part - middle) ** 2) / weight.sum())
 
 
 def _growth(signal, step, frequency, amplitude):
@@ -68,16 +75,10 @@ def _growth(signal, step, frequency, amplitude):
 
 
 def harmonic_levels(signal, rate, base, count):
-    """Amplitudes (count,) at base, 2 base, ... of ``signal`` (m,): largest Hann line within a quarter of the base.
-
-    Harmonics above half the sampling rate are 0.
-    """
-    window = np.hanning(len(signal))
-    spectrum = 2 * abs(np.fft.rfft((signal - np.mean(signal)) * window)) / window.sum()
-    frequency = np.fft.rfftfreq(len(signal), 1 / rate)
-    levels = np.zeros(count)
-    for k in range(count):
-        near = abs(frequency - (k + 1) * base) <= max(base / 4, 2 * frequency[1])
-        if near.any() and (k + 1) * base < rate / 2:
-            levels[k] = spectrum[near].max()
-    return levels
+    """Amplitudes (count,) of ``signal`` (m,) at base, 2 base, ... Hz under a Hann window; 0 above half the rate."""
+    window, time = np.hanning(len(signal)), np.arange(len(signal)) / rate
+    middle = window @ signal / window.sum()
+    order = np.arange(1, count + 1)
+    levels = [2 * abs((window * (signal - middle)) @ np.exp(-2j * np.pi * k * base * time)) / window.sum()
+              if k * base < rate / 2 else 0.0 for k in order]
+    return np.array(levels)
