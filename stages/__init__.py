@@ -8,6 +8,8 @@ from pathlib import Path
 CHAINS = {
     "disc_brake": ("surface", "micro_friction", "friction_map", "structure", "reduced_model", "complex_modes",
                    "multibody", "response", "squeal", "comparison", "report"),
+    "pin_on_disc": ("surface", "interface_law", "pin_on_disc", "reduced_model", "complex_modes", "transient",
+                    "squeal", "comparison", "report"),
 }
 
 #: every stage once, in the order of its first chain

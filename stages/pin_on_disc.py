@@ -1,6 +1,7 @@
 """Stage pin_on_disc: disc and pin as finite elements on hub, clamp and guide, and the load states of their contact."""
 
 from functools import partial
+from typing import Literal
 
 import numpy as np
 
@@ -45,7 +46,7 @@ class Pin(Section):
     young: Quantity("Pa", gt=0) = option("70 GPa", "Young's modulus")
     poisson: float = option(0.33, "Poisson's ratio", ge=0, lt=0.5)
     density: Quantity("kg/m^3", gt=0) = option("2700 kg/m^3", "density")
-    damping_ratio: float = option(0.001, "damping ratio of all modes", ge=0, lt=1)
+    damping_ratio: float = option(0.005, "damping ratio of all modes", ge=0, lt=1)
     tip_mass: Quantity("kg", ge=0) = option("1.3 g", "mass of the accelerometer, on the last cell of the tip")
     tip_cell: Quantity("m", gt=0) = option("2 mm", "length of that cell")
     clamp_length: Quantity("m", gt=0) = option("20 mm", "depth of the jaws")
@@ -70,7 +71,8 @@ class Contact(Section):
 class Sensors(Section):
     """Accelerometer and laser point."""
 
-    pin_height: Quantity("m", gt=0) = option("8 mm", "height of the accelerometer above the tip, along the pin")
+    pin_side: Literal["outer", "upstream", "downstream"] = option("downstream", "side of the pin with the accelerometer")
+    pin_height: Quantity("m", gt=0) = option("30 mm", "height of the accelerometer above the tip, along the pin")
     disc_radius: Quantity("m", gt=0) = option("159 mm", "radius of the laser point on the disc")
     disc_angle: Quantity("rad") = option("180 deg", "its angle from the contact")
 

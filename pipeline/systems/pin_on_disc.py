@@ -28,6 +28,8 @@ DISC, PIN = range(2)
 _RIGID = 100.0
 #: points per direction that sample the contact patch
 _PATCH_POINTS = 5
+#: sides of the pin: outwards of the disc, along sliding
+_SIDES = {"outer": (1, 0), "upstream": (0, -1), "downstream": (0, 1)}
 
 
 @dataclass(frozen=True)
@@ -208,9 +210,9 @@ def _load(meshes):
 
 
 def _sensors(meshes, parameters):
-    """Accelerometer on the outer side of the pin and laser point on the disc: rows, positions, directions."""
+    """Accelerometer on a side of the pin and laser point on the disc: rows, positions, directions."""
     s, p, half = parameters.sensors, parameters.pin, parameters.disc.thickness / 2
-    on_pin = place(np.array([[p.side / 2, 0, s.pin_height]]), parameters)
+    on_pin = place(np.array([[*(np.array(_SIDES[s.pin_side]) * p.side / 2), s.pin_height]]), parameters)
     on_disc = np.array([[s.disc_radius * np.cos(s.disc_angle), s.disc_radius * np.sin(s.disc_angle), half]])
     parts, places, directions = [], [], []
     for body, point, axis in ((PIN, on_pin, 2), (DISC, on_disc, 2), (PIN, on_pin, 1)):
