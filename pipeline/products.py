@@ -425,3 +425,26 @@ class PinOnDisc:
     sensor_rows: Incidence = part("sensor displacement rows")
     load_rows: Incidence = part("row of the weight: it presses the clamp towards the disc")
     load_area: Array = quantity("m^2", "", "contact area on which the nominal pressure acts; load = pressure * area")
+
+
+@product(version=1)
+class LockIn:
+    """Complex modes and settled motion of the pin on disc over its length, load, speed and angle, one row a point."""
+
+    scan: Array = text("point", "what is varied: length, load, speed or tilt; case = the points compared with the paper")
+    length: Array = quantity("m", "point", "free length of the pin")
+    load: Array = quantity("kg", "point", "weight on the pin")
+    speed: Array = quantity("rad/s", "point", "speed of the disc")
+    tilt: Array = quantity("rad", "point", "tilt of the pin; positive: clamp upstream")
+    base_mass: Array = quantity("kg", "point", "mass that moves with the clamp")
+    friction: Array = quantity("1", "point", "coefficient of friction")
+    root: Array = quantity("1/s", "point", "root of the fastest growing mode, sigma + i omega; 0 where none grows", complex)
+    disc_mode: Array = quantity("Hz", "point", "own frequency of the disc nearest the base or root, 0 where neither is")
+    pin_mode: Array = quantity("Hz", "point", "own frequency of the pin nearest the base or root, 0 where neither is")
+    kind: Array = text("point", "none, classical, intermediate, multiple, dual base or other")
+    base: Array = quantity("Hz", "point", "base frequency of the settled motion of the disc, 0 = none")
+    second: Array = quantity("Hz", "point", "second base or distance of side bands, 0 = none")
+    amplitude: Array = quantity("m/s", "point body", "effective velocity along the disc's axis: disc, pin")
+    harmonics: Array = count("point body", "base and multiples without a gap in the spectrum of disc, pin")
+    levels: Array = quantity("1", "point body multiple", "level in dB of multiples re the base: disc, pin; -200 = no line")
+    open_share: Array = quantity("1", "point", "share of time without contact")

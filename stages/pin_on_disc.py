@@ -71,8 +71,8 @@ class Contact(Section):
 class Sensors(Section):
     """Accelerometer and laser point."""
 
-    pin_side: Literal["outer", "upstream", "downstream"] = option("downstream", "side of the pin with the accelerometer")
-    pin_height: Quantity("m", gt=0) = option("30 mm", "height of the accelerometer above the tip, along the pin")
+    pin_side: Literal["outer", "upstream", "downstream"] = option("outer", "side of the pin with the accelerometer")
+    pin_height: Quantity("m", gt=0) = option("60 mm", "height of the accelerometer above the tip, along the pin")
     disc_radius: Quantity("m", gt=0) = option("159 mm", "radius of the laser point on the disc")
     disc_angle: Quantity("rad") = option("180 deg", "its angle from the contact")
 

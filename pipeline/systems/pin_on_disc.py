@@ -108,10 +108,29 @@ def pin(parameters):
 def place(point, parameters):
     """Points (n, 3) of the pin (across x, along the tilt, from the tip) in the axes of the disc."""
     p, tilt = parameters.contact, parameters.pin.tilt
-    e_y, e_z = np.array([0, np.cos(tilt), np.sin(tilt)]), np.array([0, -np.sin(tilt), np.cos(tilt)])
+    e_y, e_z = _axes(tilt)
     shifted = point - np.array([0, p.offset, 0])
     foot = np.array([p.radius, 0, parameters.disc.thickness / 2])
     return foot + shifted[:, [0]] * (1, 0, 0) + shifted[:, [1]] * e_y + shifted[:, [2]] * e_z
+
+
+def reshaped(node, foot, element, material, length, tilt, change):
+    """Nodes (n, 3) of a pin stretched to another free length and turned about its contact; inputs as the pin has them.
+
+    ``foot`` (3,) is the contact, ``length`` and ``tilt`` are those of ``node``, ``change`` = (free length, tilt) wanted.
+    The cell of the tip and the clamp keep their size.
+    """
+    away, (e_y, e_z) = node - foot, _axes(tilt)
+    across, up = away @ e_y, away @ e_z
+    tip = up[element[material == 1]].max()
+    up = np.interp(up, (up.min(), tip, length, up.max()), (up.min(), tip, change[0], up.max() - length + change[0]))
+    new_y, new_z = _axes(change[1])
+    return foot + away[:, [0]] * (1, 0, 0) + across[:, None] * new_y + up[:, None] * new_z
+
+
+def _axes(tilt):
+    """Unit vectors across the pin, along sliding for an upright one, and along it from its tip."""
+    return np.array([0, np.cos(tilt), np.sin(tilt)]), np.array([0, -np.sin(tilt), np.cos(tilt)])
 
 
 def check(parameters):
