@@ -12,7 +12,7 @@ from pipeline.physics.body_reduction import ElasticBody, reduce_body
 from pipeline.physics.dry_friction import constant
 from pipeline.physics.eigen import lowest_modes
 from pipeline.physics.elasticity import assemble
-from pipeline.physics.lock_in import KINDS, NONE
+from pipeline.physics.lock_in import KINDS, NONE, harmonic_levels
 from pipeline.physics.lock_in import lock_in as classified
 from pipeline.physics.quadratic_modes import quadratic_roots
 from pipeline.physics.sliding_model import sliding_model
@@ -207,10 +207,18 @@ def _settled(sliding, friction, point, settings, own):
     late = motion.time >= motion.time[-1] - settings.window
     rate = 1 / (motion.time[1] - motion.time[0])
     signals = [motion.velocity[names.index(name)][late] for name in _SENSORS]
-    spectra = [classified(s, rate, *own, dynamic_range=settings.dynamic_range, count=_MULTIPLES) for s in signals]
-    return {"kind": KINDS[spectra[0].kind], "base": spectra[0].base, "second": spectra[0].second,
-            "amplitude": [s.std() for s in signals], "harmonics": [s.harmonics for s in spectra],
-            "levels": [np.maximum(s.levels, _NO_LINE) for s in spectra], "open_share": motion.status_share[0, 0]}
+    found = classified(signals[0], rate, *own, dynamic_range=settings.dynamic_range, count=_MULTIPLES)
+    levels = np.full((2, _MULTIPLES), -np.inf)
+    if found.base:
+        levels = np.array([harmonic_levels(s, rate, found.base, _MULTIPLES, settings.dynamic_range) for s in signals])
+    return {"kind": KINDS[found.kind], "base": found.base, "second": found.second,
+            "amplitude": [s.std() for s in signals], "harmonics": [_without_gap(row) for row in levels],
+            "levels": np.maximum(levels, _NO_LINE), "open_share": motion.status_share[0, 0]}
+
+
+def _without_gap(levels):
+    """Number of multiples, the base included, before the first that is missing."""
+    return int(np.argmin(np.append(np.isfinite(levels), False)))
 
 
 def _nearest(modes, frequency):

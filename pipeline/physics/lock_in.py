@@ -16,8 +16,8 @@ from pipeline.contract.errors import ConfigError
 
 NONE, CLASSICAL, INTERMEDIATE, MULTIPLE, DUAL, OTHER = range(6)
 KINDS = ("none", "classical", "intermediate", "multiple", "dual base", "other")
-#: a line stands out by this much (dB) above the median of its surroundings
-_PROMINENCE = 20.0
+#: a line stands out by this much (dB) above the median of its surroundings, a multiple of the base by that much
+_PROMINENCE, _MULTIPLE_PROMINENCE = 20.0, 10.0
 #: surroundings, in lines of the spectrum to either side
 _SURROUNDINGS = 60
 #: a line further than this share of the base frequency from it is no side band
@@ -39,33 +39,49 @@ class LockIn:
     levels: np.ndarray
 
 
-def lock_in(signal, rate, first, second, *, near=0.03, dynamic_range=40.0, highest=12e3, lowest=200.0, count=8):
+def lock_in(signal, rate, first, second, *, near=0.03, rival=20.0, dynamic_range=40.0, highest=12e3,
+            lowest=200.0, count=8):
     """LockIn of a ``signal`` (m,), sampled at ``rate`` Hz, of two bodies with modes at ``first`` (f,) and ``second`` (g,) Hz.
 
-    Of both the mode nearest the base counts. ``near``: relative distance up to which the base is that of a body; ``dynamic_range`` (dB) below the base at which
-    lines no longer count; lines are sought from ``lowest`` to ``highest`` Hz. Raises ConfigError for a signal of fewer than 8 periods
+    Of both the mode nearest the base counts. ``near``: relative distance up to which the base is that of a body; ``rival`` (dB): lines further
+    below the strongest are neither side bands nor a second base; ``dynamic_range`` (dB) that of multiples; bases are
+    sought from ``lowest`` to ``highest`` Hz. Raises ConfigError for a signal of fewer than 8 periods
     of the lowest frequency.
     """
     if len(signal) / rate < _FEWEST_PERIODS / lowest:
         raise ConfigError("lock-in", f"a signal of at least {_FEWEST_PERIODS / lowest:.3g} s",
                           f"{len(signal) / rate:.3g} s", "lengthen the window")
-    line, level = _lines(signal, rate, lowest, min(highest, 0.45 * rate), dynamic_range)
+    frequency, level = _spectrum(signal, rate)
+    line, strength = _lines(frequency, level, lowest, min(highest, 0.45 * rate), rival)
     if not len(line):
         return LockIn(NONE, 0.0, 0.0, 0, np.full(count, -np.inf))
-    base = _base(line, level)
+    base = _base(line, strength)
+    levels = harmonic_levels(signal, rate, base, count, dynamic_range)
+    harmonics = int(np.argmin(np.append(np.isfinite(levels), False)))
     width = max(3 * rate / len(signal), 0.25 * near * base)
-    multiple = np.maximum(np.round(line / base), 1)
-    foreign = np.abs(line - multiple * base) > width
-    levels = _harmonic_levels(line, level, base, width, count)
-    harmonics = int(np.argmax(np.append(~np.isfinite(levels), True)))
-    side = foreign & (np.abs(line - multiple * base) < _SIDE_BAND * base)
-    mirrored = _mirrored(line[side] - (multiple * base)[side], width)
+    distance = line - np.maximum(np.round(line / base), 1) * base
+    foreign = np.abs(distance) > width
+    mirrored = _mirrored(distance[foreign & (np.abs(distance) < _SIDE_BAND * base)], width)
     if mirrored:
         return LockIn(MULTIPLE, base, mirrored, harmonics, levels)
     other = _other_base(line[foreign], base, width)
     if other:
         return LockIn(DUAL, base, other, harmonics, levels)
     return LockIn(_one_base(base, first, second, near), base, 0.0, harmonics, levels)
+
+
+def harmonic_levels(signal, rate, base, count, dynamic_range):
+    """Level (count,) in dB of the multiples of ``base`` (Hz) re the first; -inf below the range or without a line."""
+    frequency, level = _spectrum(signal, rate)
+    found, first = np.full(count, -np.inf), None
+    for k in range(min(count, int(0.45 * rate / base))):
+        middle, half = int(round((k + 1) * base / frequency[1])), max(3, int(round(0.004 * base / frequency[1])))
+        own = level[middle - half:middle + half + 1].max()
+        floor = np.median(level[max(middle - _SURROUNDINGS, 0):middle + _SURROUNDINGS])
+        first = own if first is None else first
+        if own > floor + _MULTIPLE_PROMINENCE and own > first - dynamic_range:
+            found[k] = own - first
+    return found
 
 
 def _one_base(base, first, second, near):
@@ -76,20 +92,23 @@ def _one_base(base, first, second, near):
     return INTERMEDIATE if min(closest) < base < max(closest) else OTHER
 
 
-def _lines(signal, rate, lowest, highest, dynamic_range):
-    """Frequencies (Hz) and levels (dB re the strongest) of the spectral lines, ascending."""
+def _spectrum(signal, rate):
+    """Frequencies (Hz) and levels (dB, any reference; silence at -400) of a Blackman window."""
     window = np.blackman(len(signal))
     middle = window @ signal / window.sum()
     amplitude = np.abs(np.fft.rfft(window * (signal - middle)))
-    frequency = np.fft.rfftfreq(len(signal), 1 / rate)
+    return np.fft.rfftfreq(len(signal), 1 / rate), 20 * np.log10(np.maximum(amplitude, 1e-20))
+
+
+def _lines(frequency, level, lowest, highest, below):
+    """Frequencies (Hz) and levels (dB) of the lines at most ``below`` dB under the strongest, ascending."""
     kept = (frequency >= lowest) & (frequency <= highest)
-    if not amplitude[kept].any():
+    if level[kept].max() <= -300:
         return np.empty(0), np.empty(0)
-    level = 20 * np.log10(np.maximum(amplitude / amplitude[kept].max(), 1e-12))
     top = np.flatnonzero(kept[1:-1] & (level[1:-1] >= level[:-2]) & (level[1:-1] > level[2:])
-                         & (level[1:-1] > -dynamic_range)) + 1
+                         & (level[1:-1] > level[kept].max() - below)) + 1
     floor = np.array([np.median(level[max(k - _SURROUNDINGS, 0):k + _SURROUNDINGS]) for k in top])
-    top = top[level[top] > floor + _PROMINENCE] if len(top) else top
+    top = top[level[top] > floor + _PROMINENCE]
     shift = np.array([_vertex(level[k - 1:k + 2]) for k in top])
     return (top + shift) * frequency[1], level[top]
 
@@ -108,16 +127,6 @@ def _base(line, level):
         if len(candidate):
             return float(strongest / order)
     return float(strongest)
-
-
-def _harmonic_levels(line, level, base, width, count):
-    """Level of each multiple of ``base`` (count,), -inf where there is no line."""
-    found = np.full(count, -np.inf)
-    for k in range(count):
-        near = np.abs(line - (k + 1) * base) <= width
-        if near.any():
-            found[k] = level[near].max()
-    return found - found[0]
 
 
 def _mirrored(distance, width):
