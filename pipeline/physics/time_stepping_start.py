@@ -6,7 +6,7 @@ With s_i the sign of sliding, the closed contacts C obey
     K q - sum_C (n_i + s_i mu_i t_i) N_i = f,      n_i q + gap_i + c_i(N_i) = 0,
 
 solved together, so that contacts may be what holds a body. Contacts that would pull are opened, gaps that would be
-negative are closed, until neither is left.
+negative are closed, until neither is left. Friction joints add s_i mu_i N_i t_i to f.
 """
 
 import numpy as np
@@ -27,18 +27,20 @@ def steady_start(model, law, friction, inputs):
     contacts = model.contacts
     load, stiffness = np.asarray(inputs, float) @ model.input_rows, model.supported()[2]
     gap = np.broadcast_to(np.asarray(law.gap, float), len(contacts.area))
-    sign, closed = np.sign(model.sliding_speed), np.ones(len(gap), bool)
-    force = np.zeros(len(gap))
+    fixed = contacts.fixed
+    sign, closed, force = np.sign(model.sliding_speed), ~fixed, np.where(fixed, contacts.preload, 0.0)
     for _ in range(_ROUNDS):
         drawn = sign * friction.at_speed(model.sliding_speed, force / contacts.area)
         give, offset = _yielding(law, force, contacts.area)
-        place, found = _solve(stiffness, load, contacts.normal, contacts.normal + drawn[:, None] * contacts.tangent,
+        held = load + (drawn * force)[fixed] @ contacts.tangent[fixed]
+        place, found = _solve(stiffness, held, contacts.normal, contacts.normal + drawn[:, None] * contacts.tangent,
                               gap + offset, give, closed)
-        wanted = np.where(closed, found > 0, gap + contacts.normal @ place < 0)
+        found = np.where(fixed, force, found)
+        wanted = np.where(closed, found > 0, gap + contacts.normal @ place < 0) & ~fixed
         settled = abs(found - force).max(initial=0.0) <= _TOLERANCE * abs(found).max(initial=0.0)
-        if settled and np.array_equal(wanted, closed | (found > 0)):
+        if settled and np.array_equal(wanted, closed | ((found > 0) & ~fixed)):
             return Start(place, np.zeros(model.size), found, drawn * found)
-        closed, force = wanted, np.where(wanted, found, 0.0)
+        closed, force = wanted, np.where(wanted | fixed, found, 0.0)
     raise ConvergenceError("steady sliding", "forces that press on every closed contact", "none",
                            "lower friction or change the tilt (friction that locks has no steady sliding), or start at"
                            " rest")
