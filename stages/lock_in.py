@@ -17,7 +17,7 @@ from pipeline.physics.lock_in import lock_in as classified
 from pipeline.physics.quadratic_modes import quadratic_roots
 from pipeline.physics.sliding_model import sliding_model
 from pipeline.physics.static_contact import normal_force
-from pipeline.physics.time_stepping import Hard, simulate
+from pipeline.physics.time_stepping import Penalty, simulate
 from pipeline.physics.time_stepping_linear import modal_system
 from pipeline.physics.time_stepping_start import steady_start
 from pipeline.products import LockIn, PinOnDisc, ReducedModel
@@ -56,7 +56,8 @@ class Settings(Section):
     speed: Quantity("rad/s") = option("2.4 rpm", "speed of the disc where it is not varied")
     friction: float | None = option(None, "coefficient of friction; none = that of the interface law", ge=0)
     highest_mode: Quantity("Hz", gt=0) = option("12 kHz", "growing modes above it are not sought")
-    step: Quantity("s", gt=0) = option("2 us", "time step of the motion")
+    contact_damping: Quantity("N s/m", ge=0) = option("1 kN s/m", "damping of the normal contact")
+    step: Quantity("s", gt=0) = option("1 us", "time step of the motion")
     duration: Quantity("s", gt=0) = option("0.15 s", "length of the motion")
     window: Quantity("s", gt=0) = option("80 ms", "its end, which is classified")
     kick: Quantity("m/s", gt=0) = option("5 mm/s", "start velocity of the pin's accelerometer: the onset is not waited for")
@@ -94,7 +95,8 @@ def lock_in(pin_on_disc: PinOnDisc, model: ReducedModel, settings: Settings, con
 
     Method:
     At {lengths} free lengths, and over load, speed and angle, the pin was reduced anew, the complex modes were found, and
-    where one grows the motion was stepped by {step} over {duration} with a hard contact; the spectrum of the last
+    where one grows the motion was stepped by {step} over {duration} with a contact as stiff as the interface law about
+    the weight; the spectrum of the last
     {window} was classified as classical, intermediate, multiple or dual-base lock-in.
     """
     points = _points(pin_on_disc, settings)
@@ -118,7 +120,7 @@ def _visit(system, model, settings, solver, point):
     """The fields of one point."""
     body, own = _pin(system, point, solver)
     terms = reduce_body(body, settings.fixed_below, settings.residual_below, solver)
-    sliding = exchanged(_pressed(system, model, point), "pin", terms)
+    sliding = exchanged(_pressed(system, model, settings, point), "pin", terms)
     friction = _friction(system, point) if settings.friction is None else settings.friction
     root = _growing(sliding, friction, settings)
     disc = system.disc_frequency[system.disc_out_of_plane > _OUT_OF_PLANE]
@@ -169,7 +171,7 @@ def _rows(incidence, size):
     return sp.csr_matrix((incidence.weight[chosen], place), (int(incidence.rows), size))
 
 
-def _pressed(system, model, point):
+def _pressed(system, model, settings, point):
     """The sliding model at the speed of the point, its contact linearised about the weight."""
     sliding = sliding_model(model, 0, point.speed)
     force = point.load * _GRAVITY
@@ -177,7 +179,8 @@ def _pressed(system, model, point):
         raise ConfigError("lock_in", "a contact with the interface law", "a hard one", "pin_on_disc.contact.hard: false")
     closure = np.interp(force / system.contact_area, system.law_pressure, system.law_closure)
     stiffness = normal_force(closure, system.contact_area, system.law_closure, system.law_pressure)[1]
-    return replace(sliding, contacts=replace(sliding.contacts, preload=np.array([force]), stiffness=stiffness))
+    return replace(sliding, contacts=replace(sliding.contacts, preload=np.array([force]), stiffness=stiffness,
+                                             damping=np.array([settings.contact_damping])))
 
 
 def _friction(system, point):
@@ -197,7 +200,7 @@ def _settled(sliding, friction, point, settings, own):
     """Motion from a kick, and what it settles into."""
     system = modal_system(sliding, highest=settings.highest_frequency)
     load, names = np.array([point.load * _GRAVITY]), list(sliding.sensor_name)
-    law, dry = Hard(), constant(friction)
+    law, dry = Penalty(sliding.contacts.stiffness, settings.contact_damping), constant(friction)
     start = steady_start(sliding, law, dry, load)
     row = sliding.sensor_rows[names.index("pin")]
     shove = system.shape @ (system.shape.T @ row)

@@ -31,7 +31,7 @@ class Disc(Section):
     young: Quantity("Pa", gt=0) = option("70 GPa", "Young's modulus")
     poisson: float = option(0.33, "Poisson's ratio", ge=0, lt=0.5)
     density: Quantity("kg/m^3", gt=0) = option("2700 kg/m^3", "density")
-    damping_ratio: float = option(0.001, "damping ratio of all modes", ge=0, lt=1)
+    damping_ratio: float = option(0.002, "damping ratio of all modes", ge=0, lt=1)
     radial_cells: int = option(10, "cells from hub to rim", ge=2)
     angular_cells: int = option(48, "cells around", ge=12)
     axial_cells: int = option(1, "cells through the thickness", ge=1)
@@ -46,7 +46,7 @@ class Pin(Section):
     young: Quantity("Pa", gt=0) = option("70 GPa", "Young's modulus")
     poisson: float = option(0.33, "Poisson's ratio", ge=0, lt=0.5)
     density: Quantity("kg/m^3", gt=0) = option("2700 kg/m^3", "density")
-    damping_ratio: float = option(0.005, "damping ratio of all modes", ge=0, lt=1)
+    damping_ratio: float = option(0.01, "damping ratio of all modes", ge=0, lt=1)
     tip_mass: Quantity("kg", ge=0) = option("1.3 g", "mass of the accelerometer, on the last cell of the tip")
     tip_cell: Quantity("m", gt=0) = option("2 mm", "length of that cell")
     clamp_length: Quantity("m", gt=0) = option("20 mm", "depth of the jaws")
@@ -72,7 +72,7 @@ class Sensors(Section):
     """Accelerometer and laser point."""
 
     pin_side: Literal["outer", "upstream", "downstream"] = option("outer", "side of the pin with the accelerometer")
-    pin_height: Quantity("m", gt=0) = option("60 mm", "height of the accelerometer above the tip, along the pin")
+    pin_height: Quantity("m", gt=0) = option("50 mm", "height of the accelerometer above the tip, along the pin")
     disc_radius: Quantity("m", gt=0) = option("159 mm", "radius of the laser point on the disc")
     disc_angle: Quantity("rad") = option("180 deg", "its angle from the contact")
 
