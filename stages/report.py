@@ -5,14 +5,18 @@ from pipeline.products import (
     Comparison,
     ComplexModes,
     FrictionMap,
+    InterfaceLaw,
+    LockIn,
     MicroFriction,
     Multibody,
+    PinOnDisc,
     ReducedModel,
     Report,
     Response,
     Squeal,
     Structure,
     Surface,
+    Transient,
 )
 
 
@@ -27,7 +31,8 @@ class Settings(Section):
 def report(surface: Surface | None, micro_friction: MicroFriction | None, friction_map: FrictionMap | None,
            structure: Structure | None, model: ReducedModel | None, complex_modes: ComplexModes | None,
            multibody: Multibody | None, response: Response | None, squeal: Squeal | None,
-           comparison: Comparison | None, settings: Settings, context: Context) -> Report:
+           comparison: Comparison | None, interface_law: InterfaceLaw | None, pin_on_disc: PinOnDisc | None,
+           lock_in: LockIn | None, transient: Transient | None, settings: Settings, context: Context) -> Report:
     """Write one HTML page with pictures, tables, settings and methods.
 
     Method:
@@ -39,7 +44,8 @@ def report(surface: Surface | None, micro_friction: MicroFriction | None, fricti
 
     products = {"surface": surface, "micro_friction": micro_friction, "friction_map": friction_map,
                 "structure": structure, "model": model, "complex_modes": complex_modes, "multibody": multibody,
-                "response": response, "squeal": squeal, "comparison": comparison}
+                "response": response, "squeal": squeal, "comparison": comparison,
+                "interface_law": interface_law, "pin_on_disc": pin_on_disc, "lock_in": lock_in, "transient": transient}
     look = Look(settings.dots_per_inch, settings.mode_pictures)
     chapters = []
     builders = plan(products, look)

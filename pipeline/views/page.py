@@ -5,7 +5,7 @@ from functools import partial
 from pipeline.views import case as case_view
 from pipeline.views import sound as sound_pictures
 from pipeline.views.chapter import Figure
-from pipeline.views.chapters import comparison, friction, motion, sound, stability, structure, surface, transient
+from pipeline.views.chapters import comparison, friction, lock_in, motion, sound, stability, structure, surface, transient
 from pipeline.views.limits import limits
 from pipeline.views.verdict import published_squeal, verdict
 
@@ -15,9 +15,10 @@ def plan(products, look):
     lines = published_squeal(products.get("comparison"))
     model, modes = products.get("model"), products.get("complex_modes")
     known = (("surface", surface.chapter, ()), ("micro_friction", friction.micro, ()),
-             ("friction_map", friction.friction_map, ()), ("structure", structure.chapter, (modes,)),
+             ("friction_map", friction.friction_map, ()), ("interface_law", lock_in.interface_law, ()),
+             ("structure", structure.chapter, (modes,)), ("pin_on_disc", lock_in.pin_on_disc, ()),
              ("complex_modes", stability.chapter, (model, lines)), ("multibody", motion.chapter, ()),
-             ("transient", transient.chapter, ()),
+             ("transient", transient.chapter, ()), ("lock_in", lock_in.lock_in, ()),
              ("response", sound.response, (lines,)), ("squeal", sound.squeal, (lines,)),
              ("comparison", comparison.chapter, ()))
     return [partial(write, products[name], *more, look) for name, write, more in known
