@@ -50,11 +50,13 @@ class Settings(Section):
     summits: FromSurface | Given = option(FromSurface(), "where the summits come from", discriminator="kind")
     disc: Material = option(Material(), "disc")
     pad: Material = option(Material(), "the body that rubs on it: the pin")
-    shear_limit: Quantity("Pa", gt=0) = option("385 MPa", "yield stress in shear of the contact spots, tau_max of a summit")
+    shear_limit: Quantity("Pa", gt=0) = option("385 MPa", "yield stress in shear of the contact spots, tau_max of a"
+                                                          " summit")
     lowest_pressure: Quantity("Pa", gt=0) = option("1 kPa", "lowest nominal pressure of the law")
     highest_pressure: Quantity("Pa", gt=0) = option("470 MPa", "highest nominal pressure of the law")
     pressure_steps: int = option(48, "pressures of the shear law, spread evenly over their logarithm", ge=2)
-    largest_displacement: Quantity("m", gt=0) = option("1 um", "tangential displacement up to which the law is computed")
+    largest_displacement: Quantity("m", gt=0) = option("1 um", "tangential displacement up to which the law is"
+                                                               " computed")
     displacement_steps: int = option(201, "displacements of the shear law, from 0", ge=10)
     gap_steps: int = option(200, "gaps of the normal law", ge=10)
 
@@ -72,7 +74,8 @@ def interface_law(surface: Surface | None, settings: Settings, context: Context)
         raise ConfigError("interface_law.highest_pressure", f"above the lowest, {settings.lowest_pressure:g} Pa",
                           f"{settings.highest_pressure:g} Pa")
     summits, source = _summits(surface, settings)
-    context.log(f"{summits.density:.3g} summits per m^2, spread {summits.spread:.3g} m, radius {1 / summits.curvature:.3g} m")
+    context.log(f"{summits.density:.3g} summits per m^2, spread {summits.spread:.3g} m, radius"
+                f" {1 / summits.curvature:.3g} m")
     pair = moduli(*zip(*((m.young, m.poisson) for m in (settings.disc, settings.pad)), strict=True),
                   settings.shear_limit)
     pressure = np.geomspace(settings.lowest_pressure, settings.highest_pressure, settings.pressure_steps)

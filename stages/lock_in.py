@@ -49,7 +49,8 @@ class Settings(Section):
     longest: Quantity("m", gt=0, le=0.2) = option("200 mm", "last length of the map")
     lengths: int = option(41, "lengths of the map", ge=1)
     loads: Quantities("kg", gt=0) = option(("0.5 kg", "1.5 kg", "5 kg"), "weights, at the length of the system")
-    speeds: Quantities("rad/s") = option(("0.5 rpm", "2.4 rpm", "20 rpm", "95 rpm"), "speeds, at the length of the system")
+    speeds: Quantities("rad/s") = option(("0.5 rpm", "2.4 rpm", "20 rpm", "95 rpm"), "speeds, at the length of the"
+                                                                                     " system")
     tilts: Quantities("rad", gt=-1, lt=1) = option(("-8 deg", "-4 deg", "1 deg", "4 deg", "8 deg"),
                                                    "tilts, at the length of the system")
     load: Quantity("kg", gt=0) = option("1.5 kg", "weight where it is not varied")
@@ -60,7 +61,8 @@ class Settings(Section):
     step: Quantity("s", gt=0) = option("1 us", "time step of the motion")
     duration: Quantity("s", gt=0) = option("0.15 s", "length of the motion")
     window: Quantity("s", gt=0) = option("80 ms", "its end, which is classified")
-    kick: Quantity("m/s", gt=0) = option("5 mm/s", "start velocity of the pin's accelerometer: the onset is not waited for")
+    kick: Quantity("m/s", gt=0) = option("5 mm/s", "start velocity of the pin's accelerometer: the onset is not"
+                                                   " waited for")
     dynamic_range: float = option(50.0, "lines this far below the base no longer count, dB", gt=0)
     highest_frequency: Quantity("Hz", gt=0) = option("60 kHz", "modes with open contact above it are left out")
     fixed_below: Quantity("Hz", gt=0) = option("15 kHz", "modes of the pin with its interface held")
@@ -94,10 +96,10 @@ def lock_in(pin_on_disc: PinOnDisc, model: ReducedModel, settings: Settings, con
     no lock-in by themselves, though a strong blow might still lead to one.
 
     Method:
-    At {lengths} free lengths, and over load, speed and angle, the pin was reduced anew, the complex modes were found, and
-    where one grows the motion was stepped by {step} over {duration} with a contact as stiff as the interface law about
-    the weight; the spectrum of the last
-    {window} was classified as classical, intermediate, multiple or dual-base lock-in.
+    At {lengths} free lengths, and over load, speed and angle, the pin was reduced anew, the complex modes were found,
+    and where one grows the motion was stepped by {step} over {duration} with a contact as stiff as the interface law
+    about the weight; the spectrum of the last {window} was classified as classical, intermediate, multiple or dual-base
+    lock-in.
     """
     points = _points(pin_on_disc, settings)
     found = context.map(partial(_visit, pin_on_disc, model, settings, context.solver), points, "points")
@@ -176,7 +178,8 @@ def _pressed(system, model, settings, point):
     sliding = sliding_model(model, 0, point.speed)
     force = point.load * _GRAVITY
     if not len(system.law_closure):
-        raise ConfigError("lock_in", "a contact with the interface law", "a hard one", "pin_on_disc.contact.hard: false")
+        raise ConfigError("lock_in", "a contact with the interface law", "a hard one", "pin_on_disc.contact.hard:"
+                                                                                       " false")
     closure = np.interp(force / system.contact_area, system.law_pressure, system.law_closure)
     stiffness = normal_force(closure, system.contact_area, system.law_closure, system.law_pressure)[1]
     return replace(sliding, contacts=replace(sliding.contacts, preload=np.array([force]), stiffness=stiffness,

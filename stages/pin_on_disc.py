@@ -85,8 +85,8 @@ class Settings(Section):
     contact: Contact = option(Contact(), "contact of tip and disc")
     sensors: Sensors = option(Sensors(), "sensors")
     loads: Quantities("kg", gt=0) = option(("1.5 kg",), "weights on the pin")
-    lengths: Quantities("m", gt=0, le=0.2) = option(("146.5 mm", "151.5 mm", "181.5 mm"), "free lengths of the pin whose"
-                                                    " own frequencies are compared")
+    lengths: Quantities("m", gt=0, le=0.2) = option(("146.5 mm", "151.5 mm", "181.5 mm"),
+                                                    "free lengths of the pin whose own frequencies are compared")
     frequency_max: Quantity("Hz", gt=0) = option("15 kHz", "modes of the disc below it")
 
 
@@ -95,8 +95,8 @@ def pin_on_disc(interface_law: InterfaceLaw, settings: Settings, context: Contex
     """Mesh disc and pin; place hub, clamp, guide and contact; find the real modes of disc and pin.
 
     Method:
-    Disc and pin were meshed with quadratic hexahedra. The disc sits on a rigid hub whose shaft gives way in rocking, the
-    pin in a clamp that moves along the normal of the disc on a guide without friction, so that the weight is the
+    Disc and pin were meshed with quadratic hexahedra. The disc sits on a rigid hub whose shaft gives way in rocking,
+    the pin in a clamp that moves along the normal of the disc on a guide without friction, so that the weight is the
     static contact force. Normal and tangential law of the contact follow from the interface law. Modes of the disc
     were computed below {frequency_max}.
     """
@@ -115,8 +115,9 @@ def pin_on_disc(interface_law: InterfaceLaw, settings: Settings, context: Contex
         contact_normal=_incidence(model.contacts.normal), contact_tangent=_incidence(model.contacts.tangent),
         contact_lateral=_incidence(model.contacts.lateral), load=settings.loads, pressure=force / area,
         preload=force[:, None], closed=np.ones((len(force), 1), int), **law, disc_frequency=frequency,
-        disc_diameters=diameters, disc_out_of_plane=out_of_plane, **_pin_modes(settings, context), tilt=settings.pin.tilt,
-        contact_offset=settings.contact.offset, base_mass=settings.pin.base_mass, sensor_name=SENSORS,
+        disc_diameters=diameters, disc_out_of_plane=out_of_plane, **_pin_modes(settings, context),
+        tilt=settings.pin.tilt, contact_offset=settings.contact.offset, base_mass=settings.pin.base_mass,
+        sensor_name=SENSORS,
         sensor_position=model.sensor_position, sensor_direction=model.sensor_direction,
         sensor_rows=_incidence(model.sensors), load_rows=_incidence(model.load), load_area=area)
 
@@ -124,8 +125,9 @@ def pin_on_disc(interface_law: InterfaceLaw, settings: Settings, context: Contex
 def _law(interface_law, pressure, settings):
     """Normal law of the contact, its stiffness at each pressure, and friction with its tangential stiffnesses there."""
     if pressure.min() < interface_law.pressure[0] or pressure.max() > interface_law.pressure[-1]:
-        raise ConfigError("pin_on_disc.loads", f"nominal pressures within the interface law, {interface_law.pressure[0]:.3g}"
-                          f" to {interface_law.pressure[-1]:.3g} Pa", f"{pressure.min():.3g} to {pressure.max():.3g} Pa",
+        low, high = interface_law.pressure[[0, -1]]
+        raise ConfigError("pin_on_disc.loads", f"pressures within the interface law, {low:.3g} to {high:.3g} Pa",
+                          f"{pressure.min():.3g} to {pressure.max():.3g} Pa",
                           "change the contact's length, or the range of interface_law")
     area = settings.contact.length * settings.contact.width
     read = {name: np.interp(np.log(pressure), np.log(interface_law.pressure), getattr(interface_law, name)) * factor
@@ -136,7 +138,8 @@ def _law(interface_law, pressure, settings):
     thinned = slice(None, None, _LAW_STRIDE)
     closure, carried = contact_law(interface_law.gap_pressure[thinned], interface_law.normal_stiffness[thinned],
                                    interface_law.gap_pressure[-1])
-    stiffness = [normal_force(np.interp([p], carried, closure), np.array([area]), closure, carried)[1] for p in pressure]
+    stiffness = [normal_force(np.interp([p], carried, closure), np.array([area]), closure, carried)[1]
+                 for p in pressure]
     return {**read, "law_closure": closure, "law_pressure": carried, "contact_stiffness": stiffness}
 
 
@@ -149,7 +152,7 @@ def _refuse_locking(model, settings, friction, context):
     if flexibility <= 0:
         raise ConfigError("pin_on_disc.pin.tilt", f"a pin that slides: a tilt outside the friction cone of"
                           f" {np.degrees(np.arctan(friction)):.3g} deg, or trailing",
-                          f"{np.degrees(p.tilt):.3g} deg against the motion, closing {flexibility:.3g} m per N: it locks",
+                          f"{np.degrees(p.tilt):.3g} deg against the motion, closing {flexibility:.3g} m/N: it locks",
                           "turn the pin the other way, or further, or lower the friction")
 
 

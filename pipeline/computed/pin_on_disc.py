@@ -73,7 +73,8 @@ def _harmonic_rows(transient):
     note = "velocity at multiples of the dominant frequency" + cautious
     falls = {name: -np.diff(level).max() for name, level in levels.items()}
     acceleration = levels["pin"] + 20 * np.log10(np.arange(1, _LINES + 1))
-    return {"pin_harmonics": ours(_unbroken(acceleration, _PIN_RANGE), f"acceleration within {_PIN_RANGE:g} dB; {note}"),
+    return {"pin_harmonics": ours(_unbroken(acceleration, _PIN_RANGE), f"acceleration within {_PIN_RANGE:g} dB;"
+                                                                       f" {note}"),
             "disc_harmonics": ours((levels["disc"] > -_DISC_RANGE).sum(), note),
             "pin_harmonics_fall": ours(falls["pin"], note), "disc_harmonics_do_not_fall": ours(falls["disc"], note)}
 
@@ -106,7 +107,8 @@ def _further(lock_in, case, known):
         return {}
     place = np.flatnonzero(near)[np.argmax(lock_in.base_mass[near])]
     return {"lock_in_181": ours(abs(lock_in.root[place].imag) / (2 * np.pi) or None,
-                                f"fastest growing mode with {lock_in.base_mass[place]:g} kg moving with the clamp, a fit;"
+                                f"fastest growing mode with {lock_in.base_mass[place]:g} kg moving with the clamp, a"
+                                f" fit;"
                                 f" the motion settles at {lock_in.base[place]:.0f} Hz ({lock_in.kind[place]})",
                                 "nothing grows")}
 

@@ -20,7 +20,8 @@ def exchanged(model, body, terms):
     old = (model.joints.rows, contacts.normal, contacts.tangent, contacts.lateral, model.input_rows, model.sensor_rows)
     own = np.split(terms.rows, np.cumsum([len(rows) for rows in old])[:-1])
     rows = [np.hstack((before[:, kept], new)) for before, new in zip(old, own, strict=True)]
-    return replace(model, **matrices, coordinate_body=np.r_[model.coordinate_body[kept], np.full(len(terms.mass), index)],
+    owner = np.concatenate((model.coordinate_body[kept], np.full(len(terms.mass), index)))
+    return replace(model, **matrices, coordinate_body=owner,
                    joints=replace(model.joints, rows=rows[0]),
                    contacts=replace(contacts, normal=rows[1], tangent=rows[2], lateral=rows[3]),
                    input_rows=rows[4], sensor_rows=rows[5])

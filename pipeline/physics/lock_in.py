@@ -41,12 +41,12 @@ class LockIn:
 
 def lock_in(signal, rate, first, second, *, near=0.03, rival=20.0, dynamic_range=40.0, highest=12e3,
             lowest=200.0, count=8):
-    """LockIn of a ``signal`` (m,), sampled at ``rate`` Hz, of two bodies with modes at ``first`` (f,) and ``second`` (g,) Hz.
+    """LockIn of a ``signal`` (m,), sampled at ``rate`` Hz, of bodies with modes at ``first`` (f,), ``second`` (g,) Hz.
 
-    Of both the mode nearest the base counts. ``near``: relative distance up to which the base is that of a body; ``rival`` (dB): lines further
-    below the strongest are neither side bands nor a second base; ``dynamic_range`` (dB) that of multiples; bases are
-    sought from ``lowest`` to ``highest`` Hz. Raises ConfigError for a signal of fewer than 8 periods
-    of the lowest frequency.
+    Of both bodies the mode nearest the base counts. ``near``: relative distance up to which the base is that of a body;
+    ``rival`` (dB): lines further below the strongest are neither side bands nor a second base; ``dynamic_range`` (dB)
+    that of multiples; bases are sought from ``lowest`` to ``highest`` Hz. Raises ConfigError for a signal of fewer than
+    8 periods of the lowest frequency.
     """
     if len(signal) / rate < _FEWEST_PERIODS / lowest:
         raise ConfigError("lock-in", f"a signal of at least {_FEWEST_PERIODS / lowest:.3g} s",

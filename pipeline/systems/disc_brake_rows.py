@@ -179,11 +179,11 @@ def _clamping_spots(meshes, parameters, prefix, pad):
     back = side * (parameters.disc.ring_thickness / 2 + p.lining_thickness + p.backplate_thickness)
     caliper = back if pad == OUTER else back - c.piston_gap
     offset = np.linspace(-j.spot_size / 2, j.spot_size / 2, _SPOT_POINTS)
-    for end, along in (("leading", -1), ("trailing", 1)):
+    for end, forward in (("leading", -1), ("trailing", 1)):
         for level, across in (("inner", -1), ("outer", 1)):
             x, y = (a.ravel() for a in np.meshgrid(
                 j.clamping_radius + across * j.clamping_height / 2 + offset,
-                along * (j.finger_distance if prefix == "finger" else j.piston_distance) / 2 + offset))
+                forward * (j.finger_distance if prefix == "finger" else j.piston_distance) / 2 + offset))
             spots = (_spot(meshes, body, np.column_stack((x, y, np.full_like(x, z))), f"{prefix} {end} {level}")
                      for body, z in ((pad, back), (CALIPER, caliper)))
             yield f"{end}_{level}", *spots

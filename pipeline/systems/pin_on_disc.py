@@ -5,8 +5,8 @@ slides along +y there. The pin stands on z > 0. A positive tilt moves its clamp 
 the clamp), a negative one downstream (the tip digs in).
 
 What the paper does not mesh is declared: the disc sits on a rigid hub whose shaft gives way in rocking (an elastic
-collar between shaft and hub), the pin is held by a stiff block on springs; the block carries the mass that travels on the
-guide along z. The accelerometer is a mass on the last cell of the pin.
+collar between shaft and hub), the pin is held by a stiff block on springs; the block carries the mass that travels on
+the guide along z. The accelerometer is a mass on the last cell of the pin.
 """
 
 from dataclasses import dataclass
@@ -54,8 +54,8 @@ def build(parameters):
     bodies = (disc(parameters.disc), pin(parameters))
     meshes = [b.mesh for b in bodies]
     sensors, position, direction = _sensors(meshes, parameters)
-    return PinOnDiscModel(bodies, _clamp(meshes, parameters), _contact(meshes, parameters), sensors, position, direction,
-                          _load(meshes))
+    return PinOnDiscModel(bodies, _clamp(meshes, parameters), _contact(meshes, parameters), sensors, position,
+                          direction, _load(meshes))
 
 
 def disc(parameters):
@@ -117,7 +117,8 @@ def place(point, parameters):
 def reshaped(node, foot, element, material, length, tilt, change):
     """Nodes (n, 3) of a pin stretched to another free length and turned about its contact; inputs as the pin has them.
 
-    ``foot`` (3,) is the contact, ``length`` and ``tilt`` are those of ``node``, ``change`` = (free length, tilt) wanted.
+    ``foot`` (3,) is the contact, ``length`` and ``tilt`` are those of ``node``, ``change`` = (free length, tilt) is
+    wanted.
     The cell of the tip and the clamp keep their size.
     """
     away, (e_y, e_z) = node - foot, _axes(tilt)
@@ -176,9 +177,8 @@ def _clamp(meshes, parameters):
     sides = [_mean(meshes[PIN], place(np.array([[s * half, 0, p.length + p.clamp_length / 2]]), parameters), "clamp")
              for s in (-1, 1)]
     along_tilt = np.array([[0, np.cos(p.tilt), np.sin(p.tilt)]])
-    found = [(f"clamp_{name}_{place_}", along(mean, axis), stiffness) for place_, mean in (("front", front), ("rear", rear))
-             for name, axis, stiffness in (("radial", np.eye(3)[[0]], p.clamp_stiffness / 2),
-                                           ("tangential", np.eye(3)[[1]], p.clamp_stiffness / 2))]
+    found = [(f"clamp_{name}_{end}", along(mean, np.eye(3)[[axis]]), p.clamp_stiffness / 2)
+             for end, mean in (("front", front), ("rear", rear)) for axis, name in enumerate(("radial", "tangential"))]
     found.append(("clamp_twist", (along(sides[1], along_tilt) - along(sides[0], along_tilt)) / 2, p.clamp_stiffness))
     name, rows, stiffness = zip(*found, strict=True)
     nothing = sp.csr_matrix((len(name), 3 * len(meshes[DISC].node)))

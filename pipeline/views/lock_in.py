@@ -21,7 +21,7 @@ def normal_law(law):
 
 def shear_law(law):
     """Figure 5: shear stress over displacement at several pressures."""
-    with drawing() as figure:
+    with drawing(height=3.5, top=0.62) as figure:
         axes = figure.add_subplot()
         for k, colour, line in zip(_some(law), COLOURS, LINES, strict=False):
             axes.loglog(1e6 * law.displacement[1:], law.shear[k, 1:] / 1e6, color=colour, ls=line,
@@ -36,7 +36,7 @@ def descriptions(law):
     k = len(law.pressure) // 2
     full = law.limit[k] / law.tangential_stiffness[k] * 4
     x, limit = law.displacement / full, law.limit[k]
-    with drawing() as figure:
+    with drawing(height=3.5, top=0.62) as figure:
         axes = figure.add_subplot()
         axes.plot(x, law.shear[k] / limit, color=FAINT, lw=4, label="summits")
         axes.plot(x, law.evolution_shear[k] / limit, color=BLUE, label="evolution rule")
@@ -51,7 +51,7 @@ def length_map(found):
     """Base of the settled motion and growing mode over pin length, with the paper's numbers."""
     rows = np.array([scan == "length" for scan in found.scan])
     length, base = 1e3 * found.length[rows], found.base[rows]
-    with drawing(height=3.8) as figure:
+    with drawing(height=3.9, top=0.62) as figure:
         axes = figure.add_subplot()
         axes.plot(length, np.abs(found.root[rows].imag) / (2 * np.pi) + _hidden(found.root[rows].real <= 0), ".",
                   color=FAINT, ms=4, label="growing mode")

@@ -5,7 +5,17 @@ from functools import partial
 from pipeline.views import case as case_view
 from pipeline.views import sound as sound_pictures
 from pipeline.views.chapter import Figure
-from pipeline.views.chapters import comparison, friction, lock_in, motion, sound, stability, structure, surface, transient
+from pipeline.views.chapters import (
+    comparison,
+    friction,
+    lock_in,
+    motion,
+    sound,
+    stability,
+    structure,
+    surface,
+    transient,
+)
 from pipeline.views.limits import limits
 from pipeline.views.verdict import published_squeal, verdict
 
