@@ -130,9 +130,9 @@ def _law(interface_law, pressure, settings):
                           f"{pressure.min():.3g} to {pressure.max():.3g} Pa",
                           "change the contact's length, or the range of interface_law")
     area = settings.contact.length * settings.contact.width
-    read = {name: np.interp(np.log(pressure), np.log(interface_law.pressure), getattr(interface_law, name)) * factor
-            for name, factor in (("friction", 1.0), ("tangential_stiffness", area), ("elastic_stiffness", area),
-                                 ("exponent", 1.0))}
+    place = np.log(pressure), np.log(interface_law.pressure)
+    read = {name: np.exp(np.interp(*place, np.log(getattr(interface_law, name)))) * factor for name, factor in (
+        ("friction", 1.0), ("tangential_stiffness", area), ("elastic_stiffness", area), ("exponent", 1.0))}
     if settings.contact.hard:
         return {**read, "law_closure": [], "law_pressure": [], "contact_stiffness": np.zeros((len(pressure), 1))}
     thinned = slice(None, None, _LAW_STRIDE)
