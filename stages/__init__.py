@@ -10,6 +10,7 @@ CHAINS = {
                    "multibody", "response", "squeal", "comparison", "report"),
     "pin_on_disc": ("surface", "interface_law", "pin_on_disc", "reduced_model", "complex_modes", "transient", "lock_in",
                     "squeal", "comparison", "report"),
+    "lumped": ("lumped", "reduced_model", "complex_modes", "transient", "comparison", "report"),
 }
 
 #: every stage once, in the order of its first chain

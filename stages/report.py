@@ -7,6 +7,7 @@ from pipeline.products import (
     FrictionMap,
     InterfaceLaw,
     LockIn,
+    Lumped,
     MicroFriction,
     Multibody,
     PinOnDisc,
@@ -31,8 +32,9 @@ class Settings(Section):
 def report(surface: Surface | None, micro_friction: MicroFriction | None, friction_map: FrictionMap | None,
            structure: Structure | None, model: ReducedModel | None, complex_modes: ComplexModes | None,
            multibody: Multibody | None, response: Response | None, squeal: Squeal | None,
-           comparison: Comparison | None, interface_law: InterfaceLaw | None, pin_on_disc: PinOnDisc | None,
-           lock_in: LockIn | None, transient: Transient | None, settings: Settings, context: Context) -> Report:
+           lumped: Lumped | None, transient: Transient | None, interface_law: InterfaceLaw | None,
+           pin_on_disc: PinOnDisc | None, lock_in: LockIn | None, comparison: Comparison | None, settings: Settings,
+           context: Context) -> Report:
     """Write one HTML page with pictures, tables, settings and methods.
 
     Method:
@@ -43,9 +45,10 @@ def report(surface: Surface | None, micro_friction: MicroFriction | None, fricti
     from pipeline.views.page import page, plan
 
     products = {"surface": surface, "micro_friction": micro_friction, "friction_map": friction_map,
-                "structure": structure, "model": model, "complex_modes": complex_modes, "multibody": multibody,
-                "response": response, "squeal": squeal, "comparison": comparison,
-                "interface_law": interface_law, "pin_on_disc": pin_on_disc, "lock_in": lock_in, "transient": transient}
+                "structure": structure, "lumped": lumped, "model": model, "complex_modes": complex_modes,
+                "multibody": multibody, "response": response, "transient": transient, "squeal": squeal,
+                "interface_law": interface_law, "pin_on_disc": pin_on_disc, "lock_in": lock_in,
+                "comparison": comparison}
     look = Look(settings.dots_per_inch, settings.mode_pictures)
     chapters = []
     builders = plan(products, look)

@@ -38,7 +38,7 @@ def occurrence(squeal, dpi):
     level, frequency = squeal.peak_level[row, sensor], squeal.peak_frequency[row, sensor]
     events = np.bincount(squeal.event_operating, minlength=len(level))
     harmonics = np.bincount(squeal.event_operating[squeal.event_order > 1], minlength=len(level))
-    texts = [f"{lv:.0f} dB\n{f / 1e3:.2f} kHz\n{plural(n, 'event')}" + (f"\n{plural(n - h, 'own tone')}" if h else "")
+    texts = [f"{lv:.0f} dB\n{f / 1e3:.2f} kHz\n{plural(n, 'event')}" + (f"\n{n - h} own" if h else "")
              for lv, f, n, h in zip(level, frequency, events, harmonics, strict=True)]
     low, high = min(level.min(), squeal.threshold - 3.0), max(level.max(), squeal.threshold + 3.0)
     with drawing(3.3, bar=True) as figure:
