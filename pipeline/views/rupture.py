@@ -27,8 +27,8 @@ _SIDES = (BLUE, RED)
 _BRIGHT = 99.7
 #: inches around the velocity field: left, right, below, above (where the colour bar lies)
 _AROUND = 0.62, 0.15, 0.52, 0.72
-#: least distance of two labels beside the axes, over the height of the axes
-_APART = 0.05
+#: least distance of two labels beside the axes, over the height of the axes, and how often they are pushed apart
+_APART, _PUSHES = 0.045, 30
 
 
 def field(rupture, frame, dpi):
@@ -162,11 +162,13 @@ def speed_over_x(rupture):
 
 
 def _apart(values, least):
-    """Places near ``values``, in their order, none closer than ``least`` to the next above it."""
+    """Places near ``values``, in their order, pushed apart until no two are much closer than ``least``."""
     places = np.array(values)
     order = np.argsort(places)
-    for low, high in zip(order, order[1:], strict=False):
-        places[high] = max(places[high], places[low] + least)
+    for _ in range(_PUSHES):
+        for low, high in zip(order, order[1:], strict=False):
+            push = 0.5 * max(least - (places[high] - places[low]), 0.0)
+            places[low], places[high] = places[low] - push, places[high] + push
     return places
 
 
