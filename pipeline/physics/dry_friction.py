@@ -1,0 +1,139 @@
+"""Dry friction for time stepping: a characteristic mu(pressure, slip speed) and three descriptions of sticking.
+
+Allgaier, Gaul, Keiper & Willner, Mode lock-in and friction modelling (1999), section 4, with the limit L = mu N, the
+friction force T on the body and the slip s of the drive against it:
+
+- ``evolution``: dT/ds = k (1 - T / L)^m for ds > 0 (mirrored for ds < 0), gradual from micro- to macroslip;
+- ``elastic``: T = k s while |T| < L, sliding at |T| = L (penalty);
+- ``rigid``: no slip while |T| < L (Lagrange multiplier).
+
+A contact that sticks is held up to ``static_factor`` times mu at slip speed 0; one that slides sticks again as soon as
+mu itself can hold it.
+"""
+
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+from numba import njit
+
+from pipeline.contract.errors import ConfigError
+from pipeline.physics.friction_law import FrictionLaw, friction_at
+
+RIGID, ELASTIC, EVOLUTION = 0, 1, 2
+DESCRIPTIONS = {"rigid": RIGID, "elastic": ELASTIC, "evolution": EVOLUTION}
+#: samples of a falling characteristic per decay speed, and decay speeds that its table spans
+_SAMPLES, _SPAN = 100, 20
+#: under the evolution rule a contact slides where the slope of T over s is below this share of its stiffness
+SLIDING_SLOPE = 0.01
+
+
+@dataclass(frozen=True)
+class Friction:
+    """Friction of all contacts.
+
+    ``law`` is read at ``distance`` (m); ``stiffness`` (c,) or () N/m is the tangential stiffness of the elastic and
+    the evolution description, ``exponent`` the m of the latter.
+    """
+
+    law: FrictionLaw
+    static_factor: float = 1.0
+    description: str = "rigid"
+    stiffness: np.ndarray | float = 0.0
+    exponent: float = 1.0
+    distance: float = 0.0
+
+    def __post_init__(self):
+        if self.description not in DESCRIPTIONS:
+            raise ConfigError("friction: description", f"one of {', '.join(DESCRIPTIONS)}", repr(self.description))
+        if np.any(self.law.friction < 0):
+            raise ConfigError("friction: coefficient", "no value below 0", f"{np.min(self.law.friction):g}")
+        if self.static_factor < 1:
+            raise ConfigError("friction: static_factor", "at least 1", f"{self.static_factor:g}")
+        if self.description != "rigid" and not np.all(np.asarray(self.stiffness) > 0):
+            raise ConfigError("friction: stiffness", f"above 0 for the {self.description} description",
+                              str(self.stiffness))
+        if not self.exponent >= 1:
+            raise ConfigError("friction: exponent", "at least 1", f"{self.exponent:g}")
+
+    def at_speed(self, speed, pressure=0.0):
+        """Coefficient at sliding speeds (m/s, either sign)."""
+        return self.law.evaluate(pressure, np.abs(speed), self.distance)[0]
+
+
+class FrictionKernel(NamedTuple):
+    """What the compiled loops need of a Friction."""
+
+    pressure: np.ndarray
+    speed: np.ndarray
+    distance: np.ndarray
+    table: np.ndarray
+    read_at: float
+    static_factor: float
+    description: int
+    stiffness: np.ndarray
+    exponent: float
+
+
+def constant(coefficient, **options):
+    """Friction with one coefficient at all pressures and speeds; ``options`` as of Friction."""
+    return Friction(FrictionLaw([0.0], [0.0], [0.0], [[[coefficient]]]), **options)
+
+
+def tabulated(speed, coefficient, **options):
+    """Friction over slip speed ``speed`` (v,) m/s from 0: linear between, constant beyond."""
+    return Friction(FrictionLaw([0.0], speed, [0.0], np.reshape(coefficient, (1, -1, 1))), **options)
+
+
+def falling(static, kinetic, decay_speed, **options):
+    """Friction kinetic + (static - kinetic) exp(-|v| / decay_speed), as a table within 2e-5 of static - kinetic."""
+    if not decay_speed > 0:
+        raise ConfigError("friction: decay_speed", "above 0", f"{decay_speed:g}")
+    over = np.linspace(0, _SPAN, _SPAN * _SAMPLES + 1)
+    return tabulated(decay_speed * over, kinetic + (static - kinetic) * np.exp(-over), **options)
+
+
+def kernel(friction, contacts):
+    """FrictionKernel of a Friction for so many contacts."""
+    table = (np.array(part) for part in friction.law.table)
+    stiffness = np.array(np.broadcast_to(np.asarray(friction.stiffness, float), contacts))
+    return FrictionKernel(*table, float(friction.distance), float(friction.static_factor),
+                          DESCRIPTIONS[friction.description], stiffness, float(friction.exponent))
+
+
+@njit(cache=True)
+def coefficient(friction, pressure, speed):
+    """mu at a pressure and a slip speed of either sign."""
+    if friction.table.size == 1:
+        return friction.table[0, 0, 0]
+    return friction_at(pressure, abs(speed), friction.read_at, friction.pressure, friction.speed, friction.distance,
+                       friction.table)[0]
+
+
+@njit(cache=True)
+def elastic_stick(force, slip, limit, stiffness):
+    """(T, dT/ds) after a slip increment from ``force``: a spring that slides at the limit."""
+    trial = force + stiffness * slip
+    if abs(trial) <= limit:
+        return trial, stiffness
+    return np.sign(trial) * limit, 0.0
+
+
+@njit(cache=True)
+def evolution_rule(force, slip, limit, stiffness, exponent):
+    """(T, dT/ds) after a slip increment from ``force``: dT/ds = k (1 - T sgn(s) / L)^m integrated exactly.
+
+    With r = 1 - T sgn(s) / L, dr/d|s| = -(k / L) r^m: r = r0 exp(-k |s| / L) for m = 1, else
+    r^(1 - m) = r0^(1 - m) + (m - 1) k |s| / L.
+    """
+    if limit <= 0.0:
+        return 0.0, 0.0
+    sign = 1.0 if slip >= 0 else -1.0
+    missing = max(1.0 - min(max(force, -limit), limit) * sign / limit, 0.0)
+    way = stiffness * abs(slip) / limit
+    if missing > 0.0:
+        if exponent == 1.0:
+            missing *= np.exp(-way)
+        else:
+            missing *= (1.0 + (exponent - 1.0) * way * missing ** (exponent - 1.0)) ** (-1.0 / (exponent - 1.0))
+    return sign * limit * (1.0 - missing), stiffness * missing**exponent

@@ -1,0 +1,315 @@
+"""Transient motion of a SlidingModel with unilateral contacts and dry friction, on its real modes with open contacts.
+
+    simulate(model, Hard(), constant(0.3), step=1e-6, duration=0.5) -> Motion
+
+Displacements count from where nothing is loaded; contact i touches where n_i q + gap_i = 0 and gains the sliding
+velocity v_i = lever_i W(t) of the drive. The linear part is stepped exactly for forces that are linear in time, so
+that without events the step matters only for contact and friction forces; ``Lagrange`` steps by Newmark's rule
+instead, for comparison. Friction acts along the tangent rows: what turns sideways with the slip (equation (3) of the
+sliding model) is left out. Nothing is accepted that has not converged.
+"""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from pipeline.contract.errors import ConfigError, ConvergenceError
+from pipeline.physics.dry_friction import RIGID, coefficient, constant, kernel
+from pipeline.physics.time_stepping_contact import (
+    HARD,
+    JAMMED,
+    LAGRANGE,
+    LARGEST_STIFFNESS,
+    OPEN,
+    PENALTY,
+    SLIP,
+    SOLVED,
+    STICK,
+    TABLE,
+    TOO_LONG,
+    UNCONVERGED,
+    NormalKernel,
+    table_force,
+)
+from pipeline.physics.time_stepping_linear import modal_system, newmark_matrices, step_matrices
+from pipeline.physics.time_stepping_march import HistoryKernel, LinearKernel, Record, march
+
+#: fewest steps in a period of the highest mode
+STEPS_PER_PERIOD = 2.5
+
+
+@dataclass(frozen=True)
+class Hard:
+    """Contacts that do not yield: Moreau-Jean, with Newton's restitution; ``gap`` () or (c,) m at rest."""
+
+    restitution: float = 0.0
+    gap: np.ndarray | float = 0.0
+
+
+@dataclass(frozen=True)
+class Penalty:
+    """N = stiffness c + damping c' at closure c, never below 0; each () or (c,), in N/m and N s/m."""
+
+    stiffness: np.ndarray | float
+    damping: np.ndarray | float = 0.0
+    gap: np.ndarray | float = 0.0
+
+
+@dataclass(frozen=True)
+class Table:
+    """N = A p(c) (1 + c' / damping_speed): ``closure`` (k,) m and ``pressure`` (k,) Pa, both rising from 0."""
+
+    closure: np.ndarray
+    pressure: np.ndarray
+    damping_speed: float = np.inf
+    gap: np.ndarray | float = 0.0
+
+
+@dataclass(frozen=True)
+class Lagrange:
+    """Contacts that do not yield, by multipliers on displacements under Newmark's rule with this ``gamma``."""
+
+    gamma: float = 0.5
+    gap: np.ndarray | float = 0.0
+
+
+@dataclass(frozen=True)
+class History:
+    """``value`` (samples,) or (samples, n) every ``interval`` s from time 0; linear between, constant beyond."""
+
+    value: np.ndarray
+    interval: float
+
+
+@dataclass(frozen=True)
+class Start:
+    """Displacement and velocity (n,) at time 0; normal and friction force (c,) where they are known."""
+
+    displacement: np.ndarray
+    velocity: np.ndarray
+    normal: np.ndarray | None = None
+    friction: np.ndarray | None = None
+
+    def kicked(self, velocity):
+        """The same with ``velocity`` (n,) added."""
+        return Start(self.displacement, self.velocity + velocity, self.normal, self.friction)
+
+
+@dataclass(frozen=True)
+class Motion:
+    """What is kept at ``time`` (r,): sensors (s, r), contacts (c, r), energies (r,) in J since time 0.
+
+    ``normal_force`` and ``friction_force`` are means since the record before; ``status`` is 0 open, 1 sticking, 2
+    sliding; ``status_share`` (c, 3) counts every step. ``stored`` is kinetic and strain energy of bodies and joints;
+    ``sliding_loss`` the work of friction on the slip; ``normal_work`` and ``friction_work`` those of the contact
+    forces on the bodies.
+    """
+
+    time: np.ndarray
+    displacement: np.ndarray
+    velocity: np.ndarray
+    gap: np.ndarray
+    normal_force: np.ndarray
+    friction_force: np.ndarray
+    slip: np.ndarray
+    status: np.ndarray
+    status_share: np.ndarray
+    stored: np.ndarray
+    input_work: np.ndarray
+    damping_loss: np.ndarray
+    normal_work: np.ndarray
+    friction_work: np.ndarray
+    sliding_loss: np.ndarray
+    end: Start
+
+    @property
+    def imbalance(self):
+        """Largest error of the energy balance over the largest energy that has passed; 0 without any."""
+        given = self.input_work + self.normal_work + self.friction_work - self.damping_loss
+        passed = max(abs(e).max() for e in (self.stored, self.input_work, self.damping_loss, self.friction_work))
+        return abs(self.stored - self.stored[0] - given).max() / passed if passed else 0.0
+
+
+def simulate(model, law, friction=None, *, step, duration, drive=None, inputs=None, record_every=1, start=None,
+             system=None, book=True):
+    """Motion of a SlidingModel over ``duration`` s in steps of ``step`` s, every ``record_every``-th kept.
+
+    ``law``: Hard, Penalty, Table or Lagrange; ``friction``: Friction, none by default; ``drive``: speed of the drive
+    in rad/s, a number or a History, by default that of the model; ``inputs``: forces (i,) N on the inputs, or their
+    History; ``start``: Start, by default at rest in the origin; ``system``: the ModalSystem of the model, where many
+    runs share it; ``book=False`` leaves out the work of inputs and the loss of dampers. Raises ConfigError for a step
+    too long, ConvergenceError with time and contact where a step has no solution.
+    """
+    steps = round(duration / step)
+    if not step > 0 or steps < 1 or record_every < 1:
+        raise ConfigError("time stepping: step", "a positive step, at most as long as the motion",
+                          f"{step:g} s for {duration:g} s")
+    system = modal_system(model) if system is None else system
+    linear = _linear(model, system, law, friction or constant(0.0), step)
+    normal, dry = _normal_kernel(law, model.contacts), kernel(friction or constant(0.0), len(model.contacts.area))
+    _check(system, linear, normal, dry, model, step)
+    pairs, force, status = _begin(model, system, normal, dry, start, _speed_at_start(model, drive))
+    record = _empty(linear, steps // record_every + 1)
+    code, number, contact = march(
+        linear, normal, dry, _own(model.contacts.lever),
+        _history(model.speed if drive is None else drive, 1, "drive"), _inputs(model, inputs), pairs, force, status,
+        float(step), steps, int(record_every), bool(book), record)
+    if code != SOLVED:
+        raise _failure(code, number * step, contact, step)
+    return _motion(record, step * record_every, steps, Start(*system.from_pairs(pairs), *force))
+
+
+def imposed(model, joint):
+    """The model with one more input, the displacement in m of the far end of ``joint``: the force k u along its row."""
+    if joint not in model.joints.name:
+        raise ConfigError("time stepping: joint", f"one of {', '.join(model.joints.name)}", repr(joint))
+    k = model.joints.name.index(joint)
+    row = model.joints.stiffness[k] * model.joints.rows[k]
+    return replace(model, input_name=(*model.input_name, f"{joint}_imposed"),
+                   input_rows=np.vstack((model.input_rows, row)))
+
+
+def _linear(model, system, law, friction, step):
+    """LinearKernel: rows of the contacts and inputs, seen and driven through one step."""
+    contacts, count = model.contacts, len(model.contacts.area)
+    matrices = (newmark_matrices(system, step, law.gamma) if isinstance(law, Lagrange)
+                else step_matrices(system, step))
+    forced = system.driven(np.vstack((contacts.normal, contacts.tangent, model.input_rows)))
+    first, last = (np.einsum("bxy,ryb->rxb", matrix, forced) for matrix in matrices[1:])
+    hold = np.array([isinstance(law, Hard), kernel(friction, count).description == RIGID])
+    if isinstance(law, Lagrange):
+        hold[:] = False
+    for f in np.flatnonzero(hold):
+        own = slice(f * count, (f + 1) * count)
+        last[own], first[own] = first[own] + last[own], 0.0
+    rows = np.concatenate([system.observed(r) for r in (contacts.normal, contacts.tangent)])
+    response = np.einsum("oibx,fjbx->ofij", rows, last[:2 * count].reshape(2, count, *last.shape[1:]))
+    energy, power = _forms(system)
+    arrays = (np.moveaxis(matrices[0], 0, 2), first, last, rows, response, system.observed(model.input_rows)[0],
+              system.observed(model.sensor_rows), hold.astype(float), system.squared, np.diag(system.damping), energy,
+              power)
+    return LinearKernel(*(_own(a) for a in arrays))
+
+
+def _own(values):
+    """A writable, contiguous copy: one type of array for all compiled calls."""
+    return np.array(values, dtype=float, order="C")
+
+
+def _forms(system):
+    """Quadratic forms (2m, 2m) of energy and loss in coupled pairs; empty where the modes are the pairs."""
+    if not system.coupled:
+        return np.empty((0, 0)), np.empty((0, 0))
+    place, speed = np.split(system.state.reshape(len(system.state), -1), 2)
+    drag = (system.damping + system.damping.T) / 2
+    return (speed.T @ speed + place.T @ (system.squared[:, None] * place)) / 2, speed.T @ drag @ speed
+
+
+def _normal_kernel(law, contacts):
+    count = len(contacts.area)
+
+    def each(value):
+        return _own(np.broadcast_to(np.asarray(value, float), count))
+
+    kind = {Hard: HARD, Penalty: PENALTY, Table: TABLE, Lagrange: LAGRANGE}[type(law)]
+    if isinstance(law, Table) and (len(law.closure) < 2 or law.closure[0] != 0 or law.pressure[0] != 0
+                                   or np.any(np.diff(law.closure) <= 0) or np.any(np.diff(law.pressure) <= 0)):
+        raise ConfigError("time stepping: normal law", "closure and pressure that rise from 0", "another table")
+    if isinstance(law, Hard) and not 0 <= law.restitution <= 1:
+        raise ConfigError("time stepping: restitution", "between 0 and 1", f"{law.restitution:g}")
+    if isinstance(law, Lagrange) and not 0.5 <= law.gamma <= 1:
+        raise ConfigError("time stepping: gamma", "between 0.5 and 1", f"{law.gamma:g}")
+    if isinstance(law, Penalty) and not np.all(np.asarray(law.stiffness) > 0):
+        raise ConfigError("time stepping: contact stiffness", "above 0", f"{np.min(law.stiffness):g} N/m")
+    table = [_own(getattr(law, name, [0.0, 1.0])) for name in ("closure", "pressure")]
+    return NormalKernel(kind, each(law.gap), each(contacts.area), each(getattr(law, "stiffness", 0.0)),
+                        each(getattr(law, "damping", 0.0)), *table, float(getattr(law, "damping_speed", np.inf)),
+                        float(getattr(law, "restitution", 0.0)))
+
+
+def _check(system, linear, normal, dry, model, step):
+    """Refuse, before the first step, one that is too long, and contacts that nothing can move."""
+    if normal.kind != LAGRANGE and system.highest * step > 2 * np.pi / STEPS_PER_PERIOD:
+        longest = 2 * np.pi / STEPS_PER_PERIOD / system.highest
+        raise ConfigError("time stepping: step", f"at most {longest:.3g} s, {STEPS_PER_PERIOD:g} steps in a period of"
+                          f" the highest mode ({system.highest / (2 * np.pi):.4g} Hz)", f"{step:.3g} s",
+                          "shorten the step, or leave out the highest modes")
+    for i in range(len(normal.gap)):
+        if not linear.response[1, 0, i, i] > 0:
+            raise ConfigError(f"time stepping: contact {i}", "bodies that its normal force moves", "none")
+        found = [normal.stiffness[i] * linear.response[0, 0, i, i]]
+        if dry.description != RIGID:
+            found.append(dry.stiffness[i] * linear.response[2, 1, i, i])
+        if max(found) > LARGEST_STIFFNESS:
+            longest = step * np.sqrt(LARGEST_STIFFNESS / max(found))
+            raise ConfigError("time stepping: step", f"at most about {longest:.2g} s for the stiffness of contact {i}",
+                              f"{step:.3g} s", "shorten the step, soften the contact, or take hard contacts")
+
+
+def _begin(model, system, normal, dry, start, speed):
+    """Pairs (2, m), forces (2, c) and status (c,) at time 0."""
+    contacts, rest = model.contacts, np.zeros(model.size)
+    start = Start(rest, rest) if start is None else start
+    gap = normal.gap + contacts.normal @ start.displacement
+    rate, slip = contacts.normal @ start.velocity, contacts.lever * speed - contacts.tangent @ start.velocity
+    force = np.zeros((2, len(gap)))
+    if normal.kind == PENALTY:
+        force[0] = np.where(gap < 0, np.maximum(-normal.stiffness * gap - normal.damping * rate, 0.0), 0.0)
+    elif normal.kind == TABLE:
+        force[0] = [table_force(normal, i, -gap[i], -rate[i])[0] for i in range(len(gap))]
+    elif start.normal is not None:
+        force[0] = start.normal
+    closed = (gap <= 0) | (force[0] > 0)
+    mu = [coefficient(dry, force[0, i] / contacts.area[i], slip[i]) for i in range(len(gap))]
+    force[1] = np.sign(slip) * mu * force[0] if start.friction is None else start.friction
+    status = np.where(closed, np.where(slip == 0, STICK, SLIP), OPEN).astype(np.int64)
+    return _own(system.to_pairs(start.displacement, start.velocity)), force, status
+
+
+def _speed_at_start(model, drive):
+    if drive is None:
+        return model.speed
+    return float(np.ravel(drive.value)[0]) if isinstance(drive, History) else float(drive)
+
+
+def _history(given, width, where):
+    history = given if isinstance(given, History) else History(np.reshape(given, (1, width)), 1.0)
+    value = _own(np.reshape(history.value, (len(history.value), -1)))
+    if value.shape[1] != width or not np.isfinite(value).all() or not history.interval > 0:
+        raise ConfigError(f"time stepping: {where}", f"finite samples of {width} values at a positive interval",
+                          f"{value.shape[1]} values at {history.interval:g} s")
+    return HistoryKernel(value, float(history.interval))
+
+
+def _inputs(model, inputs):
+    count = len(model.input_rows)
+    if inputs is not None and not isinstance(inputs, History) and np.size(inputs) != count:
+        raise ConfigError("time stepping: inputs", f"one force for each of {count} inputs", f"{np.size(inputs)}")
+    return _history(np.zeros(count) if inputs is None else inputs, count, "inputs")
+
+
+def _empty(linear, kept):
+    sensors, contacts = linear.sensors.shape[1], linear.rows.shape[1]
+    return Record(*np.zeros((2, sensors, kept)), *np.zeros((4, contacts, kept)),
+                  np.zeros((contacts, kept), np.int8), np.zeros(kept), np.zeros((5, kept)), np.zeros((contacts, 3)))
+
+
+def _motion(record, interval, steps, end):
+    return Motion(interval * np.arange(len(record.stored)), record.displacement, record.velocity, record.gap,
+                  record.normal, record.friction, record.slip, record.status, record.share / steps, record.stored,
+                  *record.work, end)
+
+
+def _failure(code, time, contact, step):
+    """The error that says what failed, when and where."""
+    where = f"time stepping at t = {time:.6g} s, contact {contact}"
+    if code == TOO_LONG:
+        return ConfigError(where, "at least 8 steps in a period of the contact", f"steps of {step:.3g} s",
+                           "shorten the step, or soften the contact")
+    if code == JAMMED:
+        return ConvergenceError(where, "contact forces that stop the approach", "friction that jams the contact",
+                                "lower friction, change the tilt, or let the contact yield")
+    if code == UNCONVERGED:
+        return ConvergenceError(where, "contact forces that settle", "none after the last sweep", "take a shorter step")
+    return ConvergenceError(f"time stepping at t = {time:.6g} s", "a finite motion", "one that grows without bound",
+                            "take a shorter step, or look for what drives the motion")

@@ -1,0 +1,165 @@
+"""The linear part of a sliding model for time stepping: pairs of states that evolve by themselves, and their step.
+
+Real modes q of the supported system with open contacts: q'' + D q' + W q = modal force. Where D is diagonal, the pair
+(q_j, q_j') of each mode evolves by itself; modes that D couples are split by the eigenvectors of their state matrix
+into pairs (real and imaginary part of a complex mode, or two real ones). Every pair x obeys x' = A x + B f, and its
+step is exact for forces that are linear in time (Nigam & Jennings 1969), in all limits: w = 0, undamped, over-damped.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.linalg import eigh, expm
+from scipy.sparse.csgraph import connected_components
+
+from pipeline.contract.errors import ConfigError
+
+#: share of the largest squared frequency, and of the largest damping, that counts as rounding
+_ROUNDING = 1e-12
+_COUPLING = 1e-9
+#: worst conditioning of the eigenvectors of coupled modes
+_CONDITION = 1e10
+
+
+@dataclass(frozen=True)
+class ModalSystem:
+    """m real modes and their m pairs of states.
+
+    ``squared`` (m,) rad^2/s^2, ``damping`` (m, m) 1/s, ``shape`` (n, m) mass-normalised, ``momentum`` (m, n) =
+    shape^T M, which takes motions to modes; ``blocks`` (m, 2, 2) the A of the pairs; ``state`` (2m, 2, m) takes pairs
+    to (q, q'), ``pairs`` (2, m, 2m) back; ``coupled``: whether pairs differ from modes.
+    """
+
+    squared: np.ndarray
+    damping: np.ndarray
+    shape: np.ndarray
+    momentum: np.ndarray
+    blocks: np.ndarray
+    state: np.ndarray
+    pairs: np.ndarray
+    coupled: bool
+
+    @property
+    def highest(self):
+        """Highest natural frequency, rad/s."""
+        return float(np.sqrt(abs(self.squared).max(initial=0.0)))
+
+    def observed(self, rows):
+        """(2, r, 2, m): displacement and velocity of ``rows`` (r, n) from the pairs."""
+        modal, half = rows @ self.shape, len(self.squared)
+        return np.array([np.einsum("rj,jab->rab", modal, part) for part in (self.state[:half], self.state[half:])])
+
+    def driven(self, rows):
+        """(r, 2, m): rate of the pairs per unit force along each of ``rows`` (r, n)."""
+        return np.einsum("abj,rj->rab", self.pairs[..., len(self.squared):], rows @ self.shape)
+
+    def to_pairs(self, displacement, velocity):
+        """Pairs (2, m) of a displacement and a velocity (n,)."""
+        return self.pairs @ np.concatenate((self.momentum @ displacement, self.momentum @ velocity))
+
+    def from_pairs(self, pairs):
+        """(displacement, velocity), (n,) each, of pairs (2, m)."""
+        state = np.einsum("jab,ab->j", self.state, pairs)
+        return [self.shape @ half for half in np.split(state, 2)]
+
+
+def modal_system(model, damping="full", highest=np.inf):
+    """ModalSystem of a SlidingModel with its joints and without its contacts.
+
+    ``damping`` is full, or diagonal to drop what couples the modes; ``highest`` (Hz) leaves out the modes above it.
+    Raises ConfigError where the mass is not positive definite or coupled modes are critically damped.
+    """
+    mass, drag, stiffness = model.supported()
+    try:
+        squared, shape = eigh((stiffness + stiffness.T) / 2, mass)
+    except np.linalg.LinAlgError:
+        raise ConfigError("time stepping: mass", "a positive definite matrix", "a massless motion",
+                          "give every coordinate a mass") from None
+    kept = squared <= (2 * np.pi * highest) ** 2
+    squared, shape = squared[kept], shape[:, kept]
+    squared = np.where(abs(squared) <= _ROUNDING * abs(squared).max(initial=0.0), 0.0, squared)
+    modal = shape.T @ drag @ shape
+    if damping == "diagonal":
+        modal = np.diag(np.diag(modal))
+    return ModalSystem(squared, modal, shape, shape.T @ mass, *_pairs(squared, modal))
+
+
+def step_matrices(system, step):
+    """(E, first, last), each (m, 2, 2): exact step of the pairs, x -> E x + first B f + last B f next."""
+    count = len(system.squared)
+    scale = np.ones((count, 2))
+    if not system.coupled:
+        scale[:, 1] = 1 / step      # (q, h q'): the entries of the exponent are of one size
+    augmented = np.zeros((count, 6, 6))
+    augmented[:, :2, :2] = step * system.blocks * scale[:, None, :] / scale[:, :, None]
+    augmented[:, [0, 1, 2, 3], [2, 3, 4, 5]] = 1.0
+    grown = expm(augmented)[:, :2] if count else augmented[:, :2]
+    back = scale[:, :, None] / scale[:, None, :]
+    once, ramp = step * grown[..., 2:4] * back, step * grown[..., 4:6] * back
+    return grown[..., :2] * back, once - ramp, ramp
+
+
+def newmark_matrices(system, step, gamma):
+    """(E, first, last) as of ``step_matrices``, by Newmark's rule with beta = (gamma + 1/2)^2 / 4.
+
+    v1 = v0 + h ((1 - gamma) a0 + gamma a1), q1 = q0 + h v0 + h^2 ((1/2 - beta) a0 + beta a1), where a = f - D v - W q;
+    gamma = 1/2 is the trapezoidal rule, more damps the highest modes. Raises ConfigError for coupled modes.
+    """
+    if system.coupled:
+        raise ConfigError("time stepping: lagrange", "modes that damping does not couple", "coupled modes",
+                          "take diagonal modal damping")
+    beta, pull, drag = (gamma + 0.5) ** 2 / 4, system.squared, np.diag(system.damping)
+    inertia = 1 + gamma * step * drag + beta * step**2 * pull
+    matrices = []
+    for q, v, force, force_next in np.eye(4):
+        a = force - drag * v - pull * q
+        ahead, fast = q + step * v + step**2 * (0.5 - beta) * a, v + step * (1 - gamma) * a
+        a_next = (force_next - drag * fast - pull * ahead) / inertia
+        matrices.append([ahead + step**2 * beta * a_next, fast + step * gamma * a_next])
+    step_matrix = np.moveaxis(np.array(matrices), 2, 0).swapaxes(1, 2)      # (m, 2, 4)
+    first, last = (np.stack([np.zeros_like(step_matrix[..., 0]), step_matrix[..., k]], axis=2) for k in (2, 3))
+    return step_matrix[..., :2], first, last
+
+
+def _pairs(squared, damping):
+    """(blocks, state, pairs, coupled): modes that damping does not couple stay, the others are split."""
+    count = len(squared)
+    blocks, state, pairs = np.zeros((count, 2, 2)), np.zeros((2 * count, 2, count)), np.zeros((2, count, 2 * count))
+    linked = abs(damping) > _COUPLING * abs(damping).max(initial=0.0)
+    groups, label = connected_components(linked, directed=False)
+    for group in range(groups):
+        own = np.flatnonzero(label == group)
+        both = np.concatenate((own, own + count))
+        matrix = np.block([[np.zeros((len(own),) * 2), np.eye(len(own))],
+                           [-np.diag(squared[own]), -damping[np.ix_(own, own)]]])
+        if len(own) == 1:
+            split, blocks[own[0]] = np.eye(2), matrix
+        else:
+            split, blocks[own] = _split(matrix)
+        placed = np.arange(2 * len(own)).reshape(len(own), 2)   # columns of the pairs of the group
+        inverse = np.linalg.inv(split)
+        for place, pair in zip(own, placed, strict=True):
+            state[both, :, place] = split[:, pair]
+            pairs[:, place, both] = inverse[pair]
+    return blocks, state, pairs, groups < count
+
+
+def _split(matrix):
+    """(basis, blocks): real basis (2g, 2g) in which ``matrix`` is block diagonal with the blocks (g, 2, 2)."""
+    value, vector = np.linalg.eig(matrix)
+    upper, real = np.flatnonzero(value.imag > 0), np.flatnonzero(value.imag == 0)
+    columns, blocks = [], []
+    for k in upper:
+        columns += [vector[:, k].real, vector[:, k].imag]
+        blocks.append([[value[k].real, value[k].imag], [-value[k].imag, value[k].real]])
+    for one, other in real.reshape(-1, 2):
+        columns += [vector[:, one].real, vector[:, other].real]
+        blocks.append(np.diag(value[[one, other]].real))
+    basis = np.column_stack(columns)
+    rows = np.linalg.norm(basis, axis=1, keepdims=True)
+    condition = np.linalg.cond(basis / np.where(rows > 0, rows, 1.0))
+    if not condition < _CONDITION:
+        raise ConfigError("time stepping: damping", "coupled modes with distinct roots",
+                          f"eigenvectors of condition {condition:.2g}",
+                          "change a damper a little, or take diagonal modal damping")
+    return basis, np.array(blocks)
