@@ -146,14 +146,16 @@ class Structure:
     piston_area: Array = quantity("m^2", "", "pad area on which the nominal pressure acts; piston force = pressure * area")
 
 
-@product(version=2)
+@product(version=3)
 class ReducedModel:
     """The reduced sliding model: everything that a solver or an effect needs of a sliding system.
 
     Equation of motion, s = sliding, q = reduced coordinates:
         M q'' + (C + speed G + sum_j c_j b_j b_j^T) q'
               + (K + speed^2 Kc + sum_j k_j b_j b_j^T) q = sum_i (n_i N_i + t_i T_i) + inputs,
-    N_i >= 0 the contact force on the pad along its normal row n_i, T_i = mu N_i along its tangent row t_i.
+    N_i >= 0 the contact force on the pad along its normal row n_i, T_i = mu N_i along its tangent row t_i. A contact
+    whose normal row is zero is a friction joint: nothing presses it but its preload. Without a normal contact law
+    (size 0) contacts stay as their preload state says; those with a contact_stiffness of 0 as well are hard.
     """
 
     body_name: Array = text("body", "bodies in order")
@@ -171,6 +173,7 @@ class ReducedModel:
     contact_position: Array = quantity("m", "contact xyz", "centroid of the contact patch")
     contact_area: Array = quantity("m^2", "contact", "area of the contact patch")
     contact_lever: Array = quantity("m", "contact", "sliding speed per speed of the drive: the radius on a disc, 1 m on a belt")
+    contact_gap: Array = quantity("m", "contact", "gap where nothing is loaded, negative where parts are set to press")
     contact_normal: Array = quantity("1", "contact coordinate", "normal rows, pad minus disc, positive opens")
     contact_tangent: Array = quantity("1", "contact coordinate", "tangent rows, pad minus disc, along sliding")
     contact_lateral: Array = quantity("1", "contact coordinate", "lateral rows, pad minus disc, radial")
@@ -182,10 +185,16 @@ class ReducedModel:
     input_name: Array = text("input", "inputs, e.g. piston")
     input_rows: Array = quantity("1", "input coordinate", "input rows: generalised force per unit input force")
     input_area: Array = quantity("m^2", "input", "input force per nominal pad pressure")
+    history_interval: Array = quantity("s", "", "time between the samples of the histories, which begin at time 0")
+    input_history: Array = quantity("N", "sample input", "input forces over time, added to the former; none = constant")
+    drive_history: Array = quantity("rad/s", "drive_sample", "speed of the drive over time; none = constant")
     sensor_name: Array = text("sensor", "sensor names")
     sensor_position: Array = quantity("m", "sensor xyz", "sensor positions")
     sensor_direction: Array = quantity("1", "sensor xyz", "sensor directions")
     sensor_rows: Array = quantity("1", "sensor coordinate", "sensor displacement rows")
+    sensor_quantity: Array = text("sensor", "what it measures: displacement, velocity or acceleration")
+    sensor_unit: Array = text("sensor", "unit of its reading")
+    sensor_gain: Array = quantity("1", "sensor", "its reading in that unit per SI unit of its quantity")
     visible_position: Array = quantity("m", "visible xyz", "surface nodes kept for pictures")
     visible_body: Array = count("visible", "body of the surface nodes")
     visible_face: Array = count("face corner", "quadrilaterals of the surface, row numbers of visible_position")
@@ -196,13 +205,13 @@ class ReducedModel:
 class ComplexModes:
     """Complex modes of the sliding system over friction, and at each operating point of the map."""
 
-    pressure: Array = quantity("Pa", "pressure", "nominal pad pressure")
+    pressure: Array = quantity("Pa", "pressure", "nominal pressure of the state")
     friction: Array = quantity("1", "friction", "friction coefficient of the sweep")
     root: Array = quantity("1/s", "pressure friction branch", "s = sigma + i omega, followed over friction", complex)
     real_frequency: Array = quantity("Hz", "pressure branch", "frequencies without friction and damping")
     operating_pressure: Array = quantity("Pa", "operating", "pressure of the operating point")
-    operating_speed: Array = quantity("rad/s", "operating", "disc speed of the operating point")
-    operating_friction: Array = quantity("1", "operating", "friction coefficient from the map, mean weighted by normal force")
+    operating_speed: Array = quantity("rad/s", "operating", "speed of the drive at the operating point")
+    operating_friction: Array = quantity("1", "operating", "friction coefficient, mean weighted by normal force")
     operating_force: Array = quantity("N", "operating contact", "normal contact force in steady sliding, 0 when open")
     operating_open: Array = count("operating", "contacts that steady sliding leaves open")
     operating_root: Array = quantity("1/s", "operating branch", "roots at the operating point", complex)
@@ -280,11 +289,49 @@ class Squeal:
 
 
 @product(version=1)
+class Transient:
+    """Motion with unilateral contact and dry friction, and the cycle that it ends in, per operating point."""
+
+    pressure: Array = quantity("Pa", "operating", "nominal pressure")
+    speed: Array = quantity("rad/s", "operating", "speed of the drive")
+    time: Array = quantity("s", "time", "time after the start")
+    sensor_name: Array = text("sensor", "sensor names")
+    sensor_position: Array = quantity("m", "sensor xyz", "sensor positions")
+    displacement: Array = quantity("m", "operating sensor time", "displacement at the sensors less that at time 0", np.float32)
+    velocity: Array = quantity("m/s", "operating sensor time", "velocity at the sensors", np.float32)
+    gap: Array = quantity("m", "operating contact time", "gap, negative where the contact is pressed in", np.float32)
+    normal_force: Array = quantity("N", "operating contact time", "normal force, mean since the sample before", np.float32)
+    friction_force: Array = quantity("N", "operating contact time", "friction force along sliding, mean since the sample before", np.float32)
+    slip: Array = quantity("m/s", "operating contact time", "slip velocity, drive less body", np.float32)
+    status: Array = count("operating contact time", "0 open, 1 sticking, 2 sliding")
+    status_share: Array = quantity("1", "operating contact kind", "share of the steps open, sticking, sliding")
+    stored_energy: Array = quantity("J", "operating time", "kinetic and strain energy of bodies and joints")
+    input_work: Array = quantity("J", "operating time", "work of the inputs since time 0")
+    damping_loss: Array = quantity("J", "operating time", "loss in dampers since time 0")
+    normal_work: Array = quantity("J", "operating time", "work of the normal forces on the bodies since time 0")
+    friction_work: Array = quantity("J", "operating time", "work of the friction forces on the bodies since time 0")
+    sliding_loss: Array = quantity("J", "operating time", "work of the friction forces on the slip since time 0")
+    imbalance: Array = quantity("1", "operating", "largest error of the energy balance over the largest energy that passed")
+    step: Array = quantity("s", "", "time step")
+    window: Array = quantity("s", "", "end of the motion from which spectra and cycles are taken")
+    frequency: Array = quantity("Hz", "frequency", "frequency axis of the spectra")
+    velocity_spectrum: Array = quantity("m^2/s^2/Hz", "operating sensor frequency", "one-sided power spectral density in the window")
+    cycle_frequency: Array = quantity("Hz", "operating sensor", "dominant frequency in the window, 0 at rest")
+    cycle_amplitude: Array = quantity("m/s", "operating sensor", "velocity amplitude in the window")
+    cycle_drift: Array = quantity("1", "operating sensor", "spread of the amplitude over quarters of the window")
+    settled: Array = count("operating sensor", "1 where the cycle has settled in the window")
+    growth_rate: Array = quantity("1/s", "operating sensor", "growth rate of the small motion before, 0 where none was seen")
+    growth_rate_std: Array = quantity("1/s", "operating sensor", "standard error of the growth rate")
+    grew: Array = count("operating sensor", "1 where the motion grew from small to its cycle")
+    harmonic_amplitude: Array = quantity("m/s", "operating sensor harmonic", "velocity amplitude at 1, 2, ... times the dominant frequency")
+
+
+@product(version=1)
 class Comparison:
     """Published values beside ours, row by row."""
 
     row: Array = text("row", "name of the quantity")
-    section: Array = text("row", "part of the paper: friction, modes, multibody, squeal, bench")
+    section: Array = text("row", "part of the source, as its reference file calls it")
     unit: Array = text("row", "unit in which the row is shown")
     published: Array = quantity("1", "row", "published value in that unit (0 where none)")
     published_known: Array = count("row", "1 where the paper gives a value")

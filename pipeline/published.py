@@ -17,8 +17,8 @@ class Published(Section):
     """One published fact: a value with its tolerance, or a statement, perhaps with bounds that it implies."""
 
     key: str = Field(pattern=r"^[a-z][a-z0-9_]*$")
-    part: Literal["friction", "modes", "multibody", "squeal", "bench"]
-    role: Literal["input", "simulation", "test", "derived", "condition"]
+    part: str = Field(min_length=1)
+    role: Literal["input", "simulation", "test", "derived", "condition", "closed_form"]
     quantity: str = Field(min_length=1)
     value: float | None = None
     unit: str = "1"

@@ -3,15 +3,17 @@
 from dataclasses import fields
 from fnmatch import fnmatch
 
-from pipeline.computed.friction import friction_rows
-from pipeline.computed.modes import disc_mode_rows, squeal_rows, system_mode_rows
-from pipeline.computed.motion import motion_rows
+from pipeline.computed.disc_brake import disc_brake_rows
 from pipeline.contract import ConfigError, Context, InputFile, Section, option, stage
 from pipeline.products import Comparison, ComplexModes, MicroFriction, Multibody, Squeal, Structure
 from pipeline.published import load
 
-#: size in SI of the printed units that the chain computes
-_SIZE = {"1": 1.0, "%": 0.01, "um": 1e-6, "MPa": 1e6, "rad/s": 1.0, "Hz": 1.0}
+#: product that only one system has -> rows (products, facts, known) -> {key: Ours}; the first that is there counts
+SYSTEMS = {"structure": disc_brake_rows}
+
+#: size in SI of the printed units that the chains compute
+_SIZE = {"1": 1.0, "%": 0.01, "um": 1e-6, "mm": 1e-3, "m": 1.0, "us": 1e-6, "ms": 1e-3, "s": 1.0, "1/s": 1.0, "Hz": 1.0,
+         "rad/s": 1.0, "mm/s": 1e-3, "m/s": 1.0, "N": 1.0, "kg": 1.0, "MPa": 1e6, "GPa": 1e9}
 _REASON = {"condition": "a condition of the authors' work, not a result", "derived": "follows from other rows",
            "input": "an input of the authors, not a result"}
 _UNCOMPUTED = "the chain does not compute it"
@@ -31,8 +33,8 @@ def _check(sections):
 
 
 @stage(check=_check)
-def comparison(micro_friction: MicroFriction, structure: Structure, complex_modes: ComplexModes, multibody: Multibody,
-               squeal: Squeal, settings: Settings, context: Context) -> Comparison:
+def comparison(micro_friction: MicroFriction | None, structure: Structure | None, complex_modes: ComplexModes | None,
+               multibody: Multibody | None, squeal: Squeal | None, settings: Settings, context: Context) -> Comparison:
     """Put the published numbers beside ours.
 
     A statement without a number is compared where it puts bounds on a number of ours. Inputs are shown
@@ -40,19 +42,25 @@ def comparison(micro_friction: MicroFriction, structure: Structure, complex_mode
     another one is shown as printed, and the row is not counted.
 
     Method:
-    Published facts come from {reference}; each of our values is computed from the products of this case. Table 1 is
-    paired by multiplicity, by nodal diameters where they can be inferred, and then by frequency.
+    Published facts come from {reference}; each of our values is computed from the products of this case. Modes in
+    tables are paired by multiplicity, by nodal diameters where they can be inferred, and then by frequency.
     """
     facts = load(settings.reference) if settings.reference else ()
     tuned = _tuned(settings.tuned or {}, facts)
     known = {fact.key: fact.value * _SIZE[fact.unit] for fact in facts if fact.value is not None and fact.unit in _SIZE}
-    ours = {**friction_rows(micro_friction, known), **motion_rows(multibody, known),
-            **disc_mode_rows(structure, facts), **system_mode_rows(complex_modes, known), **squeal_rows(squeal, known)}
+    products = {"micro_friction": micro_friction, "structure": structure, "complex_modes": complex_modes,
+                "multibody": multibody, "squeal": squeal}
+    ours = _rows_of(products)(products, facts, known)
     for fact in facts:
         if fact.key in ours and fact.unit not in _SIZE:
             raise ConfigError(f"{settings.reference}: {fact.key}.unit", f"one of {', '.join(_SIZE)}", repr(fact.unit))
     rows = [_row(fact, ours.get(fact.key), tuned.get(fact.key, "")) for fact in facts]
     return Comparison(**{field.name: [row[field.name] for row in rows] for field in fields(Comparison)})
+
+
+def _rows_of(products):
+    """The function that computes the rows of the system whose product is there; no rows for an unknown one."""
+    return next((rows for name, rows in SYSTEMS.items() if products[name] is not None), lambda *_: {})
 
 
 def _tuned(patterns, facts):

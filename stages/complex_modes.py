@@ -1,6 +1,8 @@
-"""Complex modes of the brake over friction, and at the operating points of the friction map.
+"""Complex modes of the sliding system over friction, and at its operating points.
 
-Friction moves the load between the contacts, so the system is linearised about steady sliding with that friction.
+Friction moves the load between the contacts, so the system is linearised about steady sliding with that friction. It
+comes from the friction map, or from the settings where the chain has none. Contacts without a normal law stay as their
+preload state says; hard ones would need constraints instead of stiffnesses.
 A root s = sigma + i omega with sigma > 0 is a squeal candidate: it says which motion can grow, not how loud it ends up.
 """
 
@@ -10,7 +12,7 @@ from functools import partial
 import numpy as np
 from scipy.linalg import eigvalsh
 
-from pipeline.contract import Context, Quantities, Quantity, Section, option, stage
+from pipeline.contract import ConfigError, Context, Quantities, Quantity, Section, option, stage
 from pipeline.physics.friction_corrections import FrictionBasis, friction_basis
 from pipeline.physics.friction_law import FrictionLaw
 from pipeline.physics.quadratic_modes import follow_roots, quadratic_modes, quadratic_roots, upper_half
@@ -19,7 +21,9 @@ from pipeline.physics.sliding_state import (
     ClosureResponse,
     SlidingState,
     closure_response,
+    falling_with_speed,
     from_map,
+    given_state,
     model_about,
     steady_sliding,
 )
@@ -29,11 +33,21 @@ from pipeline.products import ComplexModes, FrictionMap, ReducedModel
 _CHUNK = 7
 
 
+class Friction(Section):
+    """Friction that depends on the slip speed alone: coefficient + (static - coefficient) exp(-speed / decay_speed)."""
+
+    coefficient: float = option(..., "coefficient of friction at high slip speed", ge=0)
+    static: float | None = option(None, "coefficient at slip speed 0; none = as at high speed", ge=0)
+    decay_speed: Quantity("m/s", gt=0) = option("0.1 m/s", "slip speed over which the difference falls to 37 %")
+
+
 class Settings(Section):
     """Friction sweep, operating points and the terms of the linearised system."""
 
-    speeds: Quantities("rad/s", gt=0) = option(
-        ("8.5 rad/s", "10.25 rad/s", "12 rad/s"), "disc speeds of the operating points; the sweep runs at their mean")
+    speeds: Quantities("rad/s") = option(
+        ("8.5 rad/s", "10.25 rad/s", "12 rad/s"),
+        "speeds of the drive at the operating points, a belt being a drum of radius 1 m; the sweep runs at their mean")
+    friction: Friction | None = option(None, "friction at the operating points where the chain has no friction map")
     friction_max: float = option(0.8, "last friction coefficient of the sweep, which starts at 0", gt=0)
     friction_steps: int = option(41, "points of the sweep, both ends included", ge=2)
     frequency_max: Quantity("Hz", gt=0) = option("20 kHz", "real modes below it span the motion")
@@ -49,12 +63,21 @@ class Settings(Section):
     neutral: float = option(1e-6, "growth below this share of abs(s) counts as neither growth nor decay", ge=0)
 
 
+def _check(sections):
+    """Refuse friction that is given twice or not at all, before anything is computed."""
+    given = sections["complex_modes"].friction is not None
+    if given == ("friction_map" in sections):
+        raise ConfigError("complex_modes.friction", "friction from one source",
+                          "a friction map in the chain as well" if given else "neither this nor a friction map",
+                          "leave it out" if given else "add it, such as {coefficient: 0.4}")
+
+
 @dataclass(frozen=True)
 class _State:
     """One pressure: the model without friction, at the speed of the sweep, projected on its basis."""
 
     model: SlidingModel
-    response: ClosureResponse
+    response: ClosureResponse | None
     input_force: np.ndarray
     basis: FrictionBasis
 
@@ -72,29 +95,30 @@ class _Outcome:
 
     @property
     def mean_friction(self):
-        """Friction coefficient, mean over the contacts weighted by their force."""
-        force = self.sliding.contact.force
-        return float(force @ self.sliding.friction.coefficient / force.sum())
+        """Friction coefficient, mean over the contacts weighted by their force; 0 where nothing presses."""
+        force, coefficient = self.sliding.contact.force, self.sliding.friction.coefficient
+        return float(force @ coefficient / force.sum()) if force.any() else 0.0
 
 
-@stage
-def complex_modes(model: ReducedModel, friction_map: FrictionMap, settings: Settings,
+@stage(check=_check)
+def complex_modes(model: ReducedModel, friction_map: FrictionMap | None, settings: Settings,
                   context: Context) -> ComplexModes:
     """Find the complex modes over friction and at the operating points.
 
     Method:
     All complex modes were computed at {friction_steps} friction coefficients from 0 to {friction_max} and at the
-    operating points of the friction map, each about its own steady sliding state, on the real modes below
+    operating points, each about its own steady sliding state, on the real modes below
     {frequency_max} and their friction corrections; a closing speed of {damping_speed} doubles the contact pressure
     (contact damping), and a mode counts as unstable when its growth rate exceeds {neutral} of its angular frequency.
     """
+    _refuse_hard_contacts(model)
     normal_law = model.law_closure, model.law_pressure
     loads = model.pressure[:, None] * model.input_area
     models = [(sliding_model(model, k, np.mean(settings.speeds)), load) for k, load in enumerate(loads)]
     states = context.map(partial(_state, settings, normal_law), models, "real modes")
     friction = np.linspace(0.0, settings.friction_max, settings.friction_steps)
     roots = _sweep(states, normal_law, friction, settings, context)
-    law = FrictionLaw(friction_map.pressure, friction_map.speed, friction_map.distance, friction_map.friction)
+    law = _friction_law(friction_map, settings)
     points = [(m.at_speed(speed), load) for m, load in models for speed in settings.speeds]
     outcomes = context.map(partial(_operate, settings, normal_law, law), points, "operating points")
     branches = min(max(len(s.basis.frequency) for s in states), *(s.model.size for s in states))
@@ -104,7 +128,7 @@ def complex_modes(model: ReducedModel, friction_map: FrictionMap, settings: Sett
         operating_pressure=np.repeat(model.pressure, len(settings.speeds)),
         operating_speed=[o.speed for o in outcomes], operating_friction=[o.mean_friction for o in outcomes],
         operating_force=[o.sliding.contact.force for o in outcomes],
-        operating_open=[np.sum(~o.sliding.contact.closed) for o in outcomes],
+        operating_open=[np.sum(o.sliding.contact.force == 0) for o in outcomes],
         operating_root=[_lowest(o.root, branches) for o in outcomes], **_unstable(outcomes, model.recovery),
         corrections=max([s.basis.corrections for s in states] + [o.corrections for o in outcomes]))
 
@@ -112,11 +136,41 @@ def complex_modes(model: ReducedModel, friction_map: FrictionMap, settings: Sett
 def _state(settings, normal_law, task):
     """The model about its state without friction, on a basis that serves all states of the sweep."""
     model, input_force = task
-    response = closure_response(model, settings.centrifugal)
-    still = steady_sliding(model, response, input_force, *normal_law, friction=0.0)
+    response = _response(model, normal_law, settings)
+    still = _sliding(model, response, input_force, normal_law, 0.0)
     model = model_about(model, still.contact, settings.damping_speed)
-    basis = _basis(model, settings, contact_stiffness=still.contact.stiffness.max())
+    basis = _basis(model, settings, contact_stiffness=still.contact.stiffness.max(initial=0.0))
     return _State(model.projected(basis.shape), response, input_force, basis)
+
+
+def _response(model, normal_law, settings):
+    """ClosureResponse where a normal law needs it, else None."""
+    return closure_response(model, settings.centrifugal) if normal_law[0].size else None
+
+
+def _sliding(model, response, input_force, normal_law, friction):
+    """Steady sliding: solved where the contacts have a normal law, else as the preload of the model says."""
+    if response is None:
+        return given_state(model, friction)
+    return steady_sliding(model, response, input_force, *normal_law, friction)
+
+
+def _refuse_hard_contacts(model):
+    """A hard contact would count as an open one here."""
+    touched = (model.preload > 0) & model.contact_normal.any(axis=1)
+    if not model.law_closure.size and np.any(touched & (model.contact_stiffness == 0)):
+        raise ConfigError("complex_modes: contacts", "a normal law or a contact stiffness", "hard contacts",
+                          "give the contacts a stiffness")
+
+
+def _friction_law(friction_map, settings):
+    """Friction over pressure and speed: of the map, or of the settings where there is none."""
+    if friction_map is not None:
+        law = FrictionLaw(friction_map.pressure, friction_map.speed, friction_map.distance, friction_map.friction)
+        return partial(from_map, law, settings.sliding_distance)
+    friction = settings.friction
+    static = friction.coefficient if friction.static is None else friction.static
+    return partial(falling_with_speed, friction.coefficient, static, friction.decay_speed)
 
 
 def _basis(model, settings, contact_stiffness=0.0):
@@ -138,7 +192,7 @@ def _roots_over_friction(settings, normal_law, task):
     state, friction = task
     roots = []
     for mu in friction:
-        sliding = steady_sliding(state.model, state.response, state.input_force, *normal_law, friction=mu)
+        sliding = _sliding(state.model, state.response, state.input_force, normal_law, mu)
         about = model_about(state.model, sliding.contact, settings.damping_speed)
         found = quadratic_roots(*_linearised(about, mu, settings))
         roots.append(found[upper_half(found)])
@@ -146,10 +200,10 @@ def _roots_over_friction(settings, normal_law, task):
 
 
 def _operate(settings, normal_law, law, task):
-    """Sliding state with the friction of the map, and the modes about it on a basis of its own."""
+    """Sliding state with friction of the law, and the modes about it on a basis of its own."""
     model, input_force = task
-    response = closure_response(model, settings.centrifugal)
-    sliding = steady_sliding(model, response, input_force, *normal_law, from_map(law, settings.sliding_distance))
+    response = _response(model, normal_law, settings)
+    sliding = _sliding(model, response, input_force, normal_law, law)
     model = model_about(model, sliding.contact, settings.damping_speed)
     basis = _basis(model, settings)
     friction = sliding.friction if settings.friction_slopes else FrictionState(sliding.friction.coefficient)
@@ -176,6 +230,8 @@ def _unstable(outcomes, recovery):
 
 def _normalised(shape):
     """The shape with its largest component 1, which also fixes its phase."""
+    if not shape.size:
+        return shape
     return shape / shape.ravel()[abs(shape).argmax()]
 
 

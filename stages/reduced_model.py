@@ -1,4 +1,7 @@
-"""From finite elements to the reduced sliding model that every solver and every effect works on."""
+"""From any system to the reduced sliding model that every solver and every effect works on.
+
+Each system is a product of its own; ``SYSTEMS`` tells how it is reduced.
+"""
 
 from functools import partial
 
@@ -26,13 +29,18 @@ class Settings(Section):
 
 @stage
 def reduced_model(structure: Structure, settings: Settings, context: Context) -> ReducedModel:
-    """Reduce the brake to interface coordinates and modes.
+    """Reduce the system to interface coordinates and modes.
 
     Method:
-    Pads and caliper were reduced by Craig-Bampton with averaged interfaces and fixed-interface modes below
-    {fixed_below}, the disc to its modes; to both were added residual shapes with pseudo-frequencies below
-    {residual_below}, for what interface accelerations and contact forces excite beyond these modes.
+    Bodies held by joints were reduced by Craig-Bampton with averaged interfaces and fixed-interface modes below
+    {fixed_below}, bodies on rigid supports to their modes; to both were added residual shapes with pseudo-frequencies
+    below {residual_below}, for what interface accelerations and contact forces excite beyond these modes.
     """
+    return SYSTEMS[type(structure)](structure, settings, context)
+
+
+def _from_solids(structure, settings, context):
+    """The brake, whose bodies are finite elements with supports or interfaces."""
     bodies = [_elastic_body(structure, name, index) for index, name in enumerate(structure.body_name)]
     reduce = partial(reduce_body, fixed_below=settings.fixed_below, residual_below=settings.residual_below,
                      solver=context.solver)
@@ -46,6 +54,10 @@ def reduced_model(structure: Structure, settings: Settings, context: Context) ->
     return ReducedModel(
         body_name=structure.body_name, coordinate_body=np.repeat(np.arange(len(terms)), sizes), **matrices, **rows,
         **_copied(structure), **_surfaces(terms, sizes))
+
+
+#: product of a system -> its reduction (system, settings, context) -> ReducedModel
+SYSTEMS = {Structure: _from_solids}
 
 
 def _elastic_body(structure, name, index):
@@ -79,12 +91,16 @@ def _split_rows(structure, rows):
 
 
 def _copied(structure):
-    """What the reduction leaves as it is."""
+    """What the reduction leaves as it is; parts touch without being pressed, and loads are constant."""
     kept = ("joint_name", "joint_stiffness", "joint_damping", "contact_body", "contact_position", "contact_area",
             "pressure", "preload", "contact_stiffness", "law_closure", "law_pressure", "sensor_name",
             "sensor_position", "sensor_direction")
     radius = np.hypot(structure.contact_position[:, 0], structure.contact_position[:, 1])
-    return {"contact_lever": radius, **{name: getattr(structure, name) for name in kept}}
+    sensors = len(structure.sensor_name)
+    own = {"contact_lever": radius, "contact_gap": np.zeros(len(radius)), "history_interval": 0.0,
+           "input_history": np.empty((0, int(structure.piston_rows.rows))), "drive_history": [],
+           "sensor_quantity": ["velocity"] * sensors, "sensor_unit": ["m/s"] * sensors, "sensor_gain": np.ones(sensors)}
+    return {**own, **{name: getattr(structure, name) for name in kept}}
 
 
 def _surfaces(terms, sizes):

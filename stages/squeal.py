@@ -7,7 +7,7 @@ import numpy as np
 from pipeline.contract import ConfigError, Context, Quantity, Section, option, stage
 from pipeline.physics.spectra import band_power, level, third_octave_bands
 from pipeline.physics.squeal_detector import Detector, detect, frames, loudest
-from pipeline.products import Response, Squeal
+from pipeline.products import Response, Squeal, Transient
 
 
 class Settings(Section):
@@ -39,7 +39,7 @@ class Settings(Section):
 
 
 @stage
-def squeal(response: Response, settings: Settings, context: Context) -> Squeal:
+def squeal(response: Response | Transient, settings: Settings, context: Context) -> Squeal:
     """Find squeal events and band levels in the sensor velocities.
 
     The level is a velocity level: no radiation, no A-weighting.
@@ -71,7 +71,7 @@ def squeal(response: Response, settings: Settings, context: Context) -> Squeal:
     peaks = np.array([[peak for peak, _ in sensors] for sensors in found])
     return Squeal(
         pressure=response.pressure, speed=response.speed, sensor_name=response.sensor_name,
-        coupling=response.coupling,
+        coupling=getattr(response, "coupling", "transient"),
         reference=settings.reference, threshold=detector.threshold,
         peak_level=peaks[..., 0], peak_frequency=peaks[..., 1],
         band=middle, band_level=level(power, settings.reference), **_events(found, response.time[searched][0]))

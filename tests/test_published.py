@@ -55,7 +55,7 @@ def test_met_by_value_bounds_and_reading():
 
 @pytest.mark.parametrize("change, said", [
     ({"value": None, "tolerance": None}, "value or a statement"), ({"tolerance": None}, "value and tolerance"),
-    ({"why": ""}, "why"), ({"lower": 1.0}, "found both"), ({"read_as": 3.0}, "doubt"), ({"part": "noise"}, "part"),
+    ({"why": ""}, "why"), ({"lower": 1.0}, "found both"), ({"read_as": 3.0}, "doubt"), ({"part": ""}, "part"),
     ({"tolerance": -1}, "tolerance"), ({"colour": 1}, "unknown key"), ({"source": ""}, "source")])
 def test_malformed_facts(tmp_path, change, said):
     path = tmp_path / "facts.yaml"

@@ -1,4 +1,4 @@
-"""Our numbers for the published facts of a disc brake, computed from products: fact key -> Ours, in SI."""
+"""Our numbers for the published facts of each system, computed from products: fact key -> Ours, in SI."""
 
 from typing import NamedTuple
 

@@ -12,7 +12,8 @@ sliding under the preload N0:
 
 where (3) is friction-induced damping: friction turns with the slip velocity when the contact moves sideways. Rows stay
 where they are as the bodies deform (no follower terms of the normal). Every effect and every solver acts on this
-object; no contact at all, free bodies and negative speeds are legal. A displacement u imposed on the far end of a joint
+object; no contact at all, free bodies and negative speeds are legal. A contact with a zero normal row is a friction
+joint: its N is its preload. A displacement u imposed on the far end of a joint
 is the force k u along its row.
 """
 
@@ -39,7 +40,7 @@ class Contacts:
 
     ``lever`` (c,) is the sliding speed per speed of the drive (the radius in m on a disc, 1 m on a belt), ``position``
     (c, 3) m, ``area`` (c,) m^2, ``preload`` (c,) N, ``stiffness`` (c,) N/m normal stiffness (0 where open), ``damping``
-    (c,) N s/m normal damping.
+    (c,) N s/m normal damping, ``gap`` (c,) m in the origin of the coordinates, negative where parts are set to press.
     """
 
     normal: np.ndarray
@@ -51,6 +52,12 @@ class Contacts:
     preload: np.ndarray
     stiffness: np.ndarray
     damping: np.ndarray
+    gap: np.ndarray | float = 0.0
+
+    @property
+    def fixed(self):
+        """True (c,) for friction joints, which nothing presses but their preload."""
+        return ~self.normal.any(axis=1)
 
     @property
     def pressure(self):
@@ -206,7 +213,7 @@ def sliding_model(reduced, state, speed):
         position=reduced.contact_position, area=reduced.contact_area,
         lever=reduced.contact_lever,
         preload=reduced.preload[state], stiffness=reduced.contact_stiffness[state],
-        damping=np.zeros(len(reduced.contact_area)))
+        damping=np.zeros(len(reduced.contact_area)), gap=reduced.contact_gap)
     matrices = {name: getattr(reduced, name) for name in ("mass", "damping", "gyroscopic", "stiffness", "centrifugal")}
     return SlidingModel(
         body_name=tuple(reduced.body_name), coordinate_body=reduced.coordinate_body, **matrices, joints=joints,

@@ -5,9 +5,9 @@ sign of sliding, loads the bodies as well. With springs k on the patches, which 
 
     (K + sum_i k_i n_i n_i^T) q = f + sum_i n_i (N_i - k_i c_i) + t_i s_i mu_i N_i,
 
-and the bodies are condensed to the closures, G_n, G_t and G_f being their answers to unit forces:
+and the bodies are condensed to the closures, G_n, G_t and G_f being their answers to unit forces and g the gaps:
 
-    c = G_f f + G_n (N - k c) + G_t s mu N.                                                                        (1)
+    c = G_f f - g + G_n (N - k (c + g)) + G_t s mu N.                                                              (1)
 
 Newton's method solves (1) for the closures. Friction rises from nothing in as few steps as converge, so that the
 state found is the one which the static start leads to.
@@ -70,9 +70,12 @@ def steady_sliding(model, response, input_force, law_closure, law_pressure, fric
 
     ``law_closure`` (k,) m and ``law_pressure`` (k,) Pa: normal law, from 0; ``friction`` is a coefficient or a function
     of pressure and sliding speed (c,) that gives a FrictionState. The preload of the model is the first guess. Raises
-    ConvergenceError where friction cannot rise to its full value, as where the pads would tip or lock.
+    ConvergenceError where friction cannot rise to its full value, as where the pads would tip or lock. Friction joints
+    keep their preload.
     """
-    equilibrium = _Equilibrium(model, response, response.inputs @ input_force, law_closure, law_pressure,
+    gap, springs = model.contacts.gap, response.stiffness
+    free = response.inputs @ input_force - gap - response.normal @ (springs * gap)
+    equilibrium = _Equilibrium(model, response, free, law_closure, law_pressure,
                                friction if callable(friction) else lambda *_: FrictionState(friction))
     closure = equilibrium.solve(np.interp(model.contacts.pressure, law_pressure, law_closure), 0.0)
     reached, rise = 0.0, 1.0
@@ -91,13 +94,28 @@ def steady_sliding(model, response, input_force, law_closure, law_pressure, fric
     return SlidingState(Preload(force, stiffness, closure), equilibrium.friction_state(force))
 
 
-def from_map(law, distance):
-    """Friction of a FrictionLaw at a sliding ``distance`` (m), with its slopes, as ``steady_sliding`` asks for it."""
-    def friction(pressure, speed):
-        read = [friction_at(p, v, distance, *law.table)[:3] for p, v in zip(pressure, speed, strict=True)]
-        return FrictionState(*np.reshape(read, (-1, 3)).T)
+def given_state(model, friction):
+    """SlidingState of contacts without a normal law: each keeps the preload and the stiffness of the model.
 
-    return friction
+    ``friction`` as for ``steady_sliding``; closures are those of the stiffness, 0 where there is none.
+    """
+    force, stiffness = model.contacts.preload, model.contacts.stiffness
+    closure = np.divide(force, stiffness, out=np.zeros(len(force)), where=stiffness > 0)
+    state = friction(model.contacts.pressure, abs(model.sliding_speed)) if callable(friction) else friction
+    state = state if isinstance(state, FrictionState) else FrictionState(state)
+    return SlidingState(Preload(force, stiffness, closure), state)
+
+
+def from_map(law, distance, pressure, speed):
+    """FrictionState of a FrictionLaw at a sliding ``distance`` (m), ``pressure`` (c,) Pa and ``speed`` (c,) m/s."""
+    read = [friction_at(p, v, distance, *law.table)[:3] for p, v in zip(pressure, speed, strict=True)]
+    return FrictionState(*np.reshape(read, (-1, 3)).T)
+
+
+def falling_with_speed(coefficient, static, decay_speed, pressure, speed):
+    """FrictionState (c,) of mu = coefficient + (static - coefficient) exp(-speed / decay_speed), speeds in m/s."""
+    more = (static - coefficient) * np.exp(-speed / decay_speed)
+    return FrictionState(coefficient + more, 0 * pressure, -more / decay_speed)
 
 
 def model_about(model, contact, damping_speed=np.inf):
@@ -112,7 +130,7 @@ def model_about(model, contact, damping_speed=np.inf):
 
 @dataclass(frozen=True)
 class _Equilibrium:
-    """Equation (1) of one model under one load; ``free`` (c,) m are the closures by the inputs alone."""
+    """Equation (1) of one model under one load; ``free`` (c,) m are the closures by inputs and gaps alone."""
 
     model: SlidingModel
     response: ClosureResponse
@@ -122,7 +140,10 @@ class _Equilibrium:
     friction: Callable
 
     def contact(self, closure):
-        return normal_force(closure, self.model.contacts.area, self.law_closure, self.law_pressure)
+        """Force (c,) N and its slope (c,) N/m at ``closure``."""
+        contacts = self.model.contacts
+        force, slope = normal_force(closure, contacts.area, self.law_closure, self.law_pressure)
+        return np.where(contacts.fixed, contacts.preload, force), np.where(contacts.fixed, 0.0, slope)
 
     def friction_state(self, force):
         return self.friction(force / self.model.contacts.area, abs(self.model.sliding_speed))

@@ -222,7 +222,9 @@ def _normal_kernel(law, contacts):
     if isinstance(law, Penalty) and not np.all(np.asarray(law.stiffness) > 0):
         raise ConfigError("time stepping: contact stiffness", "above 0", f"{np.min(law.stiffness):g} N/m")
     table = [_own(getattr(law, name, [0.0, 1.0])) for name in ("closure", "pressure")]
-    return NormalKernel(kind, each(law.gap), each(contacts.area), each(getattr(law, "stiffness", 0.0)),
+    fixed = contacts.fixed
+    return NormalKernel(kind, np.where(fixed, 0.0, each(law.gap)), _own(np.where(fixed, contacts.preload, -1.0)),
+                        each(contacts.area), each(getattr(law, "stiffness", 0.0)),
                         each(getattr(law, "damping", 0.0)), *table, float(getattr(law, "damping_speed", np.inf)),
                         float(getattr(law, "restitution", 0.0)))
 
@@ -235,7 +237,7 @@ def _check(system, linear, normal, dry, model, step):
                           f" the highest mode ({system.highest / (2 * np.pi):.4g} Hz)", f"{step:.3g} s",
                           "shorten the step, or leave out the highest modes")
     for i in range(len(normal.gap)):
-        if not linear.response[1, 0, i, i] > 0:
+        if normal.fixed[i] < 0 and not linear.response[1, 0, i, i] > 0:
             raise ConfigError(f"time stepping: contact {i}", "bodies that its normal force moves", "none")
         found = [normal.stiffness[i] * linear.response[0, 0, i, i]]
         if dry.description != RIGID:
@@ -259,6 +261,7 @@ def _begin(model, system, normal, dry, start, speed):
         force[0] = [table_force(normal, i, -gap[i], -rate[i])[0] for i in range(len(gap))]
     elif start.normal is not None:
         force[0] = start.normal
+    force[0] = np.where(normal.fixed >= 0, normal.fixed, force[0])
     closed = (gap <= 0) | (force[0] > 0)
     mu = [coefficient(dry, force[0, i] / contacts.area[i], slip[i]) for i in range(len(gap))]
     force[1] = np.sign(slip) * mu * force[0] if start.friction is None else start.friction

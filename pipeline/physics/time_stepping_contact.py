@@ -9,7 +9,8 @@ rigid sticking are set on velocities, their forces constant over the step (Morea
 
 ``penalty`` N = k c + d c' and ``table`` N = A p(c) (1 + c' / v0) (Hunt & Crossley 1975) hold at the end of the step,
 as do the elastic and the evolution description of friction; ``lagrange`` asks n q(end) + gap = 0. The contacts are
-visited in turn (Gauss-Seidel), the two forces of one contact solved together, until no force changes.
+visited in turn (Gauss-Seidel), the two forces of one contact solved together, until no force changes. A friction joint
+has a normal force of its own that never changes.
 """
 
 from typing import NamedTuple
@@ -38,6 +39,7 @@ class NormalKernel(NamedTuple):
 
     kind: int
     gap: np.ndarray             # (c,) m
+    fixed: np.ndarray           # (c,) N, normal force of a friction joint, below 0 for all other contacts
     area: np.ndarray            # (c,) m^2
     stiffness: np.ndarray       # (c,) N/m, penalty
     damping: np.ndarray         # (c,) N s/m, penalty
@@ -205,6 +207,8 @@ def _drawn(friction, i, begin, slip, normal, pressure, speed, before):
 @njit(cache=True)
 def _normal(law, i, y, r, past, fixed, slope, guess):
     """(N, code) of the normal law where the friction force is fixed + slope N."""
+    if law.fixed[i] >= 0.0:
+        return law.fixed[i], SOLVED
     gap, rate = law.gap[i] + y[0] + r[0, 1] * fixed, y[1] + r[1, 1] * fixed
     flexible, mobile = r[0, 0] + r[0, 1] * slope, r[1, 0] + r[1, 1] * slope
     if law.kind == HARD:

@@ -26,27 +26,29 @@ def growth_over_frequency(modes, published, dpi):
     """PNG of all roots of the friction sweep, highest pressure; dotted lines at the ``published`` frequencies (Hz)."""
     roots = modes.root[-1]
     friction = np.broadcast_to(modes.friction[:, None], roots.shape)
+    name, size = _unit(roots)
     with drawing(left=0.86, bar=True) as figure:
         axes = figure.subplots()
-        _frequency_lines(axes, published)
+        _frequency_lines(axes, published, size)
         axes.axhline(0.0, color=INK, lw=0.9)
-        shown = axes.scatter(roots.imag / TWO_PI / 1e3, roots.real, c=friction, s=7, cmap=SEQUENTIAL, lw=0)
+        shown = axes.scatter(roots.imag / TWO_PI / size, roots.real, c=friction, s=7, cmap=SEQUENTIAL, lw=0)
         low, high = _limits(roots.real)
-        axes.set(xlabel="frequency / kHz", ylabel="growth rate / 1/s", ylim=(low, high),
-                 xlim=(0, 1.03 * roots.imag[roots.real >= low].max() / TWO_PI / 1e3))
+        last = 1.03 * roots.imag[roots.real >= low].max() / TWO_PI / size
+        axes.set(xlabel=f"frequency / {name}", ylabel="growth rate / 1/s", ylim=(low, high), xlim=(0, last or 1))
         colour_bar(axes, shown, "coefficient of friction")
         return png(figure, dpi)
 
 
 def growth_over_friction(modes, count=6):
     """SVG of the growth rate of the ``count`` most unstable modes over friction, highest pressure."""
+    name, size = _unit(modes.root[-1])
     with drawing(3.4, top=0.55) as figure:
         axes = figure.subplots()
         axes.axhline(0.0, color=INK, lw=0.9)
         for line, branch in enumerate(strongest(modes, count)):
-            frequency = modes.root[-1, -1, branch].imag / TWO_PI / 1e3
+            frequency = modes.root[-1, -1, branch].imag / TWO_PI / size
             axes.plot(modes.friction, modes.root[-1, :, branch].real, color=COLOURS[line % 6], ls=LINES[line % 6],
-                      label=f"{frequency:.2f} kHz")
+                      label=f"{frequency:.2f} {name}")
         axes.set(xlabel="coefficient of friction", ylabel="growth rate / 1/s")
         legend(axes)
         return svg(figure)
@@ -55,15 +57,16 @@ def growth_over_friction(modes, count=6):
 def lock_in(modes, width=0.05):
     """SVG of all frequencies within ``width`` of the strongest unstable mode over friction; red where unstable."""
     roots = modes.root[-1]
-    middle = roots[np.argmax(roots[:, strongest(modes, 1)[0]].real), strongest(modes, 1)[0]].imag / TWO_PI / 1e3
-    frequency = roots.imag / TWO_PI / 1e3
-    near = (np.abs(frequency / middle - 1.0) < width).any(axis=0)
+    name, size = _unit(roots)
+    middle = roots[np.argmax(roots[:, strongest(modes, 1)[0]].real), strongest(modes, 1)[0]].imag / TWO_PI / size
+    frequency, reach = roots.imag / TWO_PI / size, max(width * middle, np.finfo(float).tiny)
+    near = (np.abs(frequency - middle) < reach).any(axis=0)
     with drawing(3.4) as figure:
         axes = figure.subplots()
         axes.plot(modes.friction, frequency[:, near], ".", color=FAINT, ms=3.5)
         axes.plot(modes.friction, np.where(roots.real > 0.0, frequency, np.nan)[:, near], "o", color=RED, ms=5.5)
-        axes.set(xlabel="coefficient of friction", ylabel="frequency / kHz",
-                 ylim=(middle * (1 - width), middle * (1 + width)))
+        axes.set(xlabel="coefficient of friction", ylabel=f"frequency / {name}",
+                 ylim=(middle * (1 - width), middle * (1 + width)) if middle else None)
         return svg(figure)
 
 
@@ -79,16 +82,22 @@ def operating_growth(modes, dpi):
     """PNG of the largest growth rate at each operating point, with its frequency."""
     leading = np.argmax(modes.operating_root.real, axis=1)
     root = modes.operating_root[np.arange(len(leading)), leading]
-    texts = [f"{number(r.real, 3)} 1/s\n{number(r.imag / TWO_PI / 1e3)} kHz" for r in root]
+    name, size = _unit(root)
+    texts = [f"{number(r.real, 3)} 1/s\n{number(r.imag / TWO_PI / size)} {name}" for r in root]
     with drawing(3.0, bar=True) as figure:
         tiles(figure.subplots(), modes.operating_pressure, modes.operating_speed, root.real, texts,
               "largest growth rate / 1/s", **symmetric(root.real))
         return png(figure, dpi)
 
 
-def _frequency_lines(axes, published):
+def _unit(roots):
+    """(name, size in Hz) of the unit in which the frequencies of ``roots`` read best."""
+    return ("kHz", 1e3) if roots.imag.max() > TWO_PI * 1e3 else ("Hz", 1.0)
+
+
+def _frequency_lines(axes, published, size):
     for frequency in published:
-        axes.axvline(frequency / 1e3, color=FAINT, lw=1.1, ls=":")
+        axes.axvline(frequency / size, color=FAINT, lw=1.1, ls=":")
 
 
 def _limits(growth):

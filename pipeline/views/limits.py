@@ -36,7 +36,7 @@ LIMITS = (
     (("structure",), "The real geometry: the paper prints no drawing. Shapes and stiffnesses are inferred or tuned as"
      " their origin says; bolts, bushings, shims, hydraulics, suspension and test bench are springs or left out."),
     (("complex_modes",), "Complex modes are linear: no limit cycle, no amplitude, no dependence on the angle of the"
-     " disc."),
+     " drive."),
     (("multibody",), "In the pad motion the disc is rigid and its speed constant, as in the paper: disc modes cannot"
      " feed on friction there."),
     (("response",), "One-way coupling: the contact forces excite the elastic brake, whose vibration does not change"

@@ -82,12 +82,13 @@ def operating_grid(pressure, speed, values):
 
 
 def tiles(axes, pressure, speed, values, texts, label, **look):
-    """One tile per operating point: pressure (MPa) upwards, disc speed (rad/s) to the right, ``texts`` written on."""
+    """One tile per operating point: pressure upwards, speed (rad/s) to the right, ``texts`` written on."""
     pressures, speeds, grid = operating_grid(pressure, speed, values)
+    name, size = ("MPa", 1e6) if pressures[-1] > 1e4 else ("Pa", 1.0)
     shown = axes.imshow(grid, origin="lower", aspect="auto", **look)
     axes.set_xticks(range(len(speeds)), [f"{v:.4g}" for v in speeds])
-    axes.set_yticks(range(len(pressures)), [f"{p / 1e6:.3g}" for p in pressures])
-    axes.set(xlabel="disc speed / rad/s", ylabel="pressure / MPa")
+    axes.set_yticks(range(len(pressures)), [f"{p / size:.3g}" for p in pressures])
+    axes.set(xlabel="speed / rad/s", ylabel=f"pressure / {name}")
     axes.grid(False)
     for p, v, value, text in zip(pressure, speed, values, texts, strict=True):
         axes.text(np.searchsorted(speeds, v), np.searchsorted(pressures, p), text, ha="center", va="center",

@@ -54,7 +54,7 @@ def _headline(products):
         text = f"{start}{plural(unstable, 'mode')} {'is' if unstable == 1 else 'are'} unstable"
         return text[0].upper() + text[1:], "warning"
     if squeal is None and modes is None:
-        return "No verdict: this case ends before the stability of the brake", "warning"
+        return "No verdict: this case ends before the stability of the system", "warning"
     return "No squeal predicted", "quiet"
 
 
@@ -85,7 +85,8 @@ def _why(products):
     if modes is None:
         return ""
     if not len(modes.unstable_root):
-        return "No mode is unstable: what the sensors feel is forced by the rotating friction patches."
+        forced = ": what the sensors feel is forced by the rotating friction patches"
+        return f"No mode is unstable{forced if products.get('multibody') is not None else ''}."
     frequencies = modes.unstable_root.imag / TWO_PI
     strongest = (f"The strongest unstable mode, {quantity(frequencies[0], 'Hz')}, grows with"
                  f" {quantity(modes.unstable_root[0].real, '1/s', 3)}.")
@@ -96,8 +97,9 @@ def _why(products):
     apart = abs(nearest / peak - 1)
     if apart <= NEAR:
         return f"{strongest} The loudest peak has an unstable mode at its side: {quantity(nearest, 'Hz')}."
-    return (f"{strongest} The loudest peak has none within {percent(NEAR)} (nearest {quantity(nearest, 'Hz')}): it is"
-            " forced by the pads, whose motion the multi-body simulation computes on a rigid disc.")
+    forced = ": it is forced by the pads, whose motion the multi-body simulation computes on a rigid disc"
+    return (f"{strongest} The loudest peak has none within {percent(NEAR)} (nearest {quantity(nearest, 'Hz')})"
+            f"{forced if products.get('multibody') is not None else ''}.")
 
 
 def _sure(products):

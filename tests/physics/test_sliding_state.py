@@ -1,6 +1,7 @@
 """Steady sliding: closed forms of a rubbed block, null tests, and the linearisation against the nonlinear forces."""
 
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 import pytest
@@ -9,7 +10,14 @@ from pipeline.contract.errors import ConfigError, ConvergenceError
 from pipeline.physics.friction_law import FrictionLaw
 from pipeline.physics.pad_system import linearised, pad_system
 from pipeline.physics.sliding_model import Contacts, FrictionState, Joints, SlidingModel
-from pipeline.physics.sliding_state import closure_response, from_map, model_about, steady_sliding
+from pipeline.physics.sliding_state import (
+    closure_response,
+    falling_with_speed,
+    from_map,
+    given_state,
+    model_about,
+    steady_sliding,
+)
 from pipeline.physics.static_contact import solve_preload
 
 pytestmark = pytest.mark.exact
@@ -120,7 +128,7 @@ def contact_forces(model, place, friction):
 
 
 def test_linearisation_is_the_difference_of_the_nonlinear_forces_in_balance():
-    model, friction = random_model(), from_map(rising_friction(), 0.5)
+    model, friction = random_model(), partial(from_map, rising_friction(), 0.5)
     state = slide(model, friction)
     forces = (model.contacts.normal.T @ state.contact.force
               + model.contacts.tangent.T @ (state.friction.coefficient * state.contact.force))
@@ -135,7 +143,7 @@ def test_linearisation_is_the_difference_of_the_nonlinear_forces_in_balance():
 
 def test_pads_on_a_held_disc_are_those_of_the_multibody_analysis():
     model, law = random_model().held("disc"), rising_friction()
-    state = slide(model, from_map(law, 0.5))
+    state = slide(model, partial(from_map, law, 0.5))
     _, damping, stiffness = model_about(model, state.contact, 2.0).linearised(state.friction)
     system = pad_system(model, np.array([LOAD]), *CURVED, law, np.full(4, 0.5), 0.0, 16, 0.0, 1e-3, 2.0)
     forces = (model.contacts.normal.T @ state.contact.force
@@ -144,3 +152,39 @@ def test_pads_on_a_held_disc_are_those_of_the_multibody_analysis():
     by_pads = linearised(system, place)
     np.testing.assert_allclose(by_pads[0], stiffness, rtol=1e-9, atol=1e-3)
     np.testing.assert_allclose(by_pads[1], damping, rtol=1e-8, atol=1e-8)
+
+
+@pytest.mark.parametrize("gap", [2e-6, -2e-6])
+def test_gaps_are_closed_before_anything_presses(gap):
+    """Two contacts alike on a block tied to ground by a spring: spring * lift = N - LOAD, lift + gap = -closure."""
+    spring, model = 1e7, rubbed_block()
+    tied = replace(model, stiffness=np.diag([1e6, spring, 0.0]),
+                   contacts=replace(model.contacts, gap=np.full(2, gap)))
+    state = slide(tied, 0.0)
+    np.testing.assert_allclose(spring * (-state.contact.closure - gap), state.contact.force.sum() - LOAD, rtol=1e-8)
+    assert (state.contact.force.sum() > LOAD) == (gap < 0)
+
+
+def test_a_friction_joint_keeps_its_preload_and_loads_the_bodies():
+    """Its friction mu N0, at HEIGHT above the pads, tilts the block as any force there would."""
+    model, extra = rubbed_block(tilt=50.0), 25.0
+    rows = {name: np.vstack((getattr(model.contacts, name), row)) for name, row in (
+        ("normal", [0.0, 0.0, 0.0]), ("tangent", [1.0, 0.0, -HEIGHT]), ("lateral", [0.0, 0.0, 0.0]))}
+    more = {name: np.append(getattr(model.contacts, name), value) for name, value in (
+        ("area", AREA), ("lever", 1.0), ("preload", extra), ("stiffness", 0.0), ("damping", 0.0))}
+    joined = replace(model, contacts=replace(model.contacts, **rows, **more, position=np.zeros((3, 3))))
+    pushed = replace(model, input_rows=np.vstack((model.input_rows, rows["tangent"][-1])))
+    state = slide(joined, 0.4)
+    same = steady_sliding(pushed, closure_response(pushed), np.array([LOAD, 0.4 * extra]), *CURVED, 0.4)
+    assert state.contact.force[-1] == extra and state.contact.stiffness[-1] == 0.0
+    np.testing.assert_allclose(state.contact.force[:2], same.contact.force, rtol=1e-9)
+
+
+def test_contacts_without_a_law_stay_as_given():
+    model = rubbed_block(speed=2.0)
+    state = given_state(model, partial(falling_with_speed, 0.3, 0.5, 1.0))
+    assert state.contact.force is model.contacts.preload and state.contact.stiffness is model.contacts.stiffness
+    np.testing.assert_allclose(state.friction.coefficient, 0.3 + 0.2 * np.exp(-2.0))
+    step = 1e-6
+    ahead, behind = (falling_with_speed(0.3, 0.5, 1.0, 0.0, 2.0 + s).coefficient for s in (step, -step))
+    np.testing.assert_allclose(state.friction.speed_slope, (ahead - behind) / (2 * step), rtol=1e-8)

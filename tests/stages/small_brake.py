@@ -25,11 +25,13 @@ def small_brake(abutment=3e6, finger=6e7, damping=2e-6):
         gyroscopic=np.zeros((SIZE, SIZE)), stiffness=np.diag([1e8, *[0.0] * 9]), centrifugal=np.zeros((SIZE, SIZE)),
         joint_name=names, joint_rows=rows, joint_stiffness=stiffness, joint_damping=damping * stiffness,
         contact_body=[1, 1, 1, 2, 2, 2], contact_position=position, contact_area=np.full(count, CONTACT_AREA),
-        contact_lever=np.hypot(*position[:, :2].T),
+        contact_lever=np.hypot(*position[:, :2].T), contact_gap=np.zeros(count),
         contact_normal=normal, contact_tangent=tangent, contact_lateral=lateral, pressure=[1e6, 3e6],
         preload=np.outer([1e6, 3e6], np.full(count, CONTACT_AREA)), contact_stiffness=np.full((2, count), 3e7),
         law_closure=closure, law_pressure=1e11 * closure + 5e15 * closure**2, input_name=["piston"],
-        input_rows=[axial(INNER) - axial(CALIPER - 2)], input_area=[3 * CONTACT_AREA], sensor_name=["disc"],
+        input_rows=[axial(INNER) - axial(CALIPER - 2)], input_area=[3 * CONTACT_AREA], history_interval=0.0,
+        input_history=np.empty((0, 1)), drive_history=[], sensor_name=["disc"], sensor_quantity=["velocity"],
+        sensor_unit=["m/s"], sensor_gain=[1.0],
         sensor_position=[[0, RADIUS, 0]], sensor_direction=[[0, 0, 1]], sensor_rows=[np.eye(SIZE)[DISC]],
         visible_position=visible, visible_body=visible_body, visible_face=[[0, 1, 3, 2]], recovery=recovery)
 

@@ -90,3 +90,11 @@ def test_bad_settings(tmp_path):
         compare(tuned={"mode_99": "nothing"})
     with pytest.raises(ValueError, match="expected a file"):
         compare(reference=str(tmp_path / "none.yaml"))
+
+
+def test_products_that_a_case_lacks_leave_their_rows_open():
+    settings = Settings.model_validate({"reference": str(FILE)})
+    one = comparison(None, structure(), None, None, None, settings=settings)
+    assert row(one, "mode_01_02_test")["verdict"] == "within"
+    assert row(one, "real_area_start")["ours_known"] == 0
+    assert not comparison(None, None, None, None, None, settings=settings).ours_known.any()

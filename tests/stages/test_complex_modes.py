@@ -5,13 +5,14 @@ from dataclasses import fields
 import numpy as np
 import pytest
 
-from pipeline.contract.errors import ConvergenceError
+from pipeline.contract.errors import ConfigError, ConvergenceError
 from pipeline.physics.quadratic_modes import quadratic_roots
 from pipeline.physics.sliding_model import sliding_model
 from pipeline.physics.sliding_state import closure_response, model_about, steady_sliding
 from stages.complex_modes import Settings, complex_modes
 from stages.reduced_model import Settings as Reduction
 from stages.reduced_model import reduced_model
+from tests.stages.small_oscillator import DAMPING, MASS, NORMAL_FORCE, STIFFNESS, small_oscillator
 from tests.stages.small_structure import small_friction_map, small_structure
 
 SETTINGS = {"friction_steps": 7, "speeds": ("8 rad/s", "12 rad/s"), "frequency_max": "8 kHz"}
@@ -172,3 +173,45 @@ def test_pads_and_caliper_move_the_roots(modes, change):
 def test_same_bits_twice(model, modes):
     again = complex_modes(model, small_friction_map(), settings=Settings(**SETTINGS))
     assert all(np.array_equal(getattr(again, f.name), getattr(modes, f.name)) for f in fields(modes))
+
+
+def oscillator_modes(speeds=("1 rad/s",), **model):
+    """ComplexModes of one mass with friction of its settings, 0.2 + 0.3 exp(-v / 0.5)."""
+    friction = {"coefficient": 0.2, "static": 0.5, "decay_speed": "0.5 m/s"}
+    return complex_modes(small_oscillator(**model), None, settings=Settings(speeds=speeds, friction=friction))
+
+
+@pytest.mark.exact
+def test_a_mass_on_a_belt_has_the_damping_of_falling_friction():
+    """m s^2 + (d + N0 dmu/dv) s + k = 0, in either direction of the belt."""
+    modes = oscillator_modes(speeds=("1 rad/s", "-1 rad/s", "3 rad/s"), on_belt=True)
+    for number, speed in enumerate((1.0, 1.0, 3.0)):
+        slope = -0.3 / 0.5 * np.exp(-speed / 0.5)
+        drag = (DAMPING + NORMAL_FORCE * slope) / MASS
+        root = -drag / 2 + 1j * np.sqrt(STIFFNESS / MASS - drag**2 / 4)
+        assert modes.operating_root[number, 0] == pytest.approx(root)
+        assert modes.operating_friction[number] == pytest.approx(0.2 + 0.3 * np.exp(-speed / 0.5))
+    assert not modes.operating_open.any() and not len(modes.unstable_root)
+
+
+@pytest.mark.exact
+def test_a_mass_without_contacts_keeps_its_root():
+    modes = oscillator_modes()
+    root = -DAMPING / MASS / 2 + 1j * np.sqrt(STIFFNESS / MASS - (DAMPING / MASS) ** 2 / 4)
+    np.testing.assert_allclose(modes.operating_root, root)
+    np.testing.assert_allclose(modes.root, root)
+    assert modes.real_frequency[0, 0] == pytest.approx(np.sqrt(STIFFNESS / MASS) / 2 / np.pi)
+    assert modes.operating_force.shape == (1, 0) and modes.operating_friction[0] == 0
+
+
+def test_hard_contacts_are_not_taken_for_open_ones():
+    with pytest.raises(ConfigError, match="a normal law or a contact stiffness, found hard contacts"):
+        oscillator_modes(hard=True)
+
+
+@pytest.mark.parametrize(("chain", "friction", "found"), [
+    ((), None, "neither this nor a friction map"), (("friction_map",), {"coefficient": 0.4}, "a friction map")])
+def test_friction_comes_from_one_source(chain, friction, found):
+    sections = {"complex_modes": Settings(friction=friction), **dict.fromkeys(chain)}
+    with pytest.raises(ConfigError, match=found):
+        complex_modes.check(sections)

@@ -1,4 +1,4 @@
-"""Chapter: complex modes of the sliding brake."""
+"""Chapter: complex modes in steady sliding."""
 
 import numpy as np
 
@@ -15,17 +15,18 @@ NEUTRAL = 1e-6     # growth rates below this share of the angular frequency are 
 
 def chapter(modes, model, published, look):
     """Chapter of the product ComplexModes; ``model`` gives the surface for the shapes, or is None."""
-    chosen = distinct_unstable(modes, look.shapes) if model is not None else []
+    drawable = model is not None and len(model.visible_face)
+    chosen = distinct_unstable(modes, look.shapes) if drawable else []
     drawn = render([shapes.unstable_mode(model, modes, index) for index in chosen])
     figures = _maps(modes, published, look)
     figures += tuple(Figure(picture, _shape_caption(modes, index), small=True)
                      for index, picture in zip(chosen, drawn or (), strict=False))
     return Chapter(
-        "complex_modes", "Stability of the sliding brake",
-        "Complex modes of the brake with sliding friction: a mode with positive growth rate grows by itself until"
+        "complex_modes", "Stability of steady sliding",
+        "Complex modes with sliding friction: a mode with positive growth rate grows by itself until"
         f" something limits it. Friction is swept over {span(modes.friction, '1')} at"
         f" {span(modes.pressure, 'Pa')}; {modes.corrections.item()} static friction corrections complete the modal"
-        f" base. {COLOURS}",
+        f" base.{f' {COLOURS}' if drawable else ''}",
         _conclusion(modes), figures, _table(modes),
         (NO_PICTURES,) if drawn is None else ())
 
@@ -67,7 +68,7 @@ def _maps(modes, published, look):
                f"All modes of the friction sweep at {pressure}; colour: friction. Above zero: unstable;"
                f" strongly damped modes lie below the frame.{note}"),
         Figure(pictures.operating_growth(modes, look.dpi),
-               "Largest growth rate at each operating point, with friction from the map"
+               "Largest growth rate at each operating point, with its friction"
                f" ({span(modes.operating_friction, '1')})."),
         Figure(pictures.growth_over_friction(modes),
                f"Growth rate over friction of the least stable modes at {pressure}: where a line crosses zero, that"
@@ -95,5 +96,5 @@ def _table(modes, most=12):
                      number(-root.real / abs(root) * 100, 2), quantity(modes.operating_pressure[point], "Pa", 3),
                      quantity(modes.operating_speed[point], "rad/s"), number(modes.operating_friction[point], 3),
                      str(modes.operating_open[point])))
-    head = "frequency", "growth rate", "damping ratio / %", "pressure", "disc speed", "friction", "open patches"
+    head = "frequency", "growth rate", "damping ratio / %", "pressure", "speed", "friction", "open contacts"
     return (Table(head, tuple(rows), "Unstable modes, strongest first, each frequency once", tuple(range(7))),)

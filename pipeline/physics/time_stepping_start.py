@@ -1,0 +1,75 @@
+"""Steady sliding as the start of a transient: equilibrium under input forces with friction on every closed contact.
+
+Contact i closes by c_i(N_i) under the force N_i: 0 for contacts that do not yield, N / k, or the inverse of a table.
+With s_i the sign of sliding, the closed contacts C obey
+
+    K q - sum_C (n_i + s_i mu_i t_i) N_i = f,      n_i q + gap_i + c_i(N_i) = 0,
+
+solved together, so that contacts may be what holds a body. Contacts that would pull are opened, gaps that would be
+negative are closed, until neither is left. Friction joints add s_i mu_i N_i t_i to f.
+"""
+
+import numpy as np
+
+from pipeline.contract.errors import ConfigError, ConvergenceError
+from pipeline.physics.time_stepping import Penalty, Start, Table
+
+_ROUNDS = 200
+_TOLERANCE = 1e-10
+
+
+def steady_start(model, law, friction, inputs):
+    """Start of a SlidingModel at its speed, under ``inputs`` (i,) N, with the ``law`` and Friction of the transient.
+
+    A drive at rest gives equilibrium without friction. Raises ConfigError where joints and closed contacts do not hold
+    the bodies, ConvergenceError where no equilibrium is found, as where friction locks.
+    """
+    contacts = model.contacts
+    load, stiffness = np.asarray(inputs, float) @ model.input_rows, model.supported()[2]
+    gap = np.broadcast_to(np.asarray(law.gap, float), len(contacts.area))
+    fixed = contacts.fixed
+    sign, closed, force = np.sign(model.sliding_speed), ~fixed, np.where(fixed, contacts.preload, 0.0)
+    for _ in range(_ROUNDS):
+        drawn = sign * friction.at_speed(model.sliding_speed, force / contacts.area)
+        give, offset = _yielding(law, force, contacts.area)
+        held = load + (drawn * force)[fixed] @ contacts.tangent[fixed]
+        place, found = _solve(stiffness, held, contacts.normal, contacts.normal + drawn[:, None] * contacts.tangent,
+                              gap + offset, give, closed)
+        found = np.where(fixed, force, found)
+        wanted = np.where(closed, found > 0, gap + contacts.normal @ place < 0) & ~fixed
+        settled = abs(found - force).max(initial=0.0) <= _TOLERANCE * abs(found).max(initial=0.0)
+        if settled and np.array_equal(wanted, closed | ((found > 0) & ~fixed)):
+            return Start(place, np.zeros(model.size), found, drawn * found)
+        closed, force = wanted, np.where(wanted | fixed, found, 0.0)
+    raise ConvergenceError("steady sliding", "forces that press on every closed contact", "none",
+                           "lower friction or change the tilt (friction that locks has no steady sliding), or start at"
+                           " rest")
+
+
+def _yielding(law, force, area):
+    """(slope, rest) of the closure of each contact about its force: c = slope N + rest."""
+    none = np.zeros(len(force))
+    if isinstance(law, Penalty):
+        return none + 1 / np.asarray(law.stiffness, float), none
+    if not isinstance(law, Table):
+        return none, none
+    closure, pressure = np.asarray(law.closure, float), np.asarray(law.pressure, float)
+    k = np.clip(np.searchsorted(pressure, force / area, side="right") - 1, 0, len(pressure) - 2)
+    slope = (closure[k + 1] - closure[k]) / (pressure[k + 1] - pressure[k])
+    return slope / area, closure[k] - slope * pressure[k]
+
+
+def _solve(stiffness, load, normal, pushed, gap, give, closed):
+    """(displacement, forces) with the contacts ``closed``; 0 N on the others."""
+    size, active = len(load), np.flatnonzero(closed)
+    matrix = np.block([[stiffness, -pushed[active].T], [normal[active], np.diag(give[active])]])
+    scale = np.sqrt(abs(np.diag(stiffness)).max(initial=0.0)) or 1.0      # bodies and contacts of one size
+    weight = np.r_[np.full(size, 1 / scale), np.full(len(active), scale)]
+    scaled = weight[:, None] * matrix * weight
+    if np.linalg.cond(scaled) > 1 / np.finfo(float).eps:
+        raise ConfigError("steady sliding", "joints and closed contacts that hold every body", "a body that is free",
+                          "support it, press it on, or start from a given state")
+    found = weight * np.linalg.solve(scaled, weight * np.r_[load, -gap[active]])
+    force = np.zeros(len(closed))
+    force[active] = found[size:]
+    return found[:size], force

@@ -1,0 +1,162 @@
+"""Stage transient: motion of the sliding model with unilateral contact and dry friction."""
+
+from functools import partial
+from typing import Literal
+
+import numpy as np
+
+from pipeline.contract import ConfigError, Context, Quantities, Quantity, Section, option, stage
+from pipeline.physics.dry_friction import falling
+from pipeline.physics.limit_cycle import cycle, harmonic_levels
+from pipeline.physics.sliding_model import sliding_model
+from pipeline.physics.spectra import power_spectrum
+from pipeline.physics.time_stepping import Hard, Lagrange, Penalty, Start, Table, simulate
+from pipeline.physics.time_stepping_linear import modal_system
+from pipeline.physics.time_stepping_start import steady_start
+from pipeline.products import ReducedModel, Transient
+
+
+class Settings(Section):
+    """Contact, friction, operating points, and what is kept of the motion."""
+
+    contact: Literal["hard", "penalty", "table", "lagrange"] = option(
+        "hard", "hard: impulses on velocities; penalty: linear spring and damper; table: the contact law of the model;"
+        " lagrange: multipliers on displacements under Newmark's rule")
+    restitution: float = option(0.0, "hard: rebound velocity over impact velocity", ge=0, le=1)
+    contact_stiffness: Quantity("N/m", gt=0) = option("10 N/um", "penalty: stiffness of each contact")
+    contact_damping: Quantity("N s/m", ge=0) = option("0 N s/m", "penalty: damping of each contact")
+    damping_speed: Quantity("m/s", gt=0) = option("1 m/s", "table: closing speed that doubles the contact force")
+    gamma: float = option(0.5, "lagrange: Newmark's gamma; 0.5 trapezoidal, more damps the highest modes", ge=0.5, le=1)
+    friction: float = option(0.3, "coefficient of friction at high slip speed", ge=0)
+    friction_at_rest: float = option(0.3, "coefficient of friction as the slip speed goes to zero", ge=0)
+    decay_speed: Quantity("m/s", gt=0) = option("10 mm/s", "slip speed over which friction falls from one to the other")
+    static_factor: float = option(1.0, "hold of a sticking contact over friction at rest", ge=1)
+    description: Literal["rigid", "elastic", "evolution"] = option("rigid", "how a contact sticks (1999, section 4)")
+    tangential_stiffness: Quantity("N/m", gt=0) = option("10 N/um", "elastic and evolution: stiffness of each contact")
+    exponent: float = option(1.0, "evolution: how gradually slip sets in", ge=1)
+    speeds: Quantities("rad/s") = option(("1 rad/s",), "speeds of the drive, either sign, for each pressure")
+    step: Quantity("s", gt=0) = option("1 us", "time step")
+    duration: Quantity("s", gt=0) = option("0.5 s", "length of the motion")
+    record_every: int = option(10, "steps between samples that are kept", ge=1)
+    highest_frequency: Quantity("Hz", gt=0) = option("100 kHz", "modes with open contacts above it are left out")
+    damping: Literal["full", "diagonal"] = option("full", "diagonal: what couples the modes through damping is dropped")
+    start: Literal["sliding", "rest"] = option("sliding", "sliding: steady sliding; rest: unloaded and at rest")
+    kick: Quantity("m/s", ge=0) = option("0.1 mm/s", "effective value of a random start velocity at the sensors")
+    seed: int = option(1, "seed of the kick", ge=0)
+    window: Quantity("s", gt=0) = option("0.1 s", "end of the motion from which spectra and cycles are taken")
+    settled_within: float = option(0.02, "largest spread of the amplitude over quarters of the window", gt=0)
+    lowest_frequency: Quantity("Hz", ge=0) = option("50 Hz", "dominant frequencies are sought above it")
+    harmonics: int = option(8, "multiples of the dominant frequency that are told", ge=1)
+
+
+def _check(sections):
+    """Refuse, before anything is computed, windows that the motion does not fill."""
+    told = sections["transient"]
+    if told.window > told.duration:
+        raise ConfigError("transient.window", f"at most the duration, {told.duration:g} s", f"{told.window:g} s")
+    if told.step * told.record_every * 40 > told.window:
+        raise ConfigError("transient.record_every", "at least 40 samples in the window",
+                          f"{told.window / (told.step * told.record_every):.3g}", "keep more samples")
+
+
+@stage(check=_check)
+def transient(model: ReducedModel, settings: Settings, context: Context) -> Transient:
+    """Step the sliding model through contact, sticking and sliding.
+
+    The model is reduced to its real modes with open contacts. The linear part is stepped exactly; contact and friction
+    forces are constant or linear over a step. A motion that has not settled in the window is kept, and said so.
+
+    Method:
+    The equations of motion on the real modes below {highest_frequency} (contacts open, damping {damping}) were stepped
+    by {step} over {duration}, the linear part exactly except under Lagrange multipliers (Newmark's rule); contact:
+    {contact}, friction {friction_at_rest} at rest falling to {friction} over {decay_speed}, sticking described as
+    {description}. Spectra and cycles are those of the last {window}.
+    """
+    points = [(state, speed) for state in range(len(model.pressure)) for speed in settings.speeds]
+    motions = context.map(partial(_move, model, settings), points, "operating points")
+    interval = settings.step * settings.record_every
+    late = motions[0].time >= motions[0].time[-1] - settings.window
+    velocity = np.array([m.velocity for m in motions])
+    frequency, spectrum = power_spectrum(velocity[..., late], 1 / interval, 1 / settings.window)
+    _report(context, points, motions)
+    return Transient(
+        pressure=[model.pressure[state] for state, _ in points], speed=[speed for _, speed in points],
+        time=motions[0].time, sensor_name=model.sensor_name, sensor_position=model.sensor_position,
+        displacement=_kept(m.displacement - m.displacement[:, :1] for m in motions),
+        velocity=velocity.astype(np.float32), gap=_kept(m.gap for m in motions),
+        normal_force=_kept(m.normal_force for m in motions), friction_force=_kept(m.friction_force for m in motions),
+        slip=_kept(m.slip for m in motions), status=np.array([m.status for m in motions]),
+        status_share=[m.status_share for m in motions], stored_energy=[m.stored for m in motions],
+        **{name: [getattr(m, name) for m in motions]
+           for name in ("input_work", "damping_loss", "normal_work", "friction_work", "sliding_loss", "imbalance")},
+        step=settings.step, window=settings.window, frequency=frequency, velocity_spectrum=spectrum,
+        **_cycles(velocity, late, interval, settings))
+
+
+def _move(model, settings, task):
+    """Motion at one operating point: (row of the preload table, speed of the drive)."""
+    state, speed = task
+    sliding = sliding_model(model, state, speed)
+    law, friction, inputs = _law(model, settings), _friction(settings), model.pressure[state] * model.input_area
+    system = modal_system(sliding, settings.damping, settings.highest_frequency)
+    start = steady_start(sliding, law, friction, inputs) if settings.start == "sliding" else None
+    kick = _kick(system, sliding.sensor_rows, settings)
+    return simulate(sliding, law, friction, step=settings.step, duration=settings.duration, inputs=inputs,
+                    record_every=settings.record_every, system=system, start=_kicked(start, kick))
+
+
+def _kicked(start, kick):
+    return Start(np.zeros_like(kick), kick) if start is None else start.kicked(kick)
+
+
+def _law(model, settings):
+    if settings.contact == "table":
+        if not len(model.law_closure):
+            raise ConfigError("transient.contact", "hard, penalty or lagrange for contacts without a law of their own",
+                              "table")
+        return Table(model.law_closure, model.law_pressure, settings.damping_speed)
+    return {"hard": Hard(settings.restitution), "lagrange": Lagrange(settings.gamma),
+            "penalty": Penalty(settings.contact_stiffness, settings.contact_damping)}[settings.contact]
+
+
+def _friction(settings):
+    return falling(settings.friction_at_rest, settings.friction, settings.decay_speed,
+                   static_factor=settings.static_factor, description=settings.description,
+                   stiffness=settings.tangential_stiffness, exponent=settings.exponent)
+
+
+def _kick(system, sensor_rows, settings):
+    """Random velocity (n,), all modes alike, with the wanted effective value at the sensors."""
+    random = np.random.default_rng(settings.seed).standard_normal(len(system.squared))
+    velocity = system.shape @ random
+    seen = np.sqrt(np.mean((sensor_rows @ velocity) ** 2)) if len(sensor_rows) else 0.0
+    return velocity * (settings.kick / seen if seen else 0.0)
+
+
+def _kept(signals):
+    return np.array(list(signals), dtype=np.float32)
+
+
+def _cycles(velocity, late, interval, settings):
+    """The table of cycles, one row an operating point, one column a sensor."""
+    lowest = max(settings.lowest_frequency, 2 / settings.window)
+    rows = [[cycle(signal, interval, settings.window, settings.settled_within, lowest) for signal in sensors]
+            for sensors in velocity]
+    harmonic = [[harmonic_levels(signal[late], 1 / interval, found.frequency, settings.harmonics) if found.frequency
+                 else np.zeros(settings.harmonics) for signal, found in zip(sensors, row, strict=True)]
+                for sensors, row in zip(velocity, rows, strict=True)]
+    shape = velocity.shape[:2]
+    named = {"cycle_frequency": "frequency", "cycle_amplitude": "amplitude", "cycle_drift": "drift",
+             "settled": "settled", "growth_rate": "growth", "growth_rate_std": "growth_std", "grew": "grew"}
+    table = {name: np.array([[getattr(c, field) for c in row] for row in rows]).reshape(shape)
+             for name, field in named.items()}
+    counts = {name: table[name].astype(int) for name in ("settled", "grew")}
+    return {**table, **counts, "harmonic_amplitude": np.reshape(harmonic, (*shape, settings.harmonics))}
+
+
+def _report(context, points, motions):
+    """Tell where energy does not balance as it should."""
+    for (state, speed), motion in zip(points, motions, strict=True):
+        if motion.imbalance > 0.005:
+            context.log(f"state {state + 1}, {speed:g} rad/s: energy balances only within"
+                        f" {100 * motion.imbalance:.2g} %; a shorter step would help")
