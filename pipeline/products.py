@@ -146,6 +146,45 @@ class Structure:
     piston_area: Array = quantity("m^2", "", "pad area on which the nominal pressure acts; piston force = pressure * area")
 
 
+@product(version=1)
+class BeamOnBeam:
+    """Two beams on their supports, by their modes: the slider touches the track, which a drive pulls along x.
+
+    Relative displacement is slider minus track; the normal points out of the rubbed face. In steady sliding each
+    frequency is a mode at one friction coefficient (the curve); at its maxima modes coalesce and flutter begins.
+    """
+
+    body_name: Array = text("body", "bodies in order: slider, track")
+    element: Array = text("", "finite elements of the beams: plane or timoshenko")
+    mode_body: Array = count("mode", "body of the mode, index into body_name")
+    mode_frequency: Array = quantity("Hz", "mode", "modes and residual shapes of each beam apart; 0 where it moves freely")
+    mode_damping: Array = quantity("1/s", "mode", "damping of the mass-normalised mode (Rayleigh)")
+    contact_normal: Array = quantity("1/kg^0.5", "contact mode", "normal relative displacement, slider minus track, positive opens")
+    contact_tangent: Array = quantity("1/kg^0.5", "contact mode", "tangential relative displacement along x, slider minus track")
+    contact_position: Array = quantity("m", "contact xyz", "point of contact")
+    contact_area: Array = quantity("m^2", "contact", "section of the slider")
+    force: Array = quantity("N", "", "force that presses the beams together")
+    load_row: Array = quantity("1/kg^0.5", "input mode", "motion of the loaded end along the force")
+    sensor_name: Array = text("sensor", "sensor names")
+    sensor_position: Array = quantity("m", "sensor xyz", "sensor positions")
+    sensor_direction: Array = quantity("1", "sensor xyz", "sensor directions")
+    sensor_rows: Array = quantity("1/kg^0.5", "sensor mode", "displacement at the sensors")
+    visible_position: Array = quantity("m", "visible xyz", "points on both faces of the beams")
+    visible_body: Array = count("visible", "body of these points")
+    visible_face: Array = count("face corner", "quadrilaterals between them, row numbers of visible_position")
+    recovery: Array = quantity("1/kg^0.5", "visible xyz mode", "displacement of these points per mode", np.float32)
+    curve_frequency: Array = quantity("Hz", "curve", "frequencies of the curve")
+    curve_friction: Array = quantity("1", "curve", "friction at which the frequency is a mode of sliding without damping, cut to -1..2")
+    closed_frequency: Array = quantity("Hz", "closed_mode", "modes of sliding without friction")
+    onset_frequency: Array = quantity("Hz", "onset", "frequencies at which modes coalesce as friction rises")
+    onset_friction: Array = quantity("1", "onset", "friction at which they do, without damping")
+    end_frequency: Array = quantity("Hz", "flutter_end", "frequencies at which they part again")
+    end_friction: Array = quantity("1", "flutter_end", "friction at which they do")
+    check_frequency: Array = quantity("Hz", "check_mode", "modes without friction by the other kind of element")
+    check_onset_frequency: Array = quantity("Hz", "check_onset", "coalescences by the other kind of element")
+    check_onset_friction: Array = quantity("1", "check_onset", "their friction")
+
+
 @product(version=3)
 class ReducedModel:
     """The reduced sliding model: everything that a solver or an effect needs of a sliding system.

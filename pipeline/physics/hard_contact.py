@@ -17,6 +17,7 @@ import numpy as np
 from scipy.linalg import cho_factor, cho_solve, eigh, null_space, solve
 
 from pipeline.contract.errors import ConfigError
+from pipeline.physics.quadratic_modes import quadratic_roots
 from pipeline.physics.sliding_model import FrictionState
 
 
@@ -65,3 +66,32 @@ def _refuse_jamming(mobility, free):
         raise ConfigError("hard contact", "friction below the limit at which the contact jams",
                           f"a normal mobility of {relative:.3g} times that without friction",
                           "lower the friction, or change the tilt: the slider digs in")
+
+
+def growth(sliding, frequency, width):
+    """Largest real part (1/s) of the roots whose frequency lies within ``width`` (a share) of ``frequency`` Hz.
+
+    -inf where there is none.
+    """
+    roots = quadratic_roots(np.eye(len(sliding.stiffness)), sliding.damping, sliding.stiffness)
+    near = abs(roots.imag / (2 * np.pi * frequency) - 1) <= width
+    return roots.real[near].max(initial=-np.inf)
+
+
+def critical_friction(model, frequency, stable, unstable, width=0.1, tolerance=1e-4):
+    """Friction at which the growth of the mode near ``frequency`` Hz crosses zero, by bisection to ``tolerance``.
+
+    ``stable`` and ``unstable`` are coefficients on either side. Raises ConfigError where they are not.
+    """
+    basis = allowed_motions(model)
+
+    def grows(friction):
+        return growth(hard_sliding(model, friction, basis, friction_damping=False), frequency, width) > 0
+
+    if grows(stable) or not grows(unstable):
+        raise ConfigError(f"critical friction near {frequency:.4g} Hz", "a stable and an unstable coefficient",
+                          f"{stable:.4g} and {unstable:.4g}")
+    while unstable - stable > tolerance:
+        middle = (stable + unstable) / 2
+        stable, unstable = (stable, middle) if grows(middle) else (middle, unstable)
+    return (stable + unstable) / 2
