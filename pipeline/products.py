@@ -226,7 +226,7 @@ class ReducedModel:
     input_area: Array = quantity("m^2", "input", "input force per nominal pad pressure")
     history_interval: Array = quantity("s", "", "time between the samples of the histories, which begin at time 0")
     input_history: Array = quantity("N", "sample input", "input forces over time, added to the former; none = constant")
-    drive_history: Array = quantity("rad/s", "drive_sample", "speed of the drive over time; none = constant")
+    drive_history: Array = quantity("1", "drive_sample", "speed of the drive over time, per nominal speed; none = 1")
     sensor_name: Array = text("sensor", "sensor names")
     sensor_position: Array = quantity("m", "sensor xyz", "sensor positions")
     sensor_direction: Array = quantity("1", "sensor xyz", "sensor directions")

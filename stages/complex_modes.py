@@ -33,21 +33,16 @@ from pipeline.products import ComplexModes, FrictionMap, ReducedModel
 _CHUNK = 7
 
 
-class Friction(Section):
-    """Friction that depends on the slip speed alone: coefficient + (static - coefficient) exp(-speed / decay_speed)."""
-
-    coefficient: float = option(..., "coefficient of friction at high slip speed", ge=0)
-    static: float | None = option(None, "coefficient at slip speed 0; none = as at high speed", ge=0)
-    decay_speed: Quantity("m/s", gt=0) = option("0.1 m/s", "slip speed over which the difference falls to 37 %")
-
-
 class Settings(Section):
     """Friction sweep, operating points and the terms of the linearised system."""
 
     speeds: Quantities("rad/s") = option(
         ("8.5 rad/s", "10.25 rad/s", "12 rad/s"),
         "speeds of the drive at the operating points, a belt being a drum of radius 1 m; the sweep runs at their mean")
-    friction: Friction | None = option(None, "friction at the operating points where the chain has no friction map")
+    friction: float | None = option(
+        None, "coefficient of friction at high slip speed, where the chain has no friction map", ge=0)
+    friction_at_rest: float | None = option(None, "coefficient as the slip speed goes to zero; none = the same", ge=0)
+    decay_speed: Quantity("m/s", gt=0) = option("10 mm/s", "slip speed over which friction falls from one to the other")
     friction_max: float = option(0.8, "last friction coefficient of the sweep, which starts at 0", gt=0)
     friction_steps: int = option(41, "points of the sweep, both ends included", ge=2)
     frequency_max: Quantity("Hz", gt=0) = option("20 kHz", "real modes below it span the motion")
@@ -69,7 +64,7 @@ def _check(sections):
     if given == ("friction_map" in sections):
         raise ConfigError("complex_modes.friction", "friction from one source",
                           "a friction map in the chain as well" if given else "neither this nor a friction map",
-                          "leave it out" if given else "add it, such as {coefficient: 0.4}")
+                          "leave it out" if given else "add it, such as friction: 0.4")
 
 
 @dataclass(frozen=True)
@@ -168,9 +163,8 @@ def _friction_law(friction_map, settings):
     if friction_map is not None:
         law = FrictionLaw(friction_map.pressure, friction_map.speed, friction_map.distance, friction_map.friction)
         return partial(from_map, law, settings.sliding_distance)
-    friction = settings.friction
-    static = friction.coefficient if friction.static is None else friction.static
-    return partial(falling_with_speed, friction.coefficient, static, friction.decay_speed)
+    at_rest = settings.friction if settings.friction_at_rest is None else settings.friction_at_rest
+    return partial(falling_with_speed, settings.friction, at_rest, settings.decay_speed)
 
 
 def _basis(model, settings, contact_stiffness=0.0):

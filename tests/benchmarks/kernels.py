@@ -3,6 +3,7 @@
 import numpy as np
 
 from pipeline.physics import multibody, newmark
+from pipeline.physics.dry_friction import constant
 from pipeline.physics.eigen import lowest_modes
 from pipeline.physics.elasticity import assemble, isotropic
 from pipeline.physics.layered_solid import graded_depth, layered_compliance
@@ -14,6 +15,8 @@ from pipeline.physics.preloaded_modes import preloaded_modes
 from pipeline.physics.quadratic_modes import quadratic_roots
 from pipeline.physics.rough_contact import solve_normal_contact
 from pipeline.physics.rough_surface import plateau_pad, turned_disc
+from pipeline.physics.time_stepping import Hard, simulate
+from tests.physics.lumps import random_structure
 from tests.physics.small_pads import random_assembly
 
 _IRON = isotropic(120e9, 0.27)
@@ -90,6 +93,23 @@ def newmark_steps():
     return _stepping(newmark.integrate)
 
 
-KERNELS = (compliance, contact, assembly, modes, roots, superposition, exudyn_steps, newmark_steps)
+def _transient(modes, highest, step, duration):
+    model = random_structure(modes, highest)
+    return (lambda: simulate(model, Hard(), constant(0.3), step=step, duration=duration, inputs=[20.0],
+                             record_every=10), round(duration / step), "steps")
+
+
+def transient_pin():
+    """transient, 65 modes, hard contact, 0.5 s at 1 us"""
+    return _transient(65, 40e3, 1e-6, 0.5)
+
+
+def transient_beam():
+    """transient, 100 modes, hard contact, 1 s at 2 us"""
+    return _transient(100, 60e3, 2e-6, 1.0)
+
+
+KERNELS = (compliance, contact, assembly, modes, roots, superposition, exudyn_steps, newmark_steps,
+           transient_pin, transient_beam)
 #: (kernel, kernel) pairs whose rates compare: the same work done in two ways
 PAIRS = ((newmark_steps, exudyn_steps),)

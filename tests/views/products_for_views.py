@@ -18,6 +18,7 @@ from pipeline.products import (
     Squeal,
     Structure,
     Surface,
+    Transient,
 )
 
 PRESSURE, SPEED, OMEGA = np.array([1e6, 2e6, 3e6]), np.array([0.9, 1.1, 1.3]), np.array([8.5, 10.25, 12.0])
@@ -167,6 +168,26 @@ def response(samples=2000):
                     sensor_position=np.zeros((2, 3)), velocity=velocity, frequency=frequency,
                     velocity_spectrum=spectrum, mode_frequency=np.linspace(260, 19800, 120),
                     mode_damping=np.full(120, 0.002), coupling="assembly")
+
+
+def transient(settled=True):
+    """A stick-slip cycle of two sensors and two contacts at two operating points."""
+    time = np.linspace(0, 0.05, 4001)
+    swing = (1 - np.exp(-time / 0.005)) * np.sin(2 * np.pi * 2200 * time)
+    velocity = 0.03 * (swing + 0.2 * swing**2) * np.array([1.0, 0.4])[:, None] * np.array([1.0, 2.0])[:, None, None]
+    force = 20 + 15 * np.ones((2, 2, 1)) * swing
+    frequency = np.arange(0, 20000, 50.0)
+    lines = sum(10.0 ** (-2 * k) * np.exp(-((frequency - 2200 * k) / 40) ** 2) for k in (1, 2, 3))
+    status = np.where(swing > 0.5, 1, np.where(swing < -0.9, 0, 2)) * np.ones((2, 2, 1), int)
+    return filled(
+        Transient, pressure=[1e6, 3e6], speed=[1.0, 1.0], time=time, sensor_name=SENSORS, velocity=velocity,
+        displacement=velocity / 14e3, normal_force=force, friction_force=0.3 * force, slip=0.05 - velocity,
+        gap=0 * force, status=status, status_share=np.tile([0.2, 0.3, 0.5], (2, 2, 1)), step=1e-6, window=0.02,
+        frequency=frequency, velocity_spectrum=np.ones((2, 2, 1)) * (lines + 1e-9),
+        cycle_frequency=np.full((2, 2), 2200.0), cycle_amplitude=np.abs(velocity).max(axis=2),
+        cycle_drift=np.full((2, 2), 0.004 if settled else 0.4), settled=np.full((2, 2), int(settled)),
+        growth_rate=np.full((2, 2), 200.0), growth_rate_std=np.full((2, 2), 5.0), grew=np.ones((2, 2), int),
+        harmonic_amplitude=np.ones((2, 2, 1)) * np.array([0.03, 0.003, 0.0004, 0.0]), imbalance=[1e-4, 2e-4])
 
 
 def squeal(quiet=False, harmonic=False):

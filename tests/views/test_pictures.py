@@ -14,6 +14,7 @@ from pipeline.views import (
     preload,
     sound,
     surfaces,
+    transient,
 )
 from tests.views import products_for_views as small
 
@@ -47,6 +48,10 @@ PICTURES = {
     "occurrence": (lambda p: sound.occurrence(p, 60), small.squeal, "peak_level"),
     "levels": (lambda p: sound.level_frequency(p, LINES), small.squeal, "event_level"),
     "bands": (lambda p: sound.band_levels(p, [0, 8], 0), small.squeal, "band_level"),
+    "velocities": (lambda p: transient.velocities(p, 1, 60), small.transient, "velocity"),
+    "portrait": (lambda p: transient.phase_portrait(p, 1, 0, 60), small.transient, "displacement"),
+    "force and slip": (lambda p: transient.force_and_slip(p, 1, 0, 60), small.transient, "normal_force"),
+    "harmonics": (lambda p: transient.spectrum(p, 1, 0, 60), small.transient, "velocity_spectrum"),
     "agreement": (agreement.agreement, small.comparison, "ours"),
 }
 
@@ -122,3 +127,10 @@ def test_an_envelope_keeps_every_peak():
     assert shown.max() == 7.0
     assert shown.min() == signal.min()
     assert envelope(time[:50], signal[:50])[1] is not None
+
+
+def test_status_band_shows_the_status():
+    product = small.transient()
+    first = transient.status_band(product, 0, 60)
+    assert transient.status_band(product, 0, 60) == first
+    assert transient.status_band(replace(product, status=2 - product.status), 0, 60) != first
