@@ -20,6 +20,9 @@ from pipeline.contract.errors import ConfigError
 from pipeline.physics.quadratic_modes import quadratic_roots
 from pipeline.physics.sliding_model import FrictionState
 
+#: growth below this share of the angular frequency is rounding
+_NEUTRAL = 1e-6
+
 
 @dataclass(frozen=True)
 class HardSliding:
@@ -83,10 +86,10 @@ def critical_friction(model, frequency, stable, unstable, width=0.1, tolerance=1
 
     ``stable`` and ``unstable`` are coefficients on either side. Raises ConfigError where they are not.
     """
-    basis = allowed_motions(model)
+    basis, neutral = allowed_motions(model), _NEUTRAL * 2 * np.pi * frequency
 
     def grows(friction):
-        return growth(hard_sliding(model, friction, basis, friction_damping=False), frequency, width) > 0
+        return growth(hard_sliding(model, friction, basis, friction_damping=False), frequency, width) > neutral
 
     if grows(stable) or not grows(unstable):
         raise ConfigError(f"critical friction near {frequency:.4g} Hz", "a stable and an unstable coefficient",
