@@ -366,6 +366,30 @@ class Transient:
 
 
 @product(version=1)
+class MotionScatter:
+    """One motion in several formulations, steps and seeds: what a chaotic motion keeps. First sensor, first contact."""
+
+    formulation: Array = text("run", "contact formulation: hard or lagrange")
+    step: Array = quantity("s", "run", "time step")
+    seed: Array = count("run", "seed of the start velocity")
+    duration: Array = quantity("s", "", "length that is judged")
+    friction: Array = quantity("1", "", "coefficient of friction")
+    speed: Array = quantity("rad/s", "", "speed of the drive")
+    fundamental: Array = quantity("Hz", "run", "strongest line of the velocity")
+    harmonic_level: Array = quantity("1", "run order", "level of 1, 2, ... times that frequency re the strongest line, dB")
+    harmonic_height: Array = quantity("1", "run order", "height of these lines above the spectrum beside them, dB")
+    low_level: Array = quantity("1", "run", "highest line in the low band re the strongest line, dB")
+    peak_force: Array = quantity("N", "run", "largest normal force")
+    peak_slip: Array = quantity("m/s", "run", "largest slip velocity")
+    peak_velocity: Array = quantity("m/s", "run", "largest velocity at the sensor")
+    status_share: Array = quantity("1", "run kind", "share of the time open, sticking, sliding")
+    vibrating_share: Array = quantity("1", "run", "share of the time that vibrates, T_vib / (T_vib + T_st)")
+    burst_length: Array = quantity("s", "run", "mean length of a burst, T_vib")
+    pause_length: Array = quantity("s", "run", "mean length of a pause, T_st")
+    imbalance: Array = quantity("1", "run", "largest error of the energy balance over the largest energy that passed")
+
+
+@product(version=1)
 class Comparison:
     """Published values beside ours, row by row."""
 

@@ -3,17 +3,28 @@
 from dataclasses import fields
 from fnmatch import fnmatch
 
+from pipeline.computed.beam_on_beam import beam_on_beam_rows
 from pipeline.computed.disc_brake import disc_brake_rows
 from pipeline.contract import ConfigError, Context, InputFile, Section, option, stage
-from pipeline.products import Comparison, ComplexModes, MicroFriction, Multibody, Squeal, Structure
+from pipeline.products import (
+    BeamOnBeam,
+    Comparison,
+    ComplexModes,
+    MicroFriction,
+    MotionScatter,
+    Multibody,
+    Squeal,
+    Structure,
+)
 from pipeline.published import load
 
 #: product that only one system has -> rows (products, facts, known) -> {key: Ours}; the first that is there counts
-SYSTEMS = {"structure": disc_brake_rows}
+SYSTEMS = {"structure": disc_brake_rows, "beam_on_beam": beam_on_beam_rows}
 
 #: size in SI of the printed units that the chains compute
 _SIZE = {"1": 1.0, "%": 0.01, "um": 1e-6, "mm": 1e-3, "m": 1.0, "us": 1e-6, "ms": 1e-3, "s": 1.0, "1/s": 1.0, "Hz": 1.0,
-         "rad/s": 1.0, "mm/s": 1e-3, "m/s": 1.0, "N": 1.0, "kg": 1.0, "MPa": 1e6, "GPa": 1e9}
+         "rad/s": 1.0, "mm/s": 1e-3, "m/s": 1.0, "N": 1.0, "kg": 1.0, "MPa": 1e6, "GPa": 1e9,
+         "deg": 0.017453292519943295}
 _REASON = {"condition": "a condition of the authors' work, not a result", "derived": "follows from other rows",
            "input": "an input of the authors, not a result"}
 _UNCOMPUTED = "the chain does not compute it"
@@ -33,8 +44,9 @@ def _check(sections):
 
 
 @stage(check=_check)
-def comparison(micro_friction: MicroFriction | None, structure: Structure | None, complex_modes: ComplexModes | None,
-               multibody: Multibody | None, squeal: Squeal | None, settings: Settings, context: Context) -> Comparison:
+def comparison(micro_friction: MicroFriction | None, structure: Structure | None, beam_on_beam: BeamOnBeam | None,
+               complex_modes: ComplexModes | None, multibody: Multibody | None, motion_scatter: MotionScatter | None,
+               squeal: Squeal | None, settings: Settings, context: Context) -> Comparison:
     """Put the published numbers beside ours.
 
     A statement without a number is compared where it puts bounds on a number of ours. Inputs are shown
@@ -49,7 +61,7 @@ def comparison(micro_friction: MicroFriction | None, structure: Structure | None
     tuned = _tuned(settings.tuned or {}, facts)
     known = {fact.key: fact.value * _SIZE[fact.unit] for fact in facts if fact.value is not None and fact.unit in _SIZE}
     products = {"micro_friction": micro_friction, "structure": structure, "complex_modes": complex_modes,
-                "multibody": multibody, "squeal": squeal}
+                "multibody": multibody, "squeal": squeal, "beam_on_beam": beam_on_beam, "motion_scatter": motion_scatter}
     ours = _rows_of(products)(products, facts, known)
     for fact in facts:
         if fact.key in ours and fact.unit not in _SIZE:

@@ -2,10 +2,12 @@
 
 from pipeline.contract import Context, Section, option, stage
 from pipeline.products import (
+    BeamOnBeam,
     Comparison,
     ComplexModes,
     FrictionMap,
     MicroFriction,
+    MotionScatter,
     Multibody,
     ReducedModel,
     Report,
@@ -13,6 +15,7 @@ from pipeline.products import (
     Squeal,
     Structure,
     Surface,
+    Transient,
 )
 
 
@@ -25,8 +28,9 @@ class Settings(Section):
 
 @stage(companions=lambda product: {"report.html": product.html.item()}, reads_case=True)
 def report(surface: Surface | None, micro_friction: MicroFriction | None, friction_map: FrictionMap | None,
-           structure: Structure | None, model: ReducedModel | None, complex_modes: ComplexModes | None,
-           multibody: Multibody | None, response: Response | None, squeal: Squeal | None,
+           structure: Structure | None, beam_on_beam: BeamOnBeam | None, model: ReducedModel | None,
+           complex_modes: ComplexModes | None, multibody: Multibody | None, response: Response | None,
+           transient: Transient | None, motion_scatter: MotionScatter | None, squeal: Squeal | None,
            comparison: Comparison | None, settings: Settings, context: Context) -> Report:
     """Write one HTML page with pictures, tables, settings and methods.
 
@@ -39,7 +43,8 @@ def report(surface: Surface | None, micro_friction: MicroFriction | None, fricti
 
     products = {"surface": surface, "micro_friction": micro_friction, "friction_map": friction_map,
                 "structure": structure, "model": model, "complex_modes": complex_modes, "multibody": multibody,
-                "response": response, "squeal": squeal, "comparison": comparison}
+                "response": response, "transient": transient, "squeal": squeal, "comparison": comparison,
+                "beam_on_beam": beam_on_beam, "motion_scatter": motion_scatter}
     look = Look(settings.dots_per_inch, settings.mode_pictures)
     chapters = []
     builders = plan(products, look)

@@ -33,6 +33,19 @@ class HardSliding:
     basis: np.ndarray
 
 
+def is_hard(model):
+    """True where all contacts are loaded without yielding: no contact stiffness.
+
+    Raises ConfigError where only some of them are so, or where friction joints stand beside them.
+    """
+    contacts = model.contacts
+    rigid = (contacts.preload > 0) & (contacts.stiffness == 0) & ~contacts.fixed
+    if rigid.any() and not rigid.all():
+        raise ConfigError("hard contacts", "all contacts loaded and hard, or a normal law or a stiffness for each",
+                          f"{rigid.sum()} of {len(rigid)} hard", "give these a stiffness")
+    return bool(rigid.any())
+
+
 def allowed_motions(model):
     """Z (n, m): motions that keep all contacts closed, mass-orthonormal, those without friction uncoupled."""
     mass, _, stiffness = model.supported()

@@ -5,7 +5,17 @@ from functools import partial
 from pipeline.views import case as case_view
 from pipeline.views import sound as sound_pictures
 from pipeline.views.chapter import Figure
-from pipeline.views.chapters import comparison, friction, motion, sound, stability, structure, surface, transient
+from pipeline.views.chapters import (
+    beam_on_beam,
+    comparison,
+    friction,
+    motion,
+    sound,
+    stability,
+    structure,
+    surface,
+    transient,
+)
 from pipeline.views.limits import limits
 from pipeline.views.verdict import published_squeal, verdict
 
@@ -16,8 +26,10 @@ def plan(products, look):
     model, modes = products.get("model"), products.get("complex_modes")
     known = (("surface", surface.chapter, ()), ("micro_friction", friction.micro, ()),
              ("friction_map", friction.friction_map, ()), ("structure", structure.chapter, (modes,)),
+             ("beam_on_beam", beam_on_beam.beams, (modes,)),
              ("complex_modes", stability.chapter, (model, lines)), ("multibody", motion.chapter, ()),
              ("transient", transient.chapter, ()),
+             ("motion_scatter", beam_on_beam.scatter, ()),
              ("response", sound.response, (lines,)), ("squeal", sound.squeal, (lines,)),
              ("comparison", comparison.chapter, ()))
     return [partial(write, products[name], *more, look) for name, write, more in known
