@@ -390,6 +390,38 @@ class MotionScatter:
 
 
 @product(version=1)
+class BeamGeometry:
+    """One geometry of the beam on beam that meets what the paper prints, what it costs, and what the data leave open."""
+
+    parameter: Array = text("parameter", "parameters of the joint search")
+    best: Array = quantity("1", "parameter", "the best geometry, in the unit that the name tells (lengths in mm, else SI)")
+    cost: Array = quantity("1", "", "its cost: linear facts and motion")
+    linear_cost: Array = quantity("1", "", "its cost, linear facts alone")
+    rigid_tilt: Array = quantity("rad", "rigid_search", "tilt of the searches with rigid supports")
+    rigid_cost: Array = quantity("1", "rigid_search", "lowest linear cost with rigid supports")
+    rigid_best: Array = quantity("1", "rigid_search rigid_parameter", "the geometry with that cost")
+    rigid_parameter: Array = text("rigid_parameter", "its parameters")
+    yielding_cost: Array = quantity("1", "", "lowest linear cost with supports that yield")
+    sampled_parameter: Array = text("sampled_parameter", "parameters that the linear facts depend on")
+    samples: Array = quantity("1", "sample sampled_parameter", "geometries that the linear facts allow")
+    onset_frequency: Array = quantity("Hz", "onset", "coalescences of the best geometry")
+    onset_friction: Array = quantity("1", "onset", "their friction")
+    closed_frequency: Array = quantity("Hz", "closed_mode", "its modes without friction")
+    quantity_name: Array = text("quantity", "what is judged of the motion")
+    lower: Array = quantity("1", "quantity", "lower end of the band in which it costs nothing (SI; -1e9 = none)")
+    upper: Array = quantity("1", "quantity", "upper end of that band (SI; 1e9 = none)")
+    motion: Array = quantity("1", "run quantity", "its values in each motion of the best geometry (SI)")
+    damping: Array = quantity("1/s", "damping", "damping per mass")
+    low_growth: Array = quantity("1/s", "damping", "growth rate of the mode near 400 Hz")
+    middle_growth: Array = quantity("1/s", "damping", "growth rate of the mode near 2800 Hz")
+    damping_low_level: Array = quantity("1", "damping", "highest line between 250 and 650 Hz re the strongest line, dB")
+    damping_fundamental: Array = quantity("Hz", "damping", "strongest line")
+    damping_vibrating: Array = quantity("1", "damping", "share of the time that vibrates")
+    evaluations: Array = count("", "geometries evaluated")
+    seconds: Array = quantity("s", "", "CPU seconds of the search")
+
+
+@product(version=1)
 class Comparison:
     """Published values beside ours, row by row."""
 

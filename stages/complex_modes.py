@@ -46,7 +46,8 @@ class Settings(Section):
     decay_speed: Quantity("m/s", gt=0) = option("10 mm/s", "slip speed over which friction falls from one to the other")
     friction_max: float = option(0.8, "last friction coefficient of the sweep, which starts at 0", gt=0)
     friction_steps: int = option(41, "points of the sweep, both ends included", ge=2)
-    frequency_max: Quantity("Hz", gt=0) = option("20 kHz", "real modes below it span the motion; hard contacts keep them all")
+    frequency_max: Quantity("Hz", gt=0) = option("20 kHz", "real modes below it span the motion; under hard contacts"
+                                                 " all do")
     smallest_correction: float = option(
         1e-5, "corrections for friction and damping below this share of the modal amplitude are left out", ge=0)
     sliding_distance: Quantity("m", ge=0) = option("10 mm", "sliding distance at which the friction map is read")

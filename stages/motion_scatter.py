@@ -38,7 +38,8 @@ class Settings(Section):
     sampling: Quantity("s", gt=0) = option("10 us", "time between samples that are kept")
     resolution: Quantity("Hz", gt=0) = option("20 Hz", "distance of the lines of the spectra")
     lowest_frequency: Quantity("Hz", ge=0) = option("50 Hz", "lines are sought above it")
-    low_band: Quantities("Hz", gt=0) = option(("250 Hz", "650 Hz"), "band whose highest line is told beside the strongest")
+    low_band: Quantities("Hz", gt=0) = option(("250 Hz", "650 Hz"), "band whose highest line is told beside the"
+                                                  " strongest")
     frame: Quantity("s", gt=0) = option("2 ms", "frame in which vibration is told from rest")
     threshold: float = option(0.3, "a frame vibrates above this share of the largest effective value", gt=0, lt=1)
 

@@ -2,6 +2,7 @@
 
 from pipeline.contract import Context, Section, option, stage
 from pipeline.products import (
+    BeamGeometry,
     BeamOnBeam,
     Comparison,
     ComplexModes,
@@ -31,7 +32,8 @@ def report(surface: Surface | None, micro_friction: MicroFriction | None, fricti
            structure: Structure | None, beam_on_beam: BeamOnBeam | None, model: ReducedModel | None,
            complex_modes: ComplexModes | None, multibody: Multibody | None, response: Response | None,
            transient: Transient | None, motion_scatter: MotionScatter | None, squeal: Squeal | None,
-           comparison: Comparison | None, settings: Settings, context: Context) -> Report:
+           beam_geometry: BeamGeometry | None, comparison: Comparison | None, settings: Settings,
+           context: Context) -> Report:
     """Write one HTML page with pictures, tables, settings and methods.
 
     Method:
@@ -44,7 +46,8 @@ def report(surface: Surface | None, micro_friction: MicroFriction | None, fricti
     products = {"surface": surface, "micro_friction": micro_friction, "friction_map": friction_map,
                 "structure": structure, "model": model, "complex_modes": complex_modes, "multibody": multibody,
                 "response": response, "transient": transient, "squeal": squeal, "comparison": comparison,
-                "beam_on_beam": beam_on_beam, "motion_scatter": motion_scatter}
+                "beam_on_beam": beam_on_beam, "motion_scatter": motion_scatter,
+                "beam_geometry": beam_geometry}
     look = Look(settings.dots_per_inch, settings.mode_pictures)
     chapters = []
     builders = plan(products, look)

@@ -47,9 +47,15 @@ def is_hard(model):
 
 
 def allowed_motions(model):
-    """Z (n, m): motions that keep all contacts closed, mass-orthonormal, those without friction uncoupled."""
+    """Z (n, m): motions that keep all contacts closed, mass-orthonormal, those without friction uncoupled.
+
+    Raises ConfigError where there is none.
+    """
     mass, _, stiffness = model.supported()
     basis = null_space(model.contacts.normal)
+    if not basis.shape[1]:
+        raise ConfigError("hard contacts", "motions that keep them closed", "no motion at all",
+                          "give the contacts a stiffness")
     symmetric = (stiffness + stiffness.T) / 2
     _, shape = eigh(basis.T @ symmetric @ basis, basis.T @ mass @ basis)
     return basis @ shape

@@ -85,13 +85,14 @@ def spread(geometry, dpi):
     """PNG of the spread of each parameter among the geometries that fit, over the best one."""
     from pipeline.views.readable import number
 
-    low, high = np.quantile(geometry.sample, [0.05, 0.95], axis=0)
+    low, high = np.quantile(geometry.samples, [0.05, 0.95], axis=0)
+    best = geometry.best[:len(low)]
     with drawing(0.9 + 0.3 * len(low), left=1.9) as figure:
         axes = figure.subplots()
         place = np.arange(len(low))[::-1]
-        axes.hlines(place, low / geometry.best, high / geometry.best, color=GREEN, lw=4)
+        axes.hlines(place, low / best, high / best, color=GREEN, lw=4)
         axes.plot(np.ones(len(low)), place, "D", color=INK, ms=4)
         axes.set_yticks(place, [f"{name} = {number(value, 3)}" for name, value in
-                                zip(geometry.parameter, geometry.best, strict=True)])
+                                zip(geometry.parameter, geometry.best, strict=False)])
         axes.set(xlabel="5 to 95 % of the fitting geometries over the best one", xscale="log")
         return png(figure, dpi)

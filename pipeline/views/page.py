@@ -30,6 +30,7 @@ def plan(products, look):
              ("complex_modes", stability.chapter, (model, lines)), ("multibody", motion.chapter, ()),
              ("transient", transient.chapter, ()),
              ("motion_scatter", beam_on_beam.scatter, ()),
+             ("beam_geometry", beam_on_beam.geometry, ()),
              ("response", sound.response, (lines,)), ("squeal", sound.squeal, (lines,)),
              ("comparison", comparison.chapter, ()))
     return [partial(write, products[name], *more, look) for name, write, more in known
