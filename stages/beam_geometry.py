@@ -55,7 +55,7 @@ class Settings(Section):
     step: Quantity("s", gt=0) = option("2 us", "time step of the motion")
     duration: Quantity("s", gt=0) = option("0.4 s", "length of the motion; its first quarter is not judged")
     highest_frequency: Quantity("Hz", gt=0) = option("60 kHz", "modes above it are left out of the motion")
-    motion_seeds: tuple[int, ...] = option((1, 2), "seeds of the start velocity; costs are means over them", min_length=1)
+    motion_seeds: tuple[int, ...] = option((1, 2), "seeds of the start velocity; costs are means", min_length=1)
     damping_factors: tuple[float, ...] = option((0.0, 0.1, 0.3, 1.0), "factors on the damping per mass of the geometry"
                                                 " found, to see when the low mode is heard", min_length=1)
     start: tuple[float, ...] | None = option(None, "a known geometry (13 parameters) that joins the joint search")
@@ -126,8 +126,9 @@ def _sampled(settings, best):
     """Geometries that the linear facts allow: density exp(-cost / 2) within the bounds."""
     random = np.random.default_rng(settings.seed)
     lower, upper = LOWER[:GEOMETRY], UPPER[:GEOMETRY]
-    walkers = np.clip(best + 0.003 * (upper - lower) * random.standard_normal((settings.walkers, GEOMETRY)), lower, upper)
-    kept = stretch_samples(lambda vector: -linear(vector).cost / 2, walkers, lower, upper, settings.sweeps, settings.seed)
+    spread = 0.003 * (upper - lower) * random.standard_normal((settings.walkers, GEOMETRY))
+    kept = stretch_samples(lambda vector: -linear(vector).cost / 2, np.clip(best + spread, lower, upper), lower, upper,
+                           settings.sweeps, settings.seed)
     return kept[len(kept) // 2:]
 
 

@@ -61,7 +61,8 @@ def comparison(micro_friction: MicroFriction | None, structure: Structure | None
     tuned = _tuned(settings.tuned or {}, facts)
     known = {fact.key: fact.value * _SIZE[fact.unit] for fact in facts if fact.value is not None and fact.unit in _SIZE}
     products = {"micro_friction": micro_friction, "structure": structure, "complex_modes": complex_modes,
-                "multibody": multibody, "squeal": squeal, "beam_on_beam": beam_on_beam, "motion_scatter": motion_scatter}
+                "multibody": multibody, "squeal": squeal, "beam_on_beam": beam_on_beam,
+                "motion_scatter": motion_scatter}
     ours = _rows_of(products)(products, facts, known)
     for fact in facts:
         if fact.key in ours and fact.unit not in _SIZE:

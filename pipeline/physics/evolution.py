@@ -10,7 +10,7 @@ _SHAKE = 0.002
 
 @dataclass(frozen=True)
 class Evolved:
-    """``best`` (n,), its ``cost``, the last ``population`` (p, n) with ``costs`` (p,), and the number of evaluations."""
+    """``best`` (n,), its ``cost``, the last ``population`` (p, n) with ``costs`` (p,), and the evaluations spent."""
 
     best: np.ndarray
     cost: float

@@ -1,12 +1,12 @@
 """Where modes of sliding on one hard contact coalesce, read off two receptances.
 
-Undamped bodies with modes of squared frequency w_j, whose contact moves by a_j along the normal and t_j along the tangent,
-are in steady sliding with s mu (s = sign of the sliding velocity, so that T = s mu N) at the roots L = w^2 of
+Undamped bodies with modes of squared frequency w_j, whose contact moves by a_j along the normal and t_j along the
+tangent, are in steady sliding with s mu (s = sign of the sliding velocity, so that T = s mu N) at the roots L = w^2 of
 
     G_nn(L) + s mu G_nt(L) = 0,    G_nn = sum_j a_j^2 / (w_j - L),    G_nt = sum_j a_j t_j / (w_j - L),             (1)
 
-which is n q = 0 under the force (n + s mu t) N. So every frequency has its friction, mu(L) = -s G_nn / G_nt: modes at mu
-are where this curve passes it; where it has a maximum, two of them meet and flutter begins, at a minimum flutter ends.
+which is n q = 0 under the force (n + s mu t) N. So every frequency has its friction, mu(L) = -s G_nn / G_nt: modes at
+mu are where this curve passes it. At a maximum two of them meet and flutter begins, at a minimum flutter ends.
 """
 
 from dataclasses import dataclass

@@ -36,7 +36,8 @@ def sheet(start, direction, along, across, section):
     left = np.array([-direction[1], direction[0]])
     node = (start + first[..., None] * direction + second[..., None] * left).reshape(-1, 2)
     lattice = np.arange(len(node)).reshape(first.shape)
-    corner = np.stack(np.meshgrid(*(np.arange(0, len(line) - 1, 2) for line in lines), indexing="ij"), -1).reshape(-1, 2)
+    first = (np.arange(0, len(line) - 1, 2) for line in lines)
+    corner = np.stack(np.meshgrid(*first, indexing="ij"), -1).reshape(-1, 2)
     place = corner[:, None] + (2 * reference_vertices(_KIND)).astype(int)
     element = lattice[place[..., 0], place[..., 1]]
     stiffness, mass = _element_matrices(node[element], section)

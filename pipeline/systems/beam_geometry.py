@@ -2,8 +2,8 @@
 
 A geometry is a vector of PARAMETERS. Each number that the paper prints has a band, somewhat inside the tolerance with
 which it is compared; the cost is the sum over these numbers of ((distance from the band) / scale)^2, 0 where all lie
-inside. A coalescence that is missing costs _MISSING; one that the paper does not know _EXTRA. Fixed are the contact 80 mm
-from the clamp, 3 kg, 9 N, 5 degrees, steel, and friction on the face of the track.
+inside. A coalescence that is missing costs _MISSING; one that the paper does not know _EXTRA. Fixed are the contact
+80 mm from the clamp, 3 kg, 9 N, 5 degrees, steel, and friction on the face of the track.
 """
 
 from dataclasses import dataclass
@@ -27,6 +27,8 @@ PARAMETERS = (
 GEOMETRY = 10
 NAMES, LOWER, UPPER = (np.array(column) for column in zip(*PARAMETERS, strict=True))
 
+#: sense of the tilt that flutters, rad
+TILT = -np.pi / 36
 _MISSING, _EXTRA = 60.0, 5.0
 #: (frequency, friction) of the published coalescences, modes 5 and 6 without friction
 COALESCENCES, MODES = ((400.0, 0.16), (2800.0, 0.12), (7700.0, 0.23)), (2500.0, 3100.0)
@@ -51,7 +53,7 @@ class Linear:
     unstable: int
 
 
-def described(vector, tilt=-np.radians(5.0)):
+def described(vector, tilt=TILT):
     """Parameters of a vector, as ``beam_on_beam.build`` takes them; shorter ones have rigid supports or 10 mm width."""
     vector = np.asarray(vector, float)
     springs = 10 ** vector[6:GEOMETRY] if len(vector) >= GEOMETRY else [None] * 4
@@ -82,7 +84,7 @@ def modes_of(bodies):
     return ContactModes(join(squared), join(normal), join(tangent)), join(sensor), join(load)
 
 
-def linear(vector, tilt=-np.radians(5.0)):
+def linear(vector, tilt=TILT):
     """Linear of a vector; a geometry that cannot be built costs as much as one without any coalescence, and more."""
     try:
         modes, *_ = modes_of(build(described(vector, tilt), "timoshenko"))

@@ -102,7 +102,8 @@ def check(parameters):
         (c.distance < p2.length, "contact.distance", f"a contact on the track, below {p2.length:g} m",
          f"{c.distance:g} m: the beams never touch"),
         (abs(c.offset) <= 1, "contact.offset", "a contact on the end face of the slider, -1 to 1", f"{c.offset:g}"),
-        (abs(p1.tilt) < _STEEPEST, "slider.tilt", "a slider that stands, within 60 degrees", f"{np.degrees(p1.tilt):g}"),
+        (abs(p1.tilt) < _STEEPEST, "slider.tilt", "a slider that stands, within 60 degrees",
+         f"{np.degrees(p1.tilt):g}"),
         (parameters.sensor.height < p1.length, "sensor.height", f"a point between the tip and A, below {p1.length:g} m",
          f"{parameters.sensor.height:g} m"),
         (c.patch / 2 < min(c.distance, p2.length - c.distance), "contact.patch", "a patch on the track",
@@ -136,7 +137,8 @@ def _plane(section, start, direction, stations, member, patch):
     """Strip of plane finite elements, its last end (slider) or first end (track) made rigid."""
     half = section.height / 2
     ends = [s for s in stations if s == stations[0] or s == stations[-1] or patch is None]
-    marks = ends if patch is None else [stations[0], *(stations[1] + patch / 2 * np.array([-1, 0, 1])), stations[-1]]
+    spot = stations[1] + (patch or 0.0) / 2 * np.array([-1, 0, 1])
+    marks = ends if patch is None else [stations[0], *spot, stations[-1]]
     along = _lines(marks, member.cell)
     across = np.linspace(-half, half, member.cells_across + 1)
     part = sheet(start, direction, along, across, section)

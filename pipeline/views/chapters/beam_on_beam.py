@@ -61,7 +61,8 @@ def _runs(product):
                      quantity(product.fundamental[k], "Hz"), f"{number(level[1], 2)} ({number(height[1], 2)})",
                      f"{number(level[2], 2)} ({number(height[2], 2)})", quantity(product.peak_force[k], "N", 3),
                      quantity(product.peak_slip[k], "m/s", 3),
-                     " / ".join(percent(s, 2) for s in product.status_share[k]), percent(product.vibrating_share[k], 2)))
+                     " / ".join(percent(s, 2) for s in product.status_share[k]),
+                     percent(product.vibrating_share[k], 2)))
     head = ("formulation", "step", "seed", "line", "2f / dB (above floor)", "3f / dB (above floor)", "force", "slip",
             "open / stick / slip", "vibrates")
     return Table(head, tuple(rows), "All runs", tuple(range(1, 10)), folded=len(rows) > 8)
@@ -75,8 +76,8 @@ def geometry(product, look):
     silent = product.damping_low_level < -6.0
     return Chapter(
         "beam_geometry", "One geometry for everything that is printed",
-        f"{int(product.evaluations)} geometries, {quantity(float(product.seconds), 's', 3)} of CPU time. The cost is the"
-        " sum of squared distances from the bands of the published numbers: 0 means that all are met."
+        f"{int(product.evaluations)} geometries, {quantity(float(product.seconds), 's', 3)} of CPU time. The cost is"
+        " the sum of squared distances from the bands of the published numbers: 0 means that all are met."
         f" Rigid supports reach {number(product.rigid_cost.min(), 3)} on the linear facts, supports that yield"
         f" {number(product.yielding_cost, 3)}, the best geometry {number(product.linear_cost, 3)}, with its motion"
         f" {number(product.cost, 3)}.",
@@ -94,8 +95,9 @@ def _why_unheard(product, silent):
     if np.any(silent & grows):
         k = int(np.flatnonzero(silent & grows)[0])
         return (f"The mode near 400 Hz is unstable and yet unheard from a damping per mass of"
-                f" {quantity(product.damping[k], '1/s', 3)} on: it grows with {quantity(product.low_growth[k], '1/s', 3)}"
-                f" against {quantity(product.middle_growth[k], '1/s', 3)} of the faster one, whose cycle of sticking and"
+                f" {quantity(product.damping[k], '1/s', 3)} on: it grows with"
+                f" {quantity(product.low_growth[k], '1/s', 3)} against"
+                f" {quantity(product.middle_growth[k], '1/s', 3)} of the faster one, whose cycle of sticking and"
                 " lifting takes its place.")
     if np.any(silent):
         return "The mode near 400 Hz is unheard only where damping makes it stable."
