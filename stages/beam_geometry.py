@@ -84,6 +84,7 @@ def beam_geometry(settings: Settings, context: Context) -> BeamGeometry:
         parameter=NAMES, best=joint.best, linear_cost=found.cost, cost=joint.cost,
         rigid_tilt=settings.tilts, rigid_cost=[r.fun for r in rigid], rigid_best=[r.x for r in rigid],
         rigid_parameter=NAMES[:_RIGID], yielding_cost=yielding.fun, samples=sample, sampled_parameter=NAMES[:GEOMETRY],
+        lower_bound=LOWER[:GEOMETRY], upper_bound=UPPER[:GEOMETRY],
         onset_frequency=found.found.onset_frequency, onset_friction=found.found.onset_friction,
         closed_frequency=found.found.frictionless, quantity_name=list(MOTION),
         lower=np.maximum([band[0] for band in MOTION.values()], -1e9),

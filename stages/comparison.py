@@ -5,21 +5,27 @@ from fnmatch import fnmatch
 
 from pipeline.computed.beam_on_beam import beam_on_beam_rows
 from pipeline.computed.disc_brake import disc_brake_rows
+from pipeline.computed.lumped import lumped_rows
+from pipeline.computed.rupture import rupture_rows
 from pipeline.contract import ConfigError, Context, InputFile, Section, option, stage
 from pipeline.products import (
     BeamOnBeam,
     Comparison,
     ComplexModes,
+    Lumped,
     MicroFriction,
     MotionScatter,
     Multibody,
+    Rupture,
     Squeal,
     Structure,
+    Transient,
 )
 from pipeline.published import load
 
 #: product that only one system has -> rows (products, facts, known) -> {key: Ours}; the first that is there counts
-SYSTEMS = {"structure": disc_brake_rows, "beam_on_beam": beam_on_beam_rows}
+SYSTEMS = {"structure": disc_brake_rows, "lumped": lumped_rows, "rupture": rupture_rows,
+           "beam_on_beam": beam_on_beam_rows}
 
 #: size in SI of the printed units that the chains compute
 _SIZE = {"1": 1.0, "%": 0.01, "um": 1e-6, "mm": 1e-3, "m": 1.0, "us": 1e-6, "ms": 1e-3, "s": 1.0, "1/s": 1.0, "Hz": 1.0,
@@ -46,7 +52,8 @@ def _check(sections):
 @stage(check=_check)
 def comparison(micro_friction: MicroFriction | None, structure: Structure | None, beam_on_beam: BeamOnBeam | None,
                complex_modes: ComplexModes | None, multibody: Multibody | None, motion_scatter: MotionScatter | None,
-               squeal: Squeal | None, settings: Settings, context: Context) -> Comparison:
+               squeal: Squeal | None, lumped: Lumped | None, transient: Transient | None, rupture: Rupture | None,
+               settings: Settings, context: Context) -> Comparison:
     """Put the published numbers beside ours.
 
     A statement without a number is compared where it puts bounds on a number of ours. Inputs are shown
@@ -61,8 +68,8 @@ def comparison(micro_friction: MicroFriction | None, structure: Structure | None
     tuned = _tuned(settings.tuned or {}, facts)
     known = {fact.key: fact.value * _SIZE[fact.unit] for fact in facts if fact.value is not None and fact.unit in _SIZE}
     products = {"micro_friction": micro_friction, "structure": structure, "complex_modes": complex_modes,
-                "multibody": multibody, "squeal": squeal, "beam_on_beam": beam_on_beam,
-                "motion_scatter": motion_scatter}
+                "multibody": multibody, "squeal": squeal, "lumped": lumped, "transient": transient, "rupture": rupture,
+                "beam_on_beam": beam_on_beam, "motion_scatter": motion_scatter}
     ours = _rows_of(products)(products, facts, known)
     for fact in facts:
         if fact.key in ours and fact.unit not in _SIZE:

@@ -3,6 +3,7 @@
 Each system is a product of its own; ``SYSTEMS`` tells how it is reduced.
 """
 
+from dataclasses import fields
 from functools import partial
 
 import numpy as np
@@ -11,7 +12,7 @@ from scipy.linalg import block_diag
 
 from pipeline.contract import Context, Quantity, Section, option, stage
 from pipeline.physics.body_reduction import ElasticBody, reduce_body
-from pipeline.products import BeamOnBeam, ReducedModel, Structure
+from pipeline.products import BeamOnBeam, Lumped, ReducedModel, Structure
 
 #: rows of the structure that carry forces, then those that only observe
 FORCES = ("joint_rows", "contact_normal", "contact_tangent", "contact_lateral", "piston_rows")
@@ -28,13 +29,14 @@ class Settings(Section):
 
 
 @stage
-def reduced_model(structure: Structure | BeamOnBeam, settings: Settings, context: Context) -> ReducedModel:
+def reduced_model(structure: Structure | Lumped | BeamOnBeam, settings: Settings, context: Context) -> ReducedModel:
     """Reduce the system to interface coordinates and modes.
 
     Method:
     Bodies held by joints were reduced by Craig-Bampton with averaged interfaces and fixed-interface modes below
     {fixed_below}, bodies on rigid supports to their modes; to both were added residual shapes with pseudo-frequencies
-    below {residual_below}, for what interface accelerations and contact forces excite beyond these modes.
+    below {residual_below}, for what interface accelerations and contact forces excite beyond these modes. Lumped
+    masses keep their coordinates.
     """
     return SYSTEMS[type(structure)](structure, settings, context)
 
@@ -75,8 +77,19 @@ def _from_beams(beams, settings, context):
                                                    "visible_position", "visible_body", "visible_face", "recovery")})
 
 
+def _from_lumps(lumped, settings, context):
+    """The lumped system as it is: its coordinates are few, and there is no surface to draw."""
+    size, sensors = len(lumped.mass), len(lumped.sensor_name)
+    none, names = np.zeros((size, size)), {f.name for f in fields(ReducedModel)} & {f.name for f in fields(Lumped)}
+    return ReducedModel(
+        damping=none, stiffness=none, centrifugal=none, contact_position=np.zeros((len(lumped.contact_name), 3)),
+        sensor_position=np.zeros((sensors, 3)), sensor_direction=np.tile([1.0, 0.0, 0.0], (sensors, 1)),
+        visible_position=np.empty((0, 3)), visible_body=[], visible_face=np.empty((0, 4), int),
+        recovery=np.empty((0, 3, size)), **{name: getattr(lumped, name) for name in sorted(names)})
+
+
 #: product of a system -> its reduction (system, settings, context) -> ReducedModel
-SYSTEMS = {Structure: _from_solids, BeamOnBeam: _from_beams}
+SYSTEMS = {Structure: _from_solids, Lumped: _from_lumps, BeamOnBeam: _from_beams}
 
 
 def _elastic_body(structure, name, index):

@@ -7,12 +7,14 @@ from pipeline.products import (
     Comparison,
     ComplexModes,
     FrictionMap,
+    Lumped,
     MicroFriction,
     MotionScatter,
     Multibody,
     ReducedModel,
     Report,
     Response,
+    Rupture,
     Squeal,
     Structure,
     Surface,
@@ -32,8 +34,8 @@ def report(surface: Surface | None, micro_friction: MicroFriction | None, fricti
            structure: Structure | None, beam_on_beam: BeamOnBeam | None, model: ReducedModel | None,
            complex_modes: ComplexModes | None, multibody: Multibody | None, response: Response | None,
            transient: Transient | None, motion_scatter: MotionScatter | None, squeal: Squeal | None,
-           beam_geometry: BeamGeometry | None, comparison: Comparison | None, settings: Settings,
-           context: Context) -> Report:
+           lumped: Lumped | None, rupture: Rupture | None, beam_geometry: BeamGeometry | None,
+           comparison: Comparison | None, settings: Settings, context: Context) -> Report:
     """Write one HTML page with pictures, tables, settings and methods.
 
     Method:
@@ -44,10 +46,10 @@ def report(surface: Surface | None, micro_friction: MicroFriction | None, fricti
     from pipeline.views.page import page, plan
 
     products = {"surface": surface, "micro_friction": micro_friction, "friction_map": friction_map,
-                "structure": structure, "model": model, "complex_modes": complex_modes, "multibody": multibody,
-                "response": response, "transient": transient, "squeal": squeal, "comparison": comparison,
-                "beam_on_beam": beam_on_beam, "motion_scatter": motion_scatter,
-                "beam_geometry": beam_geometry}
+                "structure": structure, "lumped": lumped, "model": model, "complex_modes": complex_modes,
+                "multibody": multibody, "response": response, "transient": transient, "squeal": squeal,
+                "rupture": rupture, "comparison": comparison, "beam_on_beam": beam_on_beam,
+                "motion_scatter": motion_scatter, "beam_geometry": beam_geometry}
     look = Look(settings.dots_per_inch, settings.mode_pictures)
     chapters = []
     builders = plan(products, look)

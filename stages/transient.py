@@ -33,7 +33,7 @@ class Settings(Section):
     static_factor: float = option(1.0, "hold of a sticking contact over friction at rest", ge=1)
     description: Literal["rigid", "elastic", "evolution"] = option("rigid", "how a contact sticks (1999, section 4)")
     tangential_stiffness: Quantity("N/m", gt=0) = option("10 N/um", "elastic and evolution: stiffness of each contact")
-    exponent: float = option(1.0, "evolution: how gradually slip sets in", ge=1)
+    exponent: float = option(1.0, "evolution: how gradually slip sets in; 1/3 is one Hertz contact", gt=0)
     speeds: Quantities("rad/s") = option(("1 rad/s",), "speeds of the drive, either sign, for each pressure")
     step: Quantity("s", gt=0) = option("1 us", "time step")
     duration: Quantity("s", gt=0) = option("0.5 s", "length of the motion")

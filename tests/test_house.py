@@ -18,7 +18,7 @@ MAY_IMPORT = {
     "pipeline.environment": set(),
     "pipeline.contract": {"pipeline.contract", "pipeline.environment"},
     "pipeline.products": {"pipeline.contract"},
-    "pipeline.physics": {"pipeline.physics", "pipeline.contract.errors"},
+    "pipeline.physics": {"pipeline.physics", "pipeline.contract.errors", "pipeline.environment"},
     "pipeline.systems": {"pipeline.systems", "pipeline.physics", "pipeline.contract.errors"},
     "pipeline.published": {"pipeline.contract"},
     "pipeline.computed": {"pipeline.computed"},

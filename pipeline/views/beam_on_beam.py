@@ -82,17 +82,18 @@ def status_shares(product, dpi):
 
 
 def spread(geometry, dpi):
-    """PNG of the spread of each parameter among the geometries that fit, over the best one."""
+    """PNG of the spread of each parameter among the geometries that fit, as a part of the bounds of the search."""
     from pipeline.views.readable import number
 
-    low, high = np.quantile(geometry.samples, [0.05, 0.95], axis=0)
-    best = geometry.best[:len(low)]
+    size = geometry.upper_bound - geometry.lower_bound
+    low, high, best = ((values - geometry.lower_bound) / size for values in
+                       (*np.quantile(geometry.samples, [0.05, 0.95], axis=0), geometry.best[:len(size)]))
     with drawing(0.9 + 0.3 * len(low), left=1.9) as figure:
         axes = figure.subplots()
         place = np.arange(len(low))[::-1]
-        axes.hlines(place, low / best, high / best, color=GREEN, lw=4)
-        axes.plot(np.ones(len(low)), place, "D", color=INK, ms=4)
+        axes.hlines(place, low, high, color=GREEN, lw=4)
+        axes.plot(best, place, "D", color=INK, ms=4)
         axes.set_yticks(place, [f"{name} = {number(value, 3)}" for name, value in
-                                zip(geometry.parameter, geometry.best, strict=False)])
-        axes.set(xlabel="5 to 95 % of the fitting geometries over the best one", xscale="log")
+                                zip(geometry.sampled_parameter, geometry.best[:len(size)], strict=True)])
+        axes.set(xlabel="place within the bounds of the search", xlim=(0, 1))
         return png(figure, dpi)

@@ -3,13 +3,16 @@
 from functools import partial
 
 from pipeline.views import case as case_view
+from pipeline.views import rupture as rupture_pictures
 from pipeline.views import sound as sound_pictures
 from pipeline.views.chapter import Figure
 from pipeline.views.chapters import (
     beam_on_beam,
     comparison,
     friction,
+    lumped,
     motion,
+    rupture,
     sound,
     stability,
     structure,
@@ -27,12 +30,13 @@ def plan(products, look):
     known = (("surface", surface.chapter, ()), ("micro_friction", friction.micro, ()),
              ("friction_map", friction.friction_map, ()), ("structure", structure.chapter, (modes,)),
              ("beam_on_beam", beam_on_beam.beams, (modes,)),
+             ("lumped", lumped.chapter, ()),
              ("complex_modes", stability.chapter, (model, lines)), ("multibody", motion.chapter, ()),
              ("transient", transient.chapter, ()),
              ("motion_scatter", beam_on_beam.scatter, ()),
              ("beam_geometry", beam_on_beam.geometry, ()),
              ("response", sound.response, (lines,)), ("squeal", sound.squeal, (lines,)),
-             ("comparison", comparison.chapter, ()))
+             ("rupture", rupture.chapter, ()), ("comparison", comparison.chapter, ()))
     return [partial(write, products[name], *more, look) for name, write, more in known
             if products.get(name) is not None]
 
@@ -47,7 +51,9 @@ def page(chapters, products, case, look):
 
 
 def _key_figure(products, look):
-    squeal = products.get("squeal")
+    squeal, broken = products.get("squeal"), products.get("rupture")
+    if squeal is None and broken is not None:
+        return Figure(rupture_pictures.slip_profiles(broken), rupture.headline(broken))
     if squeal is None:
         return None
     return Figure(sound_pictures.occurrence(squeal, look.dpi), sound.occurrence_caption(squeal))

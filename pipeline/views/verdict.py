@@ -6,6 +6,7 @@ import numpy as np
 
 from pipeline.views.agreement import judged
 from pipeline.views.chapters.motion import extremes, point, rate_in_words
+from pipeline.views.chapters.rupture import headline as rupture_headline
 from pipeline.views.chapters.sound import origin
 from pipeline.views.chapters.stability import distinct_unstable
 from pipeline.views.readable import number, percent, plural, quantity, span
@@ -45,6 +46,8 @@ def published_squeal(comparison):
 
 def _headline(products):
     squeal, modes = products.get("squeal"), products.get("complex_modes")
+    if products.get("rupture") is not None:
+        return rupture_headline(products["rupture"]), "warning"
     unstable = 0 if modes is None else len(distinct_unstable(modes, len(modes.unstable_root)))
     if squeal is not None and len(squeal.event_level):
         where = len(np.unique(squeal.event_operating))

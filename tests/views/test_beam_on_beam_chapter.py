@@ -40,7 +40,8 @@ def scatter(runs=4):
 def geometry(level):
     names = [f"p{k}" for k in range(13)]
     return filled(BeamGeometry, parameter=names, best=np.arange(1.0, 14.0), samples=np.ones((20, 10)),
-                  sampled_parameter=names[:10], quantity_name=["peak_force", "share_open"], lower=[33.0, 0.1],
+                  sampled_parameter=names[:10], lower_bound=np.zeros(10),
+                  upper_bound=np.full(10, 20.0), quantity_name=["peak_force", "share_open"], lower=[33.0, 0.1],
                   upper=[52.0, 1e9], motion=[[40.0, 0.2], [30.0, 0.2]], damping=[0.0, 400.0], low_growth=[900.0, 700.0],
                   middle_growth=[1500.0, 1300.0], damping_low_level=level, onset_frequency=[400.0],
                   onset_friction=[0.16], rigid_parameter=names[:6])

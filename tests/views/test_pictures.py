@@ -12,6 +12,7 @@ from pipeline.views import (
     friction,
     pad_motion,
     preload,
+    rupture,
     sound,
     surfaces,
     transient,
@@ -52,6 +53,14 @@ PICTURES = {
     "portrait": (lambda p: transient.phase_portrait(p, 1, 0, 60), small.transient, "displacement"),
     "force and slip": (lambda p: transient.force_and_slip(p, 1, 0, 60), small.transient, "normal_force"),
     "harmonics": (lambda p: transient.spectrum(p, 1, 0, 60), small.transient, "velocity_spectrum"),
+    "rupture field": (lambda p: rupture.field(p, 2, 60), small.rupture, "speed_field"),
+    "rupture moving": (lambda p: rupture.animation(p, 50), small.rupture, "speed_field"),
+    "rupture slip": (rupture.slip_profiles, small.rupture, "slip"),
+    "rupture arrivals": (rupture.arrivals, small.rupture, "arrival"),
+    "rupture speed": (rupture.speed_over_x, small.rupture, "front_speed"),
+    "rupture phases": (rupture.phase_diagram, small.rupture, "study_speed"),
+    "rupture mesh": (rupture.mesh_study, small.rupture, "study_width"),
+    "rupture preload": (rupture.static_state, small.rupture, "static_shear"),
     "agreement": (agreement.agreement, small.comparison, "ours"),
 }
 
@@ -134,3 +143,21 @@ def test_status_band_shows_the_status():
     first = transient.status_band(product, 0, 60)
     assert transient.status_band(product, 0, 60) == first
     assert transient.status_band(replace(product, status=2 - product.status), 0, 60) != first
+
+
+@pytest.mark.exact
+def test_an_animation_moves_and_keeps_its_size():
+    from io import BytesIO
+
+    from PIL import Image
+
+    whole = rupture.animation(small.rupture(), 50)
+    assert Image.open(BytesIO(whole)).n_frames == 3
+    shorter = rupture.animation(small.rupture(), 50, most=len(whole) - 1)
+    assert len(shorter) < len(whole)
+
+
+def test_the_interface_shows_its_state():
+    moving = small.rupture()
+    opened = replace(moving, frame_state=2 * moving.frame_state)
+    assert rupture.field(opened, 2, 60) != rupture.field(moving, 2, 60)

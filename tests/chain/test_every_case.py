@@ -1,0 +1,24 @@
+"""Every case of the project runs as it stands; those that take minutes are slow studies."""
+
+import pytest
+
+from pipeline.contract import store
+from pipeline.products import Comparison
+from tests.chain.conftest import ROOT, brakechain
+
+#: cases in full resolution, of which a quick variant has tests of its own; disc_brake_scanned needs recordings as well
+SLOW = {**dict.fromkeys(("disc_brake", "bimaterial_rupture", "bimaterial_rupture_fine"), [pytest.mark.slow]),
+        "disc_brake_scanned": [pytest.mark.slow, pytest.mark.measured]}
+CASES = [pytest.param(path, marks=SLOW.get(path.stem, ()), id=path.stem)
+         for path in sorted((ROOT / "configs").glob("*.yaml")) if not path.stem.endswith("_quick")]
+CLOSED_FORM = ("belt", "two_mode_flutter", "wobbling_disc")
+
+
+@pytest.mark.parametrize("case", CASES)
+def test_a_case_runs_to_its_report(case, tmp_path):
+    """Lumped systems meet every closed form; quick variants are run by tests of their own."""
+    brakechain("run", case, "--run", tmp_path / "run")
+    assert (tmp_path / "run" / "report.html").stat().st_size > 10_000
+    if case.stem in CLOSED_FORM:
+        found = store.read(Comparison, tmp_path / "run" / "comparison.h5")
+        assert len(found.row) and set(found.verdict) == {"within"}
