@@ -2,6 +2,8 @@
 
 from pipeline.contract import Context, Section, option, stage
 from pipeline.products import (
+    BeamGeometry,
+    BeamOnBeam,
     Comparison,
     ComplexModes,
     FrictionMap,
@@ -9,6 +11,7 @@ from pipeline.products import (
     LockIn,
     Lumped,
     MicroFriction,
+    MotionScatter,
     Multibody,
     PinOnDisc,
     ReducedModel,
@@ -35,6 +38,7 @@ def report(surface: Surface | None, micro_friction: MicroFriction | None, fricti
            multibody: Multibody | None, response: Response | None, squeal: Squeal | None,
            lumped: Lumped | None, transient: Transient | None, rupture: Rupture | None,
            interface_law: InterfaceLaw | None, pin_on_disc: PinOnDisc | None, lock_in: LockIn | None,
+           beam_on_beam: BeamOnBeam | None, motion_scatter: MotionScatter | None, beam_geometry: BeamGeometry | None,
            comparison: Comparison | None, settings: Settings, context: Context) -> Report:
     """Write one HTML page with pictures, tables, settings and methods.
 
@@ -49,6 +53,7 @@ def report(surface: Surface | None, micro_friction: MicroFriction | None, fricti
                 "structure": structure, "lumped": lumped, "model": model, "complex_modes": complex_modes,
                 "multibody": multibody, "response": response, "transient": transient, "squeal": squeal,
                 "rupture": rupture, "interface_law": interface_law, "pin_on_disc": pin_on_disc, "lock_in": lock_in,
+                "beam_on_beam": beam_on_beam, "motion_scatter": motion_scatter, "beam_geometry": beam_geometry,
                 "comparison": comparison}
     look = Look(settings.dots_per_inch, settings.mode_pictures)
     chapters = []

@@ -331,7 +331,8 @@ def products(**replaced):
     return {"surface": surface(), "micro_friction": micro_friction(), "friction_map": friction_map(),
             "structure": structure(), "lumped": lumped(), "model": reduced_model(), "complex_modes": complex_modes(),
             "multibody": multibody(), "transient": transient(), "response": response(), "squeal": squeal(),
-            "comparison": comparison(), "rupture": None, **replaced}
+            "comparison": comparison(), "rupture": None, "beam_on_beam": None,
+            "motion_scatter": None, "beam_geometry": None, **replaced}
 
 
 def _ring(inner, outer, low, high, start, end, sectors, closed):
