@@ -5,9 +5,12 @@ from pipeline.products import (
     Comparison,
     ComplexModes,
     FrictionMap,
+    InterfaceLaw,
+    LockIn,
     Lumped,
     MicroFriction,
     Multibody,
+    PinOnDisc,
     ReducedModel,
     Report,
     Response,
@@ -31,6 +34,7 @@ def report(surface: Surface | None, micro_friction: MicroFriction | None, fricti
            structure: Structure | None, model: ReducedModel | None, complex_modes: ComplexModes | None,
            multibody: Multibody | None, response: Response | None, squeal: Squeal | None,
            lumped: Lumped | None, transient: Transient | None, rupture: Rupture | None,
+           interface_law: InterfaceLaw | None, pin_on_disc: PinOnDisc | None, lock_in: LockIn | None,
            comparison: Comparison | None, settings: Settings, context: Context) -> Report:
     """Write one HTML page with pictures, tables, settings and methods.
 
@@ -44,7 +48,8 @@ def report(surface: Surface | None, micro_friction: MicroFriction | None, fricti
     products = {"surface": surface, "micro_friction": micro_friction, "friction_map": friction_map,
                 "structure": structure, "lumped": lumped, "model": model, "complex_modes": complex_modes,
                 "multibody": multibody, "response": response, "transient": transient, "squeal": squeal,
-                "rupture": rupture, "comparison": comparison}
+                "rupture": rupture, "interface_law": interface_law, "pin_on_disc": pin_on_disc, "lock_in": lock_in,
+                "comparison": comparison}
     look = Look(settings.dots_per_inch, settings.mode_pictures)
     chapters = []
     builders = plan(products, look)

@@ -9,6 +9,7 @@ from pipeline.views.chapter import Figure
 from pipeline.views.chapters import (
     comparison,
     friction,
+    lock_in,
     lumped,
     motion,
     rupture,
@@ -27,10 +28,11 @@ def plan(products, look):
     lines = published_squeal(products.get("comparison"))
     model, modes = products.get("model"), products.get("complex_modes")
     known = (("surface", surface.chapter, ()), ("micro_friction", friction.micro, ()),
-             ("friction_map", friction.friction_map, ()), ("structure", structure.chapter, (modes,)),
+             ("friction_map", friction.friction_map, ()), ("interface_law", lock_in.interface_law, ()),
+             ("structure", structure.chapter, (modes,)), ("pin_on_disc", lock_in.pin_on_disc, ()),
              ("lumped", lumped.chapter, ()),
              ("complex_modes", stability.chapter, (model, lines)), ("multibody", motion.chapter, ()),
-             ("transient", transient.chapter, ()),
+             ("transient", transient.chapter, ()), ("lock_in", lock_in.lock_in, ()),
              ("response", sound.response, (lines,)), ("squeal", sound.squeal, (lines,)),
              ("rupture", rupture.chapter, ()), ("comparison", comparison.chapter, ()))
     return [partial(write, products[name], *more, look) for name, write, more in known
