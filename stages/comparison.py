@@ -25,7 +25,8 @@ from pipeline.products import (
 from pipeline.published import load
 
 #: product that only one system has -> rows (products, facts, known) -> {key: Ours}; the first that is there counts
-SYSTEMS = {"structure": disc_brake_rows, "lumped": lumped_rows, "pin_on_disc": pin_on_disc_rows, "rupture": rupture_rows}
+SYSTEMS = {"structure": disc_brake_rows, "lumped": lumped_rows, "pin_on_disc": pin_on_disc_rows,
+           "rupture": rupture_rows}
 
 #: size in SI of the printed units that the chains compute
 _SIZE = {"1": 1.0, "%": 0.01, "um": 1e-6, "mm": 1e-3, "m": 1.0, "us": 1e-6, "ms": 1e-3, "s": 1.0, "1/s": 1.0, "Hz": 1.0,
