@@ -8,23 +8,8 @@ from pipeline.computed.disc_brake import disc_brake_rows
 from pipeline.computed.lumped import lumped_rows
 from pipeline.computed.pin_on_disc import pin_on_disc_rows
 from pipeline.computed.rupture import rupture_rows
-from pipeline.contract import ConfigError, Context, InputFile, Section, option, stage
-from pipeline.products import (
-    BeamOnBeam,
-    Comparison,
-    ComplexModes,
-    InterfaceLaw,
-    LockIn,
-    Lumped,
-    MicroFriction,
-    MotionScatter,
-    Multibody,
-    PinOnDisc,
-    Rupture,
-    Squeal,
-    Structure,
-    Transient,
-)
+from pipeline.contract import ConfigError, Context, InputFile, Products, Section, option, stage
+from pipeline.products import Comparison
 from pipeline.published import load
 
 #: product that only one system has -> rows (products, facts, known) -> {key: Ours}; the first that is there counts
@@ -54,11 +39,7 @@ def _check(sections):
 
 
 @stage(check=_check)
-def comparison(micro_friction: MicroFriction | None, structure: Structure | None, complex_modes: ComplexModes | None,
-               multibody: Multibody | None, squeal: Squeal | None, lumped: Lumped | None, transient: Transient | None,
-               rupture: Rupture | None, interface_law: InterfaceLaw | None, pin_on_disc: PinOnDisc | None,
-               lock_in: LockIn | None, beam_on_beam: BeamOnBeam | None, motion_scatter: MotionScatter | None,
-               settings: Settings, context: Context) -> Comparison:
+def comparison(products: Products, settings: Settings, context: Context) -> Comparison:
     """Put the published numbers beside ours.
 
     A statement without a number is compared where it puts bounds on a number of ours. Inputs are shown
@@ -72,10 +53,6 @@ def comparison(micro_friction: MicroFriction | None, structure: Structure | None
     facts = load(settings.reference) if settings.reference else ()
     tuned = _tuned(settings.tuned or {}, facts)
     known = {fact.key: fact.value * _SIZE[fact.unit] for fact in facts if fact.value is not None and fact.unit in _SIZE}
-    products = {"micro_friction": micro_friction, "structure": structure, "complex_modes": complex_modes,
-                "multibody": multibody, "squeal": squeal, "lumped": lumped, "transient": transient, "rupture": rupture,
-                "interface_law": interface_law, "pin_on_disc": pin_on_disc, "lock_in": lock_in,
-                "beam_on_beam": beam_on_beam, "motion_scatter": motion_scatter}
     ours = _rows_of(products)(products, facts, known)
     for fact in facts:
         if fact.key in ours and fact.unit not in _SIZE:
@@ -86,7 +63,7 @@ def comparison(micro_friction: MicroFriction | None, structure: Structure | None
 
 def _rows_of(products):
     """The function that computes the rows of the system whose product is there; no rows for an unknown one."""
-    return next((rows for name, rows in SYSTEMS.items() if products[name] is not None), lambda *_: {})
+    return next((rows for name, rows in SYSTEMS.items() if name in products), lambda *_: {})
 
 
 def _tuned(patterns, facts):

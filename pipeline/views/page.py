@@ -27,7 +27,7 @@ from pipeline.views.verdict import published_squeal, verdict
 def plan(products, look):
     """Functions without arguments, one per chapter whose product is there, in chain order."""
     lines = published_squeal(products.get("comparison"))
-    model, modes = products.get("model"), products.get("complex_modes")
+    model, modes = products.get("reduced_model"), products.get("complex_modes")
     known = (("surface", surface.chapter, ()), ("micro_friction", friction.micro, ()),
              ("friction_map", friction.friction_map, ()), ("interface_law", lock_in.interface_law, ()),
              ("structure", structure.chapter, (modes,)), ("pin_on_disc", lock_in.pin_on_disc, ()),
