@@ -26,7 +26,14 @@ def beams(product, modes, look):
         (Table(("frequency", "friction"), onsets, "Coalescences, without damping", (0, 1)),
          Table(("mode", "frequency"), tuple((str(k), quantity(f, "Hz")) for k, f in
                                             enumerate(product.closed_frequency, 1)),
-               "Modes without friction that move the contact along its normal", (0, 1), folded=True)))
+               "Modes without friction that move the contact along its normal", (0, 1), folded=True),
+         *_findings(product)))
+
+
+def _findings(product):
+    if len(product.finding):
+        rows = tuple(zip(map(str, product.finding), map(str, product.finding_text), strict=True))
+        yield Table(("question", "found"), rows, "What the search for one geometry found", wide=(1,))
 
 
 def _others(product):
