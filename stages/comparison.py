@@ -6,16 +6,20 @@ from fnmatch import fnmatch
 from pipeline.computed.beam_on_beam import beam_on_beam_rows
 from pipeline.computed.disc_brake import disc_brake_rows
 from pipeline.computed.lumped import lumped_rows
+from pipeline.computed.pin_on_disc import pin_on_disc_rows
 from pipeline.computed.rupture import rupture_rows
 from pipeline.contract import ConfigError, Context, InputFile, Section, option, stage
 from pipeline.products import (
     BeamOnBeam,
     Comparison,
     ComplexModes,
+    InterfaceLaw,
+    LockIn,
     Lumped,
     MicroFriction,
     MotionScatter,
     Multibody,
+    PinOnDisc,
     Rupture,
     Squeal,
     Structure,
@@ -24,8 +28,8 @@ from pipeline.products import (
 from pipeline.published import load
 
 #: product that only one system has -> rows (products, facts, known) -> {key: Ours}; the first that is there counts
-SYSTEMS = {"structure": disc_brake_rows, "lumped": lumped_rows, "rupture": rupture_rows,
-           "beam_on_beam": beam_on_beam_rows}
+SYSTEMS = {"structure": disc_brake_rows, "pin_on_disc": pin_on_disc_rows, "beam_on_beam": beam_on_beam_rows,
+           "lumped": lumped_rows, "rupture": rupture_rows}
 
 #: size in SI of the printed units that the chains compute
 _SIZE = {"1": 1.0, "%": 0.01, "um": 1e-6, "mm": 1e-3, "m": 1.0, "us": 1e-6, "ms": 1e-3, "s": 1.0, "1/s": 1.0, "Hz": 1.0,
@@ -50,9 +54,10 @@ def _check(sections):
 
 
 @stage(check=_check)
-def comparison(micro_friction: MicroFriction | None, structure: Structure | None, beam_on_beam: BeamOnBeam | None,
-               complex_modes: ComplexModes | None, multibody: Multibody | None, motion_scatter: MotionScatter | None,
-               squeal: Squeal | None, lumped: Lumped | None, transient: Transient | None, rupture: Rupture | None,
+def comparison(micro_friction: MicroFriction | None, structure: Structure | None, complex_modes: ComplexModes | None,
+               multibody: Multibody | None, squeal: Squeal | None, lumped: Lumped | None, transient: Transient | None,
+               rupture: Rupture | None, interface_law: InterfaceLaw | None, pin_on_disc: PinOnDisc | None,
+               lock_in: LockIn | None, beam_on_beam: BeamOnBeam | None, motion_scatter: MotionScatter | None,
                settings: Settings, context: Context) -> Comparison:
     """Put the published numbers beside ours.
 
@@ -69,6 +74,7 @@ def comparison(micro_friction: MicroFriction | None, structure: Structure | None
     known = {fact.key: fact.value * _SIZE[fact.unit] for fact in facts if fact.value is not None and fact.unit in _SIZE}
     products = {"micro_friction": micro_friction, "structure": structure, "complex_modes": complex_modes,
                 "multibody": multibody, "squeal": squeal, "lumped": lumped, "transient": transient, "rupture": rupture,
+                "interface_law": interface_law, "pin_on_disc": pin_on_disc, "lock_in": lock_in,
                 "beam_on_beam": beam_on_beam, "motion_scatter": motion_scatter}
     ours = _rows_of(products)(products, facts, known)
     for fact in facts:

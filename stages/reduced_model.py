@@ -12,11 +12,13 @@ from scipy.linalg import block_diag
 
 from pipeline.contract import Context, Quantity, Section, option, stage
 from pipeline.physics.body_reduction import ElasticBody, reduce_body
-from pipeline.products import BeamOnBeam, Lumped, ReducedModel, Structure
+from pipeline.products import BeamOnBeam, Lumped, PinOnDisc, ReducedModel, Structure
 
-#: rows of the structure that carry forces, then those that only observe
-FORCES = ("joint_rows", "contact_normal", "contact_tangent", "contact_lateral", "piston_rows")
+#: rows of the structure that carry forces besides those of its input, then those that only observe
+FORCES = ("joint_rows", "contact_normal", "contact_tangent", "contact_lateral")
 SENSORS = "sensor_rows"
+#: what presses the contacts of a system, in its fields <input>_rows and <input>_area
+INPUTS = {Structure: "piston", PinOnDisc: "load"}
 
 
 class Settings(Section):
@@ -29,7 +31,8 @@ class Settings(Section):
 
 
 @stage
-def reduced_model(structure: Structure | Lumped | BeamOnBeam, settings: Settings, context: Context) -> ReducedModel:
+def reduced_model(structure: Structure | PinOnDisc | BeamOnBeam | Lumped, settings: Settings,
+                  context: Context) -> ReducedModel:
     """Reduce the system to interface coordinates and modes.
 
     Method:
@@ -42,7 +45,7 @@ def reduced_model(structure: Structure | Lumped | BeamOnBeam, settings: Settings
 
 
 def _from_solids(structure, settings, context):
-    """The brake, whose bodies are finite elements with supports or interfaces."""
+    """Brake or pin on disc, whose bodies are finite elements with supports or interfaces."""
     bodies = [_elastic_body(structure, name, index) for index, name in enumerate(structure.body_name)]
     reduce = partial(reduce_body, fixed_below=settings.fixed_below, residual_below=settings.residual_below,
                      solver=context.solver)
@@ -89,13 +92,13 @@ def _from_lumps(lumped, settings, context):
 
 
 #: product of a system -> its reduction (system, settings, context) -> ReducedModel
-SYSTEMS = {Structure: _from_solids, Lumped: _from_lumps, BeamOnBeam: _from_beams}
+SYSTEMS = {Structure: _from_solids, PinOnDisc: _from_solids, BeamOnBeam: _from_beams, Lumped: _from_lumps}
 
 
 def _elastic_body(structure, name, index):
     """One body with its part of every row; modes go along only where they are used."""
     body = getattr(structure, name)
-    incidences = [getattr(structure, field) for field in (*FORCES, SENSORS)]
+    incidences = [getattr(structure, field) for field in _fields(structure)]
     rows = sp.vstack([_body_rows(i, index, 3 * len(body.node)) for i in incidences], format="csr")
     count = len(body.frequency) if len(body.supported) else 0
     return ElasticBody(
@@ -104,6 +107,11 @@ def _elastic_body(structure, name, index):
         supported=body.supported, rows=rows, interface=np.arange(sum(int(i.rows) for i in incidences[:-1])),
         turns=name == "disc", frequency=body.frequency[:count],
         modes=body.shape[:count].reshape(count, 3 * len(body.node)).T)
+
+
+def _fields(structure):
+    """Fields of all rows, those that only observe last."""
+    return *FORCES, f"{INPUTS[type(structure)]}_rows", SENSORS
 
 
 def _body_rows(incidence, body, size):
@@ -115,11 +123,12 @@ def _body_rows(incidence, body, size):
 
 def _split_rows(structure, rows):
     """The stacked reduced rows, back under their names."""
-    ends = np.cumsum([int(getattr(structure, field).rows) for field in (*FORCES, SENSORS)])
-    parts = dict(zip((*FORCES, SENSORS), np.split(rows, ends[:-1]), strict=True))
-    pistons = parts.pop("piston_rows")
-    return {**parts, "input_rows": pistons, "input_name": [f"piston_{k + 1}" for k in range(len(pistons))],
-            "input_area": np.full(len(pistons), float(structure.piston_area))}
+    fields, name = _fields(structure), INPUTS[type(structure)]
+    ends = np.cumsum([int(getattr(structure, field).rows) for field in fields])
+    parts = dict(zip(fields, np.split(rows, ends[:-1]), strict=True))
+    inputs = parts.pop(f"{name}_rows")
+    return {**parts, "input_rows": inputs, "input_name": [f"{name}_{k + 1}" for k in range(len(inputs))],
+            "input_area": np.full(len(inputs), float(getattr(structure, f"{name}_area")))}
 
 
 def _copied(structure):
@@ -129,8 +138,9 @@ def _copied(structure):
             "sensor_position", "sensor_direction")
     radius = np.hypot(structure.contact_position[:, 0], structure.contact_position[:, 1])
     sensors = len(structure.sensor_name)
+    inputs = int(getattr(structure, f"{INPUTS[type(structure)]}_rows").rows)
     own = {"contact_lever": radius, "contact_gap": np.zeros(len(radius)), "history_interval": 0.0,
-           "input_history": np.empty((0, int(structure.piston_rows.rows))), "drive_history": [],
+           "input_history": np.empty((0, inputs)), "drive_history": [],
            "sensor_quantity": ["velocity"] * sensors, "sensor_unit": ["m/s"] * sensors, "sensor_gain": np.ones(sensors)}
     return {**own, **{name: getattr(structure, name) for name in kept}}
 

@@ -7,10 +7,13 @@ from pipeline.products import (
     Comparison,
     ComplexModes,
     FrictionMap,
+    InterfaceLaw,
+    LockIn,
     Lumped,
     MicroFriction,
     MotionScatter,
     Multibody,
+    PinOnDisc,
     ReducedModel,
     Report,
     Response,
@@ -31,10 +34,11 @@ class Settings(Section):
 
 @stage(companions=lambda product: {"report.html": product.html.item()}, reads_case=True)
 def report(surface: Surface | None, micro_friction: MicroFriction | None, friction_map: FrictionMap | None,
-           structure: Structure | None, beam_on_beam: BeamOnBeam | None, model: ReducedModel | None,
-           complex_modes: ComplexModes | None, multibody: Multibody | None, response: Response | None,
-           transient: Transient | None, motion_scatter: MotionScatter | None, squeal: Squeal | None,
-           lumped: Lumped | None, rupture: Rupture | None, beam_geometry: BeamGeometry | None,
+           structure: Structure | None, model: ReducedModel | None, complex_modes: ComplexModes | None,
+           multibody: Multibody | None, response: Response | None, squeal: Squeal | None,
+           lumped: Lumped | None, transient: Transient | None, rupture: Rupture | None,
+           interface_law: InterfaceLaw | None, pin_on_disc: PinOnDisc | None, lock_in: LockIn | None,
+           beam_on_beam: BeamOnBeam | None, motion_scatter: MotionScatter | None, beam_geometry: BeamGeometry | None,
            comparison: Comparison | None, settings: Settings, context: Context) -> Report:
     """Write one HTML page with pictures, tables, settings and methods.
 
@@ -48,8 +52,9 @@ def report(surface: Surface | None, micro_friction: MicroFriction | None, fricti
     products = {"surface": surface, "micro_friction": micro_friction, "friction_map": friction_map,
                 "structure": structure, "lumped": lumped, "model": model, "complex_modes": complex_modes,
                 "multibody": multibody, "response": response, "transient": transient, "squeal": squeal,
-                "rupture": rupture, "comparison": comparison, "beam_on_beam": beam_on_beam,
-                "motion_scatter": motion_scatter, "beam_geometry": beam_geometry}
+                "rupture": rupture, "interface_law": interface_law, "pin_on_disc": pin_on_disc, "lock_in": lock_in,
+                "beam_on_beam": beam_on_beam, "motion_scatter": motion_scatter, "beam_geometry": beam_geometry,
+                "comparison": comparison}
     look = Look(settings.dots_per_inch, settings.mode_pictures)
     chapters = []
     builders = plan(products, look)

@@ -29,8 +29,9 @@ class Stage:
     check: Callable     # {stage: settings} -> None; refuses settings that do not fit those of other stages
 
     def __call__(self, *args, **kwargs):
-        """Run the pure function; ``context`` may be left out."""
-        return self.run(*args, **{"context": Context(), **kwargs})
+        """Run the pure function; ``context`` and optional inputs may be left out."""
+        absent = dict.fromkeys(name for name in list(self.inputs)[len(args):] if name in self.optional)
+        return self.run(*args, **{"context": Context(), **absent, **kwargs})
 
 
 def stage(run=None, *, companions=None, reads_case=False, check=lambda sections: None):

@@ -10,6 +10,7 @@ from pipeline.views.chapters import (
     beam_on_beam,
     comparison,
     friction,
+    lock_in,
     lumped,
     motion,
     rupture,
@@ -28,13 +29,12 @@ def plan(products, look):
     lines = published_squeal(products.get("comparison"))
     model, modes = products.get("model"), products.get("complex_modes")
     known = (("surface", surface.chapter, ()), ("micro_friction", friction.micro, ()),
-             ("friction_map", friction.friction_map, ()), ("structure", structure.chapter, (modes,)),
-             ("beam_on_beam", beam_on_beam.beams, (modes,)),
-             ("lumped", lumped.chapter, ()),
+             ("friction_map", friction.friction_map, ()), ("interface_law", lock_in.interface_law, ()),
+             ("structure", structure.chapter, (modes,)), ("pin_on_disc", lock_in.pin_on_disc, ()),
+             ("beam_on_beam", beam_on_beam.beams, (modes,)), ("lumped", lumped.chapter, ()),
              ("complex_modes", stability.chapter, (model, lines)), ("multibody", motion.chapter, ()),
-             ("transient", transient.chapter, ()),
-             ("motion_scatter", beam_on_beam.scatter, ()),
-             ("beam_geometry", beam_on_beam.geometry, ()),
+             ("transient", transient.chapter, ()), ("lock_in", lock_in.lock_in, ()),
+             ("motion_scatter", beam_on_beam.scatter, ()), ("beam_geometry", beam_on_beam.geometry, ()),
              ("response", sound.response, (lines,)), ("squeal", sound.squeal, (lines,)),
              ("rupture", rupture.chapter, ()), ("comparison", comparison.chapter, ()))
     return [partial(write, products[name], *more, look) for name, write, more in known

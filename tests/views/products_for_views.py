@@ -11,9 +11,12 @@ from pipeline.products import (
     Comparison,
     ComplexModes,
     FrictionMap,
+    InterfaceLaw,
+    LockIn,
     Lumped,
     MicroFriction,
     Multibody,
+    PinOnDisc,
     ReducedModel,
     Response,
     Rupture,
@@ -218,6 +221,37 @@ def squeal(quiet=False, harmonic=False):
         event_order=[1, 20 if harmonic else 1][:events],
         event_fundamental=[16580.0, 830.0 if harmonic else 16600.0][:events], event_level=[88.5, 92.0][:events],
         event_start=[0.02, 0.01][:events], event_duration=[0.01, 0.03][:events])
+
+
+def interface_law():
+    """An exponential normal law and a linear shear law with its limit."""
+    gap, pressure = np.linspace(2e-6, 0, 40), np.geomspace(1e3, 4e8, 5)
+    displacement = np.linspace(0, 1e-6, 60)
+    limit = 0.25 * pressure
+    shear = np.minimum(limit[:, None], limit[:, None] * displacement / 1e-7)
+    return filled(
+        InterfaceLaw, source="given parameters", summit_density=2.5e9, summit_spread=5e-7, summit_curvature=2e4,
+        shear_limit=3.85e8, gap=gap, gap_pressure=4e8 * np.exp(-gap / 2e-7), real_area=0.2 * np.exp(-gap / 2e-7),
+        pressure=pressure, displacement=displacement, shear=shear, evolution_shear=0.98 * shear, elastic_shear=shear,
+        tangential_stiffness=limit / 1e-7, limit=limit, exponent=np.full(5, 0.6), friction=np.full(5, 0.25))
+
+
+def pin_on_disc():
+    """Modes of disc and pin at one weight."""
+    return filled(
+        PinOnDisc, load=[1.5], contact_stiffness=[[8e7]], friction=[0.25], disc_frequency=[440.0, 2250.0],
+        disc_diameters=[1, 3], disc_out_of_plane=[0.98, 0.93], pin_length=[0.1515, 0.1465], tilt=0.07,
+        contact_offset=-0.0045, base_mass=0.005, pin_frequency=[[340.0, 2105.0], [362.0, 2245.0]])
+
+
+def lock_in():
+    """Two cases and five lengths, one of each kind."""
+    kinds = ["classical", "dual base", "none", "classical", "intermediate", "multiple", "other"]
+    base = np.array([2215.0, 4000.0, 0.0, 2220.0, 1900.0, 2210.0, 3000.0])
+    return filled(
+        LockIn, scan=["case", "tilt", *["length"] * 5], length=[0.1515, 0.1515, *np.linspace(0.12, 0.2, 5)],
+        load=np.full(7, 1.5), speed=np.full(7, 0.25), tilt=np.full(7, 0.07), base_mass=np.full(7, 0.005), kind=kinds,
+        base=base, root=np.where(base > 0, 100 + 2j * np.pi * base, 0), harmonics=np.full((7, 2), 3))
 
 
 def comparison():

@@ -10,6 +10,7 @@ from pipeline.views import (
     complex_mode_map,
     contact_spots,
     friction,
+    lock_in,
     pad_motion,
     preload,
     rupture,
@@ -21,6 +22,10 @@ from tests.views import products_for_views as small
 
 LINES = (16600.0, 17800.0)
 PICTURES = {
+    "normal law": (lock_in.normal_law, small.interface_law, "gap_pressure"),
+    "shear law": (lock_in.shear_law, small.interface_law, "shear"),
+    "descriptions": (lock_in.descriptions, small.interface_law, "evolution_shear"),
+    "lock-in": (lock_in.length_map, small.lock_in, "base"),
     "height map": (lambda p: surfaces.height_map(p, "disc", 60), small.surface, "disc_height"),
     "profile": (surfaces.profile, small.surface, "pad_height"),
     "heights": (surfaces.height_distribution, small.surface, "pad_height"),
