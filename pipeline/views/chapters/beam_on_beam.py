@@ -10,7 +10,8 @@ from pipeline.views.readable import number, percent, plural, quantity, span
 def beams(product, modes, look):
     """Chapter of the product BeamOnBeam; ``modes`` are its ComplexModes, or None."""
     figures = [Figure(pictures.frequencies_over_friction(product, modes, look.dpi),
-                      "Modes of sliding over friction (the picture of Figure 3, computed here).")]
+                      "Modes of sliding over friction (the picture of Figure 3, computed here); grey: complex"
+                      " modes with damping.")]
     if modes is not None:
         figures.append(Figure(pictures.complex_plane(modes, look.dpi),
                               "Roots between 2 and 3.5 kHz over friction, with damping (the picture of Figure 4)."))
