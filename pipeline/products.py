@@ -464,7 +464,6 @@ class BeamGeometry:
     damping_fundamental: Array = quantity("Hz", "damping", "strongest line")
     damping_vibrating: Array = quantity("1", "damping", "share of the time that vibrates")
     evaluations: Array = count("", "geometries evaluated")
-    seconds: Array = quantity("s", "", "CPU seconds of the search")
 
 
 @product(version=1)

@@ -84,7 +84,7 @@ def geometry(product, look):
     silent = product.damping_low_level < -6.0
     return Chapter(
         "beam_geometry", "One geometry for everything that is printed",
-        f"{int(product.evaluations)} geometries, {quantity(float(product.seconds), 's', 3)} of CPU time. The cost is"
+        f"{int(product.evaluations)} geometries were evaluated. The cost is"
         " the sum of squared distances from the bands of the published numbers: 0 means that all are met."
         f" Rigid supports reach {number(product.rigid_cost.min(), 3)} on the linear facts, supports that yield"
         f" {number(product.yielding_cost, 3)}, the best geometry {number(product.linear_cost, 3)}, with its motion"
