@@ -183,6 +183,8 @@ class BeamOnBeam:
     check_frequency: Array = quantity("Hz", "check_mode", "modes without friction by the other kind of element")
     check_onset_frequency: Array = quantity("Hz", "check_onset", "coalescences by the other kind of element")
     check_onset_friction: Array = quantity("1", "check_onset", "their friction")
+    finding: Array = text("finding", "questions to the search for the geometry")
+    finding_text: Array = text("finding", "what it found")
 
 
 @product(version=1)
@@ -462,7 +464,6 @@ class BeamGeometry:
     damping_fundamental: Array = quantity("Hz", "damping", "strongest line")
     damping_vibrating: Array = quantity("1", "damping", "share of the time that vibrates")
     evaluations: Array = count("", "geometries evaluated")
-    seconds: Array = quantity("s", "", "CPU seconds of the search")
 
 
 @product(version=1)

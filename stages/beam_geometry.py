@@ -1,7 +1,6 @@
 """Stage beam_geometry: search for one geometry of the beam on beam, because the paper's dimensions are not printed."""
 
 from functools import partial
-from time import process_time
 from types import SimpleNamespace
 
 import numpy as np
@@ -71,13 +70,11 @@ def beam_geometry(settings: Settings, context: Context) -> BeamGeometry:
     ({joint_generations} generations of {joint_population}) whose cost adds that of the motion over {duration}, mean
     over the seeds {motion_seeds}. {sweeps} sweeps of {walkers} walkers sampled what the linear facts leave open.
     """
-    began = process_time()
     rigid = [_linear_search(settings, _RIGID, tilt, settings.rigid_generations) for tilt in settings.tilts]
     yielding = _linear_search(settings, GEOMETRY, settings.tilts[0], settings.generations)
     context.log(f"linear costs: rigid {', '.join(f'{r.fun:.3g}' for r in rigid)}; yielding {yielding.fun:.3g}")
     joint = _joint_search(settings, yielding.x)
     sample = _sampled(settings, joint.best[:GEOMETRY])
-    spent = process_time() - began
     runs = [_motion(settings, joint.best, seed) for seed in settings.motion_seeds]
     found = linear(joint.best)
     return BeamGeometry(
@@ -90,7 +87,7 @@ def beam_geometry(settings: Settings, context: Context) -> BeamGeometry:
         lower=np.maximum([band[0] for band in MOTION.values()], -1e9),
         upper=np.minimum([band[1] for band in MOTION.values()], 1e9),
         motion=[[run[name] for name in MOTION] for run in runs],
-        evaluations=joint.evaluations + yielding.nfev + sum(r.nfev for r in rigid), seconds=spent,
+        evaluations=joint.evaluations + yielding.nfev + sum(r.nfev for r in rigid),
         **_over_damping(settings, joint.best))
 
 

@@ -4,7 +4,8 @@ from typing import Literal
 
 import numpy as np
 
-from pipeline.contract import Context, Quantity, Section, option, stage
+from pipeline.contract import ConfigError, Context, InputFile, Quantity, Section, option, stage
+from pipeline.contract.documents import read_yaml
 from pipeline.physics.beam_reduction import beam_modes
 from pipeline.physics.hard_coalescence import ContactModes, coalescences, friction_over_frequency
 from pipeline.products import BeamOnBeam
@@ -85,6 +86,8 @@ class Settings(Section):
     residual_below: Quantity("Hz", gt=0) = option("150 kHz", "limit of the residual shapes for the contact forces")
     coalescences_below: Quantity("Hz", gt=0) = option("10 kHz", "limit of the search for coalescing modes")
     samples: int = option(6000, "frequencies at which that search samples", ge=100)
+    findings: InputFile | None = option(
+        None, "what a search for the geometry has found: a list of {what, found}, for the report")
 
 
 @stage
@@ -111,7 +114,16 @@ def beam_on_beam(settings: Settings, context: Context) -> BeamOnBeam:
         closed_frequency=found.frictionless, onset_frequency=found.onset_frequency, onset_friction=found.onset_friction,
         end_frequency=found.end_frequency, end_friction=found.end_friction,
         check_frequency=crosscheck.frictionless, check_onset_frequency=crosscheck.onset_frequency,
-        check_onset_friction=crosscheck.onset_friction, **_joined(chosen, settings))
+        check_onset_friction=crosscheck.onset_friction, **_findings(settings.findings), **_joined(chosen, settings))
+
+
+def _findings(path):
+    """Two columns of text from the file of findings; ConfigError where it is something else."""
+    rows = read_yaml(path) if path else []
+    if not isinstance(rows, list) or not all(isinstance(r, dict) and set(r) == {"what", "found"} for r in rows):
+        raise ConfigError(f"{path}", "a list of {what, found}", "something else",
+                          "see data/reference/beam_geometry.yaml")
+    return {"finding": [r["what"] for r in rows], "finding_text": [r["found"] for r in rows]}
 
 
 def _reduced(settings, element, number, context):

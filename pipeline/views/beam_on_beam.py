@@ -12,7 +12,7 @@ STATUS = (("open", FAINT), ("sticking", BLUE), ("sliding", ORANGE))
 
 def frequencies_over_friction(beams, modes, dpi):
     """PNG in the manner of Figure 3: modes of sliding over friction; rings where they are unstable (with damping)."""
-    with drawing(4.2, top=0.45) as figure:
+    with drawing(4.2, top=0.62) as figure:
         axes = figure.subplots()
         inside = (beams.curve_friction >= 0) & (beams.curve_friction <= MOST_FRICTION)
         axes.plot(beams.curve_friction[inside], beams.curve_frequency[inside] / 1e3, ".", color=BLUE, ms=1.5,
@@ -20,6 +20,7 @@ def frequencies_over_friction(beams, modes, dpi):
         if modes is not None:
             root = modes.root[0]
             friction = np.broadcast_to(modes.friction[:, None], root.shape)
+            axes.plot(friction.ravel(), root.imag.ravel() / TWO_PI / 1e3, ".", color=FAINT, ms=1.5, zorder=0)
             grows = (root.real > 1e-6 * abs(root)) & (root.imag < TWO_PI * 10e3) & (root.imag > 0)
             axes.plot(friction[grows], root.imag[grows] / TWO_PI / 1e3, "o", mfc="none", mec=RED, ms=4, lw=0,
                       label="unstable")
@@ -27,7 +28,7 @@ def frequencies_over_friction(beams, modes, dpi):
         axes.plot(beams.onset_friction[shown], beams.onset_frequency[shown] / 1e3, "D", color=INK, ms=5,
                   label="coalescence")
         axes.set(xlabel="coefficient of friction", ylabel="frequency / kHz", xlim=(0, MOST_FRICTION), ylim=(0, 10))
-        legend(axes)
+        legend(axes, columns=2)
         return png(figure, dpi)
 
 

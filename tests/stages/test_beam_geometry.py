@@ -27,7 +27,13 @@ def test_known_start_is_never_lost(found):
 def test_every_part_is_told(found):
     assert found.samples.shape == (28, GEOMETRY) and found.rigid_best.shape == (1, 6)
     assert found.motion.shape == (1, len(found.quantity_name))
-    assert found.evaluations > 8 and found.seconds > 0
+    assert found.evaluations > 8
+
+
+def test_same_seeds_same_bits(found):
+    again = beam_geometry(settings=Settings(**TINY))
+    np.testing.assert_array_equal(again.samples, found.samples)
+    np.testing.assert_array_equal(again.motion, found.motion)
 
 
 @pytest.mark.exact

@@ -4,8 +4,10 @@ import numpy as np
 import pytest
 
 from pipeline.computed.beam_on_beam import beam_on_beam_rows
+from pipeline.contract import ConfigError
 from pipeline.physics.hard_contact import critical_friction
 from pipeline.physics.sliding_model import sliding_model
+from stages.beam_on_beam import beam_on_beam
 from stages.complex_modes import Settings as Modes
 from stages.complex_modes import complex_modes
 from tests.stages.small_beams import SETTINGS, beams, model
@@ -57,6 +59,16 @@ def test_exactly_two_unstable_modes_at_friction_0_2(modes):
 def test_contact_carries_the_weight_whatever_the_friction(modes):
     np.testing.assert_allclose(modes.operating_force, SETTINGS.contact.force)
     assert model().pressure[0] * model().input_area[0] == pytest.approx(SETTINGS.contact.force)
+
+
+def test_findings_are_copied_and_others_refused(tmp_path):
+    path = tmp_path / "found.yaml"
+    path.write_text("- {what: a, found: b}\n")
+    told = beam_on_beam(settings=SETTINGS.model_copy(update={"findings": path}))
+    assert list(told.finding) == ["a"] and list(told.finding_text) == ["b"]
+    path.write_text("- {what: a}\n")
+    with pytest.raises(ConfigError, match="found"):
+        beam_on_beam(settings=SETTINGS.model_copy(update={"findings": path}))
 
 
 def test_rows_of_the_comparison(modes):

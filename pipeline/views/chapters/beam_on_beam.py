@@ -10,7 +10,8 @@ from pipeline.views.readable import number, percent, plural, quantity, span
 def beams(product, modes, look):
     """Chapter of the product BeamOnBeam; ``modes`` are its ComplexModes, or None."""
     figures = [Figure(pictures.frequencies_over_friction(product, modes, look.dpi),
-                      "Modes of sliding over friction (the picture of Figure 3, computed here).")]
+                      "Modes of sliding over friction (the picture of Figure 3, computed here); grey: complex"
+                      " modes with damping.")]
     if modes is not None:
         figures.append(Figure(pictures.complex_plane(modes, look.dpi),
                               "Roots between 2 and 3.5 kHz over friction, with damping (the picture of Figure 4)."))
@@ -26,7 +27,14 @@ def beams(product, modes, look):
         (Table(("frequency", "friction"), onsets, "Coalescences, without damping", (0, 1)),
          Table(("mode", "frequency"), tuple((str(k), quantity(f, "Hz")) for k, f in
                                             enumerate(product.closed_frequency, 1)),
-               "Modes without friction that move the contact along its normal", (0, 1), folded=True)))
+               "Modes without friction that move the contact along its normal", (0, 1), folded=True),
+         *_findings(product)))
+
+
+def _findings(product):
+    if len(product.finding):
+        rows = tuple(zip(map(str, product.finding), map(str, product.finding_text), strict=True))
+        yield Table(("question", "found"), rows, "What the search for one geometry found", wide=(1,))
 
 
 def _others(product):
@@ -76,7 +84,7 @@ def geometry(product, look):
     silent = product.damping_low_level < -6.0
     return Chapter(
         "beam_geometry", "One geometry for everything that is printed",
-        f"{int(product.evaluations)} geometries, {quantity(float(product.seconds), 's', 3)} of CPU time. The cost is"
+        f"{int(product.evaluations)} geometries were evaluated. The cost is"
         " the sum of squared distances from the bands of the published numbers: 0 means that all are met."
         f" Rigid supports reach {number(product.rigid_cost.min(), 3)} on the linear facts, supports that yield"
         f" {number(product.yielding_cost, 3)}, the best geometry {number(product.linear_cost, 3)}, with its motion"
