@@ -56,6 +56,8 @@ def _key_figure(products, look):
         return Figure(rupture_pictures.slip_profiles(broken), rupture.headline(broken))
     if squeal is None:
         return None
+    if len(squeal.pressure) == 1 and products.get("transient") is not None:
+        return transient.loudest(products["transient"], squeal, look)
     return Figure(sound_pictures.occurrence(squeal, look.dpi), sound.occurrence_caption(squeal))
 
 
