@@ -12,6 +12,9 @@ CHAINS = {
                     "squeal", "comparison", "report"),
     "lumped": ("lumped", "reduced_model", "complex_modes", "transient", "comparison", "report"),
     "bimaterial_rupture": ("rupture", "comparison", "report"),
+    "beam_on_beam": ("beam_on_beam", "reduced_model", "complex_modes", "transient", "motion_scatter", "squeal",
+                     "comparison", "report"),
+    "beam_geometry": ("beam_geometry", "report"),
 }
 
 #: every stage once, in the order of its first chain

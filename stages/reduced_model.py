@@ -12,7 +12,7 @@ from scipy.linalg import block_diag
 
 from pipeline.contract import Context, Quantity, Section, option, stage
 from pipeline.physics.body_reduction import ElasticBody, reduce_body
-from pipeline.products import Lumped, PinOnDisc, ReducedModel, Structure
+from pipeline.products import BeamOnBeam, Lumped, PinOnDisc, ReducedModel, Structure
 
 #: rows of the structure that carry forces besides those of its input, then those that only observe
 FORCES = ("joint_rows", "contact_normal", "contact_tangent", "contact_lateral")
@@ -31,7 +31,8 @@ class Settings(Section):
 
 
 @stage
-def reduced_model(structure: Structure | PinOnDisc | Lumped, settings: Settings, context: Context) -> ReducedModel:
+def reduced_model(structure: Structure | PinOnDisc | BeamOnBeam | Lumped, settings: Settings,
+                  context: Context) -> ReducedModel:
     """Reduce the system to interface coordinates and modes.
 
     Method:
@@ -60,6 +61,25 @@ def _from_solids(structure, settings, context):
         **_copied(structure), **_surfaces(terms, sizes))
 
 
+def _from_beams(beams, settings, context):
+    """The two beams, given by their modes; their contact is hard and counts the sliding speed itself (lever 1 m)."""
+    size, none = len(beams.mode_frequency), np.zeros((len(beams.mode_frequency),) * 2)
+    area, force = beams.contact_area, float(beams.force)
+    return ReducedModel(
+        body_name=beams.body_name, coordinate_body=beams.mode_body, mass=np.eye(size),
+        damping=np.diag(beams.mode_damping), gyroscopic=none, centrifugal=none,
+        stiffness=np.diag((2 * np.pi * beams.mode_frequency) ** 2), joint_name=[], joint_rows=np.zeros((0, size)),
+        joint_stiffness=[], joint_damping=[], contact_body=[0], contact_position=beams.contact_position,
+        contact_area=area, contact_lever=[1.0], contact_gap=[0.0], contact_normal=beams.contact_normal,
+        contact_tangent=beams.contact_tangent, contact_lateral=np.zeros((1, size)), pressure=force / area,
+        preload=[[force]], contact_stiffness=[[0.0]], law_closure=[], law_pressure=[], input_name=["weight"],
+        input_rows=beams.load_row, input_area=area, history_interval=0.0,
+        input_history=np.empty((0, 1)), drive_history=[], sensor_quantity=["velocity"], sensor_unit=["m/s"],
+        sensor_gain=[1.0],
+        **{name: getattr(beams, name) for name in ("sensor_name", "sensor_position", "sensor_direction", "sensor_rows",
+                                                   "visible_position", "visible_body", "visible_face", "recovery")})
+
+
 def _from_lumps(lumped, settings, context):
     """The lumped system as it is: its coordinates are few, and there is no surface to draw."""
     size, sensors = len(lumped.mass), len(lumped.sensor_name)
@@ -72,7 +92,7 @@ def _from_lumps(lumped, settings, context):
 
 
 #: product of a system -> its reduction (system, settings, context) -> ReducedModel
-SYSTEMS = {Structure: _from_solids, PinOnDisc: _from_solids, Lumped: _from_lumps}
+SYSTEMS = {Structure: _from_solids, PinOnDisc: _from_solids, BeamOnBeam: _from_beams, Lumped: _from_lumps}
 
 
 def _elastic_body(structure, name, index):

@@ -1,25 +1,7 @@
 """The report page of a case."""
 
-from pipeline.contract import Context, Section, option, stage
-from pipeline.products import (
-    Comparison,
-    ComplexModes,
-    FrictionMap,
-    InterfaceLaw,
-    LockIn,
-    Lumped,
-    MicroFriction,
-    Multibody,
-    PinOnDisc,
-    ReducedModel,
-    Report,
-    Response,
-    Rupture,
-    Squeal,
-    Structure,
-    Surface,
-    Transient,
-)
+from pipeline.contract import Context, Products, Section, option, stage
+from pipeline.products import Report
 
 
 class Settings(Section):
@@ -30,12 +12,7 @@ class Settings(Section):
 
 
 @stage(companions=lambda product: {"report.html": product.html.item()}, reads_case=True)
-def report(surface: Surface | None, micro_friction: MicroFriction | None, friction_map: FrictionMap | None,
-           structure: Structure | None, model: ReducedModel | None, complex_modes: ComplexModes | None,
-           multibody: Multibody | None, response: Response | None, squeal: Squeal | None,
-           lumped: Lumped | None, transient: Transient | None, rupture: Rupture | None,
-           interface_law: InterfaceLaw | None, pin_on_disc: PinOnDisc | None, lock_in: LockIn | None,
-           comparison: Comparison | None, settings: Settings, context: Context) -> Report:
+def report(products: Products, settings: Settings, context: Context) -> Report:
     """Write one HTML page with pictures, tables, settings and methods.
 
     Method:
@@ -45,11 +22,6 @@ def report(surface: Surface | None, micro_friction: MicroFriction | None, fricti
     from pipeline.views.chapter import Look
     from pipeline.views.page import page, plan
 
-    products = {"surface": surface, "micro_friction": micro_friction, "friction_map": friction_map,
-                "structure": structure, "lumped": lumped, "model": model, "complex_modes": complex_modes,
-                "multibody": multibody, "response": response, "transient": transient, "squeal": squeal,
-                "rupture": rupture, "interface_law": interface_law, "pin_on_disc": pin_on_disc, "lock_in": lock_in,
-                "comparison": comparison}
     look = Look(settings.dots_per_inch, settings.mode_pictures)
     chapters = []
     builders = plan(products, look)

@@ -50,6 +50,8 @@ def _headline(products):
         return rupture_headline(products["rupture"]), "warning"
     unstable = 0 if modes is None else len(distinct_unstable(modes, len(modes.unstable_root)))
     if squeal is not None and len(squeal.event_level):
+        if len(squeal.pressure) == 1:
+            return f"It squeals at {quantity(squeal.event_frequency[np.argmax(squeal.event_level)], 'Hz', 3)}", "squeal"
         where = len(np.unique(squeal.event_operating))
         return f"It squeals at {where} of {len(squeal.pressure)} operating points", "squeal"
     if unstable:

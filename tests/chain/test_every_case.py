@@ -6,8 +6,9 @@ from pipeline.contract import store
 from pipeline.products import Comparison
 from tests.chain.conftest import ROOT, brakechain
 
-#: cases in full resolution, of which a quick variant has tests of its own; disc_brake_scanned needs recordings as well
-SLOW = {**dict.fromkeys(("disc_brake", "bimaterial_rupture", "bimaterial_rupture_fine"), [pytest.mark.slow]),
+#: cases in full resolution; disc_brake_scanned needs recordings as well
+SLOW = {**dict.fromkeys(("disc_brake", "bimaterial_rupture", "bimaterial_rupture_fine", "pin_on_disc",
+                          "pin_on_disc_paper_step"), [pytest.mark.slow]),
         "disc_brake_scanned": [pytest.mark.slow, pytest.mark.measured]}
 CASES = [pytest.param(path, marks=SLOW.get(path.stem, ()), id=path.stem)
          for path in sorted((ROOT / "configs").glob("*.yaml")) if not path.stem.endswith("_quick")]

@@ -329,11 +329,11 @@ def case():
 
 
 def products(**replaced):
-    """Every product the report reads, by the name of its argument; ``replaced`` overrides."""
+    """Every product the report reads, by name; ``replaced`` overrides."""
     return {"surface": surface(), "micro_friction": micro_friction(), "friction_map": friction_map(),
-            "structure": structure(), "lumped": lumped(), "model": reduced_model(), "complex_modes": complex_modes(),
-            "multibody": multibody(), "transient": transient(), "response": response(), "squeal": squeal(),
-            "comparison": comparison(), "rupture": None, **replaced}
+            "structure": structure(), "lumped": lumped(), "reduced_model": reduced_model(),
+            "complex_modes": complex_modes(), "multibody": multibody(), "transient": transient(),
+            "response": response(), "squeal": squeal(), "comparison": comparison(), **replaced}
 
 
 def _ring(inner, outer, low, high, start, end, sectors, closed):
