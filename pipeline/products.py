@@ -525,7 +525,7 @@ class Rupture:
     precursor_reach: Array = quantity("m", "side", "outermost slip of any size, from the centre")
     mach_known: Array = count("side solid", "1 where the velocity field shows a ridge behind a front faster than shear")
     mach_angle: Array = quantity("rad", "side solid", "angle of the shear Mach front to the interface, from the field")
-    mach_expected: Array = quantity("rad", "side solid", "angle whose sine is shear speed over front speed; 0 where slower")
+    mach_expected: Array = quantity("rad", "side solid", "angle whose sine is shear speed over front speed until then")
     phrase: Array = text("", "outcome of both fronts in words")
     opened: Array = count("", "interface nodes times steps without contact")
     solid: Array = text("solid", "upper (solid 1), lower (solid 2)")

@@ -91,8 +91,15 @@ def _check(sections):
     settings = sections["rupture"]
     base = _parameters(settings, "superlu")
     refuse(base)
-    for changes in ({}, *(each["changes"] for each in _variations(settings))):
-        build(replace(base, solved_preload=False, **changes))
+    if settings.run_in >= 0.5 * settings.length:
+        raise ConfigError("rupture.run_in", f"less than half the length, {0.5 * settings.length:g} m",
+                          f"{settings.run_in:g} m", "beyond it no front has a speed")
+    build(replace(base, solved_preload=False))
+    for each in _variations(settings):
+        try:
+            build(replace(base, solved_preload=False, **each["changes"]))
+        except ConfigError as error:
+            raise ConfigError(f"rupture.studies, {each['study']} study: {error}") from None
     for spacing in (base.lower_spacing, base.upper_spacing):
         _stride(settings, spacing)
 
@@ -105,7 +112,7 @@ def rupture(settings: Settings, context: Context) -> Rupture:
     Two plates of square bilinear elements ({spacing}, plane {plane}) with lumped mass, central differences, stiffness
     damping of {damping_share} spacing / cP and forward-increment Lagrange multipliers are in frictional contact.
     A {preload} static state with shear over pressure {stress_ratio} is perturbed by friction zero on
-    {nucleation_length}. Shear over pressure, mesh and damping are inferred: the paper prints none of them. The arrival
+    {nucleation_length}. Shear over pressure, mesh and damping are tuned: the paper prints none of them. The arrival
     of a pulse is half of its peak slip rate on the rise, which tells it from the P precursor. Coulomb friction between
     unlike solids is ill-posed (Renardy 1992; Adams 1995; Ranjith and Rice 2001): its pulses narrow with the mesh and no
     limit exists; a Prakash-Clifton memory of the pressure makes one. Mesh, stress, damping and Poisson ratio vary.

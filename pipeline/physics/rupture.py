@@ -4,7 +4,8 @@ The plates move about a static state that carries pressure and shear on the inte
 it, all interface tractions are totals. After both plates stepped as if their edges were free, multipliers at the new
 time close every gap and hold every sticking node, and are clipped to pressure >= 0 and |shear| <= friction * pressure
 (Carpenter, Taylor and Katona, Int. J. Numer. Methods Eng. 32 (1991) 103; Baillet et al. 2005). On matched nodes the
-system is diagonal and one clip solves it; elsewhere projected Gauss-Seidel sweeps do, nodes against segments.
+system is diagonal and one clip solves it; elsewhere projected Gauss-Seidel sweeps do, nodes against segments. From
+rest, what changes at t = 0 acts a whole step on the first half step: the run is early by half a step, once for all.
 
 Signs: slip = lower minus upper along x; shear is the friction on the upper plate along x; pressure is positive.
 Friction falls linearly with the slip path from ``static`` to ``dynamic`` (Ida, J. Geophys. Res. 77 (1972) 3796). With a

@@ -87,6 +87,8 @@ def refuse(parameters):
     if not 0.0 <= p.ratio < p.static_friction:
         raise ConfigError("rupture.stress_ratio", f"shear over pressure from 0 to below the static friction"
                           f" {p.static_friction:g}", f"{p.ratio:g}", "a pre-stress above slip has no static state")
+    if p.damping_share < 0.0:
+        raise ConfigError("rupture.damping_share", "zero or more", f"{p.damping_share:g}")
     if p.dynamic_friction > p.static_friction:
         raise ConfigError("rupture.friction.dynamic", f"at most the static friction {p.static_friction:g}",
                           f"{p.dynamic_friction:g}")

@@ -30,16 +30,16 @@ main()
 """
 
 
-def killed_after(seconds, folder):
-    run = subprocess.Popen([sys.executable, "-m", "pipeline", "run", str(QUICK), "--run", str(folder)], cwd=ROOT,
+def killed_after(seconds, folder, case=QUICK):
+    run = subprocess.Popen([sys.executable, "-m", "pipeline", "run", str(case), "--run", str(folder)], cwd=ROOT,
                            stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     time.sleep(seconds)
     run.send_signal(signal.SIGKILL)
     return run.wait()
 
 
-def killed_while_writing(product, folder):
-    command = [sys.executable, "-c", DIE_IN_MID_WRITE, f"{product}.h5", "run", str(QUICK), "--run", str(folder)]
+def killed_while_writing(product, folder, case=QUICK):
+    command = [sys.executable, "-c", DIE_IN_MID_WRITE, f"{product}.h5", "run", str(case), "--run", str(folder)]
     done = subprocess.run(command, cwd=ROOT, capture_output=True, timeout=900,
                           env={**os.environ, "PYTHONPATH": str(ROOT)})
     return done.returncode

@@ -143,6 +143,24 @@ def test_a_step_beyond_the_stability_limit_is_refused():
         advance(lower, upper, law, at_rest(lower, upper, law), 1.01 * stable_step(lower, upper), 1)
 
 
+@pytest.mark.exact
+def test_turned_by_half_a_turn_the_rupture_is_the_same():
+    """Solids exchanged: left and right exchange, slip keeps its sign.
+
+    The pulse that runs with the softer solid's slip relieves its pressure (Weertman, J. Geophys. Res. 85 (1980) 1455).
+    """
+    slips, pressures = [], []
+    for solids in ((SOFT, STIFF), (STIFF, SOFT)):
+        lower, upper = plates(solids=solids)
+        law, x = interface(lower, upper)
+        record, motion = run(lower, upper, law, 1e-6)
+        slips.append(motion.slip)
+        tip = np.where(x > 4.4e-3, record.slip_rate[-1], 0.0).argmax()
+        pressures.append(record.pressure[-1, tip])
+    np.testing.assert_allclose(slips[0], slips[1][::-1], atol=1e-12 * slips[0].max())
+    assert slips[0].max() > 0.0 and pressures[0] < 0.97e6 < pressures[1]
+
+
 def test_the_same_run_gives_the_same_bits():
     lower, upper = plates()
     law, _ = interface(lower, upper)

@@ -99,8 +99,11 @@ def test_the_ratio_of_the_forces_makes_the_middle_slip_before_the_rupture():
     ({"lower": {"youngs_modulus": "3 GPa", "poisson_ratio": 0.5}}, "poisson_ratio: input should be less than 0.5"),
     ({"lower_spacing": "40 um", "preload": "solved"}, "lower_spacing: expected matched interface nodes"),
     ({"field_spacing": "70 um"}, "field_spacing: expected a multiple of the spacing"),
-    ({"studies": {**NONE, "stress_ratios": [1.5]}}, "stress_ratio: expected shear over pressure"),
-    ({"studies": {**NONE, "poisson_ratios": [0.5]}}, "poisson_ratio: expected a value between -1 and 0.5"),
+    ({"run_in": "2 mm"}, "run_in: expected less than half the length, 0.002 m, found 0.002 m"),
+    ({"studies": {**NONE, "stress_ratios": [1.5]}}, "stress study: rupture.stress_ratio: expected shear over pressure"),
+    ({"studies": {**NONE, "poisson_ratios": [0.5]}}, "poisson study: rupture.upper.poisson_ratio: expected a value be"),
+    ({"studies": {**NONE, "damping_shares": [-0.1]}}, "damping study: rupture.damping_share: expected zero or more"),
+    ({"studies": {**NONE, "spacings": ["0.2 mm"]}}, "mesh study: rupture.nucleation_length: expected 2 or more elem"),
 ])
 def test_bad_input_is_refused_before_anything_runs(values, message):
     with pytest.raises(ConfigError, match=message):
