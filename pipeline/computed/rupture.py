@@ -6,6 +6,8 @@ from pipeline.computed import ours, ratio
 
 LEFT, RIGHT = 0, 1
 UPPER, LOWER = 0, 1
+#: m: distance from the centre left out of speeds and healing; distance of the slips compared from that and from a stop
+_RUN_IN, _INSIDE = 2.5e-4, 4e-4
 
 
 def rupture_rows(products, facts, known):
@@ -29,7 +31,7 @@ def _fronts(found):
     said = [f"standard error {error:.2g} m/s; {kind}, {outcome}" for error, kind, outcome in zip(
         found.speed_error, found.kind, found.outcome, strict=True)]
     far = [abs(found.stop[side] - centre) for side in (LEFT, RIGHT)]
-    fading = (found.stop[LEFT] + 4e-4, centre - 6.5e-4)
+    fading = (found.stop[LEFT] + _INSIDE, centre - _RUN_IN - _INSIDE)
     return {
         "left_speed": ours(speed[LEFT], said[LEFT]), "right_speed": ours(speed[RIGHT], said[RIGHT]),
         "left_stop": ours(found.stop[LEFT] if found.outcome[LEFT] == "stopped" else np.nan, said[LEFT],
@@ -54,7 +56,7 @@ def _slip_ratio(found, first, second):
 
 def _sliding(found, side, centre):
     """Median over the nodes passed of slip duration over the time since arrival."""
-    there = (found.reached == 1) & ((found.x < centre) == (side == LEFT)) & (np.abs(found.x - centre) > 2.5e-4)
+    there = (found.reached == 1) & ((found.x < centre) == (side == LEFT)) & (np.abs(found.x - centre) > _RUN_IN)
     since = found.duration - found.arrival[there]
     settled = since > 0.1 * found.duration
     if not settled.any():

@@ -28,8 +28,8 @@ def rims(grid, step):
     half = 0.5 * step * impedance / mass
     keep, gain = (1.0 - half) / (1.0 + half), step / mass / (1.0 + half)
     keep[still] = gain[still] = 0.0
-    rows, columns = (np.ascontiguousarray(a) for a in (keep[:, [0, -1]].swapaxes(0, 1), gain[:, [0, -1]].swapaxes(0, 1))
-                     ), (np.ascontiguousarray(a[:, :, [0, -1]].transpose(2, 0, 1)) for a in (keep, gain))
+    rows = (np.ascontiguousarray(a[:, [0, -1]].swapaxes(0, 1)) for a in (keep, gain))
+    columns = (np.ascontiguousarray(a[:, :, [0, -1]].transpose(2, 0, 1)) for a in (keep, gain))
     return Rims(step / (grid.density * grid.spacing**2), *rows, *columns)
 
 

@@ -52,8 +52,10 @@ def intersonic_pulse_speeds(upper, lower, friction):
     top = (1.0 - 1e-9) * highest
     if np.isnan(pulse_exponent(top, upper, lower, friction, AGAINST_LOWER)):
         return None
+
     def hilbert(speed):
         return _acting(speed, upper, lower, friction, AGAINST_LOWER)[1]
+
     speeds = highest - (highest - lowest) * np.geomspace(1e-9, 1.0, 400)
     below = next((speed for speed in speeds if hilbert(speed) < 0.0), None)
     return (lowest, highest) if below is None else (brentq(hilbert, below, top), highest)
