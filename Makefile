@@ -31,7 +31,7 @@ run: $(READY)    ## run the chain of CASE; what is up to date is kept
 	$(BIN)/brakechain run $(CONFIG) $(ARGS)
 
 test: $(READY)   ## all tests but the slow studies
-	$(BIN)/python -m pytest -q -m "not slow" $(ARGS) $(TESTS)
+	$(BIN)/python -m pytest -q -m "not slow" -n auto --dist loadfile $(ARGS) $(TESTS)
 
 test-slow: $(READY)  ## the slow studies: full cases, kill-and-resume in every stage
 	$(BIN)/python -m pytest -q -m slow $(ARGS) $(TESTS)

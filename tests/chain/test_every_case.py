@@ -8,7 +8,7 @@ from tests.chain.conftest import ROOT, brakechain
 
 #: cases in full resolution; disc_brake_scanned needs recordings as well
 SLOW = {**dict.fromkeys(("disc_brake", "bimaterial_rupture", "bimaterial_rupture_fine", "pin_on_disc",
-                          "pin_on_disc_paper_step"), [pytest.mark.slow]),
+                          "pin_on_disc_paper_step", "beam_geometry"), [pytest.mark.slow]),
         "disc_brake_scanned": [pytest.mark.slow, pytest.mark.measured]}
 CASES = [pytest.param(path, marks=SLOW.get(path.stem, ()), id=path.stem)
          for path in sorted((ROOT / "configs").glob("*.yaml")) if not path.stem.endswith("_quick")]
