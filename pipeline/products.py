@@ -513,6 +513,7 @@ class Rupture:
     peak_slip_rate: Array = quantity("m/s", "x", "largest slip rate")
     profile_time: Array = quantity("s", "profile", "times of the slip profiles")
     slip: Array = quantity("m", "profile x", "slip")
+    slip_growth: Array = quantity("1", "", "slip of the right pulse 1.4 mm from the centre over 0.8 mm; 0 where not there")
     side: Array = text("side", "side of the nucleation: left, right")
     stop: Array = quantity("m", "side", "outermost node that the pulse reached")
     outcome: Array = text("side", "died (within the run-in), stopped, running (at the end of the time) or edge")
@@ -556,6 +557,7 @@ class Rupture:
     study_width: Array = quantity("m", "run side", "speed times healing time: width of the pulse")
     study_outcome: Array = text("run side", "outcome of the side")
     study_kind: Array = text("run side", "pulse, crack or none")
+    study_growth: Array = quantity("1", "run", "slip_growth of the run")
     study_phrase: Array = text("run", "outcome of both fronts in words")
 
 

@@ -19,6 +19,8 @@ from pipeline.systems.bimaterial_rupture import Parameters, build, refuse
 SIDES = {"left": fronts.LEFT, "right": fronts.RIGHT}
 #: depth in m of the strips in which Mach fronts are looked for
 _STRIP = 1e-3
+#: distances in m from the centre between which the slip of the right pulse is compared (Figure 9 of the paper)
+_GROWTH = 0.8e-3, 1.4e-3
 
 
 class Material(Section):
@@ -116,8 +118,8 @@ def rupture(settings: Settings, context: Context) -> Rupture:
     told = _told(history.record, system, settings)
     varied = context.map(partial(_vary, base=base, settings=settings), _variations(settings), "other ruptures")
     return Rupture(**_static(system), **_fronts(history, system, settings, told), **_waves(settings, base),
-                   **_angles(history, system, base, told), **_fields(history, system, stride), **_study(varied),
-                   **_account(history, system, settings))
+                   **_angles(history, system, base, settings, told), **_fields(history, system, stride),
+                   **_study(varied), **_account(history, system, settings))
 
 
 def _parameters(settings, solver):
@@ -156,15 +158,16 @@ def _vary(variation, base, settings):
     """One row of the studies; the preload is uniform there."""
     parameters = replace(base, solved_preload=False, **variation["changes"])
     system = build(parameters)
-    record = run(system.lower, system.upper, system.interface, settings.duration, settings.step_share).record
-    _, left, right, phrase = _told(record, system, settings)
+    history = run(system.lower, system.upper, system.interface, settings.duration, settings.step_share)
+    _, left, right, phrase = _told(history.record, system, settings)
     both = (left, right)
     return {"study": variation["study"], "study_spacing": parameters.upper_spacing,
             "study_memory": parameters.memory_time, "study_ratio": parameters.ratio,
             "study_damping": parameters.damping_share, "study_poisson": parameters.upper.poisson_ratio,
             "study_stop": [f.stop for f in both], "study_speed": [f.speed for f in both],
             "study_width": [f.speed * f.healing_time for f in both], "study_outcome": [f.outcome for f in both],
-            "study_kind": [f.kind for f in both], "study_phrase": phrase}
+            "study_kind": [f.kind for f in both], "study_growth": _growth(history, system, right),
+            "study_phrase": phrase}
 
 
 def _study(rows):
@@ -183,6 +186,12 @@ def _told(record, system, settings):
     return arrival, left, right, fronts.named(left, right, bool((record.state == OPEN).any()))
 
 
+def _growth(history, system, right):
+    """Slip at the end at the far of the places ``_GROWTH`` over that at the near one; 0 where the front is between."""
+    near, far = np.interp(system.centre + np.array(_GROWTH), system.x, history.motion.slip)
+    return far / near if right.stop >= system.centre + _GROWTH[1] and near > 0.0 else 0.0
+
+
 def _static(system):
     known = system.preload
     return {"x": system.x, "static_pressure": system.interface.pressure, "static_shear": system.interface.shear,
@@ -199,6 +208,7 @@ def _fronts(history, system, settings, told):
     return {"side": list(SIDES), **{name: [getattr(f, name) for f in (left, right)] for name in same},
             "reached": arrival.reached, "arrival": arrival.arrival, "first_slip": arrival.first_slip,
             "healed": arrival.healed, "front_speed": fronts.local_speed(arrival, system.x, settings.speed_window),
+            "slip_growth": _growth(history, system, right),
             "peak_slip_rate": np.abs(record.slip_rate).max(axis=0).astype(float), "profile_time": times,
             "slip": fronts.slip_profiles(record, history.step, times), "phrase": phrase}
 
@@ -213,14 +223,14 @@ def _waves(settings, base):
             "pulse_exists": int(pulse is not None), "pulse_speed": pulse or (0.0, 0.0)}
 
 
-def _angles(history, system, base, told):
+def _angles(history, system, base, settings, told):
     """Mach angles on both sides of both plates; the lower one is seen upside down."""
     views = [View(history.frame_time, tuple(pair[1] for pair in history.strips), system.upper.spacing,
                   base.upper.shear_speed),
              View(history.frame_time, tuple(pair[0][:, ::-1] * [[[1.0]], [[-1.0]]] for pair in history.strips),
                   system.lower.spacing, base.lower.shear_speed)]
-    found = np.array([[front_angle(view, told[0], system.x, system.centre, system.half_width, front.speed, side)
-                       for view in views] for side, front in zip(SIDES.values(), told[1:3], strict=True)])
+    found = np.array([[front_angle(view, told[0], system.x, system.centre, settings.run_in, side) for view in views]
+                      for side in SIDES.values()])
     return {"mach_known": np.isfinite(found[..., 0]).astype(int), "mach_angle": np.nan_to_num(found[..., 0]),
             "mach_expected": np.nan_to_num(found[..., 1])}
 

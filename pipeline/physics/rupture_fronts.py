@@ -151,9 +151,9 @@ def outwards(x, centre, half_width, side):
 
 
 def _smooth(values):
-    """Median over ``_NEAR`` neighbours, fewer at the ends."""
-    half = _NEAR // 2
-    return np.array([np.median(values[max(0, i - half):i + half + 1]) for i in range(values.size)])
+    """Median over ``_NEAR`` neighbours, fewer at the ends but always as many on both sides."""
+    halves = [min(_NEAR // 2, i, values.size - 1 - i) for i in range(values.size)]
+    return np.array([np.median(values[i - half:i + half + 1]) for i, half in enumerate(halves)])
 
 
 def _episode(rate, peak):

@@ -1,7 +1,9 @@
 """Mach fronts of shear waves behind fast ruptures, measured in the velocity field.
 
 A front faster than the shear waves trails a straight ridge of rotation rate under the angle asin(cS / speed). It is
-found by summing the rotation rate along straight lines behind the tip and taking the strongest (a slant stack).
+found by summing the rotation rate along straight lines behind the tip and taking the strongest (a slant stack). The
+ridge of the paper's left front is 15 nodes deep at 25 um: there a source of known speed reads some 10 % low in the
+slower solid and right to 4 % in the faster one, at 6.25 um 5 % low and right to 1 % (its test).
 """
 
 from typing import NamedTuple
@@ -9,7 +11,7 @@ from typing import NamedTuple
 import numpy as np
 
 from pipeline.physics.closed_form.wave_speeds import mach_angle
-from pipeline.physics.rupture_fronts import outwards
+from pipeline.physics.rupture_fronts import outwards, straight_speed
 
 #: when a front is looked at: share of the time at which it arrives at its last node
 _SHARE = 2.0 / 3.0
@@ -17,6 +19,8 @@ _SHARE = 2.0 / 3.0
 _NODES, _DEPTH = 2.0, 0.9
 #: nodes behind the tip within which the ridge may leave the interface
 _LAG = 8.0
+#: fewest nodes through whose arrivals a speed is drawn
+_FEWEST = 5
 
 
 class View(NamedTuple):
@@ -28,19 +32,25 @@ class View(NamedTuple):
     shear_speed: float          # m/s
 
 
-def front_angle(view, arrival, x, centre, half_width, speed, side):
-    """(measured, expected) angle in rad of the front at ``speed`` (m/s) on one side; nan where there is none."""
-    nodes = outwards(x, centre, half_width, side)
+def front_angle(view, arrival, x, centre, run_in, side):
+    """(measured, expected) angle in rad of the front on one side; nan where there is none or it is too slow.
+
+    Expected from the speed between ``run_in`` m from the centre and the place of the front when it is looked at: what
+    radiated the ridge, not what the front did afterwards.
+    """
+    nodes = outwards(x, centre, run_in, side)
     nodes = nodes[arrival.reached[nodes]]
-    expected = mach_angle(view.shear_speed, speed) if speed > 0.0 else np.nan
-    if not nodes.size or np.isnan(expected):
+    if not nodes.size:
         return np.nan, np.nan
     look = int(np.abs(view.time - _SHARE * arrival.arrival[nodes].max()).argmin())
-    passed = x[nodes[arrival.arrival[nodes] <= view.time[look]]]
-    if not passed.size:
-        return np.nan, expected
+    passed = nodes[arrival.arrival[nodes] <= view.time[look]]
+    if passed.size < _FEWEST:
+        return np.nan, np.nan
+    expected = mach_angle(view.shear_speed, straight_speed(x[passed], arrival.arrival[passed])[0])
+    if np.isnan(expected):
+        return np.nan, np.nan
     tangent = view.shear_speed * view.time[look] * np.cos(expected)
-    return mach_angle_of(view.velocity[look], view.spacing, side * (side * passed).max(), side,
+    return mach_angle_of(view.velocity[look], view.spacing, side * (side * x[passed]).max(), side,
                          (_NODES * view.spacing, _DEPTH * tangent), _LAG * view.spacing), expected
 
 

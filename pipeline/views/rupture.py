@@ -13,7 +13,7 @@ from pipeline.views.style import (
     MARKERS,
     RED,
     SEQUENTIAL,
-    colour_bar,
+    WIDTH,
     drawing,
     legend,
     png,
@@ -25,6 +25,10 @@ STICK, SLIP, OPEN = "#ffffff", "#000000", RED
 _SIDES = (BLUE, RED)
 #: percentile of the particle speed at which the colours end
 _BRIGHT = 99.7
+#: inches around the velocity field: left, right, below, above (where the colour bar lies)
+_AROUND = 0.62, 0.15, 0.52, 0.72
+#: least distance of two labels beside the axes, over the height of the axes, and how often they are pushed apart
+_APART, _PUSHES = 0.045, 30
 
 
 def field(rupture, frame, dpi):
@@ -36,19 +40,24 @@ def field(rupture, frame, dpi):
 
     norm = PowerNorm(0.5, 0.0, _limit(rupture))
     values = 1e3 * rupture.speed_field[frame]
-    with drawing(2.9, left=0.62, top=0.34, bar=True) as figure:
+    x, y = _reach(rupture)
+    left, right, below, above = _AROUND
+    high = (WIDTH - left - right) * np.ptp(y) / np.ptp(x)
+    with drawing(high + below + above, left=left, right=right, top=above) as figure:
         axes = figure.subplots()
         shown = None
         for part in (slice(None, _rows_below(rupture)), slice(_rows_below(rupture), None)):
-            y = 1e3 * rupture.field_y[part]
-            extent = (1e3 * rupture.field_x[0], 1e3 * rupture.field_x[-1], y[0], y[-1])
+            ends = *rupture.field_x[[0, -1]], *rupture.field_y[part][[0, -1]]
+            extent = 1e3 * np.array(ends)
             shown = axes.imshow(values[part], origin="lower", extent=extent, aspect="equal", norm=norm,
                                 cmap=SEQUENTIAL, interpolation="bilinear")
         _interface(axes, rupture, frame)
-        axes.set(xlabel="x / mm", ylabel="y / mm", xlim=_reach(rupture), ylim=1e3 * rupture.field_y[[0, -1]],
-                 title=f"{1e6 * rupture.frame_time[frame]:.2f} µs")
+        axes.set(xlabel="x / mm", ylabel="y / mm", xlim=x, ylim=y)
+        axes.annotate(f"{1e6 * rupture.frame_time[frame]:.2f} µs", (0.02, 0.97), xycoords="axes fraction", va="top",
+                      color="white")
         axes.grid(False)
-        colour_bar(axes, shown, "particle speed / mm/s")
+        bar = axes.inset_axes([0.0, 1.0 + 0.08 / high, 1.0, 0.1 / high])
+        figure.colorbar(shown, cax=bar, orientation="horizontal", ticklocation="top", label="particle speed / mm/s")
         return png(figure, dpi)
 
 
@@ -79,9 +88,13 @@ def animation(rupture, dpi, most=3_000_000):
 
 
 def _reach(rupture):
-    """(low, high) mm between which waves from the middle have moved anything at the end of the time."""
-    centre, way = 0.5 * (rupture.x[0] + rupture.x[-1]), 1.15 * rupture.dilatational_speed.max() * rupture.duration
-    return 1e3 * max(centre - way, rupture.x[0]), 1e3 * min(centre + way, rupture.x[-1])
+    """((low, high) mm along x, same along y): as far as waves from the middle come, across at the slower P speed."""
+    centre = 0.5 * (rupture.x[0] + rupture.x[-1])
+    along, across = (1.05 * speed * rupture.duration for speed in
+                     (rupture.dilatational_speed.max(), rupture.dilatational_speed.min()))
+    low, high = rupture.field_y[[0, -1]]
+    return (1e3 * np.clip([centre - along, centre + along], *rupture.x[[0, -1]]),
+            1e3 * np.clip([-across, across], low, high))
 
 
 def _limit(rupture):
@@ -138,12 +151,25 @@ def speed_over_x(rupture):
         axes = figure.subplots()
         known = rupture.front_speed > 0.0
         axes.plot(1e3 * rupture.x[known], rupture.front_speed[known], ".", color=INK, ms=3)
-        for number, (name, speed) in enumerate(waves):
+        highest = 1.2 * float(rupture.dilatational_speed.max())
+        places = _apart([float(speed) for _, speed in waves], _APART * highest)
+        for number, ((name, speed), place) in enumerate(zip(waves, places, strict=True)):
             axes.axhline(speed, color=COLOURS[number % 6], ls=LINES[number % 6], lw=1.0)
-            axes.annotate(name, (1.01, float(speed)), xycoords=("axes fraction", "data"), fontsize=8,
-                          va="bottom" if name == "$c_{GR}$" else "center", color=COLOURS[number % 6])
-        axes.set(xlabel="x / mm", ylabel="front speed / m/s", ylim=(0, 1.2 * float(rupture.dilatational_speed.max())))
+            axes.annotate(name, (1.01, place), xycoords=("axes fraction", "data"), fontsize=8, va="center",
+                          color=COLOURS[number % 6])
+        axes.set(xlabel="x / mm", ylabel="front speed / m/s", ylim=(0, highest))
         return svg(figure)
+
+
+def _apart(values, least):
+    """Places near ``values``, in their order, pushed apart until no two are much closer than ``least``."""
+    places = np.array(values)
+    order = np.argsort(places)
+    for _ in range(_PUSHES):
+        for low, high in zip(order, order[1:], strict=False):
+            push = 0.5 * max(least - (places[high] - places[low]), 0.0)
+            places[low], places[high] = places[low] - push, places[high] + push
+    return places
 
 
 def phase_diagram(rupture):
@@ -151,7 +177,8 @@ def phase_diagram(rupture):
     chosen = rupture.study == "stress"
     order = np.argsort(rupture.study_ratio[chosen])
     ratio, centre = rupture.study_ratio[chosen][order], 0.5 * (rupture.x[0] + rupture.x[-1])
-    with drawing(4.6, top=0.55) as figure:
+    with drawing(5.2, top=0.8) as figure:
+        figure.subplots_adjust(hspace=0.45)
         above, below = figure.subplots(2, sharex=True)
         for side, name in enumerate(rupture.side):
             far = 1e3 * np.abs(rupture.study_stop[chosen][order, side] - centre)
@@ -168,15 +195,15 @@ def phase_diagram(rupture):
                            label=f"{name} {wanted}")
         above.set(ylabel="run / mm")
         below.set(xlabel="shear over pressure", ylabel="speed / m/s")
-        above.legend(loc="upper left", fontsize=7.5, ncols=2)
-        below.legend(loc="lower right", fontsize=7.5, ncols=2)
+        legend(above, 2)
+        legend(below, 2)
         return svg(figure)
 
 
 def mesh_study(rupture):
     """SVG of speed and pulse width over the spacing, with and without memory of the pressure, per Poisson ratio."""
     chosen = rupture.study == "mesh"
-    with drawing(5.0, top=0.2) as figure:
+    with drawing(5.4, top=0.6) as figure:
         panels = figure.subplots(3, sharex=True)
         groups = sorted(set(zip(rupture.study_poisson[chosen], rupture.study_memory[chosen], strict=True)))
         for number, (poisson, memory) in enumerate(groups):
@@ -197,7 +224,7 @@ def mesh_study(rupture):
         panels[2].set_xticks(ticks, [f"{tick:.4g}" for tick in ticks])
         panels[2].set_xticks([], minor=True)
         panels[2].set(xlabel="spacing / µm")
-        panels[2].legend(loc="upper left", fontsize=7.5)
+        legend(panels[0], 2)
         return svg(figure)
 
 

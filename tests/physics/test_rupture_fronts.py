@@ -61,6 +61,16 @@ def test_the_precursor_is_not_the_pulse():
     assert right.precursor_lead > 3e-7
 
 
+@pytest.mark.exact
+def test_nodes_near_the_nucleation_that_slip_again_do_not_end_the_pulse():
+    """Three nodes whose second slip is the larger one, as behind a front with little damping."""
+    made = record(left_stop=-1.0, width=1e-8)
+    again = np.flatnonzero(X < CENTRE - HALF)[-6:-3]
+    made.slip_rate[(TIME > 3.8e-7) & (TIME < 4.2e-7)] += 2.0 * np.isin(np.arange(X.size), again)
+    _, (left, _) = both(made)
+    assert left.outcome != "died" and left.speed == pytest.approx(1700, rel=0.01)
+
+
 def test_slip_that_goes_on_is_a_crack():
     _, (_, right) = both(record(width=1.0, end=1.0))
     assert right.kind == "crack"

@@ -294,10 +294,11 @@ def rupture():
         Rupture, x=x, static_pressure=1e6 + 0 * x, static_shear=9.4e5 + 1e4 * np.cos(400 * x), static_slip=0 * x,
         shift=[5.7e-6, 2.1e-6], reached=reached.astype(int), arrival=arrival, first_slip=0.6 * arrival,
         healed=arrival + 3e-8 * reached, front_speed=speed * reached, profile_time=time, slip=slip,
-        side=["left", "right"], stop=[8.75e-3, 12e-3], outcome=["stopped", "running"], speed=[1650.0, 975.0],
-        speed_error=[7.0, 2.0], kind=["pulse", "pulse"], healing_time=[3e-8, 6e-8], precursor_lead=[1e-8, 2e-7],
-        precursor_reach=[1.3e-3, 2.0e-3], mach_known=[[1, 1], [0, 0]], mach_angle=[[0.8, 0.612], [0, 0]],
-        mach_expected=[[0.9, 0.68], [0, 0]], phrase="the left front stops, the right one runs on",
+        slip_growth=1.4, side=["left", "right"], stop=[8.75e-3, 12e-3], outcome=["stopped", "running"],
+        speed=[1650.0, 975.0], speed_error=[7.0, 2.0], kind=["pulse", "pulse"], healing_time=[3e-8, 6e-8],
+        precursor_lead=[1e-8, 2e-7], precursor_reach=[1.3e-3, 2.0e-3], mach_known=[[1, 1], [0, 0]],
+        mach_angle=[[0.8, 0.612], [0, 0]], mach_expected=[[0.9, 0.68], [0, 0]],
+        phrase="the left front stops, the right one runs on",
         solid=["upper", "lower"], dilatational_speed=[2259.0, 1807.0], shear_speed=[1304.0, 1044.0],
         rayleigh_speed=[1199.0, 959.0], interface_wave=1, generalised_rayleigh_speed=1036.0, pulse_exists=1,
         pulse_speed=[1806.9, 1807.0], energy_name=["released", "heat", "kinetic", "strain", "taken"],
@@ -310,6 +311,7 @@ def rupture():
         study_width=np.linspace([9e-5, 1e-4], [5e-5, 6e-5], runs),
         study_outcome=[["stopped", "running"]] * 4 + [["died", "died"]] + [["stopped", "running"]] * (runs - 5),
         study_kind=[["pulse", "pulse"]] * 7 + [["crack", "crack"]] + [["pulse", "pulse"]] * 2,
+        study_growth=[0.4, 0.6, 0.5, 0.8, 0.0, 0.0, 0.6, 2.0, 0.6, 0.3],
         study_phrase=["the left front stops, the right one runs on"] * runs)
 
 

@@ -6,7 +6,7 @@ import numpy as np
 
 from pipeline.contract.context import Case
 from pipeline.views.chapter import Look
-from pipeline.views.chapters.rupture import CLAIM, TABLE_2, chapter, headline
+from pipeline.views.chapters.rupture import CLAIM, INFERRED, TABLE_2, chapter, headline
 from pipeline.views.page import page, plan
 from tests.views import products_for_views as small
 
@@ -17,7 +17,11 @@ def test_the_chapter_tells_fronts_waves_and_doubts():
     written = chapter(small.rupture(), LOOK)
     assert written.conclude.startswith("The left front stops, the right one runs on. Left: 1650")
     assert "1.65" not in written.conclude and "8.75\u202fmm" in written.conclude
-    assert written.notes == (CLAIM, TABLE_2)
+    assert written.notes == (CLAIM, INFERRED, TABLE_2)
+    assert "The slip of the right pulse grows on its way, to 140\u202f% from" in written.conclude
+    assert "(uniform pre-stress: 40\u202f% at a spacing of 50\u202fµm and 60\u202f% at a spacing of 25\u202fµm; 30" in (
+        written.conclude)
+    assert "The Mach angles lie \u221211\u202f% and \u221210\u202f% beside" in written.conclude
     fronts, waves = written.tables[:2]
     assert [row[0] for row in fronts.rows] == ["left", "right"] and "45.8°" in fronts.rows[0][7]
     assert waves.rows[3][1] == "1036" and written.tables[2].rows[0][2] == "100\u202f%"
@@ -27,8 +31,8 @@ def test_the_chapter_tells_fronts_waves_and_doubts():
 
 
 def test_what_did_not_happen_is_said():
-    none = replace(small.rupture(), speed=[0.0, 0.0], phrase="both fronts die", interface_wave=0, pulse_exists=0,
-                   study=["poisson"] * 10, shift=[0.0, 0.0], mach_known=np.zeros((2, 2), int))
+    none = replace(small.rupture(), slip_growth=0.0, speed=[0.0, 0.0], phrase="both fronts die", interface_wave=0,
+                   pulse_exists=0, study=["poisson"] * 10, shift=[0.0, 0.0], mach_known=np.zeros((2, 2), int))
     written = chapter(none, LOOK)
     assert written.conclude == "Both fronts die. No front leaves the run-in."
     assert "The pre-stress is uniform." in written.see
