@@ -47,7 +47,9 @@ class Settings(Section):
     record_every: int = option(10, "steps between samples that are kept", ge=1)
     highest_frequency: Quantity("Hz", gt=0) = option("100 kHz", "modes with open contacts above it are left out")
     damping: Literal["full", "diagonal"] = option("full", "diagonal: what couples the modes through damping is dropped")
-    start: Literal["sliding", "rest"] = option("sliding", "sliding: steady sliding; rest: unloaded and at rest")
+    start: Literal["sliding", "pressed", "rest"] = option(
+        "sliding", "sliding: steady sliding; pressed: equilibrium without friction, which sets in with the drive; rest:"
+        " unloaded and at rest")
     kick: Quantity("m/s", ge=0) = option("0.1 mm/s", "effective value of a random start velocity at the sensors")
     seed: int = option(1, "seed of the kick", ge=0)
     window: Quantity("s", gt=0) = option("0.1 s", "end of the motion from which spectra and cycles are taken")
@@ -108,7 +110,8 @@ def _move(model, settings, task):
     law, friction = _law(model, sliding, settings), _friction(model, sliding, settings)
     inputs = model.pressure[state] * model.input_area
     system = modal_system(sliding, settings.damping, settings.highest_frequency)
-    start = steady_start(sliding, law, friction, inputs) if settings.start == "sliding" else None
+    drawn = {"sliding": friction, "pressed": constant(0.0)}.get(settings.start)
+    start = None if drawn is None else steady_start(sliding, law, drawn, inputs)
     kick = _kick(system, sliding.sensor_rows, settings)
     return simulate(sliding, law, friction, step=settings.step, duration=settings.duration,
                     inputs=_history(model, model.input_history, inputs),
