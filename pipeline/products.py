@@ -229,7 +229,7 @@ class Lumped:
     sensor_gain: Array = quantity("1", "sensor", "its reading in that unit per SI unit of its quantity")
 
 
-@product(version=3)
+@product(version=4)
 class ReducedModel:
     """The reduced sliding model: everything that a solver or an effect needs of a sliding system.
 
@@ -265,6 +265,11 @@ class ReducedModel:
     contact_stiffness: Array = quantity("N/m", "pressure contact", "normal contact stiffness about the preload")
     law_closure: Array = quantity("m", "closure", "closure axis of the normal contact law")
     law_pressure: Array = quantity("Pa", "closure", "contact pressure at each closure")
+    shear_pressure: Array = quantity("Pa", "shear", "nominal pressures of the tangential contact law; none = no such law")
+    shear_friction: Array = quantity("1", "shear", "coefficient of friction at each of them")
+    shear_stiffness: Array = quantity("Pa/m", "shear", "tangential stiffness at rest per area, evolution rule")
+    shear_elastic_stiffness: Array = quantity("Pa/m", "shear", "tangential stiffness per area of the elastic stick")
+    shear_exponent: Array = quantity("1", "shear", "exponent of the evolution rule")
     input_name: Array = text("input", "inputs, e.g. piston")
     input_rows: Array = quantity("1", "input coordinate", "input rows: generalised force per unit input force")
     input_area: Array = quantity("m^2", "input", "input force per nominal pad pressure")
@@ -589,7 +594,7 @@ class InterfaceLaw:
     friction: Array = quantity("1", "pressure", "coefficient of friction, tau_max over pressure")
 
 
-@product(version=1)
+@product(version=2)
 class PinOnDisc:
     """Pin and disc as FE bodies with hub, clamp and guide, their contact and sensors, and the load states.
 
@@ -616,10 +621,12 @@ class PinOnDisc:
     closed: Array = count("pressure contact", "1 where the contact is closed")
     law_closure: Array = quantity("m", "closure", "closure (minus gap) axis of the normal contact law; none = hard contact")
     law_pressure: Array = quantity("Pa", "closure", "contact pressure at each closure")
-    friction: Array = quantity("1", "pressure", "coefficient of friction of the interface law at each weight")
-    tangential_stiffness: Array = quantity("N/m", "pressure", "tangential contact stiffness at rest, evolution rule")
-    elastic_stiffness: Array = quantity("N/m", "pressure", "tangential contact stiffness of the elastic stick")
-    exponent: Array = quantity("1", "pressure", "exponent of the evolution rule")
+    shear_pressure: Array = quantity("Pa", "shear", "nominal pressures of the tangential contact law")
+    shear_friction: Array = quantity("1", "shear", "coefficient of friction at each of them")
+    shear_stiffness: Array = quantity("Pa/m", "shear", "tangential stiffness at rest per area, evolution rule")
+    shear_elastic_stiffness: Array = quantity("Pa/m", "shear", "tangential stiffness per area of the elastic stick")
+    shear_exponent: Array = quantity("1", "shear", "exponent of the evolution rule")
+    friction: Array = quantity("1", "pressure", "coefficient of friction of that law at each weight")
     disc_frequency: Array = quantity("Hz", "disc_mode", "natural frequencies of the disc on its shaft")
     disc_diameters: Array = count("disc_mode", "nodal diameters of the modes of the disc")
     disc_out_of_plane: Array = quantity("1", "disc_mode", "share of modal mass that moves along the axis")
