@@ -85,10 +85,16 @@ class Neutral(Section):
 class Settings(Section):
     """Files of the bench, each with what its columns are."""
 
-    files: tuple[Matlab | Table | Uff | Neutral, ...] = option(..., "files in any order", min_length=1)
+    files: tuple[Matlab | Table | Uff | Neutral, ...] = option((), "files in any order; at least one")
 
 
-@stage
+def _check(sections):
+    """Refuse a case without files."""
+    if not sections["recording"].files:
+        raise ConfigError("recording.files", "at least one file", "none", "see configs/emps_recording.yaml")
+
+
+@stage(check=_check)
 def recording(settings: Settings, context: Context) -> Recording:
     """Import recordings of a test bench.
 

@@ -10,7 +10,7 @@ from pipeline.physics.dry_friction import falling
 from pipeline.physics.limit_cycle import cycle, harmonic_levels
 from pipeline.physics.sliding_model import sliding_model
 from pipeline.physics.spectra import power_spectrum
-from pipeline.physics.time_stepping import Hard, Lagrange, Penalty, Start, Table, simulate
+from pipeline.physics.time_stepping import Hard, History, Lagrange, Penalty, Start, Table, simulate
 from pipeline.physics.time_stepping_linear import modal_system
 from pipeline.physics.time_stepping_start import steady_start
 from pipeline.products import ReducedModel, Transient
@@ -33,7 +33,7 @@ class Settings(Section):
     static_factor: float = option(1.0, "hold of a sticking contact over friction at rest", ge=1)
     description: Literal["rigid", "elastic", "evolution"] = option("rigid", "how a contact sticks (1999, section 4)")
     tangential_stiffness: Quantity("N/m", gt=0) = option("10 N/um", "elastic and evolution: stiffness of each contact")
-    exponent: float = option(1.0, "evolution: how gradually slip sets in", ge=1)
+    exponent: float = option(1.0, "evolution: how gradually slip sets in; 1/3 is one Hertz contact", gt=0)
     speeds: Quantities("rad/s") = option(("1 rad/s",), "speeds of the drive, either sign, for each pressure")
     step: Quantity("s", gt=0) = option("1 us", "time step")
     duration: Quantity("s", gt=0) = option("0.5 s", "length of the motion")
@@ -101,8 +101,17 @@ def _move(model, settings, task):
     system = modal_system(sliding, settings.damping, settings.highest_frequency)
     start = steady_start(sliding, law, friction, inputs) if settings.start == "sliding" else None
     kick = _kick(system, sliding.sensor_rows, settings)
-    return simulate(sliding, law, friction, step=settings.step, duration=settings.duration, inputs=inputs,
+    return simulate(sliding, law, friction, step=settings.step, duration=settings.duration,
+                    inputs=_history(model, model.input_history, inputs),
+                    drive=_history(model, speed * model.drive_history, None),
                     record_every=settings.record_every, system=system, start=_kicked(start, kick))
+
+
+def _history(model, samples, constant):
+    """``constant``, or the History of ``samples`` added to it where there are any."""
+    if not len(samples):
+        return constant
+    return History(samples if constant is None else samples + constant, float(model.history_interval))
 
 
 def _kicked(start, kick):
@@ -114,9 +123,10 @@ def _law(model, settings):
         if not len(model.law_closure):
             raise ConfigError("transient.contact", "hard, penalty or lagrange for contacts without a law of their own",
                               "table")
-        return Table(model.law_closure, model.law_pressure, settings.damping_speed)
-    return {"hard": Hard(settings.restitution), "lagrange": Lagrange(settings.gamma),
-            "penalty": Penalty(settings.contact_stiffness, settings.contact_damping)}[settings.contact]
+        return Table(model.law_closure, model.law_pressure, settings.damping_speed, model.contact_gap)
+    gap = model.contact_gap
+    return {"hard": Hard(settings.restitution, gap), "lagrange": Lagrange(settings.gamma, gap),
+            "penalty": Penalty(settings.contact_stiffness, settings.contact_damping, gap)}[settings.contact]
 
 
 def _friction(settings):

@@ -18,7 +18,7 @@ MAY_IMPORT = {
     "pipeline.environment": set(),
     "pipeline.contract": {"pipeline.contract", "pipeline.environment"},
     "pipeline.products": {"pipeline.contract"},
-    "pipeline.physics": {"pipeline.physics", "pipeline.contract.errors"},
+    "pipeline.physics": {"pipeline.physics", "pipeline.contract.errors", "pipeline.environment"},
     "pipeline.systems": {"pipeline.systems", "pipeline.physics", "pipeline.contract.errors"},
     "pipeline.published": {"pipeline.contract"},
     "pipeline.computed": {"pipeline.computed"},
@@ -37,7 +37,8 @@ MAY_IMPORT = {
 #: third-party package -> its doors
 DOORS = {
     "h5py": {"pipeline.contract.store", "pipeline.inspection", "pipeline.recordings.columns",
-             "pipeline.recordings.neutral"}, "pyuff": {"pipeline.recordings.uff"}, "yaml": {"pipeline.contract.documents"},
+             "pipeline.recordings.neutral"},
+    "pyuff": {"pipeline.recordings.uff"}, "yaml": {"pipeline.contract.documents"},
     "click": {"pipeline.cli"}, "rich": {"pipeline.console"}, "pint": {"pipeline.contract.units"},
     "pydantic": {"pipeline.contract.settings", "pipeline.published", "pipeline.measured"},
     "pooch": {"pipeline.measured"}, "distributed": {"pipeline.contract.executor"},

@@ -141,11 +141,15 @@ def leaves(section, prefix=""):
         value, key = getattr(section, name), f"{prefix}{name}"
         if isinstance(value, Section):
             yield from leaves(value, f"{key}.")
-        elif isinstance(value, (tuple, list)) and value and all(isinstance(v, Section) for v in value):
-            for index, item in enumerate(value):
+        elif isinstance(value, (tuple, list, dict)) and value and all(isinstance(v, Section) for v in _items(value)):
+            for index, item in value.items() if isinstance(value, dict) else enumerate(value):
                 yield from leaves(item, f"{key}.{index}.")
         else:
             yield key, value, _unit(info), info.description or ""
+
+
+def _items(value):
+    return value.values() if isinstance(value, dict) else value
 
 
 def _unit(info):

@@ -9,9 +9,10 @@ from pipeline.contract.errors import ConfigError
 
 #: every unit a product or a setting may carry (each is coherent SI; a test asks pint)
 SI = frozenset({
-    "1", "m", "m^2", "m^3", "m^4", "1/m", "rad/m", "s", "1/s", "Hz", "rad", "rad/s", "kg", "1/kg^0.5",
+    "1", "m", "m^2", "m^3", "m^4", "1/m", "1/m^2", "rad/m", "s", "1/s", "Hz", "rad", "rad/s", "kg", "kg m^2",
+    "1/kg^0.5",
     "kg/m^3", "m/s", "m/s^2", "N", "N m", "N/m", "N m/rad", "N s/m", "N s^2/m", "Pa", "Pa/m", "m/Pa", "1/Pa",
-    "K", "J", "W", "J/K/kg", "W/m/K", "1/K", "m^2/s", "m^2/s^2/Hz", "m^2/N",
+    "K", "J", "J/m", "W", "J/K/kg", "W/m/K", "1/K", "m^2/s", "m^2/s^2/Hz", "m^2/N",
 })
 
 

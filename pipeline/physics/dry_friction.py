@@ -53,8 +53,8 @@ class Friction:
         if self.description != "rigid" and not np.all(np.asarray(self.stiffness) > 0):
             raise ConfigError("friction: stiffness", f"above 0 for the {self.description} description",
                               str(self.stiffness))
-        if not self.exponent >= 1:
-            raise ConfigError("friction: exponent", "at least 1", f"{self.exponent:g}")
+        if not self.exponent > 0:
+            raise ConfigError("friction: exponent", "above 0", f"{self.exponent:g}")
 
     def at_speed(self, speed, pressure=0.0):
         """Coefficient at sliding speeds (m/s, either sign)."""
@@ -124,7 +124,8 @@ def evolution_rule(force, slip, limit, stiffness, exponent):
     """(T, dT/ds) after a slip increment from ``force``: dT/ds = k (1 - T sgn(s) / L)^m integrated exactly.
 
     With r = 1 - T sgn(s) / L, dr/d|s| = -(k / L) r^m: r = r0 exp(-k |s| / L) for m = 1, else
-    r^(1 - m) = r0^(1 - m) + (m - 1) k |s| / L.
+    r^(1 - m) = r0^(1 - m) + (m - 1) k |s| / L, which reaches full sliding, r = 0, where m < 1 (m = 1/3: one
+    Hertz contact, Cattaneo and Mindlin).
     """
     if limit <= 0.0:
         return 0.0, 0.0
@@ -135,5 +136,6 @@ def evolution_rule(force, slip, limit, stiffness, exponent):
         if exponent == 1.0:
             missing *= np.exp(-way)
         else:
-            missing *= (1.0 + (exponent - 1.0) * way * missing ** (exponent - 1.0)) ** (-1.0 / (exponent - 1.0))
+            base = 1.0 + (exponent - 1.0) * way * missing ** (exponent - 1.0)
+            missing = missing * base ** (-1.0 / (exponent - 1.0)) if base > 0.0 else 0.0
     return sign * limit * (1.0 - missing), stiffness * missing**exponent

@@ -156,7 +156,7 @@ def simulate(model, law, friction=None, *, step, duration, drive=None, inputs=No
         float(step), steps, int(record_every), bool(book), record)
     if code != SOLVED:
         raise _failure(code, number * step, contact, step)
-    return _motion(record, step * record_every, steps, Start(*system.from_pairs(pairs), *force))
+    return _motion(record, step * record_every, steps, Start(*system.from_pairs(record.end), *force))
 
 
 def imposed(model, joint):
@@ -185,10 +185,15 @@ def _linear(model, system, law, friction, step):
     rows = np.concatenate([system.observed(r) for r in (contacts.normal, contacts.tangent)])
     response = np.einsum("oibx,fjbx->ofij", rows, last[:2 * count].reshape(2, count, *last.shape[1:]))
     energy, power = _forms(system)
-    arrays = (np.moveaxis(matrices[0], 0, 2), first, last, rows, response, system.observed(model.input_rows)[0],
-              system.observed(model.sensor_rows), hold.astype(float), system.squared, np.diag(system.damping), energy,
-              power)
+    arrays = (np.moveaxis(matrices[0], 0, 2), first, last, _stacked(rows), response,
+              system.observed(model.input_rows)[0], _stacked(system.observed(model.sensor_rows)), hold, system.squared,
+              np.diag(system.damping), energy, power)
     return LinearKernel(*(_own(a) for a in arrays))
+
+
+def _stacked(rows):
+    """(a, r, 2, m) as (a r, 2, m)."""
+    return rows.reshape(-1, *rows.shape[2:])
 
 
 def _own(values):
@@ -292,9 +297,10 @@ def _inputs(model, inputs):
 
 
 def _empty(linear, kept):
-    sensors, contacts = linear.sensors.shape[1], linear.rows.shape[1]
+    sensors, contacts = len(linear.sensors) // 2, len(linear.rows) // 4
     return Record(*np.zeros((2, sensors, kept)), *np.zeros((4, contacts, kept)),
-                  np.zeros((contacts, kept), np.int8), np.zeros(kept), np.zeros((5, kept)), np.zeros((contacts, 3)))
+                  np.zeros((contacts, kept), np.int8), np.zeros(kept), np.zeros((5, kept)), np.zeros((contacts, 3)),
+                  np.zeros(linear.step.shape[1:]))
 
 
 def _motion(record, interval, steps, end):

@@ -65,15 +65,16 @@ def table_force(law, i, closure, rate):
 
 
 @njit(cache=True)
-def solve_contacts(law, friction, response, free, past, held, drive, way, force, status):
+def solve_contacts(law, friction, response, free, past, held, drive, way, force, status, before):
     """(code, contact) after filling ``force`` (2, c) N and ``status`` (c,), which enter with those of the last step.
 
     ``response`` (4, 2, c, c), ``free`` (4, c) observables without forces of this step, ``past`` (4, c) those at its
     begin, ``held`` (2, c) the forces at its begin, ``drive`` (2, c) sliding velocity at begin and end, ``way`` (c,) m
-    its integral. Nothing is accepted that has not converged: the code says what failed, in which contact.
+    its integral; ``before`` (c,) is room to work in. Nothing is accepted that has not converged: the code says what
+    failed, in which contact.
     """
     count = free.shape[1]
-    before = status.copy()
+    before[:] = status
     for _ in range(SWEEPS):
         change, size, where = 0.0, 0.0, 0
         for i in range(count):
@@ -89,8 +90,9 @@ def solve_contacts(law, friction, response, free, past, held, drive, way, force,
                             y3 += response[3, f, i, j] * x
             active = before[i] != OPEN or law.gap[i] + free[0, i] <= 0.0
             normal, tangent, status[i], code = _one_contact(
-                law, friction, i, (y0, y1, y2, y3), response[:, :, i, i], past[:, i], held[:, i], drive[:, i], way[i],
-                force[:, i], before[i], active)
+                law, friction, i, (y0, y1, y2, y3), _own_response(response, i),
+                (past[0, i], past[1, i], past[2, i], past[3, i]), (held[0, i], held[1, i]), (drive[0, i], drive[1, i]),
+                way[i], (force[0, i], force[1, i]), before[i], active)
             if code != SOLVED:
                 return code, i
             moved = abs(normal - force[0, i]) + abs(tangent - force[1, i])
@@ -103,6 +105,13 @@ def solve_contacts(law, friction, response, free, past, held, drive, way, force,
         if count == 1 or change <= TOLERANCE * size:
             return SOLVED, 0
     return UNCONVERGED, where
+
+
+@njit(cache=True)
+def _own_response(response, i):
+    """Pairs (to N, to T) of the four observables of contact i: tuples, which cost nothing to pass."""
+    return ((response[0, 0, i, i], response[0, 1, i, i]), (response[1, 0, i, i], response[1, 1, i, i]),
+            (response[2, 0, i, i], response[2, 1, i, i]), (response[3, 0, i, i], response[3, 1, i, i]))
 
 
 @njit(cache=True)
@@ -121,8 +130,8 @@ def _rigid(law, friction, i, y, r, past, held, drive, guess, before):
     share, kept = _mean_load(law, held)
     slip_begin = drive[0] - past[3]
     sign = np.sign(drive[1] - y[3])
-    if r[3, 1] > 0.0:
-        fixed, slope = (drive[1] - y[3]) / r[3, 1], -r[3, 0] / r[3, 1]
+    if r[3][1] > 0.0:
+        fixed, slope = (drive[1] - y[3]) / r[3][1], -r[3][0] / r[3][1]
         normal, code = _normal(law, i, y, r, past, fixed, slope, guess[0])
         if code == SOLVED:
             tangent = fixed + slope * normal
@@ -145,7 +154,7 @@ def _rigid(law, friction, i, y, r, past, held, drive, guess, before):
         normal, code = _normal(law, i, y, r, past, fixed, slope, normal)
         if code != SOLVED:
             return 0.0, 0.0, OPEN, code
-        slip_end = drive[1] - (y[3] + (r[3, 0] + r[3, 1] * slope) * normal + r[3, 1] * fixed)
+        slip_end = drive[1] - (y[3] + (r[3][0] + r[3][1] * slope) * normal + r[3][1] * fixed)
         speed = 0.5 * abs(slip_begin + slip_end)
     return 0.0, 0.0, OPEN, UNCONVERGED
 
@@ -162,7 +171,7 @@ def _mean_load(law, held):
 def _yielding(law, friction, i, y, r, past, held, drive, way, guess, before):
     """Friction that is a function of the slip of the step, by Newton's method on T, N following T."""
     stiffness, tangent = friction.stiffness[i], guess[1]
-    if stiffness * r[2, 1] > LARGEST_STIFFNESS:
+    if stiffness * r[2][1] > LARGEST_STIFFNESS:
         return 0.0, 0.0, OPEN, TOO_LONG
     normal, speed = guess[0], abs(drive[1] - past[3])
     for _ in range(ITERATIONS):
@@ -172,13 +181,13 @@ def _yielding(law, friction, i, y, r, past, held, drive, way, guess, before):
         if normal == 0.0:
             tangent_new, slope, sliding = 0.0, 0.0, False
         else:
-            slip = way + past[2] - (y[2] + r[2, 0] * normal + r[2, 1] * tangent)
-            speed = abs(drive[1] - (y[3] + r[3, 0] * normal + r[3, 1] * tangent))
+            slip = way + past[2] - (y[2] + r[2][0] * normal + r[2][1] * tangent)
+            speed = abs(drive[1] - (y[3] + r[3][0] * normal + r[3][1] * tangent))
             tangent_new, slope, sliding = _drawn(friction, i, held[1], slip, normal, normal / law.area[i], speed,
                                                  before)
             if sliding:
                 before = SLIP       # once loose in this step, no longer held by static friction
-        change = (tangent_new - tangent) / (1.0 + slope * r[2, 1])
+        change = (tangent_new - tangent) / (1.0 + slope * r[2][1])
         tangent += change
         if abs(change) <= LOCAL_TOLERANCE * (abs(tangent) + normal):
             if normal == 0.0:
@@ -209,8 +218,8 @@ def _normal(law, i, y, r, past, fixed, slope, guess):
     """(N, code) of the normal law where the friction force is fixed + slope N."""
     if law.fixed[i] >= 0.0:
         return law.fixed[i], SOLVED
-    gap, rate = law.gap[i] + y[0] + r[0, 1] * fixed, y[1] + r[1, 1] * fixed
-    flexible, mobile = r[0, 0] + r[0, 1] * slope, r[1, 0] + r[1, 1] * slope
+    gap, rate = law.gap[i] + y[0] + r[0][1] * fixed, y[1] + r[1][1] * fixed
+    flexible, mobile = r[0][0] + r[0][1] * slope, r[1][0] + r[1][1] * slope
     if law.kind == HARD:
         missing = rate + law.restitution * past[1]
         if missing >= 0.0:
@@ -222,7 +231,7 @@ def _normal(law, i, y, r, past, fixed, slope, guess):
         return (-gap / flexible, SOLVED) if flexible > 0.0 else (0.0, JAMMED)
     if law.kind == PENALTY:
         k, d = law.stiffness[i], law.damping[i]
-        if k * r[0, 0] > LARGEST_STIFFNESS:
+        if k * r[0][0] > LARGEST_STIFFNESS:
             return 0.0, TOO_LONG
         against = 1.0 + k * flexible + d * mobile
         return (max(-(k * gap + d * rate) / against, 0.0), SOLVED) if against > 0.0 else (0.0, JAMMED)
@@ -230,7 +239,7 @@ def _normal(law, i, y, r, past, fixed, slope, guess):
     for _ in range(ITERATIONS):
         force, k, d = table_force(law, i, -gap - flexible * normal, -rate - mobile * normal)
         against = 1.0 + k * flexible + d * mobile
-        if k * r[0, 0] > LARGEST_STIFFNESS:
+        if k * r[0][0] > LARGEST_STIFFNESS:
             return 0.0, TOO_LONG
         if against <= 0.0:
             return 0.0, JAMMED

@@ -24,10 +24,10 @@ class LinearKernel(NamedTuple):
     step: np.ndarray        # (2, 2, m)
     first: np.ndarray       # (2 c + i, 2, m) effect of the forces at the begin of the step
     last: np.ndarray        # (2 c + i, 2, m) effect of the forces at its end, or of forces constant over it
-    rows: np.ndarray        # (4, c, 2, m) observables: displacement, velocity along n, then along t
+    rows: np.ndarray        # (4 c, 2, m) observables: displacement, velocity along n, then along t
     response: np.ndarray    # (4, 2, c, c) of the observables to ``last``
     input_rows: np.ndarray  # (i, 2, m) displacement along the inputs
-    sensors: np.ndarray     # (2, s, 2, m) displacement, velocity
+    sensors: np.ndarray     # (2 s, 2, m) displacement, then velocity
     hold: np.ndarray        # (2,) 1 where N, T are constant over the step
     pull: np.ndarray        # (m,) squared frequencies, uncoupled
     drag: np.ndarray        # (m,) damping, uncoupled
@@ -55,6 +55,7 @@ class Record(NamedTuple):
     stored: np.ndarray          # (r,)
     work: np.ndarray            # (5, r) input, damping, normal, friction, sliding
     share: np.ndarray           # (c, 3) steps open, sticking, sliding
+    end: np.ndarray             # (2, m) pairs after the last step
 
 
 @njit(cache=True)
@@ -71,37 +72,43 @@ def read(history, time, found):
 
 
 @njit(cache=True, fastmath=_FAST)
-def _advance(step, now, after):
+def _advance(step, steady, now, after):
     for b in range(now.shape[1]):
         one, other = now[0, b], now[1, b]
-        after[0, b] = step[0, 0, b] * one + step[0, 1, b] * other
-        after[1, b] = step[1, 0, b] * one + step[1, 1, b] * other
+        after[0, b] = step[0, 0, b] * one + step[0, 1, b] * other + steady[0, b]
+        after[1, b] = step[1, 0, b] * one + step[1, 1, b] * other + steady[1, b]
 
 
 @njit(cache=True, fastmath=_FAST)
-def _add(column, factor, pairs):
-    for b in range(pairs.shape[1]):
-        pairs[0, b] += factor * column[0, b]
-        pairs[1, b] += factor * column[1, b]
+def _push(columns, first, factors, pairs):
+    """Add ``columns`` (from number ``first`` on) times ``factors`` to the pairs."""
+    for k in range(factors.size):
+        factor = factors[k]
+        if factor != 0.0:
+            for b in range(pairs.shape[1]):
+                pairs[0, b] += factor * columns[first + k, 0, b]
+                pairs[1, b] += factor * columns[first + k, 1, b]
 
 
 @njit(cache=True, fastmath=_FAST)
-def _seen(row, pairs):
-    total = 0.0
-    for b in range(pairs.shape[1]):
-        total += row[0, b] * pairs[0, b] + row[1, b] * pairs[1, b]
-    return total
+def _see(rows, pairs, seen):
+    """Fill ``seen`` (r,) with the rows (r, 2, m) of the pairs."""
+    for k in range(seen.size):
+        total = 0.0
+        for b in range(pairs.shape[1]):
+            total += rows[k, 0, b] * pairs[0, b] + rows[k, 1, b] * pairs[1, b]
+        seen[k] = total
 
 
 @njit(cache=True, fastmath=_FAST)
-def _loss_rate(linear, pairs):
+def _loss_rate(power, drag, pairs):
     """Power of the dampers, W."""
-    if linear.power.size:
+    if power.size:
         state = pairs.ravel()
-        return state @ (linear.power @ state)
+        return state @ (power @ state)
     total = 0.0
     for b in range(pairs.shape[1]):
-        total += linear.drag[b] * pairs[1, b] ** 2
+        total += drag[b] * pairs[1, b] ** 2
     return total
 
 
@@ -115,10 +122,11 @@ def stored_energy(linear, pairs):
 
 
 @njit(cache=True)
-def _keep(linear, law, record, row, pairs, seen, force, drive, status, steps, work):
-    for s in range(linear.sensors.shape[1]):
-        record.displacement[s, row] = _seen(linear.sensors[0, s], pairs)
-        record.velocity[s, row] = _seen(linear.sensors[1, s], pairs)
+def _keep(linear, law, record, row, pairs, watched, seen, force, drive, status, steps, work):
+    sensors = watched.size // 2
+    _see(linear.sensors, pairs, watched)
+    for s in range(sensors):
+        record.displacement[s, row], record.velocity[s, row] = watched[s], watched[sensors + s]
     for i in range(seen.shape[1]):
         record.gap[i, row] = law.gap[i] + seen[0, i]
         record.normal[i, row], record.friction[i, row] = force[0, i] / steps, force[1, i] / steps
@@ -130,86 +138,78 @@ def _keep(linear, law, record, row, pairs, seen, force, drive, status, steps, wo
 
 @njit(cache=True)
 def march(linear, law, friction, lever, drive, inputs, pairs, force, status, step, steps, every, book, record):
-    """(code, step number, contact): fills ``record``; ``pairs``, ``force``, ``status`` go in and come out.
+    """(code, step number, contact): fills ``record`` from ``pairs``, ``force`` and ``status`` at time 0.
 
     ``lever`` (c,), ``drive`` HistoryKernel of the drive speed, ``inputs`` of the input forces; ``book``: whether
     the work of inputs and dampers is summed.
     """
     contacts, count = law.gap.size, linear.input_rows.shape[0]
-    free, seen, after = np.zeros((4, contacts)), np.zeros((4, contacts)), np.empty_like(pairs)
-    held, summed, turning = force.copy(), np.zeros((2, contacts)), np.zeros((2, 1))
-    sliding, way, work = np.zeros((2, contacts)), np.zeros(contacts), np.zeros(5)
-    begin, end = np.zeros(count), np.zeros(count)
+    # functions of the loop take the arrays that they need: a whole tuple of arrays costs more than their work
+    one_step, first, last, rows, response = linear.step, linear.first, linear.last, linear.rows, linear.response
+    input_rows, power, drag, share = linear.input_rows, linear.power, linear.drag, record.share
+    holds = (linear.hold[0] > 0, linear.hold[1] > 0)
+    free, seen, after = np.zeros((4, contacts)), np.zeros((4, contacts)), np.zeros_like(pairs)
+    held, summed, turning = force.copy(), np.zeros((2, contacts)), np.zeros(1)
+    free_flat, seen_flat, held_flat, force_flat = free.ravel(), seen.ravel(), held.ravel(), force.ravel()
+    sliding, way, work, before = np.zeros((2, contacts)), np.zeros(contacts), np.zeros(5), status.copy()
+    begin, end, watched = np.zeros(count), np.zeros(count), np.zeros(linear.sensors.shape[0])
     place, place_after = np.zeros(count), np.zeros(count)
-    varies = inputs.value.shape[0] > 1
+    varies, turns, steady = inputs.value.shape[0] > 1, drive.value.shape[0] > 1, np.zeros_like(pairs)
     read(inputs, 0.0, begin)
+    read(drive, 0.0, turning)
     end[:] = begin
-    read(drive, 0.0, turning[1])
-    steady = np.zeros_like(pairs)
-    for i in range(count):
-        place[i] = _seen(linear.input_rows[i], pairs)
-        if not varies:
-            _add(linear.first[2 * contacts + i], begin[i], steady)
-            _add(linear.last[2 * contacts + i], begin[i], steady)
-    for i in range(contacts):
-        sliding[1, i] = lever[i] * turning[1, 0]
-        for o in range(4):
-            seen[o, i] = _seen(linear.rows[o, i], pairs)
-    _keep(linear, law, record, 0, pairs, seen, force, sliding[1], status, 1, work)
-    loss = _loss_rate(linear, pairs) if book else 0.0
+    sliding[:] = turning[0] * lever
+    way[:] = step * turning[0] * lever
+    if not varies:
+        _push(first, 2 * contacts, begin, steady)
+        _push(last, 2 * contacts, begin, steady)
+    _see(input_rows, pairs, place)
+    _see(rows, pairs, seen_flat)
+    _keep(linear, law, record, 0, pairs, watched, seen, force, sliding[1], status, 1, work)
+    loss = _loss_rate(power, drag, pairs) if book else 0.0
     for number in range(1, steps + 1):
-        _advance(linear.step, pairs, after)
+        _advance(one_step, steady, pairs, after)
         if varies:
+            begin[:] = end
             read(inputs, number * step, end)
-            for i in range(count):
-                _add(linear.first[2 * contacts + i], begin[i], after)
-                _add(linear.last[2 * contacts + i], end[i], after)
-        else:
-            _add(steady, 1.0, after)
+            _push(first, 2 * contacts, begin, after)
+            _push(last, 2 * contacts, end, after)
         if contacts:
-            turning[0, 0] = turning[1, 0]
-            read(drive, number * step, turning[1])
-            for i in range(contacts):
-                for f in range(2):
-                    held[f, i] = force[f, i]
-                    if not linear.hold[f] and force[f, i] != 0.0:
-                        _add(linear.first[f * contacts + i], force[f, i], after)
-            for i in range(contacts):
-                sliding[0, i], sliding[1, i] = lever[i] * turning[0, 0], lever[i] * turning[1, 0]
-                way[i] = 0.5 * step * (sliding[0, i] + sliding[1, i])
-                for o in range(4):
-                    free[o, i] = _seen(linear.rows[o, i], after)
-            code, contact = solve_contacts(law, friction, linear.response, free, seen, held, sliding, way, force,
-                                           status)
+            if turns:
+                read(drive, number * step, turning)
+                for i in range(contacts):
+                    sliding[0, i], sliding[1, i] = sliding[1, i], lever[i] * turning[0]
+                    way[i] = 0.5 * step * (sliding[0, i] + sliding[1, i])
+            held_flat[:] = force_flat
+            if not (holds[0] and holds[1]):
+                _push(first, 0, held_flat, after)
+            _see(rows, after, free_flat)
+            code, contact = solve_contacts(law, friction, response, free, seen, held, sliding, way, force,
+                                           status, before)
             if code != SOLVED:
                 return code, number, contact
-            for i in range(contacts):
-                for f in range(2):
-                    if force[f, i] != 0.0:
-                        _add(linear.last[f * contacts + i], force[f, i], after)
-            _account(linear, law, held, force, free, seen, way, status, record, summed, work)
+            _push(last, 0, force_flat, after)
+            _account(response, holds, held, force, free, seen, way, status, share, summed, work)
         if book:
-            rate = _loss_rate(linear, after)
+            rate = _loss_rate(power, drag, after)
             work[DAMPING] += 0.5 * step * (loss + rate)
             loss = rate
+            _see(input_rows, after, place_after)
             for i in range(count):
-                place_after[i] = _seen(linear.input_rows[i], after)
                 work[INPUT] += 0.5 * (begin[i] + end[i]) * (place_after[i] - place[i])
-            place, place_after = place_after, place
-        begin, end = end, begin
-        if not varies:
-            end[:] = begin
-        pairs[:] = after
+                place[i] = place_after[i]
+        pairs, after = after, pairs
         if number % every == 0:
             if not np.isfinite(np.sum(pairs)):
                 return DIVERGED, number, 0
-            _keep(linear, law, record, number // every, pairs, seen, summed, sliding[1], status, every, work)
+            _keep(linear, law, record, number // every, pairs, watched, seen, summed, sliding[1], status, every, work)
             summed[:] = 0.0
+    record.end[:] = pairs
     return SOLVED, 0, 0
 
 
 @njit(cache=True)
-def _account(linear, law, held, force, free, seen, way, status, record, summed, work):
+def _account(response, holds, held, force, free, seen, way, status, share, summed, work):
     """Observables at the end of the step into ``seen``; mean forces, their work, the status of the step."""
     contacts = seen.shape[1]
     for i in range(contacts):
@@ -218,14 +218,14 @@ def _account(linear, law, held, force, free, seen, way, status, record, summed, 
             total = free[o, i]
             for j in range(contacts):
                 for f in range(2):
-                    total += linear.response[o, f, i, j] * force[f, j]
+                    total += response[o, f, i, j] * force[f, j]
             seen[o, i] = total
-        mean_n = force[0, i] if linear.hold[0] else 0.5 * (held[0, i] + force[0, i])
-        mean_t = force[1, i] if linear.hold[1] else 0.5 * (held[1, i] + force[1, i])
+        mean_n = force[0, i] if holds[0] else 0.5 * (held[0, i] + force[0, i])
+        mean_t = force[1, i] if holds[1] else 0.5 * (held[1, i] + force[1, i])
         summed[0, i] += mean_n
         summed[1, i] += mean_t
         slid -= seen[2, i]
         work[NORMAL] += mean_n * (seen[0, i] - moved)
         work[SLIDING] += mean_t * slid
         work[FRICTION] += mean_t * (way[i] - slid)
-        record.share[i, status[i]] += 1.0
+        share[i, status[i]] += 1.0

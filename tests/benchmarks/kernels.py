@@ -3,6 +3,7 @@
 import numpy as np
 
 from pipeline.physics import multibody, newmark
+from pipeline.physics.dry_friction import constant
 from pipeline.physics.eigen import lowest_modes
 from pipeline.physics.elasticity import assemble, isotropic
 from pipeline.physics.layered_solid import graded_depth, layered_compliance
@@ -10,10 +11,16 @@ from pipeline.physics.linear_solver import available
 from pipeline.physics.mesh import revolve
 from pipeline.physics.modal_response import fixed_points, modal_response
 from pipeline.physics.pad_system import static_start
+from pipeline.physics.plate_grid import largest_step, plate
+from pipeline.physics.plate_step import plain_step, rims
 from pipeline.physics.preloaded_modes import preloaded_modes
 from pipeline.physics.quadratic_modes import quadratic_roots
 from pipeline.physics.rough_contact import solve_normal_contact
 from pipeline.physics.rough_surface import plateau_pad, turned_disc
+from pipeline.physics.rupture_history import run
+from pipeline.physics.time_stepping import Hard, simulate
+from tests.physics import small_ruptures
+from tests.physics.lumps import random_structure
 from tests.physics.small_pads import random_assembly
 
 _IRON = isotropic(120e9, 0.27)
@@ -72,6 +79,22 @@ def superposition():
             "mode-steps")
 
 
+def _transient(modes, highest, step, duration):
+    model = random_structure(modes, highest)
+    return (lambda: simulate(model, Hard(), constant(0.3), step=step, duration=duration, inputs=[20.0],
+                             record_every=10), round(duration / step), "steps")
+
+
+def transient_pin():
+    """transient, 65 modes, hard contact, 0.5 s at 1 us"""
+    return _transient(65, 40e3, 1e-6, 0.5)
+
+
+def transient_beam():
+    """transient, 100 modes, hard contact, 1 s at 2 us"""
+    return _transient(100, 60e3, 2e-6, 1.0)
+
+
 def _stepping(integrate, steps=5000):
     """Steps of 5 us of a reduced model of 40 coordinates on 36 contact patches, as many as the default case has."""
     system = random_assembly(size=40, count=36)
@@ -90,6 +113,24 @@ def newmark_steps():
     return _stepping(newmark.integrate)
 
 
-KERNELS = (compliance, contact, assembly, modes, roots, superposition, exudyn_steps, newmark_steps)
+def rupture_steps():
+    """rupture of two plates, 20 x 5 mm each at 25 um, 2.02 us"""
+    lower, upper = small_ruptures.plates(2.5e-5, length=20e-3, height=5e-3)
+    law, _ = small_ruptures.interface(lower, upper)
+    steps = run(lower, upper, law, 2.02e-6).record.time.size
+    updates = steps * (lower.rows * lower.columns + upper.rows * upper.columns)
+    return lambda: run(lower, upper, law, 2.02e-6), updates, "node-updates"
+
+
+def rupture_slices():
+    """the step of one plate by numpy slices, same mesh"""
+    grid = plate(small_ruptures.SOFT, 20e-3, 5e-3, 2.5e-5, 0.1, [(0, 0)] * 4)
+    step, state = 0.9 * largest_step(grid), np.zeros((2, 2, grid.rows, grid.columns))
+    rim = rims(grid, step)
+    return lambda: plain_step(grid, rim, state[0], state[1], step), grid.rows * grid.columns, "node-updates"
+
+
+KERNELS = (compliance, contact, assembly, modes, roots, superposition, exudyn_steps, newmark_steps, transient_pin,
+           transient_beam, rupture_steps, rupture_slices)
 #: (kernel, kernel) pairs whose rates compare: the same work done in two ways
-PAIRS = ((newmark_steps, exudyn_steps),)
+PAIRS = ((newmark_steps, exudyn_steps), (rupture_steps, rupture_slices))

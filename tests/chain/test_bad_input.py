@@ -6,7 +6,7 @@ import h5py
 import numpy as np
 import pytest
 
-from tests.chain.conftest import QUICK, brakechain
+from tests.chain.conftest import QUICK, ROOT, brakechain
 
 
 def refused(code, *args):
@@ -94,3 +94,19 @@ def test_a_run_folder_without_permission(tmp_path):
 def test_a_computation_that_does_not_converge(copy):
     told = refused(3, "micro-friction", QUICK, "--run", copy, "--set", "micro_friction.max_iterations=2")
     assert "expected" in told and "found" in told
+
+
+@pytest.mark.parametrize("override, message", [
+    ("lumped.springs.tie.between=[blok.x, ground]", "lumped.springs.tie.between: expected a coordinate, one of block.x,"
+     " ground, found 'blok.x'; did you mean 'block.x'?"),
+    ("lumped.springs.tie.between=[ground, ground]", "lumped.springs.tie.between: expected two different ends"),
+    ("lumped.springs.tie.betwen=[block.x, ground]", "did you mean 'between'?"),
+    ("lumped.masses.block.mass=-1 kg", "lumped.masses.block.mass: expected above 0 kg"),
+    ("lumped.contacts.belt.normal_force=-1 N", "normal_force: input should be greater than or equal to 0"),
+    ("complex_modes.friction=-0.1", "complex_modes.friction: input should be greater than or equal to 0"),
+    ("complex_modes.friction=null", "complex_modes.friction: expected friction from one source"),
+])
+def test_a_lumped_model_that_does_not_hold_together(tmp_path, override, message):
+    case = ROOT / "configs" / "belt.yaml"
+    assert message in refused(2, "run", case, "--run", tmp_path / "run", "--set", override)
+    assert not (tmp_path / "run").exists(), "the whole case is checked before anything is made"

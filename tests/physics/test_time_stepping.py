@@ -11,6 +11,8 @@ from pipeline.physics.closed_form.two_mode_flutter import onset_friction, roots_
 from pipeline.physics.dry_friction import constant, tabulated
 from pipeline.physics.oscillation import dominant_frequency, growth_rate
 from pipeline.physics.time_stepping import Hard, History, Lagrange, Penalty, Start, Table, imposed, simulate
+from pipeline.physics.time_stepping_linear import modal_system
+from pipeline.physics.time_stepping_start import steady_start
 from tests.physics.lumps import ball, belt, lumps, random_structure
 
 GRAVITY = 9.81
@@ -341,11 +343,16 @@ def run(model=None, law=None, friction=None, **options):
     ({"law": Table(np.array([0.1, 1.0]), np.array([0.0, 1.0]))}, "rise from 0"), ({"inputs": [1.0]}, "one force"),
     ({"law": Table(np.array([0, 1e-9]), np.array([0, 1e3]))}, "8 steps in a period of the contact"),
     ({"friction": constant(0.3, description="elastic", stiffness=1e12)}, "stiffness of contact 0"),
-    ({"duration": 0.0}, "positive step"), ({"drive": np.nan}, "finite samples"),
-    ({"model": lumps([1.0], normal=[[0.0]], tangent=[[1.0]]), "inputs": [0.0]}, "normal force moves")])
+    ({"duration": 0.0}, "positive step"), ({"drive": np.nan}, "finite samples")])
 def test_what_cannot_be_computed_is_refused(options, said):
     with pytest.raises(ConfigError, match=said):
         run(**options)
+
+
+def test_modes_without_the_motion_of_a_contact_are_refused():
+    model = lumps([1.0, 1.0], np.eye(2), [100.0, 1e8], normal=[[0.0, 1.0]], tangent=[[1.0, 0.0]], speed=0.1)
+    with pytest.raises(ConfigError, match="normal force moves"):
+        run(model, system=modal_system(model, highest=10.0))
 
 
 def test_unknown_joint_is_refused():
@@ -358,3 +365,29 @@ def test_motion_without_bound_is_not_returned():
     model = lumps([1.0], [[1.0]], [-1e10])
     with pytest.raises(ConvergenceError, match=r"t = .*finite motion"):
         simulate(model, Hard(), step=1e-5, duration=0.1, inputs=[1.0], record_every=10)
+
+
+def joined(force, speed=0.1):
+    """The mass of ``belt`` alone, its normal force given once and for all."""
+    model = lumps([1.0], [[1.0]], [100.0], [0.5], [[0.0]], [[1.0]], speed)
+    return replace(model, contacts=replace(model.contacts, preload=np.array([force])))
+
+
+@pytest.mark.exact
+@pytest.mark.parametrize("law", [Hard(), Penalty(1e4), Table(np.array([0.0, 1.0]), np.array([0.0, 1e4])), Lagrange()])
+def test_a_friction_joint_moves_as_a_mass_pressed_by_that_force(law):
+    """Whatever the law of the other contacts: N never changes. The twin is pressed by 5 N onto a belt that is hard."""
+    friction = tabulated([0.0, 0.05, 0.5], [0.6, 0.4, 0.3])
+    joint = simulate(joined(5.0), law, friction, step=1e-4, duration=4.0)
+    hard = law if isinstance(law, Lagrange) else Hard()
+    twin = simulate(belt(damping=0.5), hard, friction, step=1e-4, duration=4.0, inputs=[0.0, -5.0])
+    np.testing.assert_array_equal(joint.normal_force[0, 1:], 5.0)
+    assert 0.02 < joint.status_share[0, STICK] < 0.98 and joint.imbalance < 2e-3
+    np.testing.assert_allclose(joint.displacement[0], twin.displacement[0], atol=2e-4 * np.ptp(twin.displacement[0]))
+
+
+@pytest.mark.exact
+def test_steady_sliding_of_a_friction_joint():
+    start = steady_start(joined(5.0), Hard(), constant(0.4), [0.0])
+    assert start.displacement[0] == pytest.approx(0.4 * 5.0 / 100.0) and start.normal[0] == 5.0
+    assert start.friction[0] == pytest.approx(2.0)

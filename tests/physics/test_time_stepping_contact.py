@@ -36,7 +36,7 @@ def solve(law, mobility, free, mu=0.3, past=None, status=None, **friction):
     status = np.full(contacts, OPEN) if status is None else np.array(status)
     code, where = solve_contacts(law, kernel(constant(mu, **friction), contacts), response, np.array(free, float),
                                  none if past is None else np.array(past, float), np.zeros((2, contacts)),
-                                 np.zeros((2, contacts)), np.zeros(contacts), force, status)
+                                 np.zeros((2, contacts)), np.zeros(contacts), force, status, status.copy())
     return code, force, status
 
 

@@ -177,8 +177,8 @@ def test_same_bits_twice(model, modes):
 
 def oscillator_modes(speeds=("1 rad/s",), **model):
     """ComplexModes of one mass with friction of its settings, 0.2 + 0.3 exp(-v / 0.5)."""
-    friction = {"coefficient": 0.2, "static": 0.5, "decay_speed": "0.5 m/s"}
-    return complex_modes(small_oscillator(**model), None, settings=Settings(speeds=speeds, friction=friction))
+    friction = {"friction": 0.2, "friction_at_rest": 0.5, "decay_speed": "0.5 m/s"}
+    return complex_modes(small_oscillator(**model), None, settings=Settings(speeds=speeds, **friction))
 
 
 @pytest.mark.exact
@@ -204,13 +204,15 @@ def test_a_mass_without_contacts_keeps_its_root():
     assert modes.operating_force.shape == (1, 0) and modes.operating_friction[0] == 0
 
 
-def test_hard_contacts_are_not_taken_for_open_ones():
-    with pytest.raises(ConfigError, match="a normal law or a contact stiffness, found hard contacts"):
+@pytest.mark.exact
+def test_a_hard_contact_that_holds_the_whole_mass_along_its_only_motion_is_refused():
+    """Nothing is left to move: there are no modes."""
+    with pytest.raises(ConfigError, match="no motion"):
         oscillator_modes(hard=True)
 
 
 @pytest.mark.parametrize(("chain", "friction", "found"), [
-    ((), None, "neither this nor a friction map"), (("friction_map",), {"coefficient": 0.4}, "a friction map")])
+    ((), None, "neither this nor a friction map"), (("friction_map",), 0.4, "a friction map")])
 def test_friction_comes_from_one_source(chain, friction, found):
     sections = {"complex_modes": Settings(friction=friction), **dict.fromkeys(chain)}
     with pytest.raises(ConfigError, match=found):

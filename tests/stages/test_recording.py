@@ -46,7 +46,8 @@ def test_runs_of_all_kinds_of_files(files):
 
 
 @pytest.mark.parametrize("file, message", [
-    ({**MATLAB, "columns": {"x": {**COLUMNS["x"], "column": "posn"}}}, "x.column: expected one of t, pos, u, found 'posn'"),
+    ({**MATLAB, "columns": {"x": {**COLUMNS["x"], "column": "posn"}}},
+     "x.column: expected one of t, pos, u, found 'posn'"),
     ({**MATLAB, "time": "time"}, "time: expected one of t, pos, u, found 'time'"),
     ({**MATLAB, "time": None}, "expected a sampling rate or a column of times, found neither"),
     ({**TABLE, "sample_rate": None}, "expected times at one even interval"),

@@ -26,8 +26,8 @@ def pair(contacts=1, law=()):
         contact_lever=np.ones(contacts), pressure=[100.0, 400.0], preload=np.zeros((2, contacts)),
         contact_stiffness=np.zeros((2, contacts)), contact_position=np.zeros((contacts, 3)),
         contact_body=np.zeros(contacts, int), law_closure=law, law_pressure=4e5 * np.array(law), input_name=["load"],
-        input_rows=[[0.0, -1.0]], input_area=[1.0], sensor_name=["x", "y"], sensor_rows=np.eye(2),
-        sensor_position=np.zeros((2, 3)))
+        input_rows=[[0.0, -1.0]], input_area=[1.0], input_history=np.empty((0, 1)), drive_history=[],
+        sensor_name=["x", "y"], sensor_rows=np.eye(2), sensor_position=np.zeros((2, 3)))
 
 
 def move(model=None, **settings):
@@ -115,7 +115,7 @@ def test_squeal_is_found_in_the_motion():
     motion = move(**CYCLING)
     found = squeal(motion, settings=SquealSettings.model_validate(
         {"lowest_frequency": "100 Hz", "highest_frequency": "500 Hz", "window": "50 ms", "settling": "0.7 s",
-         "threshold": "1 mm/s"}))
+         "lowest_fundamental": "100 Hz", "threshold": "1 mm/s"}))
     np.testing.assert_allclose(found.peak_frequency, motion.cycle_frequency, atol=4)
     assert {*found.event_operating} == {0, 1} and found.coupling == "transient"
 

@@ -1,0 +1,76 @@
+"""Pictures of the interface law and of lock-in."""
+
+import numpy as np
+
+from pipeline.views.style import BLUE, COLOURS, FAINT, LINES, MARKERS, RED, drawing, legend, svg
+
+_KINDS = ("classical", "intermediate", "multiple", "dual base", "other")
+#: the paper's numbers in the map: (free length m, frequency Hz, what)
+_PAPER = ((0.1515, 2215.0, "measured"), (0.1465, 2210.0, "paper, simulated"), (0.1515, 2197.0, "paper, simulated"),
+          (0.1815, 1445.0, "paper, simulated"))
+
+
+def normal_law(law):
+    """Figure 4: pressure over the distance of the mean planes."""
+    with drawing() as figure:
+        axes = figure.add_subplot()
+        axes.plot(1e6 * law.gap, law.gap_pressure / 1e6, color=BLUE)
+        axes.set(xlabel="distance of the mean planes / µm", ylabel="pressure / MPa")
+        return svg(figure)
+
+
+def shear_law(law):
+    """Figure 5: shear stress over displacement at several pressures."""
+    with drawing(height=3.5, top=0.62) as figure:
+        axes = figure.add_subplot()
+        for k, colour, line in zip(_some(law), COLOURS, LINES, strict=False):
+            axes.loglog(1e6 * law.displacement[1:], law.shear[k, 1:] / 1e6, color=colour, ls=line,
+                        label=f"{law.pressure[k] / 1e6:.3g} MPa")
+        axes.set(xlabel="tangential displacement / µm", ylabel="shear stress / MPa")
+        legend(axes, 3)
+        return svg(figure)
+
+
+def descriptions(law):
+    """Figures 6 to 8: the law at the middle pressure and its three descriptions, over their full slip."""
+    k = len(law.pressure) // 2
+    full = law.limit[k] / law.tangential_stiffness[k] * 4
+    x, limit = law.displacement / full, law.limit[k]
+    with drawing(height=3.5, top=0.62) as figure:
+        axes = figure.add_subplot()
+        axes.plot(x, law.shear[k] / limit, color=FAINT, lw=4, label="summits")
+        axes.plot(x, law.evolution_shear[k] / limit, color=BLUE, label="evolution rule")
+        axes.plot(x, law.elastic_shear[k] / limit, color=RED, ls="--", label="elastic stick")
+        axes.plot([0, 0, 1], [0, 1, 1], color=COLOURS[2], ls="-.", label="rigid stick")
+        axes.set(xlim=(-0.02, 1), xlabel="displacement / (4 limit / stiffness)", ylabel="shear stress / limit")
+        legend(axes, 2)
+        return svg(figure)
+
+
+def length_map(found):
+    """Base of the settled motion and growing mode over pin length, with the paper's numbers."""
+    rows = np.array([scan == "length" for scan in found.scan])
+    length, base = 1e3 * found.length[rows], found.base[rows]
+    with drawing(height=3.9, top=0.62) as figure:
+        axes = figure.add_subplot()
+        axes.plot(length, np.abs(found.root[rows].imag) / (2 * np.pi) + _hidden(found.root[rows].real <= 0), ".",
+                  color=FAINT, ms=4, label="growing mode")
+        for kind, colour, marker in zip(_KINDS, COLOURS, MARKERS, strict=False):
+            chosen = np.array([k == kind for k in found.kind])[rows]
+            if chosen.any():
+                axes.plot(length[chosen], base[chosen], marker, color=colour, mfc="none", label=kind)
+        for where, frequency, _ in _PAPER:
+            axes.plot(1e3 * where, frequency, "x", color="black", ms=7, label="paper" if where == _PAPER[0][0]
+                      and frequency == _PAPER[0][1] else None)
+        axes.set(xlabel="free length of the pin / mm", ylabel="frequency / Hz", ylim=(0, None))
+        legend(axes, 3)
+        return svg(figure)
+
+
+def _hidden(which):
+    return np.where(which, np.nan, 0.0)
+
+
+def _some(law):
+    """Up to five pressures, spread over the range."""
+    return np.unique(np.linspace(0, len(law.pressure) - 1, 5).astype(int))
