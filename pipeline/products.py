@@ -8,7 +8,7 @@ radially outwards. A relative displacement is pad minus disc: positive normal op
 
 import numpy as np
 
-from pipeline.contract import Array, count, part, product, quantity, text
+from pipeline.contract import Array, count, part, parts, product, quantity, text
 
 
 @product(version=1)
@@ -229,7 +229,7 @@ class Lumped:
     sensor_gain: Array = quantity("1", "sensor", "its reading in that unit per SI unit of its quantity")
 
 
-@product(version=3)
+@product(version=4)
 class ReducedModel:
     """The reduced sliding model: everything that a solver or an effect needs of a sliding system.
 
@@ -265,6 +265,11 @@ class ReducedModel:
     contact_stiffness: Array = quantity("N/m", "pressure contact", "normal contact stiffness about the preload")
     law_closure: Array = quantity("m", "closure", "closure axis of the normal contact law")
     law_pressure: Array = quantity("Pa", "closure", "contact pressure at each closure")
+    shear_pressure: Array = quantity("Pa", "shear", "nominal pressures of the tangential contact law; none = no such law")
+    shear_friction: Array = quantity("1", "shear", "coefficient of friction at each of them")
+    shear_stiffness: Array = quantity("Pa/m", "shear", "tangential stiffness at rest per area, evolution rule")
+    shear_elastic_stiffness: Array = quantity("Pa/m", "shear", "tangential stiffness per area of the elastic stick")
+    shear_exponent: Array = quantity("1", "shear", "exponent of the evolution rule")
     input_name: Array = text("input", "inputs, e.g. piston")
     input_rows: Array = quantity("1", "input coordinate", "input rows: generalised force per unit input force")
     input_area: Array = quantity("m^2", "input", "input force per nominal pad pressure")
@@ -493,6 +498,111 @@ class Report:
 
 
 @product(version=1)
+class Channel:
+    """One sampled signal of a run."""
+
+    samples: Array = quantity("1", "sample", "samples in the unit that `unit` names; 0 where missing")
+    missing: Array = count("sample_gap bound", "first sample of each stretch without data, and the first after it")
+    unit: Array = text("", "coherent SI unit of the samples")
+    measures: Array = text("", "what is measured: displacement, velocity, acceleration, force, pressure, voltage, ...")
+    rate: Array = quantity("Hz", "", "sampling rate")
+    begin: Array = quantity("s", "", "time of the first sample")
+    place: Array = text("", "named point or joint; empty where nothing is said")
+    position: Array = quantity("m", "xyz", "position of the point; size 0 where nothing is said")
+    direction: Array = quantity("1", "axis", "direction, unit vector; size 0 where nothing is said")
+    role: Array = text("", "response or excitation")
+
+
+@product(version=1)
+class Condition:
+    """A condition of a run: one value, or a series over time."""
+
+    value: Array = quantity("1", "moment", "value in the unit that `unit` names")
+    time: Array = quantity("s", "moment", "time of each value; 0 for a condition that does not change")
+    unit: Array = text("", "coherent SI unit of the values")
+
+
+@product(version=1)
+class FrequencyResponse:
+    """A measured frequency response function."""
+
+    frequency: Array = quantity("Hz", "frequency", "frequency axis")
+    response: Array = quantity("1", "frequency", "response per reference, in the unit that `unit` names", complex)
+    unit: Array = text("", "unit of the function, e.g. m/s^2/N")
+    place: Array = text("", "place and direction of the response")
+    reference: Array = text("", "place and direction of the reference")
+
+
+@product(version=1)
+class MeasuredModes:
+    """Identified modes with their standard deviations."""
+
+    frequency: Array = quantity("Hz", "mode", "natural frequencies")
+    frequency_std: Array = quantity("Hz", "mode", "their standard deviations")
+    damping_ratio: Array = quantity("1", "mode", "damping ratios; 0 where not measured")
+    damping_ratio_std: Array = quantity("1", "mode", "their standard deviations; 0 where not measured")
+    place: Array = text("place", "places and directions of the shapes")
+    shape: Array = quantity("1", "mode place", "mode shapes", complex)
+
+
+@product(version=1)
+class Lines:
+    """A published list of peaks, where no raw signal exists."""
+
+    frequency: Array = quantity("Hz", "line", "frequencies")
+    frequency_tolerance: Array = quantity("Hz", "line", "how far off they may be read")
+    level: Array = quantity("1", "line", "levels in dB re the strongest line; 0 where none is given")
+    level_known: Array = count("line", "1 where a level is given")
+    place: Array = text("", "where the spectrum was taken")
+
+
+@product(version=1)
+class Topography:
+    """A measured height map."""
+
+    y: Array = quantity("m", "y", "lateral position across sliding")
+    x: Array = quantity("m", "x", "lateral position along sliding")
+    height: Array = quantity("m", "y x", "heights, outwards of the solid")
+    body: Array = text("", "body, e.g. disc or pad")
+    state: Array = text("", "new or worn")
+
+
+@product(version=1)
+class MeasuredFriction:
+    """Measured coefficients of friction with their conditions."""
+
+    friction: Array = quantity("1", "sample", "coefficient of friction")
+    friction_std: Array = quantity("1", "sample", "its standard error")
+    pressure: Array = quantity("Pa", "sample", "nominal contact pressure")
+    speed: Array = quantity("m/s", "sample", "sliding speed")
+    distance: Array = quantity("m", "sample", "sliding distance")
+    temperature: Array = quantity("K", "sample", "temperature")
+
+
+@product(version=1)
+class Run:
+    """One run on a test bench, or a declared stretch of a long record."""
+
+    description: Array = text("", "what was done")
+    repeat_of: Array = text("", "name of the run that this one repeats; empty for none")
+    conditions: dict[str, Condition] = parts("conditions by name: pressure, speed, normal_load, temperature, ...")
+    channels: dict[str, Channel] = parts("sampled signals by name")
+    frf: dict[str, FrequencyResponse] = parts("frequency response functions by name")
+    modes: dict[str, MeasuredModes] = parts("identified modes by name")
+    lines: dict[str, Lines] = parts("published peak lists by name")
+    topography: dict[str, Topography] = parts("height maps by name")
+    friction: dict[str, MeasuredFriction] = parts("measured friction by name")
+
+
+@product(version=1)
+class Recording:
+    """What a bench wrote, in one form; simulations embed the same runs in their products."""
+
+    source: Array = text("source", "files it was read from, with SHA-256")
+    runs: dict[str, Run] = parts("runs by name")
+
+
+@product(version=1)
 class Rupture:
     """Dynamic rupture of the interface of two plates: fronts, slip, velocity field, and studies of what they rest on.
 
@@ -589,7 +699,7 @@ class InterfaceLaw:
     friction: Array = quantity("1", "pressure", "coefficient of friction, tau_max over pressure")
 
 
-@product(version=1)
+@product(version=2)
 class PinOnDisc:
     """Pin and disc as FE bodies with hub, clamp and guide, their contact and sensors, and the load states.
 
@@ -616,10 +726,12 @@ class PinOnDisc:
     closed: Array = count("pressure contact", "1 where the contact is closed")
     law_closure: Array = quantity("m", "closure", "closure (minus gap) axis of the normal contact law; none = hard contact")
     law_pressure: Array = quantity("Pa", "closure", "contact pressure at each closure")
-    friction: Array = quantity("1", "pressure", "coefficient of friction of the interface law at each weight")
-    tangential_stiffness: Array = quantity("N/m", "pressure", "tangential contact stiffness at rest, evolution rule")
-    elastic_stiffness: Array = quantity("N/m", "pressure", "tangential contact stiffness of the elastic stick")
-    exponent: Array = quantity("1", "pressure", "exponent of the evolution rule")
+    shear_pressure: Array = quantity("Pa", "shear", "nominal pressures of the tangential contact law")
+    shear_friction: Array = quantity("1", "shear", "coefficient of friction at each of them")
+    shear_stiffness: Array = quantity("Pa/m", "shear", "tangential stiffness at rest per area, evolution rule")
+    shear_elastic_stiffness: Array = quantity("Pa/m", "shear", "tangential stiffness per area of the elastic stick")
+    shear_exponent: Array = quantity("1", "shear", "exponent of the evolution rule")
+    friction: Array = quantity("1", "pressure", "coefficient of friction of that law at each weight")
     disc_frequency: Array = quantity("Hz", "disc_mode", "natural frequencies of the disc on its shaft")
     disc_diameters: Array = count("disc_mode", "nodal diameters of the modes of the disc")
     disc_out_of_plane: Array = quantity("1", "disc_mode", "share of modal mass that moves along the axis")

@@ -15,6 +15,7 @@ CHAINS = {
     "beam_on_beam": ("beam_on_beam", "reduced_model", "complex_modes", "transient", "motion_scatter", "squeal",
                      "comparison", "report"),
     "beam_geometry": ("beam_geometry", "report"),
+    "recording": ("recording", "report"),
 }
 
 #: every stage once, in the order of its first chain

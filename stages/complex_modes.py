@@ -1,8 +1,9 @@
 """Complex modes of the sliding system over friction, and at its operating points.
 
 Friction moves the load between the contacts, so the system is linearised about steady sliding with that friction. It
-comes from the friction map, or from the settings where the chain has none. Contacts without a normal law stay as their
-preload state says; where they have no stiffness either, they are hard, and the motions keep them closed.
+comes from the friction map; where the chain has none, from the settings or the tangential law of the model. Contacts
+without a normal law stay as their preload state says; where they have no stiffness either, they are hard, and the
+motions keep them closed.
 A root s = sigma + i omega with sigma > 0 is a squeal candidate: it says which motion can grow, not how loud it ends up.
 """
 
@@ -28,6 +29,7 @@ from pipeline.physics.sliding_state import (
     model_about,
     steady_sliding,
 )
+from pipeline.physics.tangential_law import tangential_law
 from pipeline.products import ComplexModes, FrictionMap, ReducedModel
 
 #: friction values of one task of the fan-out
@@ -41,7 +43,8 @@ class Settings(Section):
         ("8.5 rad/s", "10.25 rad/s", "12 rad/s"),
         "speeds of the drive at the operating points, a belt being a drum of radius 1 m; the sweep runs at their mean")
     friction: float | None = option(
-        None, "coefficient of friction at high slip speed, where the chain has no friction map", ge=0)
+        None, "coefficient of friction at high slip speed, where the chain has no friction map; none = that of the"
+        " model", ge=0)
     friction_at_rest: float | None = option(None, "coefficient as the slip speed goes to zero; none = the same", ge=0)
     decay_speed: Quantity("m/s", gt=0) = option("10 mm/s", "slip speed over which friction falls from one to the other")
     friction_max: float = option(0.8, "last friction coefficient of the sweep, which starts at 0", gt=0)
@@ -63,9 +66,10 @@ class Settings(Section):
 def _check(sections):
     """Refuse friction that is given twice or not at all, before anything is computed."""
     given = sections["complex_modes"].friction is not None
-    if given == ("friction_map" in sections):
+    mapped = "friction_map" in sections
+    if given and mapped or not (given or mapped or "interface_law" in sections):
         raise ConfigError("complex_modes.friction", "friction from one source",
-                          "a friction map in the chain as well" if given else "neither this nor a friction map",
+                          "a friction map in the chain as well" if given else "neither this nor a friction map or law",
                           "leave it out" if given else "add it, such as friction: 0.4")
 
 
@@ -114,7 +118,7 @@ def complex_modes(model: ReducedModel, friction_map: FrictionMap | None, setting
     states = context.map(partial(_state, settings, normal_law), models, "real modes")
     friction = np.linspace(0.0, settings.friction_max, settings.friction_steps)
     roots = _sweep(states, normal_law, friction, settings, context)
-    law = _friction_law(friction_map, settings)
+    law = _friction_law(friction_map, model, settings)
     points = [(m.at_speed(speed), load) for m, load in models for speed in settings.speeds]
     outcomes = context.map(partial(_operate, settings, normal_law, law), points, "operating points")
     branches = min(max(len(s.basis.frequency) for s in states), *(s.model.size for s in states))
@@ -151,11 +155,13 @@ def _sliding(model, response, input_force, normal_law, friction):
     return steady_sliding(model, response, input_force, *normal_law, friction)
 
 
-def _friction_law(friction_map, settings):
-    """Friction over pressure and speed: of the map, or of the settings where there is none."""
+def _friction_law(friction_map, model, settings):
+    """Friction over pressure and speed: of the map; where there is none, of the settings or the model."""
     if friction_map is not None:
         law = FrictionLaw(friction_map.pressure, friction_map.speed, friction_map.distance, friction_map.friction)
         return partial(from_map, law, settings.sliding_distance)
+    if settings.friction is None:
+        return partial(from_map, tangential_law(model).friction_law(), 0.0)
     at_rest = settings.friction if settings.friction_at_rest is None else settings.friction_at_rest
     return partial(falling_with_speed, settings.friction, at_rest, settings.decay_speed)
 

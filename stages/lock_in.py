@@ -17,6 +17,7 @@ from pipeline.physics.lock_in import lock_in as classified
 from pipeline.physics.quadratic_modes import quadratic_roots
 from pipeline.physics.sliding_model import sliding_model
 from pipeline.physics.static_contact import normal_force
+from pipeline.physics.tangential_law import tangential_law
 from pipeline.physics.time_stepping import Penalty, simulate
 from pipeline.physics.time_stepping_linear import modal_system
 from pipeline.physics.time_stepping_start import steady_start
@@ -123,7 +124,7 @@ def _visit(system, model, settings, solver, point):
     body, own = _pin(system, point, solver)
     terms = reduce_body(body, settings.fixed_below, settings.residual_below, solver)
     sliding = exchanged(_pressed(system, model, settings, point), "pin", terms)
-    friction = _friction(system, point) if settings.friction is None else settings.friction
+    friction = _friction(model, sliding) if settings.friction is None else settings.friction
     root = _growing(sliding, friction, settings)
     disc = system.disc_frequency[system.disc_out_of_plane > _OUT_OF_PLANE]
     told = {"friction": friction, "root": root, "kind": KINDS[NONE], "base": 0.0, "second": 0.0,
@@ -186,9 +187,9 @@ def _pressed(system, model, settings, point):
                                              damping=np.array([settings.contact_damping])))
 
 
-def _friction(system, point):
-    """Coefficient of the interface law at the weight, between the weights of the system."""
-    return float(np.interp(point.load, system.load, system.friction))
+def _friction(model, sliding):
+    """Coefficient of the tangential law of the model at the pressure of the weight."""
+    return float(tangential_law(model).at(sliding.contacts.pressure).friction[0])
 
 
 def _growing(sliding, friction, settings):

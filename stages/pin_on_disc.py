@@ -1,5 +1,6 @@
 """Stage pin_on_disc: disc and pin as finite elements on hub, clamp and guide, and the load states of their contact."""
 
+from dataclasses import fields
 from functools import partial
 from typing import Literal
 
@@ -10,6 +11,7 @@ from pipeline.physics.disc_modes import describe
 from pipeline.physics.eigen import lowest_modes
 from pipeline.physics.elasticity import assemble
 from pipeline.physics.static_contact import contact_law, normal_force
+from pipeline.physics.tangential_law import TangentialLaw
 from pipeline.products import Body, Incidence, InterfaceLaw, PinOnDisc
 from pipeline.systems.pin_on_disc import BODIES, SENSORS, build, pin, sliding_flexibility
 
@@ -123,16 +125,12 @@ def pin_on_disc(interface_law: InterfaceLaw, settings: Settings, context: Contex
 
 
 def _law(interface_law, pressure, settings):
-    """Normal law of the contact, its stiffness at each pressure, and friction with its tangential stiffnesses there."""
-    if pressure.min() < interface_law.pressure[0] or pressure.max() > interface_law.pressure[-1]:
-        low, high = interface_law.pressure[[0, -1]]
-        raise ConfigError("pin_on_disc.loads", f"pressures within the interface law, {low:.3g} to {high:.3g} Pa",
-                          f"{pressure.min():.3g} to {pressure.max():.3g} Pa",
-                          "change the contact's length, or the range of interface_law")
+    """Normal and tangential law of the contact, its normal stiffness and its friction at each pressure."""
+    shear = TangentialLaw(interface_law.pressure, interface_law.friction, interface_law.tangential_stiffness,
+                          interface_law.elastic_stiffness, interface_law.exponent)
+    read = {f"shear_{f.name}": getattr(shear, f.name) for f in fields(shear)}
+    read["friction"] = shear.at(pressure).friction
     area = settings.contact.length * settings.contact.width
-    place = np.log(pressure), np.log(interface_law.pressure)
-    read = {name: np.exp(np.interp(*place, np.log(getattr(interface_law, name)))) * factor for name, factor in (
-        ("friction", 1.0), ("tangential_stiffness", area), ("elastic_stiffness", area), ("exponent", 1.0))}
     if settings.contact.hard:
         return {**read, "law_closure": [], "law_pressure": [], "contact_stiffness": np.zeros((len(pressure), 1))}
     thinned = slice(None, None, _LAW_STRIDE)

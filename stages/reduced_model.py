@@ -19,6 +19,8 @@ FORCES = ("joint_rows", "contact_normal", "contact_tangent", "contact_lateral")
 SENSORS = "sensor_rows"
 #: what presses the contacts of a system, in its fields <input>_rows and <input>_area
 INPUTS = {Structure: "piston", PinOnDisc: "load"}
+#: the tangential law of a system that has none: its friction comes from a map or from settings
+NO_SHEAR = {f"shear_{name}": [] for name in ("pressure", "friction", "stiffness", "elastic_stiffness", "exponent")}
 
 
 class Settings(Section):
@@ -75,7 +77,7 @@ def _from_beams(beams, settings, context):
         preload=[[force]], contact_stiffness=[[0.0]], law_closure=[], law_pressure=[], input_name=["weight"],
         input_rows=beams.load_row, input_area=area, history_interval=0.0,
         input_history=np.empty((0, 1)), drive_history=[], sensor_quantity=["velocity"], sensor_unit=["m/s"],
-        sensor_gain=[1.0],
+        sensor_gain=[1.0], **NO_SHEAR,
         **{name: getattr(beams, name) for name in ("sensor_name", "sensor_position", "sensor_direction", "sensor_rows",
                                                    "visible_position", "visible_body", "visible_face", "recovery")})
 
@@ -88,7 +90,7 @@ def _from_lumps(lumped, settings, context):
         damping=none, stiffness=none, centrifugal=none, contact_position=np.zeros((len(lumped.contact_name), 3)),
         sensor_position=np.zeros((sensors, 3)), sensor_direction=np.tile([1.0, 0.0, 0.0], (sensors, 1)),
         visible_position=np.empty((0, 3)), visible_body=[], visible_face=np.empty((0, 4), int),
-        recovery=np.empty((0, 3, size)), **{name: getattr(lumped, name) for name in sorted(names)})
+        recovery=np.empty((0, 3, size)), **NO_SHEAR, **{name: getattr(lumped, name) for name in sorted(names)})
 
 
 #: product of a system -> its reduction (system, settings, context) -> ReducedModel
@@ -136,12 +138,14 @@ def _copied(structure):
     kept = ("joint_name", "joint_stiffness", "joint_damping", "contact_body", "contact_position", "contact_area",
             "pressure", "preload", "contact_stiffness", "law_closure", "law_pressure", "sensor_name",
             "sensor_position", "sensor_direction")
+    tangential = {name: getattr(structure, name, none) for name, none in NO_SHEAR.items()}
     radius = np.hypot(structure.contact_position[:, 0], structure.contact_position[:, 1])
     sensors = len(structure.sensor_name)
     inputs = int(getattr(structure, f"{INPUTS[type(structure)]}_rows").rows)
     own = {"contact_lever": radius, "contact_gap": np.zeros(len(radius)), "history_interval": 0.0,
            "input_history": np.empty((0, inputs)), "drive_history": [],
-           "sensor_quantity": ["velocity"] * sensors, "sensor_unit": ["m/s"] * sensors, "sensor_gain": np.ones(sensors)}
+           "sensor_quantity": ["velocity"] * sensors, "sensor_unit": ["m/s"] * sensors, "sensor_gain": np.ones(sensors),
+           **tangential}
     return {**own, **{name: getattr(structure, name) for name in kept}}
 
 

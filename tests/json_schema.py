@@ -6,7 +6,8 @@ TYPES = {"object": dict, "array": list, "string": str, "boolean": bool, "null": 
 TOLD = {"$schema", "$defs", "title", "description", "default", "examples", "x-unit", "discriminator"}
 BOUNDS = {"minimum": lambda v, b: v >= b, "maximum": lambda v, b: v <= b, "exclusiveMinimum": lambda v, b: v > b,
           "exclusiveMaximum": lambda v, b: v < b}
-LENGTHS = {"minItems": (list, False), "minLength": (str, False), "maxItems": (list, True)}
+LENGTHS = {"minItems": (list, False), "minLength": (str, False), "maxItems": (list, True),
+           "minProperties": (dict, False), "maxProperties": (dict, True)}
 
 
 def faults(value, schema, root, where="case"):

@@ -21,6 +21,8 @@ def pin_on_disc_rows(products, facts, known):
     for name, write in (("interface_law", _interface_rows), ("transient", _harmonic_rows)):
         if products.get(name) is not None:
             rows |= write(products[name])
+    if products.get("transient") is not None:
+        rows |= _growing_rows(products["pin_on_disc"], products["transient"], known)
     if products.get("lock_in") is not None:
         rows |= _lock_in_rows(products["lock_in"], known)
     return rows
@@ -79,6 +81,17 @@ def _harmonic_rows(transient):
             "pin_harmonics_fall": ours(falls["pin"], note), "disc_harmonics_do_not_fall": ours(falls["disc"], note)}
 
 
+def _growing_rows(system, transient, known):
+    """A motion that has not settled shows what a short window shows: the line of the disc at that moment."""
+    names = list(transient.sensor_name)
+    other_length = _at(system.pin_length[:1], known.get("test_length")) is None
+    if "disc" not in names or other_length or transient.settled[0].any():
+        return {}
+    return {"lock_in_151": ours(transient.cycle_frequency[0, names.index("disc")] or None,
+                                f"dominant line of the disc in the last {1e3 * float(transient.window):.3g} ms, stepped"
+                                f" by {1e6 * float(transient.step):.3g} us; still growing", "nothing moves")}
+
+
 def _unbroken(levels, below):
     """Lines before the first that lies more than ``below`` dB under the base."""
     return int(np.argmin(np.append(levels > -below, False)))
@@ -91,13 +104,27 @@ def _lock_in_rows(lock_in, known):
     for keys, length in ((("lock_in_matched",), 0.1465), (("lock_in_test", "lock_in_151"), known.get("test_length"))):
         place = _at(np.where(case, lock_in.length, np.nan), length)
         if place is not None:
+            root = lock_in.root[place]
             found = ours(lock_in.base[place] or None, f"base of the settled motion, {lock_in.kind[place]};"
-                         f" growing mode at {abs(lock_in.root[place].imag) / (2 * np.pi):.0f} Hz", "nothing grows")
+                         f" growing mode at {_hertz(root):.0f} Hz{_as_stepped(root, known)}", "nothing grows")
             rows |= dict.fromkeys(keys, found)
     place = _at(np.where(case, lock_in.length, np.nan), known.get("test_length"))
     if place is not None:
         rows["vibrations_grow"] = ours(lock_in.root[place].real, "fastest growing mode")
     return rows | _further(lock_in, case, known)
+
+
+def _hertz(root):
+    return abs(root.imag) / (2 * np.pi)
+
+
+def _as_stepped(root, known):
+    """What the paper's step shows of a root: the trapezoidal rule turns w into 2 / h arctan(w h / 2)."""
+    step = known.get("time_step")
+    if not step:
+        return ""
+    shown = np.arctan(np.pi * _hertz(root) * step) / (np.pi * step)
+    return f", which the trapezoidal rule at the paper's step shows at {shown:.0f} Hz"
 
 
 def _further(lock_in, case, known):
@@ -106,7 +133,7 @@ def _further(lock_in, case, known):
     if not near.any():
         return {}
     place = np.flatnonzero(near)[np.argmax(lock_in.base_mass[near])]
-    return {"lock_in_181": ours(abs(lock_in.root[place].imag) / (2 * np.pi) or None,
+    return {"lock_in_181": ours(_hertz(lock_in.root[place]) or None,
                                 f"fastest growing mode with {lock_in.base_mass[place]:g} kg moving with the clamp, a"
                                 f" fit;"
                                 f" the motion settles at {lock_in.base[place]:.0f} Hz ({lock_in.kind[place]})",

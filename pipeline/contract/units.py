@@ -16,6 +16,9 @@ SI = frozenset({
 })
 
 
+#: SI units that measured samples are kept in
+MEASURED = ("1", "m", "m/s", "m/s^2", "N", "N m", "Pa", "V", "A", "K", "s", "Hz", "kg", "W", "m^3/s", "m^3", "m/s^3")
+
 _ANGULAR = {"radian", "degree", "turn", "revolution", "cycle", "revolutions_per_minute", "revolutions_per_second"}
 _NUMBER = re.compile(r"\s*[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?\s*(?P<unit>.*)")
 
@@ -34,6 +37,24 @@ def to_si(value, unit, where):
     if not spelt or (unit != "1" and not spelt["unit"]):
         raise ConfigError(where, expected, repr(value))
     return _convert(value, unit, lambda: ConfigError(where, expected, repr(value)))
+
+
+def in_si(values, unit, where):
+    """(values in coherent SI, name of the SI unit) of ``values`` in any ``unit`` that pint reads.
+
+    The unit is one of MEASURED where its dimension is among them, else a product of base units. Raises ConfigError.
+    """
+    import pint
+
+    try:
+        quantity = _registry().Quantity(values, "" if unit == "1" else unit)
+        name = next((n for n in MEASURED if quantity.is_compatible_with("" if n == "1" else n)), None)
+        if set(map(str, quantity.units._units)) & _ANGULAR:
+            name = {"1": "rad", "Hz": "rad/s"}.get(name, name)
+        converted = quantity.to_base_units() if name is None else quantity.to("" if name == "1" else name)
+    except (pint.PintError, ValueError, TypeError, AttributeError, tokenize.TokenError):
+        raise ConfigError(where, "a unit such as mm/s or kN", repr(unit)) from None
+    return converted.magnitude, name or f"{converted.units:~C}"
 
 
 def _convert(text, unit, refusal):

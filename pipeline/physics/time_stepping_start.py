@@ -28,7 +28,7 @@ def steady_start(model, law, friction, inputs):
     load, stiffness = np.asarray(inputs, float) @ model.input_rows, model.supported()[2]
     gap = np.broadcast_to(np.asarray(law.gap, float), len(contacts.area))
     fixed = contacts.fixed
-    sign, closed, force = np.sign(model.sliding_speed), ~fixed, np.where(fixed, contacts.preload, 0.0)
+    sign, closed, force = np.sign(model.sliding_speed), ~fixed, contacts.preload
     for _ in range(_ROUNDS):
         drawn = sign * friction.at_speed(model.sliding_speed, force / contacts.area)
         give, offset = _yielding(law, force, contacts.area)

@@ -13,6 +13,7 @@ from pipeline.views.chapters import (
     lock_in,
     lumped,
     motion,
+    recording,
     rupture,
     sound,
     stability,
@@ -36,7 +37,8 @@ def plan(products, look):
              ("transient", transient.chapter, ()), ("lock_in", lock_in.lock_in, ()),
              ("motion_scatter", beam_on_beam.scatter, ()), ("beam_geometry", beam_on_beam.geometry, ()),
              ("response", sound.response, (lines,)), ("squeal", sound.squeal, (lines,)),
-             ("rupture", rupture.chapter, ()), ("comparison", comparison.chapter, ()))
+             ("rupture", rupture.chapter, ()), ("recording", recording.chapter, ()),
+             ("comparison", comparison.chapter, ()))
     return [partial(write, products[name], *more, look) for name, write, more in known
             if products.get(name) is not None]
 

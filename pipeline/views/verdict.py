@@ -58,6 +58,8 @@ def _headline(products):
         start = "No peak exceeds the squeal threshold, but " if squeal is not None else ""
         text = f"{start}{plural(unstable, 'mode')} {'is' if unstable == 1 else 'are'} unstable"
         return text[0].upper() + text[1:], "warning"
+    if products.get("recording") is not None and squeal is None and modes is None:
+        return f"{plural(len(products['recording'].runs), 'run')} of a bench, not compared yet", "quiet"
     if squeal is None and modes is None:
         return "No verdict: this case ends before the stability of the system", "warning"
     return "No squeal predicted", "quiet"

@@ -1,5 +1,7 @@
 """Rows of the pin on disc from products whose numbers are known."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -48,6 +50,23 @@ def test_cases_of_the_map_count_and_the_heaviest_base_gives_the_fit():
     assert found["lock_in_181"].value == pytest.approx(1440, abs=1) and "a fit" in found["lock_in_181"].note
     assert "lock_in_matched" not in found, "146.5 mm is only a point of the map"
     assert found["vibrations_grow"].value == pytest.approx(100)
+
+
+def test_the_paper_s_step_shifts_the_growing_mode():
+    """2250 Hz are shown at 2193 Hz by steps of 40 us."""
+    found = pin_on_disc_rows({"pin_on_disc": system(), "interface_law": None, "transient": None,
+                              "lock_in": replace(lock_in(), root=np.full(4, 100 + 2j * np.pi * 2250))}, (),
+                             {**KNOWN, "time_step": 4e-5})
+    assert "growing mode at 2250 Hz, which the trapezoidal rule at the paper's step shows at 2193 Hz" in (
+        found["lock_in_151"].note)
+
+
+def test_a_motion_that_still_grows_gives_its_line_where_no_settled_one_is_known():
+    growing = replace(transient(), settled=np.array([[0, 0]]), cycle_frequency=np.array([[2134.0, 2137.0]]))
+    assert rows(transient=growing)["lock_in_151"].value == 2137 and "still growing" in (
+        rows(transient=growing)["lock_in_151"].note)
+    assert rows(transient=growing, lock_in=lock_in())["lock_in_151"].value == 2216
+    assert "lock_in_151" not in rows(transient=transient())
 
 
 def test_harmonics():
