@@ -63,7 +63,7 @@ class Settings(Section):
     highest_mode: Quantity("Hz", gt=0) = option("12 kHz", "growing modes above it are not sought")
     contact_damping: Quantity("N s/m", ge=0) = option("1 kN s/m", "damping of the normal contact")
     step: Quantity("s", gt=0) = option("1 us", "time step of the motion")
-    duration: Quantity("s", gt=0) = option("0.3 s", "length of the motion")
+    duration: Quantity("s", gt=0) = option("0.4 s", "length of the motion")
     window: Quantity("s", gt=0) = option("80 ms", "its end, which is classified")
     settled_within: float = option(0.05, "largest spread of the amplitudes over quarters of the window", gt=0)
     kick: Quantity("m/s", gt=0) = option("5 mm/s", "start velocity of the pin's accelerometer: the onset is not"

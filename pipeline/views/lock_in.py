@@ -64,10 +64,10 @@ def length_map(found):
                 steady = chosen & settled
                 axes.plot(length[steady], base[steady], marker, color=colour)
         for where, frequency, source in _PAPER:
-            mark = "P" if source == "measured" else "X"
-            axes.plot(1e3 * where, frequency / 1e3, mark, color="black", mec="white", ms=8, zorder=3)
-        for mark, source in (("P", "paper, measured"), ("X", "paper, simulated")):
-            axes.plot([], [], mark, color="black", mec="white", ms=8, label=source)
+            mark = "+" if source == "measured" else "x"
+            axes.plot(1e3 * where, frequency / 1e3, mark, color="black", ms=9, mew=1.3, zorder=3)
+        for mark, source in (("+", "paper, measured"), ("x", "paper, simulated")):
+            axes.plot([], [], mark, color="black", ms=9, mew=1.3, label=source)
         axes.set(xlabel="free length of the pin / mm", ylabel="base frequency / kHz", ylim=(0, None))
         legend(axes, 2)
         return svg(figure)

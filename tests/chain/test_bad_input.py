@@ -138,7 +138,7 @@ def test_a_drive_that_turns_backwards_under_a_heavy_clamp(tmp_path):
 
 
 @pytest.mark.parametrize("override, message", [
-    ("pin_on_disc.pin.length=15 mm", "pin_on_disc.pin.length: expected a pin longer than its clamp (0.02 m), found 0.015 m"),
+    ("pin_on_disc.pin.length=15 mm", "pin.length: expected a pin longer than its clamp (0.02 m), found 0.015 m"),
     ("pin_on_disc.contact.radius=178 mm", "it never touches; move the pin over the face of the disc"),
     ("transient.step=3 us", "for the stiffness of contact 0, found 3e-06 s; shorten the step"),
 ])
