@@ -748,7 +748,7 @@ class PinOnDisc:
     load_area: Array = quantity("m^2", "", "contact area on which the nominal pressure acts; load = pressure * area")
 
 
-@product(version=1)
+@product(version=2)
 class LockIn:
     """Complex modes and settled motion of the pin on disc over its length, load, speed and angle, one row a point."""
 
@@ -765,7 +765,13 @@ class LockIn:
     kind: Array = text("point", "none, classical, intermediate, multiple, dual base or other")
     base: Array = quantity("Hz", "point", "base frequency of the settled motion of the disc, 0 = none")
     second: Array = quantity("Hz", "point", "second base or distance of side bands, 0 = none")
+    settled: Array = count("point", "1 where the amplitudes of disc and pin no longer change in the window, or nothing grows")
     amplitude: Array = quantity("m/s", "point body", "effective velocity along the disc's axis: disc, pin")
     harmonics: Array = count("point body", "base and multiples without a gap in the spectrum of disc, pin")
     levels: Array = quantity("1", "point body multiple", "level in dB of multiples re the base: disc, pin; -200 = no line")
     open_share: Array = quantity("1", "point", "share of time without contact")
+    trace_time: Array = quantity("s", "sample", "time of the last milliseconds of the motion")
+    trace: Array = quantity("m/s", "case body sample", "velocity along the disc's axis at the cases: disc, pin", np.float32)
+    frequency: Array = quantity("Hz", "line", "lines of the spectra")
+    spectrum: Array = quantity("1", "case body line", "level in dB re the highest line, of that velocity in the window",
+                               np.float32)

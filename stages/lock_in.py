@@ -12,6 +12,7 @@ from pipeline.physics.body_reduction import ElasticBody, reduce_body
 from pipeline.physics.dry_friction import constant
 from pipeline.physics.eigen import lowest_modes
 from pipeline.physics.elasticity import assemble
+from pipeline.physics.limit_cycle import cycle
 from pipeline.physics.lock_in import KINDS, NONE, harmonic_levels
 from pipeline.physics.lock_in import lock_in as classified
 from pipeline.physics.quadratic_modes import quadratic_roots
@@ -30,6 +31,8 @@ _SENSORS = ("disc", "pin")
 #: own modes of the pin that count, and multiples of the base that are told
 _PIN_MODES, _MULTIPLES = 8, 8
 _NO_LINE = -200.0
+#: time between samples that are kept, highest line and length of what is drawn
+_INTERVAL, _HIGHEST_LINE, _TRACE = 1e-5, 20e3, 5e-3
 #: modes of the disc with less motion along its axis are not seen
 _OUT_OF_PLANE = 0.5
 
@@ -60,8 +63,9 @@ class Settings(Section):
     highest_mode: Quantity("Hz", gt=0) = option("12 kHz", "growing modes above it are not sought")
     contact_damping: Quantity("N s/m", ge=0) = option("1 kN s/m", "damping of the normal contact")
     step: Quantity("s", gt=0) = option("1 us", "time step of the motion")
-    duration: Quantity("s", gt=0) = option("0.15 s", "length of the motion")
+    duration: Quantity("s", gt=0) = option("0.4 s", "length of the motion")
     window: Quantity("s", gt=0) = option("80 ms", "its end, which is classified")
+    settled_within: float = option(0.05, "largest spread of the amplitudes over quarters of the window", gt=0)
     kick: Quantity("m/s", gt=0) = option("5 mm/s", "start velocity of the pin's accelerometer: the onset is not"
                                                    " waited for")
     dynamic_range: float = option(50.0, "lines this far below the base no longer count, dB", gt=0)
@@ -87,6 +91,9 @@ def _check(sections):
     told = sections["lock_in"]
     if told.window > told.duration:
         raise ConfigError("lock_in.window", f"at most the duration, {told.duration:g} s", f"{told.window:g} s")
+    if abs(_INTERVAL / told.step - round(_INTERVAL / told.step)) > 1e-6 or told.step > _INTERVAL:
+        raise ConfigError("lock_in.step", f"a whole part of {_INTERVAL:g} s, the time between samples",
+                          f"{told.step:g} s", "take 1 us, 2 us or 5 us")
 
 
 @stage(check=_check)
@@ -105,7 +112,23 @@ def lock_in(pin_on_disc: PinOnDisc, model: ReducedModel, settings: Settings, con
     points = _points(pin_on_disc, settings)
     found = context.map(partial(_visit, pin_on_disc, model, settings, context.solver), points, "points")
     fields = {name: [getattr(p, name) for p in points] for name in _Point.__dataclass_fields__}
-    return LockIn(**fields, **{name: [row[name] for row in found] for name in found[0]})
+    told = {name: [row[name] for row in found] for name in found[0]}
+    drawn = {name: told.pop(name)[:len(settings.cases)] for name in ("trace", "spectrum")}
+    return LockIn(**fields, **told, **_pictured(drawn, settings))
+
+
+def _pictured(drawn, settings):
+    """Traces and spectra of the cases with their axes; silence where nothing grows."""
+    samples = round(settings.window / _INTERVAL)
+    frequency = np.fft.rfftfreq(samples, _INTERVAL)
+    frequency = frequency[frequency <= _HIGHEST_LINE]
+    count, kept = len(settings.cases), min(round(_TRACE / _INTERVAL), samples)
+    trace, spectrum = np.zeros((count, 2, kept)), np.full((count, 2, len(frequency)), _NO_LINE)
+    for k in range(count):
+        if drawn["trace"][k] is not None:
+            trace[k], spectrum[k] = drawn["trace"][k][:, -kept:], drawn["spectrum"][k][:, :len(frequency)]
+    return {"trace_time": settings.duration - _INTERVAL * np.arange(kept)[::-1], "frequency": frequency,
+            "trace": trace, "spectrum": spectrum}
 
 
 def _points(system, settings):
@@ -128,8 +151,8 @@ def _visit(system, model, settings, solver, point):
     root = _growing(sliding, friction, settings)
     disc = system.disc_frequency[system.disc_out_of_plane > _OUT_OF_PLANE]
     told = {"friction": friction, "root": root, "kind": KINDS[NONE], "base": 0.0, "second": 0.0,
-            "amplitude": [0.0, 0.0], "harmonics": [0, 0], "levels": np.full((2, _MULTIPLES), _NO_LINE),
-            "open_share": 0.0}
+            "settled": 1, "amplitude": [0.0, 0.0], "harmonics": [0, 0], "levels": np.full((2, _MULTIPLES), _NO_LINE),
+            "open_share": 0.0, "trace": None, "spectrum": None}
     if root:
         told |= _settled(sliding, friction, point, settings, (disc, own))
     around = told["base"] or abs(root.imag) / (2 * np.pi)
@@ -209,9 +232,9 @@ def _settled(sliding, friction, point, settings, own):
     row = sliding.sensor_rows[names.index("pin")]
     shove = system.shape @ (system.shape.T @ row)
     motion = simulate(sliding, law, dry, step=settings.step, duration=settings.duration, inputs=load,
-                      record_every=max(round(1e-5 / settings.step), 1), system=system,
+                      record_every=round(_INTERVAL / settings.step), system=system,
                       start=start.kicked(shove * settings.kick / (row @ shove)), book=False)
-    late = motion.time >= motion.time[-1] - settings.window
+    late = slice(-round(settings.window / _INTERVAL), None)
     rate = 1 / (motion.time[1] - motion.time[0])
     signals = [motion.velocity[names.index(name)][late] for name in _SENSORS]
     found = classified(signals[0], rate, *own, dynamic_range=settings.dynamic_range, count=_MULTIPLES)
@@ -219,8 +242,23 @@ def _settled(sliding, friction, point, settings, own):
     if found.base:
         levels = np.array([harmonic_levels(s, rate, found.base, _MULTIPLES, settings.dynamic_range) for s in signals])
     return {"kind": KINDS[found.kind], "base": found.base, "second": found.second,
+            "settled": int(all(_steady(names, motion, settings))),
             "amplitude": [s.std() for s in signals], "harmonics": [_without_gap(row) for row in levels],
-            "levels": np.maximum(levels, _NO_LINE), "open_share": motion.status_share[0, 0]}
+            "levels": np.maximum(levels, _NO_LINE), "open_share": motion.status_share[0, 0],
+            "trace": np.array(signals), "spectrum": np.array([_level(s) for s in signals])}
+
+
+def _level(signal):
+    """Level (lines,) in dB re the highest line, under a Hann window."""
+    power = np.abs(np.fft.rfft(np.hanning(len(signal)) * (signal - signal.mean()))) ** 2
+    return np.maximum(10 * np.log10(np.maximum(power, 1e-300) / max(power.max(), 1e-300)), _NO_LINE)
+
+
+def _steady(names, motion, settings):
+    """For disc and pin: has the amplitude settled in the window?"""
+    interval = motion.time[1] - motion.time[0]
+    for name in _SENSORS:
+        yield cycle(motion.velocity[names.index(name)], interval, settings.window, settings.settled_within).settled
 
 
 def _without_gap(levels):

@@ -6,7 +6,7 @@ from typing import Literal
 import numpy as np
 
 from pipeline.contract import ConfigError, Context, Quantities, Quantity, Section, option, stage
-from pipeline.physics.dry_friction import Friction, constant, falling
+from pipeline.physics.dry_friction import constant, falling
 from pipeline.physics.limit_cycle import cycle, harmonic_levels
 from pipeline.physics.sliding_model import sliding_model
 from pipeline.physics.spectra import power_spectrum
@@ -32,7 +32,7 @@ class Settings(Section):
     rule: Literal["exact", "newmark"] = option(
         "exact", "penalty: exact: linear part exactly; newmark: all by Newmark's rule, as FE codes do")
     friction: float | None = option(
-        None, "coefficient of friction at high slip speed; none = over pressure, the tangential law of the model", ge=0)
+        None, "coefficient of friction at high slip speed; none = that of the model about its preload", ge=0)
     friction_at_rest: float | None = option(None, "coefficient as the slip speed goes to zero; none = the same", ge=0)
     decay_speed: Quantity("m/s", gt=0) = option("10 mm/s", "slip speed over which friction falls from one to the other")
     static_factor: float = option(1.0, "hold of a sticking contact over friction at rest", ge=1)
@@ -78,9 +78,9 @@ def transient(model: ReducedModel, settings: Settings, context: Context) -> Tran
     Method:
     The equations of motion on the real modes below {highest_frequency} (contacts open, damping {damping}) were stepped
     by {step} over {duration}, the linear part exactly except under Lagrange multipliers or where Newmark's rule is
-    asked for (rule: {rule}); contact: {contact}, coefficient of friction {friction} (none: over pressure, that of the
-    interface law), at rest {friction_at_rest} (none: the same), sticking described as {description}. Spectra and
-    cycles are those of the last {window}.
+    asked for (rule: {rule}); contact: {contact}, coefficient of friction {friction} (none: that of the interface law
+    under the static load), at rest {friction_at_rest} (none: the same), sticking described as {description}. Spectra
+    and cycles are those of the last {window}.
     """
     points = [(state, speed) for state in range(len(model.pressure)) for speed in settings.speeds]
     motions = context.map(partial(_move, model, settings), points, "operating points")
@@ -145,7 +145,7 @@ def _law(model, sliding, settings):
 
 
 def _friction(model, sliding, settings):
-    """Friction of the contacts: of the settings, or over pressure that of the model."""
+    """Friction of the contacts: of the settings, or of the model about its preload."""
     sticking = {"static_factor": settings.static_factor, "description": settings.description}
     if settings.description != "rigid":
         sticking |= _sticking(model, sliding, settings)
@@ -153,10 +153,16 @@ def _friction(model, sliding, settings):
         if settings.friction_at_rest is not None:
             raise ConfigError("transient.friction", "a coefficient beside friction_at_rest", "none",
                               "give both, or neither for the tangential law of the model")
-        law = constant(0.0).law if not len(model.contact_area) else tangential_law(model).friction_law()
-        return Friction(law, **sticking)
+        return constant(_own_friction(model, sliding.contacts), **sticking)
     at_rest = settings.friction if settings.friction_at_rest is None else settings.friction_at_rest
     return falling(at_rest, settings.friction, settings.decay_speed, **sticking)
+
+
+def _own_friction(model, contacts):
+    """Coefficient of the model about its preload, mean weighted by the preload; 0 without contacts."""
+    if not len(contacts.area):
+        return 0.0
+    return float(np.average(tangential_law(model).at(contacts.pressure).friction, weights=contacts.preload))
 
 
 def _sticking(model, sliding, settings):

@@ -105,13 +105,17 @@ def _lock_in_rows(lock_in, known):
         place = _at(np.where(case, lock_in.length, np.nan), length)
         if place is not None:
             root = lock_in.root[place]
-            found = ours(lock_in.base[place] or None, f"base of the settled motion, {lock_in.kind[place]};"
+            found = ours(lock_in.base[place] or None, f"base of the motion, {_state(lock_in, place)};"
                          f" growing mode at {_hertz(root):.0f} Hz{_as_stepped(root, known)}", "nothing grows")
             rows |= dict.fromkeys(keys, found)
     place = _at(np.where(case, lock_in.length, np.nan), known.get("test_length"))
     if place is not None:
         rows["vibrations_grow"] = ours(lock_in.root[place].real, "fastest growing mode")
     return rows | _further(lock_in, case, known)
+
+
+def _state(lock_in, place):
+    return f"{lock_in.kind[place]}, {'settled' if lock_in.settled[place] else 'NOT settled in the window'}"
 
 
 def _hertz(root):
@@ -136,7 +140,8 @@ def _further(lock_in, case, known):
     return {"lock_in_181": ours(_hertz(lock_in.root[place]) or None,
                                 f"fastest growing mode with {lock_in.base_mass[place]:g} kg moving with the clamp, a"
                                 f" fit;"
-                                f" the motion settles at {lock_in.base[place]:.0f} Hz ({lock_in.kind[place]})",
+                                f" its motion at large has its base at {lock_in.base[place]:.0f} Hz"
+                                f" ({_state(lock_in, place)})",
                                 "nothing grows")}
 
 

@@ -6,8 +6,9 @@ from pipeline.views.style import BLUE, COLOURS, FAINT, LINES, MARKERS, RED, draw
 
 _KINDS = ("classical", "intermediate", "multiple", "dual base", "other")
 #: the paper's numbers in the map: (free length m, frequency Hz, what)
-_PAPER = ((0.1515, 2215.0, "measured"), (0.1465, 2210.0, "paper, simulated"), (0.1515, 2197.0, "paper, simulated"),
-          (0.1815, 1445.0, "paper, simulated"))
+_PAPER = ((0.1515, 2215.0, "measured"), (0.1465, 2210.0, "simulated"), (0.1515, 2197.0, "simulated"),
+          (0.1815, 1445.0, "simulated"))
+_SAME_LENGTH = 1e-4
 
 
 def normal_law(law):
@@ -48,27 +49,44 @@ def descriptions(law):
 
 
 def length_map(found):
-    """Base of the settled motion and growing mode over pin length, with the paper's numbers."""
+    """Base of the motion over pin length by kind, own modes of both bodies as lines, the paper's numbers as crosses."""
     rows = np.array([scan == "length" for scan in found.scan])
-    length, base = 1e3 * found.length[rows], found.base[rows]
-    with drawing(height=3.9, top=0.62) as figure:
+    length, base, settled = 1e3 * found.length[rows], found.base[rows] / 1e3, found.settled[rows] > 0
+    with drawing(height=4.7, top=1.25) as figure:
         axes = figure.add_subplot()
-        axes.plot(length, np.abs(found.root[rows].imag) / (2 * np.pi) + _hidden(found.root[rows].real <= 0), ".",
-                  color=FAINT, ms=4, label="growing mode")
+        grown = np.abs(found.root[rows].imag) / (2e3 * np.pi)
+        axes.plot(length, np.where(found.root[rows].real > 0, grown, np.nan), ".", color=FAINT, ms=4,
+                  label="fastest growing mode")
         for kind, colour, marker in zip(_KINDS, COLOURS, MARKERS, strict=False):
             chosen = np.array([k == kind for k in found.kind])[rows]
             if chosen.any():
                 axes.plot(length[chosen], base[chosen], marker, color=colour, mfc="none", label=kind)
-        for where, frequency, _ in _PAPER:
-            axes.plot(1e3 * where, frequency, "x", color="black", ms=7, label="paper" if where == _PAPER[0][0]
-                      and frequency == _PAPER[0][1] else None)
-        axes.set(xlabel="free length of the pin / mm", ylabel="frequency / Hz", ylim=(0, None))
-        legend(axes, 3)
+                steady = chosen & settled
+                axes.plot(length[steady], base[steady], marker, color=colour)
+        for where, frequency, source in _PAPER:
+            mark = "+" if source == "measured" else "x"
+            axes.plot(1e3 * where, frequency / 1e3, mark, color="black", ms=9, mew=1.3, zorder=3)
+        for mark, source in (("+", "paper, measured"), ("x", "paper, simulated")):
+            axes.plot([], [], mark, color="black", ms=9, mew=1.3, label=source)
+        axes.set(xlabel="free length of the pin / mm", ylabel="base frequency / kHz", ylim=(0, None))
+        legend(axes, 2)
         return svg(figure)
 
 
-def _hidden(which):
-    return np.where(which, np.nan, 0.0)
+def case_motion(found, case):
+    """Figures 11 to 15: the last milliseconds and the spectra of disc and pin; lines: the paper's numbers."""
+    with drawing(height=4.9, top=0.62) as figure:
+        above, below = figure.subplots(2, 1)
+        for body, (name, colour, line) in enumerate((("disc", BLUE, "-"), ("pin", RED, "--"))):
+            above.plot(1e3 * found.trace_time, 1e3 * found.trace[case, body], color=colour, ls=line, lw=1.0, label=name)
+            below.plot(found.frequency / 1e3, found.spectrum[case, body], color=colour, ls=line, lw=0.8)
+        for where, frequency, source in _PAPER:
+            if abs(where - found.length[case]) < _SAME_LENGTH:
+                below.axvline(frequency / 1e3, color="black", lw=0.9, ls="-" if source == "measured" else ":", zorder=0)
+        above.set(xlabel="time / ms", ylabel="velocity / mm/s", xlim=1e3 * found.trace_time[[0, -1]])
+        below.set(xlabel="frequency / kHz", ylabel="level / dB", xlim=(0, found.frequency[-1] / 1e3), ylim=(-90, 5))
+        legend(above, 2)
+        return svg(figure)
 
 
 def _some(law):

@@ -22,7 +22,8 @@ def system():
 def lock_in():
     return filled(LockIn, scan=["case", "case", "case", "length"], length=[0.1515, 0.1815, 0.1815, 0.1465],
                   base_mass=[0.005, 0.005, 0.5, 0.005], root=2 * np.pi * 1j * np.array([2190, 4000, 1440, 2250]) + 100,
-                  kind=["classical", "multiple", "dual base", "classical"], base=[2216.0, 4050.0, 2280.0, 2220.0])
+                  kind=["classical", "multiple", "dual base", "classical"],
+                  settled=[1, 1, 0, 1], base=[2216.0, 4050.0, 2280.0, 2220.0])
 
 
 def transient():
@@ -48,6 +49,7 @@ def test_cases_of_the_map_count_and_the_heaviest_base_gives_the_fit():
     found = rows(lock_in=lock_in())
     assert found["lock_in_test"].value == found["lock_in_151"].value == 2216
     assert found["lock_in_181"].value == pytest.approx(1440, abs=1) and "a fit" in found["lock_in_181"].note
+    assert "NOT settled" in found["lock_in_181"].note and "classical, settled" in found["lock_in_test"].note
     assert "lock_in_matched" not in found, "146.5 mm is only a point of the map"
     assert found["vibrations_grow"].value == pytest.approx(100)
 

@@ -14,8 +14,8 @@ from stages.reduced_model import reduced_model
 CONTEXT = Context(solver=available()[0])
 SUMMITS = {"kind": "given", "density": "2.5e9 1/m^2", "mean": "0.4 um", "spread": "0.5 um", "curvature": "2.2e4 1/m",
            "curvature_spread": 0.4, "correlation": 0.3}
-COARSE = {"disc": {"radial_cells": 5, "angular_cells": 24}, "pin": {"axial_cells": 12}, "frequency_max": "6 kHz",
-          "lengths": ["146.5 mm"]}
+COARSE = {"disc": {"radial_cells": 5, "angular_cells": 24, "axial_cells": 1}, "pin": {"axial_cells": 12},
+          "frequency_max": "6 kHz", "lengths": ["146.5 mm"]}
 
 
 @cache

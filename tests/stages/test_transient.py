@@ -150,7 +150,7 @@ def test_friction_and_stiffness_come_from_the_model_where_the_settings_leave_the
 
 
 @pytest.mark.parametrize("settings, said", [
-    ({"friction": None}, "neither"), ({"friction": None, "friction_at_rest": 0.3}, "give both"),
+    ({"friction": None}, "tangential law"), ({"friction": None, "friction_at_rest": 0.3}, "give both"),
     ({"description": "elastic"}, "tangential law")])
 def test_a_model_without_a_law_of_its_own_says_what_is_missing(settings, said):
     with pytest.raises(ConfigError, match=said):

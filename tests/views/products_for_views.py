@@ -251,7 +251,9 @@ def lock_in():
     return filled(
         LockIn, scan=["case", "tilt", *["length"] * 5], length=[0.1515, 0.1515, *np.linspace(0.12, 0.2, 5)],
         load=np.full(7, 1.5), speed=np.full(7, 0.25), tilt=np.full(7, 0.07), base_mass=np.full(7, 0.005), kind=kinds,
-        base=base, root=np.where(base > 0, 100 + 2j * np.pi * base, 0), harmonics=np.full((7, 2), 3))
+        base=base, root=np.where(base > 0, 100 + 2j * np.pi * base, 0), harmonics=np.full((7, 2), 3),
+        settled=[1, 0, 1, 1, 1, 0, 1], trace_time=[0.299, 0.3], trace=np.ones((1, 2, 2)), frequency=[0.0, 1e4],
+        spectrum=np.zeros((1, 2, 2)))
 
 
 def comparison():

@@ -28,5 +28,8 @@ def test_pin_and_disc_tell_how_the_pin_leans():
 def test_lock_in_counts_kinds_over_length_and_lists_the_rest():
     told = chapters.lock_in(small.lock_in(), Look())
     assert "Over 5 pin lengths: 1 none, 1 classical, 1 intermediate, 1 multiple, 1 other" in told.conclude
+    assert "2 points did not settle" in told.conclude
+    length_map, case = told.figures
+    assert "filled where" in length_map.caption and "151.5 mm" in case.caption and "(settled)" in case.caption
     table, = told.tables
     assert [row[0] for row in table.rows] == ["case", "tilt"] and table.rows[0][7:9] == ("classical", "2215")

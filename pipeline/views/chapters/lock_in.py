@@ -4,7 +4,7 @@ import numpy as np
 
 from pipeline.views import lock_in as pictures
 from pipeline.views.chapter import Chapter, Figure, Table
-from pipeline.views.readable import number, quantity, span
+from pipeline.views.readable import number, plural, quantity, span
 
 
 def interface_law(law, look):
@@ -60,6 +60,7 @@ def lock_in(found, look):
     """Chapter of the product LockIn."""
     scanned = np.array([scan == "length" for scan in found.scan])
     kinds = [str(k) for k, s in zip(found.kind, scanned, strict=True) if s]
+    unsettled = int(np.sum(found.settled == 0))
     counted = ", ".join(f"{kinds.count(k)} {k}" for k in dict.fromkeys(kinds))
     return Chapter(
         "lock_in", "Lock-in over length, load, speed and angle",
@@ -68,10 +69,26 @@ def lock_in(found, look):
         " bands),"
         " dual base.",
         f"Over {scanned.sum()} pin lengths: {counted}. Points without a growing mode are stable against small"
-        " disturbances. The paper's frequencies are marked; 1445 Hz needs a mass that moves with the clamp.",
-        (Figure(pictures.length_map(found), "Base frequency of the settled motion over pin length; crosses: the paper's"
-                " numbers."),),
+        f" disturbances. {plural(unsettled, 'point')} did not settle in the window: their base is that of a motion that"
+        f" wanders. The paper's frequencies are marked; 1445 Hz appears only as a growing mode, with a mass that moves"
+        " with the clamp.",
+        (Figure(pictures.length_map(found), "Base frequency over pin length: filled where the motion has settled in the"
+                " window, hollow where it wanders. Grey dots: the mode that grows fastest from rest. Black: the paper's"
+                " numbers."), *_motions(found)),
         (_cases(found, scanned),))
+
+
+def _motions(found):
+    """One figure a case: what Figures 11 to 15 show of their lengths."""
+    for case in range(len(found.trace)):
+        if not found.base[case]:
+            continue
+        state = "settled" if found.settled[case] else "NOT settled"
+        yield Figure(pictures.case_motion(found, case),
+                     f"Free length {1e3 * found.length[case]:.1f} mm, {number(float(found.base_mass[case]), 2)} kg"
+                     f" with the clamp ({state}): disc and pin along the axis of the disc, as in Figures 9 and 11 to"
+                     " 15. Vertical lines: frequencies that stand in the text, measured (drawn through) and simulated"
+                     " (dotted); the paper's spectra end at 5 kHz (simulated) and 20 kHz (measured).")
 
 
 def _cases(found, scanned):
@@ -82,7 +99,7 @@ def _cases(found, scanned):
         base = f"{found.base[k]:.0f}" if found.base[k] else ""
         rows.append((str(found.scan[k]), f"{1e3 * found.length[k]:.1f}", f"{found.load[k]:.3g}",
                      f"{found.speed[k] * 30 / np.pi:.3g}", f"{np.degrees(found.tilt[k]):.3g}",
-                     f"{found.base_mass[k]:.3g}", grows, str(found.kind[k]), base,
+                     f"{found.base_mass[k]:.3g}", grows, str(found.kind[k]), base, "yes" if found.settled[k] else "NO",
                      f"{found.harmonics[k][1]}, {found.harmonics[k][0]}"))
     return Table(("scan", "length / mm", "load / kg", "speed / rpm", "tilt / °", "base / kg", "growing mode", "lock-in",
-                  "base / Hz", "lines pin, disc"), tuple(rows), "Cases and scans", (1, 2, 3, 4, 5, 8))
+                  "base / Hz", "settled", "lines pin, disc"), tuple(rows), "Cases and scans", (1, 2, 3, 4, 5, 8))
