@@ -3,7 +3,7 @@ CASE   ?= disc_brake
 PYTHON ?= python3
 ARGS   ?=
 TESTS  ?= tests
-STAGES := surface micro_friction friction_map structure reduced_model complex_modes multibody response squeal comparison report lumped transient
+STAGES := surface micro_friction friction_map structure reduced_model complex_modes multibody response squeal comparison report interface_law pin_on_disc transient lock_in lumped rupture beam_on_beam motion_scatter beam_geometry recording
 
 CONFIG := configs/$(CASE).yaml
 READY  := .venv/.ready
@@ -31,7 +31,7 @@ run: $(READY)    ## run the chain of CASE; what is up to date is kept
 	$(BIN)/brakechain run $(CONFIG) $(ARGS)
 
 test: $(READY)   ## all tests but the slow studies
-	$(BIN)/python -m pytest -q -m "not slow" $(ARGS) $(TESTS)
+	$(BIN)/python -m pytest -q -m "not slow" -n auto --dist loadfile $(ARGS) $(TESTS)
 
 test-slow: $(READY)  ## the slow studies: full cases, kill-and-resume in every stage
 	$(BIN)/python -m pytest -q -m slow $(ARGS) $(TESTS)

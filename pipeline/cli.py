@@ -197,6 +197,42 @@ def schema(name):
     click.echo(json.dumps(case_schema(chains), indent=2))
 
 
+@cli.group()
+def data():
+    """Public measurements: what is registered, and where it lies."""
+
+
+@data.command("list")
+@_options("debug")
+def list_data():
+    """List the registered files: name, licence, what they hold and what they do not say."""
+    from pipeline import measured
+
+    for entry in measured.entries().values():
+        click.echo(f"{entry.name}\n    {entry.content}\n    lacks: {entry.lacks}\n    licence: {entry.licence}")
+
+
+@data.command("path")
+@click.argument("name")
+@_options("debug")
+def data_path(name):
+    """Print where the registered file NAME lies; it is downloaded where BRAKECHAIN_DATA names no folder."""
+    from pipeline import measured
+
+    click.echo(measured.path(name))
+
+
+@data.command("format")
+@_options("debug")
+def data_format():
+    """Print the form of plain HDF5 recordings that any program can write."""
+    import inspect as source
+
+    from pipeline.recordings.neutral import read_neutral
+
+    click.echo(source.cleandoc(read_neutral.__doc__))
+
+
 @cli.command()
 @_options("debug")
 def completion():

@@ -10,7 +10,7 @@ def case_schema(chains):
     """Schema of a case of one of ``chains`` (name -> stages)."""
     found = [_chain_schema(name, stages) for name, stages in chains.items()]
     definitions = {k: v for schema in found for k, v in schema.pop("$defs").items()}
-    body = found[0] if len(found) == 1 else {"oneOf": found}
+    body = found[0] if len(found) == 1 else {"anyOf": found}
     return {"$schema": _DRAFT, "title": "brakechain case", **body, "$defs": definitions}
 
 

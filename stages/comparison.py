@@ -3,18 +3,23 @@
 from dataclasses import fields
 from fnmatch import fnmatch
 
+from pipeline.computed.beam_on_beam import beam_on_beam_rows
 from pipeline.computed.disc_brake import disc_brake_rows
 from pipeline.computed.lumped import lumped_rows
-from pipeline.contract import ConfigError, Context, InputFile, Section, option, stage
-from pipeline.products import Comparison, ComplexModes, Lumped, MicroFriction, Multibody, Squeal, Structure, Transient
+from pipeline.computed.pin_on_disc import pin_on_disc_rows
+from pipeline.computed.rupture import rupture_rows
+from pipeline.contract import ConfigError, Context, InputFile, Products, Section, option, stage
+from pipeline.products import Comparison
 from pipeline.published import load
 
 #: product that only one system has -> rows (products, facts, known) -> {key: Ours}; the first that is there counts
-SYSTEMS = {"structure": disc_brake_rows, "lumped": lumped_rows}
+SYSTEMS = {"structure": disc_brake_rows, "pin_on_disc": pin_on_disc_rows, "beam_on_beam": beam_on_beam_rows,
+           "lumped": lumped_rows, "rupture": rupture_rows}
 
 #: size in SI of the printed units that the chains compute
 _SIZE = {"1": 1.0, "%": 0.01, "um": 1e-6, "mm": 1e-3, "m": 1.0, "us": 1e-6, "ms": 1e-3, "s": 1.0, "1/s": 1.0, "Hz": 1.0,
-         "rad/s": 1.0, "mm/s": 1e-3, "m/s": 1.0, "N": 1.0, "kg": 1.0, "MPa": 1e6, "GPa": 1e9}
+         "rad/s": 1.0, "mm/s": 1e-3, "m/s": 1.0, "N": 1.0, "kg": 1.0, "MPa": 1e6, "GPa": 1e9,
+         "deg": 0.017453292519943295}
 _REASON = {"condition": "a condition of the authors' work, not a result", "derived": "follows from other rows",
            "input": "an input of the authors, not a result"}
 _UNCOMPUTED = "the chain does not compute it"
@@ -34,9 +39,7 @@ def _check(sections):
 
 
 @stage(check=_check)
-def comparison(micro_friction: MicroFriction | None, structure: Structure | None, complex_modes: ComplexModes | None,
-               multibody: Multibody | None, squeal: Squeal | None, lumped: Lumped | None, transient: Transient | None,
-               settings: Settings, context: Context) -> Comparison:
+def comparison(products: Products, settings: Settings, context: Context) -> Comparison:
     """Put the published numbers beside ours.
 
     A statement without a number is compared where it puts bounds on a number of ours. Inputs are shown
@@ -50,8 +53,6 @@ def comparison(micro_friction: MicroFriction | None, structure: Structure | None
     facts = load(settings.reference) if settings.reference else ()
     tuned = _tuned(settings.tuned or {}, facts)
     known = {fact.key: fact.value * _SIZE[fact.unit] for fact in facts if fact.value is not None and fact.unit in _SIZE}
-    products = {"micro_friction": micro_friction, "structure": structure, "complex_modes": complex_modes,
-                "multibody": multibody, "squeal": squeal, "lumped": lumped, "transient": transient}
     ours = _rows_of(products)(products, facts, known)
     for fact in facts:
         if fact.key in ours and fact.unit not in _SIZE:
@@ -62,7 +63,7 @@ def comparison(micro_friction: MicroFriction | None, structure: Structure | None
 
 def _rows_of(products):
     """The function that computes the rows of the system whose product is there; no rows for an unknown one."""
-    return next((rows for name, rows in SYSTEMS.items() if products[name] is not None), lambda *_: {})
+    return next((rows for name, rows in SYSTEMS.items() if name in products), lambda *_: {})
 
 
 def _tuned(patterns, facts):

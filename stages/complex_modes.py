@@ -1,8 +1,9 @@
 """Complex modes of the sliding system over friction, and at its operating points.
 
 Friction moves the load between the contacts, so the system is linearised about steady sliding with that friction. It
-comes from the friction map, or from the settings where the chain has none. Contacts without a normal law stay as their
-preload state says; hard ones would need constraints instead of stiffnesses.
+comes from the friction map; where the chain has none, from the settings or the tangential law of the model. Contacts
+without a normal law stay as their preload state says; where they have no stiffness either, they are hard, and the
+motions keep them closed.
 A root s = sigma + i omega with sigma > 0 is a squeal candidate: it says which motion can grow, not how loud it ends up.
 """
 
@@ -15,6 +16,7 @@ from scipy.linalg import eigvalsh
 from pipeline.contract import ConfigError, Context, Quantities, Quantity, Section, option, stage
 from pipeline.physics.friction_corrections import FrictionBasis, friction_basis
 from pipeline.physics.friction_law import FrictionLaw
+from pipeline.physics.hard_contact import allowed_motions, hard_sliding, is_hard
 from pipeline.physics.quadratic_modes import follow_roots, quadratic_modes, quadratic_roots, upper_half
 from pipeline.physics.sliding_model import FrictionState, SlidingModel, sliding_model
 from pipeline.physics.sliding_state import (
@@ -27,6 +29,7 @@ from pipeline.physics.sliding_state import (
     model_about,
     steady_sliding,
 )
+from pipeline.physics.tangential_law import tangential_law
 from pipeline.products import ComplexModes, FrictionMap, ReducedModel
 
 #: friction values of one task of the fan-out
@@ -40,12 +43,14 @@ class Settings(Section):
         ("8.5 rad/s", "10.25 rad/s", "12 rad/s"),
         "speeds of the drive at the operating points, a belt being a drum of radius 1 m; the sweep runs at their mean")
     friction: float | None = option(
-        None, "coefficient of friction at high slip speed, where the chain has no friction map", ge=0)
+        None, "coefficient of friction at high slip speed, where the chain has no friction map; none = that of the"
+        " model", ge=0)
     friction_at_rest: float | None = option(None, "coefficient as the slip speed goes to zero; none = the same", ge=0)
     decay_speed: Quantity("m/s", gt=0) = option("10 mm/s", "slip speed over which friction falls from one to the other")
     friction_max: float = option(0.8, "last friction coefficient of the sweep, which starts at 0", gt=0)
     friction_steps: int = option(41, "points of the sweep, both ends included", ge=2)
-    frequency_max: Quantity("Hz", gt=0) = option("20 kHz", "real modes below it span the motion")
+    frequency_max: Quantity("Hz", gt=0) = option("20 kHz", "real modes below it span the motion; under hard contacts"
+                                                 " all do")
     smallest_correction: float = option(
         1e-5, "corrections for friction and damping below this share of the modal amplitude are left out", ge=0)
     sliding_distance: Quantity("m", ge=0) = option("10 mm", "sliding distance at which the friction map is read")
@@ -61,15 +66,16 @@ class Settings(Section):
 def _check(sections):
     """Refuse friction that is given twice or not at all, before anything is computed."""
     given = sections["complex_modes"].friction is not None
-    if given == ("friction_map" in sections):
+    mapped = "friction_map" in sections
+    if given and mapped or not (given or mapped or "interface_law" in sections):
         raise ConfigError("complex_modes.friction", "friction from one source",
-                          "a friction map in the chain as well" if given else "neither this nor a friction map",
+                          "a friction map in the chain as well" if given else "neither this nor a friction map or law",
                           "leave it out" if given else "add it, such as friction: 0.4")
 
 
 @dataclass(frozen=True)
 class _State:
-    """One pressure: the model without friction, at the speed of the sweep, projected on its basis."""
+    """One pressure: the model without friction, at the speed of the sweep, projected on its basis unless it is hard."""
 
     model: SlidingModel
     response: ClosureResponse | None
@@ -106,20 +112,19 @@ def complex_modes(model: ReducedModel, friction_map: FrictionMap | None, setting
     {frequency_max} and their friction corrections; a closing speed of {damping_speed} doubles the contact pressure
     (contact damping), and a mode counts as unstable when its growth rate exceeds {neutral} of its angular frequency.
     """
-    _refuse_hard_contacts(model)
     normal_law = model.law_closure, model.law_pressure
     loads = model.pressure[:, None] * model.input_area
     models = [(sliding_model(model, k, np.mean(settings.speeds)), load) for k, load in enumerate(loads)]
     states = context.map(partial(_state, settings, normal_law), models, "real modes")
     friction = np.linspace(0.0, settings.friction_max, settings.friction_steps)
     roots = _sweep(states, normal_law, friction, settings, context)
-    law = _friction_law(friction_map, settings)
+    law = _friction_law(friction_map, model, settings)
     points = [(m.at_speed(speed), load) for m, load in models for speed in settings.speeds]
     outcomes = context.map(partial(_operate, settings, normal_law, law), points, "operating points")
     branches = min(max(len(s.basis.frequency) for s in states), *(s.model.size for s in states))
     return ComplexModes(
         pressure=model.pressure, friction=friction, root=[r[:, :branches] for r in roots],
-        real_frequency=[_lowest_frequencies(s.model, branches, settings.centrifugal) for s in states],
+        real_frequency=[_lowest_frequencies(s, branches, settings.centrifugal) for s in states],
         operating_pressure=np.repeat(model.pressure, len(settings.speeds)),
         operating_speed=[o.speed for o in outcomes], operating_friction=[o.mean_friction for o in outcomes],
         operating_force=[o.sliding.contact.force for o in outcomes],
@@ -135,7 +140,7 @@ def _state(settings, normal_law, task):
     still = _sliding(model, response, input_force, normal_law, 0.0)
     model = model_about(model, still.contact, settings.damping_speed)
     basis = _basis(model, settings, contact_stiffness=still.contact.stiffness.max(initial=0.0))
-    return _State(model.projected(basis.shape), response, input_force, basis)
+    return _State(model if is_hard(model) else model.projected(basis.shape), response, input_force, basis)
 
 
 def _response(model, normal_law, settings):
@@ -150,24 +155,22 @@ def _sliding(model, response, input_force, normal_law, friction):
     return steady_sliding(model, response, input_force, *normal_law, friction)
 
 
-def _refuse_hard_contacts(model):
-    """A hard contact would count as an open one here."""
-    touched = (model.preload > 0) & model.contact_normal.any(axis=1)
-    if not model.law_closure.size and np.any(touched & (model.contact_stiffness == 0)):
-        raise ConfigError("complex_modes: contacts", "a normal law or a contact stiffness", "hard contacts",
-                          "give the contacts a stiffness")
-
-
-def _friction_law(friction_map, settings):
-    """Friction over pressure and speed: of the map, or of the settings where there is none."""
+def _friction_law(friction_map, model, settings):
+    """Friction over pressure and speed: of the map; where there is none, of the settings or the model."""
     if friction_map is not None:
         law = FrictionLaw(friction_map.pressure, friction_map.speed, friction_map.distance, friction_map.friction)
         return partial(from_map, law, settings.sliding_distance)
+    if settings.friction is None:
+        return partial(from_map, tangential_law(model).friction_law(), 0.0)
     at_rest = settings.friction if settings.friction_at_rest is None else settings.friction_at_rest
     return partial(falling_with_speed, settings.friction, at_rest, settings.decay_speed)
 
 
 def _basis(model, settings, contact_stiffness=0.0):
+    if is_hard(model):
+        shape = allowed_motions(model)
+        frequency = _frequencies(np.diag(hard_sliding(model, 0.0, shape, friction_damping=False).stiffness))
+        return FrictionBasis(shape, frequency[frequency < settings.frequency_max], 0)
     return friction_basis(model, settings.frequency_max, settings.friction_damping, settings.smallest_correction,
                           contact_stiffness, settings.centrifugal)
 
@@ -188,7 +191,7 @@ def _roots_over_friction(settings, normal_law, task):
     for mu in friction:
         sliding = _sliding(state.model, state.response, state.input_force, normal_law, mu)
         about = model_about(state.model, sliding.contact, settings.damping_speed)
-        found = quadratic_roots(*_linearised(about, mu, settings))
+        found = quadratic_roots(*_linearised(about, mu, state.basis, settings))
         roots.append(found[upper_half(found)])
     return np.array(roots)
 
@@ -201,13 +204,18 @@ def _operate(settings, normal_law, law, task):
     model = model_about(model, sliding.contact, settings.damping_speed)
     basis = _basis(model, settings)
     friction = sliding.friction if settings.friction_slopes else FrictionState(sliding.friction.coefficient)
-    modes = quadratic_modes(*_linearised(model.projected(basis.shape), friction, settings))
+    about = model if is_hard(model) else model.projected(basis.shape)
+    modes = quadratic_modes(*_linearised(about, friction, basis, settings))
     root, limit = modes.value, 2 * np.pi * settings.frequency_max
     grows = (root.real > settings.neutral * abs(root)) & (root.imag >= 0) & (abs(root) < limit)
     return _Outcome(model.speed, sliding, root, root[grows], basis.shape @ modes.right[:, grows], basis.corrections)
 
 
-def _linearised(model, friction, settings):
+def _linearised(model, friction, basis, settings):
+    """(M, C, K) about steady sliding: of a model on its basis, or of the motions that hard contacts allow."""
+    if is_hard(model):
+        allowed = hard_sliding(model, friction, basis.shape, settings.friction_damping)
+        return np.eye(len(allowed.stiffness)), allowed.damping, allowed.stiffness
     return model.linearised(friction, friction_damping=settings.friction_damping, gyroscopic=settings.gyroscopic,
                             centrifugal=settings.centrifugal)
 
@@ -235,7 +243,13 @@ def _lowest(roots, count):
     return half[np.argsort(abs(half), kind="stable")[:count]]
 
 
-def _lowest_frequencies(model, count, centrifugal):
+def _lowest_frequencies(state, count, centrifugal):
     """The ``count`` lowest frequencies (Hz) of the closed system without friction, damping and gyroscopic terms."""
-    mass, _, stiffness = model.frictionless(gyroscopic=False, centrifugal=centrifugal)
-    return np.sqrt(np.maximum(eigvalsh(stiffness, mass), 0.0))[:count] / (2 * np.pi)
+    if is_hard(state.model):
+        return state.basis.frequency[:count]
+    mass, _, stiffness = state.model.frictionless(gyroscopic=False, centrifugal=centrifugal)
+    return _frequencies(eigvalsh(stiffness, mass)[:count])
+
+
+def _frequencies(squared):
+    return np.sqrt(np.maximum(squared, 0.0)) / (2 * np.pi)

@@ -129,7 +129,7 @@ class Histories(Section):
 class Settings(Section):
     """The whole system, every part by its name."""
 
-    masses: dict[str, Mass] = option(..., "masses")
+    masses: dict[str, Mass] = option({}, "masses; at least one that can move")
     springs: dict[str, Spring] = option({}, "springs and dampers")
     contacts: dict[str, Contact] = option({}, "contacts and friction joints")
     gyros: dict[str, Gyro] = option({}, "masses that turn with the drive")

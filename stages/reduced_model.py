@@ -12,11 +12,15 @@ from scipy.linalg import block_diag
 
 from pipeline.contract import Context, Quantity, Section, option, stage
 from pipeline.physics.body_reduction import ElasticBody, reduce_body
-from pipeline.products import Lumped, ReducedModel, Structure
+from pipeline.products import BeamOnBeam, Lumped, PinOnDisc, ReducedModel, Structure
 
-#: rows of the structure that carry forces, then those that only observe
-FORCES = ("joint_rows", "contact_normal", "contact_tangent", "contact_lateral", "piston_rows")
+#: rows of the structure that carry forces besides those of its input, then those that only observe
+FORCES = ("joint_rows", "contact_normal", "contact_tangent", "contact_lateral")
 SENSORS = "sensor_rows"
+#: what presses the contacts of a system, in its fields <input>_rows and <input>_area
+INPUTS = {Structure: "piston", PinOnDisc: "load"}
+#: the tangential law of a system that has none: its friction comes from a map or from settings
+NO_SHEAR = {f"shear_{name}": [] for name in ("pressure", "friction", "stiffness", "elastic_stiffness", "exponent")}
 
 
 class Settings(Section):
@@ -29,7 +33,8 @@ class Settings(Section):
 
 
 @stage
-def reduced_model(structure: Structure | Lumped, settings: Settings, context: Context) -> ReducedModel:
+def reduced_model(structure: Structure | PinOnDisc | BeamOnBeam | Lumped, settings: Settings,
+                  context: Context) -> ReducedModel:
     """Reduce the system to interface coordinates and modes.
 
     Method:
@@ -42,7 +47,7 @@ def reduced_model(structure: Structure | Lumped, settings: Settings, context: Co
 
 
 def _from_solids(structure, settings, context):
-    """The brake, whose bodies are finite elements with supports or interfaces."""
+    """Brake or pin on disc, whose bodies are finite elements with supports or interfaces."""
     bodies = [_elastic_body(structure, name, index) for index, name in enumerate(structure.body_name)]
     reduce = partial(reduce_body, fixed_below=settings.fixed_below, residual_below=settings.residual_below,
                      solver=context.solver)
@@ -58,6 +63,25 @@ def _from_solids(structure, settings, context):
         **_copied(structure), **_surfaces(terms, sizes))
 
 
+def _from_beams(beams, settings, context):
+    """The two beams, given by their modes; their contact is hard and counts the sliding speed itself (lever 1 m)."""
+    size, none = len(beams.mode_frequency), np.zeros((len(beams.mode_frequency),) * 2)
+    area, force = beams.contact_area, float(beams.force)
+    return ReducedModel(
+        body_name=beams.body_name, coordinate_body=beams.mode_body, mass=np.eye(size),
+        damping=np.diag(beams.mode_damping), gyroscopic=none, centrifugal=none,
+        stiffness=np.diag((2 * np.pi * beams.mode_frequency) ** 2), joint_name=[], joint_rows=np.zeros((0, size)),
+        joint_stiffness=[], joint_damping=[], contact_body=[0], contact_position=beams.contact_position,
+        contact_area=area, contact_lever=[1.0], contact_gap=[0.0], contact_normal=beams.contact_normal,
+        contact_tangent=beams.contact_tangent, contact_lateral=np.zeros((1, size)), pressure=force / area,
+        preload=[[force]], contact_stiffness=[[0.0]], law_closure=[], law_pressure=[], input_name=["weight"],
+        input_rows=beams.load_row, input_area=area, history_interval=0.0,
+        input_history=np.empty((0, 1)), drive_history=[], sensor_quantity=["velocity"], sensor_unit=["m/s"],
+        sensor_gain=[1.0], **NO_SHEAR,
+        **{name: getattr(beams, name) for name in ("sensor_name", "sensor_position", "sensor_direction", "sensor_rows",
+                                                   "visible_position", "visible_body", "visible_face", "recovery")})
+
+
 def _from_lumps(lumped, settings, context):
     """The lumped system as it is: its coordinates are few, and there is no surface to draw."""
     size, sensors = len(lumped.mass), len(lumped.sensor_name)
@@ -66,17 +90,17 @@ def _from_lumps(lumped, settings, context):
         damping=none, stiffness=none, centrifugal=none, contact_position=np.zeros((len(lumped.contact_name), 3)),
         sensor_position=np.zeros((sensors, 3)), sensor_direction=np.tile([1.0, 0.0, 0.0], (sensors, 1)),
         visible_position=np.empty((0, 3)), visible_body=[], visible_face=np.empty((0, 4), int),
-        recovery=np.empty((0, 3, size)), **{name: getattr(lumped, name) for name in sorted(names)})
+        recovery=np.empty((0, 3, size)), **NO_SHEAR, **{name: getattr(lumped, name) for name in sorted(names)})
 
 
 #: product of a system -> its reduction (system, settings, context) -> ReducedModel
-SYSTEMS = {Structure: _from_solids, Lumped: _from_lumps}
+SYSTEMS = {Structure: _from_solids, PinOnDisc: _from_solids, BeamOnBeam: _from_beams, Lumped: _from_lumps}
 
 
 def _elastic_body(structure, name, index):
     """One body with its part of every row; modes go along only where they are used."""
     body = getattr(structure, name)
-    incidences = [getattr(structure, field) for field in (*FORCES, SENSORS)]
+    incidences = [getattr(structure, field) for field in _fields(structure)]
     rows = sp.vstack([_body_rows(i, index, 3 * len(body.node)) for i in incidences], format="csr")
     count = len(body.frequency) if len(body.supported) else 0
     return ElasticBody(
@@ -85,6 +109,11 @@ def _elastic_body(structure, name, index):
         supported=body.supported, rows=rows, interface=np.arange(sum(int(i.rows) for i in incidences[:-1])),
         turns=name == "disc", frequency=body.frequency[:count],
         modes=body.shape[:count].reshape(count, 3 * len(body.node)).T)
+
+
+def _fields(structure):
+    """Fields of all rows, those that only observe last."""
+    return *FORCES, f"{INPUTS[type(structure)]}_rows", SENSORS
 
 
 def _body_rows(incidence, body, size):
@@ -96,11 +125,12 @@ def _body_rows(incidence, body, size):
 
 def _split_rows(structure, rows):
     """The stacked reduced rows, back under their names."""
-    ends = np.cumsum([int(getattr(structure, field).rows) for field in (*FORCES, SENSORS)])
-    parts = dict(zip((*FORCES, SENSORS), np.split(rows, ends[:-1]), strict=True))
-    pistons = parts.pop("piston_rows")
-    return {**parts, "input_rows": pistons, "input_name": [f"piston_{k + 1}" for k in range(len(pistons))],
-            "input_area": np.full(len(pistons), float(structure.piston_area))}
+    fields, name = _fields(structure), INPUTS[type(structure)]
+    ends = np.cumsum([int(getattr(structure, field).rows) for field in fields])
+    parts = dict(zip(fields, np.split(rows, ends[:-1]), strict=True))
+    inputs = parts.pop(f"{name}_rows")
+    return {**parts, "input_rows": inputs, "input_name": [f"{name}_{k + 1}" for k in range(len(inputs))],
+            "input_area": np.full(len(inputs), float(getattr(structure, f"{name}_area")))}
 
 
 def _copied(structure):
@@ -108,11 +138,14 @@ def _copied(structure):
     kept = ("joint_name", "joint_stiffness", "joint_damping", "contact_body", "contact_position", "contact_area",
             "pressure", "preload", "contact_stiffness", "law_closure", "law_pressure", "sensor_name",
             "sensor_position", "sensor_direction")
+    tangential = {name: getattr(structure, name, none) for name, none in NO_SHEAR.items()}
     radius = np.hypot(structure.contact_position[:, 0], structure.contact_position[:, 1])
     sensors = len(structure.sensor_name)
+    inputs = int(getattr(structure, f"{INPUTS[type(structure)]}_rows").rows)
     own = {"contact_lever": radius, "contact_gap": np.zeros(len(radius)), "history_interval": 0.0,
-           "input_history": np.empty((0, int(structure.piston_rows.rows))), "drive_history": [],
-           "sensor_quantity": ["velocity"] * sensors, "sensor_unit": ["m/s"] * sensors, "sensor_gain": np.ones(sensors)}
+           "input_history": np.empty((0, inputs)), "drive_history": [],
+           "sensor_quantity": ["velocity"] * sensors, "sensor_unit": ["m/s"] * sensors, "sensor_gain": np.ones(sensors),
+           **tangential}
     return {**own, **{name: getattr(structure, name) for name in kept}}
 
 

@@ -1,21 +1,7 @@
 """The report page of a case."""
 
-from pipeline.contract import Context, Section, option, stage
-from pipeline.products import (
-    Comparison,
-    ComplexModes,
-    FrictionMap,
-    Lumped,
-    MicroFriction,
-    Multibody,
-    ReducedModel,
-    Report,
-    Response,
-    Squeal,
-    Structure,
-    Surface,
-    Transient,
-)
+from pipeline.contract import Context, Products, Section, option, stage
+from pipeline.products import Report
 
 
 class Settings(Section):
@@ -26,11 +12,7 @@ class Settings(Section):
 
 
 @stage(companions=lambda product: {"report.html": product.html.item()}, reads_case=True)
-def report(surface: Surface | None, micro_friction: MicroFriction | None, friction_map: FrictionMap | None,
-           structure: Structure | None, model: ReducedModel | None, complex_modes: ComplexModes | None,
-           multibody: Multibody | None, response: Response | None, squeal: Squeal | None,
-           lumped: Lumped | None, transient: Transient | None, comparison: Comparison | None, settings: Settings,
-           context: Context) -> Report:
+def report(products: Products, settings: Settings, context: Context) -> Report:
     """Write one HTML page with pictures, tables, settings and methods.
 
     Method:
@@ -40,10 +22,6 @@ def report(surface: Surface | None, micro_friction: MicroFriction | None, fricti
     from pipeline.views.chapter import Look
     from pipeline.views.page import page, plan
 
-    products = {"surface": surface, "micro_friction": micro_friction, "friction_map": friction_map,
-                "structure": structure, "lumped": lumped, "model": model, "complex_modes": complex_modes,
-                "multibody": multibody, "response": response, "transient": transient, "squeal": squeal,
-                "comparison": comparison}
     look = Look(settings.dots_per_inch, settings.mode_pictures)
     chapters = []
     builders = plan(products, look)

@@ -6,10 +6,11 @@ from typing import Literal
 import numpy as np
 
 from pipeline.contract import ConfigError, Context, Quantities, Quantity, Section, option, stage
-from pipeline.physics.dry_friction import falling
+from pipeline.physics.dry_friction import constant, falling
 from pipeline.physics.limit_cycle import cycle, harmonic_levels
 from pipeline.physics.sliding_model import sliding_model
 from pipeline.physics.spectra import power_spectrum
+from pipeline.physics.tangential_law import tangential_law
 from pipeline.physics.time_stepping import Hard, History, Lagrange, Penalty, Start, Table, simulate
 from pipeline.physics.time_stepping_linear import modal_system
 from pipeline.physics.time_stepping_start import steady_start
@@ -23,24 +24,32 @@ class Settings(Section):
         "hard", "hard: impulses on velocities; penalty: linear spring and damper; table: the contact law of the model;"
         " lagrange: multipliers on displacements under Newmark's rule")
     restitution: float = option(0.0, "hard: rebound velocity over impact velocity", ge=0, le=1)
-    contact_stiffness: Quantity("N/m", gt=0) = option("10 N/um", "penalty: stiffness of each contact")
+    contact_stiffness: Quantity("N/m", gt=0) | None = option(
+        None, "penalty: stiffness of each contact; none = that of the model about its preload")
     contact_damping: Quantity("N s/m", ge=0) = option("0 N s/m", "penalty: damping of each contact")
     damping_speed: Quantity("m/s", gt=0) = option("1 m/s", "table: closing speed that doubles the contact force")
-    gamma: float = option(0.5, "lagrange: Newmark's gamma; 0.5 trapezoidal, more damps the highest modes", ge=0.5, le=1)
-    friction: float = option(0.3, "coefficient of friction at high slip speed", ge=0)
-    friction_at_rest: float = option(0.3, "coefficient of friction as the slip speed goes to zero", ge=0)
+    gamma: float = option(0.5, "Newmark's gamma; 0.5 trapezoidal, more damps the highest modes", ge=0.5, le=1)
+    rule: Literal["exact", "newmark"] = option(
+        "exact", "penalty: exact: linear part exactly; newmark: all by Newmark's rule, as FE codes do")
+    friction: float | None = option(
+        None, "coefficient of friction at high slip speed; none = that of the model about its preload", ge=0)
+    friction_at_rest: float | None = option(None, "coefficient as the slip speed goes to zero; none = the same", ge=0)
     decay_speed: Quantity("m/s", gt=0) = option("10 mm/s", "slip speed over which friction falls from one to the other")
     static_factor: float = option(1.0, "hold of a sticking contact over friction at rest", ge=1)
     description: Literal["rigid", "elastic", "evolution"] = option("rigid", "how a contact sticks (1999, section 4)")
-    tangential_stiffness: Quantity("N/m", gt=0) = option("10 N/um", "elastic and evolution: stiffness of each contact")
-    exponent: float = option(1.0, "evolution: how gradually slip sets in; 1/3 is one Hertz contact", gt=0)
+    tangential_stiffness: Quantity("N/m", gt=0) | None = option(
+        None, "elastic and evolution: stiffness of each contact; none = that of the model about its preload")
+    exponent: float | None = option(
+        None, "evolution: how gradually slip sets in, 1/3 is one Hertz contact; none = that of the model", gt=0)
     speeds: Quantities("rad/s") = option(("1 rad/s",), "speeds of the drive, either sign, for each pressure")
     step: Quantity("s", gt=0) = option("1 us", "time step")
     duration: Quantity("s", gt=0) = option("0.5 s", "length of the motion")
     record_every: int = option(10, "steps between samples that are kept", ge=1)
     highest_frequency: Quantity("Hz", gt=0) = option("100 kHz", "modes with open contacts above it are left out")
     damping: Literal["full", "diagonal"] = option("full", "diagonal: what couples the modes through damping is dropped")
-    start: Literal["sliding", "rest"] = option("sliding", "sliding: steady sliding; rest: unloaded and at rest")
+    start: Literal["sliding", "pressed", "rest"] = option(
+        "sliding", "sliding: steady sliding; pressed: equilibrium without friction, which sets in with the drive; rest:"
+        " unloaded and at rest")
     kick: Quantity("m/s", ge=0) = option("0.1 mm/s", "effective value of a random start velocity at the sensors")
     seed: int = option(1, "seed of the kick", ge=0)
     window: Quantity("s", gt=0) = option("0.1 s", "end of the motion from which spectra and cycles are taken")
@@ -68,9 +77,10 @@ def transient(model: ReducedModel, settings: Settings, context: Context) -> Tran
 
     Method:
     The equations of motion on the real modes below {highest_frequency} (contacts open, damping {damping}) were stepped
-    by {step} over {duration}, the linear part exactly except under Lagrange multipliers (Newmark's rule); contact:
-    {contact}, friction {friction_at_rest} at rest falling to {friction} over {decay_speed}, sticking described as
-    {description}. Spectra and cycles are those of the last {window}.
+    by {step} over {duration}, the linear part exactly except under Lagrange multipliers or where Newmark's rule is
+    asked for (rule: {rule}); contact: {contact}, coefficient of friction {friction} (none: that of the interface law
+    under the static load), at rest {friction_at_rest} (none: the same), sticking described as {description}. Spectra
+    and cycles are those of the last {window}.
     """
     points = [(state, speed) for state in range(len(model.pressure)) for speed in settings.speeds]
     motions = context.map(partial(_move, model, settings), points, "operating points")
@@ -97,9 +107,11 @@ def _move(model, settings, task):
     """Motion at one operating point: (row of the preload table, speed of the drive)."""
     state, speed = task
     sliding = sliding_model(model, state, speed)
-    law, friction, inputs = _law(model, settings), _friction(settings), model.pressure[state] * model.input_area
+    law, friction = _law(model, sliding, settings), _friction(model, sliding, settings)
+    inputs = model.pressure[state] * model.input_area
     system = modal_system(sliding, settings.damping, settings.highest_frequency)
-    start = steady_start(sliding, law, friction, inputs) if settings.start == "sliding" else None
+    drawn = {"sliding": friction, "pressed": constant(0.0)}.get(settings.start)
+    start = None if drawn is None else steady_start(sliding, law, drawn, inputs)
     kick = _kick(system, sliding.sensor_rows, settings)
     return simulate(sliding, law, friction, step=settings.step, duration=settings.duration,
                     inputs=_history(model, model.input_history, inputs),
@@ -118,21 +130,50 @@ def _kicked(start, kick):
     return Start(np.zeros_like(kick), kick) if start is None else start.kicked(kick)
 
 
-def _law(model, settings):
+def _law(model, sliding, settings):
+    """Normal law of the contacts."""
     if settings.contact == "table":
         if not len(model.law_closure):
             raise ConfigError("transient.contact", "hard, penalty or lagrange for contacts without a law of their own",
                               "table")
         return Table(model.law_closure, model.law_pressure, settings.damping_speed, model.contact_gap)
     gap = model.contact_gap
-    return {"hard": Hard(settings.restitution, gap), "lagrange": Lagrange(settings.gamma, gap),
-            "penalty": Penalty(settings.contact_stiffness, settings.contact_damping, gap)}[settings.contact]
+    if settings.contact == "penalty":
+        stiffness = sliding.contacts.stiffness if settings.contact_stiffness is None else settings.contact_stiffness
+        return Penalty(stiffness, settings.contact_damping, gap, settings.gamma if settings.rule == "newmark" else None)
+    return {"hard": Hard(settings.restitution, gap), "lagrange": Lagrange(settings.gamma, gap)}[settings.contact]
 
 
-def _friction(settings):
-    return falling(settings.friction_at_rest, settings.friction, settings.decay_speed,
-                   static_factor=settings.static_factor, description=settings.description,
-                   stiffness=settings.tangential_stiffness, exponent=settings.exponent)
+def _friction(model, sliding, settings):
+    """Friction of the contacts: of the settings, or of the model about its preload."""
+    sticking = {"static_factor": settings.static_factor, "description": settings.description}
+    if settings.description != "rigid":
+        sticking |= _sticking(model, sliding, settings)
+    if settings.friction is None:
+        if settings.friction_at_rest is not None:
+            raise ConfigError("transient.friction", "a coefficient beside friction_at_rest", "none",
+                              "give both, or neither for the tangential law of the model")
+        return constant(_own_friction(model, sliding.contacts), **sticking)
+    at_rest = settings.friction if settings.friction_at_rest is None else settings.friction_at_rest
+    return falling(at_rest, settings.friction, settings.decay_speed, **sticking)
+
+
+def _own_friction(model, contacts):
+    """Coefficient of the model about its preload, mean weighted by the preload; 0 without contacts."""
+    if not len(contacts.area):
+        return 0.0
+    return float(np.average(tangential_law(model).at(contacts.pressure).friction, weights=contacts.preload))
+
+
+def _sticking(model, sliding, settings):
+    """Stiffness (c,) N/m and exponent of the elastic and the evolution description."""
+    stiffness, exponent = settings.tangential_stiffness, settings.exponent
+    if stiffness is None or (exponent is None and settings.description == "evolution"):
+        own = tangential_law(model).at(sliding.contacts.pressure)
+        per_area = own.elastic_stiffness if settings.description == "elastic" else own.stiffness
+        stiffness = per_area * sliding.contacts.area if stiffness is None else stiffness
+        exponent = float(own.exponent.mean()) if exponent is None else exponent
+    return {"stiffness": stiffness, "exponent": 1.0 if exponent is None else exponent}
 
 
 def _kick(system, sensor_rows, settings):

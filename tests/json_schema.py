@@ -6,7 +6,8 @@ TYPES = {"object": dict, "array": list, "string": str, "boolean": bool, "null": 
 TOLD = {"$schema", "$defs", "title", "description", "default", "examples", "x-unit", "discriminator"}
 BOUNDS = {"minimum": lambda v, b: v >= b, "maximum": lambda v, b: v <= b, "exclusiveMinimum": lambda v, b: v > b,
           "exclusiveMaximum": lambda v, b: v < b}
-LENGTHS = {"minItems": list, "minLength": str}
+LENGTHS = {"minItems": (list, False), "minLength": (str, False), "maxItems": (list, True),
+           "minProperties": (dict, False), "maxProperties": (dict, True)}
 
 
 def faults(value, schema, root, where="case"):
@@ -31,7 +32,10 @@ def _faults(keyword, value, rule, schema, root, where):
             return _others(value, rule, schema, root, where)
         case "items" if isinstance(value, list):
             return [f for i, item in enumerate(value) for f in faults(item, rule, root, f"{where}.{i}")]
-        case "properties" | "additionalProperties" | "items":
+        case "prefixItems" if isinstance(value, list):
+            return [f for i, (item, one) in enumerate(zip(value, rule, strict=False))
+                    for f in faults(item, one, root, f"{where}.{i}")]
+        case "properties" | "additionalProperties" | "items" | "prefixItems":
             return []
     return [] if _holds(keyword, value, rule) else [f"{where}: {keyword} {rule}, found {value!r}"]
 
@@ -60,7 +64,8 @@ def _holds(keyword, value, rule):
     if keyword in BOUNDS:
         return not number or BOUNDS[keyword](value, rule)
     if keyword in LENGTHS:
-        return not isinstance(value, LENGTHS[keyword]) or len(value) >= rule
+        kind, most = LENGTHS[keyword]
+        return not isinstance(value, kind) or (len(value) <= rule if most else len(value) >= rule)
     return {"enum": lambda: value in rule, "const": lambda: value == rule}[keyword]()
 
 

@@ -73,3 +73,11 @@ def test_schema_is_json_and_knows_units_and_origins():
 
 def test_completion_is_told():
     assert "_BRAKECHAIN_COMPLETE=bash_source" in brakechain("completion").stdout
+
+
+def test_public_data_are_listed_and_their_form_is_told(tmp_path):
+    told = brakechain("data", "list").stdout
+    assert "recordings/emps/DATA_EMPS.mat" in told and "licence: MIT" in told
+    assert "channels/NAME" in brakechain("data", "format").stdout
+    done = brakechain("data", "path", "none")
+    assert done.returncode == 2 and "an unregistered name" in done.stderr

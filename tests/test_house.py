@@ -28,19 +28,22 @@ MAY_IMPORT = {
     "pipeline.published": {"pipeline.contract"},
     "pipeline.computed": {"pipeline.computed"},
     "pipeline.measured": {"pipeline.contract"},
+    "pipeline.recordings": {"pipeline.recordings", "pipeline.products", "pipeline.contract"},
     "pipeline.views": {"pipeline.views", "pipeline.products", "pipeline.contract"},
     "stages": {"pipeline.contract", "pipeline.products", "pipeline.physics", "pipeline.systems", "pipeline.published",
-               "pipeline.computed", "pipeline.views"},
+               "pipeline.computed", "pipeline.views", "pipeline.recordings"},
     "pipeline.inspection": {"pipeline.contract"},
     "pipeline.schema": {"pipeline.contract"},
     "pipeline.console": {"pipeline.contract"},
     "pipeline.cli": {"pipeline.contract", "pipeline.console", "pipeline.inspection", "pipeline.measured",
-                     "pipeline.physics.linear_solver", "pipeline.schema", "stages"},
+                     "pipeline.physics.linear_solver", "pipeline.recordings.neutral", "pipeline.schema", "stages"},
     "pipeline.__main__": {"pipeline.cli", "pipeline.environment"},
 }
 #: third-party package -> its doors
 DOORS = {
-    "h5py": {"pipeline.contract.store", "pipeline.inspection"}, "yaml": {"pipeline.contract.documents"},
+    "h5py": {"pipeline.contract.store", "pipeline.inspection", "pipeline.recordings.columns",
+             "pipeline.recordings.neutral"},
+    "pyuff": {"pipeline.recordings.uff"}, "yaml": {"pipeline.contract.documents"},
     "click": {"pipeline.cli"}, "rich": {"pipeline.console"}, "pint": {"pipeline.contract.units"},
     "pydantic": {"pipeline.contract.settings", "pipeline.published", "pipeline.measured"},
     "pooch": {"pipeline.measured"}, "distributed": {"pipeline.contract.executor"},
@@ -110,7 +113,8 @@ def test_a_file_says_what_it_is(path):
     assert ast.get_docstring(ast.parse(path.read_text())), f"{path}: no module docstring"
 
 
-@pytest.mark.parametrize("folder", ["stages", "pipeline/physics", "pipeline/systems", "pipeline/effects"])
+@pytest.mark.parametrize("folder", ["stages", "pipeline/physics", "pipeline/systems", "pipeline/recordings",
+                                    "pipeline/effects"])
 def test_every_file_has_its_test(folder):
     for path in ROOT.glob(f"{folder}/*.py"):
         if path.stem != "__init__":

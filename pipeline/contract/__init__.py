@@ -2,10 +2,10 @@
 
 from pipeline.contract.context import Context
 from pipeline.contract.errors import BrakechainError, ConfigError, ConvergenceError, ProductError
-from pipeline.contract.product import Array, count, part, product, quantity, text
+from pipeline.contract.product import Array, count, part, parts, product, quantity, text
 from pipeline.contract.settings import InputFile, Quantities, Quantity, Section, option
-from pipeline.contract.stage import Stage, stage
+from pipeline.contract.stage import Products, Stage, stage
 
 __all__ = ["Array", "BrakechainError", "ConfigError", "Context", "ConvergenceError", "InputFile", "ProductError",
-           "Quantities", "Quantity", "Section", "Stage", "count", "option", "part", "product", "quantity", "stage",
-           "text"]
+           "Products", "Quantities", "Quantity", "Section", "Stage", "count", "option", "part", "parts", "product",
+           "quantity", "stage", "text"]

@@ -2,6 +2,7 @@
 
 import re
 from dataclasses import dataclass, field, fields
+from typing import get_args, get_origin
 
 import numpy as np
 
@@ -9,6 +10,8 @@ from pipeline.contract.errors import ProductError
 from pipeline.contract.units import SI
 
 Array = np.ndarray
+#: name of a nested product, a group of the file
+_PART = re.compile(r"[A-Za-z0-9][A-Za-z0-9_.-]*")
 
 
 def quantity(unit, dims, meaning, dtype=float):
@@ -32,6 +35,17 @@ def text(dims, meaning):
 def part(meaning):
     """Declare a nested product; its class is the annotation of the field."""
     return field(metadata={"meaning": meaning})
+
+
+def parts(meaning):
+    """Declare nested products by name; the annotation of the field is ``dict[str, Product]``."""
+    return part(meaning)
+
+
+def held_by(hint):
+    """The product class of a field annotated ``dict[str, Product]``, else None."""
+    inner = get_args(hint)[-1] if get_origin(hint) is dict else None
+    return inner if is_product(inner) else None
 
 
 def is_product(cls):
@@ -78,14 +92,31 @@ def _validate(self):
         where = f"{self.name}.{f.name}"
         value = getattr(self, f.name)
         if is_product(f.type):
-            if not isinstance(value, f.type):
-                raise ProductError(where, f"a {f.type.name}", type(value).__name__)
+            _check_part(value, f.type, where)
+            continue
+        if held_by(f.type):
+            object.__setattr__(self, f.name, _as_parts(value, held_by(f.type), where))
             continue
         array = _as_array(value, f.metadata["dtype"], where)
         _check_dimensions(array, f.metadata["dims"], sizes, where)
         if array.dtype.kind in "fc" and not np.isfinite(array).all():
             raise ProductError(where, "finite values", f"{np.sum(~np.isfinite(array))} that are not")
         object.__setattr__(self, f.name, array)
+
+
+def _check_part(value, cls, where):
+    if not isinstance(value, cls):
+        raise ProductError(where, f"a {cls.name}", type(value).__name__)
+
+
+def _as_parts(value, cls, where):
+    if not isinstance(value, dict):
+        raise ProductError(where, f"a mapping of names to {cls.name}", type(value).__name__)
+    for name, inner in value.items():
+        if not isinstance(name, str) or not _PART.fullmatch(name):
+            raise ProductError(f"{where}: a name", "letters, digits and _ . -", repr(name))
+        _check_part(inner, cls, f"{where}.{name}")
+    return dict(value)
 
 
 def _as_array(value, dtype, where):

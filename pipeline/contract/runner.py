@@ -9,12 +9,14 @@ import subprocess
 import time
 from contextlib import contextmanager
 from dataclasses import asdict, dataclass, field
+from functools import partial
 from importlib import metadata
 from pathlib import Path
 
 from pipeline import __version__
 from pipeline.contract import fingerprint, store
 from pipeline.contract.errors import ConfigError, ProductError
+from pipeline.contract.stage import Products
 
 _PACKAGES = ("numpy", "scipy", "scikit-fem", "exudyn", "h5py", "numba", "pypardiso", "SurfaceTopography", "pyvista")
 
@@ -49,7 +51,13 @@ class Run:
         return next((s for s in self.case.stages if s.output.name in names), None)
 
     def filled(self, stage):
-        """argument -> product class that fills it in this chain (None for an absent optional one)."""
+        """argument -> product class that fills it in this chain (None for an absent optional one).
+
+        A stage that reads all has the names of the products before it for arguments.
+        """
+        if stage.reads_all:
+            before = self.case.stages[:self.case.stages.index(stage)]
+            return {s.output.name: s.output for s in before}
         chosen = {}
         for name, products in stage.inputs.items():
             writer = self.producer(products)
@@ -136,8 +144,7 @@ class Run:
     def _compute(self, stage, context):
         if not os.access(self.folder, os.W_OK | os.X_OK):      # now, not after minutes of computing
             raise _closed(self.folder, os.strerror(errno.EACCES))
-        inputs = {name: store.read(product, self.path(product)) if product else None
-                  for name, product in self.filled(stage).items()}
+        inputs = self._inputs(stage)
         now = self.fingerprint(stage)
         wall, cpu = time.perf_counter(), _cpu_seconds(context)
         with context.stage(stage):
@@ -158,6 +165,14 @@ class Run:
         for name, content in companions.items():
             store.write_companion(self.folder / name, content)
         return seconds
+
+    def _inputs(self, stage):
+        """The arguments of ``stage`` that are products, read now, or when asked for where it reads all."""
+        readers = {name: partial(store.read, product, self.path(product)) if product else lambda: None
+                   for name, product in self.filled(stage).items()}
+        if stage.reads_all:
+            return {"products": Products(readers)}
+        return {name: read() for name, read in readers.items()}
 
 
 def _stored(path):
@@ -205,8 +220,8 @@ def locked(folder):
 
 def _sweep(folder):
     """Remove what a killed run left half-written."""
-    for partial in folder.glob(".*.partial"):
-        partial.unlink()
+    for half in folder.glob(".*.partial"):
+        half.unlink()
 
 
 def _cpu_seconds(context):

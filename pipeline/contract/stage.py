@@ -2,7 +2,7 @@
 
 import inspect
 import types
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Union, get_args, get_origin, get_type_hints
 
@@ -10,6 +10,25 @@ from pipeline.contract.context import Context
 from pipeline.contract.errors import ProductError
 from pipeline.contract.product import is_product
 from pipeline.contract.settings import Section
+
+
+class Products(Mapping):
+    """Every product of the stages before, by name, each read when it is first asked for."""
+
+    def __init__(self, readers):
+        """``readers``: product name -> function without arguments that reads it."""
+        self._readers, self._read = dict(readers), {}
+
+    def __getitem__(self, name):
+        if name not in self._read:
+            self._read[name] = self._readers[name]()
+        return self._read[name]
+
+    def __iter__(self):
+        return iter(self._readers)
+
+    def __len__(self):
+        return len(self._readers)
 
 
 @dataclass(frozen=True)
@@ -20,6 +39,7 @@ class Stage:
     run: Callable
     inputs: dict        # argument name -> tuple of product classes that may fill it
     optional: frozenset     # argument names that may stay empty
+    reads_all: bool     # True where the argument 'products' takes every product before it
     output: type        # product class
     settings: type      # settings class
     summary: str        # first docstring line: the CLI help
@@ -29,8 +49,9 @@ class Stage:
     check: Callable     # {stage: settings} -> None; refuses settings that do not fit those of other stages
 
     def __call__(self, *args, **kwargs):
-        """Run the pure function; ``context`` may be left out."""
-        return self.run(*args, **{"context": Context(), **kwargs})
+        """Run the pure function; ``context`` and optional inputs may be left out."""
+        absent = dict.fromkeys(name for name in list(self.inputs)[len(args):] if name in self.optional)
+        return self.run(*args, **{"context": Context(), **absent, **kwargs})
 
 
 def stage(run=None, *, companions=None, reads_case=False, check=lambda sections: None):
@@ -40,9 +61,10 @@ def stage(run=None, *, companions=None, reads_case=False, check=lambda sections:
     hints = get_type_hints(run)
     output, settings = hints.pop("return", None), hints.pop("settings", None)
     context = hints.pop("context", None)
-    inputs = {name: _products(hint) for name, hint in hints.items()}
+    reads_all = hints.get("products") is Products and hints.pop("products") is Products
+    inputs = {name: _options(hint) for name, hint in hints.items()}
     fits = (is_product(output) and isinstance(settings, type) and issubclass(settings, Section)
-            and context is Context and all(products for products in inputs.values()))
+            and context is Context and all(inputs.values()))
     if not fits:
         raise ProductError(f"stage {run.__name__}: annotate the products read, 'settings', 'context' and"
                            f" the product written")
@@ -52,10 +74,10 @@ def stage(run=None, *, companions=None, reads_case=False, check=lambda sections:
                            f" (found {file}, {output.name}); the docstring needs 'Method:'")
     summary, _, method = doc.partition("Method:")
     optional = frozenset(name for name, hint in hints.items() if type(None) in get_args(hint))
-    return Stage(run.__name__, run, inputs, optional, output, settings, summary.strip().splitlines()[0],
+    return Stage(run.__name__, run, inputs, optional, reads_all, output, settings, summary.strip().splitlines()[0],
                  " ".join(method.split()), companions, reads_case, check)
 
 
-def _products(hint):
+def _options(hint):
     options = get_args(hint) if get_origin(hint) in (Union, types.UnionType) else (hint,)
     return tuple(p for p in options if is_product(p))

@@ -14,7 +14,7 @@ import h5py
 import numpy as np
 
 from pipeline.contract.errors import ProductError
-from pipeline.contract.product import is_product
+from pipeline.contract.product import held_by, is_product
 
 
 class DamagedFile(ProductError):
@@ -31,6 +31,9 @@ def content_hash(item):
         value = getattr(item, f.name)
         if is_product(f.type):
             digest.update(f"{f.name}/{content_hash(value)}".encode())
+            continue
+        if held_by(f.type):
+            digest.update("".join(f"{f.name}/{name}/{content_hash(value[name])}/" for name in sorted(value)).encode())
             continue
         digest.update(f"{f.name}/{f.metadata['unit']}/{value.dtype.str}/{value.shape}".encode())
         digest.update("\0".join(value.flat).encode() if value.dtype.kind == "O" else np.ascontiguousarray(value))
@@ -79,9 +82,13 @@ def _write_group(group, item):
     for f in fields(item):
         value = getattr(item, f.name)
         if is_product(f.type):
+            _write_part(group, f.name, value, f.metadata["meaning"])
+            continue
+        if held_by(f.type):
             inner = group.create_group(f.name, track_order=True)
-            inner.attrs.update(product=value.name, version=value.version, long_name=f.metadata["meaning"])
-            _write_group(inner, value)
+            inner.attrs.update(long_name=f.metadata["meaning"])
+            for name, each in value.items():
+                _write_part(inner, name, each, held_by(f.type).__doc__)
             continue
         dtype = h5py.string_dtype() if value.dtype.kind == "O" else value.dtype
         dataset = group.create_dataset(f.name, data=value, dtype=dtype)
@@ -90,8 +97,14 @@ def _write_group(group, item):
             dataset.make_scale(f.name)
             scales[f.name] = dataset
     for f in fields(item):
-        if not is_product(f.type):
+        if "dims" in f.metadata:
             _attach_dimensions(group, f, scales)
+
+
+def _write_part(group, name, item, meaning):
+    inner = group.create_group(name, track_order=True)
+    inner.attrs.update(product=item.name, version=item.version, long_name=meaning)
+    _write_group(inner, item)
 
 
 def _attach_dimensions(group, f, scales):
@@ -170,6 +183,9 @@ def _read_group(group, cls, path):
     for f in fields(cls):
         if is_product(f.type):
             values[f.name] = _read_group(group[f.name], f.type, path)
+            continue
+        if held_by(f.type):
+            values[f.name] = {name: _read_group(each, held_by(f.type), path) for name, each in group[f.name].items()}
             continue
         dataset = group[f.name]
         if dataset.attrs["units"] != f.metadata["unit"]:

@@ -9,11 +9,15 @@ from pipeline.contract.errors import ConfigError
 
 #: every unit a product or a setting may carry (each is coherent SI; a test asks pint)
 SI = frozenset({
-    "1", "m", "m^2", "m^3", "m^4", "1/m", "rad/m", "s", "1/s", "Hz", "rad", "rad/s", "kg", "kg m^2", "1/kg^0.5",
+    "1", "m", "m^2", "m^3", "m^4", "1/m", "1/m^2", "rad/m", "s", "1/s", "Hz", "rad", "rad/s", "kg", "kg m^2",
+    "1/kg^0.5",
     "kg/m^3", "m/s", "m/s^2", "N", "N m", "N/m", "N m/rad", "N s/m", "N s^2/m", "Pa", "Pa/m", "m/Pa", "1/Pa",
-    "K", "J", "W", "J/K/kg", "W/m/K", "1/K", "m^2/s", "m^2/s^2/Hz", "m^2/N",
+    "K", "J", "J/m", "W", "J/K/kg", "W/m/K", "1/K", "m^2/s", "m^2/s^2/Hz", "m^2/N",
 })
 
+
+#: SI units that measured samples are kept in
+MEASURED = ("1", "m", "m/s", "m/s^2", "N", "N m", "Pa", "V", "A", "K", "s", "Hz", "kg", "W", "m^3/s", "m^3", "m/s^3")
 
 _ANGULAR = {"radian", "degree", "turn", "revolution", "cycle", "revolutions_per_minute", "revolutions_per_second"}
 _NUMBER = re.compile(r"\s*[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?\s*(?P<unit>.*)")
@@ -33,6 +37,24 @@ def to_si(value, unit, where):
     if not spelt or (unit != "1" and not spelt["unit"]):
         raise ConfigError(where, expected, repr(value))
     return _convert(value, unit, lambda: ConfigError(where, expected, repr(value)))
+
+
+def in_si(values, unit, where):
+    """(values in coherent SI, name of the SI unit) of ``values`` in any ``unit`` that pint reads.
+
+    The unit is one of MEASURED where its dimension is among them, else a product of base units. Raises ConfigError.
+    """
+    import pint
+
+    try:
+        quantity = _registry().Quantity(values, "" if unit == "1" else unit)
+        name = next((n for n in MEASURED if quantity.is_compatible_with("" if n == "1" else n)), None)
+        if set(map(str, quantity.units._units)) & _ANGULAR:
+            name = {"1": "rad", "Hz": "rad/s"}.get(name, name)
+        converted = quantity.to_base_units() if name is None else quantity.to("" if name == "1" else name)
+    except (pint.PintError, ValueError, TypeError, AttributeError, tokenize.TokenError):
+        raise ConfigError(where, "a unit such as mm/s or kN", repr(unit)) from None
+    return converted.magnitude, name or f"{converted.units:~C}"
 
 
 def _convert(text, unit, refusal):

@@ -68,6 +68,14 @@ def surface_rows(node, face, point, weight, group, where="surface point", distan
                          (group.max() + 1, len(node)))
 
 
+def along(mean, direction):
+    """(rows, 3n): means (rows, n) of the displacement component along ``direction`` (rows, 3)."""
+    mean = mean.tocoo()
+    column = (3 * mean.col[:, None] + np.arange(3)).ravel()
+    return sp.csr_matrix(((mean.data[:, None] * direction[mean.row]).ravel(), (np.repeat(mean.row, 3), column)),
+                         (mean.shape[0], 3 * mean.shape[1]))
+
+
 def foundation(node, face, stiffness):
     """(3n, 3n) CSR of springs spread over the faces; ``stiffness`` (3, 3) in Pa/m along x, y, z."""
     shape = shape_functions(face_kind(face), quadrature(face_kind(face))[0])[0]

@@ -197,8 +197,9 @@ class SlidingModel:
         return np.where(self.sliding_speed < 0, -1.0, 1.0)
 
     def _turning_drag(self, coefficient):
-        """mu N0 / |v| (c,) in N s/m of equation (3); 0 where there is no friction force."""
-        force, speed = coefficient * self.contacts.preload, abs(self.sliding_speed)
+        """mu N0 / |v| (c,) in N s/m of equation (3); 0 without a friction force, or where nothing moves sideways."""
+        sideways = self.contacts.lateral.any(axis=1)
+        force, speed = np.where(sideways, coefficient * self.contacts.preload, 0.0), abs(self.sliding_speed)
         if np.any((force != 0) & (speed == 0)):
             raise ConfigError("friction-induced damping", "every loaded contact to slide", "a sliding speed of 0",
                               "give a speed, or leave friction_damping out")

@@ -4,9 +4,9 @@
 
 Displacements count from where nothing is loaded; contact i touches where n_i q + gap_i = 0 and gains the sliding
 velocity v_i = lever_i W(t) of the drive. The linear part is stepped exactly for forces that are linear in time, so
-that without events the step matters only for contact and friction forces; ``Lagrange`` steps by Newmark's rule
-instead, for comparison. Friction acts along the tangent rows: what turns sideways with the slip (equation (3) of the
-sliding model) is left out. Nothing is accepted that has not converged.
+that without events the step matters only for contact and friction forces; ``Lagrange``, and ``Penalty`` with a
+``gamma``, step by Newmark's rule instead, for comparison. Friction acts along the tangent rows: what turns sideways
+with the slip (equation (3) of the sliding model) is left out. Nothing is accepted that has not converged.
 """
 
 from dataclasses import dataclass, replace
@@ -51,11 +51,15 @@ class Hard:
 
 @dataclass(frozen=True)
 class Penalty:
-    """N = stiffness c + damping c' at closure c, never below 0; each () or (c,), in N/m and N s/m."""
+    """N = stiffness c + damping c' at closure c, never below 0; each () or (c,), in N/m and N s/m.
+
+    With a ``gamma`` bodies and contacts are stepped by Newmark's rule, as FE codes do, instead of exactly.
+    """
 
     stiffness: np.ndarray | float
     damping: np.ndarray | float = 0.0
     gap: np.ndarray | float = 0.0
+    gamma: float | None = None
 
 
 @dataclass(frozen=True)
@@ -192,12 +196,12 @@ def imposed(model, joint):
 def _linear(model, system, law, friction, step):
     """LinearKernel: rows of contacts, inputs and elements, seen and driven through one step."""
     contacts, count = model.contacts, len(model.contacts.area)
-    matrices = (newmark_matrices(system, step, law.gamma) if isinstance(law, Lagrange)
-                else step_matrices(system, step))
+    gamma = getattr(law, "gamma", None)
+    matrices = step_matrices(system, step) if gamma is None else newmark_matrices(system, step, gamma)
     forced = system.driven(np.vstack((contacts.normal, contacts.tangent, model.input_rows, -_element_rows(model))))
     first, last = (np.einsum("bxy,ryb->rxb", matrix, forced) for matrix in matrices[1:])
     hold = np.array([isinstance(law, Hard), kernel(friction, count).description == RIGID])
-    if isinstance(law, Lagrange):
+    if gamma is not None:
         hold[:] = False
     for f in np.flatnonzero(hold):
         own = slice(f * count, (f + 1) * count)
@@ -258,8 +262,9 @@ def _normal_kernel(law, contacts):
         raise ConfigError("time stepping: normal law", "closure and pressure that rise from 0", "another table")
     if isinstance(law, Hard) and not 0 <= law.restitution <= 1:
         raise ConfigError("time stepping: restitution", "between 0 and 1", f"{law.restitution:g}")
-    if isinstance(law, Lagrange) and not 0.5 <= law.gamma <= 1:
-        raise ConfigError("time stepping: gamma", "between 0.5 and 1", f"{law.gamma:g}")
+    gamma = getattr(law, "gamma", None)
+    if gamma is not None and not 0.5 <= gamma <= 1:
+        raise ConfigError("time stepping: gamma", "between 0.5 and 1", f"{gamma:g}")
     if isinstance(law, Penalty) and not np.all(np.asarray(law.stiffness) > 0):
         raise ConfigError("time stepping: contact stiffness", "above 0", f"{np.min(law.stiffness):g} N/m")
     table = [_own(getattr(law, name, [0.0, 1.0])) for name in ("closure", "pressure")]
@@ -267,12 +272,12 @@ def _normal_kernel(law, contacts):
     return NormalKernel(kind, np.where(fixed, 0.0, each(law.gap)), _own(np.where(fixed, contacts.preload, -1.0)),
                         each(contacts.area), each(getattr(law, "stiffness", 0.0)),
                         each(getattr(law, "damping", 0.0)), *table, float(getattr(law, "damping_speed", np.inf)),
-                        float(getattr(law, "restitution", 0.0)))
+                        float(getattr(law, "restitution", 0.0)), gamma is not None)
 
 
 def _check(system, linear, normal, dry, model, step):
     """Refuse, before the first step, one that is too long, and contacts that nothing can move."""
-    if normal.kind != LAGRANGE and system.highest * step > 2 * np.pi / STEPS_PER_PERIOD:
+    if not normal.newmark and system.highest * step > 2 * np.pi / STEPS_PER_PERIOD:
         longest = 2 * np.pi / STEPS_PER_PERIOD / system.highest
         raise ConfigError("time stepping: step", f"at most {longest:.3g} s, {STEPS_PER_PERIOD:g} steps in a period of"
                           f" the highest mode ({system.highest / (2 * np.pi):.4g} Hz)", f"{step:.3g} s",
@@ -280,6 +285,8 @@ def _check(system, linear, normal, dry, model, step):
     for i in range(len(normal.gap)):
         if normal.fixed[i] < 0 and not linear.response[1, 0, i, i] > 0:
             raise ConfigError(f"time stepping: contact {i}", "bodies that its normal force moves", "none")
+        if normal.newmark:
+            continue
         found = [normal.stiffness[i] * linear.response[0, 0, i, i]]
         if dry.description != RIGID:
             found.append(dry.stiffness[i] * linear.response[2, 1, i, i])

@@ -47,6 +47,7 @@ class NormalKernel(NamedTuple):
     pressure: np.ndarray        # (k,) Pa, table
     damping_speed: float        # m/s, table
     restitution: float          # hard
+    newmark: bool               # the linear part is stepped by Newmark's rule, contact and friction forces with it
 
 
 @njit(cache=True)
@@ -162,7 +163,7 @@ def _rigid(law, friction, i, y, r, past, held, drive, guess, before):
 @njit(cache=True)
 def _mean_load(law, held):
     """(share, kept): the normal force that carries rigid friction over the step is kept + share N."""
-    if law.kind == HARD or law.kind == LAGRANGE:
+    if law.kind == HARD or law.newmark:
         return 1.0, 0.0
     return 0.5, 0.5 * held[0]
 
@@ -171,7 +172,7 @@ def _mean_load(law, held):
 def _yielding(law, friction, i, y, r, past, held, drive, way, guess, before):
     """Friction that is a function of the slip of the step, by Newton's method on T, N following T."""
     stiffness, tangent = friction.stiffness[i], guess[1]
-    if stiffness * r[2][1] > LARGEST_STIFFNESS:
+    if not law.newmark and stiffness * r[2][1] > LARGEST_STIFFNESS:
         return 0.0, 0.0, OPEN, TOO_LONG
     normal, speed = guess[0], abs(drive[1] - past[3])
     for _ in range(ITERATIONS):
@@ -231,7 +232,7 @@ def _normal(law, i, y, r, past, fixed, slope, guess):
         return (-gap / flexible, SOLVED) if flexible > 0.0 else (0.0, JAMMED)
     if law.kind == PENALTY:
         k, d = law.stiffness[i], law.damping[i]
-        if k * r[0][0] > LARGEST_STIFFNESS:
+        if not law.newmark and k * r[0][0] > LARGEST_STIFFNESS:
             return 0.0, TOO_LONG
         against = 1.0 + k * flexible + d * mobile
         return (max(-(k * gap + d * rate) / against, 0.0), SOLVED) if against > 0.0 else (0.0, JAMMED)

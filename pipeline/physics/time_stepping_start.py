@@ -33,7 +33,7 @@ def steady_start(model, law, friction, inputs):
     gap = np.broadcast_to(np.asarray(law.gap, float), len(contacts.area)) + _waves(contacts)
     elements, memory, rest, slope = alone(model.elements), None, 0.0, 0.0
     fixed = contacts.fixed
-    sign, closed, force = np.sign(model.sliding_speed), ~fixed, np.where(fixed, contacts.preload, 0.0)
+    sign, closed, force = np.sign(model.sliding_speed), ~fixed, contacts.preload
     for _ in range(_ROUNDS):
         drawn = sign * friction.at_speed(model.sliding_speed, force / contacts.area)
         give, offset = _yielding(law, force, contacts.area)

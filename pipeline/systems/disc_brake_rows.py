@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 import scipy.sparse as sp
 
-from pipeline.physics.faces import face_points, surface_rows
+from pipeline.physics.faces import along, face_points, surface_rows
 from pipeline.physics.mesh import boundary_faces, face_normals
 
 DISC, OUTER, INNER, CALIPER = range(4)
@@ -69,10 +69,10 @@ def contacts(meshes, parameters):
     normal = np.where(pad == OUTER, 1.0, -1.0)[:, None] * (0, 0, 1)
     rows = []
     for direction in (normal, np.cross((0, 0, 1), radial), radial):
-        own = [_along(r[3], direction[pad == p]) for r, p in zip(read, (OUTER, INNER), strict=True)]
+        own = [along(r[3], direction[pad == p]) for r, p in zip(read, (OUTER, INNER), strict=True)]
         parts = [sp.csr_matrix((len(pad), 3 * len(m.node))) for m in meshes]
         parts[OUTER], parts[INNER] = _diagonal_blocks(*own)
-        parts[DISC] = -_along(sp.vstack([r[4] for r in read]), direction)
+        parts[DISC] = -along(sp.vstack([r[4] for r in read]), direction)
         rows.append(Rows(tuple(parts)))
     return Contacts(pad, position, area, *rows)
 
@@ -131,7 +131,7 @@ def sensor_rows(meshes, parameters):
         mean = surface_rows(meshes[DISC].node, faces_towards(meshes[DISC], side), point[None], np.ones(1),
                             np.zeros(1, int), f"structure.sensors: {s.name}")
         row = [sp.csr_matrix((1, 3 * len(m.node))) for m in meshes]
-        row[DISC] = _along(mean, np.array([unit], float))
+        row[DISC] = along(mean, np.array([unit], float))
         parts.append(row)
         position.append(point)
         direction.append(unit)
@@ -179,11 +179,11 @@ def _clamping_spots(meshes, parameters, prefix, pad):
     back = side * (parameters.disc.ring_thickness / 2 + p.lining_thickness + p.backplate_thickness)
     caliper = back if pad == OUTER else back - c.piston_gap
     offset = np.linspace(-j.spot_size / 2, j.spot_size / 2, _SPOT_POINTS)
-    for end, along in (("leading", -1), ("trailing", 1)):
+    for end, forward in (("leading", -1), ("trailing", 1)):
         for level, across in (("inner", -1), ("outer", 1)):
             x, y = (a.ravel() for a in np.meshgrid(
                 j.clamping_radius + across * j.clamping_height / 2 + offset,
-                along * (j.finger_distance if prefix == "finger" else j.piston_distance) / 2 + offset))
+                forward * (j.finger_distance if prefix == "finger" else j.piston_distance) / 2 + offset))
             spots = (_spot(meshes, body, np.column_stack((x, y, np.full_like(x, z))), f"{prefix} {end} {level}")
                      for body, z in ((pad, back), (CALIPER, caliper)))
             yield f"{end}_{level}", *spots
@@ -198,18 +198,10 @@ def _spot(meshes, body, point, where):
 def _relative(meshes, one, other, axis):
     """Displacement of one spot less that of the other (or of the ground) along an axis, per body."""
     row = [sp.csr_matrix((1, 3 * len(m.node))) for m in meshes]
-    row[one.body] = _along(one.mean, np.eye(3)[[axis]])
+    row[one.body] = along(one.mean, np.eye(3)[[axis]])
     if other is not None:
-        row[other.body] = -_along(other.mean, np.eye(3)[[axis]])
+        row[other.body] = -along(other.mean, np.eye(3)[[axis]])
     return row
-
-
-def _along(mean, direction):
-    """(rows, 3n): means (rows, n) of the displacement component along ``direction`` (rows, 3)."""
-    mean = mean.tocoo()
-    column = (3 * mean.col[:, None] + np.arange(3)).ravel()
-    return sp.csr_matrix(((mean.data[:, None] * direction[mean.row]).ravel(), (np.repeat(mean.row, 3), column)),
-                         (mean.shape[0], 3 * mean.shape[1]))
 
 
 def _diagonal_blocks(first, second):

@@ -41,6 +41,10 @@ LIMITS = (
      " feed on friction there."),
     (("response",), "One-way coupling: the contact forces excite the elastic brake, whose vibration does not change"
      " them. Self-excited growth therefore shows in the complex modes, not in the spectra."),
+    (("rupture",), "Rupture: two dimensions, elastic plates, one law of friction along the whole interface; no"
+     " plasticity, no heat, no roughness. Stress ratio, mesh and damping are inferred: the paper prints none of them."),
+    (("rupture",), "Rupture with Coulomb friction between unlike solids is ill-posed: its numbers belong to their mesh"
+     " and damping. The memory of the pressure that makes it well-posed is not identified by the paper."),
     (("squeal",), "Sound: levels are velocity levels at sensors, not sound pressure in dB(A); radiation, room and"
      " microphone are left out."),
 )

@@ -3,9 +3,24 @@
 from functools import partial
 
 from pipeline.views import case as case_view
+from pipeline.views import rupture as rupture_pictures
 from pipeline.views import sound as sound_pictures
 from pipeline.views.chapter import Figure
-from pipeline.views.chapters import comparison, friction, motion, sound, stability, structure, surface, transient
+from pipeline.views.chapters import (
+    beam_on_beam,
+    comparison,
+    friction,
+    lock_in,
+    lumped,
+    motion,
+    recording,
+    rupture,
+    sound,
+    stability,
+    structure,
+    surface,
+    transient,
+)
 from pipeline.views.limits import limits
 from pipeline.views.verdict import published_squeal, verdict
 
@@ -13,12 +28,16 @@ from pipeline.views.verdict import published_squeal, verdict
 def plan(products, look):
     """Functions without arguments, one per chapter whose product is there, in chain order."""
     lines = published_squeal(products.get("comparison"))
-    model, modes = products.get("model"), products.get("complex_modes")
+    model, modes = products.get("reduced_model"), products.get("complex_modes")
     known = (("surface", surface.chapter, ()), ("micro_friction", friction.micro, ()),
-             ("friction_map", friction.friction_map, ()), ("structure", structure.chapter, (modes,)),
+             ("friction_map", friction.friction_map, ()), ("interface_law", lock_in.interface_law, ()),
+             ("structure", structure.chapter, (modes,)), ("pin_on_disc", lock_in.pin_on_disc, ()),
+             ("beam_on_beam", beam_on_beam.beams, (modes,)), ("lumped", lumped.chapter, ()),
              ("complex_modes", stability.chapter, (model, lines)), ("multibody", motion.chapter, ()),
-             ("transient", transient.chapter, ()),
+             ("transient", transient.chapter, ()), ("lock_in", lock_in.lock_in, ()),
+             ("motion_scatter", beam_on_beam.scatter, ()), ("beam_geometry", beam_on_beam.geometry, ()),
              ("response", sound.response, (lines,)), ("squeal", sound.squeal, (lines,)),
+             ("rupture", rupture.chapter, ()), ("recording", recording.chapter, ()),
              ("comparison", comparison.chapter, ()))
     return [partial(write, products[name], *more, look) for name, write, more in known
             if products.get(name) is not None]
@@ -34,9 +53,13 @@ def page(chapters, products, case, look):
 
 
 def _key_figure(products, look):
-    squeal = products.get("squeal")
+    squeal, broken = products.get("squeal"), products.get("rupture")
+    if squeal is None and broken is not None:
+        return Figure(rupture_pictures.slip_profiles(broken), rupture.headline(broken))
     if squeal is None:
         return None
+    if len(squeal.pressure) == 1 and products.get("transient") is not None:
+        return transient.loudest(products["transient"], squeal, look)
     return Figure(sound_pictures.occurrence(squeal, look.dpi), sound.occurrence_caption(squeal))
 
 

@@ -6,6 +6,7 @@ import numpy as np
 
 from pipeline.views.agreement import judged
 from pipeline.views.chapters.motion import extremes, point, rate_in_words
+from pipeline.views.chapters.rupture import headline as rupture_headline
 from pipeline.views.chapters.sound import origin
 from pipeline.views.chapters.stability import distinct_unstable
 from pipeline.views.readable import number, percent, plural, quantity, span
@@ -45,14 +46,20 @@ def published_squeal(comparison):
 
 def _headline(products):
     squeal, modes = products.get("squeal"), products.get("complex_modes")
+    if products.get("rupture") is not None:
+        return rupture_headline(products["rupture"]), "warning"
     unstable = 0 if modes is None else len(distinct_unstable(modes, len(modes.unstable_root)))
     if squeal is not None and len(squeal.event_level):
+        if len(squeal.pressure) == 1:
+            return f"It squeals at {quantity(squeal.event_frequency[np.argmax(squeal.event_level)], 'Hz', 3)}", "squeal"
         where = len(np.unique(squeal.event_operating))
         return f"It squeals at {where} of {len(squeal.pressure)} operating points", "squeal"
     if unstable:
         start = "No peak exceeds the squeal threshold, but " if squeal is not None else ""
         text = f"{start}{plural(unstable, 'mode')} {'is' if unstable == 1 else 'are'} unstable"
         return text[0].upper() + text[1:], "warning"
+    if products.get("recording") is not None and squeal is None and modes is None:
+        return f"{plural(len(products['recording'].runs), 'run')} of a bench, not compared yet", "quiet"
     if squeal is None and modes is None:
         return "No verdict: this case ends before the stability of the system", "warning"
     return "No squeal predicted", "quiet"

@@ -65,8 +65,11 @@ def print_stages(case):
         print(f"\n{'stage of ' + case.stem:<24} {'wall s':>8} {'CPU s':>8} {'file MB':>8}")
         for name in NAMES:
             path = Path(folder) / f"{name}.h5"
+            if not path.exists():       # a stage of another chain
+                continue
             told = store.provenance(path)
-            print(f"{name:<24} {told['wall_seconds']:8.2f} {told['cpu_seconds']:8.2f} {path.stat().st_size / 1e6:8.1f}")
+            size = path.stat().st_size / 1e6
+            print(f"{name:<24} {told['wall_seconds']:8.2f} {told['cpu_seconds']:8.2f} {size:8.1f}")
         packages = json.loads(told["packages"])
     print(f"{'whole command':<24} {whole:8.2f}    {', '.join(f'{k} {v}' for k, v in packages.items())}")
 

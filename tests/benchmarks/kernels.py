@@ -11,13 +11,25 @@ from pipeline.physics.linear_solver import available
 from pipeline.physics.mesh import revolve
 from pipeline.physics.modal_response import fixed_points, modal_response
 from pipeline.physics.pad_system import static_start
+from pipeline.physics.plate_grid import largest_step, plate
+from pipeline.physics.plate_step import plain_step, rims
 from pipeline.physics.preloaded_modes import preloaded_modes
 from pipeline.physics.quadratic_modes import quadratic_roots
 from pipeline.physics.rough_contact import solve_normal_contact
 from pipeline.physics.rough_surface import plateau_pad, turned_disc
+from pipeline.physics.rupture_history import run
 from pipeline.physics.time_stepping import Hard, simulate
+from stages.lock_in import Settings as LockInSettings
+from stages.lock_in import lock_in
+from stages.pin_on_disc import Settings as PinSettings
+from stages.pin_on_disc import pin_on_disc
+from stages.reduced_model import Settings as ModelSettings
+from stages.reduced_model import reduced_model
+from tests.physics import small_ruptures
 from tests.physics.lumps import random_structure
 from tests.physics.small_pads import random_assembly
+from tests.stages.small_pin import CONTEXT as PIN_CONTEXT
+from tests.stages.small_pin import small_law
 
 _IRON = isotropic(120e9, 0.27)
 
@@ -91,6 +103,14 @@ def transient_beam():
     return _transient(100, 60e3, 2e-6, 1.0)
 
 
+def lock_in_map():
+    """lock-in map, 20 points of the full mesh: 17 lengths, 3 more"""
+    system = pin_on_disc(small_law(), PinSettings(), context=PIN_CONTEXT)
+    model = reduced_model(system, ModelSettings(fixed_below="15 kHz", residual_below="200 kHz"), context=PIN_CONTEXT)
+    settings = LockInSettings(cases=[], lengths=17, loads=["1.5 kg"], speeds=["2.4 rpm"], tilts=["4 deg"])
+    return lambda: lock_in(system, model, settings, context=PIN_CONTEXT), 20, "points"
+
+
 def _stepping(integrate, steps=5000):
     """Steps of 5 us of a reduced model of 40 coordinates on 36 contact patches, as many as the default case has."""
     system = random_assembly(size=40, count=36)
@@ -109,7 +129,24 @@ def newmark_steps():
     return _stepping(newmark.integrate)
 
 
+def rupture_steps():
+    """rupture of two plates, 20 x 5 mm each at 25 um, 2.02 us"""
+    lower, upper = small_ruptures.plates(2.5e-5, length=20e-3, height=5e-3)
+    law, _ = small_ruptures.interface(lower, upper)
+    steps = run(lower, upper, law, 2.02e-6).record.time.size
+    updates = steps * (lower.rows * lower.columns + upper.rows * upper.columns)
+    return lambda: run(lower, upper, law, 2.02e-6), updates, "node-updates"
+
+
+def rupture_slices():
+    """the step of one plate by numpy slices, same mesh"""
+    grid = plate(small_ruptures.SOFT, 20e-3, 5e-3, 2.5e-5, 0.1, [(0, 0)] * 4)
+    step, state = 0.9 * largest_step(grid), np.zeros((2, 2, grid.rows, grid.columns))
+    rim = rims(grid, step)
+    return lambda: plain_step(grid, rim, state[0], state[1], step), grid.rows * grid.columns, "node-updates"
+
+
 KERNELS = (compliance, contact, assembly, modes, roots, superposition, exudyn_steps, newmark_steps, transient_pin,
-           transient_beam)
+           transient_beam, lock_in_map, rupture_steps, rupture_slices)
 #: (kernel, kernel) pairs whose rates compare: the same work done in two ways
-PAIRS = ((newmark_steps, exudyn_steps),)
+PAIRS = ((newmark_steps, exudyn_steps), (rupture_steps, rupture_slices))

@@ -9,9 +9,10 @@ from pathlib import Path
 import pytest
 
 from pipeline.contract import store
-from stages import NAMES
+from stages import CHAINS
 
 ROOT = Path(__file__).parents[2]
+NAMES = CHAINS["disc_brake"]
 QUICK = ROOT / "configs" / "disc_brake_quick.yaml"
 
 

@@ -6,7 +6,7 @@ import h5py
 import numpy as np
 import pytest
 
-from tests.chain.conftest import QUICK, brakechain
+from tests.chain.conftest import QUICK, ROOT, brakechain
 
 
 def refused(code, *args):
@@ -94,3 +94,57 @@ def test_a_run_folder_without_permission(tmp_path):
 def test_a_computation_that_does_not_converge(copy):
     told = refused(3, "micro-friction", QUICK, "--run", copy, "--set", "micro_friction.max_iterations=2")
     assert "expected" in told and "found" in told
+
+
+@pytest.mark.parametrize("override, message", [
+    ("lumped.springs.tie.between=[blok.x, ground]", "lumped.springs.tie.between: expected a coordinate, one of block.x,"
+     " ground, found 'blok.x'; did you mean 'block.x'?"),
+    ("lumped.springs.tie.between=[ground, ground]", "lumped.springs.tie.between: expected two different ends"),
+    ("lumped.springs.tie.betwen=[block.x, ground]", "did you mean 'between'?"),
+    ("lumped.masses.block.mass=-1 kg", "lumped.masses.block.mass: expected above 0 kg"),
+    ("lumped.contacts.belt.normal_force=-1 N", "normal_force: input should be greater than or equal to 0"),
+    ("complex_modes.friction=-0.1", "complex_modes.friction: input should be greater than or equal to 0"),
+    ("complex_modes.friction=null", "complex_modes.friction: expected friction from one source"),
+])
+def test_a_lumped_model_that_does_not_hold_together(tmp_path, override, message):
+    case = ROOT / "configs" / "belt.yaml"
+    assert message in refused(2, "run", case, "--run", tmp_path / "run", "--set", override)
+    assert not (tmp_path / "run").exists(), "the whole case is checked before anything is made"
+
+
+PIN = ROOT / "configs" / "pin_on_disc.yaml"
+
+
+@pytest.mark.parametrize("override, message", [
+    ("pin_on_disc.loads=[0 kg]", "pin_on_disc.loads.0: input should be greater than 0"),
+    ("complex_modes.friction=-0.1", "complex_modes.friction: input should be greater than or equal to 0"),
+    ("transient.friction=-0.1", "transient.friction: input should be greater than or equal to 0"),
+    ("lock_in.friction=-0.1", "lock_in.friction: input should be greater than or equal to 0"),
+    ("lock_in.step=4 us", "lock_in.step: expected a whole part of 1e-05 s"),
+    ("transient.window=1 s", "transient.window: expected at most the duration"),
+    ("lock_in.window=1 s", "lock_in.window: expected at most the duration"),
+])
+def test_a_pin_whose_settings_cannot_be(tmp_path, override, message):
+    assert message in refused(2, "run", PIN, "--run", tmp_path / "run", "--set", override)
+    assert not (tmp_path / "run").exists(), "the whole case is checked before anything is made"
+
+
+def test_a_drive_that_turns_backwards_under_a_heavy_clamp(tmp_path):
+    """Backwards the tilt leans against the motion; forwards with the other tilt the stage sees that the pin locks."""
+    heavy = "--run", tmp_path / "run", "--set", "pin_on_disc.pin.base_mass=1 kg", "--set"
+    told = refused(2, "run", PIN, *heavy, "transient.speeds=[-0.25 rad/s]")
+    assert "transient.speeds: expected speeds above 0" in told and "change the signs of pin.tilt" in told
+    assert "it locks" in refused(2, "run", PIN, *heavy, "pin_on_disc.pin.tilt=-4 deg")
+
+
+@pytest.mark.parametrize("override, message", [
+    ("pin_on_disc.pin.length=15 mm", "pin.length: expected a pin longer than its clamp (0.02 m), found 0.015 m"),
+    ("pin_on_disc.contact.radius=178 mm", "it never touches; move the pin over the face of the disc"),
+    ("transient.step=3 us", "for the stiffness of contact 0, found 3e-06 s; shorten the step"),
+])
+def test_a_pin_that_cannot_be_built_or_stepped(tmp_path, override, message):
+    """With coarse meshes; the stages before the one that refuses are as they were."""
+    coarse = ("surface.nodes=128", "surface.patch_length=128 um", "pin_on_disc.frequency_max=3 kHz",
+              "pin_on_disc.disc.radial_cells=3", "pin_on_disc.disc.angular_cells=12", "pin_on_disc.disc.axial_cells=1",
+              "reduced_model.fixed_below=6 kHz", override)
+    assert message in refused(2, "run", PIN, "--run", tmp_path / "run", *(a for c in coarse for a in ("--set", c)))

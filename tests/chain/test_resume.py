@@ -2,8 +2,10 @@
 
 import pytest
 
-from stages import NAMES
+from stages import CHAINS
 from tests.chain.conftest import QUICK, brakechain, contents
+
+NAMES = CHAINS["disc_brake"]
 
 
 def test_every_product_is_there(finished):

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from pipeline.contract import Array, ProductError, product, quantity
-from tests.contract.toy.products import Inner, Source
+from tests.contract.toy.products import Inner, Shelf, Source
 
 GOOD = {"time": [0.0, 1.0], "label": ["a"], "signal": np.zeros((1, 2)), "root": [1j], "flag": [1], "scale": 1.0,
         "inner": Inner(position=np.zeros((2, 3)))}
@@ -43,3 +43,13 @@ def test_a_field_named_like_a_dimension_is_its_coordinate():
 def test_unknown_unit_is_refused():
     with pytest.raises(ProductError, match="not in the SI vocabulary"):
         quantity("mm", "", "a length")
+
+
+@pytest.mark.parametrize("points, message", [
+    ([GOOD["inner"]], "shelf.points: expected a mapping of names to inner, found list"),
+    ({"a/b": GOOD["inner"]}, "shelf.points: a name: expected letters, digits and _ . -, found 'a/b'"),
+    ({"a": None}, "shelf.points.a: expected a inner, found NoneType"),
+])
+def test_refuses_parts(points, message):
+    with pytest.raises(ProductError, match=message):
+        Shelf(points=points)

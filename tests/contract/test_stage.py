@@ -2,7 +2,7 @@
 
 import pytest
 
-from pipeline.contract import Context, ProductError, stage
+from pipeline.contract import Context, ProductError, Products, stage
 from tests.contract.toy import load
 from tests.contract.toy.products import Source
 from tests.contract.toy.source import Settings
@@ -30,3 +30,23 @@ def test_refuses_an_incomplete_signature_or_another_name():
         stage(source)
     with pytest.raises(ProductError, match="share one name"):
         stage(other)
+
+
+def test_products_are_read_once_and_only_when_asked_for():
+    read = []
+    products = Products({name: lambda name=name: read.append(name) or name.upper() for name in ("a", "b")})
+    assert list(products) == ["a", "b"] and len(products) == 2 and products.get("c") is None and not read
+    assert (products["b"], products["b"]) == ("B", "B") and read == ["b"]
+
+
+def test_a_stage_may_take_everything_before_it():
+    def source(products: Products, settings: Settings, context: Context) -> Source:
+        """Sum up.
+
+        Method:
+        Everything was used.
+        """
+
+    source.__module__ = "stages.source"
+    made = stage(source)
+    assert made.reads_all and not made.inputs and not load("doubled").reads_all

@@ -6,7 +6,7 @@ import pytest
 
 from pipeline.contract import ProductError, store
 from tests.contract.test_product import GOOD
-from tests.contract.toy.products import Doubled, Source
+from tests.contract.toy.products import Doubled, Inner, Shelf, Source
 
 
 @pytest.fixture
@@ -21,6 +21,17 @@ def test_round_trip(written):
     assert store.content_hash(back) == store.content_hash(Source(**GOOD)) == store.identity(written)[2]
     assert list(back.label) == ["a"] and back.inner.position.shape == (2, 3) and back.root[0] == 1j
     assert store.provenance(written) == {"stage": "source"} and not list(written.parent.glob(".*"))
+
+
+def test_parts_come_back_by_name_and_order_counts_for_nothing(tmp_path):
+    first, last = (Inner(position=np.full((n, 3), float(n))) for n in (2, 5))
+    path = tmp_path / "shelf.h5"
+    store.write(Shelf(points={"b": last, "a.1": first}), path, {})
+    back = store.read(Shelf, path)
+    assert list(back.points) == ["b", "a.1"] and np.array_equal(back.points["b"].position, last.position)
+    assert store.content_hash(back) == store.content_hash(Shelf(points={"a.1": first, "b": last}))
+    assert store.content_hash(back) != store.content_hash(Shelf(points={"a.1": last, "b": first}))
+    assert store.content_hash(Shelf(points={})) != store.content_hash(Shelf(points={"a": first}))
 
 
 def test_content_hash_sees_values_and_not_provenance(tmp_path, written):

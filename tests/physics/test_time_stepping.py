@@ -240,6 +240,26 @@ def test_free_mode_under_a_trapezoidal_step():
 
 
 @pytest.mark.exact
+@pytest.mark.parametrize("description, mu", [("rigid", 0.3), ("elastic", 0.6)])
+def test_compliant_contact_under_newmarks_rule_is_the_trapezoidal_map(description, mu):
+    """Sliding that stays: y_n = ((1 - h A / 2)^-1 (1 + h A / 2))^n y_0 about steady sliding, at any length of step."""
+    model = lumps([1.0, 2.0], [[1, 0], [1, 1]], [4e4, 2e4], normal=[[0, 1.0]], tangent=[[1.0, 0]], speed=3.0)
+    law, friction = Penalty(3e5, 2.0, gamma=0.5), constant(mu, description=description, stiffness=1e9)
+    start, step, count = steady_start(model, law, friction, [0.0, -100.0]), 4e-3, 40
+    kick = np.array([0.01, 0.0])         # along sliding: the forces at time 0 are those of steady sliding
+    motion = simulate(model, law, friction, step=step, duration=count * step, inputs=[0.0, -100.0],
+                      start=start.kicked(kick))
+    assert set(motion.status[0, 1:]) == {SLIP}
+    contacts = replace(model.contacts, preload=np.array([100.0]), stiffness=np.array([3e5]), damping=np.array([2.0]))
+    mass, drag, stiffness = replace(model, contacts=contacts).linearised(mu, friction_damping=False)
+    rate = np.block([[np.zeros((2, 2)), np.eye(2)], [-np.linalg.solve(mass, stiffness), -np.linalg.solve(mass, drag)]])
+    once = np.linalg.solve(np.eye(4) - step / 2 * rate, np.eye(4) + step / 2 * rate)
+    state = np.linalg.matrix_power(once, count) @ np.r_[0, 0, kick]
+    assert motion.end.displacement - start.displacement == pytest.approx(state[:2], rel=1e-6, abs=1e-9)
+    assert motion.end.velocity == pytest.approx(state[2:], rel=1e-6, abs=1e-7)
+
+
+@pytest.mark.exact
 @pytest.mark.parametrize("law", [Penalty(3e4, 2.0), Table(np.array([0, 1e-2]), np.array([0, 300.0]), 1.0)])
 def test_order_without_events_is_two(law):
     """A contact that stays closed and slides."""

@@ -7,6 +7,7 @@ from pipeline.physics.dry_friction import constant, kernel
 from pipeline.physics.time_stepping_contact import (
     HARD,
     JAMMED,
+    LAGRANGE,
     OPEN,
     PENALTY,
     SLIP,
@@ -24,7 +25,7 @@ from pipeline.physics.time_stepping_contact import (
 def normal(kind, contacts, stiffness=1e6, restitution=0.0):
     each = np.ones(contacts)
     return NormalKernel(kind, 0 * each, -1.0 * each, each, stiffness * each, 0 * each, np.array([0.0, 1e-6, 1e-5]),
-                        np.array([0.0, 1.0, 100.0]), 0.5, restitution)
+                        np.array([0.0, 1.0, 100.0]), 0.5, restitution, kind == LAGRANGE)
 
 
 def solve(law, mobility, free, mu=0.3, past=None, status=None, **friction):

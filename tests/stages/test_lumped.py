@@ -5,6 +5,8 @@ import pytest
 
 from pipeline.contract import ConfigError
 from pipeline.contract.settings import fill
+from stages.complex_modes import Settings as Modes
+from stages.complex_modes import complex_modes
 from stages.lumped import Settings, lumped
 from stages.reduced_model import Settings as Reduction
 from stages.reduced_model import reduced_model
@@ -125,3 +127,30 @@ def test_settings_are_compared_with_those_of_the_transient():
         sections = {"lumped": fill(Settings, document, "case"), "transient": Motion.model_validate(motion)}
         with pytest.raises(ConfigError, match=said):
             lumped.check(sections)
+
+
+@pytest.mark.exact
+def test_a_carriage_reaches_its_terminal_speed():
+    """Free mass, viscous and Coulomb joint friction on a rail at rest, motor force and offset: v = (F - Fc) / d."""
+    carriage = {**BLOCK, "springs": {"viscous": {"between": ["block.x", "ground"], "damping": "40 N s/m"}},
+                "contacts": {"rail": {"tangent": {"block.x": 1}, "normal_force": "100 N"}},
+                "inputs": {"motor": {"along": {"block.x": 1}, "force": "35 N", "history": {"kind": "step"}},
+                           "offset": {"along": {"block.x": 1}, "force": "-3 N"}},
+                "sensors": {"block": {"along": {"block.x": 1}}}}
+    found = moved(carriage, speeds=["0 rad/s"], friction=0.2, friction_at_rest=0.2)
+    speed = (35.0 - 3.0 - 20.0) / 40.0
+    np.testing.assert_allclose(found.velocity[0, 0], speed * (1 - np.exp(-40.0 / 2.0 * found.time)), atol=2e-4)
+    stuck = moved(carriage, speeds=["0 rad/s"], friction=0.4, friction_at_rest=0.4)
+    assert abs(stuck.velocity).max() < 1e-9
+
+
+@pytest.mark.exact
+def test_an_electric_oscillator_needs_no_contact():
+    """Charge as displacement: 1 H, 200 ohm, 1 uF; complex modes and transient have its damped frequency."""
+    circuit = {"masses": {"charge": {"mass": "1 kg", "moves": ["x"]}},
+               "springs": {"circuit": {"between": ["charge.x", "ground"], "stiffness": "1e6 N/m",
+                                       "damping": "200 N s/m"}},
+               "sensors": {"current": {"along": {"charge.x": 1}, "unit": "A"}}}
+    model = reduced_model(built(circuit), settings=Reduction())
+    modes = complex_modes(model, None, settings=Modes(friction=0.0, speeds=("0 rad/s",)))
+    assert modes.operating_root[0, 0] == pytest.approx(-100 + 1j * np.sqrt(1e6 - 1e4), rel=1e-9)

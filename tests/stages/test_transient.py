@@ -1,11 +1,14 @@
 """The stage transient on small models: a sliding mass, a flutter pair, no contact at all."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from pipeline.contract import ConfigError
 from pipeline.contract.errors import ConvergenceError
 from pipeline.products import ReducedModel
+from stages.reduced_model import NO_SHEAR
 from stages.squeal import Settings as SquealSettings
 from stages.squeal import squeal
 from stages.transient import Settings, transient
@@ -25,13 +28,14 @@ def pair(contacts=1, law=()):
         contact_tangent=tangent, contact_lateral=0 * np.array(normal), contact_area=np.ones(contacts),
         contact_lever=np.ones(contacts), pressure=[100.0, 400.0], preload=np.zeros((2, contacts)),
         contact_stiffness=np.zeros((2, contacts)), contact_position=np.zeros((contacts, 3)),
-        contact_body=np.zeros(contacts, int), law_closure=law, law_pressure=4e5 * np.array(law), input_name=["load"],
-        input_rows=[[0.0, -1.0]], input_area=[1.0], input_history=np.empty((0, 1)), drive_history=[], sensor_name=["x", "y"], sensor_rows=np.eye(2),
-        sensor_position=np.zeros((2, 3)))
+        contact_body=np.zeros(contacts, int), law_closure=law, law_pressure=4e5 * np.array(law), **NO_SHEAR,
+        input_name=["load"], input_rows=[[0.0, -1.0]], input_area=[1.0], input_history=np.empty((0, 1)),
+        drive_history=[], sensor_name=["x", "y"], sensor_rows=np.eye(2), sensor_position=np.zeros((2, 3)))
 
 
 def move(model=None, **settings):
-    chosen = {**QUICK, "speeds": ["3 rad/s"], "contact": "penalty", "contact_stiffness": "0.4 N/um", **settings}
+    chosen = {**QUICK, "speeds": ["3 rad/s"], "contact": "penalty", "contact_stiffness": "0.4 N/um", "friction": 0.3,
+              **settings}
     return transient(pair() if model is None else model, settings=Settings.model_validate(chosen))
 
 
@@ -124,6 +128,31 @@ def test_squeal_is_found_in_the_motion():
     ({"contact": "table"}, "law of their own"), ({"step": "5 ms", "duration": "2 s", "window": "1 s"}, "highest mode"),
     ({"contact_stiffness": "1e9 N/um"}, "soften"), ({"window": "0.2 ms"}, "samples")])
 def test_what_does_not_fit_is_refused(settings, said):
+    with pytest.raises(ConfigError, match=said):
+        move(**settings)
+
+
+def test_friction_and_stiffness_come_from_the_model_where_the_settings_leave_them_out():
+    """The law of the model, typed in, gives the same motion; another law another one."""
+    def own(friction, stiffness):
+        law = {f"shear_{name}": [value] * 2 for name, value in (
+            ("friction", friction), ("stiffness", stiffness), ("elastic_stiffness", stiffness / 2), ("exponent", 0.5))}
+        return replace(pair(), **law, shear_pressure=[1.0, 1e3], preload=[[100.0], [400.0]],
+                       contact_stiffness=np.full((2, 1), 4e5))
+
+    absent = dict.fromkeys(("contact_stiffness", "friction"))
+    for description, stiffness in (("rigid", "1 N/m"), ("elastic", "0.5 N/um"), ("evolution", "1 N/um")):
+        kept = {"description": description, "duration": "0.2 s"}
+        found, other = (move(own(*law), **absent, **kept).velocity for law in ((0.55, 1e6), (0.5, 2e6)))
+        typed = move(friction=0.55, tangential_stiffness=stiffness, exponent=0.5, **kept).velocity
+        np.testing.assert_allclose(found, typed, atol=1e-9 * np.abs(typed).max())
+        assert np.abs(found - other).max() > 0.01 * np.abs(found).max()
+
+
+@pytest.mark.parametrize("settings, said", [
+    ({"friction": None}, "tangential law"), ({"friction": None, "friction_at_rest": 0.3}, "give both"),
+    ({"description": "elastic"}, "tangential law")])
+def test_a_model_without_a_law_of_its_own_says_what_is_missing(settings, said):
     with pytest.raises(ConfigError, match=said):
         move(**settings)
 

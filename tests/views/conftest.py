@@ -11,4 +11,4 @@ from tests.views import products_for_views as small
 def html():
     """The page of all small products, with few and coarse pictures."""
     few = Settings(dots_per_inch=50, mode_pictures=1)
-    return report(**small.products(), settings=few, context=Context(case=small.case())).html.item()
+    return report(small.products(), settings=few, context=Context(case=small.case())).html.item()

@@ -11,10 +11,15 @@ from pipeline.products import (
     Comparison,
     ComplexModes,
     FrictionMap,
+    InterfaceLaw,
+    LockIn,
+    Lumped,
     MicroFriction,
     Multibody,
+    PinOnDisc,
     ReducedModel,
     Response,
+    Rupture,
     Squeal,
     Structure,
     Surface,
@@ -102,6 +107,19 @@ def structure():
         contact_stiffness=preload * 1e5, closed=np.ones((3, 12), dtype=int), law_closure=[0.0, 1e-6],
         law_pressure=[0.0, 1e6], sensor_name=SENSORS, sensor_position=np.zeros((2, 3)),
         sensor_direction=np.tile([0.0, 0.0, 1.0], (2, 1)), piston_area=2.4e-3)
+
+
+def lumped():
+    """Two masses: one pressed onto a belt, tied to ground and to the other."""
+    return filled(
+        Lumped, body_name=["block", "tool"], coordinate_name=["block.x", "block.y", "tool.x"],
+        coordinate_body=[0, 0, 1], mass=np.diag([2.0, 2.0, 5.0]), joint_name=["tie", "link", "dashpot"],
+        joint_stiffness=[800.0, 1e4, 0.0], joint_damping=[0.0, 2.0, 3.0],
+        joint_rows=[[1.0, 0, 0], [1.0, 0, -1.0], [0, 0, 1.0]], contact_name=["tip", "rail"],
+        contact_normal=[[0, 1.0, 0], [0, 0, 0]], contact_tangent=[[1.0, 0, 0], [0, 0, 1.0]], pressure=[1.0],
+        preload=[[20.0, 5.0]], contact_stiffness=[[1e6, 0.0]], input_name=["weight", "motor"], input_area=[20.0, 0.0],
+        input_rows=[[0, -1.0, 0], [0, 0, 1.0]], history_interval=0.1, input_history=np.ones((11, 2)), drive_history=[],
+        sensor_name=["block"], sensor_rows=[[1.0, 0, 0]])
 
 
 def reduced_model():
@@ -205,6 +223,39 @@ def squeal(quiet=False, harmonic=False):
         event_start=[0.02, 0.01][:events], event_duration=[0.01, 0.03][:events])
 
 
+def interface_law():
+    """An exponential normal law and a linear shear law with its limit."""
+    gap, pressure = np.linspace(2e-6, 0, 40), np.geomspace(1e3, 4e8, 5)
+    displacement = np.linspace(0, 1e-6, 60)
+    limit = 0.25 * pressure
+    shear = np.minimum(limit[:, None], limit[:, None] * displacement / 1e-7)
+    return filled(
+        InterfaceLaw, source="given parameters", summit_density=2.5e9, summit_spread=5e-7, summit_curvature=2e4,
+        shear_limit=3.85e8, gap=gap, gap_pressure=4e8 * np.exp(-gap / 2e-7), real_area=0.2 * np.exp(-gap / 2e-7),
+        pressure=pressure, displacement=displacement, shear=shear, evolution_shear=0.98 * shear, elastic_shear=shear,
+        tangential_stiffness=limit / 1e-7, limit=limit, exponent=np.full(5, 0.6), friction=np.full(5, 0.25))
+
+
+def pin_on_disc():
+    """Modes of disc and pin at one weight."""
+    return filled(
+        PinOnDisc, load=[1.5], contact_stiffness=[[8e7]], friction=[0.25], disc_frequency=[440.0, 2250.0],
+        disc_diameters=[1, 3], disc_out_of_plane=[0.98, 0.93], pin_length=[0.1515, 0.1465], tilt=0.07,
+        contact_offset=-0.0045, base_mass=0.005, pin_frequency=[[340.0, 2105.0], [362.0, 2245.0]])
+
+
+def lock_in():
+    """Two cases and five lengths, one of each kind."""
+    kinds = ["classical", "dual base", "none", "classical", "intermediate", "multiple", "other"]
+    base = np.array([2215.0, 4000.0, 0.0, 2220.0, 1900.0, 2210.0, 3000.0])
+    return filled(
+        LockIn, scan=["case", "tilt", *["length"] * 5], length=[0.1515, 0.1515, *np.linspace(0.12, 0.2, 5)],
+        load=np.full(7, 1.5), speed=np.full(7, 0.25), tilt=np.full(7, 0.07), base_mass=np.full(7, 0.005), kind=kinds,
+        base=base, root=np.where(base > 0, 100 + 2j * np.pi * base, 0), harmonics=np.full((7, 2), 3),
+        settled=[1, 0, 1, 1, 1, 0, 1], trace_time=[0.299, 0.3], trace=np.ones((1, 2, 2)), frequency=[0.0, 1e4],
+        spectrum=np.zeros((1, 2, 2)))
+
+
 def comparison():
     """Rows of every kind: within, outside, tuned, doubted, not comparable."""
     rows = (("friction, lowest", "friction", "1", 0.4, 1, 0.41, 1, 0.05, "within", "shear limit", "Sec. 4", ""),
@@ -222,6 +273,50 @@ def comparison():
     return filled(Comparison, **columns, note=["read from the product"] * len(rows))
 
 
+def rupture():
+    """A left pulse that fades and stops, a right one that grows and runs on, three studies."""
+    x, centre = np.linspace(8e-3, 12.5e-3, 161), 10.25e-3
+    x = x - centre + 10e-3
+    reach = np.where(x < 10e-3, 1.25e-3, 2e-3)
+    reached = np.abs(x - 10e-3) <= reach * (1 + 1e-9)
+    speed = np.where(x < 10e-3, 1650.0, 975.0)
+    arrival = np.where(reached, np.abs(x - 10e-3) / speed, 0.0)
+    time = np.array([0.5e-6, 1e-6, 2.02e-6])
+    size = np.where(x < 10e-3, np.clip(1.0 - (10e-3 - x) / 1.25e-3, 0, None), 0.3 + np.abs(x - 10e-3) / 2e-3)
+    slip = 1e-8 * size * reached * (arrival <= time[:, None])
+    frames, columns = 3, np.linspace(7.75e-3, 12.25e-3, 31)
+    rows = np.r_[np.linspace(-2e-3, 0, 11), np.linspace(0, 2e-3, 11)]
+    far = np.hypot(columns - 10e-3, rows[:, None])
+    when = np.linspace(0.7e-6, 2.02e-6, frames)
+    field = np.exp(-((far - 1200 * when[:, None, None]) / 2e-4) ** 2).astype(np.float32)
+    states = ((np.abs(x - 10e-3) < 1000 * when[:, None]) & (np.abs(x - 10e-3) > 800 * when[:, None])).astype(int)
+    study = ["mesh"] * 4 + ["stress"] * 4 + ["damping"] * 2
+    runs = len(study)
+    return filled(
+        Rupture, x=x, static_pressure=1e6 + 0 * x, static_shear=9.4e5 + 1e4 * np.cos(400 * x), static_slip=0 * x,
+        shift=[5.7e-6, 2.1e-6], reached=reached.astype(int), arrival=arrival, first_slip=0.6 * arrival,
+        healed=arrival + 3e-8 * reached, front_speed=speed * reached, profile_time=time, slip=slip,
+        slip_growth=1.4, side=["left", "right"], stop=[8.75e-3, 12e-3], outcome=["stopped", "running"],
+        speed=[1650.0, 975.0], speed_error=[7.0, 2.0], kind=["pulse", "pulse"], healing_time=[3e-8, 6e-8],
+        precursor_lead=[1e-8, 2e-7], precursor_reach=[1.3e-3, 2.0e-3], mach_known=[[1, 1], [0, 0]],
+        mach_angle=[[0.8, 0.612], [0, 0]], mach_expected=[[0.9, 0.68], [0, 0]],
+        phrase="the left front stops, the right one runs on",
+        solid=["upper", "lower"], dilatational_speed=[2259.0, 1807.0], shear_speed=[1304.0, 1044.0],
+        rayleigh_speed=[1199.0, 959.0], interface_wave=1, generalised_rayleigh_speed=1036.0, pulse_exists=1,
+        pulse_speed=[1806.9, 1807.0], energy_name=["released", "heat", "kinetic", "strain", "taken"],
+        energy=[6e-5, 5e-5, 2e-6, 6e-6, 2e-6], step=7.2e-9, duration=2.02e-6, node_updates=90_000_000, frame_time=when,
+        frame_state=states, field_x=columns, field_y=rows, speed_field=0.05 * field, study=study,
+        study_spacing=[5e-5, 2.5e-5, 5e-5, 2.5e-5, *[2.5e-5] * 6], study_memory=[0, 0, 2e-8, 2e-8, *[0.0] * 6],
+        study_ratio=[0.94] * 4 + [0.7, 0.9, 0.94, 0.99] + [0.94] * 2, study_damping=[0.1] * 9 + [0.2],
+        study_poisson=[0.25] * runs, study_stop=np.linspace([8.8e-3, 11e-3], [8.4e-3, 12e-3], runs),
+        study_speed=np.linspace([1600.0, 920.0], [1750.0, 1000.0], runs),
+        study_width=np.linspace([9e-5, 1e-4], [5e-5, 6e-5], runs),
+        study_outcome=[["stopped", "running"]] * 4 + [["died", "died"]] + [["stopped", "running"]] * (runs - 5),
+        study_kind=[["pulse", "pulse"]] * 7 + [["crack", "crack"]] + [["pulse", "pulse"]] * 2,
+        study_growth=[0.4, 0.6, 0.5, 0.8, 0.0, 0.0, 0.6, 2.0, 0.6, 0.3],
+        study_phrase=["the left front stops, the right one runs on"] * runs)
+
+
 def case():
     """A case with settings of every kind."""
     return Case(
@@ -236,12 +331,11 @@ def case():
 
 
 def products(**replaced):
-    """Every product the report reads, by the name of its argument; ``replaced`` overrides."""
+    """Every product the report reads, by name; ``replaced`` overrides."""
     return {"surface": surface(), "micro_friction": micro_friction(), "friction_map": friction_map(),
-            "structure": structure(), "model": reduced_model(), "complex_modes": complex_modes(),
-            "multibody": multibody(), "transient": transient(), "response": response(), "squeal": squeal(),
-            "comparison": comparison(),
-            **replaced}
+            "structure": structure(), "lumped": lumped(), "reduced_model": reduced_model(),
+            "complex_modes": complex_modes(), "multibody": multibody(), "transient": transient(),
+            "response": response(), "squeal": squeal(), "comparison": comparison(), **replaced}
 
 
 def _ring(inner, outer, low, high, start, end, sectors, closed):

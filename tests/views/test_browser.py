@@ -8,6 +8,10 @@ from urllib.parse import urlsplit
 
 import pytest
 
+from pipeline.contract import Context
+from stages.report import Settings, report
+from tests.views import products_for_views as small
+
 CHROMIUM = shutil.which("chromium")
 FLAGS = ("--headless", "--hide-scrollbars", "--no-sandbox", "--disable-gpu", "--no-first-run",
          "--disable-background-networking", "--disable-component-update", "--disable-sync",
@@ -61,6 +65,15 @@ def test_every_picture_loads_and_nothing_is_wider_than_the_screen(html, width, t
     assert found["broken"] == 0
     assert console == []
     assert requests == []
+
+
+@pytest.mark.parametrize("width", [PHONE, DESKTOP], ids=["phone", "desktop"])
+def test_the_page_of_a_rupture_is_no_wider_than_the_screen(width, tmp_path):
+    page = report({"rupture": small.rupture()}, settings=Settings(dots_per_inch=50), context=Context(case=small.case()))
+    document, console, requests = opened(tmp_path, SCREEN.format(width=width, page=escape(page.html.item())))
+    found = json.loads(unescape(document.partition("<title>")[2].partition("</title>")[0]))
+    assert found["text"] == "The left front stops, the right one runs on" and found["wide"] == width
+    assert found["images"] > 3 and found["broken"] == 0 and not console and not requests
 
 
 def test_a_page_that_speaks_or_asks_is_caught(tmp_path):

@@ -18,8 +18,8 @@ LOOK = Look(dpi=50, shapes=0)
 
 def test_every_section_is_there_in_the_order_of_the_chain(html):
     anchors = re.findall(r'<section id="(\w+)">', html)
-    assert anchors == ["table", "surface", "micro_friction", "friction_map", "structure", "complex_modes", "multibody",
-                       "transient", "response", "squeal", "comparison", "limits", "settings", "methods"]
+    assert anchors == ["table", "surface", "micro_friction", "friction_map", "structure", "lumped", "complex_modes",
+                       "multibody", "transient", "response", "squeal", "comparison", "limits", "settings", "methods"]
     assert set(re.findall(r'<a href="#(\w+)">', html)) == set(anchors)
 
 

@@ -10,8 +10,10 @@ from pipeline.views import (
     complex_mode_map,
     contact_spots,
     friction,
+    lock_in,
     pad_motion,
     preload,
+    rupture,
     sound,
     surfaces,
     transient,
@@ -20,6 +22,10 @@ from tests.views import products_for_views as small
 
 LINES = (16600.0, 17800.0)
 PICTURES = {
+    "normal law": (lock_in.normal_law, small.interface_law, "gap_pressure"),
+    "shear law": (lock_in.shear_law, small.interface_law, "shear"),
+    "descriptions": (lock_in.descriptions, small.interface_law, "evolution_shear"),
+    "lock-in": (lock_in.length_map, small.lock_in, "base"),
     "height map": (lambda p: surfaces.height_map(p, "disc", 60), small.surface, "disc_height"),
     "profile": (surfaces.profile, small.surface, "pad_height"),
     "heights": (surfaces.height_distribution, small.surface, "pad_height"),
@@ -52,6 +58,14 @@ PICTURES = {
     "portrait": (lambda p: transient.phase_portrait(p, 1, 0, 60), small.transient, "displacement"),
     "force and slip": (lambda p: transient.force_and_slip(p, 1, 0, 60), small.transient, "normal_force"),
     "harmonics": (lambda p: transient.spectrum(p, 1, 0, 60), small.transient, "velocity_spectrum"),
+    "rupture field": (lambda p: rupture.field(p, 2, 60), small.rupture, "speed_field"),
+    "rupture moving": (lambda p: rupture.animation(p, 50), small.rupture, "speed_field"),
+    "rupture slip": (rupture.slip_profiles, small.rupture, "slip"),
+    "rupture arrivals": (rupture.arrivals, small.rupture, "arrival"),
+    "rupture speed": (rupture.speed_over_x, small.rupture, "front_speed"),
+    "rupture phases": (rupture.phase_diagram, small.rupture, "study_speed"),
+    "rupture mesh": (rupture.mesh_study, small.rupture, "study_width"),
+    "rupture preload": (rupture.static_state, small.rupture, "static_shear"),
     "agreement": (agreement.agreement, small.comparison, "ours"),
 }
 
@@ -134,3 +148,21 @@ def test_status_band_shows_the_status():
     first = transient.status_band(product, 0, 60)
     assert transient.status_band(product, 0, 60) == first
     assert transient.status_band(replace(product, status=2 - product.status), 0, 60) != first
+
+
+@pytest.mark.exact
+def test_an_animation_moves_and_keeps_its_size():
+    from io import BytesIO
+
+    from PIL import Image
+
+    whole = rupture.animation(small.rupture(), 50)
+    assert Image.open(BytesIO(whole)).n_frames == 3
+    shorter = rupture.animation(small.rupture(), 50, most=len(whole) - 1)
+    assert len(shorter) < len(whole)
+
+
+def test_the_interface_shows_its_state():
+    moving = small.rupture()
+    opened = replace(moving, frame_state=2 * moving.frame_state)
+    assert rupture.field(opened, 2, 60) != rupture.field(moving, 2, 60)

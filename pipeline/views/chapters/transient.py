@@ -14,7 +14,7 @@ def chapter(product, look):
     figures = tuple(figure for operating in points for figure in _figures(product, operating, look))
     sensors, settled = product.settled.size, int(product.settled.sum())
     cycle = "No sensor moves in the window." if not product.cycle_amplitude.any() else (
-        f"In the last {quantity(float(product.window), 's', 3)} the velocity amplitudes lie between"
+        f"Velocity amplitudes in the last {quantity(float(product.window), 's', 3)}:"
         f" {span(product.cycle_amplitude, 'm/s')}.")
     return Chapter(
         "transient", "Motion with contact and friction",
@@ -43,8 +43,7 @@ def _figures(product, operating, look):
         yield Figure(pictures.velocities(product, operating, look.dpi), f"Velocities at {where}; grey: the window.")
         yield Figure(pictures.phase_portrait(product, operating, sensor, look.dpi),
                      f"Phase portrait of sensor {name} in the window, {where}.")
-        yield Figure(pictures.spectrum(product, operating, sensor, look.dpi),
-                     f"Spectrum of sensor {name} in the window, {where}: {_harmonics(product, operating, sensor)}.")
+        yield _spectrum(product, operating, sensor, look)
     if product.normal_force.shape[1]:
         share = product.status_share[operating].mean(axis=0)
         yield Figure(pictures.status_band(product, operating, look.dpi),
@@ -53,6 +52,18 @@ def _figures(product, operating, look):
         force = product.normal_force[operating, 0]
         yield Figure(pictures.force_and_slip(product, operating, 0, look.dpi),
                      f"Forces and slip of contact 1 at {where}; normal force {span(force[1:], 'N')}.")
+
+
+def loudest(product, squeal, look):
+    """Spectrum of the sensor with the highest peak of ``squeal``, for the first screen."""
+    operating, sensor = np.unravel_index(np.argmax(squeal.peak_level), squeal.peak_level.shape)
+    return _spectrum(product, operating, sensor, look)
+
+
+def _spectrum(product, operating, sensor, look):
+    return Figure(pictures.spectrum(product, operating, sensor, look.dpi),
+                  f"Spectrum of sensor {product.sensor_name[sensor]} in the window, {point(product, operating)}:"
+                  f" {_harmonics(product, operating, sensor)}.")
 
 
 def _harmonics(product, operating, sensor):

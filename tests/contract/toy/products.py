@@ -1,6 +1,6 @@
 """Two products of a chain that needs no physics."""
 
-from pipeline.contract import Array, count, part, product, quantity, text
+from pipeline.contract import Array, count, part, parts, product, quantity, text
 
 
 @product(version=1)
@@ -28,3 +28,10 @@ class Doubled:
     """Numbers worked on."""
 
     signal: Array = quantity("Pa", "channel time", "doubled signals")
+
+
+@product(version=1)
+class Shelf:
+    """Nested products by name."""
+
+    points: dict[str, Inner] = parts("points by name")

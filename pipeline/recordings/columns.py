@@ -1,0 +1,76 @@
+"""Files that hold columns under names and nothing else: MATLAB and text tables."""
+
+import csv
+from pathlib import Path
+
+import numpy as np
+
+from pipeline.contract.errors import ConfigError
+
+#: text in a table that stands for a missing sample
+MISSING = frozenset({"", "nan", "na", "n/a", "none", "null", "-"})
+
+
+def read_matlab(path):
+    """Name -> 1-D array of every numeric variable of a MATLAB file, version 4 to 7.3; vectors lose their second axis.
+
+    Raises ConfigError for a file that is no MATLAB file or holds no numbers.
+    """
+    from scipy.io import loadmat
+    from scipy.io.matlab import MatReadError
+
+    path = Path(path)
+    try:
+        if path.read_bytes()[:19].startswith(b"MATLAB 7.3 MAT-file"):
+            found = _read_matlab_hdf5(path)
+        else:
+            found = {k: v for k, v in loadmat(path).items() if not k.startswith("__")}
+    except (MatReadError, OSError, ValueError, NotImplementedError, TypeError) as error:
+        raise ConfigError(path, "a MATLAB file", str(error)) from None
+    numeric = {k: np.asarray(v) for k, v in found.items() if np.asarray(v).dtype.kind in "fiub"}
+    columns = {k: v.astype(float).ravel() for k, v in numeric.items() if v.ndim < 3 and min(v.shape, default=1) == 1}
+    if not columns:
+        raise ConfigError(path, "a vector of numbers", f"{', '.join(found) or 'no variables'}")
+    return columns
+
+
+def _read_matlab_hdf5(path):
+    import h5py
+
+    with h5py.File(path, "r") as h5:
+        return {name: node[()] for name, node in h5.items() if isinstance(node, h5py.Dataset)}
+
+
+def read_table(path, delimiter=None, skip=0):
+    """Head -> 1-D array of every column of a text table, NaN where a sample is missing.
+
+    ``delimiter`` None = tab, semicolon or comma, whichever the head holds first in that order; ``skip`` lines come
+    before the head. Raises ConfigError with the line of what is no number.
+    """
+    path = Path(path)
+    try:
+        lines = path.read_text(encoding="utf-8-sig").splitlines()[skip:]
+    except (OSError, UnicodeDecodeError) as error:
+        raise ConfigError(path, "a readable text table", str(error)) from None
+    if len(lines) < 2:
+        raise ConfigError(path, "a head and at least one line of numbers", f"{len(lines)} lines")
+    mark = delimiter or next((d for d in "\t;," if d in lines[0]), ",")
+    head, *rows = csv.reader(lines, delimiter=mark)
+    names = [name.strip() for name in head]
+    if len(set(names)) < len(names):
+        raise ConfigError(f"{path}:{skip + 1}", "each column name once", ", ".join(names))
+    values = np.full((len(rows), len(names)), np.nan)
+    for number, row in enumerate(rows):
+        if len(row) != len(names):
+            raise ConfigError(f"{path}:{skip + number + 2}", f"{len(names)} values", f"{len(row)}")
+        values[number] = [_number(text, path, skip + number + 2) for text in row]
+    return dict(zip(names, values.T, strict=True))
+
+
+def _number(text, path, line):
+    if text.strip().lower() in MISSING:
+        return np.nan
+    try:
+        return float(text)
+    except ValueError:
+        raise ConfigError(f"{path}:{line}", "a number", repr(text)) from None

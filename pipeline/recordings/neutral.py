@@ -1,0 +1,139 @@
+"""Recordings in plain HDF5, as any program can write them without this one; ``read_neutral`` tells the format."""
+
+from dataclasses import fields
+
+import h5py
+import numpy as np
+
+from pipeline.contract.errors import ConfigError
+from pipeline.contract.units import in_si
+from pipeline.products import (
+    Condition,
+    FrequencyResponse,
+    Lines,
+    MeasuredFriction,
+    MeasuredModes,
+    Run,
+    Topography,
+)
+from pipeline.recordings.samples import channel
+
+
+def read_neutral(path):
+    """Run name -> Run of an HDF5 file of this form; a star marks what may be left out:
+
+        /runs/RUN                          attributes description*, repeat_of*
+            conditions/NAME*               number or series; attributes units, sample_rate (of a series), t0*
+            channels/NAME*                 (sample,); attributes units, quantity, sample_rate, t0*, role*, point_name*,
+                                           point* (x, y, z in m), direction*; NaN = missing
+            frf/NAME*                      group: frequency (Hz), response (complex); attributes units, response*,
+                                           reference*
+            modes/NAME*                    group: frequency (Hz), frequency_std*, damping_ratio*, damping_ratio_std*,
+                                           shape* (mode, place), place*
+            lines/NAME*                    group: frequency (Hz), frequency_tolerance*, level* (dB); attribute place*
+            topography/NAME*               (y, x) heights; attributes units, pixel_size (m), body*, state*
+            friction/NAME*                 group: friction, friction_std*, pressure, speed, distance*, temperature* (SI)
+
+    Raises ConfigError with the place in the file of what is missing or cannot be read.
+    """
+    try:
+        with h5py.File(path, "r") as h5:
+            if "runs" not in h5 or not len(h5["runs"]):
+                raise ConfigError(path, "a group /runs with at least one run", f"{', '.join(h5) or 'an empty file'}")
+            return {name: _run(group, f"{path}: runs/{name}") for name, group in h5["runs"].items()}
+    except OSError as error:
+        raise ConfigError(path, "a whole HDF5 file", str(error)) from None
+
+
+def _run(group, where):
+    read = {"conditions": _condition, "channels": _channel, "frf": _frf, "modes": _modes, "lines": _lines,
+            "topography": _topography, "friction": _friction}
+    unknown = set(group) - set(read)
+    if unknown:
+        raise ConfigError(where, f"groups among {', '.join(read)}", ", ".join(sorted(unknown)))
+    filled = {kind: {name: one(node, f"{where}/{kind}/{name}") for name, node in group.get(kind, {}).items()}
+              for kind, one in read.items()}
+    return Run(description=_said(group, "description"), repeat_of=_said(group, "repeat_of"), **filled)
+
+
+def _said(node, name, default=""):
+    value = node.attrs.get(name, default)
+    return value.decode() if isinstance(value, bytes) else str(value)
+
+
+def _needed(node, name, where):
+    if name not in node.attrs:
+        raise ConfigError(where, f"the attribute {name}", f"{', '.join(node.attrs) or 'none'}")
+    return node.attrs[name]
+
+
+def _unit(node, where):
+    _needed(node, "units", where)
+    return _said(node, "units")
+
+
+def _channel(node, where):
+    if not isinstance(node, h5py.Dataset) or node.ndim != 1:
+        raise ConfigError(where, "a dataset (sample,)", str(node))
+    _needed(node, "quantity", where)
+    return channel(node[()], _unit(node, where), _said(node, "quantity"), float(_needed(node, "sample_rate", where)),
+                   float(node.attrs.get("t0", 0.0)), where, role=_said(node, "role", "response"),
+                   place=_said(node, "point_name"), position=node.attrs.get("point", ()),
+                   direction=node.attrs.get("direction", ()))
+
+
+def _condition(node, where):
+    values, unit = in_si(np.atleast_1d(np.asarray(node[()], float)), _unit(node, where), where)
+    if len(values) == 1:
+        return Condition(value=values, time=[0.0], unit=unit)
+    rate = float(_needed(node, "sample_rate", where))
+    return Condition(value=values, time=float(node.attrs.get("t0", 0.0)) + np.arange(len(values)) / rate, unit=unit)
+
+
+def _frf(node, where):
+    response, unit = in_si(_array(node, "response", where), _unit(node, where), where)
+    return FrequencyResponse(frequency=_array(node, "frequency", where), response=response, unit=unit,
+                             place=_said(node, "response"), reference=_said(node, "reference"))
+
+
+def _modes(node, where):
+    frequency = np.atleast_1d(_array(node, "frequency", where))
+    filled = {name: node[name][()] if name in node else np.zeros(len(frequency))
+              for name in ("frequency_std", "damping_ratio", "damping_ratio_std")}
+    shape = node["shape"][()] if "shape" in node else np.empty((len(frequency), 0))
+    place = node["place"].asstr()[()] if "place" in node else [str(k + 1) for k in range(shape.shape[1])]
+    return MeasuredModes(frequency=frequency, **filled, place=place, shape=np.asarray(shape, complex))
+
+
+def _lines(node, where):
+    frequency = np.atleast_1d(_array(node, "frequency", where))
+    level = np.asarray(node["level"][()], float) if "level" in node else np.full(len(frequency), np.nan)
+    off = node["frequency_tolerance"][()] if "frequency_tolerance" in node else np.zeros(len(frequency))
+    return Lines(frequency=frequency, frequency_tolerance=off, level=np.nan_to_num(level),
+                 level_known=np.isfinite(level).astype(int), place=_said(node, "place"))
+
+
+def _topography(node, where):
+    heights, unit = in_si(np.asarray(node[()], float), _unit(node, where), where)
+    if unit != "m" or heights.ndim != 2:
+        raise ConfigError(where, "heights (y, x) in a unit of length", f"{heights.ndim} dimensions in {unit}")
+    pixel = np.broadcast_to(np.asarray(_needed(node, "pixel_size", where), float), 2)
+    y, x = (size * np.arange(count) for size, count in zip(pixel, heights.shape, strict=True))
+    return Topography(y=y, x=x, height=heights, body=_said(node, "body"), state=_said(node, "state"))
+
+
+def _friction(node, where):
+    friction = np.atleast_1d(_array(node, "friction", where))
+    filled = {"friction_std": np.zeros(len(friction)), "distance": np.zeros(len(friction)),
+              "temperature": np.full(len(friction), 293.15)}
+    names = [f.name for f in fields(MeasuredFriction) if f.name != "friction"]
+    for name in names:
+        if name in node or name not in filled:
+            filled[name] = np.broadcast_to(_array(node, name, where), friction.shape)
+    return MeasuredFriction(friction=friction, **filled)
+
+
+def _array(node, name, where):
+    if name not in node:
+        raise ConfigError(where, f"the dataset {name}", f"{', '.join(node) or 'none'}")
+    return node[name][()]

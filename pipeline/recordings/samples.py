@@ -1,0 +1,97 @@
+"""From a column of numbers to a channel: SI units, stretches without data, an even sampling rate."""
+
+import numpy as np
+
+from pipeline.contract.errors import ConfigError
+from pipeline.contract.units import in_si
+from pipeline.products import Channel
+
+#: largest deviation of a sampling instant from an even grid, as a share of the interval
+EVEN = 0.01
+#: largest distance of an instant from a declared grid, in intervals
+OFF_GRID = 0.25
+
+
+def channel(values, unit, measures, rate, begin, where, *, role="response", place="", position=(), direction=()):
+    """Channel of ``values`` (sample,) in ``unit``; samples that are not finite are missing.
+
+    ``rate`` Hz and ``begin`` s: sampling rate and time of the first sample. Raises ConfigError, with ``where``, for a
+    unit that pint does not read and for a channel without a single sample.
+    """
+    converted, name = in_si(np.asarray(values, float), unit, f"{where}: unit")
+    good = np.isfinite(converted)
+    if not good.any():
+        raise ConfigError(where, "samples", "none that are finite")
+    return Channel(samples=np.where(good, converted, 0.0), missing=stretches(~good), unit=name, measures=measures,
+                   rate=rate, begin=begin, place=place, position=position, direction=_unit_vector(direction, where),
+                   role=role)
+
+
+def stretches(flag):
+    """(n, 2) first index of each run of True in ``flag`` (sample,), and the first after it."""
+    edges = np.flatnonzero(np.diff(np.concatenate(([False], flag, [False])).astype(int)))
+    return edges.reshape(-1, 2)
+
+
+def even_rate(time, where):
+    """(rate in Hz, begin in s) of sampling instants (sample,) in s; ConfigError where they are not even."""
+    if len(time) < 2 or not np.isfinite(time).all():
+        raise ConfigError(where, "at least two finite times", f"{len(time)}")
+    interval = (time[-1] - time[0]) / (len(time) - 1)
+    off = np.abs(time - (time[0] + interval * np.arange(len(time)))).max()
+    if interval <= 0 or off > EVEN * interval:
+        raise ConfigError(where, "times at one even interval", f"a deviation of {off:.3g} s from {interval:.6g} s",
+                          "resample the record, or split it where samples were lost")
+    return 1 / interval, float(time[0])
+
+
+def on_grid(columns, time, rate, where):
+    """(columns, begin in s) with NaN where a sample of the even grid was lost; ``columns`` name -> (sample,).
+
+    ``time`` (sample,) s: instants, of which some of the grid at ``rate`` Hz may lack. Raises ConfigError where one lies
+    off the grid by more than OFF_GRID intervals, or twice on the same instant.
+    """
+    place = (time - time[0]) * rate
+    index = np.rint(place).astype(int)
+    off = np.abs(place - index).max()
+    if off > OFF_GRID or np.any(np.diff(index) < 1):
+        raise ConfigError(where, f"rising times on a grid of {rate:g} Hz", f"one that is {off:.2g} intervals off it",
+                          "give the sampling rate of the record, or resample it")
+    spread = {name: np.full(index[-1] + 1, np.nan) for name in columns}
+    for name, values in columns.items():
+        spread[name][index] = values
+    return spread, float(time[0])
+
+
+def stretch(whole, begin, end, where):
+    """The Channel from ``begin`` up to, not with, ``end`` in s (None = its own ends).
+
+    Raises ConfigError where it holds no sample there.
+    """
+    rate, start, count = float(whole.rate), float(whole.begin), len(whole.samples)
+    first = 0 if begin is None else max(0, int(np.ceil((begin - start) * rate - 1e-6)))
+    last = count if end is None else min(count, int(np.ceil((end - start) * rate - 1e-6)))
+    if first >= last:
+        raise ConfigError(where, f"a stretch within {start:g} s to {start + (count - 1) / rate:g} s",
+                          f"{_told(begin)} to {_told(end)}")
+    gap = np.zeros(count, bool)
+    for low, high in whole.missing:
+        gap[low:high] = True
+    return Channel(samples=whole.samples[first:last], missing=stretches(gap[first:last]), rate=rate,
+                   begin=start + first / rate,
+                   **{name: getattr(whole, name) for name in ("unit", "measures", "place", "position", "direction",
+                                                              "role")})
+
+
+def _told(instant):
+    return "its own end" if instant is None else f"{instant:g} s"
+
+
+def _unit_vector(direction, where):
+    vector = np.asarray(direction, float)
+    if not vector.size:
+        return vector
+    length = np.linalg.norm(vector)
+    if vector.shape != (3,) or not length > 0:
+        raise ConfigError(f"{where}: direction", "three numbers that are not all 0", f"{direction}")
+    return vector / length

@@ -1,0 +1,104 @@
+"""Universal files: time signals and frequency responses (data set 58), modes (data set 55). The door of pyuff."""
+
+import warnings
+
+import numpy as np
+
+from pipeline.contract.errors import ConfigError
+from pipeline.contract.units import in_si
+from pipeline.products import FrequencyResponse, MeasuredModes
+from pipeline.recordings.samples import channel, even_rate
+
+#: function types of data set 58
+TIME, RESPONSE = 1, 4
+#: ordinate codes of data set 58
+QUANTITY = {8: "displacement", 9: "force", 11: "velocity", 12: "acceleration", 13: "force", 15: "pressure",
+            21: "pressure", 5: "temperature"}
+#: units as benches spell them, as pint reads them
+SPELT = {"m/s2": "m/s^2", "g": "g_0", "NONE": "", "-": ""}
+
+
+def read_uff(path, units=None):
+    """(channels, frf, modes), each a dict by name, of the universal file at ``path``.
+
+    ``units``: response name -> unit, where the file says none. Data sets of other kinds are left out. Raises
+    ConfigError for a file that is no universal file or holds nothing that is read here.
+    """
+    import pyuff
+
+    units, channels, frf, modes = units or {}, {}, {}, {}
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            file = pyuff.UFF(str(path))
+            sets = [file.read_sets(k) for k, kind in enumerate(file.get_set_types()) if kind in (55, 58)]
+    except Exception as error:  # pyuff passes on whatever its parser stumbles over
+        raise ConfigError(path, "a universal file", str(error) or type(error).__name__) from None
+    for number, found in enumerate(sets, 1):
+        where = f"{path}: data set {number}"
+        if found["type"] == 58 and found["func_type"] == TIME:
+            _put(channels, _name(found), _signal(found, units, where))
+        elif found["type"] == 58 and found["func_type"] == RESPONSE:
+            _put(frf, _name(found), _response(found, units, where))
+        elif found["type"] == 55 and "freq" in found:
+            _put(modes, f"mode_{len(modes) + 1}", _mode(found))
+    if not channels and not frf and not modes:
+        raise ConfigError(path, "time signals, frequency responses or modes", f"{len(sets)} data sets of other kinds")
+    return channels, frf, modes
+
+
+def _put(table, name, item):
+    """Under ``name``, or the first free name_2, name_3, ..."""
+    free = (name if k == 1 else f"{name}_{k}" for k in range(1, len(table) + 2))
+    table[next(n for n in free if n not in table)] = item
+
+
+def _name(found):
+    """'mic_01' of a response entity 'Mic 01'; node and direction where the file names none."""
+    named = found.get("rsp_ent_name", "NONE").strip()
+    spelt = "".join(c if c.isalnum() else "_" for c in named.lower().replace("+", "p").replace("-", "m")).strip("_")
+    return spelt if spelt and spelt != "none" else f"node_{found['rsp_node']}_{found['rsp_dir']}"
+
+
+def _unit(found, units, where):
+    name = _name(found)
+    written = units.get(name) or found.get("ordinate_axis_units_lab", "NONE").strip()
+    unit = SPELT.get(written, written)
+    if not unit:
+        raise ConfigError(f"{where} ({name})", "a unit in the file or in 'units'", "none",
+                          f"add units: {{{name}: ...}}")
+    return unit
+
+
+def _direction(code):
+    """Unit vector of a direction code: 1, 2, 3 = x, y, z, negative against it; empty for rotations and scalars."""
+    if abs(code) not in (1, 2, 3):
+        return ()
+    return tuple(np.sign(code) * np.eye(3)[abs(code) - 1])
+
+
+def _signal(found, units, where):
+    rate, begin = even_rate(np.asarray(found["x"], float), where)
+    measures = QUANTITY.get(found["ordinate_spec_data_type"], found["ordinate_axis_lab"].strip().lower())
+    role = "excitation" if measures == "force" else "response"
+    return channel(found["data"], _unit(found, units, where), measures, rate, begin, where, role=role,
+                   place=f"node {found['rsp_node']}" if found["rsp_node"] else "",
+                   direction=_direction(found["rsp_dir"]))
+
+
+def _response(found, units, where):
+    upper, lower = _unit(found, units, where), found.get("orddenom_axis_units_lab", "NONE").strip()
+    below = SPELT.get(lower, lower)
+    values, unit = in_si(np.asarray(found["data"], complex), f"({upper}) / ({below})" if below else upper, where)
+    return FrequencyResponse(frequency=found["x"], response=values, unit=unit,
+                             place=f"node {found['rsp_node']} direction {found['rsp_dir']}",
+                             reference=f"node {found['ref_node']} direction {found['ref_dir']}")
+
+
+def _mode(found):
+    parts = [np.atleast_1d(np.asarray(found[f"r{k}"], complex)) for k in range(1, 7) if f"r{k}" in found]
+    nodes = np.atleast_1d(np.asarray(found["node_nums"], int))
+    place = [f"node {n} direction {k}" for k in range(1, len(parts) + 1) for n in nodes]
+    ratio = float(found.get("modal_damp_vis", 0.0) or 0.0)
+    return MeasuredModes(frequency=[float(found["freq"])], frequency_std=[0.0], damping_ratio=[ratio],
+                         damping_ratio_std=[0.0], place=place, shape=np.concatenate(parts)[None, :])

@@ -1,0 +1,30 @@
+"""Pictures of a recording: the channels of a run over time, gaps shaded."""
+
+import numpy as np
+
+from pipeline.views.readable import scale
+from pipeline.views.style import COLOURS, FAINT, drawing, envelope, png
+
+#: channels that one picture shows
+MOST = 4
+
+
+def channels(run, dpi):
+    """PNG of the first channels of a run over time, one below the other; grey where samples are missing."""
+    shown = list(run.channels.items())[:MOST]
+    with drawing(0.9 + 1.1 * len(shown), left=0.9, top=0.25) as figure:
+        grid = figure.subplots(len(shown), sharex=True, squeeze=False)[:, 0]
+        for axes, (name, channel), colour in zip(grid, shown, COLOURS, strict=False):
+            _channel(axes, name, channel, colour)
+        grid[-1].set_xlabel("time / s")
+        return png(figure, dpi)
+
+
+def _channel(axes, name, channel, colour):
+    rate, begin = float(channel.rate), float(channel.begin)
+    time = begin + np.arange(len(channel.samples)) / rate
+    unit, size = scale(np.abs(channel.samples).max(initial=0.0), str(channel.unit))
+    axes.plot(*envelope(time, channel.samples / size), color=colour, lw=0.7)
+    for first, last in channel.missing:
+        axes.axvspan(begin + first / rate, begin + last / rate, color=FAINT, alpha=0.4, lw=0)
+    axes.set(ylabel=name if unit == "1" else f"{name} / {unit}", xlim=(time[0], max(time[-1], time[0] + 1 / rate)))

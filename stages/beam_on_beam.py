@@ -1,0 +1,175 @@
+"""Stage beam_on_beam: modes of both beams on their supports, and where sliding makes the modes of the pair coalesce."""
+
+from typing import Literal
+
+import numpy as np
+
+from pipeline.contract import ConfigError, Context, InputFile, Quantity, Section, option, stage
+from pipeline.contract.documents import read_yaml
+from pipeline.physics.beam_reduction import beam_modes
+from pipeline.physics.hard_coalescence import ContactModes, coalescences, friction_over_frequency
+from pipeline.products import BeamOnBeam
+from pipeline.systems.beam_on_beam import BODIES, build
+
+#: last friction coefficient at which coalescences are sought
+_MOST_FRICTION = 1.0
+
+
+class Slider(Section):
+    """Beam P1: from its tip on the track to A, where it is held along x and in rotation."""
+
+    length: Quantity("m", gt=0) = option("100 mm", "length from the tip to A")
+    thickness: Quantity("m", gt=0) = option("5.7 mm", "height of the section, in the plane")
+    width: Quantity("m", gt=0) = option("19 mm", "width of the section, across the plane")
+    tilt: Quantity("rad") = option("-5 deg", "lean of its axis towards +x, away from the clamp of the track")
+    guide_stiffness: Quantity("N/m", gt=0) | None = option(None, "spring that holds A along x; none = rigid")
+    guide_rotation_stiffness: Quantity("N m/rad", gt=0) | None = option(
+        None, "spring that holds A in rotation; none = rigid")
+    cell: Quantity("m", gt=0) = option("2 mm", "plane: longest element along the beam")
+    cells_across: int = option(3, "plane: elements across the beam", ge=1)
+    degree: int = option(12, "timoshenko: degree of the polynomials on each segment", ge=4, le=24)
+
+
+class Track(Section):
+    """Beam P2: clamped to the driven support, free at its other end."""
+
+    length: Quantity("m", gt=0) = option("377 mm", "length from the clamp to the free end")
+    thickness: Quantity("m", gt=0) = option("19.3 mm", "height of the section, in the plane")
+    width: Quantity("m", gt=0) = option("10 mm", "width of the section, across the plane")
+    clamp_stiffness: Quantity("N/m", gt=0) | None = option(
+        None, "springs that hold its support along x and along y; none = rigid")
+    clamp_rotation_stiffness: Quantity("N m/rad", gt=0) | None = option(
+        None, "spring that holds its support in rotation; none = rigid")
+    cell: Quantity("m", gt=0) = option("5 mm", "plane: longest element along the beam")
+    cells_across: int = option(3, "plane: elements across the beam", ge=1)
+    degree: int = option(14, "timoshenko: degree of the polynomials on each segment", ge=4, le=24)
+
+
+class Material(Section):
+    """Both beams."""
+
+    young: Quantity("Pa", gt=0) = option("210 GPa", "Young's modulus")
+    poisson: float = option(0.3, "Poisson's ratio", gt=-1, lt=0.5)
+    density: Quantity("kg/m^3", gt=0) = option("7800 kg/m^3", "density")
+    mass_damping: Quantity("1/s", ge=0) = option("0 1/s", "Rayleigh damping per mass, alpha 1")
+    stiffness_damping: Quantity("s", ge=0) = option("0 s", "Rayleigh damping per stiffness, alpha 2")
+
+
+class Contact(Section):
+    """Where the beams meet, and what presses them together."""
+
+    distance: Quantity("m", gt=0) = option("80 mm", "contact from the clamp of the track")
+    offset: float = option(0.0, "contact off the axis of the slider over its half thickness, positive towards +x",
+                           ge=-1, le=1)
+    lever: float = option(1.0, "height at which friction acts on the track over its half thickness", ge=0, le=1)
+    patch: Quantity("m", gt=0) = option("4 mm", "plane: length of the patch on the track whose mean motion counts")
+    mass: Quantity("kg", ge=0) = option("3 kg", "concentrated mass at A, moving along y")
+    force: Quantity("N", gt=0) = option("9 N", "force at A along -y, which presses the beams together")
+
+
+class Sensor(Section):
+    """Point B."""
+
+    height: Quantity("m", gt=0) = option("40 mm", "distance of point B from the tip, along the slider")
+
+
+class Settings(Section):
+    """Both beams, their contact and the modes that are kept."""
+
+    element: Literal["plane", "timoshenko"] = option("plane", "plane finite elements, or Timoshenko beams (faster)")
+    slider: Slider = option(Slider(), "beam P1")
+    track: Track = option(Track(), "beam P2")
+    material: Material = option(Material(), "steel of both beams")
+    contact: Contact = option(Contact(), "contact of the beams and its load")
+    sensor: Sensor = option(Sensor(), "point whose velocity along x is read")
+    modes_below: Quantity("Hz", gt=0) = option("50 kHz", "limit of the modes of each beam")
+    residual_below: Quantity("Hz", gt=0) = option("150 kHz", "limit of the residual shapes for the contact forces")
+    coalescences_below: Quantity("Hz", gt=0) = option("10 kHz", "limit of the search for coalescing modes")
+    samples: int = option(6000, "frequencies at which that search samples", ge=100)
+    findings: InputFile | None = option(
+        None, "what a search for the geometry has found: a list of {what, found}, for the report")
+
+
+@stage
+def beam_on_beam(settings: Settings, context: Context) -> BeamOnBeam:
+    """Build the two beams and find where their modes coalesce in sliding.
+
+    Method:
+    The beams ({element}) on their supports were reduced to their modes below {modes_below} and residual shapes for the
+    contact forces. In steady sliding on a hard contact each frequency has one friction coefficient at which it is a
+    mode; maxima of that curve are coalescences. Sampled below {coalescences_below} at {samples} frequencies.
+    """
+    chosen = [_reduced(settings, settings.element, number, context) for number in range(2)]
+    other = "timoshenko" if settings.element == "plane" else "plane"
+    check = [_reduced(settings, other, number, context) for number in range(2)]
+    frequency = np.geomspace(settings.coalescences_below / 1e3, settings.coalescences_below, settings.samples)
+    modes, direction = _contact_modes(chosen), -1.0
+    found = coalescences(modes, frequency, direction, _MOST_FRICTION)
+    crosscheck = coalescences(_contact_modes(check), frequency, direction, _MOST_FRICTION)
+    context.log("coalescences: " + (", ".join(f"{f:.0f} Hz at {mu:.3f}" for f, mu in zip(
+        found.onset_frequency, found.onset_friction, strict=True)) or "none"))
+    return BeamOnBeam(
+        body_name=BODIES, element=settings.element, curve_frequency=frequency,
+        curve_friction=_drawn(friction_over_frequency(modes, frequency, direction)[1]),
+        closed_frequency=found.frictionless, onset_frequency=found.onset_frequency, onset_friction=found.onset_friction,
+        end_frequency=found.end_frequency, end_friction=found.end_friction,
+        check_frequency=crosscheck.frictionless, check_onset_frequency=crosscheck.onset_frequency,
+        check_onset_friction=crosscheck.onset_friction, **_findings(settings.findings), **_joined(chosen, settings))
+
+
+def _findings(path):
+    """Two columns of text from the file of findings; ConfigError where it is something else."""
+    rows = read_yaml(path) if path else []
+    if not isinstance(rows, list) or not all(isinstance(r, dict) and set(r) == {"what", "found"} for r in rows):
+        raise ConfigError(f"{path}", "a list of {what, found}", "something else",
+                          "see data/reference/beam_geometry.yaml")
+    return {"finding": [r["what"] for r in rows], "finding_text": [r["found"] for r in rows]}
+
+
+def _reduced(settings, element, number, context):
+    """(body, squared, shape) of one beam."""
+    body = build(settings, element)[number]
+    rows = np.vstack((body.contact, body.load))
+    squared, shape = beam_modes(body.stiffness, body.mass, rows[np.any(rows, axis=1)], settings.modes_below,
+                                settings.residual_below, context.solver)
+    return body, squared, shape
+
+
+def _contact_modes(parts):
+    """Modes of both beams at the contact, slider less track."""
+    (slider, *_), (track, *_) = parts
+    normal, tangent = (np.concatenate((slider.contact[axis] @ parts[0][2], -track.contact[axis] @ parts[1][2]))
+                       for axis in (1, 0))
+    return ContactModes(np.concatenate([squared for _, squared, _ in parts]), normal, tangent)
+
+
+def _drawn(friction):
+    """The curve where a picture may need it; elsewhere its bound."""
+    return np.clip(friction, -_MOST_FRICTION, 2 * _MOST_FRICTION)
+
+
+def _joined(parts, settings):
+    """Modal fields of both beams in one numbering."""
+    bodies, squared = [p[0] for p in parts], np.concatenate([p[1] for p in parts])
+    counts, points = [len(p[1]) for p in parts], [len(b.position) for b in bodies]
+    modes, contact = _contact_modes(parts), settings.contact
+    recovery = np.zeros((sum(points), 3, sum(counts)), np.float32)
+    for k, (body, _, shape) in enumerate(parts):
+        rows, columns = slice(sum(points[:k]), sum(points[:k + 1])), slice(sum(counts[:k]), sum(counts[:k + 1]))
+        recovery[rows, :2, columns] = body.shape @ shape
+    flat = np.vstack([b.position for b in bodies])
+    first = np.cumsum([0, *points])
+    area = settings.slider.width * settings.slider.thickness
+    up = np.array([np.sin(settings.slider.tilt), np.cos(settings.slider.tilt)])
+    touch = np.array([contact.distance, settings.track.thickness / 2])
+    return {
+        "mode_body": np.repeat([0, 1], counts), "mode_frequency": np.sqrt(np.maximum(squared, 0.0)) / (2 * np.pi),
+        "mode_damping": settings.material.mass_damping + settings.material.stiffness_damping * squared,
+        "contact_normal": modes.normal[None], "contact_tangent": modes.tangent[None],
+        "contact_position": np.r_[touch, 0.0][None], "contact_area": [area], "force": contact.force,
+        "load_row": np.concatenate([(b.load @ s)[0] for b, _, s in parts])[None],
+        "sensor_name": ["B_x"], "sensor_position": np.r_[touch + settings.sensor.height * up, 0.0][None],
+        "sensor_direction": [[1.0, 0.0, 0.0]],
+        "sensor_rows": np.concatenate([b.sensor[0] @ s for b, _, s in parts])[None],
+        "visible_position": np.column_stack((flat, np.zeros(len(flat)))), "visible_body": np.repeat([0, 1], points),
+        "visible_face": np.vstack([b.face + first[k] for k, b in enumerate(bodies)]), "recovery": recovery}

@@ -1,0 +1,118 @@
+"""Stage motion_scatter: one motion in several formulations, steps and seeds, because it may be chaotic."""
+
+from functools import partial
+from itertools import product as combinations
+from typing import Literal
+
+import numpy as np
+
+from pipeline.contract import ConfigError, Context, Quantities, Quantity, Section, option, stage
+from pipeline.physics.bursts import bursts, harmonic_lines
+from pipeline.physics.dry_friction import constant
+from pipeline.physics.sliding_model import sliding_model
+from pipeline.physics.spectra import power_spectrum
+from pipeline.physics.time_stepping import Hard, Lagrange, Start, simulate
+from pipeline.physics.time_stepping_linear import modal_system
+from pipeline.physics.time_stepping_start import steady_start
+from pipeline.products import MotionScatter, ReducedModel
+
+#: multiples of the fundamental that are told
+_ORDERS = 4
+
+
+class Settings(Section):
+    """Which runs, and how each is judged."""
+
+    formulations: tuple[Literal["hard", "lagrange"], ...] = option(
+        ("hard", "lagrange"), "hard: impulses on velocities (Moreau-Jean), exact linear part; lagrange: multipliers on"
+        " displacements under Newmark's rule", min_length=1)
+    steps: Quantities("s", gt=0) = option(("1 us", "2 us"), "time steps")
+    seeds: tuple[int, ...] = option((1, 2, 3), "seeds of the random start velocity", min_length=1)
+    gamma: float = option(0.5, "lagrange: Newmark's gamma; 0.5 trapezoidal, more damps the highest modes", ge=0.5, le=1)
+    friction: float = option(0.2, "coefficient of friction", ge=0)
+    speed: Quantity("rad/s") = option("-0.002 rad/s", "speed of the drive, either sign")
+    highest_frequency: Quantity("Hz", gt=0) = option("60 kHz", "modes with open contacts above it are left out")
+    kick: Quantity("m/s", ge=0) = option("0.1 mm/s", "effective value of the start velocity at the sensors")
+    duration: Quantity("s", gt=0) = option("0.5 s", "length of each motion")
+    settling: Quantity("s", ge=0) = option("0.1 s", "begin of the motion that is not judged")
+    sampling: Quantity("s", gt=0) = option("10 us", "time between samples that are kept")
+    resolution: Quantity("Hz", gt=0) = option("20 Hz", "distance of the lines of the spectra")
+    lowest_frequency: Quantity("Hz", ge=0) = option("50 Hz", "lines are sought above it")
+    low_band: Quantities("Hz", gt=0) = option(("250 Hz", "650 Hz"), "band whose highest line is told beside the"
+                                                  " strongest")
+    frame: Quantity("s", gt=0) = option("2 ms", "frame in which vibration is told from rest")
+    threshold: float = option(0.3, "a frame vibrates above this share of the largest effective value", gt=0, lt=1)
+
+
+def _check(sections):
+    """Refuse motions that are over before they are judged, and bands without width."""
+    told = sections["motion_scatter"]
+    if told.settling + 8 * told.frame > told.duration:
+        raise ConfigError("motion_scatter.duration", f"at least {told.settling + 8 * told.frame:g} s, settling and"
+                          " eight frames", f"{told.duration:g} s")
+    if len(told.low_band) != 2 or told.low_band[0] >= told.low_band[1]:
+        raise ConfigError("motion_scatter.low_band", "two rising frequencies", str(told.low_band))
+
+
+@stage(check=_check)
+def motion_scatter(model: ReducedModel, settings: Settings, context: Context) -> MotionScatter:
+    """Repeat the motion over formulations, steps and seeds, and tell what stays.
+
+    Waveforms of a chaotic motion depend on the last digit; its lines, peaks and shares of contact status scatter about
+    values that do not. Judged are the first sensor and the first contact.
+
+    Method:
+    The motion from steady sliding with a random start velocity was run over {duration} for each of {formulations}, the
+    steps {steps} and the seeds {seeds}, with friction {friction}; what is told are ranges over these runs after
+    {settling}.
+    """
+    runs = list(combinations(settings.formulations, settings.steps, settings.seeds))
+    rows = context.map(partial(_run, model, settings), runs, "motions")
+    return MotionScatter(
+        formulation=[r[0] for r in runs], step=[r[1] for r in runs], seed=[r[2] for r in runs],
+        duration=settings.duration - settings.settling, friction=settings.friction, speed=settings.speed,
+        **{name: np.array([row[name] for row in rows]) for name in rows[0]})
+
+
+def _run(model, settings, task):
+    """Everything that is told of one motion."""
+    formulation, step, seed = task
+    sliding = sliding_model(model, 0, settings.speed)
+    law = Hard() if formulation == "hard" else Lagrange(settings.gamma)
+    friction, inputs = constant(settings.friction), model.pressure[0] * model.input_area
+    system = modal_system(sliding, highest=settings.highest_frequency)
+    every = max(1, round(settings.sampling / step))
+    start = steady_start(sliding, law, friction, inputs)
+    motion = simulate(sliding, law, friction, step=step, duration=settings.duration, inputs=inputs,
+                      record_every=every, system=system, start=_kicked(start, system, sliding, seed, settings.kick))
+    return _judged(motion, step * every, settings)
+
+
+def _kicked(start: Start, system, sliding, seed, kick):
+    """Start with a random velocity of all modes, its effective value at the sensors being ``kick``."""
+    velocity = system.shape @ np.random.default_rng(seed).standard_normal(len(system.squared))
+    seen = np.sqrt(np.mean((sliding.sensor_rows @ velocity) ** 2))
+    return start.kicked(velocity * (kick / seen if seen else 0.0))
+
+
+def _judged(motion, interval, settings):
+    late = motion.time >= settings.settling
+    velocity, status = motion.velocity[0, late], motion.status[0, late]
+    fundamental, level, height = harmonic_lines(velocity, interval, settings.resolution, settings.lowest_frequency,
+                                                _ORDERS)
+    found = bursts(velocity, interval, settings.frame, settings.threshold)
+    return {
+        "fundamental": fundamental, "harmonic_level": np.maximum(level, -200.0), "harmonic_height": height,
+        "low_level": _low_level(velocity, interval, fundamental, settings),
+        "peak_force": motion.normal_force[0, late].max(), "peak_slip": abs(motion.slip[0, late]).max(),
+        "peak_velocity": abs(velocity).max(), "status_share": [np.mean(status == kind) for kind in range(3)],
+        "vibrating_share": found.share, "burst_length": found.burst, "pause_length": found.pause,
+        "imbalance": motion.imbalance}
+
+
+def _low_level(velocity, interval, fundamental, settings):
+    """Highest line in the low band over the strongest line, dB; 0 where that is itself in the band."""
+    frequency, density = power_spectrum(velocity, 1 / interval, settings.resolution)
+    low, high = settings.low_band
+    band, above = (frequency >= low) & (frequency <= high), frequency >= settings.lowest_frequency
+    return 10 * np.log10(max(density[band].max(), np.finfo(float).tiny) / density[above].max())

@@ -1,0 +1,171 @@
+"""Stage recording: what a bench wrote, from any of its file formats into one form."""
+
+import hashlib
+from typing import Literal
+
+from pipeline.contract import ConfigError, Context, InputFile, Quantity, Section, option, stage
+from pipeline.contract.units import in_si
+from pipeline.products import Condition, Recording, Run
+from pipeline.recordings.columns import read_matlab, read_table
+from pipeline.recordings.neutral import read_neutral
+from pipeline.recordings.samples import channel, even_rate, on_grid, stretch
+from pipeline.recordings.uff import read_uff
+
+
+class Column(Section):
+    """One column of a file and what it is."""
+
+    column: str = option(..., "its name in the file")
+    unit: str = option(..., "unit of its numbers, such as mm or kN")
+    measures: str = option(..., "displacement, velocity, acceleration, force, pressure, voltage, ...")
+    factor: float = option(1.0, "factor on its numbers: the gain of a sensor, or -1 to turn a sign")
+    role: Literal["response", "excitation"] = option("response", "what the bench imposed, or what it answered")
+    place: str = option("", "named point or joint of the model")
+    direction: tuple[float, ...] = option((), "direction of a vector")
+
+
+class Given(Section):
+    """A condition of a run."""
+
+    value: float = option(..., "its value")
+    unit: str = option(..., "its unit")
+
+
+class Stretch(Section):
+    """A run: a stretch of the record."""
+
+    begin: Quantity("s") | None = option(None, "first instant; none = that of the record")
+    end: Quantity("s") | None = option(None, "instant before which it ends; none = end of the record")
+    description: str = option("", "what was done")
+    repeat_of: str = option("", "run that it repeats: repeats give the noise")
+    conditions: dict[str, Given] = option({}, "conditions by name")
+
+
+class _Columns(Section):
+    file: InputFile = option(..., "the file; measured:NAME for a public one")
+    columns: dict[str, Column] = option(..., "channels by name", min_length=1)
+    sample_rate: Quantity("Hz", gt=0) | None = option(None, "sampling rate; none = from the column of times")
+    time: str | None = option(None, "column with the time in seconds; with a sampling rate it tells lost samples")
+    runs: dict[str, Stretch] = option(..., "runs by name: declared stretches of the record", min_length=1)
+
+
+class Matlab(_Columns):
+    """A MATLAB file of vectors."""
+
+    kind: Literal["matlab"] = "matlab"
+
+
+class Table(_Columns):
+    """A text table."""
+
+    kind: Literal["table"] = "table"
+    delimiter: str | None = option(None, "what separates columns; none = tab, semicolon or comma, as the head shows")
+    skip: int = option(0, "lines before the head", ge=0)
+
+
+class Uff(Section):
+    """A universal file: one run."""
+
+    kind: Literal["uff"] = "uff"
+    file: InputFile = option(..., "the file; measured:NAME for a public one")
+    run: str = option(..., "name of the run")
+    units: dict[str, str] = option({}, "unit of a response where the file says none")
+    description: str = option("", "what was done")
+    repeat_of: str = option("", "run that it repeats")
+    conditions: dict[str, Given] = option({}, "conditions by name")
+
+
+class Neutral(Section):
+    """Plain HDF5 in the form that 'brakechain data format' prints."""
+
+    kind: Literal["hdf5"] = "hdf5"
+    file: InputFile = option(..., "the file; measured:NAME for a public one")
+
+
+class Settings(Section):
+    """Files of the bench, each with what its columns are."""
+
+    files: tuple[Matlab | Table | Uff | Neutral, ...] = option((), "files in any order; at least one")
+
+
+def _check(sections):
+    """Refuse a case without files."""
+    if not sections["recording"].files:
+        raise ConfigError("recording.files", "at least one file", "none", "see configs/emps_recording.yaml")
+
+
+@stage(check=_check)
+def recording(settings: Settings, context: Context) -> Recording:
+    """Import recordings of a test bench.
+
+    Method:
+    Recordings were converted to SI units and cut into runs as the case declares; missing samples are marked, and
+    nothing was filtered or resampled.
+    """
+    runs, source = {}, []
+    for number, file in enumerate(settings.files):
+        found = READ[file.kind](file)
+        twice = set(found) & set(runs)
+        if twice:
+            raise ConfigError(f"recording.files.{number}", "run names that are not taken", ", ".join(sorted(twice)))
+        runs |= found
+        source.append(f"{file.file.name} {hashlib.sha256(file.file.read_bytes()).hexdigest()}")
+    _check_repeats(runs)
+    context.log(f"{len(runs)} runs: {', '.join(runs)}")
+    return Recording(source=source, runs=runs)
+
+
+def _from_columns(file, columns):
+    """Runs of a file of columns."""
+    where = f"{file.file}"
+    for name, wanted in file.columns.items():
+        if wanted.column not in columns:
+            raise ConfigError(f"{where}: {name}.column", f"one of {', '.join(columns)}", repr(wanted.column))
+    values = {name: w.factor * columns[w.column] for name, w in file.columns.items()}
+    values, rate, begin = _sampled(file, values, columns, f"{where}: time")
+    whole = {name: channel(values[name], w.unit, w.measures, rate, begin, f"{where}: {name}",
+                           role=w.role, place=w.place, direction=w.direction) for name, w in file.columns.items()}
+    return {name: _run({k: stretch(c, run.begin, run.end, f"{where}: runs.{name}") for k, c in whole.items()}, run,
+                       f"{where}: runs.{name}") for name, run in file.runs.items()}
+
+
+def _sampled(file, values, columns, where):
+    """(columns on an even grid, rate, begin) from the sampling rate, the column of times, or both."""
+    if file.time is not None and file.time not in columns:
+        raise ConfigError(where, f"one of {', '.join(columns)}", repr(file.time))
+    if file.time is None and file.sample_rate is None:
+        raise ConfigError(where, "a sampling rate or a column of times", "neither", "add sample_rate or time")
+    if file.time is None:
+        return values, file.sample_rate, 0.0
+    if file.sample_rate is None:
+        return values, *even_rate(columns[file.time], where)
+    spread, begin = on_grid(values, columns[file.time], file.sample_rate, where)
+    return spread, file.sample_rate, begin
+
+
+def _from_uff(file):
+    channels, frf, modes = read_uff(file.file, file.units)
+    return {file.run: _run(channels, file, f"{file.file}", frf=frf, modes=modes)}
+
+
+#: kind of file -> its runs by name
+READ = {"matlab": lambda file: _from_columns(file, read_matlab(file.file)),
+        "table": lambda file: _from_columns(file, read_table(file.file, file.delimiter, file.skip)),
+        "uff": _from_uff, "hdf5": lambda file: read_neutral(file.file)}
+
+
+def _run(channels, told, where, **more):
+    conditions = {}
+    for name, given in told.conditions.items():
+        value, unit = in_si(given.value, given.unit, f"{where}: conditions.{name}.unit")
+        conditions[name] = Condition(value=[value], time=[0.0], unit=unit)
+    empty = {kind: {} for kind in ("frf", "modes", "lines", "topography", "friction")}
+    return Run(description=told.description, repeat_of=told.repeat_of, conditions=conditions, channels=channels,
+               **{**empty, **more})
+
+
+def _check_repeats(runs):
+    for name, run in runs.items():
+        first = str(run.repeat_of)
+        if first and (first == name or first not in runs):
+            raise ConfigError(f"recording: {name}.repeat_of", f"another of {', '.join(runs)}", repr(first))

@@ -1,0 +1,53 @@
+"""Columns of MATLAB files and text tables."""
+
+import h5py
+import numpy as np
+import pytest
+from scipy.io import savemat
+
+from pipeline.contract import ConfigError
+from pipeline.recordings.columns import read_matlab, read_table
+
+
+def test_matlab_vectors_come_back_flat_and_text_is_left_out(tmp_path):
+    savemat(tmp_path / "a.mat", {"x": np.arange(3.0)[:, None], "k": 2, "name": "bench", "m": np.zeros((3, 3))})
+    found = read_matlab(tmp_path / "a.mat")
+    assert set(found) == {"x", "k"} and found["x"].tolist() == [0, 1, 2] and found["k"].tolist() == [2]
+
+
+def test_matlab_7_3_is_hdf5(tmp_path):
+    with h5py.File(tmp_path / "b.mat", "w", userblock_size=512) as h5:
+        h5["x"] = np.arange(4.0)[None, :]
+    with open(tmp_path / "b.mat", "r+b") as stream:
+        stream.write(b"MATLAB 7.3 MAT-file, Platform: any")
+    assert read_matlab(tmp_path / "b.mat")["x"].tolist() == [0, 1, 2, 3]
+
+
+def test_matlab_refuses_what_is_none(tmp_path):
+    (tmp_path / "c.mat").write_bytes(b"no matlab file at all" * 20)
+    with pytest.raises(ConfigError, match=r"c\.mat: expected a MATLAB file"):
+        read_matlab(tmp_path / "c.mat")
+    savemat(tmp_path / "d.mat", {"name": "bench"})
+    with pytest.raises(ConfigError, match="expected a vector of numbers, found name"):
+        read_matlab(tmp_path / "d.mat")
+
+
+@pytest.mark.parametrize("mark", ["\t", ";", ","])
+def test_tables_find_their_delimiter_and_mark_missing_samples(tmp_path, mark):
+    path = tmp_path / "a.txt"
+    path.write_text("made by a bench\n" + mark.join(("time", "force [N]")) + "\n" + mark.join(("0", "1e3")) + "\n"
+                    + mark.join(("0.1", "n/a")) + "\n")
+    found = read_table(path, skip=1)
+    assert found["time"].tolist() == [0, 0.1] and found["force [N]"][0] == 1000 and np.isnan(found["force [N]"][1])
+
+
+@pytest.mark.parametrize("text, message", [
+    ("a,b\n1,2\n1,x\n", r"a\.csv:3: expected a number, found 'x'"),
+    ("a,b\n1\n", r"a\.csv:2: expected 2 values, found 1"),
+    ("a,a\n1,2\n", r"a\.csv:1: expected each column name once"), ("a,b\n", "expected a head and at least one line"),
+])
+def test_tables_tell_the_line_of_a_mistake(tmp_path, text, message):
+    path = tmp_path / "a.csv"
+    path.write_text(text)
+    with pytest.raises(ConfigError, match=message):
+        read_table(path)

@@ -1,0 +1,66 @@
+"""Plain HDF5 recordings, written without any of our code."""
+
+import h5py
+import numpy as np
+import pytest
+
+from pipeline.contract import ConfigError
+from pipeline.recordings.neutral import read_neutral
+
+
+def write(path, change=lambda run: None):
+    with h5py.File(path, "w") as h5:
+        run = h5.create_group("runs/first")
+        run.attrs["description"] = "hammer at 2 bar"
+        force = run.create_dataset("channels/force", data=[0.0, 2.0, np.nan])
+        force.attrs.update(units="kN", quantity="force", sample_rate=100.0, role="excitation", point_name="pad")
+        run.create_dataset("conditions/pressure", data=2.0).attrs["units"] = "bar"
+        run.create_dataset("conditions/speed", data=[1.0, 2.0]).attrs.update(units="rpm", sample_rate=10.0)
+        frf = run.create_group("frf/drive_point")
+        frf.attrs.update(units="m/s^2/N", response="pad z", reference="pad z")
+        frf["frequency"], frf["response"] = [10.0, 20.0], [1.0 + 1j, 2.0]
+        run["modes/hammer/frequency"] = [100.0, 200.0]
+        run["lines/squeal/frequency"], run["lines/squeal/level"] = [2215.0, 4430.0], [0.0, np.nan]
+        heights = run.create_dataset("topography/pad", data=[[0.0, 1.0], [2.0, 3.0], [4.0, 5.0]])
+        heights.attrs.update(units="um", pixel_size=1e-6, state="worn")
+        for name, value in {"friction": [0.4], "pressure": 1e6, "speed": 1.0}.items():
+            run[f"friction/bench/{name}"] = value
+        change(run)
+    return path
+
+
+def test_everything_comes_back_in_si(tmp_path):
+    run = read_neutral(write(tmp_path / "a.h5"))["first"]
+    force = run.channels["force"]
+    assert force.samples.tolist() == [0, 2000, 0] and str(force.unit) == "N" and force.missing.tolist() == [[2, 3]]
+    assert str(force.place) == "pad" and str(force.role) == "excitation" and float(force.rate) == 100
+    assert run.conditions["pressure"].value.tolist() == [2e5] and str(run.conditions["speed"].unit) == "rad/s"
+    assert run.conditions["speed"].time.tolist() == [0, 0.1]
+    assert run.frf["drive_point"].response.tolist() == [1 + 1j, 2] and str(run.frf["drive_point"].unit) == "1/kg"
+    assert run.modes["hammer"].frequency.tolist() == [100, 200] and run.modes["hammer"].shape.shape == (2, 0)
+    assert run.lines["squeal"].level_known.tolist() == [1, 0]
+    assert run.topography["pad"].height[2, 1] == pytest.approx(5e-6) and run.topography["pad"].y[2] == 2e-6
+    assert run.friction["bench"].friction.tolist() == [0.4] and run.friction["bench"].temperature.tolist() == [293.15]
+
+
+@pytest.mark.parametrize("change, message", [
+    (lambda run: run["channels/force"].attrs.pop("units"), "channels/force: expected the attribute units"),
+    (lambda run: run["channels/force"].attrs.pop("sample_rate"), "expected the attribute sample_rate"),
+    (lambda run: run["channels/force"].attrs.update(units="kNN"), "channels/force: unit: expected a unit such as"),
+    (lambda run: run.create_group("chanels"), "runs/first: expected groups among conditions, channels.*found chanels"),
+    (lambda run: run["frf/drive_point"].pop("frequency"), "frf/drive_point: expected the dataset frequency"),
+    (lambda run: run["topography/pad"].attrs.update(units="N"), "expected heights .* in a unit of length"),
+])
+def test_mistakes_are_told_with_their_place(tmp_path, change, message):
+    with pytest.raises(ConfigError, match=message):
+        read_neutral(write(tmp_path / "a.h5", change))
+
+
+def test_files_without_runs_are_refused(tmp_path):
+    with h5py.File(tmp_path / "b.h5", "w") as h5:
+        h5["x"] = 1.0
+    with pytest.raises(ConfigError, match="expected a group /runs"):
+        read_neutral(tmp_path / "b.h5")
+    (tmp_path / "c.h5").write_text("no")
+    with pytest.raises(ConfigError, match="expected a whole HDF5 file"):
+        read_neutral(tmp_path / "c.h5")

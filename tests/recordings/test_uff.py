@@ -1,0 +1,67 @@
+"""Universal files."""
+
+import os
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from pipeline.contract import ConfigError
+from pipeline.recordings.uff import read_uff
+
+SAMPLES = Path(os.environ.get("BRAKECHAIN_DATA", "../shared/data")) / "uff_samples"
+TIME = {"binary": 0, "func_type": 1, "rsp_node": 7, "rsp_dir": -3, "rsp_ent_name": "Acc 1", "ref_node": 1, "ref_dir": 0,
+        "ord_data_type": 4, "abscissa_spacing": 1, "abscissa_min": 0.0, "abscissa_inc": 1e-3, "num_pts": 5,
+        "abscissa_spec_data_type": 17, "abscissa_axis_lab": "Time", "abscissa_axis_units_lab": "s",
+        "ordinate_spec_data_type": 12, "ordinate_axis_lab": "Acceleration", "ordinate_axis_units_lab": "g",
+        "orddenom_spec_data_type": 0, "orddenom_axis_units_lab": "NONE", "id1": "made for a test"}
+
+
+def write(path, **change):
+    import pyuff
+
+    given = {**TIME, "x": np.arange(5) / 1000, "data": np.arange(5.0), **change}
+    numbers = {name: value for name, value in given.items() if not name.endswith("_lab")}
+    whole = {name: value or 0 for name, value in pyuff.prepare_58(**numbers, return_full_dict=True).items()
+             if value is None or np.size(value) == 1}
+    pyuff.UFF(str(path)).write_sets({**whole, **given}, mode="overwrite")
+    return path
+
+
+def test_time_signals(tmp_path):
+    channels, frf, modes = read_uff(write(tmp_path / "a.uff"))
+    found = channels["acc_1"]
+    assert not frf and not modes and str(found.unit) == "m/s^2" and str(found.measures) == "acceleration"
+    np.testing.assert_allclose(found.samples, 9.80665 * np.arange(5), rtol=1e-6)
+    assert float(found.rate) == pytest.approx(1000) and found.direction.tolist() == [0, 0, -1]
+
+
+def test_a_unit_that_the_file_lacks_is_asked_for(tmp_path):
+    path = write(tmp_path / "a.uff", ordinate_axis_units_lab="NONE")
+    with pytest.raises(ConfigError, match=r"data set 1 \(acc_1\): expected a unit .* add units: \{acc_1"):
+        read_uff(path)
+    assert str(read_uff(path, {"acc_1": "mm/s^2"})[0]["acc_1"].unit) == "m/s^2"
+
+
+def test_frequency_responses(tmp_path):
+    path = write(tmp_path / "a.uff", func_type=4, ref_node=2, ref_dir=1, orddenom_axis_units_lab="N",
+                 ordinate_axis_units_lab="m/s2", x=np.array([0.0, 10.0, 20.0]), data=np.array([1.0, 2j, 3.0]),
+                 ord_data_type=6, num_pts=3, abscissa_inc=10.0, abscissa_axis_units_lab="Hz")
+    response = read_uff(path)[1]["acc_1"]
+    assert response.frequency.tolist() == [0, 10, 20] and str(response.unit) == "1/kg"
+    assert response.response[1] == pytest.approx(2j) and str(response.reference) == "node 2 direction 1"
+
+
+def test_refuses_what_is_no_universal_file(tmp_path):
+    (tmp_path / "b.uff").write_text("not at all")
+    with pytest.raises(ConfigError, match="b.uff: expected"):
+        read_uff(tmp_path / "b.uff")
+
+
+@pytest.mark.measured
+@pytest.mark.skipif(not SAMPLES.is_dir(), reason=f"no universal files at {SAMPLES}; set BRAKECHAIN_DATA")
+@pytest.mark.parametrize("name, channel, rate, unit", [
+    ("Sample_UFF58_ascii.uff", "mic_01", 65536, "Pa"), ("MPSTD_Set001_2024_10_08.uff", "1pz", 3200, "m/s^2")])
+def test_public_samples(name, channel, rate, unit):
+    found = read_uff(SAMPLES / name)[0][channel]
+    assert float(found.rate) == pytest.approx(rate, rel=1e-5) and str(found.unit) == unit
