@@ -27,9 +27,10 @@ class TangentialLaw:
         wanted, known = np.atleast_1d(np.asarray(pressure, float)), self.pressure
         if not len(known):
             raise ConfigError("tangential law", "one in the model", "none", "give friction and stiffness as settings")
-        if wanted.min() < known[0] or wanted.max() > known[-1]:
+        outside = wanted[(wanted < known[0]) | (wanted > known[-1])]
+        if len(outside):
             raise ConfigError("tangential law: pressure", f"{known[0]:.3g} to {known[-1]:.3g} Pa",
-                              f"{wanted.min():.3g} to {wanted.max():.3g} Pa",
+                              f"{outside[0]:.3g} Pa",
                               "change the load, the area of the contact, or the range of interface_law")
         read = [np.exp(np.interp(np.log(wanted), np.log(known), np.log(values))) for values in
                 (self.friction, self.stiffness, self.elastic_stiffness, self.exponent)]
