@@ -19,6 +19,8 @@ MAY_IMPORT = {
     "pipeline.contract": {"pipeline.contract", "pipeline.environment"},
     "pipeline.products": {"pipeline.contract"},
     "pipeline.physics": {"pipeline.physics", "pipeline.contract.errors", "pipeline.environment"},
+    "pipeline.inference": {"pipeline.inference", "pipeline.physics", "pipeline.contract.errors",
+                           "pipeline.environment"},
     "pipeline.systems": {"pipeline.systems", "pipeline.physics", "pipeline.contract.errors"},
     "pipeline.published": {"pipeline.contract"},
     "pipeline.computed": {"pipeline.computed"},
@@ -105,7 +107,7 @@ def test_a_file_says_what_it_is(path):
     assert ast.get_docstring(ast.parse(path.read_text())), f"{path}: no module docstring"
 
 
-@pytest.mark.parametrize("folder", ["stages", "pipeline/physics", "pipeline/systems"])
+@pytest.mark.parametrize("folder", ["stages", "pipeline/inference", "pipeline/physics", "pipeline/systems"])
 def test_every_file_has_its_test(folder):
     for path in ROOT.glob(f"{folder}/*.py"):
         if path.stem != "__init__":

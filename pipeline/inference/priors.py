@@ -1,0 +1,177 @@
+"""Priors of parameters, and the latent coordinate in which each of them is a standard normal.
+
+    value(u) = quantile(Phi(u)),   u ~ N(0, 1):
+
+bounds hold for every u, and the prior's term of a least-squares problem is |u|^2 whatever its family.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.special import ndtr, ndtri
+
+from pipeline.contract.errors import ConfigError
+
+#: latent values stay within this; beyond, a probability of 1e-15 is left
+LATENT_LIMIT = 8.0
+_LOG_ROOT = 0.5 * np.log(2 * np.pi)
+
+
+class _Prior:
+    """What all families share; each gives value(latent), latent(value), log_density, scale and support."""
+
+    def quantile(self, share):
+        """The value below which ``share`` of the prior lies."""
+        return self.value(ndtri(share))
+
+    def sample(self, generator, size=None):
+        """Draws with a numpy Generator."""
+        return self.value(generator.standard_normal(size))
+
+    def _check(self, good, expected):
+        if not good:
+            raise ConfigError(f"prior {self}", expected)
+
+
+@dataclass(frozen=True)
+class Normal(_Prior):
+    """Either sign, symmetric about ``mean``."""
+
+    mean: float
+    std: float
+
+    def __post_init__(self):
+        self._check(self.std > 0, "a positive standard deviation")
+
+    @property
+    def scale(self):
+        return self.std
+
+    @property
+    def support(self):
+        return -np.inf, np.inf
+
+    def log_density(self, value):
+        return -0.5 * ((value - self.mean) / self.std) ** 2 - np.log(self.std) - _LOG_ROOT
+
+    def value(self, latent):
+        return self.mean + self.std * latent
+
+    def latent(self, value):
+        return _limited((value - self.mean) / self.std)
+
+
+@dataclass(frozen=True)
+class LogNormal(_Prior):
+    """Positive; ``spread`` is the standard deviation of the logarithm (0.1: about 10 %)."""
+
+    median: float
+    spread: float
+
+    def __post_init__(self):
+        self._check(self.median > 0 and self.spread > 0, "a positive median and spread")
+
+    @property
+    def scale(self):
+        return self.median * self.spread
+
+    @property
+    def support(self):
+        return 0.0, np.inf
+
+    def log_density(self, value):
+        with np.errstate(divide="ignore"):
+            latent = np.log(np.maximum(value, 0.0) / self.median) / self.spread
+            return -0.5 * latent**2 - np.log(np.maximum(value, 0.0) * self.spread) - _LOG_ROOT
+
+    def value(self, latent):
+        return self.median * np.exp(self.spread * latent)
+
+    def latent(self, value):
+        with np.errstate(divide="ignore"):
+            return _limited(np.log(np.maximum(value, 0.0) / self.median) / self.spread)
+
+
+@dataclass(frozen=True)
+class HalfNormal(_Prior):
+    """Zero or more: a size whose sign physics fixes; density largest at zero, root mean square ``scale``."""
+
+    scale: float
+
+    def __post_init__(self):
+        self._check(self.scale > 0, "a positive scale")
+
+    @property
+    def support(self):
+        return 0.0, np.inf
+
+    def log_density(self, value):
+        inside = np.log(2) - 0.5 * (value / self.scale) ** 2 - np.log(self.scale) - _LOG_ROOT
+        return np.where(np.asarray(value) < 0, -np.inf, inside)[()]
+
+    def value(self, latent):
+        return -self.scale * ndtri(0.5 * ndtr(-np.asarray(latent, float)))[()]
+
+    def latent(self, value):
+        return _limited(-ndtri(2 * ndtr(-np.maximum(value, 0.0) / self.scale)))
+
+
+@dataclass(frozen=True)
+class Uniform(_Prior):
+    """Between ``low`` and ``high``."""
+
+    low: float
+    high: float
+
+    def __post_init__(self):
+        self._check(self.high > self.low, "low below high")
+
+    @property
+    def scale(self):
+        return (self.high - self.low) / np.sqrt(12)
+
+    @property
+    def support(self):
+        return self.low, self.high
+
+    def log_density(self, value):
+        inside = (np.asarray(value) >= self.low) & (np.asarray(value) <= self.high)
+        return np.where(inside, -np.log(self.high - self.low), -np.inf)[()]
+
+    def value(self, latent):
+        return self.low + (self.high - self.low) * ndtr(latent)
+
+    def latent(self, value):
+        return _limited(ndtri(np.clip((value - self.low) / (self.high - self.low), 0.0, 1.0)))
+
+
+@dataclass(frozen=True)
+class Parameter:
+    """A number of a model that data may change.
+
+    ``nominal`` is its value before the data; ``null`` the value at which the effect that owns it vanishes exactly,
+    None for a nominal parameter or one that only shapes an effect. Both in ``unit``, SI.
+    """
+
+    name: str
+    unit: str
+    nominal: float
+    prior: object
+    null: float | None = None
+
+    def __post_init__(self):
+        low, high = self.prior.support
+        for what, value in (("nominal", self.nominal), ("null", self.null)):
+            if value is not None and not low <= value <= high:
+                raise ConfigError(f"parameter {self.name}: {what}", f"a value between {low:g} and {high:g}",
+                                  f"{value:g} ({self.prior})", "change the value or its prior")
+
+    @property
+    def sign(self):
+        """+1 or -1 where the effect has one sign (its null is an end of the support), 0 where it may have both."""
+        low, high = self.prior.support
+        return 0 if self.null is None else int(self.null == low) - int(self.null == high)
+
+
+def _limited(latent):
+    return np.clip(latent, -LATENT_LIMIT, LATENT_LIMIT)
