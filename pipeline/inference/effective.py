@@ -7,7 +7,8 @@ def effective_share(noise, white):
     """N_eff / N of a whitened residual (m,), for sums of its squares.
 
     N_eff = N / (1 + 2 sum_k (1 - k/N) rho_k^2), from var(sum r^2) of a correlated Gaussian series (Bartlett, J. R.
-    Stat. Soc. B 8 (1946) 27); correlations below the universal threshold sqrt(2 ln N / N) count as none. Channels add.
+    Stat. Soc. B 8 (1946) 27); correlations below the universal threshold sqrt(2 ln N / N), widened by
+    the same factor (their own spread), count as none. Channels add.
     """
     if not noise.ordered:
         return 1.0
@@ -47,6 +48,8 @@ def _effective_count(series):
     covariance = np.fft.irfft(spectrum)[:length]
     if not covariance[0] > 0:
         return length
-    square = (covariance[1:] / covariance[0]) ** 2
-    square[square < 2 * np.log(length) / length] = 0.0
-    return length / (1 + 2 * np.sum((1 - np.arange(1, length) / length) * square))
+    square, spread = (covariance[1:] / covariance[0]) ** 2, 1.0
+    for _ in range(2):
+        kept = np.where(square < spread * 2 * np.log(length) / length, 0.0, square)
+        spread = 1 + 2 * np.sum((1 - np.arange(1, length) / length) * kept)
+    return length / spread

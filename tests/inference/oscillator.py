@@ -4,6 +4,7 @@ Truth: scipy's DOP853 with dense tolerance. Model: Runge-Kutta 4 in numba. Chann
 """
 
 from dataclasses import replace
+from functools import cache
 
 import numpy as np
 from numba import njit
@@ -39,6 +40,13 @@ def drive(conditions, time):
     return conditions["amplitude"] * (tones + np.sin(2 * np.pi * (1.0 + 0.25 * time) * time))
 
 
+@cache
+def drive_on_grid(amplitude, tones):
+    """The drive on the half steps of the model."""
+    grid = np.arange(2 * SUBSTEPS * (SAMPLES - 1) + 1) / (2 * RATE * SUBSTEPS)
+    return drive({"amplitude": amplitude, "tones": tones}, grid)
+
+
 @njit(cache=True)
 def march(force, step, stiffness, damping, laws):
     """Displacement and velocity (2, n) from rest; ``force`` on a grid of half steps."""
@@ -66,10 +74,9 @@ def _pull(force, x, v, stiffness, damping, laws):
 
 def predict(hypothesis, values, run):
     """What both channels show in ``run``."""
-    half = 0.5 / (RATE * SUBSTEPS)
-    force = drive(run.conditions, half * np.arange(2 * SUBSTEPS * (SAMPLES - 1) + 1))
+    force = drive_on_grid(run.conditions["amplitude"], run.conditions["tones"])
     laws = np.array([values.get(name, 0.0) for name, _, _ in LAWS.values()])
-    motion = march(force, 2 * half, values["stiffness"], values["damping"], laws)[:, ::SUBSTEPS]
+    motion = march(force, 1 / (RATE * SUBSTEPS), values["stiffness"], values["damping"], laws)[:, ::SUBSTEPS]
     return motion * np.array([[1.0 + values.get("gain_error", 0.0)], [1.0]])
 
 
