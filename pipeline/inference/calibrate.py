@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from pipeline.contract.errors import BrakechainError, ConvergenceError
+from pipeline.contract.errors import BrakechainError, ConfigError, ConvergenceError
 from pipeline.inference.priors import LATENT_LIMIT
 
 ITERATIONS = 60
@@ -78,10 +78,12 @@ def whitened(problem, noises, hypothesis, latent, runs):
             predicted = np.asarray(problem.predict(hypothesis, values, run), float)
         except BrakechainError as error:
             return None, error
-        white = noise.whiten(run.samples - predicted)
-        if not np.isfinite(white).all():
+        if predicted.shape != run.samples.shape:
+            raise ConfigError(f"prediction of run {run.name}", f"channels and samples {run.samples.shape}",
+                              str(predicted.shape))
+        if not np.isfinite(predicted).all():
             return None, ConvergenceError(f"prediction of run {run.name}", "finite numbers", "others")
-        residuals.append(white)
+        residuals.append(noise.whiten(run.samples - predicted))
     return residuals, None
 
 

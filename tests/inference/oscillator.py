@@ -114,3 +114,18 @@ def bench(seed, noise=0.01, held_out=True, **of_truth):
 def alone(problem, count=1):
     """The same bench with only its first fitted runs."""
     return replace(problem, runs=problem.runs[:count])
+
+
+def predict_with_lag(hypothesis, values, run):
+    """As ``predict``, by a careless solver: its force comes half a sample late. ``refinement`` 1 takes the lag away."""
+    good = predict(hypothesis, values, run)
+    late = np.roll(drive_on_grid(run.conditions["amplitude"], run.conditions["tones"]), SUBSTEPS)
+    late[:SUBSTEPS] = 0.0
+    laws = np.array([values.get(name, 0.0) for name, _, _ in LAWS.values()])
+    lagging = march(late, 1 / (RATE * SUBSTEPS), values["stiffness"], values["damping"], laws)[:, ::SUBSTEPS]
+    with np.errstate(all="ignore"):
+        return lagging + values.get("refinement", 0.0) * (good - lagging)
+
+
+SOLVER = Hypothesis("time_step", (("time_step", "solver"),), (
+    Parameter("refinement", "1", 0.0, Normal(0.0, 1.0), 0.0),), "numerics")

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from pipeline.contract.errors import ConvergenceError
+from pipeline.contract.errors import ConfigError, ConvergenceError
 from pipeline.inference.calibrate import TOLERANCE, calibrate, fit, from_prior_mean, linearised, orthogonal
 from pipeline.inference.noise import budget
 from pipeline.inference.priors import HalfNormal, LogNormal, Normal, Parameter
@@ -124,3 +124,9 @@ def test_a_model_that_cannot_settle_is_not_called_converged():
                                     (Parameter("a", "1", 1.0, Normal(1.0, 1.0)),), lambda x: 9 * x, 0.01)
     with pytest.raises(ConvergenceError, match="not converged after"):
         calibrate(problem, noises, problem.nominal, [np.zeros(1)], problem.runs)
+
+
+def test_a_prediction_of_another_shape_is_refused():
+    problem, noises = curve_problem(lambda v, x: x[1:], (Parameter("a", "1", 1.0, Normal(1.0, 1.0)),), lambda x: x, 0.1)
+    with pytest.raises(ConfigError, match=r"prediction of run a: expected channels and samples \(1, 50\)"):
+        linearised(problem, noises, problem.nominal, [0.0], problem.runs)

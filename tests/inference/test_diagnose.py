@@ -13,7 +13,7 @@ from pipeline.inference.noise import budget
 from pipeline.inference.priors import Normal, Parameter
 from pipeline.inference.problem import Hypothesis
 from tests.inference import linear
-from tests.inference.oscillator import CATALOGUE, alone, bench
+from tests.inference.oscillator import CATALOGUE, SOLVER, alone, bench, predict_with_lag
 
 
 def cubic(t, x, v):
@@ -68,6 +68,13 @@ def test_two_effects_are_found_one_after_the_other():
     effects = {effect for effect, _ in told.nominal.effects} | {c.name for c in told.decision.named}
     assert told.decision.verdict == "missing" and effects == {"cubic", "coulomb"}
     assert [c.name for c in told.base.decision.named] == ["cubic"], "friction is a small share of the excess"
+
+
+def test_a_solver_that_lags_is_told_from_missing_physics():
+    problem = replace(bench(5, stiffness=420.0), predict=predict_with_lag)
+    told = diagnose(problem, budget(problem), (*CATALOGUE, SOLVER))
+    assert told.decision.verdict == "numerics"
+    assert told.named[0].fit.values["refinement"] == pytest.approx(1.0, abs=0.02)
 
 
 def test_one_run_alone_ends_in_a_tie_at_most():
