@@ -114,7 +114,7 @@ def test_a_file_says_what_it_is(path):
 
 
 @pytest.mark.parametrize("folder", ["stages", "pipeline/physics", "pipeline/systems", "pipeline/recordings",
-                                    "pipeline/effects"])
+                                    "pipeline/inference", "pipeline/effects"])
 def test_every_file_has_its_test(folder):
     for path in ROOT.glob(f"{folder}/*.py"):
         if path.stem != "__init__":

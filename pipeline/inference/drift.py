@@ -1,0 +1,119 @@
+"""Drift of fitted values over operating points: a wrong value is one constant shift, missing physics drifts.
+
+    Q = sum_i (theta_i - mean)' C_i^-1 (theta_i - mean),   C_i^-1 = J_i'W J_i,
+
+with theta_i the values that run i alone asks for, linearised about the joint fit. Directions that a run cannot see add
+nothing to Q. The null of Q is drawn from the same linear model, prior included.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from pipeline.inference.problem import operating_points
+
+DRAWS = 4000
+
+
+@dataclass(frozen=True)
+class Drift:
+    """``shift`` and ``std`` (point, k): latent values that each point alone asks for, against the joint fit.
+
+    ``statistic`` Q and its ``p_value`` under constant parameters; ``freedom``: degrees of freedom of Q.
+    """
+
+    points: tuple
+    names: tuple
+    shift: np.ndarray
+    std: np.ndarray
+    statistic: float
+    p_value: float
+    freedom: int
+
+
+def drift(fit, weights=None, draws=DRAWS, seed=0):
+    """Drift test of a Fit; ``weights`` (runs,) of the runs (see ``effective.tempering``)."""
+    information, score = by_point(fit, weights)
+    joint = np.eye(len(fit.latent)) + information.sum(axis=0)
+    inverse = np.array([np.linalg.pinv(a, rcond=1e-9, hermitian=True) for a in information])
+    statistic = float(_statistic(score, inverse))
+    null = _null(information, inverse, joint, draws, np.random.default_rng(seed))
+    freedom = sum(_rank(a) for a in information) - _rank(information.sum(axis=0))
+    shift, std = _own_values(information, score)
+    return Drift(tuple(operating_points(fit.runs)), tuple(p.name for p in fit.hypothesis.parameters), shift, std,
+                 statistic, (1 + np.sum(null >= statistic)) / (1 + draws), freedom)
+
+
+def by_point(fit, weights=None):
+    """Information J'WJ (point, k, k) and score J'W r (point, k) of every operating point at the fit."""
+    weights = np.ones(len(fit.runs)) if weights is None else weights
+    information, score = [], []
+    for indices in operating_points(fit.runs).values():
+        information.append(sum(weights[i] * fit.jacobians[i].T @ fit.jacobians[i] for i in indices))
+        score.append(sum(weights[i] * fit.jacobians[i].T @ fit.residuals[i] for i in indices))
+    return np.array(information), np.array(score)
+
+
+def agreement(fit, index, weights=None, tolerance=0.0):
+    """(excess in standard deviations, values (point,), std (point,)) of latent parameter ``index`` over the points.
+
+    Each point estimates it with the other parameters free under their priors. The excess is that of
+    sum ((value - mean) / std)^2 over its expectation, in units of sqrt(2 dof): below 2 the points agree. Points that
+    hardly see the parameter (std above 1, its prior's) take no part; fewer than two: zero. ``tolerance``: latent spread
+    that does not matter, added to the variance of every point.
+    """
+    information, score = by_point(fit, weights)
+    information, score = _reduced(information, score, index)
+    seen = information > 1.0
+    value, std = np.zeros(len(seen)), np.full(len(seen), np.inf)
+    value[seen], std[seen] = score[seen] / information[seen], 1 / np.sqrt(information[seen])
+    if seen.sum() < 2:
+        return 0.0, value, std
+    std = np.hypot(std, tolerance)
+    mean = np.average(value[seen], weights=1 / std[seen] ** 2)
+    freedom = seen.sum() - 1
+    return float((np.sum(((value - mean)[seen] / std[seen]) ** 2) - freedom) / np.sqrt(2 * freedom)), value, std
+
+
+def trend(drift, index, condition):
+    """Slope of parameter ``index`` over a condition (point,), in standard deviations of that slope."""
+    weight = 1 / drift.std[:, index] ** 2
+    centred = condition - np.average(condition, weights=weight)
+    information = np.sum(weight * centred**2)
+    return float(np.sum(weight * centred * drift.shift[:, index]) / np.sqrt(information)) if information > 0 else 0.0
+
+
+def _statistic(score, inverse):
+    return np.einsum("...ia,iab,...ib->...", score, inverse, score)
+
+
+def _null(information, inverse, joint, draws, generator):
+    """Q (draws,) of the linear model: theta_i = one prior draw, noise N(0, A_i) in the score of every point."""
+    values, vectors = np.linalg.eigh(information)
+    root = vectors * np.sqrt(np.maximum(values, 0.0))[:, None, :]
+    size = joint.shape[0]
+    noise = np.einsum("iab,dib->dia", root, generator.standard_normal((draws, len(information), size)))
+    score = noise + np.einsum("iab,db->dia", information, generator.standard_normal((draws, size)))
+    shift = np.linalg.solve(joint, score.sum(axis=1).T).T
+    return _statistic(score - np.einsum("iab,db->dia", information, shift), inverse)
+
+
+def _own_values(information, score):
+    """Values and standard deviations that each point asks for, with the prior about the joint fit."""
+    covariance = np.linalg.inv(information + np.eye(information.shape[1]))
+    return np.einsum("iab,ib->ia", covariance, score), np.sqrt(np.einsum("iaa->ia", covariance))
+
+
+def _reduced(information, score, index):
+    """Information and score (point,) of one parameter, the others eliminated under their priors."""
+    others = np.arange(information.shape[1]) != index
+    rest = information[:, others][:, :, others] + np.eye(others.sum())
+    cross = information[:, others, index]
+    gain = np.linalg.solve(rest, cross[..., None])[..., 0] if others.any() else cross
+    return (information[:, index, index] - np.einsum("ia,ia->i", cross, gain),
+            score[:, index] - np.einsum("ia,ia->i", gain, score[:, others]))
+
+
+def _rank(matrix):
+    values = np.linalg.eigvalsh(matrix)
+    return int((values > 1e-9 * max(values[-1], 1e-300)).sum())

@@ -1,0 +1,81 @@
+"""Verification on runs never fitted: errors before, recalibrated and after, against noise, and the gain."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from pipeline.inference.calibrate import whitened
+from pipeline.inference.effective import tempering
+from pipeline.inference.noise import floor, normalised_error
+
+
+@dataclass(frozen=True)
+class Gain:
+    """Decrease ``value`` of the squared whitened error from one model to another, and its standard error ``std``.
+
+    ``excess``: squared error of the first model beyond noise.
+    """
+
+    value: float
+    std: float
+    excess: float
+
+    @property
+    def errors(self):
+        """The gain in standard errors."""
+        return self.value / self.std if self.std > 0 else 0.0
+
+    @property
+    def share(self):
+        """The gain as a share of the excess error (1 where there is no excess but a gain)."""
+        return self.value / max(self.excess, self.value) if self.value > 0 else 0.0
+
+
+@dataclass(frozen=True)
+class Errors:
+    """Root mean NRMSE over runs: with nominal values, recalibrated, completed; and what noise alone leaves."""
+
+    before: float
+    recalibrated: float
+    after: float
+    noise_floor: float
+    runs: tuple
+
+
+def gain(noises, first, second):
+    """Gain from whitened residuals ``first`` [(m_r,)] to ``second`` of the same runs.
+
+    With s their difference, sum first^2 - sum second^2 = sum s (first + second) varies by 2 |s| where ``second`` is
+    white noise; residue beyond noise and correlation widen it by the run's tempering (see ``effective.tempering``).
+    """
+    weights = tempering(noises, second)
+    change = [a @ a - b @ b for a, b in zip(first, second, strict=True)]
+    variance = [4 * (a - b) @ (a - b) / w for a, b, w in zip(first, second, weights, strict=True)]
+    excess = sum(a @ a - len(a) for a in first)
+    return Gain(float(sum(change)), float(np.sqrt(sum(variance))), float(max(excess, 0.0)))
+
+
+def held_out_residuals(problem, noises, fit, runs):
+    """Whitened residuals [(m_r,)] of a Fit's values on runs it has not seen; raises what the forward model raises."""
+    residuals, error = whitened(problem, noises, fit.hypothesis, fit.latent, runs)
+    if error:
+        raise error
+    return residuals
+
+
+def errors(problem, budget, nominal, null, best, runs):
+    """Errors over ``runs`` of the Fits ``null`` and ``best``, and of hypothesis ``nominal`` at its given values."""
+    before = [_error(problem, nominal, nominal.nominal, run) for run in runs]
+    recalibrated = [_error(problem, null.hypothesis, null.latent, run) for run in runs]
+    after = [_error(problem, best.hypothesis, best.latent, run) for run in runs]
+    noise = [floor(run, budget[run.name]) for run in runs]
+    return Errors(*map(_root_mean, (before, recalibrated, after, noise)), tuple(run.name for run in runs))
+
+
+def _error(problem, hypothesis, latent, run):
+    predicted = problem.predict(hypothesis, hypothesis.values(latent), run)
+    return normalised_error(run, run.samples - np.asarray(predicted, float))
+
+
+def _root_mean(values):
+    return float(np.sqrt(np.mean(np.square(values)))) if len(values) else float("nan")

@@ -1,0 +1,88 @@
+"""The numbers that the rules see: of each refitted candidate, and of the recalibrated nominal model."""
+
+import numpy as np
+from scipy.stats import chi2
+
+from pipeline.contract.errors import BrakechainError
+from pipeline.inference.calibrate import linearised
+from pipeline.inference.decide import Contender, Situation
+from pipeline.inference.drift import agreement
+from pipeline.inference.effective import coherent_energy, effective_share
+from pipeline.inference.verify import gain, held_out_residuals
+
+
+def held_out_gains(problem, budget, null, fits, share):
+    """{index: (Gain or None, whether it beats a decoy of equal size or None)}."""
+    runs = problem.held_out
+    if not runs:
+        return dict.fromkeys(fits, (None, None))
+    noises = tuple(budget[run.name] for run in runs)
+    reference = held_out_residuals(problem, noises, null, runs)
+    gains = {}
+    for i, fit in fits.items():
+        try:
+            gains[i] = gain(noises, reference, held_out_residuals(problem, noises, fit, runs))
+        except BrakechainError:
+            gains[i] = gain(noises, reference, reference)
+    return {i: (gains[i], _beats_decoy(i, fits, gains, share)) for i in fits}
+
+
+def _beats_decoy(index, fits, gains, share):
+    """Against the best candidate of as many parameters that is out of the question (posterior below 5 %)."""
+    decoys = [i for i, fit in fits.items() if i != index and share[i] < 0.05
+              and len(fit.latent) == len(fits[index].latent)]
+    if not decoys:
+        return None
+    return bool(gains[index].value > gains[max(decoys, key=lambda i: share[i])].value)
+
+
+def contender(null, null_evidence, candidate, fit, own, share, p_value, held_out, weights, rules):
+    """Contender of a refitted candidate: its Fit, ``own`` Evidence, posterior ``share`` and held-out (Gain, decoy)."""
+    size, std, gained = len(null.latent), fit.spread(weights), held_out[0]
+    moved = [abs(fit.values[p.name] - p.null) / max(std[p.name], 1e-300) for p in candidate.parameters
+             if p.null is not None]
+    differing = [agreement(fit, size + k, weights, _immaterial(fit, size + k, rules))[0]
+                 for k, p in enumerate(candidate.parameters) if p.null is not None]
+    return Contender(
+        candidate.name, candidate.kind, float(share), own.log_evidence - null_evidence.log_evidence, float(p_value),
+        float(own.left_out.sum() - null_evidence.left_out.sum()), gained and gained.errors, gained and gained.share,
+        held_out[1], max(differing, default=0.0), max(moved, default=0.0), unexplained(null, fit, rules),
+        candidate.forbidden(fit.values) if candidate.forbidden else "")
+
+
+def _immaterial(fit, index, rules):
+    """The latent change of an effect parameter that changes its distance from null by the rules' tolerance."""
+    parameter, latent = fit.hypothesis.parameters[index], fit.latent[index]
+    slope = (parameter.prior.value(latent + 1e-4) - parameter.prior.value(latent - 1e-4)) / 2e-4
+    return rules.tolerance * abs(parameter.prior.value(latent) - parameter.null) / max(slope, 1e-300)
+
+
+def unexplained(null, fit, rules):
+    """Share of the null's excess error that a Fit leaves: by squared error or in frequencies noise does not explain."""
+    level = 1 + rules.noise_uncertainty
+    excess = max(null.chi_square.sum() - null.counts.sum(), null.chi_square.sum() - fit.chi_square.sum(), 1e-300)
+    doubt = 2 * np.sqrt(2 * fit.counts.sum())
+    by_size = max(0.0, fit.chi_square.sum() - level * fit.counts.sum() - doubt) / excess
+    return float(max(by_size, _coherent(fit, level) / max(_coherent(null, level), excess)))
+
+
+def _coherent(fit, level):
+    return sum(coherent_energy(n, r, level) for n, r in zip(fit.noises, fit.residuals, strict=True))
+
+
+def situation(problem, null, weights, drifting, rules):
+    """Situation of the recalibrated nominal model ``null`` (Fit) with its Drift."""
+    counts, level = null.counts.sum(), 1 + rules.noise_uncertainty
+    effective = sum(len(r) * effective_share(n, r) for n, r in zip(null.noises, null.residuals, strict=True))
+    misfit = (null.chi_square.sum() - level * counts) / (counts * np.sqrt(2 / effective))
+    return Situation(len(problem.runs), len(drifting.points), float(misfit), _coherent(null, level) > 0,
+                     _moved_p(problem, null, weights), drifting.p_value)
+
+
+def _moved_p(problem, null, weights):
+    """p-value of the given values: their squared error over the refitted ones', chi^2 with one degree per parameter."""
+    try:
+        given = linearised(problem, null.noises, null.hypothesis, null.hypothesis.nominal, null.runs)
+    except BrakechainError:
+        return 0.0
+    return float(chi2.sf(weights @ (given.chi_square - null.chi_square), len(null.latent)))

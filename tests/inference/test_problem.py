@@ -1,0 +1,52 @@
+"""Runs, hypotheses and problems: what joins, and what is refused."""
+
+import pickle
+
+import numpy as np
+import pytest
+
+from pipeline.contract.errors import ConfigError
+from pipeline.inference.priors import Normal, Parameter
+from pipeline.inference.problem import Hypothesis, Observed, Problem, operating_points
+from tests.inference.oscillator import CATALOGUE, NOMINAL, predict
+
+
+def run(name, **more):
+    return Observed(name, {}, ("a",), more.pop("samples", np.zeros((1, 4))), 1.0, **more)
+
+
+def test_hypotheses_join_their_effects_and_parameters():
+    both = NOMINAL.joined(CATALOGUE[0]).joined(CATALOGUE[2])
+    assert both.name == "cubic + coulomb" and both.effects == (("cubic", "mount"), ("coulomb", "mount"))
+    assert list(both.values(both.nominal)) == ["stiffness", "damping", "cubic_stiffness", "friction_force"]
+    assert both.values(both.nominal)["stiffness"] == pytest.approx(NOMINAL.parameters[0].nominal)
+    assert NOMINAL.joined(CATALOGUE[-1]).kind == "sensor"
+
+
+def test_missing_samples_may_hold_anything_and_count_as_nothing():
+    holed = run("a", samples=np.array([[1.0, np.nan, 2.0, 3.0]]), valid=np.array([[True, False, True, True]]))
+    assert holed.samples[0, 1] == 0.0 and holed.valid.sum() == 3
+
+
+def test_repeats_share_an_operating_point():
+    assert operating_points((run("a"), run("b"), run("c", repeat_of="a"))) == {"a": [0, 2], "b": [1]}
+
+
+def test_a_problem_can_be_sent_to_other_processes():
+    whole = Problem((run("a"),), predict, NOMINAL)
+    assert pickle.loads(pickle.dumps(whole)).nominal == NOMINAL
+
+
+@pytest.mark.parametrize("make, told", [
+    (lambda: run("a", samples=np.array([[np.nan, 1.0]])), "finite samples"),
+    (lambda: run("a", samples=np.zeros((2, 4))), "samples and mask of 1 channels"),
+    (lambda: Problem((), predict, NOMINAL), "at least one recorded run"),
+    (lambda: Problem((run("a"), run("a")), predict, NOMINAL), "different names"),
+    (lambda: Problem((run("a", held_out=True),), predict, NOMINAL), "at least one run to fit"),
+    (lambda: Problem((run("a", repeat_of="b"),), predict, NOMINAL), "repeat_of: expected one of a"),
+    (lambda: Hypothesis("h", (), (), "magic"), "physics, sensor or numerics"),
+    (lambda: Hypothesis("h", (), (Parameter("a", "1", 0.0, Normal(0.0, 1.0)),) * 2), "parameters of different names"),
+])
+def test_bad_input_is_refused(make, told):
+    with pytest.raises(ConfigError, match=told):
+        make()

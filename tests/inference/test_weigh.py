@@ -1,0 +1,86 @@
+"""The numbers that the rules see, on linear problems."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from scipy import stats
+
+from pipeline.inference.calibrate import fit
+from pipeline.inference.decide import Rules
+from pipeline.inference.drift import drift
+from pipeline.inference.evidence import evidence
+from pipeline.inference.weigh import contender, held_out_gains, situation, unexplained
+from tests.inference import linear
+
+
+def fits(truth=None, seed=0, held_out=0, sizes=(2, 1, 1), runs=4):
+    whole, noise, catalogue, _ = linear.problem(sizes, runs, 60, truth, seed, held_out, 5.0)
+    noises = tuple(noise[r.name] for r in whole.training)
+    found = [fit(whole, noises, h, np.zeros(len(h.parameters)), whole.training)
+             for h in (whole.nominal, *(whole.nominal.joined(c) for c in catalogue))]
+    return whole, noise, catalogue, found
+
+
+def seen(whole, catalogue, found, k, held_out=(None, None)):
+    null = found[0]
+    return contender(null, evidence(null), catalogue[k - 1], found[k], evidence(found[k]), 0.5, 0.01, held_out,
+                     np.ones(len(null.runs)), Rules())
+
+
+@pytest.mark.exact
+def test_the_distance_from_null_is_the_value_over_its_posterior_deviation():
+    whole, _, catalogue, found = fits({"effect_1_0": 0.5})
+    told = seen(whole, catalogue, found, 1)
+    assert told.from_null == pytest.approx(found[1].values["effect_1_0"] / found[1].spread()["effect_1_0"], rel=1e-6)
+    assert told.evidence_gain > 20 and told.left_out_gain > 10 and told.unexplained == 0.0
+    assert told.held_out_errors is None and told.beats_decoy is None and told.forbidden == ""
+
+
+def test_values_that_cannot_be_are_told():
+    whole, _, catalogue, found = fits({"effect_1_0": -0.5})
+    guarded = (replace(catalogue[0], forbidden=_negative), *catalogue[1:])
+    assert seen(whole, guarded, found, 1).forbidden == "a negative friction force"
+
+
+def _negative(values):
+    return "a negative friction force" if values["effect_1_0"] < 0 else ""
+
+
+def test_the_right_effect_beats_its_decoy_on_held_out_runs():
+    whole, noise, catalogue, found = fits({"effect_1_0": 0.5}, held_out=1)
+    gains = held_out_gains(whole, noise, found[0], {0: found[1], 1: found[2]}, np.array([0.99, 0.001]))
+    assert gains[0][0].errors > 3 and gains[0][1] is True
+    assert gains[1][0].errors < 3 and gains[1][1] is None, "the only other candidate is not out of the question"
+
+
+def test_half_of_an_effect_leaves_a_quarter_of_the_excess():
+    whole, _, _, found = fits({"effect_1_0": 4.0})
+    half = fit_at(whole, found[1], found[1].latent * [1, 1, 0.5])
+    assert unexplained(found[0], half, Rules(noise_uncertainty=0.0)) == pytest.approx(0.25, abs=0.03)
+    assert unexplained(found[0], found[2], Rules()) > 0.9
+
+
+def fit_at(whole, found, latent):
+    from pipeline.inference.calibrate import linearised
+
+    return linearised(whole, found.noises, found.hypothesis, latent, found.runs)
+
+
+@pytest.mark.exact
+def test_the_given_values_are_tested_by_chi_square():
+    whole, _, _, found = fits({"nominal_0": 0.1})
+    told = situation(whole, found[0], np.ones(4), drift(found[0]), Rules())
+    given = sum(((r.samples / linear.STD) ** 2).sum() for r in whole.runs)
+    assert told.moved_p == pytest.approx(stats.chi2.sf(given - found[0].chi_square.sum(), 2), rel=1e-3)
+    assert told.runs == told.points == 4 and not told.coherent
+
+
+def test_the_misfit_of_a_good_model_is_small_and_of_a_bad_one_large():
+    good = [misfit({"nominal_0": 1.0}, seed) for seed in range(30)]
+    assert max(good) < 3 < misfit({"effect_1_0": 1.0}, 0)
+
+
+def misfit(truth, seed):
+    whole, _, _, found = fits(truth, seed)
+    return situation(whole, found[0], np.ones(4), drift(found[0]), Rules()).misfit
