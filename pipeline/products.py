@@ -775,3 +775,20 @@ class LockIn:
     frequency: Array = quantity("Hz", "line", "lines of the spectra")
     spectrum: Array = quantity("1", "case body line", "level in dB re the highest line, of that velocity in the window",
                                np.float32)
+
+
+@product(version=1)
+class FrictionDescriptions:
+    """The three descriptions of friction in an implicit setting: what each costs, and what they agree on."""
+
+    description: Array = text("description", "evolution, elastic, rigid")
+    modulation: Array = quantity("1", "modulation", "amplitude of the pulsating load over its mean; above 1 contact is lost")
+    iterations: Array = quantity("1", "tangent modulation description", "Newton iterations per step, mean; first without the unsymmetric term, then with it")
+    worst: Array = count("tangent modulation description", "largest number of iterations of one step")
+    halvings: Array = count("tangent modulation description", "steps that did not converge and were halved")
+    converged: Array = count("tangent modulation description", "1 where no step had to be given up")
+    cost: Array = quantity("1", "tangent modulation description", "work of the factorisations over that of the cheapest")
+    sliding_share: Array = quantity("1", "tangent modulation description", "share of contacts that slide, mean over the steps")
+    mean_shift: Array = quantity("m", "tangent modulation description", "mean displacement of the block along sliding, second half")
+    curve_error: Array = quantity("1", "description", "deviation from the curve of one Hertz contact over its limit, root mean square")
+    step: Array = quantity("s", "", "time step")

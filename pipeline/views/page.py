@@ -10,6 +10,7 @@ from pipeline.views.chapters import (
     beam_on_beam,
     comparison,
     friction,
+    friction_descriptions,
     lock_in,
     lumped,
     motion,
@@ -31,6 +32,7 @@ def plan(products, look):
     model, modes = products.get("reduced_model"), products.get("complex_modes")
     known = (("surface", surface.chapter, ()), ("micro_friction", friction.micro, ()),
              ("friction_map", friction.friction_map, ()), ("interface_law", lock_in.interface_law, ()),
+             ("friction_descriptions", friction_descriptions.chapter, ()),
              ("structure", structure.chapter, (modes,)), ("pin_on_disc", lock_in.pin_on_disc, ()),
              ("beam_on_beam", beam_on_beam.beams, (modes,)), ("lumped", lumped.chapter, ()),
              ("complex_modes", stability.chapter, (model, lines)), ("multibody", motion.chapter, ()),
