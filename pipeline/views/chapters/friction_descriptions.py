@@ -31,7 +31,8 @@ def _conclusion(product, names):
     told = (f"Nearest to the curve of one contact: {names[int(np.argmin(product.curve_error))]} (the paper says"
             f" evolution). Most iterations: {lagging}; the worst single step: {worst} with {product.worst.max()} (the"
             f" paper: evolution converges worst). Leaving out the unsymmetric term changes the iterations by"
-            f" {percent(extra.min(), 2)} to {percent(extra.max(), 2)}. Rigid sticking {kept} and took {number(work, 2)} times the work of the others (the paper: it always converges, slowly).")
+            f" {percent(extra.min(), 2)} to {percent(extra.max(), 2)}. Rigid sticking {kept} and took"
+            f" {number(work, 2)} times the work of the others (the paper: it always converges, slowly).")
     if steady.any():
         told += f" Steady sliding differs by {percent(_spread(product, steady), 2)} between descriptions"
         told += (f", motion that loses contact by {percent(_spread(product, ~steady), 2)}." if (~steady).any() else ".")
