@@ -30,7 +30,7 @@ def modes():
 
 
 def scatter(runs=4):
-    return filled(MotionScatter, formulation=["hard", "hard", "lagrange", "lagrange"][:runs], step=[1e-6, 2e-6] * 2,
+    return filled(MotionScatter, formulation=["hard", "hard", "forward", "forward"][:runs], step=[1e-6, 2e-6] * 2,
                   seed=[1, 1, 2, 2], fundamental=[2680.0, 2700.0, 2690.0, 2700.0], peak_force=[40.0] * 4,
                   peak_slip=[0.05] * 4, status_share=[[0.2, 0.5, 0.3]] * 4, vibrating_share=[0.4, 0.5, 0.5, 0.6],
                   harmonic_level=[[0.0, -20.0, -40.0]] * 4, harmonic_height=[[25.0, 20.0, 10.0]] * 4,
