@@ -418,7 +418,7 @@ class Transient:
 class MotionScatter:
     """One motion in several formulations, steps and seeds: what a chaotic motion keeps. First sensor, first contact."""
 
-    formulation: Array = text("run", "contact formulation: hard or lagrange")
+    formulation: Array = text("run", "contact formulation: hard, forward or lagrange")
     step: Array = quantity("s", "run", "time step")
     seed: Array = count("run", "seed of the start velocity")
     duration: Array = quantity("s", "", "length that is judged")

@@ -11,7 +11,7 @@ from pipeline.physics.bursts import bursts, harmonic_lines
 from pipeline.physics.dry_friction import constant
 from pipeline.physics.sliding_model import sliding_model
 from pipeline.physics.spectra import power_spectrum
-from pipeline.physics.time_stepping import Hard, Lagrange, Start, simulate
+from pipeline.physics.time_stepping import Forward, Hard, Lagrange, Start, simulate
 from pipeline.physics.time_stepping_linear import modal_system
 from pipeline.physics.time_stepping_start import steady_start
 from pipeline.products import MotionScatter, ReducedModel
@@ -23,9 +23,10 @@ _ORDERS = 4
 class Settings(Section):
     """Which runs, and how each is judged."""
 
-    formulations: tuple[Literal["hard", "lagrange"], ...] = option(
-        ("hard", "lagrange"), "hard: impulses on velocities (Moreau-Jean), exact linear part; lagrange: multipliers on"
-        " displacements under Newmark's rule", min_length=1)
+    formulations: tuple[Literal["hard", "forward", "lagrange"], ...] = option(
+        ("hard", "forward"), "hard: impulses on velocities (Moreau-Jean); forward: multipliers on displacements a step"
+        " ahead, as explicit codes set them; both with exact linear part; lagrange: multipliers under Newmark's rule",
+        min_length=1)
     steps: Quantities("s", gt=0) = option(("1 us", "2 us"), "time steps")
     seeds: tuple[int, ...] = option((1, 2, 3), "seeds of the random start velocity", min_length=1)
     gamma: float = option(0.5, "lagrange: Newmark's gamma; 0.5 trapezoidal, more damps the highest modes", ge=0.5, le=1)
@@ -78,7 +79,7 @@ def _run(model, settings, task):
     """Everything that is told of one motion."""
     formulation, step, seed = task
     sliding = sliding_model(model, 0, settings.speed)
-    law = Hard() if formulation == "hard" else Lagrange(settings.gamma)
+    law = {"hard": Hard(), "forward": Forward(), "lagrange": Lagrange(settings.gamma)}[formulation]
     friction, inputs = constant(settings.friction), model.pressure[0] * model.input_area
     system = modal_system(sliding, highest=settings.highest_frequency)
     every = max(1, round(settings.sampling / step))

@@ -11,7 +11,7 @@ from pipeline.physics.limit_cycle import cycle, harmonic_levels
 from pipeline.physics.sliding_model import sliding_model
 from pipeline.physics.spectra import power_spectrum
 from pipeline.physics.tangential_law import tangential_law
-from pipeline.physics.time_stepping import Hard, History, Lagrange, Penalty, Start, Table, simulate
+from pipeline.physics.time_stepping import Forward, Hard, History, Lagrange, Penalty, Start, Table, simulate
 from pipeline.physics.time_stepping_linear import modal_system
 from pipeline.physics.time_stepping_start import steady_start
 from pipeline.products import ReducedModel, Transient
@@ -20,9 +20,10 @@ from pipeline.products import ReducedModel, Transient
 class Settings(Section):
     """Contact, friction, operating points, and what is kept of the motion."""
 
-    contact: Literal["hard", "penalty", "table", "lagrange"] = option(
+    contact: Literal["hard", "penalty", "table", "lagrange", "forward"] = option(
         "hard", "hard: impulses on velocities; penalty: linear spring and damper; table: the contact law of the model;"
-        " lagrange: multipliers on displacements under Newmark's rule")
+        " lagrange: multipliers on displacements under Newmark's rule; forward: multipliers as explicit codes set them,"
+        " a step ahead")
     restitution: float = option(0.0, "hard: rebound velocity over impact velocity", ge=0, le=1)
     contact_stiffness: Quantity("N/m", gt=0) | None = option(
         None, "penalty: stiffness of each contact; none = that of the model about its preload")
@@ -134,14 +135,15 @@ def _law(model, sliding, settings):
     """Normal law of the contacts."""
     if settings.contact == "table":
         if not len(model.law_closure):
-            raise ConfigError("transient.contact", "hard, penalty or lagrange for contacts without a law of their own",
+            raise ConfigError("transient.contact", "hard, penalty, lagrange or forward: no law comes with the contacts",
                               "table")
         return Table(model.law_closure, model.law_pressure, settings.damping_speed, model.contact_gap)
     gap = model.contact_gap
     if settings.contact == "penalty":
         stiffness = sliding.contacts.stiffness if settings.contact_stiffness is None else settings.contact_stiffness
         return Penalty(stiffness, settings.contact_damping, gap, settings.gamma if settings.rule == "newmark" else None)
-    return {"hard": Hard(settings.restitution, gap), "lagrange": Lagrange(settings.gamma, gap)}[settings.contact]
+    return {"hard": Hard(settings.restitution, gap), "lagrange": Lagrange(settings.gamma, gap),
+            "forward": Forward(gap)}[settings.contact]
 
 
 def _friction(model, sliding, settings):

@@ -5,8 +5,9 @@
 Displacements count from where nothing is loaded; contact i touches where n_i q + gap_i = 0 and gains the sliding
 velocity v_i = lever_i W(t) of the drive. The linear part is stepped exactly for forces that are linear in time, so
 that without events the step matters only for contact and friction forces; ``Lagrange``, and ``Penalty`` with a
-``gamma``, step by Newmark's rule instead, for comparison. Friction acts along the tangent rows: what turns sideways
-with the slip (equation (3) of the sliding model) is left out. Nothing is accepted that has not converged.
+``gamma``, step by Newmark's rule instead, for comparison; ``Forward`` sets its multipliers as explicit codes do.
+Friction acts along the tangent rows: what turns sideways with the slip (equation (3) of the sliding model) is left
+out. Nothing is accepted that has not converged.
 """
 
 from dataclasses import dataclass, replace
@@ -77,6 +78,17 @@ class Lagrange:
     """Contacts that do not yield, by multipliers on displacements under Newmark's rule with this ``gamma``."""
 
     gamma: float = 0.5
+    gap: np.ndarray | float = 0.0
+
+
+@dataclass(frozen=True)
+class Forward:
+    """Contacts that do not yield, by forward increments: the impulse at the begin of a step closes the gap at its end.
+
+    Carpenter, Taylor & Katona (Int. J. Numer. Meth. Engng 32 (1991) 103), whose central differences are replaced by
+    the exact linear part; rigid friction acts with it. Impacts come to rest within two steps.
+    """
+
     gap: np.ndarray | float = 0.0
 
 
@@ -152,11 +164,11 @@ def simulate(model, law, friction=None, *, step, duration, drive=None, inputs=No
              system=None, book=True):
     """Motion of a SlidingModel over ``duration`` s in steps of ``step`` s, every ``record_every``-th kept.
 
-    ``law``: Hard, Penalty, Table or Lagrange; ``friction``: Friction, none by default; ``drive``: speed of the drive
-    in rad/s, a number or a History, by default that of the model; ``inputs``: forces (i,) N on the inputs, or their
-    History; ``start``: Start, by default at rest in the origin; ``system``: the ModalSystem of the model, where many
-    runs share it; ``book=False`` leaves out the work of inputs and the loss of dampers. Raises ConfigError for a step
-    too long, ConvergenceError with time and contact where a step has no solution.
+    ``law``: Hard, Penalty, Table, Lagrange or Forward; ``friction``: Friction, none by default; ``drive``: speed of the
+    drive in rad/s, a number or a History, by default that of the model; ``inputs``: forces (i,) N on the inputs, or
+    their History; ``start``: Start, by default at rest in the origin; ``system``: the ModalSystem of the model, where
+    many runs share it; ``book=False`` leaves out the work of inputs and the loss of dampers. Raises ConfigError for a
+    step too long, ConvergenceError with time and contact where a step has no solution.
     """
     steps = round(duration / step)
     if not step > 0 or steps < 1 or record_every < 1:
@@ -200,18 +212,21 @@ def _linear(model, system, law, friction, step):
     matrices = step_matrices(system, step) if gamma is None else newmark_matrices(system, step, gamma)
     forced = system.driven(np.vstack((contacts.normal, contacts.tangent, model.input_rows, -_element_rows(model))))
     first, last = (np.einsum("bxy,ryb->rxb", matrix, forced) for matrix in matrices[1:])
-    hold = np.array([isinstance(law, Hard), kernel(friction, count).description == RIGID])
+    kicks = isinstance(law, Forward)
+    hold = np.array([kicks or isinstance(law, Hard), kernel(friction, count).description == RIGID])
     if gamma is not None:
         hold[:] = False
     for f in np.flatnonzero(hold):
         own = slice(f * count, (f + 1) * count)
-        last[own], first[own] = first[own] + last[own], 0.0
+        flown = step * np.einsum("bxy,ryb->rxb", matrices[0], forced[own])
+        last[own], first[own] = flown if kicks else first[own] + last[own], 0.0
     rows = np.concatenate([system.observed(r) for r in (contacts.normal, contacts.tangent)])
     response = np.einsum("oibx,fjbx->ofij", rows, last[:2 * count].reshape(2, count, *last.shape[1:]))
+    struck = step * np.repeat(hold, count)[:, None, None] * forced[:2 * count]
     energy, power = _forms(system)
     arrays = (np.moveaxis(matrices[0], 0, 2), first, last, _stacked(rows), response,
               system.observed(model.input_rows)[0], _stacked(system.observed(model.sensor_rows)), hold, system.squared,
-              np.diag(system.damping), energy, power)
+              np.diag(system.damping), energy, power, struck if kicks else struck[:0])
     return LinearKernel(*(_own(a) for a in arrays))
 
 
@@ -256,7 +271,7 @@ def _normal_kernel(law, contacts):
     def each(value):
         return _own(np.broadcast_to(np.asarray(value, float), count))
 
-    kind = {Hard: HARD, Penalty: PENALTY, Table: TABLE, Lagrange: LAGRANGE}[type(law)]
+    kind = {Hard: HARD, Penalty: PENALTY, Table: TABLE, Lagrange: LAGRANGE, Forward: LAGRANGE}[type(law)]
     if isinstance(law, Table) and (len(law.closure) < 2 or law.closure[0] != 0 or law.pressure[0] != 0
                                    or np.any(np.diff(law.closure) <= 0) or np.any(np.diff(law.pressure) <= 0)):
         raise ConfigError("time stepping: normal law", "closure and pressure that rise from 0", "another table")

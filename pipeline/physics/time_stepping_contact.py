@@ -8,7 +8,7 @@ rigid sticking are set on velocities, their forces constant over the step (Morea
     T such that the slip ends at 0, while |T| <= mu N;
 
 ``penalty`` N = k c + d c' and ``table`` N = A p(c) (1 + c' / v0) (Hunt & Crossley 1975) hold at the end of the step,
-as do the elastic and the evolution description of friction; ``lagrange`` asks n q(end) + gap = 0. The contacts are
+as do the elastic and the evolution description of friction; ``lagrange`` asks n q(end) + gap >= 0. The contacts are
 visited in turn (Gauss-Seidel), the two forces of one contact solved together, until no force changes. A friction joint
 has a normal force of its own that never changes.
 """
@@ -121,18 +121,21 @@ def _one_contact(law, friction, i, y, r, past, held, drive, way, guess, before, 
     if law.kind == HARD and not active:
         return 0.0, 0.0, OPEN, SOLVED
     if friction.description == RIGID:
-        return _rigid(law, friction, i, y, r, past, held, drive, guess, before)
+        return _rigid(law, friction, i, y, r, past, held, drive, way, guess, before)
     return _yielding(law, friction, i, y, r, past, held, drive, way, guess, before)
 
 
 @njit(cache=True)
-def _rigid(law, friction, i, y, r, past, held, drive, guess, before):
-    """Sticks if the force that ends the slip stays below the limit, else slides against it."""
+def _rigid(law, friction, i, y, r, past, held, drive, way, guess, before):
+    """Sticks if the force that ends the slip (forward increments: allows none) stays below the limit, else slides."""
     share, kept = _mean_load(law, held)
     slip_begin = drive[0] - past[3]
-    sign = np.sign(drive[1] - y[3])
-    if r[3][1] > 0.0:
-        fixed, slope = (drive[1] - y[3]) / r[3][1], -r[3][0] / r[3][1]
+    missing, per_force = drive[1] - y[3], r[3]
+    if law.kind == LAGRANGE and not law.newmark:
+        missing, per_force = way + past[2] - y[2], r[2]
+    sign = np.sign(missing)
+    if per_force[1] > 0.0:
+        fixed, slope = missing / per_force[1], -per_force[0] / per_force[1]
         normal, code = _normal(law, i, y, r, past, fixed, slope, guess[0])
         if code == SOLVED:
             tangent = fixed + slope * normal
@@ -163,7 +166,7 @@ def _rigid(law, friction, i, y, r, past, held, drive, guess, before):
 @njit(cache=True)
 def _mean_load(law, held):
     """(share, kept): the normal force that carries rigid friction over the step is kept + share N."""
-    if law.kind == HARD or law.newmark:
+    if law.kind == HARD or law.kind == LAGRANGE or law.newmark:
         return 1.0, 0.0
     return 0.5, 0.5 * held[0]
 

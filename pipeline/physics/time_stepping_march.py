@@ -2,8 +2,9 @@
 
 Per step: the pairs go on with the forces known so far, the contacts see the motion that this leads to and find their
 forces, these are added; nonlinear elements, where there are any, are solved together with them. Energies are summed at
-every step: work is (mean force) x (displacement of the step), which is exact for forces constant over the step; loss in
-dampers by the trapezoidal rule.
+every step: work is (mean force) x (displacement of the step), which is exact for forces constant over the step, or
+(impulse) x (mean velocity across it); loss in dampers by the trapezoidal rule, between impulses, where velocities are
+saw-teeth, by Simpson's.
 """
 
 from typing import NamedTuple
@@ -42,6 +43,7 @@ class LinearKernel(NamedTuple):
     drag: np.ndarray        # (m,) damping, uncoupled
     energy: np.ndarray      # (2m, 2m) energy form of coupled pairs, else empty
     power: np.ndarray       # (2m, 2m) loss form of coupled pairs, else empty
+    struck: np.ndarray      # (2 c, 2, m) effect at once of forces that are impulses; empty where none are
 
 
 class HistoryKernel(NamedTuple):
@@ -166,12 +168,14 @@ def march(linear, law, friction, elements, lever, drive, inputs, pairs, force, s
     contacts, count = law.gap.size, linear.input_rows.shape[0]
     # functions of the loop take the arrays that they need: a whole tuple of arrays costs more than their work
     one_step, first, last, rows, response = linear.step, linear.first, linear.last, linear.rows, linear.response
-    input_rows, power, drag, share = linear.input_rows, linear.power, linear.drag, record.share
+    input_rows, power, drag, struck, share = linear.input_rows, linear.power, linear.drag, linear.struck, record.share
     holds = (linear.hold[0] > 0, linear.hold[1] > 0)
     free, seen, after = np.zeros((4, contacts)), np.zeros((4, contacts)), np.zeros_like(pairs)
     held, summed, turning = force.copy(), np.zeros((2, contacts)), np.zeros(1)
     free_flat, seen_flat, held_flat, force_flat = free.ravel(), seen.ravel(), held.ravel(), force.ravel()
     sliding, way, work, before = np.zeros((2, contacts)), np.zeros(contacts), np.zeros(6), status.copy()
+    kicked, hit, jump = np.zeros_like(pairs), np.zeros((4, contacts)), np.zeros((2, contacts if struck.size else 0))
+    hit_flat = hit.ravel()
     begin, end, watched = np.zeros(count), np.zeros(count), np.zeros(linear.sensors.shape[0])
     place, place_after = np.zeros(count), np.zeros(count)
     varies, turns, steady = inputs.value.shape[0] > 1, drive.value.shape[0] > 1, np.zeros_like(pairs)
@@ -251,10 +255,21 @@ def march(linear, law, friction, elements, lever, drive, inputs, pairs, force, s
             now, later = later, now
         if contacts:
             _push(last, 0, force_flat, after)
-            _account(response, holds, held, force, free, seen, way, status, share, summed, work)
+            if struck.size:
+                kicked[:] = pairs
+                _push(struck, 0, force_flat, kicked)
+                _see(rows, kicked, hit_flat)
+                loss = _loss_rate(power, drag, kicked) if book else 0.0
+                jump[0] = 0.5 * step * (seen[1] + hit[1])
+                jump[1] = 0.5 * step * (seen[3] + hit[3])
+            _account(response, jump, holds, held, force, free, seen, way, status, share, summed, work)
         if book:
             rate = _loss_rate(power, drag, after)
-            work[DAMPING] += 0.5 * step * (loss + rate)
+            if struck.size:
+                kicked[:] = 0.5 * (kicked + after)
+                work[DAMPING] += step / 6 * (loss + 4 * _loss_rate(power, drag, kicked) + rate)
+            else:
+                work[DAMPING] += 0.5 * step * (loss + rate)
             loss = rate
             _see(input_rows, after, place_after)
             for i in range(count):
@@ -275,11 +290,14 @@ def march(linear, law, friction, elements, lever, drive, inputs, pairs, force, s
 
 
 @njit(cache=True)
-def _account(response, holds, held, force, free, seen, way, status, share, summed, work):
-    """Observables at the end of the step into ``seen``; mean forces, their work, the status of the step."""
+def _account(response, jump, holds, held, force, free, seen, way, status, share, summed, work):
+    """Observables at the end of the step into ``seen``; mean forces, their work, the status of the step.
+
+    ``jump`` (2, c) m is the way along n and t that impulses work along, empty where there are none.
+    """
     contacts = seen.shape[1]
     for i in range(contacts):
-        moved, slid = seen[0, i], way[i] + seen[2, i]
+        moved, drawn = seen[0, i], seen[2, i]
         for o in range(4):
             total = free[o, i]
             for j in range(contacts):
@@ -290,8 +308,11 @@ def _account(response, holds, held, force, free, seen, way, status, share, summe
         mean_t = force[1, i] if holds[1] else 0.5 * (held[1, i] + force[1, i])
         summed[0, i] += mean_n
         summed[1, i] += mean_t
-        slid -= seen[2, i]
-        work[NORMAL] += mean_n * (seen[0, i] - moved)
-        work[SLIDING] += mean_t * slid
-        work[FRICTION] += mean_t * (way[i] - slid)
+        moved, drawn = seen[0, i] - moved, seen[2, i] - drawn
+        if jump.size:
+            moved = jump[0, i]
+            drawn = jump[1, i] if holds[1] else drawn
+        work[NORMAL] += mean_n * moved
+        work[SLIDING] += mean_t * (way[i] - drawn)
+        work[FRICTION] += mean_t * drawn
         share[i, status[i]] += 1.0

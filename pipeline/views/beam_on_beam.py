@@ -10,8 +10,11 @@ MOST_FRICTION = 0.5
 STATUS = (("open", FAINT), ("sticking", BLUE), ("sliding", ORANGE))
 
 
-def frequencies_over_friction(beams, modes, dpi):
-    """PNG in the manner of Figure 3: modes of sliding over friction; rings where they are unstable (with damping)."""
+def frequencies_over_friction(beams, modes, printed, dpi):
+    """PNG in the manner of Figure 3: modes of sliding over friction; rings where they are unstable (with damping).
+
+    ``printed`` (friction, frequency in Hz) are the coalescences that the text of the paper names.
+    """
     with drawing(4.2, top=0.62) as figure:
         axes = figure.subplots()
         inside = (beams.curve_friction >= 0) & (beams.curve_friction <= MOST_FRICTION)
@@ -27,13 +30,18 @@ def frequencies_over_friction(beams, modes, dpi):
         shown = beams.onset_friction <= MOST_FRICTION
         axes.plot(beams.onset_friction[shown], beams.onset_frequency[shown] / 1e3, "D", color=INK, ms=5,
                   label="coalescence")
+        if len(printed[0]):
+            axes.plot(printed[0], np.divide(printed[1], 1e3), "*", color=ORANGE, mec=INK, ms=10, lw=0, label="text")
         axes.set(xlabel="coefficient of friction", ylabel="frequency / kHz", xlim=(0, MOST_FRICTION), ylim=(0, 10))
         legend(axes, columns=2)
         return png(figure, dpi)
 
 
-def complex_plane(modes, dpi):
-    """PNG in the manner of Figure 4: the two roots that meet between 2 and 3.5 kHz, growth over frequency."""
+def complex_plane(modes, printed, dpi):
+    """PNG in the manner of Figure 4: the two roots that meet between 2 and 3.5 kHz, growth over frequency.
+
+    ``printed`` Hz are the two modes without friction that the text of the paper names.
+    """
     root = modes.root[0]
     start = root[0].imag / TWO_PI
     pair = [b for b in np.argsort(start) if 2e3 < start[b] < 3.5e3]
@@ -43,14 +51,18 @@ def complex_plane(modes, dpi):
         for line, branch in enumerate(pair):
             shown = axes.scatter(root[:, branch].imag / TWO_PI / 1e3, root[:, branch].real, c=modes.friction, s=12,
                                  marker=MARKERS[line % 6], cmap="viridis", lw=0)
+        axes.plot(np.divide(printed, 1e3), np.zeros(len(printed)), "*", color=ORANGE, mec=INK, ms=10, lw=0)
         axes.set(xlabel="frequency / kHz", ylabel="growth rate / 1/s")
         if pair:
             figure.colorbar(shown, ax=axes, label="coefficient of friction", fraction=0.045, pad=0.03, aspect=24)
         return png(figure, dpi)
 
 
-def scatter(product, dpi):
-    """PNG of fundamental, peak force and peak slip of every run: colour and marker tell formulation and step."""
+def scatter(product, printed, dpi):
+    """PNG of fundamental, peak force and peak slip of every run: colour and marker tell formulation and step.
+
+    ``printed`` are the three values (kHz, N, mm/s; each a list, empty where unknown) of the paper's text: dotted.
+    """
     kinds = list(dict.fromkeys(zip(product.formulation, product.step, strict=True)))
     told = ((product.fundamental / 1e3, "line / kHz"), (product.peak_force, "force / N"),
             (1e3 * product.peak_slip, "slip / mm/s"))
@@ -62,6 +74,9 @@ def scatter(product, dpi):
                 axes.plot(product.seed[own], values[own], MARKERS[number % 6], color=COLOURS[number % 6],
                           label=f"{formulation}, {1e6 * step:.3g} µs")
                 axes.set(ylabel=label)
+        for axes, values in zip(panels, printed, strict=True):
+            for value in values:
+                axes.axhline(value, color=INK, lw=1.0, ls=":")
         panels[-1].set(xlabel="seed")
         panels[-1].set_xticks(np.unique(product.seed))
         legend(panels[0], columns=2)

@@ -8,6 +8,8 @@ from pipeline.views.style import BLUE, COLOURS, FAINT, GREEN, INK, LINES, ORANGE
 STATUS = (("open", FAINT), ("sticking", BLUE), ("sliding", ORANGE))
 #: periods of the dominant frequency that a close look shows
 PERIODS = 6
+#: most steps between labels of a short time axis, whose numbers are long
+TICKS = 4
 
 
 def velocities(transient, operating, dpi):
@@ -37,8 +39,8 @@ def phase_portrait(transient, operating, sensor, dpi):
 
 
 def status_band(transient, operating, dpi):
-    """PNG of the status of up to 40 contacts over the last periods: one band a contact."""
-    shown = last_periods(transient, operating)
+    """PNG of the status of up to 40 contacts in the close look: one band a contact."""
+    shown = close_look(transient, operating)
     status = transient.status[operating][:40, shown]
     from matplotlib.colors import ListedColormap
 
@@ -51,14 +53,15 @@ def status_band(transient, operating, dpi):
             axes.plot([], [], color=colour, lw=6, label=name)
         axes.set_yticks(range(len(status)), [str(k + 1) for k in range(len(status))])
         axes.set(xlabel="time / ms", ylabel="contact")
+        axes.locator_params(axis="x", nbins=TICKS)
         axes.grid(False)
         legend(axes)
         return png(figure, dpi)
 
 
 def force_and_slip(transient, operating, contact, dpi):
-    """PNG of normal force, friction force and slip velocity of one contact over the last periods."""
-    shown = last_periods(transient, operating)
+    """PNG of normal force, friction force and slip velocity of one contact in the close look."""
+    shown = close_look(transient, operating)
     time = 1e3 * transient.time[shown]
     with drawing(4.4, top=0.4) as figure:
         above, below = figure.subplots(2, 1, sharex=True)
@@ -69,6 +72,7 @@ def force_and_slip(transient, operating, contact, dpi):
         legend(above)
         below.plot(time, 1e3 * transient.slip[operating, contact, shown], color=GREEN, lw=1.0)
         below.set(xlabel="time / ms", ylabel="slip / mm/s", xlim=time[[0, -1]])
+        below.locator_params(axis="x", nbins=TICKS)
         return png(figure, dpi)
 
 
@@ -88,8 +92,16 @@ def spectrum(transient, operating, sensor, dpi):
         return png(figure, dpi)
 
 
-def last_periods(transient, operating):
-    """Slice of the samples of the last few periods of the fastest sensor; the whole window where nothing moves."""
+def close_look(transient, operating):
+    """Slice of the samples of a few periods of the fastest sensor about the largest slip in the window.
+
+    The whole window where nothing moves; a motion that pauses is thus shown where it does not.
+    """
     frequency = transient.cycle_frequency[operating].max(initial=0.0)
-    length = min(PERIODS / frequency if frequency > 0 else np.inf, float(transient.window))
-    return slice(int(np.searchsorted(transient.time, transient.time[-1] - length)), None)
+    time, window = transient.time, float(transient.window)
+    length = min(PERIODS / frequency if frequency > 0 else np.inf, window)
+    late = int(np.searchsorted(time, time[-1] - window))
+    slip = abs(transient.slip[operating, :, late:])
+    peak = time[late + int(np.argmax(slip.max(axis=0)))] if slip.size else time[-1]
+    begin = np.clip(peak - length / 2, time[-1] - window, time[-1] - length)
+    return slice(*np.searchsorted(time, [begin, begin + length * (1 + 1e-9)]))

@@ -10,7 +10,17 @@ from pipeline.physics.closed_form.cattaneo_mindlin import loop_loss, tangential_
 from pipeline.physics.closed_form.two_mode_flutter import onset_friction, roots_over_friction
 from pipeline.physics.dry_friction import constant, tabulated
 from pipeline.physics.oscillation import dominant_frequency, growth_rate
-from pipeline.physics.time_stepping import Hard, History, Lagrange, Penalty, Start, Table, imposed, simulate
+from pipeline.physics.time_stepping import (
+    Forward,
+    Hard,
+    History,
+    Lagrange,
+    Penalty,
+    Start,
+    Table,
+    imposed,
+    simulate,
+)
 from pipeline.physics.time_stepping_linear import modal_system
 from pipeline.physics.time_stepping_start import steady_start
 from tests.physics.lumps import ball, belt, lumps, random_structure
@@ -53,6 +63,17 @@ def test_inelastic_ball_stays_and_presses_with_its_weight():
 
 
 @pytest.mark.exact
+def test_forward_increments_bring_a_ball_to_rest_on_the_ground():
+    """Never below it; the impulses are those of the fall and of the weight; all energy but that of the rest is lost."""
+    motion = simulate(ball(), Forward(), step=1e-4, duration=0.5, inputs=[-GRAVITY], start=at([0.2]))
+    rest = motion.time > 0.21
+    assert motion.gap.min() > -1e-12 and np.ptp(motion.displacement[0, rest]) < 1e-12
+    np.testing.assert_allclose(motion.normal_force[0, rest], GRAVITY, rtol=1e-9)
+    assert motion.normal_force[0].sum() * 1e-4 == pytest.approx(GRAVITY * 0.5, rel=1e-3)
+    assert motion.normal_work[-1] == pytest.approx(-0.2 * GRAVITY, rel=1e-6) and motion.imbalance < 1e-9
+
+
+@pytest.mark.exact
 def test_ball_on_a_spring_bounces_within_its_contact_time():
     """Penalty: half a period pi sqrt(m / k) in contact; N peaks at v sqrt(k m)."""
     motion = simulate(ball(2.0), Penalty(8e4), step=1e-5, duration=0.05, start=at([1e-3], [-1.0]))
@@ -73,11 +94,11 @@ def test_hunt_crossley_contact_returns_less_velocity():
 
 
 @pytest.mark.exact
-@pytest.mark.parametrize("law", [Hard(), Penalty(1e6, 200.0), Lagrange(0.6)])
+@pytest.mark.parametrize("law", [Hard(), Penalty(1e6, 200.0), Lagrange(0.6), Forward()])
 def test_stick_slip_oscillator(law):
     """Static over kinetic friction: period and amplitude of sticking and sliding in closed form."""
     static, kinetic, load, stiffness, speed, angular = 0.45, 0.3, 10.0, 100.0, 0.1, 10.0
-    step = 1e-4 if isinstance(law, Hard | Lagrange) else 5e-5
+    step = 1e-4 if isinstance(law, Hard | Lagrange | Forward) else 5e-5
     motion = simulate(belt(stiffness, speed=speed), law, constant(kinetic, static_factor=static / kinetic), step=step,
                       duration=12.0, inputs=[0.0, -load], start=at([0.0, -load / 1e6 * isinstance(law, Penalty)]))
     drop = (static - kinetic) * load / stiffness
@@ -200,7 +221,7 @@ def test_parallel_contacts_make_the_loop_of_cattaneo_and_mindlin():
 
 
 @pytest.mark.exact
-@pytest.mark.parametrize("law, damper", [(Hard(), 0.0), (Hard(0.5), 3.0), (Penalty(2e6, 20.0), 0.0),
+@pytest.mark.parametrize("law, damper", [(Hard(), 0.0), (Hard(0.5), 3.0), (Penalty(2e6, 20.0), 0.0), (Forward(), 3.0),
                                          (Table(np.array([0, 1e-6, 1e-4]), np.array([0, 1.0, 300.0]), 0.5), 3.0)])
 @pytest.mark.parametrize("description", ["rigid", "elastic", "evolution"])
 def test_energy_is_balanced(law, damper, description):
@@ -324,10 +345,10 @@ def test_imposed_displacement_is_a_force_along_its_joint():
 
 @pytest.mark.exact
 def test_hard_contact_is_the_limit_of_stiff_ones_and_of_multipliers():
-    """Mean load and motion along sliding agree between four ways to keep a sliding mass on its belt."""
+    """Mean load and motion along sliding agree between five ways to keep a sliding mass on its belt."""
     model, load = belt(4e4, 40.0, 0.5), [0.0, -20.0]
     stiff = Table(np.array([0.0, 1e-3]), np.array([0.0, 1e6]), 1e-3)
-    laws = Hard(), Penalty(1e9, 3e4), stiff, Lagrange(0.6)
+    laws = Hard(), Penalty(1e9, 3e4), stiff, Lagrange(0.6), Forward()
     runs = [simulate(model, law, constant(0.3), step=1e-5, duration=0.3, inputs=load) for law in laws]
     for run in runs[1:]:
         np.testing.assert_allclose(run.displacement[0], runs[0].displacement[0], atol=3e-7)

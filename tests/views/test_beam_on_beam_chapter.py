@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from pipeline.products import BeamGeometry, BeamOnBeam, ComplexModes, MotionScatter
+from pipeline.products import BeamGeometry, BeamOnBeam, Comparison, ComplexModes, MotionScatter
 from pipeline.views.chapter import Look
 from pipeline.views.chapters import beam_on_beam as chapters
 from tests.views.products_for_views import filled
@@ -30,7 +30,7 @@ def modes():
 
 
 def scatter(runs=4):
-    return filled(MotionScatter, formulation=["hard", "hard", "lagrange", "lagrange"][:runs], step=[1e-6, 2e-6] * 2,
+    return filled(MotionScatter, formulation=["hard", "hard", "forward", "forward"][:runs], step=[1e-6, 2e-6] * 2,
                   seed=[1, 1, 2, 2], fundamental=[2680.0, 2700.0, 2690.0, 2700.0], peak_force=[40.0] * 4,
                   peak_slip=[0.05] * 4, status_share=[[0.2, 0.5, 0.3]] * 4, vibrating_share=[0.4, 0.5, 0.5, 0.6],
                   harmonic_level=[[0.0, -20.0, -40.0]] * 4, harmonic_height=[[25.0, 20.0, 10.0]] * 4,
@@ -48,18 +48,31 @@ def geometry(level):
 
 
 def test_coalescences_are_told_by_both_kinds_of_elements():
-    told = chapters.beams(beams(), modes(), LOOK)
+    told = chapters.beams(beams(), modes(), None, LOOK)
     assert len(told.figures) == 2 and "400\u202fHz (friction 0.16)" in told.conclude
     assert "Timoshenko beams: 402\u202fHz (0.15)" in told.conclude
     calm = beams(onset_frequency=[], onset_friction=[], check_onset_frequency=[], check_onset_friction=[])
-    alone = chapters.beams(calm, None, LOOK)
+    alone = chapters.beams(calm, None, None, LOOK)
     assert len(alone.figures) == 1 and "no friction" in alone.conclude and "none" in alone.conclude
 
 
 def test_scatter_is_told_as_ranges():
-    told = chapters.scatter(scatter(), LOOK)
+    told = chapters.scatter(scatter(), None, LOOK)
     assert "2.68\u20132.7\u202fkHz" in told.conclude and "40\u202f% to 60\u202f%" in told.conclude
     assert len(told.tables[0].rows) == 4 and "20\u202f% / 50\u202f% / 30\u202f%" in told.tables[0].rows[0]
+
+
+def test_numbers_of_the_text_are_marks():
+    """And only they: rows without a printed value leave no mark."""
+    rows = ["first coalescence, frequency", "first coalescence, critical friction", "mode 5 without friction",
+            "largest normal force that the text names", "largest slip that the text names", "share that sticks"]
+    facts = filled(Comparison, row=rows, published=[400.0, 0.16, 2500.0, 40.0, 50.0, 0.0],
+                   published_known=[1, 1, 1, 1, 1, 0])
+    bare, told = chapters.beams(beams(), modes(), None, LOOK), chapters.beams(beams(), modes(), facts, LOOK)
+    for figure, plain in zip(told.figures, bare.figures, strict=True):
+        assert "stars: numbers in the text" in figure.caption and figure.image != plain.image
+        assert "stars" not in plain.caption
+    assert "dotted: numbers in the text" in chapters.scatter(scatter(), facts, LOOK).figures[0].caption
 
 
 @pytest.mark.parametrize("level, said", [

@@ -6,6 +6,7 @@ import numpy as np
 
 from pipeline.views.chapter import Look
 from pipeline.views.chapters.transient import chapter
+from pipeline.views.transient import PERIODS, close_look
 from tests.views import products_for_views as small
 
 LOOK = Look(dpi=50)
@@ -34,3 +35,16 @@ def test_a_body_at_rest_and_one_without_contact():
     none = {name: np.zeros((2, 0, len(product.time))) for name in ("gap", "normal_force", "friction_force", "slip")}
     free = replace(product, **none, status=np.zeros((2, 0, len(product.time)), int), status_share=np.zeros((2, 0, 3)))
     assert len(chapter(free, LOOK).figures) == 6
+
+
+def test_the_close_look_is_where_the_motion_slips_most():
+    product = small.transient()
+    slip, time = 0 * product.slip, product.time
+    late = np.flatnonzero(time >= time[-1] - float(product.window))
+    for place in (late[0], late[len(late) // 2], late[-1]):
+        slip[0, 0, place] = -1.0
+        shown = close_look(replace(product, slip=slip), 0)
+        slip[0, 0, place] = 0.0
+        assert time[shown][0] <= time[place] <= time[shown][-1] and time[shown][0] >= time[late[0]]
+        length = min(PERIODS / product.cycle_frequency[0].max(), float(product.window))
+        assert abs(np.ptp(time[shown]) - length) <= 2 * time[1]

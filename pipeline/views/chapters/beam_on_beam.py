@@ -7,14 +7,17 @@ from pipeline.views.chapter import Chapter, Figure, Table
 from pipeline.views.readable import number, percent, plural, quantity, span
 
 
-def beams(product, modes, look):
-    """Chapter of the product BeamOnBeam; ``modes`` are its ComplexModes, or None."""
-    figures = [Figure(pictures.frequencies_over_friction(product, modes, look.dpi),
+def beams(product, modes, comparison, look):
+    """Chapter of the product BeamOnBeam; ``modes`` are its ComplexModes, ``comparison`` its Comparison, or None."""
+    printed = _printed(comparison, "coalescence, critical friction"), _printed(comparison, "coalescence, frequency")
+    figures = [Figure(pictures.frequencies_over_friction(product, modes, printed, look.dpi),
                       "Modes of sliding over friction (the picture of Figure 3, computed here); grey: complex"
-                      " modes with damping.")]
+                      f" modes with damping{_stars(printed[0])}.")]
     if modes is not None:
-        figures.append(Figure(pictures.complex_plane(modes, look.dpi),
-                              "Roots between 2 and 3.5 kHz over friction, with damping (the picture of Figure 4)."))
+        alone = _printed(comparison, "without friction")
+        figures.append(Figure(pictures.complex_plane(modes, alone, look.dpi),
+                              "Roots between 2 and 3.5 kHz over friction, with damping (the picture of Figure"
+                              f" 4){_stars(alone)}."))
     onsets = tuple((quantity(f, "Hz"), number(mu, 3)) for f, mu in
                    zip(product.onset_frequency, product.onset_friction, strict=True))
     other = "Timoshenko beams" if str(product.element) == "plane" else "plane elements"
@@ -31,6 +34,18 @@ def beams(product, modes, look):
          *_findings(product)))
 
 
+def _printed(comparison, ending):
+    """Values of the paper, in the unit of their rows, of all rows whose name ends so."""
+    if comparison is None:
+        return []
+    return [comparison.published[k] for k, name in enumerate(map(str, comparison.row))
+            if name.endswith(ending) and comparison.published_known[k]]
+
+
+def _stars(values):
+    return "; stars: numbers in the text of the paper" if len(values) else ""
+
+
 def _findings(product):
     if len(product.finding):
         rows = tuple(zip(map(str, product.finding), map(str, product.finding_text), strict=True))
@@ -42,8 +57,10 @@ def _others(product):
     return ", ".join(f"{quantity(f, 'Hz')} ({number(mu, 3)})" for f, mu in found) or "none"
 
 
-def scatter(product, look):
-    """Chapter of the product MotionScatter."""
+def scatter(product, comparison, look):
+    """Chapter of the product MotionScatter; ``comparison`` is its Comparison, or None."""
+    printed = (np.divide(_printed(comparison, "fundamental of the velocity of B"), 1e3),
+               _printed(comparison, "force that the text names"), _printed(comparison, "slip that the text names"))
     runs = len(product.seed)
     vibrates = product.vibrating_share
     return Chapter(
@@ -55,7 +72,8 @@ def scatter(product, look):
         f" of the time, in bursts of {span(product.burst_length, 's')} between pauses of"
         f" {span(product.pause_length, 's')}. Between 250 and 650 Hz the highest line lies"
         f" {number(-np.median(product.low_level), 2)} dB below the strongest (median).",
-        (Figure(pictures.scatter(product, look.dpi), "Strongest line, largest force and largest slip of each run."),
+        (Figure(pictures.scatter(product, printed, look.dpi), "Strongest line, largest force and largest slip of each"
+                f" run{'; dotted: numbers in the text of the paper' if len(printed[1]) else ''}."),
          Figure(pictures.status_shares(product, look.dpi),
                 "Shares of open, sticking and sliding contact in each run; dotted: one tenth.")),
         (_runs(product),))

@@ -47,11 +47,12 @@ def _figures(product, operating, look):
     if product.normal_force.shape[1]:
         share = product.status_share[operating].mean(axis=0)
         yield Figure(pictures.status_band(product, operating, look.dpi),
-                     f"Status of the contacts at {where}; over the whole motion open {percent(share[0], 2)}, sticking"
-                     f" {percent(share[1], 2)}, sliding {percent(share[2], 2)} of the time.")
+                     f"Status of the contacts at {where} about the largest slip; over the whole motion open"
+                     f" {percent(share[0], 2)}, sticking {percent(share[1], 2)}, sliding {percent(share[2], 2)} of the time.")
         force = product.normal_force[operating, 0]
         yield Figure(pictures.force_and_slip(product, operating, 0, look.dpi),
-                     f"Forces and slip of contact 1 at {where}; normal force {span(force[1:], 'N')}.")
+                     f"Forces and slip of contact 1 at {where} about the largest slip; normal force"
+                     f" {span(force[1:], 'N')} in the whole motion.")
 
 
 def loudest(product, squeal, look):
