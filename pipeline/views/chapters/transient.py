@@ -48,7 +48,8 @@ def _figures(product, operating, look):
         share = product.status_share[operating].mean(axis=0)
         yield Figure(pictures.status_band(product, operating, look.dpi),
                      f"Status of the contacts at {where} about the largest slip; over the whole motion open"
-                     f" {percent(share[0], 2)}, sticking {percent(share[1], 2)}, sliding {percent(share[2], 2)} of the time.")
+                     f" {percent(share[0], 2)}, sticking {percent(share[1], 2)}, sliding {percent(share[2], 2)} of the"
+                     " time.")
         force = product.normal_force[operating, 0]
         yield Figure(pictures.force_and_slip(product, operating, 0, look.dpi),
                      f"Forces and slip of contact 1 at {where} about the largest slip; normal force"
