@@ -31,7 +31,8 @@ def frequencies_over_friction(beams, modes, printed, dpi):
         axes.plot(beams.onset_friction[shown], beams.onset_frequency[shown] / 1e3, "D", color=INK, ms=5,
                   label="coalescence")
         if len(printed[0]):
-            axes.plot(printed[0], np.divide(printed[1], 1e3), "*", color=ORANGE, mec=INK, ms=10, lw=0, label="text")
+            axes.plot(printed[0], np.divide(printed[1], 1e3), "*", color=ORANGE, mec=INK, ms=10, lw=0,
+                      label="text of the paper")
         axes.set(xlabel="coefficient of friction", ylabel="frequency / kHz", xlim=(0, MOST_FRICTION), ylim=(0, 10))
         legend(axes, columns=2)
         return png(figure, dpi)

@@ -9,7 +9,7 @@ STATUS = (("open", FAINT), ("sticking", BLUE), ("sliding", ORANGE))
 #: periods of the dominant frequency that a close look shows
 PERIODS = 6
 #: most steps between labels of a short time axis, whose numbers are long
-TICKS = 4
+TICKS = 6
 
 
 def velocities(transient, operating, dpi):

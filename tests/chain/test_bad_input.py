@@ -6,6 +6,8 @@ import h5py
 import numpy as np
 import pytest
 
+from pipeline.contract import store
+from pipeline.products import Transient
 from tests.chain.conftest import QUICK, ROOT, brakechain
 
 
@@ -110,6 +112,37 @@ def test_a_lumped_model_that_does_not_hold_together(tmp_path, override, message)
     case = ROOT / "configs" / "belt.yaml"
     assert message in refused(2, "run", case, "--run", tmp_path / "run", "--set", override)
     assert not (tmp_path / "run").exists(), "the whole case is checked before anything is made"
+
+
+BEAM = ROOT / "configs" / "beam_on_beam.yaml"
+
+
+@pytest.mark.parametrize("override, message", [
+    ("beam_on_beam.contact.force=0 N", "beam_on_beam.contact.force: input should be greater than 0"),
+    ("transient.friction=-0.1", "transient.friction: input should be greater than or equal to 0"),
+    ("motion_scatter.friction=-0.1", "motion_scatter.friction: input should be greater than or equal to 0"),
+])
+def test_beams_whose_settings_cannot_be(tmp_path, override, message):
+    assert message in refused(2, "run", BEAM, "--run", tmp_path / "run", "--set", override)
+    assert not (tmp_path / "run").exists(), "the whole case is checked before anything is made"
+
+
+@pytest.mark.parametrize("case, settings, longest", [
+    (BEAM, ("beam_on_beam.element=timoshenko", "transient.step=20 us"), "8.67e-06 s"),
+    (ROOT / "configs" / "belt.yaml", ("transient.step=0.15 s", "transient.record_every=1"), "0.126 s"),
+])
+def test_a_step_too_long_for_the_highest_mode(tmp_path, case, settings, longest):
+    told = refused(2, "run", case, "--run", tmp_path / "run", *(a for s in settings for a in ("--set", s)))
+    assert f"step: expected at most {longest}, 2.5 steps in a period of the highest mode" in told
+
+
+def test_a_cycle_that_has_not_settled_is_told_and_not_judged_as_one(tmp_path):
+    """A damped block that still slows down: the run ends well, product and page say that it is on its way."""
+    settings = ("lumped.contacts.belt.normal_force=0 N", "lumped.springs.tie.damping=1 N s/m",
+                "transient.kick=100 mm/s", "transient.duration=3 s", "transient.window=2 s")
+    brakechain("run", ROOT / "configs" / "belt.yaml", "--run", tmp_path, *(a for s in settings for a in ("--set", s)))
+    assert not store.read(Transient, tmp_path / "transient.h5").settled.any()
+    assert "1 of 1 signals have NOT settled" in (tmp_path / "report.html").read_text(encoding="utf-8")
 
 
 PIN = ROOT / "configs" / "pin_on_disc.yaml"
