@@ -98,7 +98,7 @@ def _solve(stiffness, load, normal, pushed, gap, give, closed):
     scaled = weight[:, None] * matrix * weight
     if np.linalg.cond(scaled) > 1 / np.finfo(float).eps:
         raise ConfigError("steady sliding", "joints and closed contacts that hold every body", "a body that is free",
-                          "support it, press it on, or start from a given state")
+                          "support it, press it on, or start at rest")
     found = weight * np.linalg.solve(scaled, weight * np.r_[load, -gap[active]])
     force = np.zeros(len(closed))
     force[active] = found[size:]

@@ -126,7 +126,8 @@ def test_squeal_is_found_in_the_motion():
 
 
 @pytest.mark.parametrize("settings, said", [
-    ({"contact": "table"}, "no law comes with the contacts"), ({"step": "5 ms", "duration": "2 s", "window": "1 s"}, "highest mode"),
+    ({"contact": "table"}, "no law comes with the contacts"),
+    ({"step": "5 ms", "duration": "2 s", "window": "1 s"}, "highest mode"),
     ({"contact_stiffness": "1e9 N/um"}, "soften"), ({"window": "0.2 ms"}, "samples")])
 def test_what_does_not_fit_is_refused(settings, said):
     with pytest.raises(ConfigError, match=said):
