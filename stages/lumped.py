@@ -4,7 +4,6 @@ Combinations {coordinate: weight} give what a spring, contact, input or sensor s
 numbers, those of rotations radii ("30 mm").
 """
 
-import csv
 from typing import Literal
 
 import numpy as np
@@ -14,6 +13,7 @@ from pipeline.contract.units import to_si
 from pipeline.physics import histories
 from pipeline.physics.set_contacts import static_forces
 from pipeline.products import Lumped
+from pipeline.recordings.columns import read_columns
 from pipeline.systems import lumped as system
 
 
@@ -81,10 +81,11 @@ class Step(Section):
 
 
 class Recording(Section):
-    """A column of a CSV file with a head."""
+    """A column of a file: a text table with a head, MATLAB, or plain HDF5."""
 
     kind: Literal["file"] = "file"
-    file: InputFile = option(..., "CSV file with one row of names; measured:PATH for a registered one")
+    file: InputFile = option(..., "text table with one row of names, .mat, or .h5 with vectors at its root;"
+                             " measured:PATH for a registered one")
     column: str = option(..., "name of the column")
     time: str | None = option(None, "name of the column of times in s; none = equal intervals")
     interval: Quantity("s", gt=0) = option("1 ms", "time between samples, where there is no column of times")
@@ -287,8 +288,7 @@ def _shape(history, time, where):
         return histories.chirp(time, history.first, history.last, history.sweep)
     if isinstance(history, Step):
         return histories.step(time, history.begin, history.rise)
-    with open(history.file, encoding="utf-8", newline="") as stream:
-        table = list(csv.reader(stream))
+    table = read_columns(history.file)
     values = _column(table, history.column, f"{where}.column")
     instants = history.interval * np.arange(len(values))
     if history.time is not None:
@@ -297,11 +297,11 @@ def _shape(history, time, where):
 
 
 def _column(table, name, where):
-    k = system.index_of(name, [head.strip() for head in table[0]] if table else [], where)
-    try:
-        return np.array([float(row[k]) for row in table[1:]])
-    except (ValueError, IndexError) as error:
-        raise ConfigError(where, "a number in every row", str(error)) from None
+    names = list(table)
+    values = table[names[system.index_of(name, names, where)]]
+    if not np.isfinite(values).all():
+        raise ConfigError(where, "a number in every row", f"none in {np.sum(~np.isfinite(values))} rows")
+    return values
 
 
 def _preload(settings, place, joints, contacts, inputs):

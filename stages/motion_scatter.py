@@ -11,9 +11,9 @@ from pipeline.physics.bursts import bursts, harmonic_lines
 from pipeline.physics.dry_friction import constant
 from pipeline.physics.sliding_model import sliding_model
 from pipeline.physics.spectra import power_spectrum
-from pipeline.physics.time_stepping import Forward, Hard, Lagrange, Start, simulate
+from pipeline.physics.time_stepping import Forward, Hard, Lagrange, simulate
 from pipeline.physics.time_stepping_linear import modal_system
-from pipeline.physics.time_stepping_start import steady_start
+from pipeline.physics.time_stepping_start import random_kick, steady_start
 from pipeline.products import MotionScatter, ReducedModel
 
 #: multiples of the fundamental that are told
@@ -84,16 +84,10 @@ def _run(model, settings, task):
     system = modal_system(sliding, highest=settings.highest_frequency)
     every = max(1, round(settings.sampling / step))
     start = steady_start(sliding, law, friction, inputs)
+    kick = random_kick(system, sliding.sensor_rows, settings.kick, seed)
     motion = simulate(sliding, law, friction, step=step, duration=settings.duration, inputs=inputs,
-                      record_every=every, system=system, start=_kicked(start, system, sliding, seed, settings.kick))
+                      record_every=every, system=system, start=start.kicked(kick))
     return _judged(motion, step * every, settings)
-
-
-def _kicked(start: Start, system, sliding, seed, kick):
-    """Start with a random velocity of all modes, its effective value at the sensors being ``kick``."""
-    velocity = system.shape @ np.random.default_rng(seed).standard_normal(len(system.squared))
-    seen = np.sqrt(np.mean((sliding.sensor_rows @ velocity) ** 2))
-    return start.kicked(velocity * (kick / seen if seen else 0.0))
 
 
 def _judged(motion, interval, settings):

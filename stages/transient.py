@@ -13,7 +13,7 @@ from pipeline.physics.spectra import power_spectrum
 from pipeline.physics.tangential_law import tangential_law
 from pipeline.physics.time_stepping import Forward, Hard, History, Lagrange, Penalty, Start, Table, simulate
 from pipeline.physics.time_stepping_linear import modal_system
-from pipeline.physics.time_stepping_start import steady_start
+from pipeline.physics.time_stepping_start import random_kick, steady_start
 from pipeline.products import ReducedModel, Transient
 
 
@@ -113,7 +113,7 @@ def _move(model, settings, task):
     system = modal_system(sliding, settings.damping, settings.highest_frequency)
     drawn = {"sliding": friction, "pressed": constant(0.0)}.get(settings.start)
     start = None if drawn is None else steady_start(sliding, law, drawn, inputs)
-    kick = _kick(system, sliding.sensor_rows, settings)
+    kick = random_kick(system, sliding.sensor_rows, settings.kick, settings.seed)
     return simulate(sliding, law, friction, step=settings.step, duration=settings.duration,
                     inputs=_history(model, model.input_history, inputs),
                     drive=_history(model, speed * model.drive_history, None),
@@ -176,14 +176,6 @@ def _sticking(model, sliding, settings):
         stiffness = per_area * sliding.contacts.area if stiffness is None else stiffness
         exponent = float(own.exponent.mean()) if exponent is None else exponent
     return {"stiffness": stiffness, "exponent": 1.0 if exponent is None else exponent}
-
-
-def _kick(system, sensor_rows, settings):
-    """Random velocity (n,), all modes alike, with the wanted effective value at the sensors."""
-    random = np.random.default_rng(settings.seed).standard_normal(len(system.squared))
-    velocity = system.shape @ random
-    seen = np.sqrt(np.mean((sensor_rows @ velocity) ** 2)) if len(sensor_rows) else 0.0
-    return velocity * (settings.kick / seen if seen else 0.0)
 
 
 def _kept(signals):

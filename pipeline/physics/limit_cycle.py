@@ -11,6 +11,8 @@ from pipeline.physics.oscillation import FEWEST_PERIODS, dominant_frequency, gro
 PARTS, PERIODS_PER_PART = 4, 5
 #: growth is fitted where the envelope lies between these shares of the final amplitude
 _LOW, _HIGH = 1e-3, 0.3
+#: spread of a signal, as a share of its size, that is rounding
+_ROUNDING = 1e-12
 #: halved until the smallest share that leaves room for a fit
 _DYNAMIC = 3.0
 
@@ -41,7 +43,7 @@ def cycle(signal, step, window, tolerance, lowest=0.0):
         raise ConfigError("limit cycle: window", f"{4 * PARTS} to {len(signal)} samples of {step:.3g} s",
                           f"{window:.3g} s")
     late = signal[-size:] - np.mean(signal[-size:])
-    if not np.any(late):
+    if np.ptp(late) <= _ROUNDING * abs(signal[-size:]).max():
         return Cycle(0.0, 0.0, 0.0, True, 0.0, 0.0, False)
     frequency = dominant_frequency(late, step, lowest)
     parts = np.array([_effective_amplitude(part) for part in np.array_split(late, PARTS)])

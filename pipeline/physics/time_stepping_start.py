@@ -76,6 +76,16 @@ def _drawn(elements, model, place):
     return rows.T @ (force - slope * (rows @ place)), (rows.T * slope) @ rows, memory
 
 
+def random_kick(system, sensor_rows, velocity, seed):
+    """Random velocity (n,) of a ModalSystem, all modes alike, whose effective value at the sensors is ``velocity`` m/s.
+
+    ``sensor_rows`` (s, n); nothing where the sensors see nothing.
+    """
+    kick = system.shape @ np.random.default_rng(seed).standard_normal(len(system.squared))
+    seen = np.sqrt(np.mean((sensor_rows @ kick) ** 2)) if len(sensor_rows) else 0.0
+    return kick * (velocity / seen if seen else 0.0)
+
+
 def _yielding(law, force, area):
     """(slope, rest) of the closure of each contact about its force: c = slope N + rest."""
     none = np.zeros(len(force))
@@ -98,7 +108,7 @@ def _solve(stiffness, load, normal, pushed, gap, give, closed):
     scaled = weight[:, None] * matrix * weight
     if np.linalg.cond(scaled) > 1 / np.finfo(float).eps:
         raise ConfigError("steady sliding", "joints and closed contacts that hold every body", "a body that is free",
-                          "support it, press it on, or start from a given state")
+                          "support it, press it on, or start at rest")
     found = weight * np.linalg.solve(scaled, weight * np.r_[load, -gap[active]])
     force = np.zeros(len(closed))
     force[active] = found[size:]

@@ -1,4 +1,4 @@
-"""Files that hold columns under names and nothing else: MATLAB and text tables."""
+"""Files that hold columns under names and nothing else: MATLAB, plain HDF5 and text tables."""
 
 import csv
 from pathlib import Path
@@ -9,6 +9,23 @@ from pipeline.contract.errors import ConfigError
 
 #: text in a table that stands for a missing sample
 MISSING = frozenset({"", "nan", "na", "n/a", "none", "null", "-"})
+
+
+def read_columns(path):
+    """Name -> 1-D array of a file: MATLAB (.mat), HDF5 with vectors at its root (.h5, .hdf5), else a text table.
+
+    Raises ConfigError for what is none of them.
+    """
+    path = Path(path)
+    kind = path.suffix.lower()
+    if kind == ".mat":
+        return read_matlab(path)
+    if kind not in (".h5", ".hdf5"):
+        return read_table(path)
+    try:
+        return _vectors(_read_hdf5(path), path)
+    except OSError as error:
+        raise ConfigError(path, "an HDF5 file", str(error)) from None
 
 
 def read_matlab(path):
@@ -22,19 +39,25 @@ def read_matlab(path):
     path = Path(path)
     try:
         if path.read_bytes()[:19].startswith(b"MATLAB 7.3 MAT-file"):
-            found = _read_matlab_hdf5(path)
+            found = _read_hdf5(path)
         else:
             found = {k: v for k, v in loadmat(path).items() if not k.startswith("__")}
     except (MatReadError, OSError, ValueError, NotImplementedError, TypeError) as error:
         raise ConfigError(path, "a MATLAB file", str(error)) from None
+    return _vectors(found, path)
+
+
+def _vectors(found, path):
+    """What of ``found`` is a vector of numbers."""
     numeric = {k: np.asarray(v) for k, v in found.items() if np.asarray(v).dtype.kind in "fiub"}
-    columns = {k: v.astype(float).ravel() for k, v in numeric.items() if v.ndim < 3 and min(v.shape, default=1) == 1}
+    flat = {k: v for k, v in numeric.items() if v.ndim < 2 or (v.ndim == 2 and 1 in v.shape)}
+    columns = {k: v.astype(float).ravel() for k, v in flat.items()}
     if not columns:
         raise ConfigError(path, "a vector of numbers", f"{', '.join(found) or 'no variables'}")
     return columns
 
 
-def _read_matlab_hdf5(path):
+def _read_hdf5(path):
     import h5py
 
     with h5py.File(path, "r") as h5:

@@ -3,11 +3,11 @@
 import numpy as np
 
 from pipeline.views.style import BLUE, COLOURS, FAINT, GREEN, INK, LINES, MARKERS, ORANGE, RED, drawing, legend, png
+from pipeline.views.transient import STATUS
 
 TWO_PI = 2.0 * np.pi
 #: share of the axis of friction that the sweep of the paper spans
 MOST_FRICTION = 0.5
-STATUS = (("open", FAINT), ("sticking", BLUE), ("sliding", ORANGE))
 
 
 def frequencies_over_friction(beams, modes, printed, dpi):

@@ -29,12 +29,12 @@ from pipeline.views.verdict import published_squeal, verdict
 def plan(products, look):
     """Functions without arguments, one per chapter whose product is there, in chain order."""
     lines = published_squeal(products.get("comparison"))
-    model, modes, facts = (products.get(name) for name in ("reduced_model", "complex_modes", "comparison"))
+    model, modes, moved, facts = map(products.get, ("reduced_model", "complex_modes", "transient", "comparison"))
     known = (("surface", surface.chapter, ()), ("micro_friction", friction.micro, ()),
              ("friction_map", friction.friction_map, ()), ("interface_law", lock_in.interface_law, ()),
              ("friction_descriptions", friction_descriptions.chapter, ()),
              ("structure", structure.chapter, (modes,)), ("pin_on_disc", lock_in.pin_on_disc, ()),
-             ("beam_on_beam", beam_on_beam.beams, (modes, facts)), ("lumped", lumped.chapter, ()),
+             ("beam_on_beam", beam_on_beam.beams, (modes, facts)), ("lumped", lumped.chapter, (moved,)),
              ("complex_modes", stability.chapter, (model, lines)), ("multibody", motion.chapter, ()),
              ("transient", transient.chapter, ()), ("lock_in", lock_in.lock_in, ()),
              ("motion_scatter", beam_on_beam.scatter, (facts,)), ("beam_geometry", beam_on_beam.geometry, ()),

@@ -62,7 +62,17 @@ def _headline(products):
         return f"{plural(len(products['recording'].runs), 'run')} of a bench, not compared yet", "quiet"
     if squeal is None and modes is None:
         return "No verdict: this case ends before the stability of the system", "warning"
+    if squeal is None and (cycle := _settled_cycle(products.get("transient"))):
+        return f"It vibrates at {quantity(cycle, 'Hz', 3)} although no mode is unstable", "warning"
     return "No squeal predicted", "quiet"
+
+
+def _settled_cycle(transient):
+    """Frequency in Hz of the strongest settled cycle; 0 without any."""
+    if transient is None:
+        return 0.0
+    moves = np.where(transient.settled > 0, transient.cycle_amplitude, 0.0)
+    return float(transient.cycle_frequency.flat[np.argmax(moves)]) if moves.any() else 0.0
 
 
 def _where(products):

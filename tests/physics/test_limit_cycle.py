@@ -43,6 +43,15 @@ def test_steady_and_decaying_motion_show_no_growth():
     assert found.settled and found.amplitude == 0
 
 
+@pytest.mark.parametrize("speed", [0.1, -0.3, 1 / 3, 0.0])
+def test_a_uniform_motion_is_no_cycle(speed):
+    """A free mass that is carried along: what rounding leaves about the mean is no amplitude."""
+    signal = np.full(20000, speed)
+    signal[::7] = np.nextafter(speed, 1.0) if speed else 0.0
+    found = cycle(signal, STEP, 0.1, 0.02)
+    assert found.settled and found.amplitude == found.drift == found.frequency == 0
+
+
 @pytest.mark.exact
 def test_harmonics_of_known_amplitude():
     time = np.arange(0, 0.2, STEP)

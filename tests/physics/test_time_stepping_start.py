@@ -5,11 +5,13 @@ import pytest
 
 from pipeline.contract.errors import ConfigError, ConvergenceError
 from pipeline.physics.dry_friction import constant, falling
-from pipeline.physics.time_stepping import Hard, Lagrange, Penalty, Table, simulate
-from pipeline.physics.time_stepping_start import steady_start
-from tests.physics.lumps import belt, lumps
+from pipeline.physics.time_stepping import Forward, Hard, Lagrange, Penalty, Table, simulate
+from pipeline.physics.time_stepping_linear import modal_system
+from pipeline.physics.time_stepping_start import random_kick, steady_start
+from tests.physics.lumps import belt, lumps, random_structure
 
-LAWS = [Hard(), Lagrange(0.6), Penalty(2e5, 20.0), Table(np.array([0, 1e-4, 2e-4]), np.array([0, 10.0, 30.0]), 0.5)]
+LAWS = [Hard(), Lagrange(0.6), Forward(), Penalty(2e5, 20.0),
+        Table(np.array([0, 1e-4, 2e-4]), np.array([0, 10.0, 30.0]), 0.5)]
 
 
 def legs(height=0.05):
@@ -59,3 +61,14 @@ def test_what_has_no_equilibrium_is_refused():
     assert steady_start(strut, Penalty(1e5), constant(0.4), [-10.0]).normal[0] > 10
     with pytest.raises(ConvergenceError, match="locks"):
         steady_start(strut, Hard(), constant(0.6), [-10.0])
+
+
+@pytest.mark.exact
+def test_a_kick_has_the_wanted_effective_value_and_its_seed():
+    model = random_structure(6, 2e3)
+    system, rows = modal_system(model), model.sensor_rows
+    kick = random_kick(system, rows, 1e-3, 7)
+    assert np.sqrt(np.mean((rows @ kick) ** 2)) == pytest.approx(1e-3, rel=1e-12)
+    np.testing.assert_array_equal(kick, random_kick(system, rows, 1e-3, 7))
+    assert np.linalg.norm(kick - random_kick(system, rows, 1e-3, 8)) > 0.1 * np.linalg.norm(kick)
+    assert not random_kick(system, rows[:0], 1e-3, 7).any()

@@ -1,4 +1,4 @@
-"""Columns of MATLAB files and text tables."""
+"""Columns of MATLAB files, plain HDF5 and text tables."""
 
 import h5py
 import numpy as np
@@ -6,7 +6,7 @@ import pytest
 from scipy.io import savemat
 
 from pipeline.contract import ConfigError
-from pipeline.recordings.columns import read_matlab, read_table
+from pipeline.recordings.columns import read_columns, read_matlab, read_table
 
 
 def test_matlab_vectors_come_back_flat_and_text_is_left_out(tmp_path):
@@ -51,3 +51,17 @@ def test_tables_tell_the_line_of_a_mistake(tmp_path, text, message):
     path.write_text(text)
     with pytest.raises(ConfigError, match=message):
         read_table(path)
+
+
+def test_the_suffix_tells_the_kind_of_file(tmp_path):
+    """The same column three times; what a suffix promises and the file is not is refused."""
+    savemat(tmp_path / "a.mat", {"volt": np.arange(3.0)})
+    (tmp_path / "a.csv").write_text("volt\n0\n1\n2\n")
+    with h5py.File(tmp_path / "a.h5", "w") as h5:
+        h5["volt"], h5["note"] = np.arange(3.0), "bench"
+    for name in ("a.mat", "a.csv", "a.h5"):
+        found = read_columns(tmp_path / name)
+        assert list(found) == ["volt"] and found["volt"].tolist() == [0, 1, 2]
+    (tmp_path / "b.h5").write_bytes(b"no HDF5 file")
+    with pytest.raises(ConfigError, match=r"b\.h5: expected an HDF5 file"):
+        read_columns(tmp_path / "b.h5")

@@ -87,6 +87,17 @@ def test_a_recorded_force_with_its_gain(tmp_path):
                                .input_history, built(free).input_history, atol=1e-9)
 
 
+def test_a_recorded_force_that_lacks_a_sample_is_refused(tmp_path):
+    (tmp_path / "log.csv").write_text("volt\n" + "\n".join(["1"] * 60 + ["nan"] + ["1"] * 60))
+    recorded = {"kind": "file", "file": str(tmp_path / "log.csv"), "column": "volt", "interval": "10 ms"}
+    motor = {"along": {"block.x": 1}, "force": "2.5 N", "history": recorded}
+    with pytest.raises(ConfigError, match="history.column: expected a number in every row, found none in 1 rows"):
+        built({**BLOCK, "inputs": {"motor": motor}})
+    motor = {**motor, "history": {**recorded, "column": "vold"}}
+    with pytest.raises(ConfigError, match="did you mean 'volt'"):
+        built({**BLOCK, "inputs": {"motor": motor}})
+
+
 def test_a_reversing_drive_turns_friction_round():
     """A soft mass is carried along, at the limit of friction, one way and the other."""
     rubbed = {**TIED, "contacts": {"belt": {"tangent": {"block.x": 1}, "normal_force": "10 N"}},

@@ -119,7 +119,8 @@ def lumped():
         contact_normal=[[0, 1.0, 0], [0, 0, 0]], contact_tangent=[[1.0, 0, 0], [0, 0, 1.0]], pressure=[1.0],
         preload=[[20.0, 5.0]], contact_stiffness=[[1e6, 0.0]], input_name=["weight", "motor"], input_area=[20.0, 0.0],
         input_rows=[[0, -1.0, 0], [0, 0, 1.0]], history_interval=0.1, input_history=np.ones((11, 2)), drive_history=[],
-        sensor_name=["block"], sensor_rows=[[1.0, 0, 0]])
+        sensor_name=["block"], sensor_rows=[[1.0, 0, 0]], sensor_quantity=["velocity"], sensor_unit=["m/s"],
+        sensor_gain=[1.0])
 
 
 def reduced_model():

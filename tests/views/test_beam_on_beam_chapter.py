@@ -34,7 +34,7 @@ def scatter(runs=4):
                   seed=[1, 1, 2, 2], fundamental=[2680.0, 2700.0, 2690.0, 2700.0], peak_force=[40.0] * 4,
                   peak_slip=[0.05] * 4, status_share=[[0.2, 0.5, 0.3]] * 4, vibrating_share=[0.4, 0.5, 0.5, 0.6],
                   harmonic_level=[[0.0, -20.0, -40.0]] * 4, harmonic_height=[[25.0, 20.0, 10.0]] * 4,
-                  low_level=[-30.0] * 4)
+                  low_level=[-30.0] * 4, imbalance=[1e-5, 1e-5, 1e-3, 2e-3])
 
 
 def geometry(level):
@@ -58,6 +58,7 @@ def test_coalescences_are_told_by_both_kinds_of_elements():
 
 def test_scatter_is_told_as_ranges():
     told = chapters.scatter(scatter(), None, LOOK)
+    assert "Energy balances within 0.2\u202f%" in told.see
     assert "2.68\u20132.7\u202fkHz" in told.conclude and "40\u202f% to 60\u202f%" in told.conclude
     assert len(told.tables[0].rows) == 4 and "20\u202f% / 50\u202f% / 30\u202f%" in told.tables[0].rows[0]
 

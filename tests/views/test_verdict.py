@@ -51,6 +51,15 @@ def test_quiet_and_unstable_brakes_are_told_apart():
     assert verdict(still, ()).tone == "quiet"
 
 
+def test_a_cycle_without_an_unstable_mode_is_told():
+    """Stick-slip: steady sliding is stable, the motion is not quiet. A motion that has not settled is no cycle."""
+    stable = {"complex_modes": small.complex_modes(stable=True)}
+    told = verdict({**stable, "transient": small.transient()}, ())
+    assert told.headline == "It vibrates at 2.2\u202fkHz although no mode is unstable" and told.tone == "warning"
+    assert verdict({**stable, "transient": small.transient(settled=False)}, ()).headline == "No squeal predicted"
+    assert verdict(stable, ()).headline == "No squeal predicted"
+
+
 def test_a_case_that_ends_early_gets_no_verdict():
     told = verdict({"surface": small.surface()}, ())
     assert told.headline.startswith("No verdict")

@@ -66,7 +66,7 @@ def scatter(product, comparison, look):
     return Chapter(
         "motion_scatter", "What a chaotic motion keeps",
         f"The same motion, {plural(runs, 'time')}: formulations, steps and seeds differ. Waveforms cannot be compared;"
-        " lines, peaks and shares can, as ranges.",
+        f" lines, peaks and shares can, as ranges. Energy balances within {percent(product.imbalance.max(), 2)}.",
         f"Strongest line {span(product.fundamental, 'Hz')}, largest force {span(product.peak_force, 'N')}, largest slip"
         f" {span(product.peak_slip, 'm/s')}; it vibrates {percent(vibrates.min(), 2)} to {percent(vibrates.max(), 2)}"
         f" of the time, in bursts of {span(product.burst_length, 's')} between pauses of"

@@ -6,9 +6,12 @@ from pipeline.views.chapter import Chapter, Figure, Table
 from pipeline.views.lumped import diagram
 from pipeline.views.readable import number, plural, quantity, span
 
+#: SI unit of what a sensor measures
+_SI = {"displacement": "m", "velocity": "m/s", "acceleration": "m/s\u00b2"}
 
-def chapter(lumped, look):
-    """Chapter of the product Lumped."""
+
+def chapter(lumped, motion, look):
+    """Chapter of the product Lumped; ``motion`` is its Transient, or None."""
     drive = " The speed of the drive varies over time." if len(lumped.drive_history) else ""
     return Chapter(
         "lumped", "Masses, springs and contacts",
@@ -19,7 +22,7 @@ def chapter(lumped, look):
         (Figure(diagram(lumped), "Boxes: coordinates; black bar: ground. Zigzag: spring; square: damper; thick orange:"
                 " contact or friction joint; red triangles: input, in its direction; grey dots: sensor. Dots mark the"
                 " coordinates that a part meets."),),
-        tuple(filter(None, (_joints(lumped), _contacts(lumped), _inputs(lumped)))))
+        tuple(filter(None, (_joints(lumped), _contacts(lumped), _inputs(lumped), _sensors(lumped, motion)))))
 
 
 def _load(lumped):
@@ -57,3 +60,21 @@ def _inputs(lumped):
                   quantity(largest[i], "N")) for i, name in enumerate(lumped.input_name))
     head = ("name", "acts along", "constant", "largest over time")
     return Table(head, rows, "Inputs", (2, 3)) if rows else None
+
+
+def _sensors(lumped, motion):
+    rows = []
+    for k, name in enumerate(lumped.sensor_name):
+        unit, kind, gain = str(lumped.sensor_unit[k]), str(lumped.sensor_quantity[k]), lumped.sensor_gain[k]
+        reads = f"{number(gain, 4)} {unit} per {_SI[kind]}"
+        largest = "\u2014" if motion is None else f"{number(abs(gain) * _largest(motion, k, kind), 3)} {unit}"
+        rows.append((str(name), _combination(lumped, lumped.sensor_rows[k]), kind, reads, largest))
+    head = ("name", "sees", "quantity", "reads", "largest reading")
+    return Table(head, tuple(rows), "Sensors", (3, 4)) if rows else None
+
+
+def _largest(motion, sensor, kind):
+    """Largest amount of what a sensor measures, SI; displacements count from the start of the motion."""
+    if kind == "acceleration":
+        return abs(np.gradient(motion.velocity[:, sensor].astype(float), motion.time, axis=-1)).max()
+    return abs(getattr(motion, kind)[:, sensor]).max()
