@@ -2,6 +2,7 @@
 
 import ast
 import re
+from importlib import import_module
 from pathlib import Path
 
 import pytest
@@ -17,7 +18,7 @@ FILES = sorted([*ROOT.glob("pipeline/**/*.py"), *ROOT.glob("stages/**/*.py")])
 MAY_IMPORT = {
     "pipeline.environment": set(),
     "pipeline.contract": {"pipeline.contract", "pipeline.environment"},
-    "pipeline.products": {"pipeline.contract"},
+    "pipeline.products": {"pipeline.products", "pipeline.contract"},
     "pipeline.physics": {"pipeline.physics", "pipeline.contract.errors", "pipeline.environment"},
     "pipeline.inference.priors": {"pipeline.contract.errors"},
     "pipeline.inference": {"pipeline.inference", "pipeline.physics", "pipeline.contract.errors",
@@ -148,6 +149,12 @@ def test_every_stage_file_stands_in_a_chain_and_has_a_make_target():
 def test_every_product_says_what_it_is():
     for cls in filter(is_product, vars(products).values()):
         assert cls.__doc__ and not cls.__doc__.startswith(f"{cls.__name__}("), f"{cls.__name__} has no docstring"
+
+
+def test_every_product_is_exported():
+    for path in ROOT.glob("pipeline/products/*.py"):
+        for cls in filter(is_product, vars(import_module(dotted(path))).values()):
+            assert getattr(products, cls.__name__, None) is cls, f"{cls.__name__}: not in pipeline/products/__init__.py"
 
 
 def test_no_measured_bytes_are_part_of_the_project():

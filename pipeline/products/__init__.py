@@ -1,0 +1,37 @@
+"""Every product that crosses a stage boundary. These pages are the file-format reference.
+
+Conventions: SI units; cylindrical axes of the disc, z along its axis; the disc turns about +z.
+Side 'outer' (fingers) is z > 0, side 'inner' (piston) is z < 0. At a contact the normal points from
+the disc into the pad, the tangent along the sliding velocity of the disc, the lateral direction
+radially outwards. A relative displacement is pad minus disc: positive normal opens the contact.
+"""
+
+from pipeline.products.beams import BeamGeometry, BeamOnBeam, MotionScatter
+from pipeline.products.bodies import Body, Incidence
+from pipeline.products.friction import FrictionDescriptions, FrictionMap, InterfaceLaw, MicroFriction
+from pipeline.products.lumped import Lumped
+from pipeline.products.motion import ComplexModes, Multibody, Transient
+from pipeline.products.pages import Comparison, Report
+from pipeline.products.pin_on_disc import LockIn, PinOnDisc
+from pipeline.products.recording import (
+    Channel,
+    Condition,
+    FrequencyResponse,
+    Lines,
+    MeasuredFriction,
+    MeasuredModes,
+    Recording,
+    Run,
+    Topography,
+)
+from pipeline.products.rupture import Rupture
+from pipeline.products.sliding import ReducedModel
+from pipeline.products.sound import Response, Squeal
+from pipeline.products.structure import Structure
+from pipeline.products.surfaces import Surface
+
+__all__ = ["BeamGeometry", "BeamOnBeam", "Body", "Channel", "Comparison", "ComplexModes", "Condition",
+           "FrequencyResponse", "FrictionDescriptions", "FrictionMap", "Incidence", "InterfaceLaw", "Lines", "LockIn",
+           "Lumped", "MeasuredFriction", "MeasuredModes", "MicroFriction", "MotionScatter", "Multibody", "PinOnDisc",
+           "Recording", "ReducedModel", "Report", "Response", "Run", "Rupture", "Squeal", "Structure", "Surface",
+           "Topography", "Transient"]

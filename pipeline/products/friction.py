@@ -1,0 +1,92 @@
+"""Friction of the rough pair: computed, mapped, and as a law of the interface."""
+
+from pipeline.contract import Array, count, product, quantity, text
+
+
+@product(version=2)
+class MicroFriction:
+    """Friction, real contact area and wear of the rough pair over pressure, speed and sliding distance."""
+
+    pressure: Array = quantity("Pa", "pressure", "nominal contact pressure")
+    speed: Array = quantity("m/s", "speed", "sliding speed")
+    disc_speed: Array = quantity("rad/s", "speed", "speed of the disc that slides so at the effective radius")
+    distance: Array = quantity("m", "distance", "sliding distance")
+    friction: Array = quantity("1", "pressure speed distance", "coefficient of friction, shear over normal force")
+    friction_std: Array = quantity("1", "pressure speed distance", "standard error of the friction coefficient")
+    real_area: Array = quantity("1", "pressure speed distance", "real contact area share, perimeter-corrected")
+    wear_depth: Array = quantity("m", "pressure speed distance", "approach of both mean planes by wear, at equal load")
+    largest_wear: Array = quantity("m", "pressure speed distance", "largest wear of one surface node")
+    normal_stiffness: Array = quantity("Pa/m", "pressure speed distance", "interface stiffness dp/d(approach) without the"
+                                       " uniform compliance of the blocks")
+    block_compliance: Array = quantity("m/Pa", "", "uniform compliance of both blocks, which the stiffness leaves out")
+    flash_temperature: Array = quantity("K", "pressure speed distance", "mean flash temperature rise of the contact spots")
+    full_slip_distance: Array = quantity("m", "pressure speed distance", "displacement at which every contact node slips")
+    shear_limit: Array = quantity("Pa", "", "shear limit at reference speed and temperature")
+    limit_at_speed: Array = quantity("Pa", "pressure speed distance", "shear limit at speed and flash temperature")
+    y: Array = quantity("m", "y", "lateral position across sliding")
+    x: Array = quantity("m", "x", "lateral position along sliding")
+    contact_pressure_new: Array = quantity("Pa", "y x", "contact pressure, first cycle, middle pressure and speed")
+    contact_pressure_worn: Array = quantity("Pa", "y x", "contact pressure, last cycle, middle pressure and speed")
+    pad_wear: Array = quantity("m", "y x", "wear of the pad nodes after the last cycle, middle pressure and speed")
+    disc_wear: Array = quantity("m", "y x", "wear of the disc nodes after the last cycle, middle pressure and speed")
+    refinement: Array = quantity("1", "refinement", "nodes per shortest wavelength of the convergence study")
+    refinement_area: Array = quantity("1", "refinement", "perimeter-corrected real area share at middle pressure")
+
+
+@product(version=1)
+class FrictionMap:
+    """mu(pressure, speed, distance) of the interface and its normal stiffness."""
+
+    pressure: Array = quantity("Pa", "pressure", "nominal contact pressure")
+    speed: Array = quantity("m/s", "speed", "sliding speed")
+    distance: Array = quantity("m", "distance", "sliding distance")
+    friction: Array = quantity("1", "pressure speed distance", "coefficient of friction")
+    friction_std: Array = quantity("1", "pressure speed distance", "standard error of the coefficient of friction")
+    normal_stiffness: Array = quantity("Pa/m", "pressure distance", "interface stiffness, mean over speed")
+    computed_pressure: Array = quantity("Pa", "computed_pressure", "pressures at which micro_friction ran")
+    computed_speed: Array = quantity("m/s", "computed_speed", "speeds at which micro_friction ran")
+
+
+@product(version=1)
+class InterfaceLaw:
+    """Normal and tangential law of a rough interface from its summits, and the three descriptions of its friction."""
+
+    source: Array = text("", "where the summits come from")
+    summit_density: Array = quantity("1/m^2", "", "summits per area")
+    summit_mean: Array = quantity("m", "", "mean height of the summits above the mean plane")
+    summit_spread: Array = quantity("m", "", "standard deviation of their heights, Gaussian")
+    summit_curvature: Array = quantity("1/m", "", "median of their curvatures")
+    curvature_spread: Array = quantity("1", "", "standard deviation of the logarithm of the curvatures")
+    curvature_correlation: Array = quantity("1", "", "correlation of that logarithm and the height")
+    shear_limit: Array = quantity("Pa", "", "yield stress in shear of the contact spots")
+    gap: Array = quantity("m", "gap", "distance of the mean planes, falling")
+    gap_pressure: Array = quantity("Pa", "gap", "nominal contact pressure at the gap")
+    real_area: Array = quantity("1", "gap", "real contact area share at the gap")
+    normal_stiffness: Array = quantity("Pa/m", "gap", "interface stiffness at the gap")
+    pressure: Array = quantity("Pa", "pressure", "nominal contact pressures of the shear law")
+    displacement: Array = quantity("m", "displacement", "tangential displacement from rest")
+    shear: Array = quantity("Pa", "pressure displacement", "shear stress of the summits")
+    evolution_shear: Array = quantity("Pa", "pressure displacement", "shear stress of the fitted evolution rule")
+    elastic_shear: Array = quantity("Pa", "pressure displacement", "shear stress of the fitted elastic stick")
+    tangential_stiffness: Array = quantity("Pa/m", "pressure", "tangential stiffness at rest, c_t")
+    limit: Array = quantity("Pa", "pressure", "shear stress in full slip, tau_max")
+    exponent: Array = quantity("1", "pressure", "exponent m of dtau/dv = c_t (1 - tau / tau_max)^m")
+    elastic_stiffness: Array = quantity("Pa/m", "pressure", "stiffness of the elastic stick of the same energy")
+    friction: Array = quantity("1", "pressure", "coefficient of friction, tau_max over pressure")
+
+
+@product(version=1)
+class FrictionDescriptions:
+    """The three descriptions of friction in an implicit setting: what each costs, and what they agree on."""
+
+    description: Array = text("description", "evolution, elastic, rigid")
+    modulation: Array = quantity("1", "modulation", "amplitude of the pulsating load over its mean; above 1 contact is lost")
+    iterations: Array = quantity("1", "tangent modulation description", "Newton iterations per step, mean; first without the unsymmetric term, then with it")
+    worst: Array = count("tangent modulation description", "largest number of iterations of one step")
+    halvings: Array = count("tangent modulation description", "steps that did not converge and were halved")
+    converged: Array = count("tangent modulation description", "1 where no step had to be given up")
+    cost: Array = quantity("1", "tangent modulation description", "work of the factorisations over that of the cheapest")
+    sliding_share: Array = quantity("1", "tangent modulation description", "share of contacts that slide, mean over the steps")
+    mean_shift: Array = quantity("m", "tangent modulation description", "mean displacement of the block along sliding, second half")
+    curve_error: Array = quantity("1", "description", "deviation from the curve of one Hertz contact over its limit, root mean square")
+    step: Array = quantity("s", "", "time step")

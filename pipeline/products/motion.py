@@ -1,0 +1,88 @@
+"""How a sliding model moves: complex modes, rigid sub-discs, motion over time."""
+
+import numpy as np
+
+from pipeline.contract import Array, count, product, quantity, text
+
+
+@product(version=3)
+class ComplexModes:
+    """Complex modes of the sliding system over friction, and at each operating point of the map."""
+
+    pressure: Array = quantity("Pa", "pressure", "nominal pressure of the state")
+    friction: Array = quantity("1", "friction", "friction coefficient of the sweep")
+    root: Array = quantity("1/s", "pressure friction branch", "s = sigma + i omega, followed over friction", complex)
+    real_frequency: Array = quantity("Hz", "pressure branch", "frequencies without friction and damping")
+    operating_pressure: Array = quantity("Pa", "operating", "pressure of the operating point")
+    operating_speed: Array = quantity("rad/s", "operating", "speed of the drive at the operating point")
+    operating_friction: Array = quantity("1", "operating", "friction coefficient, mean weighted by normal force")
+    operating_force: Array = quantity("N", "operating contact", "normal contact force in steady sliding, 0 when open")
+    operating_open: Array = count("operating", "contacts that steady sliding leaves open")
+    operating_root: Array = quantity("1/s", "operating branch", "roots at the operating point", complex)
+    unstable_operating: Array = count("unstable", "operating point of the unstable mode")
+    unstable_root: Array = quantity("1/s", "unstable", "roots with positive real part, strongest first", complex)
+    unstable_shape: Array = quantity("1", "unstable visible xyz", "their shapes on the surface nodes, largest = 1", complex)
+    corrections: Array = count("", "correction vectors for friction and damping added to the real modes")
+
+
+@product(version=2)
+class Multibody:
+    """Motion of the flexible pads on four rigid sub-discs of friction patches, per operating point."""
+
+    pressure: Array = quantity("Pa", "operating", "nominal pad pressure")
+    speed: Array = quantity("rad/s", "operating", "disc speed")
+    time: Array = quantity("s", "time", "time after the static start")
+    pad_name: Array = text("pad", "pads: outer, inner")
+    pad_motion: Array = quantity("m", "operating pad xyz time", "displacement of the centres of gravity; x along sliding, y axial, z radial")
+    patch_force: Array = quantity("N", "operating pad sub_disc time", "normal force of each sub-disc on each pad")
+    normal_force: Array = quantity("N", "operating contact time", "normal force at each contact point", np.float32)
+    friction_force: Array = quantity("N", "operating contact time", "friction force on the pad along sliding", np.float32)
+    mean_friction: Array = quantity("1", "operating", "friction over normal force, mean after settling")
+    growth_rate: Array = quantity("1/s", "operating", "growth rate of the pad oscillation, fitted to thirds of its envelope")
+    growth_rate_std: Array = quantity("1/s", "operating", "standard error of the growth rate over these thirds")
+    growth_decided: Array = count("operating", "1 where the growth rate exceeds two standard errors: its sign is decided")
+    oscillation_frequency: Array = quantity("Hz", "operating", "dominant frequency of the pad oscillation along sliding")
+    separated_share: Array = quantity("1", "operating", "share of contact samples without contact")
+    outside_map_share: Array = quantity("1", "operating", "share of friction evaluations outside the computed map")
+    caliper_factor: Array = quantity("1", "caliper_factor", "factor on the caliper stiffness, stability map")
+    abutment_factor: Array = quantity("1", "abutment_factor", "factor on the abutment stiffness, stability map")
+    stability: Array = quantity("1/s", "operating caliper_factor abutment_factor", "largest growth rate of the linearised system")
+    stability_root: Array = quantity("Hz", "operating caliper_factor abutment_factor", "frequency of the root that grows so")
+
+
+@product(version=1)
+class Transient:
+    """Motion with unilateral contact and dry friction, and the cycle that it ends in, per operating point."""
+
+    pressure: Array = quantity("Pa", "operating", "nominal pressure")
+    speed: Array = quantity("rad/s", "operating", "speed of the drive")
+    time: Array = quantity("s", "time", "time after the start")
+    sensor_name: Array = text("sensor", "sensor names")
+    sensor_position: Array = quantity("m", "sensor xyz", "sensor positions")
+    displacement: Array = quantity("m", "operating sensor time", "displacement at the sensors less that at time 0", np.float32)
+    velocity: Array = quantity("m/s", "operating sensor time", "velocity at the sensors", np.float32)
+    gap: Array = quantity("m", "operating contact time", "gap, negative where the contact is pressed in", np.float32)
+    normal_force: Array = quantity("N", "operating contact time", "normal force, mean since the sample before", np.float32)
+    friction_force: Array = quantity("N", "operating contact time", "friction force along sliding, mean since the sample before", np.float32)
+    slip: Array = quantity("m/s", "operating contact time", "slip velocity, drive less body", np.float32)
+    status: Array = count("operating contact time", "0 open, 1 sticking, 2 sliding")
+    status_share: Array = quantity("1", "operating contact kind", "share of the steps open, sticking, sliding")
+    stored_energy: Array = quantity("J", "operating time", "kinetic and strain energy of bodies and joints")
+    input_work: Array = quantity("J", "operating time", "work of the inputs since time 0")
+    damping_loss: Array = quantity("J", "operating time", "loss in dampers since time 0")
+    normal_work: Array = quantity("J", "operating time", "work of the normal forces on the bodies since time 0")
+    friction_work: Array = quantity("J", "operating time", "work of the friction forces on the bodies since time 0")
+    sliding_loss: Array = quantity("J", "operating time", "work of the friction forces on the slip since time 0")
+    imbalance: Array = quantity("1", "operating", "largest error of the energy balance over the largest energy that passed")
+    step: Array = quantity("s", "", "time step")
+    window: Array = quantity("s", "", "end of the motion from which spectra and cycles are taken")
+    frequency: Array = quantity("Hz", "frequency", "frequency axis of the spectra")
+    velocity_spectrum: Array = quantity("m^2/s^2/Hz", "operating sensor frequency", "one-sided power spectral density in the window")
+    cycle_frequency: Array = quantity("Hz", "operating sensor", "dominant frequency in the window, 0 at rest")
+    cycle_amplitude: Array = quantity("m/s", "operating sensor", "velocity amplitude in the window")
+    cycle_drift: Array = quantity("1", "operating sensor", "spread of the amplitude over quarters of the window")
+    settled: Array = count("operating sensor", "1 where the cycle has settled in the window")
+    growth_rate: Array = quantity("1/s", "operating sensor", "growth rate of the small motion before, 0 where none was seen")
+    growth_rate_std: Array = quantity("1/s", "operating sensor", "standard error of the growth rate")
+    grew: Array = count("operating sensor", "1 where the motion grew from small to its cycle")
+    harmonic_amplitude: Array = quantity("m/s", "operating sensor harmonic", "velocity amplitude at 1, 2, ... times the dominant frequency")

@@ -1,0 +1,29 @@
+"""What is read at the end: the comparison with the source, and the report."""
+
+from pipeline.contract import Array, count, product, quantity, text
+
+
+@product(version=1)
+class Comparison:
+    """Published values beside ours, row by row."""
+
+    row: Array = text("row", "name of the quantity")
+    section: Array = text("row", "part of the source, as its reference file calls it")
+    unit: Array = text("row", "unit in which the row is shown")
+    published: Array = quantity("1", "row", "published value in that unit (0 where none)")
+    published_known: Array = count("row", "1 where the paper gives a value")
+    ours: Array = quantity("1", "row", "our value in that unit (0 where none)")
+    ours_known: Array = count("row", "1 where the chain computes the quantity")
+    tolerance: Array = quantity("1", "row", "tolerance in that unit (0 where the row is not compared by a tolerance)")
+    verdict: Array = text("row", "within, outside, or not comparable")
+    tuned: Array = text("row", "what was tuned to reach the row, empty where nothing")
+    source: Array = text("row", "where the paper says so")
+    doubt: Array = text("row", "doubt about the published value, empty where none")
+    note: Array = text("row", "how our value was formed")
+
+
+@product(version=1)
+class Report:
+    """The report page of a case."""
+
+    html: Array = text("", "self-contained page")

@@ -1,0 +1,108 @@
+"""Recordings: what a bench wrote, run by run."""
+
+from pipeline.contract import Array, count, parts, product, quantity, text
+
+
+@product(version=1)
+class Channel:
+    """One sampled signal of a run."""
+
+    samples: Array = quantity("1", "sample", "samples in the unit that `unit` names; 0 where missing")
+    missing: Array = count("sample_gap bound", "first sample of each stretch without data, and the first after it")
+    unit: Array = text("", "coherent SI unit of the samples")
+    measures: Array = text("", "what is measured: displacement, velocity, acceleration, force, pressure, voltage, ...")
+    rate: Array = quantity("Hz", "", "sampling rate")
+    begin: Array = quantity("s", "", "time of the first sample")
+    place: Array = text("", "named point or joint; empty where nothing is said")
+    position: Array = quantity("m", "xyz", "position of the point; size 0 where nothing is said")
+    direction: Array = quantity("1", "axis", "direction, unit vector; size 0 where nothing is said")
+    role: Array = text("", "response or excitation")
+
+
+@product(version=1)
+class Condition:
+    """A condition of a run: one value, or a series over time."""
+
+    value: Array = quantity("1", "moment", "value in the unit that `unit` names")
+    time: Array = quantity("s", "moment", "time of each value; 0 for a condition that does not change")
+    unit: Array = text("", "coherent SI unit of the values")
+
+
+@product(version=1)
+class FrequencyResponse:
+    """A measured frequency response function."""
+
+    frequency: Array = quantity("Hz", "frequency", "frequency axis")
+    response: Array = quantity("1", "frequency", "response per reference, in the unit that `unit` names", complex)
+    unit: Array = text("", "unit of the function, e.g. m/s^2/N")
+    place: Array = text("", "place and direction of the response")
+    reference: Array = text("", "place and direction of the reference")
+
+
+@product(version=1)
+class MeasuredModes:
+    """Identified modes with their standard deviations."""
+
+    frequency: Array = quantity("Hz", "mode", "natural frequencies")
+    frequency_std: Array = quantity("Hz", "mode", "their standard deviations")
+    damping_ratio: Array = quantity("1", "mode", "damping ratios; 0 where not measured")
+    damping_ratio_std: Array = quantity("1", "mode", "their standard deviations; 0 where not measured")
+    place: Array = text("place", "places and directions of the shapes")
+    shape: Array = quantity("1", "mode place", "mode shapes", complex)
+
+
+@product(version=1)
+class Lines:
+    """A published list of peaks, where no raw signal exists."""
+
+    frequency: Array = quantity("Hz", "line", "frequencies")
+    frequency_tolerance: Array = quantity("Hz", "line", "how far off they may be read")
+    level: Array = quantity("1", "line", "levels in dB re the strongest line; 0 where none is given")
+    level_known: Array = count("line", "1 where a level is given")
+    place: Array = text("", "where the spectrum was taken")
+
+
+@product(version=1)
+class Topography:
+    """A measured height map."""
+
+    y: Array = quantity("m", "y", "lateral position across sliding")
+    x: Array = quantity("m", "x", "lateral position along sliding")
+    height: Array = quantity("m", "y x", "heights, outwards of the solid")
+    body: Array = text("", "body, e.g. disc or pad")
+    state: Array = text("", "new or worn")
+
+
+@product(version=1)
+class MeasuredFriction:
+    """Measured coefficients of friction with their conditions."""
+
+    friction: Array = quantity("1", "sample", "coefficient of friction")
+    friction_std: Array = quantity("1", "sample", "its standard error")
+    pressure: Array = quantity("Pa", "sample", "nominal contact pressure")
+    speed: Array = quantity("m/s", "sample", "sliding speed")
+    distance: Array = quantity("m", "sample", "sliding distance")
+    temperature: Array = quantity("K", "sample", "temperature")
+
+
+@product(version=1)
+class Run:
+    """One run on a test bench, or a declared stretch of a long record."""
+
+    description: Array = text("", "what was done")
+    repeat_of: Array = text("", "name of the run that this one repeats; empty for none")
+    conditions: dict[str, Condition] = parts("conditions by name: pressure, speed, normal_load, temperature, ...")
+    channels: dict[str, Channel] = parts("sampled signals by name")
+    frf: dict[str, FrequencyResponse] = parts("frequency response functions by name")
+    modes: dict[str, MeasuredModes] = parts("identified modes by name")
+    lines: dict[str, Lines] = parts("published peak lists by name")
+    topography: dict[str, Topography] = parts("height maps by name")
+    friction: dict[str, MeasuredFriction] = parts("measured friction by name")
+
+
+@product(version=1)
+class Recording:
+    """What a bench wrote, in one form; simulations embed the same runs in their products."""
+
+    source: Array = text("source", "files it was read from, with SHA-256")
+    runs: dict[str, Run] = parts("runs by name")

@@ -1,0 +1,40 @@
+"""The disc brake as FE bodies."""
+
+from pipeline.contract import Array, count, part, product, quantity, text
+from pipeline.products.bodies import Body, Incidence
+
+
+@product(version=2)
+class Structure:
+    """FE bodies of the brake, their joints, contacts and sensors, and the solved preload."""
+
+    body_name: Array = text("body", "bodies in order: disc, pad_outer, pad_inner, caliper")
+    disc: Body = part("brake disc on its mount")
+    pad_outer: Body = part("pad with backplate on the finger side, z > 0")
+    pad_inner: Body = part("pad with backplate on the piston side, z < 0")
+    caliper: Body = part("caliper with fingers and cylinder")
+    free_frequency: Array = quantity("Hz", "free_mode", "natural frequencies of the free disc, rigid motions left out")
+    free_diameters: Array = count("free_mode", "nodal diameters of the free-disc modes")
+    free_out_of_plane: Array = quantity("1", "free_mode", "share of modal mass that moves along the axis")
+    joint_name: Array = text("joint", "joint names, e.g. abutment_outer_leading")
+    joint_rows: Incidence = part("joint elongation rows (both ends included; a joint to ground has one end)")
+    joint_stiffness: Array = quantity("N/m", "joint", "joint stiffness, linearised about the preload")
+    joint_damping: Array = quantity("N s/m", "joint", "joint damping")
+    contact_body: Array = count("contact", "body that slides on the disc at the contact, index into body_name")
+    contact_position: Array = quantity("m", "contact xyz", "centroid of the contact patch on the disc face")
+    contact_area: Array = quantity("m^2", "contact", "area of the contact patch")
+    contact_normal: Incidence = part("normal relative displacement, pad minus disc, positive opens")
+    contact_tangent: Incidence = part("relative displacement pad minus disc along sliding")
+    contact_lateral: Incidence = part("relative displacement pad minus disc radially outwards")
+    pressure: Array = quantity("Pa", "pressure", "nominal pad pressures at which the preload was solved")
+    preload: Array = quantity("N", "pressure contact", "static normal contact force")
+    contact_stiffness: Array = quantity("N/m", "pressure contact", "normal contact stiffness about the preload, 0 when open")
+    closed: Array = count("pressure contact", "1 where the contact is closed")
+    law_closure: Array = quantity("m", "closure", "closure (minus gap) axis of the normal contact law, from 0")
+    law_pressure: Array = quantity("Pa", "closure", "contact pressure at each closure")
+    sensor_name: Array = text("sensor", "sensor names")
+    sensor_position: Array = quantity("m", "sensor xyz", "sensor positions")
+    sensor_direction: Array = quantity("1", "sensor xyz", "sensor directions, unit vectors")
+    sensor_rows: Incidence = part("sensor displacement rows")
+    piston_rows: Incidence = part("piston row: opening force pair between cylinder and inner backplate")
+    piston_area: Array = quantity("m^2", "", "pad area on which the nominal pressure acts; piston force = pressure * area")
