@@ -376,12 +376,12 @@ def _failure(code, time, contact, step, model):
     if code in (TOO_STIFF, UNSETTLED):
         where = f"time stepping at t = {time:.6g} s, element {model.elements[contact].name}"
         if code == TOO_STIFF:
-            return ConfigError(where, "at least 8 steps in a period of the element", f"steps of {step:.3g} s",
-                               "shorten the step, or soften the element")
+            return ConfigError(f"{where}: step", "at least 8 steps in a period of the element",
+                               f"steps of {step:.3g} s", "shorten the step, or soften the element")
         return ConvergenceError(where, "a force that settles", "none after the last sweep", "take a shorter step")
     where = f"time stepping at t = {time:.6g} s, contact {contact}"
     if code == TOO_LONG:
-        return ConfigError(where, "at least 8 steps in a period of the contact", f"steps of {step:.3g} s",
+        return ConfigError(f"{where}: step", "at least 8 steps in a period of the contact", f"steps of {step:.3g} s",
                            "shorten the step, or soften the contact")
     if code == JAMMED:
         return ConvergenceError(where, "contact forces that stop the approach", "friction that jams the contact",
