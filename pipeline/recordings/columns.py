@@ -47,11 +47,12 @@ def _decoded(content, path):
     from scipy.io import loadmat
     from scipy.io.matlab import MatReadError
 
-    byte_order = {b"IM": "<", b"MI": ">"}.get(content[126:128])
-    if not byte_order and 0 not in content[:4]:
-        raise ConfigError(path, "a MATLAB file", "another kind of file, or none")
-    if byte_order and not _whole(content, byte_order):
-        raise ConfigError(path, "a whole MATLAB file", "one that is cut off", "copy it again")
+    if 0 not in content[:4]:        # version 4 begins with a small number, later ones with text
+        byte_order = {b"IM": "<", b"MI": ">"}.get(content[126:128])
+        if not byte_order:
+            raise ConfigError(path, "a MATLAB file", "another kind of file, or none")
+        if not _whole(content, byte_order):
+            raise ConfigError(path, "a whole MATLAB file", "one that is cut off", "copy it again")
     try:
         return {k: v for k, v in loadmat(BytesIO(content)).items() if not k.startswith("__")}
     except (MatReadError, TypeError, ValueError) as error:
