@@ -19,8 +19,8 @@ CASES = [pytest.param(path, marks=SLOW.get(path.stem, ()), id=path.stem)
 DATA = Path(os.environ.get("BRAKECHAIN_DATA", ROOT.parent / "shared" / "data"))
 MEASURED = ("disc_brake_scanned", "emps_recording")
 CLOSED_FORM = ("belt", "two_mode_flutter", "wobbling_disc")
-#: case -> rows that may be outside. The beams' motion is chaotic: the median of the force lies nearer to its bound than it
-#: wanders (data/reference/beam_geometry.yaml). The rocking of the disc was measured below the range of the paper's update.
+#: case -> rows that may be outside. The beams' motion is chaotic: the median of the force lies nearer to its bound than
+#: it wanders (data/reference/beam_geometry.yaml). The rocking was measured below the range of the paper's update.
 NOT_MET = {"beam_on_beam": {"largest normal contact force"},
            "pin_on_disc": {"disc, first mode (1,0): rocking on its shaft, measured"}}
 
@@ -43,4 +43,4 @@ def test_a_case_runs_to_its_report(case, tmp_path, monkeypatch):
         assert set(verdict) == {"within"}
     if case.stem == "pin_on_disc":
         roots = store.read(LockIn, tmp_path / "run" / "lock_in.h5").root[:2]
-        assert np.all(np.abs(abs(roots.imag) / (2 * np.pi) - 2217.5) < 27.5), "golden: the matched and the tested length"
+        assert np.all(np.abs(abs(roots.imag) / (2 * np.pi) - 2217.5) < 27.5), "golden: 2190 to 2245 Hz"
