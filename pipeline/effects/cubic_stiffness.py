@@ -1,8 +1,9 @@
 """Cubic stiffness of a joint: F = k_3 e^3, hardening for k_3 > 0."""
 
+from pipeline.effects.attached import beside_joint
 from pipeline.effects.effect import Effect
 from pipeline.inference.priors import Normal, Parameter
-from pipeline.physics.elements import Element, Polynomial
+from pipeline.physics.elements import Polynomial
 
 
 def parameters(typical):
@@ -11,8 +12,7 @@ def parameters(typical):
 
 
 def apply(bench, place, values):
-    law = Polynomial(cubic=values["coefficient"])
-    return bench.with_elements(Element(f"cubic_stiffness {place}", bench.joint(place)[0], law))
+    return beside_joint(bench, "cubic_stiffness", place, Polynomial(cubic=values["coefficient"]))
 
 
 EFFECT = Effect(

@@ -17,7 +17,7 @@ from pipeline.contract.errors import ConfigError
 from pipeline.physics.bench import MOTIONS, run_drive, run_inputs
 from pipeline.physics.dry_friction import Friction
 from pipeline.physics.element_forces import element_force
-from pipeline.physics.elements import alone
+from pipeline.physics.elements import alone, wave_table
 from pipeline.physics.time_stepping import Penalty, Table
 from pipeline.physics.time_stepping_elements import no_memory, surface_shift
 
@@ -63,11 +63,11 @@ def forces_missing(bench, run, motion):
     """r (n, samples) of displacements (n, samples), differentiated by central differences."""
     model, interval = bench.model, 1 / run.sample_rate
     speed = np.gradient(motion, interval, axis=1, edge_order=2)
-    mass, damping, stiffness = model.supported()
+    turning = np.broadcast_to(run_drive(bench, run), run.samples)
+    mass, damping, stiffness = model.at_speed(turning[0]).supported()
     inertia = np.gradient(speed, interval, axis=1, edge_order=2)
     inertia[:, 1:-1] = (motion[:, 2:] - 2 * motion[:, 1:-1] + motion[:, :-2]) / interval**2
     residual = mass @ inertia + damping @ speed + stiffness @ motion
-    turning = np.broadcast_to(run_drive(bench, run), run.samples)
     angle = cumulative_trapezoid(turning, dx=interval, initial=0.0)
     instants = np.column_stack((run.time, angle, turning))
     residual = residual + _elements(model, motion, speed, instants) - _contacts(bench, motion, speed, instants)
@@ -99,26 +99,39 @@ def _contacts(bench, motion, speed, instants):
     """sum_i (n_i N_i + t_i T_i) (n, samples), sliding everywhere."""
     contacts, fixed = bench.model.contacts, bench.model.contacts.fixed
     normal = np.where(fixed, contacts.preload, 0.0)[:, None] * np.ones(motion.shape[1])
-    for i in np.flatnonzero(~fixed):
-        normal[i] = _pressed(bench, i, motion, speed, instants)
     slip = contacts.lever[:, None] * instants[:, 2] - contacts.tangent @ speed
+    for i in np.flatnonzero(~fixed):
+        normal[i] = _pressed(bench, i, motion, speed, instants, slip[i])
     friction: Friction = bench.friction
     drawn = np.sign(slip) * friction.at_speed(slip, normal / contacts.area[:, None]) * normal
     return contacts.normal.T @ normal + contacts.tangent.T @ drawn
 
 
-def _pressed(bench, i, motion, speed, instants):
-    """Normal force (samples,) of contact ``i`` by its law."""
+def _pressed(bench, i, motion, speed, instants, slip):
+    """Normal force (samples,) of contact ``i`` by its law, as it wears."""
     law, contacts = bench.law, bench.model.contacts
     if not isinstance(law, Penalty | Table):
         raise ConfigError(f"equation residual: contact {i}", "a contact law that yields", type(law).__name__,
                           "give the contact a stiffness, or simulate instead")
     shift = np.zeros((2, len(contacts.area), len(instants)))
-    waves = np.array([(w.contact, w.amplitude, w.order, w.frequency, w.phase) for w in contacts.waviness])
+    waves = wave_table(contacts.waviness)
     for s, instant in enumerate(instants if len(waves) else ()):
         surface_shift(waves, tuple(instant), shift[:, :, s])
     gap = np.broadcast_to(law.gap, len(contacts.area))[i] + contacts.normal[i] @ motion + shift[0, i]
     closing = -(contacts.normal[i] @ speed + shift[1, i])
+    wear = np.broadcast_to(contacts.wear, len(contacts.area))[i]
+    if wear == 0:
+        return _by_law(law, contacts, i, gap, closing)
+    force, worn, pace = np.zeros(len(gap)), 0.0, 0.0
+    for s, interval in enumerate(np.diff(instants[:, 0], prepend=instants[0, 0])):
+        force[s] = _by_law(law, contacts, i, gap[s] + worn + interval * pace, closing[s] - pace)
+        last = wear * force[s] * abs(slip[s])
+        worn, pace = worn + 0.5 * interval * (pace + last), last
+    return force
+
+
+def _by_law(law, contacts, i, gap, closing):
+    """Normal force of contact ``i`` at a ``gap`` m that closes at ``closing`` m/s."""
     closure = np.maximum(-gap, 0.0)
     if isinstance(law, Penalty):
         stiffness, damping = (np.broadcast_to(v, len(contacts.area))[i] for v in (law.stiffness, law.damping))

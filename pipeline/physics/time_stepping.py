@@ -105,7 +105,8 @@ class Start:
     """Displacement and velocity (n,) at time 0; normal and friction force (c,) where they are known.
 
     ``memory`` (s,) of the elements, by default 0: those with memory draw with no force where the motion starts;
-    ``angle`` rad of the drive and ``age`` s that passed before.
+    ``angle`` rad of the drive, ``age`` s that passed before, ``worn`` (c,) m that the contacts have
+    receded by, which needs ``normal``.
     """
 
     displacement: np.ndarray
@@ -115,6 +116,7 @@ class Start:
     memory: np.ndarray | None = None
     angle: float = 0.0
     age: float = 0.0
+    worn: np.ndarray | None = None
 
     def kicked(self, velocity):
         """The same with ``velocity`` (n,) added."""
@@ -181,9 +183,9 @@ def simulate(model, law, friction=None, *, step, duration, drive=None, inputs=No
     rest = np.zeros(model.size)
     start = Start(rest, rest) if start is None else start
     elements = _elements(model, system, linear)
-    memory = no_memory(elements) if start.memory is None else _own(start.memory)
+    memory = no_memory(elements, start.age) if start.memory is None else _own(start.memory)
     pairs, force, status = _begin(model, system, normal, dry, start, _speed_at_start(model, drive), elements)
-    record = _empty(linear, elements, steps // record_every + 1, start.angle)
+    record = _empty(linear, elements, steps // record_every + 1, start)
     code, number, contact = march(
         linear, normal, dry, elements, _own(model.contacts.lever),
         _history(model.speed if drive is None else drive, 1, "drive"), _inputs(model, inputs), pairs, force, status,
@@ -191,7 +193,7 @@ def simulate(model, law, friction=None, *, step, duration, drive=None, inputs=No
     if code != SOLVED:
         raise _failure(code, number * step, contact, step, model)
     end = Start(*system.from_pairs(record.end), *force, record.memory, float(record.angle[0]),
-                start.age + steps * step)
+                start.age + steps * step, record.worn)
     return _motion(record, step * record_every, steps, end)
 
 
@@ -236,14 +238,15 @@ def _element_rows(model):
 
 def _elements(model, system, linear):
     """ElementKernel: rows of the elements, seen and driven through one step, with those of the contacts."""
-    count, elements = len(model.contacts.area), len(model.elements)
+    contacts, count, elements = model.contacts, len(model.contacts.area), len(model.elements)
+    wear = np.broadcast_to(contacts.wear, count) if np.any(contacts.wear) else ()
     seen = system.observed(_element_rows(model))
     drawn, pressed = linear.last[len(linear.last) - elements:], linear.last[:2 * count]
     contact_rows = linear.rows.reshape(4, count, *linear.rows.shape[1:])
     arrays = {"rows": _stacked(seen), "own": np.einsum("oeax,fax->oef", seen, drawn),
               "to_contacts": np.einsum("ocax,fax->ocf", contact_rows, drawn),
               "to_elements": np.einsum("oeax,fax->oef", seen, pressed).reshape(2, elements, 2, count)}
-    return element_kernel(model.elements, model.contacts.waviness, **{n: _own(a) for n, a in arrays.items()})
+    return element_kernel(model.elements, contacts.waviness, wear, **{n: _own(a) for n, a in arrays.items()})
 
 
 def _stacked(rows):
@@ -316,12 +319,16 @@ def _begin(model, system, normal, dry, start, speed, elements):
     contacts = model.contacts
     gap = normal.gap + contacts.normal @ start.displacement
     rate, slip = contacts.normal @ start.velocity, contacts.lever * speed - contacts.tangent @ start.velocity
+    if start.worn is not None:
+        gap = gap + start.worn
     if len(elements.waviness):
         shift = np.zeros((2, len(gap)))
         surface_shift(elements.waviness, (float(start.age), float(start.angle), float(speed)), shift)
         gap, rate = gap + shift[0], rate + shift[1]
     force = np.zeros((2, len(gap)))
-    if normal.kind == PENALTY:
+    if start.worn is not None and elements.wear.size:       # goes on where damping felt the wear as well
+        force[0] = start.normal
+    elif normal.kind == PENALTY:
         force[0] = np.where(gap < 0, np.maximum(-normal.stiffness * gap - normal.damping * rate, 0.0), 0.0)
     elif normal.kind == TABLE:
         force[0] = [table_force(normal, i, -gap[i], -rate[i])[0] for i in range(len(gap))]
@@ -357,12 +364,13 @@ def _inputs(model, inputs):
     return _history(np.zeros(count) if inputs is None else inputs, count, "inputs")
 
 
-def _empty(linear, elements, kept, angle):
+def _empty(linear, elements, kept, start):
     sensors, contacts = len(linear.sensors) // 2, len(linear.rows) // 4
     return Record(*np.zeros((2, sensors, kept)), *np.zeros((4, contacts, kept)),
                   np.zeros((contacts, kept), np.int8), np.zeros(kept), np.zeros((6, kept)),
                   *np.zeros((2, len(elements.kind), kept)), np.zeros((contacts, 3)), np.zeros(linear.step.shape[1:]),
-                  no_memory(elements), np.array([float(angle)]))
+                  no_memory(elements), np.array([float(start.angle)]),
+                  np.zeros(contacts) if start.worn is None else _own(start.worn))
 
 
 def _motion(record, interval, steps, end):

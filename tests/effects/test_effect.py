@@ -41,6 +41,7 @@ def test_null_is_the_base_bit_for_bit(effect):
 
 @each
 def test_finite_over_the_prior(effect):
+    assert effect.places(BASE)
     random = np.random.default_rng(5)
     for place, parameters in everywhere(effect)[:2]:
         draws = [shaped_values(parameters, share) for share in (0.03, 0.5, 0.97)]
