@@ -20,7 +20,7 @@ def parameters(typical):
 
 def apply(bench, place, values):
     radius = np.abs(bench.model.contacts.lever[bench.contacts(place)])
-    return with_wave(bench, place, values["shift"] * radius / radius.mean(), 0.0, 0.0, values["time"])
+    return with_wave(bench, place, values["shift"] * radius / (radius.mean() or 1.0), 0.0, 0.0, values["time"])
 
 
 EFFECT = Effect(
