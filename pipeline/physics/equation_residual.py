@@ -19,7 +19,7 @@ from pipeline.physics.dry_friction import Friction
 from pipeline.physics.element_forces import element_force
 from pipeline.physics.elements import alone, wave_table
 from pipeline.physics.time_stepping import Penalty, Table
-from pipeline.physics.time_stepping_elements import no_memory, surface_shift
+from pipeline.physics.time_stepping_elements import no_memory, surface_shift, wear_on
 
 _SMALLEST_SHARE = 1e-9
 
@@ -99,40 +99,47 @@ def _contacts(bench, motion, speed, instants):
     """sum_i (n_i N_i + t_i T_i) (n, samples), sliding everywhere."""
     contacts, fixed = bench.model.contacts, bench.model.contacts.fixed
     normal = np.where(fixed, contacts.preload, 0.0)[:, None] * np.ones(motion.shape[1])
+    shift = _surface(contacts, instants)
+    gap = (np.broadcast_to(bench.law.gap, len(fixed))[:, None] + contacts.normal @ motion) + shift[0]
+    opening = contacts.normal @ speed + shift[1]
     slip = contacts.lever[:, None] * instants[:, 2] - contacts.tangent @ speed
+    wear = np.broadcast_to(contacts.wear, len(fixed))
     for i in np.flatnonzero(~fixed):
-        normal[i] = _pressed(bench, i, motion, speed, instants, slip[i])
+        if wear[i]:
+            worn = _worn(bench, i, gap[i], opening[i], wear[i] * abs(slip[i]), instants[:, 0])
+            gap[i], opening[i] = gap[i] + worn[0], opening[i] + worn[1]
+        normal[i] = _pressed(bench, i, -gap[i], -opening[i])
     friction: Friction = bench.friction
     drawn = np.sign(slip) * friction.at_speed(slip, normal / contacts.area[:, None]) * normal
     return contacts.normal.T @ normal + contacts.tangent.T @ drawn
 
 
-def _pressed(bench, i, motion, speed, instants, slip):
-    """Normal force (samples,) of contact ``i`` by its law, as it wears."""
-    law, contacts = bench.law, bench.model.contacts
-    if not isinstance(law, Penalty | Table):
-        raise ConfigError(f"equation residual: contact {i}", "a contact law that yields", type(law).__name__,
-                          "give the contact a stiffness, or simulate instead")
+def _surface(contacts, instants):
+    """(2, c, samples): what waviness adds to gaps and opening rates."""
     shift = np.zeros((2, len(contacts.area), len(instants)))
     waves = wave_table(contacts.waviness)
     for s, instant in enumerate(instants if len(waves) else ()):
         surface_shift(waves, tuple(instant), shift[:, :, s])
-    gap = np.broadcast_to(law.gap, len(contacts.area))[i] + contacts.normal[i] @ motion + shift[0, i]
-    closing = -(contacts.normal[i] @ speed + shift[1, i])
-    wear = np.broadcast_to(contacts.wear, len(contacts.area))[i]
-    if wear == 0:
-        return _by_law(law, contacts, i, gap, closing)
-    force, worn, pace = np.zeros(len(gap)), 0.0, 0.0
-    for s, interval in enumerate(np.diff(instants[:, 0], prepend=instants[0, 0])):
-        force[s] = _by_law(law, contacts, i, gap[s] + worn + interval * pace, closing[s] - pace)
-        last = wear * force[s] * abs(slip[s])
-        worn, pace = worn + 0.5 * interval * (pace + last), last
-    return force
+    return shift
 
 
-def _by_law(law, contacts, i, gap, closing):
-    """Normal force of contact ``i`` at a ``gap`` m that closes at ``closing`` m/s."""
-    closure = np.maximum(-gap, 0.0)
+def _worn(bench, i, gap, opening, rate, time):
+    """(2, samples): what wear adds to gap and opening rate of contact ``i``, rate (m/s) per normal force."""
+    shift, worn, pace = np.zeros((2, len(time))), np.zeros(1), np.zeros(1)
+    for s, interval in enumerate(np.diff(time, prepend=time[0])):
+        shift[:, s] = worn[0] + interval * pace[0], pace[0]
+        force = _pressed(bench, i, -gap[s] - shift[0, s], -opening[s] - shift[1, s])
+        wear_on(rate[s:s + 1], np.reshape(force, 1), np.ones(1), np.zeros(1), interval, worn, pace)
+    return shift
+
+
+def _pressed(bench, i, closure, closing):
+    """Normal force of contact ``i`` along closures (m, below 0 where open) and closing rates (m/s)."""
+    law, contacts = bench.law, bench.model.contacts
+    if not isinstance(law, Penalty | Table):
+        raise ConfigError(f"equation residual: contact {i}", "a contact law that yields", type(law).__name__,
+                          "give the contact a stiffness, or simulate instead")
+    closure = np.maximum(closure, 0.0)
     if isinstance(law, Penalty):
         stiffness, damping = (np.broadcast_to(v, len(contacts.area))[i] for v in (law.stiffness, law.damping))
         return np.where(closure > 0, np.maximum(stiffness * closure + damping * closing, 0.0), 0.0)

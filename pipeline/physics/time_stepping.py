@@ -193,7 +193,7 @@ def simulate(model, law, friction=None, *, step, duration, drive=None, inputs=No
     if code != SOLVED:
         raise _failure(code, number * step, contact, step, model)
     end = Start(*system.from_pairs(record.end), *force, record.memory, float(record.angle[0]),
-                start.age + steps * step, record.worn)
+                start.age + steps * step, worn=record.worn)
     return _motion(record, step * record_every, steps, end)
 
 

@@ -7,7 +7,7 @@ from pipeline.effects import named
 from pipeline.physics.bench import respond
 from pipeline.physics.bench_roots import roots
 from pipeline.physics.equation_residual import equation_residual
-from tests.effects.benches import round_disc, struck
+from tests.effects.benches import round_disc, rubbing, struck
 
 ORDER, SPEED, ROOT = 3.0, 1.5, 20.0
 WAVES = np.sqrt(ROOT**2 + (ORDER * SPEED) ** 2) + ORDER * SPEED * np.array([-1, 1])
@@ -41,3 +41,10 @@ def test_its_own_motion_leaves_nothing():
     seen = respond(turning(), run)
     left, missed = (abs(equation_residual(b, run, seen, trim=5)).max() for b in (turning(), round_disc()))
     assert left < 1e-4 * missed
+
+
+def test_coriolis_forces_do_no_work_whatever_the_masses():
+    bench = named("gyroscopic").on(rubbing(), "tilt", {"order": 2.0})
+    added = bench.model.gyroscopic
+    np.testing.assert_array_equal(added, -added.T)
+    assert added[1, 2] == pytest.approx(2 * 2.0 * np.sqrt(1.0 * 0.5))

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from pipeline.contract.errors import ConfigError
 from pipeline.effects import named
 from pipeline.physics.bench import Run, respond
 from pipeline.physics.bench_roots import roots
@@ -27,3 +28,8 @@ def test_a_closed_line_is_a_spring_and_a_wide_one_is_nothing():
     closed, wide = (roots(through_fluid(300.0, time), let_go(0.01))[-1] for time in (1e6, 1e-9))
     assert closed == pytest.approx(-2 + 1j * np.sqrt(700 - 4), rel=1e-6)
     assert wide == pytest.approx(-2 + 1j * np.sqrt(400 - 4), rel=1e-6)
+
+
+def test_a_load_does_not_rise_as_the_pad_moves_on():
+    with pytest.raises(ConfigError, match="stiffness"):
+        through_fluid(-1.0, 0.2)
