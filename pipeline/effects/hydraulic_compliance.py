@@ -14,7 +14,7 @@ from pipeline.physics.elements import Element, Maxwell
 
 
 def parameters(typical):
-    size = 0.1 * typical.stiffness or typical.mass / typical.period**2
+    size = 0.1 * (typical.stiffness or typical.force / typical.length)
     return (Parameter("stiffness", "N/m", size, HalfNormal(2 * size), null=0.0),
             Parameter("time", "s", 0.2 * typical.time, LogNormal(0.2 * typical.time, 1.0)))
 

@@ -11,7 +11,7 @@ from pipeline.physics.elements import Element, Wave
 
 
 def parameters(typical):
-    size, frequency = 0.05 * (typical.force or 1.0), 1 / (2 * np.pi * typical.period)
+    size, frequency = 0.05 * typical.force, 1 / (2 * np.pi * typical.period)
     return (Parameter("force", "N", size, HalfNormal(2 * size), null=0.0),
             Parameter("frequency", "Hz", frequency, LogNormal(frequency, 1.0)),
             Parameter("phase", "rad", 0.0, Uniform(-np.pi, np.pi)))

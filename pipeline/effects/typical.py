@@ -73,10 +73,10 @@ def typical(kind, bench, place, runs):
         contacts, own = bench.model.contacts, bench.contacts(place)
         seen["speed"] = drive * abs(contacts.lever[own]).max()
         seen["pressure"] = seen["force"] / contacts.area[own].sum()
-    elif kind == INPUT:
-        seen["force"] = max(float(np.abs(_input(bench, run, place)).max()) for run in runs)
     else:
         seen["force"] = stiffness * seen["length"] + damping * seen["speed"]
+    if kind == INPUT:
+        seen["force"] = max(seen["force"], *(float(np.abs(_input(bench, run, place)).max()) for run in runs))
     mass = 1 / (row @ np.linalg.solve(bench.model.mass, row)) if row.any() else 0.0
     return Typical(stiffness, damping, mass, **seen, **common)
 

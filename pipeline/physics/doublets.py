@@ -6,7 +6,7 @@ import numpy as np
 _ROUNDING = 1e-9
 
 
-def doublets(model, within=0.01):
+def doublets(model, within=1e-3):
     """{name: (i, j)} of a SlidingModel, by body and rising frequency: what ``Bench.doublets`` asks for.
 
     Two coordinates are modes where neither mass nor stiffness, joints counted, couples them with others of their body;
