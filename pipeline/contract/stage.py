@@ -44,7 +44,7 @@ class Stage:
     settings: type      # settings class
     summary: str        # first docstring line: the CLI help
     method: str         # docstring paragraph after 'Method:': the sentence of the report
-    companions: Callable | None     # product -> {file name: str or bytes}, written beside it
+    companions: Callable | None     # (product, CaseText) -> {file name: str or bytes}, written beside it
     reads_case: bool    # True for the report: all it may tell about the case joins its hash
     check: Callable     # {stage: settings} -> None; refuses settings that do not fit those of other stages
 
