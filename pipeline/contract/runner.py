@@ -148,7 +148,7 @@ class Run:
         now = self.fingerprint(stage)
         wall, cpu = time.perf_counter(), _cpu_seconds(context)
         with context.stage(stage):
-            output = stage.run(**inputs, settings=self.case.sections[stage.name], context=context)
+            output = stage(**inputs, settings=self.case.sections[stage.name], context=context)
         seconds = time.perf_counter() - wall
         if fingerprint.code_of(stage.run.__module__) != self.code[stage.name]:
             raise ProductError(f"stage {stage.name}", "the same code from begin to end", "code that changed meanwhile",

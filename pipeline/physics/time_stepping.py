@@ -15,14 +15,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from pipeline.contract.errors import ConfigError, ConvergenceError
-from pipeline.physics.dry_friction import RIGID, coefficient, constant, kernel
+from pipeline.physics.dry_friction import coefficient, constant, kernel
 from pipeline.physics.element_forces import TOO_STIFF, UNSETTLED
-from pipeline.physics.elements import element_kernel
 from pipeline.physics.time_stepping_contact import (
-    HARD,
     JAMMED,
-    LAGRANGE,
-    LARGEST_STIFFNESS,
     OPEN,
     PENALTY,
     SLIP,
@@ -31,65 +27,15 @@ from pipeline.physics.time_stepping_contact import (
     TABLE,
     TOO_LONG,
     UNCONVERGED,
-    NormalKernel,
     table_force,
 )
 from pipeline.physics.time_stepping_elements import no_memory, surface_shift
-from pipeline.physics.time_stepping_linear import modal_system, newmark_matrices, step_matrices
-from pipeline.physics.time_stepping_march import HistoryKernel, LinearKernel, Record, march
+from pipeline.physics.time_stepping_kernels import elements_kernel, linear_kernel, refuse
+from pipeline.physics.time_stepping_laws import Forward, Hard, Lagrange, Penalty, Table, contiguous, normal_kernel
+from pipeline.physics.time_stepping_linear import modal_system
+from pipeline.physics.time_stepping_march import HistoryKernel, Record, march
 
-#: fewest steps in a period of the highest mode
-STEPS_PER_PERIOD = 2.5
-
-
-@dataclass(frozen=True)
-class Hard:
-    """Contacts that do not yield: Moreau-Jean, with Newton's restitution; ``gap`` () or (c,) m at rest."""
-
-    restitution: float = 0.0
-    gap: np.ndarray | float = 0.0
-
-
-@dataclass(frozen=True)
-class Penalty:
-    """N = stiffness c + damping c' at closure c, never below 0; each () or (c,), in N/m and N s/m.
-
-    With a ``gamma`` bodies and contacts are stepped by Newmark's rule, as FE codes do, instead of exactly.
-    """
-
-    stiffness: np.ndarray | float
-    damping: np.ndarray | float = 0.0
-    gap: np.ndarray | float = 0.0
-    gamma: float | None = None
-
-
-@dataclass(frozen=True)
-class Table:
-    """N = A p(c) (1 + c' / damping_speed): ``closure`` (k,) m and ``pressure`` (k,) Pa, both rising from 0."""
-
-    closure: np.ndarray
-    pressure: np.ndarray
-    damping_speed: float = np.inf
-    gap: np.ndarray | float = 0.0
-
-
-@dataclass(frozen=True)
-class Lagrange:
-    """Contacts that do not yield, by multipliers on displacements under Newmark's rule with this ``gamma``."""
-
-    gamma: float = 0.5
-    gap: np.ndarray | float = 0.0
-
-
-@dataclass(frozen=True)
-class Forward:
-    """Contacts that do not yield, by forward increments: the impulse at the begin of a step closes the gap at its end.
-
-    Carpenter, Taylor & Katona (Int. J. Numer. Meth. Engng 32 (1991) 103), whose central differences are replaced by
-    the exact linear part; rigid friction acts with it. Impacts come to rest within two steps.
-    """
-
-    gap: np.ndarray | float = 0.0
+__all__ = ["Forward", "Hard", "History", "Lagrange", "Motion", "Penalty", "Start", "Table", "imposed", "simulate"]
 
 
 @dataclass(frozen=True)
@@ -177,17 +123,17 @@ def simulate(model, law, friction=None, *, step, duration, drive=None, inputs=No
         raise ConfigError("time stepping: step", "a positive step, at most as long as the motion",
                           f"{step:g} s for {duration:g} s")
     system = modal_system(model) if system is None else system
-    linear = _linear(model, system, law, friction or constant(0.0), step)
-    normal, dry = _normal_kernel(law, model.contacts), kernel(friction or constant(0.0), len(model.contacts.area))
-    _check(system, linear, normal, dry, model, step)
+    linear = linear_kernel(model, system, law, friction or constant(0.0), step)
+    normal, dry = normal_kernel(law, model.contacts), kernel(friction or constant(0.0), len(model.contacts.area))
+    refuse(system, linear, normal, dry, model, step)
     rest = np.zeros(model.size)
     start = Start(rest, rest) if start is None else start
-    elements = _elements(model, system, linear)
-    memory = no_memory(elements, start.age) if start.memory is None else _own(start.memory)
+    elements = elements_kernel(model, system, linear)
+    memory = no_memory(elements, start.age) if start.memory is None else contiguous(start.memory)
     pairs, force, status = _begin(model, system, normal, dry, start, _speed_at_start(model, drive), elements)
     record = _empty(linear, elements, steps // record_every + 1, start)
     code, number, contact = march(
-        linear, normal, dry, elements, _own(model.contacts.lever),
+        linear, normal, dry, elements, contiguous(model.contacts.lever),
         _history(model.speed if drive is None else drive, 1, "drive"), _inputs(model, inputs), pairs, force, status,
         memory, float(start.age), float(step), steps, int(record_every), bool(book), record)
     if code != SOLVED:
@@ -205,113 +151,6 @@ def imposed(model, joint):
     row = model.joints.stiffness[k] * model.joints.rows[k]
     return replace(model, input_name=(*model.input_name, f"{joint}_imposed"),
                    input_rows=np.vstack((model.input_rows, row)))
-
-
-def _linear(model, system, law, friction, step):
-    """LinearKernel: rows of contacts, inputs and elements, seen and driven through one step."""
-    contacts, count = model.contacts, len(model.contacts.area)
-    gamma = getattr(law, "gamma", None)
-    matrices = step_matrices(system, step) if gamma is None else newmark_matrices(system, step, gamma)
-    forced = system.driven(np.vstack((contacts.normal, contacts.tangent, model.input_rows, -_element_rows(model))))
-    first, last = (np.einsum("bxy,ryb->rxb", matrix, forced) for matrix in matrices[1:])
-    kicks = isinstance(law, Forward)
-    hold = np.array([kicks or isinstance(law, Hard), kernel(friction, count).description == RIGID])
-    if gamma is not None:
-        hold[:] = False
-    for f in np.flatnonzero(hold):
-        own = slice(f * count, (f + 1) * count)
-        flown = step * np.einsum("bxy,ryb->rxb", matrices[0], forced[own])
-        last[own], first[own] = flown if kicks else first[own] + last[own], 0.0
-    rows = np.concatenate([system.observed(r) for r in (contacts.normal, contacts.tangent)])
-    response = np.einsum("oibx,fjbx->ofij", rows, last[:2 * count].reshape(2, count, *last.shape[1:]))
-    struck = step * np.repeat(hold, count)[:, None, None] * forced[:2 * count]
-    energy, power = _forms(system)
-    arrays = (np.moveaxis(matrices[0], 0, 2), first, last, _stacked(rows), response,
-              system.observed(model.input_rows)[0], _stacked(system.observed(model.sensor_rows)), hold, system.squared,
-              np.diag(system.damping), energy, power, struck if kicks else struck[:0])
-    return LinearKernel(*(_own(a) for a in arrays))
-
-
-def _element_rows(model):
-    return np.array([e.row for e in model.elements], float).reshape(-1, model.size)
-
-
-def _elements(model, system, linear):
-    """ElementKernel: rows of the elements, seen and driven through one step, with those of the contacts."""
-    contacts, count, elements = model.contacts, len(model.contacts.area), len(model.elements)
-    wear = np.broadcast_to(contacts.wear, count) if np.any(contacts.wear) else ()
-    seen = system.observed(_element_rows(model))
-    drawn, pressed = linear.last[len(linear.last) - elements:], linear.last[:2 * count]
-    contact_rows = linear.rows.reshape(4, count, *linear.rows.shape[1:])
-    arrays = {"rows": _stacked(seen), "own": np.einsum("oeax,fax->oef", seen, drawn),
-              "to_contacts": np.einsum("ocax,fax->ocf", contact_rows, drawn),
-              "to_elements": np.einsum("oeax,fax->oef", seen, pressed).reshape(2, elements, 2, count)}
-    return element_kernel(model.elements, contacts.waviness, wear, **{n: _own(a) for n, a in arrays.items()})
-
-
-def _stacked(rows):
-    """(a, r, 2, m) as (a r, 2, m)."""
-    return rows.reshape(-1, *rows.shape[2:])
-
-
-def _own(values):
-    """A writable, contiguous copy: one type of array for all compiled calls."""
-    return np.array(values, dtype=float, order="C")
-
-
-def _forms(system):
-    """Quadratic forms (2m, 2m) of energy and loss in coupled pairs; empty where the modes are the pairs."""
-    if not system.coupled:
-        return np.empty((0, 0)), np.empty((0, 0))
-    place, speed = np.split(system.state.reshape(len(system.state), -1), 2)
-    drag = (system.damping + system.damping.T) / 2
-    return (speed.T @ speed + place.T @ (system.squared[:, None] * place)) / 2, speed.T @ drag @ speed
-
-
-def _normal_kernel(law, contacts):
-    count = len(contacts.area)
-
-    def each(value):
-        return _own(np.broadcast_to(np.asarray(value, float), count))
-
-    kind = {Hard: HARD, Penalty: PENALTY, Table: TABLE, Lagrange: LAGRANGE, Forward: LAGRANGE}[type(law)]
-    if isinstance(law, Table) and (len(law.closure) < 2 or law.closure[0] != 0 or law.pressure[0] != 0
-                                   or np.any(np.diff(law.closure) <= 0) or np.any(np.diff(law.pressure) <= 0)):
-        raise ConfigError("time stepping: normal law", "closure and pressure that rise from 0", "another table")
-    if isinstance(law, Hard) and not 0 <= law.restitution <= 1:
-        raise ConfigError("time stepping: restitution", "between 0 and 1", f"{law.restitution:g}")
-    gamma = getattr(law, "gamma", None)
-    if gamma is not None and not 0.5 <= gamma <= 1:
-        raise ConfigError("time stepping: gamma", "between 0.5 and 1", f"{gamma:g}")
-    if isinstance(law, Penalty) and not np.all(np.asarray(law.stiffness) > 0):
-        raise ConfigError("time stepping: contact stiffness", "above 0", f"{np.min(law.stiffness):g} N/m")
-    table = [_own(getattr(law, name, [0.0, 1.0])) for name in ("closure", "pressure")]
-    fixed = contacts.fixed
-    return NormalKernel(kind, np.where(fixed, 0.0, each(law.gap)), _own(np.where(fixed, contacts.preload, -1.0)),
-                        each(contacts.area), each(getattr(law, "stiffness", 0.0)),
-                        each(getattr(law, "damping", 0.0)), *table, float(getattr(law, "damping_speed", np.inf)),
-                        float(getattr(law, "restitution", 0.0)), gamma is not None)
-
-
-def _check(system, linear, normal, dry, model, step):
-    """Refuse, before the first step, one that is too long, and contacts that nothing can move."""
-    if not normal.newmark and system.highest * step > 2 * np.pi / STEPS_PER_PERIOD:
-        longest = 2 * np.pi / STEPS_PER_PERIOD / system.highest
-        raise ConfigError("time stepping: step", f"at most {longest:.3g} s, {STEPS_PER_PERIOD:g} steps in a period of"
-                          f" the highest mode ({system.highest / (2 * np.pi):.4g} Hz)", f"{step:.3g} s",
-                          "shorten the step, or leave out the highest modes")
-    for i in range(len(normal.gap)):
-        if normal.fixed[i] < 0 and not linear.response[1, 0, i, i] > 0:
-            raise ConfigError(f"time stepping: contact {i}", "bodies that its normal force moves", "none")
-        if normal.newmark:
-            continue
-        found = [normal.stiffness[i] * linear.response[0, 0, i, i]]
-        if dry.description != RIGID:
-            found.append(dry.stiffness[i] * linear.response[2, 1, i, i])
-        if max(found) > LARGEST_STIFFNESS:
-            longest = step * np.sqrt(LARGEST_STIFFNESS / max(found))
-            raise ConfigError("time stepping: step", f"at most about {longest:.2g} s for the stiffness of contact {i}",
-                              f"{step:.3g} s", "shorten the step, soften the contact, or take hard contacts")
 
 
 def _begin(model, system, normal, dry, start, speed, elements):
@@ -339,7 +178,7 @@ def _begin(model, system, normal, dry, start, speed, elements):
     mu = [coefficient(dry, force[0, i] / contacts.area[i], slip[i]) for i in range(len(gap))]
     force[1] = np.sign(slip) * mu * force[0] if start.friction is None else start.friction
     status = np.where(closed, np.where(slip == 0, STICK, SLIP), OPEN).astype(np.int64)
-    return _own(system.to_pairs(start.displacement, start.velocity)), force, status
+    return contiguous(system.to_pairs(start.displacement, start.velocity)), force, status
 
 
 def _speed_at_start(model, drive):
@@ -350,7 +189,7 @@ def _speed_at_start(model, drive):
 
 def _history(given, width, where):
     history = given if isinstance(given, History) else History(np.reshape(given, (1, width)), 1.0)
-    value = _own(np.reshape(history.value, (len(history.value), -1)))
+    value = contiguous(np.reshape(history.value, (len(history.value), -1)))
     if value.shape[1] != width or not np.isfinite(value).all() or not history.interval > 0:
         raise ConfigError(f"time stepping: {where}", f"finite samples of {width} values at a positive interval",
                           f"{value.shape[1]} values at {history.interval:g} s")
@@ -370,7 +209,7 @@ def _empty(linear, elements, kept, start):
                   np.zeros((contacts, kept), np.int8), np.zeros(kept), np.zeros((6, kept)),
                   *np.zeros((2, len(elements.kind), kept)), np.zeros((contacts, 3)), np.zeros(linear.step.shape[1:]),
                   no_memory(elements), np.array([float(start.angle)]),
-                  np.zeros(contacts) if start.worn is None else _own(start.worn))
+                  np.zeros(contacts) if start.worn is None else contiguous(start.worn))
 
 
 def _motion(record, interval, steps, end):
@@ -384,12 +223,12 @@ def _failure(code, time, contact, step, model):
     if code in (TOO_STIFF, UNSETTLED):
         where = f"time stepping at t = {time:.6g} s, element {model.elements[contact].name}"
         if code == TOO_STIFF:
-            return ConfigError(where, "at least 8 steps in a period of the element", f"steps of {step:.3g} s",
-                               "shorten the step, or soften the element")
+            return ConfigError(f"{where}: step", "at least 8 steps in a period of the element",
+                               f"steps of {step:.3g} s", "shorten the step, or soften the element")
         return ConvergenceError(where, "a force that settles", "none after the last sweep", "take a shorter step")
     where = f"time stepping at t = {time:.6g} s, contact {contact}"
     if code == TOO_LONG:
-        return ConfigError(where, "at least 8 steps in a period of the contact", f"steps of {step:.3g} s",
+        return ConfigError(f"{where}: step", "at least 8 steps in a period of the contact", f"steps of {step:.3g} s",
                            "shorten the step, or soften the contact")
     if code == JAMMED:
         return ConvergenceError(where, "contact forces that stop the approach", "friction that jams the contact",
