@@ -30,6 +30,16 @@ _FILES = (
     "sensor_offset_drift",
     "clipping",
     "pressure_dependent_friction",
+    "viscoelastic_pad",
+    "shim_damping",
+    "doublet_split",
+    "gyroscopic",
+    "pressure_ripple",
+    "hydraulic_compliance",
+    "wear",
+    "taper_wear",
+    "hot_spots",
+    "thermal_coning",
 )
 CATALOGUE = tuple(import_module(f"pipeline.effects.{name}").EFFECT for name in _FILES)
 

@@ -1,8 +1,9 @@
 """Small motions of a bench about steady sliding: its matrices and complex roots, for hammer records and growth rates.
 
 Contacts count with the slope of their law under the steady load, friction with its slopes over pressure and slip speed,
-elements with the slope of their force where they stand; excitations and the shapes of surfaces drop out. The waveform
-of a squeal is not compared with anything, its growth rate and frequency are.
+elements with the slope of their force where they stand, Maxwell branches with a state of their own; excitations, wear
+and the shapes of surfaces drop out. The waveform of a squeal is not compared with anything, its growth rate and
+frequency are.
 """
 
 from dataclasses import replace
@@ -12,7 +13,7 @@ import numpy as np
 from pipeline.contract.errors import ConfigError
 from pipeline.physics.bench import run_drive, run_inputs
 from pipeline.physics.element_forces import DRY, element_force
-from pipeline.physics.elements import alone
+from pipeline.physics.elements import Maxwell, alone
 from pipeline.physics.friction_law import friction_at
 from pipeline.physics.sliding_model import FrictionState, spread
 from pipeline.physics.time_stepping import Penalty, Table
@@ -21,11 +22,16 @@ from pipeline.physics.time_stepping_start import steady_start
 
 
 def roots(bench, run):
-    """Complex roots (2 n,) in rad/s, by rising frequency: growth rate and angular frequency of each motion."""
+    """Complex roots (2 n + b,) in rad/s, by rising frequency: growth rate and angular frequency of each motion.
+
+    Each of the b Maxwell branches of elements adds one, F' = k v - F / tau.
+    """
     mass, damping, stiffness = linearised(bench, run)
-    count = len(mass)
-    state = np.block([[np.zeros((count, count)), np.eye(count)],
-                      [-np.linalg.solve(mass, stiffness), -np.linalg.solve(mass, damping)]])
+    rows, springs, times = _branches(bench.model)
+    count, hidden = len(mass), len(rows)
+    state = np.block([[np.zeros((count, count)), np.eye(count), np.zeros((count, hidden))],
+                      [-np.linalg.solve(mass, part) for part in (stiffness, damping, rows.T)],
+                      [np.zeros((hidden, count)), springs[:, None] * rows, -np.diag(1 / times)]])
     found = np.linalg.eigvals(state)
     return found[np.lexsort((found.imag, abs(found.imag)))]
 
@@ -33,6 +39,7 @@ def roots(bench, run):
 def linearised(bench, run):
     """(M, C, K), each (n, n), about steady sliding under the first inputs and drive speed of ``run``.
 
+    Maxwell branches are left out, as in a motion so slow that they relax.
     Friction turns in its plane with the motion only where friction-induced damping is a term of the simulation; here it
     is left out as there. Raises ConfigError for contacts that do not yield, and what ``steady_start`` raises.
     """
@@ -65,6 +72,14 @@ def _tangent(law, contacts, normal):
     k = np.clip(np.searchsorted(pressure, normal / contacts.area, side="right") - 1, 0, len(pressure) - 2)
     slope = (pressure[k + 1] - pressure[k]) / (closure[k + 1] - closure[k])
     return np.where(shut, contacts.area * slope, 0.0), np.where(shut, normal / law.damping_speed, 0.0)
+
+
+def _branches(model):
+    """(rows (b, n), stiffness (b,), time (b,)) of the Maxwell branches of all elements."""
+    laws = [(e.row, k, t) for e in model.elements if isinstance(e.law, Maxwell)
+            for k, t in zip(e.law.stiffness, e.law.time, strict=True)]
+    rows, springs, times = zip(*laws, strict=True) if laws else ((), (), ())
+    return np.array(rows, float).reshape(-1, model.size), np.array(springs, float), np.array(times, float)
 
 
 def _elements(model, start):

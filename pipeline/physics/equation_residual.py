@@ -17,9 +17,9 @@ from pipeline.contract.errors import ConfigError
 from pipeline.physics.bench import MOTIONS, run_drive, run_inputs
 from pipeline.physics.dry_friction import Friction
 from pipeline.physics.element_forces import element_force
-from pipeline.physics.elements import alone
+from pipeline.physics.elements import alone, wave_table
 from pipeline.physics.time_stepping import Penalty, Table
-from pipeline.physics.time_stepping_elements import no_memory, surface_shift
+from pipeline.physics.time_stepping_elements import no_memory, surface_shift, wear_on
 
 _SMALLEST_SHARE = 1e-9
 
@@ -63,11 +63,11 @@ def forces_missing(bench, run, motion):
     """r (n, samples) of displacements (n, samples), differentiated by central differences."""
     model, interval = bench.model, 1 / run.sample_rate
     speed = np.gradient(motion, interval, axis=1, edge_order=2)
-    mass, damping, stiffness = model.supported()
+    turning = np.broadcast_to(run_drive(bench, run), run.samples)
+    mass, damping, stiffness = model.at_speed(turning[0]).supported()
     inertia = np.gradient(speed, interval, axis=1, edge_order=2)
     inertia[:, 1:-1] = (motion[:, 2:] - 2 * motion[:, 1:-1] + motion[:, :-2]) / interval**2
     residual = mass @ inertia + damping @ speed + stiffness @ motion
-    turning = np.broadcast_to(run_drive(bench, run), run.samples)
     angle = cumulative_trapezoid(turning, dx=interval, initial=0.0)
     instants = np.column_stack((run.time, angle, turning))
     residual = residual + _elements(model, motion, speed, instants) - _contacts(bench, motion, speed, instants)
@@ -99,27 +99,47 @@ def _contacts(bench, motion, speed, instants):
     """sum_i (n_i N_i + t_i T_i) (n, samples), sliding everywhere."""
     contacts, fixed = bench.model.contacts, bench.model.contacts.fixed
     normal = np.where(fixed, contacts.preload, 0.0)[:, None] * np.ones(motion.shape[1])
-    for i in np.flatnonzero(~fixed):
-        normal[i] = _pressed(bench, i, motion, speed, instants)
+    shift = _surface(contacts, instants)
+    gap = (np.broadcast_to(bench.law.gap, len(fixed))[:, None] + contacts.normal @ motion) + shift[0]
+    opening = contacts.normal @ speed + shift[1]
     slip = contacts.lever[:, None] * instants[:, 2] - contacts.tangent @ speed
+    wear = np.broadcast_to(contacts.wear, len(fixed))
+    for i in np.flatnonzero(~fixed):
+        if wear[i]:
+            worn = _worn(bench, i, gap[i], opening[i], wear[i] * abs(slip[i]), instants[:, 0])
+            gap[i], opening[i] = gap[i] + worn[0], opening[i] + worn[1]
+        normal[i] = _pressed(bench, i, -gap[i], -opening[i])
     friction: Friction = bench.friction
     drawn = np.sign(slip) * friction.at_speed(slip, normal / contacts.area[:, None]) * normal
     return contacts.normal.T @ normal + contacts.tangent.T @ drawn
 
 
-def _pressed(bench, i, motion, speed, instants):
-    """Normal force (samples,) of contact ``i`` by its law."""
+def _surface(contacts, instants):
+    """(2, c, samples): what waviness adds to gaps and opening rates."""
+    shift = np.zeros((2, len(contacts.area), len(instants)))
+    waves = wave_table(contacts.waviness)
+    for s, instant in enumerate(instants if len(waves) else ()):
+        surface_shift(waves, tuple(instant), shift[:, :, s])
+    return shift
+
+
+def _worn(bench, i, gap, opening, rate, time):
+    """(2, samples): what wear adds to gap and opening rate of contact ``i``, rate (m/s) per normal force."""
+    shift, worn, pace = np.zeros((2, len(time))), np.zeros(1), np.zeros(1)
+    for s, interval in enumerate(np.diff(time, prepend=time[0])):
+        shift[:, s] = worn[0] + interval * pace[0], pace[0]
+        force = _pressed(bench, i, -gap[s] - shift[0, s], -opening[s] - shift[1, s])
+        wear_on(rate[s:s + 1], np.reshape(force, 1), np.ones(1), np.zeros(1), interval, worn, pace)
+    return shift
+
+
+def _pressed(bench, i, closure, closing):
+    """Normal force of contact ``i`` along closures (m, below 0 where open) and closing rates (m/s)."""
     law, contacts = bench.law, bench.model.contacts
     if not isinstance(law, Penalty | Table):
         raise ConfigError(f"equation residual: contact {i}", "a contact law that yields", type(law).__name__,
                           "give the contact a stiffness, or simulate instead")
-    shift = np.zeros((2, len(contacts.area), len(instants)))
-    waves = np.array([(w.contact, w.amplitude, w.order, w.frequency, w.phase) for w in contacts.waviness])
-    for s, instant in enumerate(instants if len(waves) else ()):
-        surface_shift(waves, tuple(instant), shift[:, :, s])
-    gap = np.broadcast_to(law.gap, len(contacts.area))[i] + contacts.normal[i] @ motion + shift[0, i]
-    closing = -(contacts.normal[i] @ speed + shift[1, i])
-    closure = np.maximum(-gap, 0.0)
+    closure = np.maximum(closure, 0.0)
     if isinstance(law, Penalty):
         stiffness, damping = (np.broadcast_to(v, len(contacts.area))[i] for v in (law.stiffness, law.damping))
         return np.where(closure > 0, np.maximum(stiffness * closure + damping * closing, 0.0), 0.0)

@@ -51,7 +51,8 @@ class Start:
     """Displacement and velocity (n,) at time 0; normal and friction force (c,) where they are known.
 
     ``memory`` (s,) of the elements, by default 0: those with memory draw with no force where the motion starts;
-    ``angle`` rad of the drive and ``age`` s that passed before.
+    ``angle`` rad of the drive, ``age`` s that passed before, ``worn`` (c,) m that the contacts have
+    receded by, which needs ``normal``.
     """
 
     displacement: np.ndarray
@@ -61,6 +62,7 @@ class Start:
     memory: np.ndarray | None = None
     angle: float = 0.0
     age: float = 0.0
+    worn: np.ndarray | None = None
 
     def kicked(self, velocity):
         """The same with ``velocity`` (n,) added."""
@@ -127,9 +129,9 @@ def simulate(model, law, friction=None, *, step, duration, drive=None, inputs=No
     rest = np.zeros(model.size)
     start = Start(rest, rest) if start is None else start
     elements = elements_kernel(model, system, linear)
-    memory = no_memory(elements) if start.memory is None else contiguous(start.memory)
+    memory = no_memory(elements, start.age) if start.memory is None else contiguous(start.memory)
     pairs, force, status = _begin(model, system, normal, dry, start, _speed_at_start(model, drive), elements)
-    record = _empty(linear, elements, steps // record_every + 1, start.angle)
+    record = _empty(linear, elements, steps // record_every + 1, start)
     code, number, contact = march(
         linear, normal, dry, elements, contiguous(model.contacts.lever),
         _history(model.speed if drive is None else drive, 1, "drive"), _inputs(model, inputs), pairs, force, status,
@@ -137,7 +139,7 @@ def simulate(model, law, friction=None, *, step, duration, drive=None, inputs=No
     if code != SOLVED:
         raise _failure(code, number * step, contact, step, model)
     end = Start(*system.from_pairs(record.end), *force, record.memory, float(record.angle[0]),
-                start.age + steps * step)
+                start.age + steps * step, worn=record.worn)
     return _motion(record, step * record_every, steps, end)
 
 
@@ -156,12 +158,16 @@ def _begin(model, system, normal, dry, start, speed, elements):
     contacts = model.contacts
     gap = normal.gap + contacts.normal @ start.displacement
     rate, slip = contacts.normal @ start.velocity, contacts.lever * speed - contacts.tangent @ start.velocity
+    if start.worn is not None:
+        gap = gap + start.worn
     if len(elements.waviness):
         shift = np.zeros((2, len(gap)))
         surface_shift(elements.waviness, (float(start.age), float(start.angle), float(speed)), shift)
         gap, rate = gap + shift[0], rate + shift[1]
     force = np.zeros((2, len(gap)))
-    if normal.kind == PENALTY:
+    if start.worn is not None and elements.wear.size:       # goes on where damping felt the wear as well
+        force[0] = start.normal
+    elif normal.kind == PENALTY:
         force[0] = np.where(gap < 0, np.maximum(-normal.stiffness * gap - normal.damping * rate, 0.0), 0.0)
     elif normal.kind == TABLE:
         force[0] = [table_force(normal, i, -gap[i], -rate[i])[0] for i in range(len(gap))]
@@ -197,12 +203,13 @@ def _inputs(model, inputs):
     return _history(np.zeros(count) if inputs is None else inputs, count, "inputs")
 
 
-def _empty(linear, elements, kept, angle):
+def _empty(linear, elements, kept, start):
     sensors, contacts = len(linear.sensors) // 2, len(linear.rows) // 4
     return Record(*np.zeros((2, sensors, kept)), *np.zeros((4, contacts, kept)),
                   np.zeros((contacts, kept), np.int8), np.zeros(kept), np.zeros((6, kept)),
                   *np.zeros((2, len(elements.kind), kept)), np.zeros((contacts, 3)), np.zeros(linear.step.shape[1:]),
-                  no_memory(elements), np.array([float(angle)]))
+                  no_memory(elements), np.array([float(start.angle)]),
+                  np.zeros(contacts) if start.worn is None else contiguous(start.worn))
 
 
 def _motion(record, interval, steps, end):

@@ -16,10 +16,12 @@ from pipeline.physics.time_stepping_contact import SOLVED, solve_contacts
 from pipeline.physics.time_stepping_elements import (
     first_forces,
     middle_angle,
+    recede,
     settle_element_books,
     shift_work,
     solve_together,
     surface_shift,
+    wear_on,
 )
 
 DIVERGED = 4
@@ -71,6 +73,7 @@ class Record(NamedTuple):
     end: np.ndarray             # (2, m) pairs after the last step
     memory: np.ndarray          # (s,) of the elements after the last step
     angle: np.ndarray           # (1,) rad of the drive, at time 0, then after the last step
+    worn: np.ndarray            # (c,) m that the contacts have receded by, at time 0, then after the last step
 
 
 @njit(cache=True)
@@ -188,7 +191,8 @@ def march(linear, law, friction, elements, lever, drive, inputs, pairs, force, s
         _push(first, 2 * contacts, begin, steady)
         _push(last, 2 * contacts, begin, steady)
     count_e, waves = elements.kind.size, elements.waviness.shape[0] > 0
-    special, angle, spin = count_e > 0 or waves, record.angle[0], np.zeros(1)
+    wear, worn, pace = elements.wear, record.worn, np.zeros(elements.wear.size)
+    special, angle, spin = count_e > 0 or waves or wear.size > 0, record.angle[0], np.zeros(1)
     alone, shift, shift_before = np.zeros((4, contacts)), np.zeros((2, contacts)), np.zeros((2, contacts))
     lonely, now, later = np.zeros((2, count_e)), np.zeros((2, count_e)), np.zeros((2, count_e))
     drawn, drawn_before, remembered, earlier = np.zeros(count_e), np.zeros(count_e), memory.copy(), status.copy()
@@ -197,7 +201,9 @@ def march(linear, law, friction, elements, lever, drive, inputs, pairs, force, s
     if special:
         read(drive, 0.0, spin)
         instant = (age, angle, spin[0])
+        wear_on(wear, force[0], sliding[1], seen[3], 0.0, worn, pace)
         surface_shift(elements.waviness, instant, shift)
+        recede(worn, pace, 0.0, shift)
         seen[0] += shift[0]
         seen[1] += shift[1]
         _see(elements.rows, pairs, now.ravel())
@@ -238,6 +244,7 @@ def march(linear, law, friction, elements, lever, drive, inputs, pairs, force, s
                     return code, number, contact
         if special:
             surface_shift(elements.waviness, instant, shift)
+            recede(worn, pace, step, shift)
             for i in range(contacts):
                 free[0, i] += shift[0, i]
                 free[1, i] += shift[1, i]
@@ -263,6 +270,7 @@ def march(linear, law, friction, elements, lever, drive, inputs, pairs, force, s
                 jump[0] = 0.5 * step * (seen[1] + hit[1])
                 jump[1] = 0.5 * step * (seen[3] + hit[3])
             _account(response, jump, holds, held, force, free, seen, way, status, share, summed, work)
+            wear_on(wear, force[0], sliding[1], seen[3], step, worn, pace)
         if book:
             rate = _loss_rate(power, drag, after)
             if struck.size:

@@ -13,10 +13,10 @@ at rest by Newton's method: those with memory as if loaded for the first time, d
 import numpy as np
 
 from pipeline.contract.errors import ConfigError, ConvergenceError
-from pipeline.physics.element_forces import DRY, element_force, wave
-from pipeline.physics.elements import alone
+from pipeline.physics.element_forces import DRY, element_force
+from pipeline.physics.elements import alone, wave_table
 from pipeline.physics.time_stepping import Penalty, Start, Table
-from pipeline.physics.time_stepping_elements import no_memory
+from pipeline.physics.time_stepping_elements import no_memory, surface_shift
 
 _ROUNDS = 200
 _TOLERANCE = 1e-10
@@ -58,10 +58,9 @@ def steady_start(model, law, friction, inputs):
 
 def _waves(contacts):
     """Height (c,) of the surfaces at time 0."""
-    height = np.zeros(len(contacts.area))
-    for w in contacts.waviness:
-        height[w.contact] += wave(w.amplitude, w.order, w.frequency, w.phase, (0.0, 0.0, 0.0))[0]
-    return height
+    shift = np.zeros((2, len(contacts.area)))
+    surface_shift(wave_table(contacts.waviness), (0.0, 0.0, 0.0), shift)
+    return shift[0]
 
 
 def _drawn(elements, model, place):
