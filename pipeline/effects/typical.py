@@ -37,15 +37,15 @@ class Typical:
     drive: float = 1.0
     shown: float = 1.0
 
-    def scaled(self, reach):
-        """The same place where everything moves ``reach`` times as far; loads of contacts stay."""
-        return replace(self, length=reach * self.length, speed=reach * self.speed, force=reach * self.force,
-                       shown=reach * self.shown)
-
     @property
     def period(self):
         """Seconds per radian of the mass on the stiffness; those of the longest run where nothing holds it."""
         return np.sqrt(self.mass / self.stiffness) if self.stiffness > 0 else self.time
+
+    def scaled(self, reach):
+        """The same place where everything moves ``reach`` times as far; loads of contacts stay."""
+        return replace(self, length=reach * self.length, speed=reach * self.speed, force=reach * self.force,
+                       shown=reach * self.shown)
 
 
 def places(kind, bench):
