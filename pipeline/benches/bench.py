@@ -46,14 +46,23 @@ class Settings(Laws):
 
 def built(model, settings):
     """The Bench of a product ReducedModel and a filled section, without effects. ConfigError for unknown names."""
-    sliding = sliding_model(model, settings.state, settings.speed)
-    bench = Bench(sliding, normal_law(model, sliding.contacts, settings, "bench"),
-                  friction_law(model, sliding.contacts, settings, "bench"), settings.step,
-                  tuple(_channel(name, sensor) for name, sensor in settings.channels.items()), groups(model),
-                  settings.settled, doublets(sliding))
+    channels = tuple(_channel(name, sensor) for name, sensor in settings.channels.items())
+    bench = about(model, settings, "bench", settings.state, settings.speed, settings.step)
+    bench = replace(bench, channels=channels, settled=settings.settled)
     for channel in bench.channels:
         _check_source(bench, channel)
     return corrections.corrected(bench, corrections.read(bench, settings.corrections, "bench.corrections"))
+
+
+def about(model, laws, where, state, speed, step):
+    """The Bench of a product ReducedModel about one state and speed, under Laws, without sensors or effects.
+
+    ``where`` is the stage that the laws belong to, for messages.
+    """
+    sliding = sliding_model(model, state, speed)
+    return Bench(sliding, normal_law(model, sliding.contacts, laws, where),
+                 friction_law(model, sliding.contacts, laws, where), step, (), groups(model),
+                 doublets=doublets(sliding))
 
 
 def groups(model):
@@ -74,7 +83,8 @@ def _check_source(bench, channel):
              "friction_force": ("contact", *bench.groups), "input": bench.model.input_name,
              "element_force": None}.get(channel.quantity, bench.model.sensor_name)
     if known is not None and channel.source not in known:
-        raise ConfigError(f"bench.channels.{channel.name}.source", f"one of {', '.join(known) or 'none that are there'}",
+        raise ConfigError(f"bench.channels.{channel.name}.source",
+                          f"one of {', '.join(known) or 'none that are there'}",
                           repr(channel.source), "name a part of the model, or add it")
 
 
