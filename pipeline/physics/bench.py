@@ -12,6 +12,7 @@ import numpy as np
 from scipy.signal import lfilter
 
 from pipeline.contract.errors import ConfigError
+from pipeline.physics.contact_groups import Grouped, changed
 from pipeline.physics.dry_friction import Friction
 from pipeline.physics.sliding_model import SlidingModel
 from pipeline.physics.time_stepping import History, Start, simulate
@@ -82,7 +83,7 @@ class Run:
 
 @dataclass(frozen=True)
 class Bench:
-    """Moving bodies, laws of contact and friction, and the sensors.
+    """Moving bodies, laws of contact and friction (of all contacts, or Grouped), and the sensors.
 
     ``step`` s is the longest step taken; ``groups`` {name: indices} names contacts, all of them ``contact`` by default;
     ``settled``: runs start in steady sliding under their first inputs, else at rest in the origin.
@@ -90,7 +91,7 @@ class Bench:
 
     model: SlidingModel
     law: object
-    friction: Friction
+    friction: Friction | Grouped
     step: float
     channels: tuple
     groups: dict = field(default_factory=dict)
@@ -106,6 +107,15 @@ class Bench:
         joints = self.model.joints
         k = joints.name.index(_known(name, joints.name, "joint"))
         return joints.rows[k], float(joints.stiffness[k]), float(joints.damping[k])
+
+    def with_law(self, group, change):
+        """The bench with ``change(law)`` as the law of contact of ``group``."""
+        return replace(self, law=changed(self.law, len(self.model.contacts.area), self.contacts(group), change))
+
+    def with_friction(self, group, change):
+        """The bench with ``change(friction)`` as the friction of ``group``."""
+        count = len(self.model.contacts.area)
+        return replace(self, friction=changed(self.friction, count, self.contacts(group), change))
 
     def with_elements(self, *elements):
         """The bench with these elements added to its model."""

@@ -9,13 +9,13 @@ from dataclasses import replace
 
 import numpy as np
 
-from pipeline.contract.errors import ConfigError
 from pipeline.physics.bench import run_drive, run_inputs
+from pipeline.physics.contact_groups import parts
 from pipeline.physics.element_forces import DRY, element_force
 from pipeline.physics.elements import alone
 from pipeline.physics.friction_law import friction_at
+from pipeline.physics.normal_law import tangent
 from pipeline.physics.sliding_model import FrictionState, spread
-from pipeline.physics.time_stepping import Penalty, Table
 from pipeline.physics.time_stepping_elements import no_memory
 from pipeline.physics.time_stepping_start import steady_start
 
@@ -40,31 +40,23 @@ def linearised(bench, run):
     inputs = np.array([float(np.ravel(i)[0]) for i in run_inputs(bench, run)])
     start = steady_start(model, bench.law, bench.friction, inputs)
     contacts = model.contacts
-    stiffness, damping = _tangent(bench.law, contacts, start.normal)
-    pressure, slip = start.normal / contacts.area, abs(model.sliding_speed)
-    law = bench.friction.law
-    read = np.array([friction_at(p, s, bench.friction.distance, *law.table)[:3]
-                     for p, s in zip(pressure, slip, strict=True)]).reshape(-1, 3)
+    stiffness, damping = tangent(bench.law, np.where(contacts.fixed, 0.0, start.normal), contacts.area)
     contacts = replace(contacts, preload=start.normal, stiffness=stiffness, damping=damping)
     moving = replace(model, contacts=contacts)
-    mass, drag, spring = moving.linearised(FrictionState(*read.T), friction_damping=False)
+    state = _friction_state(bench.friction, model.sliding_speed, start.normal / contacts.area)
+    mass, drag, spring = moving.linearised(state, friction_damping=False)
     rows, slope, loss = _elements(model, start)
     return mass, drag + spread(rows, loss, rows), spring + spread(rows, slope, rows)
 
 
-def _tangent(law, contacts, normal):
-    """Normal stiffness and damping (c,) of the law under the forces ``normal``; 0 for open contacts."""
-    shut = (normal > 0) & ~contacts.fixed
-    if isinstance(law, Penalty):
-        return tuple(np.where(shut, value, 0.0) for value in (law.stiffness, law.damping))
-    if not isinstance(law, Table):
-        if shut.any():
-            raise ConfigError("roots of a bench", "contacts that yield", type(law).__name__, "give them a stiffness")
-        return np.zeros(len(normal)), np.zeros(len(normal))
-    closure, pressure = np.asarray(law.closure, float), np.asarray(law.pressure, float)
-    k = np.clip(np.searchsorted(pressure, normal / contacts.area, side="right") - 1, 0, len(pressure) - 2)
-    slope = (pressure[k + 1] - pressure[k]) / (closure[k + 1] - closure[k])
-    return np.where(shut, contacts.area * slope, 0.0), np.where(shut, normal / law.damping_speed, 0.0)
+def _friction_state(friction, speed, pressure):
+    """FrictionState (c,) at signed sliding speeds (c,) and pressures (c,)."""
+    found = np.empty((3, len(speed)))
+    for law, own in parts(friction, len(speed)):
+        for i in own:
+            factor = law.backward if speed[i] < 0 else 1.0
+            found[:, i] = factor * np.array(friction_at(pressure[i], abs(speed[i]), law.distance, *law.law.table)[:3])
+    return FrictionState(*found)
 
 
 def _elements(model, start):

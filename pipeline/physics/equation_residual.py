@@ -15,10 +15,11 @@ from scipy.signal import butter, decimate, sosfiltfilt
 
 from pipeline.contract.errors import ConfigError
 from pipeline.physics.bench import MOTIONS, run_drive, run_inputs
-from pipeline.physics.dry_friction import Friction
+from pipeline.physics.contact_groups import read
+from pipeline.physics.dry_friction import coefficients
 from pipeline.physics.element_forces import element_force
 from pipeline.physics.elements import alone
-from pipeline.physics.time_stepping import Penalty, Table
+from pipeline.physics.normal_law import force_along
 from pipeline.physics.time_stepping_elements import no_memory, surface_shift
 
 _SMALLEST_SHARE = 1e-9
@@ -99,30 +100,20 @@ def _contacts(bench, motion, speed, instants):
     """sum_i (n_i N_i + t_i T_i) (n, samples), sliding everywhere."""
     contacts, fixed = bench.model.contacts, bench.model.contacts.fixed
     normal = np.where(fixed, contacts.preload, 0.0)[:, None] * np.ones(motion.shape[1])
+    shift = _surface(contacts, instants)
+    gap = (read(bench.law, "gap", len(fixed))[:, None] + contacts.normal @ motion) + shift[0]
+    opening = contacts.normal @ speed + shift[1]
     for i in np.flatnonzero(~fixed):
-        normal[i] = _pressed(bench, i, motion, speed, instants)
+        normal[i] = force_along(bench.law, i, contacts.area, -gap[i], -opening[i])
     slip = contacts.lever[:, None] * instants[:, 2] - contacts.tangent @ speed
-    friction: Friction = bench.friction
-    drawn = np.sign(slip) * friction.at_speed(slip, normal / contacts.area[:, None]) * normal
+    drawn = np.sign(slip) * coefficients(bench.friction, slip, normal / contacts.area[:, None]) * normal
     return contacts.normal.T @ normal + contacts.tangent.T @ drawn
 
 
-def _pressed(bench, i, motion, speed, instants):
-    """Normal force (samples,) of contact ``i`` by its law."""
-    law, contacts = bench.law, bench.model.contacts
-    if not isinstance(law, Penalty | Table):
-        raise ConfigError(f"equation residual: contact {i}", "a contact law that yields", type(law).__name__,
-                          "give the contact a stiffness, or simulate instead")
+def _surface(contacts, instants):
+    """(2, c, samples): what waviness adds to gaps and opening rates."""
     shift = np.zeros((2, len(contacts.area), len(instants)))
     waves = np.array([(w.contact, w.amplitude, w.order, w.frequency, w.phase) for w in contacts.waviness])
     for s, instant in enumerate(instants if len(waves) else ()):
         surface_shift(waves, tuple(instant), shift[:, :, s])
-    gap = np.broadcast_to(law.gap, len(contacts.area))[i] + contacts.normal[i] @ motion + shift[0, i]
-    closing = -(contacts.normal[i] @ speed + shift[1, i])
-    closure = np.maximum(-gap, 0.0)
-    if isinstance(law, Penalty):
-        stiffness, damping = (np.broadcast_to(v, len(contacts.area))[i] for v in (law.stiffness, law.damping))
-        return np.where(closure > 0, np.maximum(stiffness * closure + damping * closing, 0.0), 0.0)
-    last = (law.pressure[-1] - law.pressure[-2]) / (law.closure[-1] - law.closure[-2])
-    pressure = np.interp(closure, law.closure, law.pressure) + last * np.maximum(closure - law.closure[-1], 0.0)
-    return contacts.area[i] * pressure * np.maximum(1 + closing / law.damping_speed, 0.0)
+    return shift

@@ -15,13 +15,14 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from pipeline.contract.errors import ConfigError, ConvergenceError
-from pipeline.physics.dry_friction import RIGID, coefficient, constant, kernel
+from pipeline.physics.contact_groups import parts
+from pipeline.physics.dry_friction import FACTOR, RIGID, STIFFNESS, coefficient, constant, kernel
 from pipeline.physics.element_forces import TOO_STIFF, UNSETTLED
 from pipeline.physics.elements import element_kernel
+from pipeline.physics.friction_states import MEMORY, factors, started, state_kernel
+from pipeline.physics.normal_law import Forward, Hard, Lagrange, Penalty, Table, normal_force, normal_kernel
 from pipeline.physics.time_stepping_contact import (
-    HARD,
     JAMMED,
-    LAGRANGE,
     LARGEST_STIFFNESS,
     OPEN,
     PENALTY,
@@ -31,65 +32,14 @@ from pipeline.physics.time_stepping_contact import (
     TABLE,
     TOO_LONG,
     UNCONVERGED,
-    NormalKernel,
-    table_force,
 )
 from pipeline.physics.time_stepping_elements import no_memory, surface_shift
 from pipeline.physics.time_stepping_linear import modal_system, newmark_matrices, step_matrices
 from pipeline.physics.time_stepping_march import HistoryKernel, LinearKernel, Record, march
 
+__all__ = ["Forward", "Hard", "History", "Lagrange", "Motion", "Penalty", "Start", "Table", "imposed", "simulate"]
 #: fewest steps in a period of the highest mode
 STEPS_PER_PERIOD = 2.5
-
-
-@dataclass(frozen=True)
-class Hard:
-    """Contacts that do not yield: Moreau-Jean, with Newton's restitution; ``gap`` () or (c,) m at rest."""
-
-    restitution: float = 0.0
-    gap: np.ndarray | float = 0.0
-
-
-@dataclass(frozen=True)
-class Penalty:
-    """N = stiffness c + damping c' at closure c, never below 0; each () or (c,), in N/m and N s/m.
-
-    With a ``gamma`` bodies and contacts are stepped by Newmark's rule, as FE codes do, instead of exactly.
-    """
-
-    stiffness: np.ndarray | float
-    damping: np.ndarray | float = 0.0
-    gap: np.ndarray | float = 0.0
-    gamma: float | None = None
-
-
-@dataclass(frozen=True)
-class Table:
-    """N = A p(c) (1 + c' / damping_speed): ``closure`` (k,) m and ``pressure`` (k,) Pa, both rising from 0."""
-
-    closure: np.ndarray
-    pressure: np.ndarray
-    damping_speed: float = np.inf
-    gap: np.ndarray | float = 0.0
-
-
-@dataclass(frozen=True)
-class Lagrange:
-    """Contacts that do not yield, by multipliers on displacements under Newmark's rule with this ``gamma``."""
-
-    gamma: float = 0.5
-    gap: np.ndarray | float = 0.0
-
-
-@dataclass(frozen=True)
-class Forward:
-    """Contacts that do not yield, by forward increments: the impulse at the begin of a step closes the gap at its end.
-
-    Carpenter, Taylor & Katona (Int. J. Numer. Meth. Engng 32 (1991) 103), whose central differences are replaced by
-    the exact linear part; rigid friction acts with it. Impacts come to rest within two steps.
-    """
-
-    gap: np.ndarray | float = 0.0
 
 
 @dataclass(frozen=True)
@@ -105,7 +55,7 @@ class Start:
     """Displacement and velocity (n,) at time 0; normal and friction force (c,) where they are known.
 
     ``memory`` (s,) of the elements, by default 0: those with memory draw with no force where the motion starts;
-    ``angle`` rad of the drive and ``age`` s that passed before.
+    ``angle`` rad of the drive and ``age`` s that passed before; ``states`` (k, 2) of friction, by default settled.
     """
 
     displacement: np.ndarray
@@ -115,6 +65,7 @@ class Start:
     memory: np.ndarray | None = None
     angle: float = 0.0
     age: float = 0.0
+    states: np.ndarray | None = None
 
     def kicked(self, velocity):
         """The same with ``velocity`` (n,) added."""
@@ -164,34 +115,37 @@ def simulate(model, law, friction=None, *, step, duration, drive=None, inputs=No
              system=None, book=True):
     """Motion of a SlidingModel over ``duration`` s in steps of ``step`` s, every ``record_every``-th kept.
 
-    ``law``: Hard, Penalty, Table, Lagrange or Forward; ``friction``: Friction, none by default; ``drive``: speed of the
-    drive in rad/s, a number or a History, by default that of the model; ``inputs``: forces (i,) N on the inputs, or
-    their History; ``start``: Start, by default at rest in the origin; ``system``: the ModalSystem of the model, where
-    many runs share it; ``book=False`` leaves out the work of inputs and the loss of dampers. Raises ConfigError for a
-    step too long, ConvergenceError with time and contact where a step has no solution.
+    ``law``: Hard, Penalty, Table, Lagrange or Forward; ``friction``: Friction, none by default; either may be Grouped;
+    ``drive``: speed of the drive in rad/s, a number or a History, by default that of the model; ``inputs``: forces (i,)
+    N on the inputs, or their History; ``start``: Start, by default at rest in the origin; ``system``: the ModalSystem
+    of the model, where many runs share it; ``book=False`` leaves out the work of inputs and the loss of dampers. Raises
+    ConfigError for a step too long, ConvergenceError with time and contact where a step has no solution.
     """
     steps = round(duration / step)
     if not step > 0 or steps < 1 or record_every < 1:
         raise ConfigError("time stepping: step", "a positive step, at most as long as the motion",
                           f"{step:g} s for {duration:g} s")
     system = modal_system(model) if system is None else system
-    linear = _linear(model, system, law, friction or constant(0.0), step)
-    normal, dry = _normal_kernel(law, model.contacts), kernel(friction or constant(0.0), len(model.contacts.area))
-    _check(system, linear, normal, dry, model, step)
+    friction = friction or constant(0.0)
+    normal, dry = normal_kernel(law, model.contacts), kernel(friction, len(model.contacts.area))
+    linear = _linear(model, system, law, dry, step)
+    states = state_kernel(friction, model.contacts.area)
+    _check(system, linear, normal, dry, states, model, step)
     rest = np.zeros(model.size)
     start = Start(rest, rest) if start is None else start
     elements = _elements(model, system, linear)
     memory = no_memory(elements) if start.memory is None else _own(start.memory)
-    pairs, force, status = _begin(model, system, normal, dry, start, _speed_at_start(model, drive), elements)
-    record = _empty(linear, elements, steps // record_every + 1, start.angle)
+    pairs, force, status, value = _begin(model, system, normal, dry, start, _speed_at_start(model, drive), elements,
+                                         states)
+    record = _empty(linear, elements, len(value), steps // record_every + 1, start.angle)
     code, number, contact = march(
-        linear, normal, dry, elements, _own(model.contacts.lever),
+        linear, normal, dry, elements, states, _own(model.contacts.lever),
         _history(model.speed if drive is None else drive, 1, "drive"), _inputs(model, inputs), pairs, force, status,
-        memory, float(start.age), float(step), steps, int(record_every), bool(book), record)
+        memory, value, float(start.age), float(step), steps, int(record_every), bool(book), record)
     if code != SOLVED:
         raise _failure(code, number * step, contact, step, model)
     end = Start(*system.from_pairs(record.end), *force, record.memory, float(record.angle[0]),
-                start.age + steps * step)
+                start.age + steps * step, record.states)
     return _motion(record, step * record_every, steps, end)
 
 
@@ -205,15 +159,16 @@ def imposed(model, joint):
                    input_rows=np.vstack((model.input_rows, row)))
 
 
-def _linear(model, system, law, friction, step):
+def _linear(model, system, law, dry, step):
     """LinearKernel: rows of contacts, inputs and elements, seen and driven through one step."""
     contacts, count = model.contacts, len(model.contacts.area)
+    law = parts(law, count)[0][0]       # those of all groups are stepped alike
     gamma = getattr(law, "gamma", None)
     matrices = step_matrices(system, step) if gamma is None else newmark_matrices(system, step, gamma)
     forced = system.driven(np.vstack((contacts.normal, contacts.tangent, model.input_rows, -_element_rows(model))))
     first, last = (np.einsum("bxy,ryb->rxb", matrix, forced) for matrix in matrices[1:])
     kicks = isinstance(law, Forward)
-    hold = np.array([kicks or isinstance(law, Hard), kernel(friction, count).description == RIGID])
+    hold = np.array([kicks or isinstance(law, Hard), dry.description == RIGID])
     if gamma is not None:
         hold[:] = False
     for f in np.flatnonzero(hold):
@@ -265,33 +220,11 @@ def _forms(system):
     return (speed.T @ speed + place.T @ (system.squared[:, None] * place)) / 2, speed.T @ drag @ speed
 
 
-def _normal_kernel(law, contacts):
-    count = len(contacts.area)
-
-    def each(value):
-        return _own(np.broadcast_to(np.asarray(value, float), count))
-
-    kind = {Hard: HARD, Penalty: PENALTY, Table: TABLE, Lagrange: LAGRANGE, Forward: LAGRANGE}[type(law)]
-    if isinstance(law, Table) and (len(law.closure) < 2 or law.closure[0] != 0 or law.pressure[0] != 0
-                                   or np.any(np.diff(law.closure) <= 0) or np.any(np.diff(law.pressure) <= 0)):
-        raise ConfigError("time stepping: normal law", "closure and pressure that rise from 0", "another table")
-    if isinstance(law, Hard) and not 0 <= law.restitution <= 1:
-        raise ConfigError("time stepping: restitution", "between 0 and 1", f"{law.restitution:g}")
-    gamma = getattr(law, "gamma", None)
-    if gamma is not None and not 0.5 <= gamma <= 1:
-        raise ConfigError("time stepping: gamma", "between 0.5 and 1", f"{gamma:g}")
-    if isinstance(law, Penalty) and not np.all(np.asarray(law.stiffness) > 0):
-        raise ConfigError("time stepping: contact stiffness", "above 0", f"{np.min(law.stiffness):g} N/m")
-    table = [_own(getattr(law, name, [0.0, 1.0])) for name in ("closure", "pressure")]
-    fixed = contacts.fixed
-    return NormalKernel(kind, np.where(fixed, 0.0, each(law.gap)), _own(np.where(fixed, contacts.preload, -1.0)),
-                        each(contacts.area), each(getattr(law, "stiffness", 0.0)),
-                        each(getattr(law, "damping", 0.0)), *table, float(getattr(law, "damping_speed", np.inf)),
-                        float(getattr(law, "restitution", 0.0)), gamma is not None)
-
-
-def _check(system, linear, normal, dry, model, step):
-    """Refuse, before the first step, one that is too long, and contacts that nothing can move."""
+def _check(system, linear, normal, dry, states, model, step):
+    """Refuse, before the first step, one that is too long, contacts that nothing can move, memory of impulses."""
+    if np.any(states.kind == MEMORY) and (normal.kind not in (PENALTY, TABLE) or normal.newmark):
+        raise ConfigError("time stepping: friction with memory", "contacts that yield, Penalty or Table without gamma",
+                          "another law", "give the contacts a stiffness")
     if not normal.newmark and system.highest * step > 2 * np.pi / STEPS_PER_PERIOD:
         longest = 2 * np.pi / STEPS_PER_PERIOD / system.highest
         raise ConfigError("time stepping: step", f"at most {longest:.3g} s, {STEPS_PER_PERIOD:g} steps in a period of"
@@ -304,15 +237,15 @@ def _check(system, linear, normal, dry, model, step):
             continue
         found = [normal.stiffness[i] * linear.response[0, 0, i, i]]
         if dry.description != RIGID:
-            found.append(dry.stiffness[i] * linear.response[2, 1, i, i])
+            found.append(dry.contact[i, STIFFNESS] * linear.response[2, 1, i, i])
         if max(found) > LARGEST_STIFFNESS:
             longest = step * np.sqrt(LARGEST_STIFFNESS / max(found))
             raise ConfigError("time stepping: step", f"at most about {longest:.2g} s for the stiffness of contact {i}",
                               f"{step:.3g} s", "shorten the step, soften the contact, or take hard contacts")
 
 
-def _begin(model, system, normal, dry, start, speed, elements):
-    """Pairs (2, m), forces (2, c) and status (c,) at time 0."""
+def _begin(model, system, normal, dry, start, speed, elements, states):
+    """Pairs (2, m), forces (2, c), status (c,) and states of friction (k, 2) at time 0."""
     contacts = model.contacts
     gap = normal.gap + contacts.normal @ start.displacement
     rate, slip = contacts.normal @ start.velocity, contacts.lever * speed - contacts.tangent @ start.velocity
@@ -321,18 +254,17 @@ def _begin(model, system, normal, dry, start, speed, elements):
         surface_shift(elements.waviness, (float(start.age), float(start.angle), float(speed)), shift)
         gap, rate = gap + shift[0], rate + shift[1]
     force = np.zeros((2, len(gap)))
-    if normal.kind == PENALTY:
-        force[0] = np.where(gap < 0, np.maximum(-normal.stiffness * gap - normal.damping * rate, 0.0), 0.0)
-    elif normal.kind == TABLE:
-        force[0] = [table_force(normal, i, -gap[i], -rate[i])[0] for i in range(len(gap))]
-    elif start.normal is not None:
-        force[0] = start.normal
+    force[0], yields = normal_force(normal, gap, rate)
+    if start.normal is not None:
+        force[0] = np.where(yields, force[0], start.normal)
     force[0] = np.where(normal.fixed >= 0, normal.fixed, force[0])
     closed = (gap <= 0) | (force[0] > 0)
-    mu = [coefficient(dry, force[0, i] / contacts.area[i], slip[i]) for i in range(len(gap))]
+    value = started(states, force[0], slip) if start.states is None else _own(start.states)
+    dry.contact[:, FACTOR] = factors(states, value, start.angle)
+    mu = [coefficient(dry, i, force[0, i] / contacts.area[i], slip[i], slip[i]) for i in range(len(gap))]
     force[1] = np.sign(slip) * mu * force[0] if start.friction is None else start.friction
     status = np.where(closed, np.where(slip == 0, STICK, SLIP), OPEN).astype(np.int64)
-    return _own(system.to_pairs(start.displacement, start.velocity)), force, status
+    return _own(system.to_pairs(start.displacement, start.velocity)), force, status, value
 
 
 def _speed_at_start(model, drive):
@@ -357,12 +289,12 @@ def _inputs(model, inputs):
     return _history(np.zeros(count) if inputs is None else inputs, count, "inputs")
 
 
-def _empty(linear, elements, kept, angle):
+def _empty(linear, elements, states, kept, angle):
     sensors, contacts = len(linear.sensors) // 2, len(linear.rows) // 4
     return Record(*np.zeros((2, sensors, kept)), *np.zeros((4, contacts, kept)),
                   np.zeros((contacts, kept), np.int8), np.zeros(kept), np.zeros((6, kept)),
                   *np.zeros((2, len(elements.kind), kept)), np.zeros((contacts, 3)), np.zeros(linear.step.shape[1:]),
-                  no_memory(elements), np.array([float(angle)]))
+                  no_memory(elements), np.zeros((states, 2)), np.array([float(angle)]))
 
 
 def _motion(record, interval, steps, end):
