@@ -30,6 +30,16 @@ _FILES = (
     "sensor_offset_drift",
     "clipping",
     "pressure_dependent_friction",
+    "contact_memory",
+    "contact_ageing",
+    "friction_over_distance",
+    "thermal_fade",
+    "moisture",
+    "third_body_film",
+    "plateau_dynamics",
+    "friction_scatter",
+    "friction_induced_damping",
+    "directional_friction",
 )
 CATALOGUE = tuple(import_module(f"pipeline.effects.{name}").EFFECT for name in _FILES)
 

@@ -11,14 +11,14 @@ A contact that sticks is held up to ``static_factor`` times mu at slip speed 0; 
 mu itself can hold it.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
 from numba import njit
 
 from pipeline.contract.errors import ConfigError
-from pipeline.physics.contact_groups import parts, read
+from pipeline.physics.contact_groups import Grouped, parts, read
 from pipeline.physics.friction_law import AXES, FrictionLaw, friction_at
 
 RIGID, ELASTIC, EVOLUTION = 0, 1, 2
@@ -34,12 +34,22 @@ SLIDING_SLOPE = 0.01
 
 
 @dataclass(frozen=True)
+class Condition:
+    """Friction times 1 + ``slope`` (value - ``reference``), never below 0, ``name`` being a condition of the run."""
+
+    name: str
+    slope: float
+    reference: float
+
+
+@dataclass(frozen=True)
 class Friction:
     """Friction of all contacts, or, within Grouped, of some.
 
     ``law`` is read at ``distance`` (m); ``stiffness`` (c,) or () N/m is the tangential stiffness of the elastic and
     the evolution description, ``exponent`` the m of the latter; ``backward``: mu of slip below 0 over that of slip
-    above 0; ``states``: laws of ``friction_states``, whose factors come on top of ``law``.
+    above 0; ``states``: laws of ``friction_states``, whose factors come on top of ``law``; ``conditions``: each a
+    Condition, which ``under`` brings in.
     """
 
     law: FrictionLaw
@@ -50,6 +60,7 @@ class Friction:
     distance: float = 0.0
     backward: float = 1.0
     states: tuple = ()
+    conditions: tuple = ()
 
     def __post_init__(self):
         if self.description not in DESCRIPTIONS:
@@ -65,10 +76,32 @@ class Friction:
             raise ConfigError("friction: exponent, backward", "above 0, and at least 0",
                               f"{self.exponent:g}, {self.backward:g}")
 
+    def with_state(self, state):
+        """The friction with one more state."""
+        return replace(self, states=(*self.states, state))
+
     def at_speed(self, speed, pressure=0.0):
         """Coefficient at sliding speeds (m/s, either sign)."""
         found = self.law.evaluate(pressure, np.abs(speed), self.distance)[0]
         return found if self.backward == 1 else np.where(np.asarray(speed) < 0, self.backward, 1.0) * found
+
+
+def under(friction, given, where):
+    """The Friction, Grouped or not, under conditions ``given`` {name: value}. ConfigError at ``where`` for those that
+    it asks for and does not find.
+    """
+    if isinstance(friction, Grouped):
+        return replace(friction, laws=tuple(under(law, given, where) for law in friction.laws))
+    factor = 1.0
+    for condition in friction.conditions:
+        value = given.get(condition.name)
+        if value is None or np.ndim(value) or not np.isfinite(value):
+            raise ConfigError(f"{where}: condition {condition.name}", "one value, on which friction depends",
+                              "none" if value is None else str(value), "add it to the run")
+        factor *= max(1.0 + condition.slope * (float(value) - condition.reference), 0.0)
+    if not friction.conditions:
+        return friction
+    return replace(friction, law=replace(friction.law, friction=factor * friction.law.friction), conditions=())
 
 
 class FrictionKernel(NamedTuple):
@@ -103,6 +136,8 @@ def falling(static, kinetic, decay_speed, **options):
 def kernel(friction, contacts):
     """FrictionKernel of a Friction, or of Grouped ones, for so many contacts. ConfigError for mixed descriptions."""
     laws = parts(friction, contacts)
+    if any(law.conditions for law, _ in laws):
+        raise ConfigError("friction", "conditions that are given", "some that are not", "take `under` first")
     described = {law.description for law, _ in laws}
     if len(described) > 1:
         raise ConfigError("friction of contact groups", "one description for all contacts",

@@ -14,11 +14,11 @@ from scipy.integrate import cumulative_trapezoid
 from scipy.signal import butter, decimate, sosfiltfilt
 
 from pipeline.contract.errors import ConfigError
-from pipeline.physics.bench import MOTIONS, run_drive, run_inputs
+from pipeline.physics.bench import MOTIONS, run_drive, run_friction, run_inputs
 from pipeline.physics.contact_groups import read
-from pipeline.physics.dry_friction import coefficients
-from pipeline.physics.element_forces import element_force
+from pipeline.physics.element_forces import element_force, turn
 from pipeline.physics.elements import alone
+from pipeline.physics.friction_states import friction_along
 from pipeline.physics.normal_law import force_along
 from pipeline.physics.time_stepping_elements import no_memory, surface_shift
 
@@ -71,24 +71,27 @@ def forces_missing(bench, run, motion):
     turning = np.broadcast_to(run_drive(bench, run), run.samples)
     angle = cumulative_trapezoid(turning, dx=interval, initial=0.0)
     instants = np.column_stack((run.time, angle, turning))
-    residual = residual + _elements(model, motion, speed, instants) - _contacts(bench, motion, speed, instants)
+    normal, drawn, slip = _contacts(bench, run, motion, speed, instants)
+    residual = residual + _elements(model, motion, speed, instants, drawn, slip)
+    residual = residual - (model.contacts.normal.T @ normal + model.contacts.tangent.T @ drawn)
     forces = np.array([np.broadcast_to(f, run.samples) for f in run_inputs(bench, run)]).reshape(-1, run.samples)
     return residual - model.input_rows.T @ forces
 
 
-def _elements(model, motion, speed, instants):
-    """sum_k b_k F_k (n, samples)."""
+def _elements(model, motion, speed, instants, drawn, slip):
+    """sum_k b_k F_k (n, samples), contacts being drawn at and slipping as said (c, samples)."""
     rows = np.array([e.row for e in model.elements], float).reshape(-1, model.size)
     kernel = alone(model.elements)
-    return rows.T @ _along(kernel, rows @ motion, rows @ speed, instants, no_memory(kernel))
+    return rows.T @ _along(kernel, rows @ motion, rows @ speed, instants, no_memory(kernel), drawn, slip)
 
 
 @njit(cache=True)
-def _along(kernel, place, rate, instants, memory):
+def _along(kernel, place, rate, instants, memory, drawn, slip):
     """Forces (e, samples) along elongations ``place`` and their ``rate`` (e, samples)."""
     force, after = np.zeros_like(place), memory.copy()
     for s in range(place.shape[1]):
         instant = (instants[s, 0], instants[s, 1], instants[s, 2])
+        turn(kernel, drawn[:, s], slip[:, s], rate[:, s])
         for k in range(place.shape[0]):
             begin = place[k, max(s - 1, 0)]
             force[k, s] = element_force(kernel, k, place[k, s], rate[k, s], begin, memory, after, instant)[0]
@@ -96,8 +99,8 @@ def _along(kernel, place, rate, instants, memory):
     return force
 
 
-def _contacts(bench, motion, speed, instants):
-    """sum_i (n_i N_i + t_i T_i) (n, samples), sliding everywhere."""
+def _contacts(bench, run, motion, speed, instants):
+    """(N, T, slip), each (c, samples), sliding everywhere."""
     contacts, fixed = bench.model.contacts, bench.model.contacts.fixed
     normal = np.where(fixed, contacts.preload, 0.0)[:, None] * np.ones(motion.shape[1])
     shift = _surface(contacts, instants)
@@ -106,8 +109,8 @@ def _contacts(bench, motion, speed, instants):
     for i in np.flatnonzero(~fixed):
         normal[i] = force_along(bench.law, i, contacts.area, -gap[i], -opening[i])
     slip = contacts.lever[:, None] * instants[:, 2] - contacts.tangent @ speed
-    drawn = np.sign(slip) * coefficients(bench.friction, slip, normal / contacts.area[:, None]) * normal
-    return contacts.normal.T @ normal + contacts.tangent.T @ drawn
+    drawn = friction_along(run_friction(bench, run), contacts.area, normal, slip, instants[:, 1], 1 / run.sample_rate)
+    return normal, drawn, slip
 
 
 def _surface(contacts, instants):

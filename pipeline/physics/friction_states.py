@@ -10,32 +10,31 @@ A of the contact:
     fade      s = |T| v / (A q tau), r = 1 / tau       mu / (1 + d x)
     plateaus  s = (1 + k) / tau,  r = (1 + k p v / q) / tau     mu x
     scatter   none                                     mu (1 + a cos(n angle - phase))
-
-Steps are exact for constant s and r: first with those at the begin, which gives the friction of the step, then, once
-its forces are known, with those of its middle, so that nothing is late by a part of a step.
 """
 
-from dataclasses import astuple, dataclass
-from typing import NamedTuple
+from dataclasses import astuple, dataclass, replace
 
 import numpy as np
 from numba import njit
 
 from pipeline.contract.errors import ConfigError
-from pipeline.physics.contact_groups import parts
-from pipeline.physics.dry_friction import (
-    DELAYED,
-    FACTOR,
-    LOAD_KEPT,
-    LOAD_SHARE,
-    READ_AT,
-    SPEED_KEPT,
-    SPEED_SHARE,
+from pipeline.physics.contact_groups import Grouped, parts
+from pipeline.physics.dry_friction import LOAD_KEPT, LOAD_SHARE, coefficient, coefficients, kernel
+from pipeline.physics.friction_state_steps import (
+    DISTANCE,
+    FADE,
+    FILM,
+    HEALING,
+    MEMORY,
+    PLATEAUS,
+    SCATTER,
+    SETTLING,
+    StateKernel,
+    expect,
+    factor,
+    settle,
+    source_and_rate,
 )
-
-MEMORY, HEALING, DISTANCE, FILM, FADE, PLATEAUS, SCATTER = range(7)
-#: below this a rate times a step counts as none, where series replace quotients
-_SMALL = 1e-5
 
 
 @dataclass(frozen=True)
@@ -97,18 +96,6 @@ class Scatter:
 
 _KIND = {Memory: MEMORY, Healing: HEALING, Distance: DISTANCE, Film: FILM, Fade: FADE, Plateaus: PLATEAUS,
          Scatter: SCATTER}
-#: the states that come to rest in steady sliding, about which small motions are found; the others drift or turn
-SETTLING = (MEMORY, HEALING, PLATEAUS)
-
-
-class StateKernel(NamedTuple):
-    """k states of c contacts."""
-
-    kind: np.ndarray        # (k,)
-    contact: np.ndarray     # (k,)
-    parameter: np.ndarray   # (k, 3)
-    area: np.ndarray        # (c,) m^2
-    begin: np.ndarray       # (c,) m, distance where the table is read first
 
 
 def state_kernel(friction, area):
@@ -156,97 +143,41 @@ def factors(states, value, angle):
     return found
 
 
-@njit(cache=True)
-def source_and_rate(kind, p, load, area, speed, drawn):
-    """(s, r) of a state under a load N, at a slip speed >= 0, with the friction force ``drawn`` >= 0 N."""
-    if kind == HEALING:
-        return p[1] / p[2], speed / p[2]
-    if kind == DISTANCE:
-        return speed, 0.0
-    if kind == FILM:
-        return speed / p[1] * load / (area * p[2]), speed / p[1]
-    if kind == FADE:
-        return drawn * speed / (area * p[1] * p[2]), 1.0 / p[2]
-    if kind == PLATEAUS:
-        return (1.0 + p[0]) / p[2], (1.0 + p[0] * load * speed / (area * p[1])) / p[2]
-    return 0.0, 0.0
+def shapeless(friction):
+    """The friction without what varies around the drive."""
+    def still(law):
+        return replace(law, states=tuple(s for s in law.states if not isinstance(s, Scatter)))
+
+    if isinstance(friction, Grouped):
+        return replace(friction, laws=tuple(still(law) for law in friction.laws))
+    return still(friction)
 
 
-@njit(cache=True)
-def factor(kind, p, x, angle):
-    """What a state makes of friction; 1 where it does not act as a factor."""
-    if kind == HEALING:
-        return 1.0 + p[0] * np.log1p(x)
-    if kind == FILM:
-        return 1.0 + p[0] * x
-    if kind == FADE:
-        return 1.0 / (1.0 + p[0] * x)
-    if kind == PLATEAUS:
-        return x
-    if kind == SCATTER:
-        return 1.0 + p[0] * np.cos(p[1] * angle - p[2])
-    return 1.0
+def friction_along(friction, area, load, slip, angle, interval):
+    """Friction force (c, samples) N along given loads (c, samples) N and slip speeds of either sign, in full sliding.
 
-
-@njit(cache=True)
-def _kept(reach):
-    """(e^-z, (1 - e^-z) / z) of z = ``reach``: what is left of a state, and the mean of that."""
-    keep = np.exp(-reach)
-    return keep, (1.0 - keep) / reach if reach > _SMALL else 1.0 - 0.5 * reach
-
-
-@njit(cache=True)
-def expect(states, value, friction, load, slip, drawn, angle, turned, step, middle):
-    """Fill the columns of ``friction`` for the step to come, from states ``value`` (k, 2) and forces at its begin.
-
-    ``load``, ``slip``, ``drawn`` (c,) are N, slip speed and T there, of either sign; the drive goes from ``angle`` to
-    ``turned``. ``middle``: friction acts by its mean over the step, else by its end.
+    ``angle`` (samples,) rad of the drive, ``interval`` s between samples; states start as ``started`` says.
     """
-    friction.contact[:, FACTOR] = 1.0
-    share = 0.5 if middle else 1.0
-    for k in range(states.kind.size):
-        kind, i, p = states.kind[k], states.contact[k], states.parameter[k]
-        own, speed = friction.contact[i], abs(slip[i])
-        if kind == MEMORY:
-            keep, mean = _kept(step * speed / p[0])
-            last, first = 1.0 - mean, mean - keep
-            own[DELAYED] = 1.0
-            own[LOAD_KEPT] = keep * value[k, 0] + first * load[i]
-            own[SPEED_KEPT] = keep * value[k, 1] + first * speed
-            own[LOAD_SHARE] = own[SPEED_SHARE] = last
-            if middle:      # the mean slip speed is known to friction, that of the end is twice it less the begin
-                own[LOAD_KEPT] = 0.5 * (value[k, 0] + own[LOAD_KEPT])
-                own[SPEED_KEPT] = 0.5 * (value[k, 1] + own[SPEED_KEPT] - last * speed)
-                own[LOAD_SHARE] = 0.5 * last
-            continue
-        source, rate = source_and_rate(kind, p, load[i], states.area[i], speed, abs(drawn[i]))
-        keep, mean = _kept(rate * step)
-        after = keep * value[k, 0] + mean * step * source
-        if kind == DISTANCE:
-            own[READ_AT] = (1.0 - share) * value[k, 0] + share * after
-        else:
-            own[FACTOR] *= ((1.0 - share) * factor(kind, p, value[k, 0], angle)
-                            + share * factor(kind, p, after, turned))
+    states = state_kernel(friction, area)
+    if not len(states.kind):
+        return np.sign(slip) * coefficients(friction, slip, load / area[:, None]) * load
+    value = started(states, load[:, 0], slip[:, 0])
+    return _along(states, value, kernel(friction, len(area)), load, slip, np.array(angle, float), float(interval))
 
 
 @njit(cache=True)
-def settle(states, value, load, loaded, slip, slipped, drawn, step):
-    """Bring states ``value`` (k, 2) to the end of a step.
-
-    ``load`` and ``loaded`` (c,) are N at its begin and end, ``slip`` and ``slipped`` the slip speeds, ``drawn`` the
-    mean T. Contacts that are open remember no load.
-    """
-    for k in range(states.kind.size):
-        kind, i, p = states.kind[k], states.contact[k], states.parameter[k]
-        one, other = abs(slip[i]), abs(slipped[i])
-        if kind == MEMORY:
-            keep, mean = _kept(step * 0.5 * (one + other) / p[0])
-            value[k, 0] = keep * value[k, 0] + (mean - keep) * load[i] + (1.0 - mean) * loaded[i]
-            value[k, 1] = keep * value[k, 1] + (mean - keep) * one + (1.0 - mean) * other
-            if loaded[i] == 0.0:
-                value[k, 0] = 0.0
-            continue
-        source, rate = source_and_rate(kind, p, 0.5 * (load[i] + loaded[i]), states.area[i], 0.5 * (one + other),
-                                       abs(drawn[i]))
-        keep, mean = _kept(rate * step)
-        value[k, 0] = keep * value[k, 0] + mean * step * source
+def _along(states, value, friction, load, slip, angle, interval):
+    drawn, forces, last = np.zeros_like(load), np.zeros(load.shape[0]), load.shape[1] - 1
+    for s in range(last + 1):
+        # over no time: friction as the states stand
+        expect(states, value, friction, load[:, s], slip[:, s], forces, angle[s], angle[s], 0.0, False)
+        for i in range(load.shape[0]):
+            own = friction.contact[i]
+            heard = own[LOAD_KEPT] + own[LOAD_SHARE] * load[i, s]
+            drawn[i, s] = np.sign(slip[i, s]) * heard * coefficient(friction, i, heard / states.area[i], slip[i, s],
+                                                                    slip[i, s])
+        if s < last:
+            for i in range(load.shape[0]):
+                forces[i] = drawn[i, s] * (0.5 * (load[i, s] + load[i, s + 1]) / load[i, s] if load[i, s] > 0 else 1.0)
+            settle(states, value, load[:, s], load[:, s + 1], slip[:, s], slip[:, s + 1], forces, interval)
+    return drawn

@@ -19,7 +19,8 @@ from pipeline.physics.contact_groups import parts
 from pipeline.physics.dry_friction import FACTOR, RIGID, STIFFNESS, coefficient, constant, kernel
 from pipeline.physics.element_forces import TOO_STIFF, UNSETTLED
 from pipeline.physics.elements import element_kernel
-from pipeline.physics.friction_states import MEMORY, factors, started, state_kernel
+from pipeline.physics.friction_state_steps import MEMORY
+from pipeline.physics.friction_states import factors, started, state_kernel
 from pipeline.physics.normal_law import Forward, Hard, Lagrange, Penalty, Table, normal_force, normal_kernel
 from pipeline.physics.time_stepping_contact import (
     JAMMED,

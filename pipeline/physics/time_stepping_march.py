@@ -13,7 +13,8 @@ import numpy as np
 from numba import njit
 
 from pipeline.physics.dry_friction import RIGID
-from pipeline.physics.friction_states import expect, settle
+from pipeline.physics.element_forces import turn
+from pipeline.physics.friction_state_steps import expect, settle
 from pipeline.physics.time_stepping_contact import SOLVED, solve_contacts
 from pipeline.physics.time_stepping_elements import (
     first_forces,
@@ -206,6 +207,7 @@ def march(linear, law, friction, elements, states, lever, drive, inputs, pairs, 
         seen[0] += shift[0]
         seen[1] += shift[1]
         _see(elements.rows, pairs, now.ravel())
+        turn(elements, force[1], sliding[1] - seen[3], now[1])
         first_forces(elements, now, memory, drawn, instant)
         _keep_elements(record, 0, now, drawn)
     _keep(linear, law, record, 0, pairs, watched, seen, force, sliding[1], status, 1, work)
@@ -233,8 +235,10 @@ def march(linear, law, friction, elements, states, lever, drive, inputs, pairs, 
                     sliding[0, i], sliding[1, i] = sliding[1, i], lever[i] * turning[0]
                     way[i] = 0.5 * step * (sliding[0, i] + sliding[1, i])
             held_flat[:] = force_flat
-            if recalls:
+            if special:
                 slip[:] = sliding[0] - seen[3]
+                turn(elements, held[1], slip, now[1])
+            if recalls:
                 expect(states, value, friction, held[0], slip, held[1], angle_before, angle, step, middle)
             if not (holds[0] and holds[1]):
                 _push(first, 0, held_flat, after)

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from pipeline.contract.errors import ConfigError
-from pipeline.physics.bench import Bench, Channel, Run, respond
+from pipeline.physics.bench import Run, respond
 from pipeline.physics.dry_friction import constant, tabulated
 from pipeline.physics.friction_law import FrictionLaw
 from pipeline.physics.friction_states import (
@@ -22,25 +22,16 @@ from pipeline.physics.friction_states import (
     state_kernel,
 )
 from pipeline.physics.time_stepping import Hard, History, Penalty, Start, simulate
-from tests.physics.lumps import lumps
+from tests.effects.benches import RATE, anchored
 
-RATE, MU, LOAD, SPEED, AREA = 2000.0, 0.3, 40.0, 2.0, 1e-3
+MU, LOAD, SPEED, AREA = 0.3, 40.0, 2.0, 1e-3
 DESCRIPTIONS = [{}, {"description": "elastic", "stiffness": 2e5}]
-
-
-def heavy(friction, mass=1e9, step=1e-4):
-    """A mass so heavy along the belt that it stays where it is, pressed by input_1 through a contact of 1000 N/mm."""
-    model = lumps([mass, 1.0], [[1.0, 0.0], [0.0, 1.0]], [400.0, 0.0], [0.0, 600.0], [[0.0, 1.0]], [[1.0, 0.0]], SPEED)
-    model = replace(model, contacts=replace(model.contacts, area=np.array([AREA])))
-    channels = (Channel("x", "displacement", "sensor_0"), Channel("n", "normal_force", "contact"),
-                Channel("t", "friction_force", "contact"))
-    return Bench(model, Penalty(1e6), friction, step, channels, settled=True)
 
 
 def slid(state, run=None, **options):
     """(time, T / (mu N), N) of a heavy mass with a state of friction."""
     run = run or Run("steady", 1.0, RATE, {"input_1": -LOAD})
-    found = respond(heavy(replace(constant(MU, **options), states=(state,))), run)
+    found = respond(anchored(replace(constant(MU, **options), states=(state,))), run)
     return run.time[2:], found["t"][2:] / (MU * found["n"][2:]), found["n"][2:]
 
 
@@ -92,7 +83,7 @@ def test_friction_follows_the_speed_over_a_length():
     friction = replace(tabulated([0.0, 4.0], [0.1, 0.5]), states=(Memory(0.05),))
     run = Run("slowing", 0.2, RATE, {"input_1": -LOAD}, drive=SPEED)
     run = replace(run, drive=np.where(run.time < 0.01, 2.0, 1.0))
-    found = respond(heavy(friction), run)
+    found = respond(anchored(friction), run)
     after = run.time > 0.012
     heard = (found["t"] / found["n"] - 0.1) / 0.1
     slope = np.polyfit(run.time[after], np.log(heard[after] - 1.0), 1)[0]
@@ -104,7 +95,7 @@ def test_friction_over_the_distance_slid():
     law = FrictionLaw([0.0], [0.0], [0.0, 10.0], [[[0.2, 0.7]]])
     friction = replace(constant(MU), law=law, states=(Distance(),), distance=0.5)
     run = Run("steady", 1.0, RATE, {"input_1": -LOAD})
-    found = respond(heavy(friction), run)
+    found = respond(anchored(friction), run)
     np.testing.assert_allclose(found["t"][2:] / found["n"][2:], 0.2 + 0.05 * (0.5 + SPEED * run.time[2:]), rtol=1e-6)
 
 
@@ -114,7 +105,7 @@ def test_friction_over_the_distance_slid():
 def test_the_step_is_of_second_order(state):
     """Errors of the friction that a swinging load gives a light mass fall by four when the step is halved."""
     def end(step):
-        model = heavy(constant(MU), 1.0).model
+        model = anchored(constant(MU), 1.0).model
         start = np.array([0.0, -LOAD / 1e6])
         motion = simulate(model, Penalty(1e6), replace(constant(MU), states=(state,)), step=step, duration=0.064,
                           inputs=History([[0.0, -LOAD], [0.0, -1.5 * LOAD]], 0.064), start=Start(start, np.zeros(2)))
@@ -133,7 +124,7 @@ def test_where_states_begin():
 
 
 def test_memory_of_impulses_and_endless_values_are_refused():
-    bench = heavy(replace(constant(MU), states=(Memory(0.1),)))
+    bench = anchored(replace(constant(MU), states=(Memory(0.1),)))
     run = Run("steady", 0.1, RATE, {"input_1": -LOAD})
     with pytest.raises(ConfigError, match="yield"):
         respond(replace(bench, law=Hard(), settled=False), run)
