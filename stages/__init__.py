@@ -10,12 +10,13 @@ CHAINS = {
                    "multibody", "response", "squeal", "comparison", "report"),
     "pin_on_disc": ("surface", "interface_law", "friction_descriptions", "pin_on_disc", "reduced_model",
                     "complex_modes", "transient", "lock_in", "squeal", "comparison", "report"),
-    "lumped": ("lumped", "reduced_model", "complex_modes", "transient", "comparison", "report"),
+    "lumped": ("lumped", "reduced_model", "effects", "complex_modes", "transient", "comparison", "report"),
     "bimaterial_rupture": ("rupture", "comparison", "report"),
     "beam_on_beam": ("beam_on_beam", "reduced_model", "complex_modes", "transient", "motion_scatter", "squeal",
                      "comparison", "report"),
     "beam_geometry": ("beam_geometry", "report"),
     "recording": ("recording", "report"),
+    "lumped_bench": ("lumped", "reduced_model", "effects", "recording", "bench", "diagnosis", "report"),
 }
 
 #: every stage once, in the order of its first chain

@@ -7,9 +7,9 @@ import numpy as np
 from pipeline.contract import ConfigError, Context, InputFile, Quantity, Section, option, stage
 from pipeline.contract.documents import read_yaml
 from pipeline.physics.beam_reduction import beam_modes
-from pipeline.physics.hard_coalescence import ContactModes, coalescences, friction_over_frequency
+from pipeline.physics.hard_coalescence import coalescences, friction_over_frequency
 from pipeline.products import BeamOnBeam
-from pipeline.systems.beam_on_beam import BODIES, build
+from pipeline.systems.beam_on_beam import BODIES, build, joined, touching, upwards
 
 #: last friction coefficient at which coalescences are sought
 _MOST_FRICTION = 1.0
@@ -99,13 +99,12 @@ def beam_on_beam(settings: Settings, context: Context) -> BeamOnBeam:
     contact forces. In steady sliding on a hard contact each frequency has one friction coefficient at which it is a
     mode; maxima of that curve are coalescences. Sampled below {coalescences_below} at {samples} frequencies.
     """
-    chosen = [_reduced(settings, settings.element, number, context) for number in range(2)]
     other = "timoshenko" if settings.element == "plane" else "plane"
-    check = [_reduced(settings, other, number, context) for number in range(2)]
+    chosen, check = (_reduced(settings, element, context) for element in (settings.element, other))
     frequency = np.geomspace(settings.coalescences_below / 1e3, settings.coalescences_below, settings.samples)
-    modes, direction = _contact_modes(chosen), -1.0
+    modes, direction = joined(*chosen)[0], -1.0
     found = coalescences(modes, frequency, direction, _MOST_FRICTION)
-    crosscheck = coalescences(_contact_modes(check), frequency, direction, _MOST_FRICTION)
+    crosscheck = coalescences(joined(*check)[0], frequency, direction, _MOST_FRICTION)
     context.log("coalescences: " + (", ".join(f"{f:.0f} Hz at {mu:.3f}" for f, mu in zip(
         found.onset_frequency, found.onset_friction, strict=True)) or "none"))
     return BeamOnBeam(
@@ -114,7 +113,7 @@ def beam_on_beam(settings: Settings, context: Context) -> BeamOnBeam:
         closed_frequency=found.frictionless, onset_frequency=found.onset_frequency, onset_friction=found.onset_friction,
         end_frequency=found.end_frequency, end_friction=found.end_friction,
         check_frequency=crosscheck.frictionless, check_onset_frequency=crosscheck.onset_frequency,
-        check_onset_friction=crosscheck.onset_friction, **_findings(settings.findings), **_joined(chosen, settings))
+        check_onset_friction=crosscheck.onset_friction, **_findings(settings.findings), **_joined(*chosen, settings))
 
 
 def _findings(path):
@@ -126,21 +125,14 @@ def _findings(path):
     return {"finding": [r["what"] for r in rows], "finding_text": [r["found"] for r in rows]}
 
 
-def _reduced(settings, element, number, context):
-    """(body, squared, shape) of one beam."""
-    body = build(settings, element)[number]
-    rows = np.vstack((body.contact, body.load))
-    squared, shape = beam_modes(body.stiffness, body.mass, rows[np.any(rows, axis=1)], settings.modes_below,
-                                settings.residual_below, context.solver)
-    return body, squared, shape
-
-
-def _contact_modes(parts):
-    """Modes of both beams at the contact, slider less track."""
-    (slider, *_), (track, *_) = parts
-    normal, tangent = (np.concatenate((slider.contact[axis] @ parts[0][2], -track.contact[axis] @ parts[1][2]))
-                       for axis in (1, 0))
-    return ContactModes(np.concatenate([squared for _, squared, _ in parts]), normal, tangent)
+def _reduced(settings, element, context):
+    """(bodies, squared, shapes) of both beams."""
+    bodies, found = build(settings, element), []
+    for body in bodies:
+        rows = np.vstack((body.contact, body.load))
+        found.append(beam_modes(body.stiffness, body.mass, rows[np.any(rows, axis=1)], settings.modes_below,
+                                settings.residual_below, context.solver))
+    return bodies, *zip(*found, strict=True)
 
 
 def _drawn(friction):
@@ -148,28 +140,24 @@ def _drawn(friction):
     return np.clip(friction, -_MOST_FRICTION, 2 * _MOST_FRICTION)
 
 
-def _joined(parts, settings):
+def _joined(bodies, squared, shapes, settings):
     """Modal fields of both beams in one numbering."""
-    bodies, squared = [p[0] for p in parts], np.concatenate([p[1] for p in parts])
-    counts, points = [len(p[1]) for p in parts], [len(b.position) for b in bodies]
-    modes, contact = _contact_modes(parts), settings.contact
+    modes, sensor, load = joined(bodies, squared, shapes)
+    counts, points = [s.shape[1] for s in shapes], [len(b.position) for b in bodies]
     recovery = np.zeros((sum(points), 3, sum(counts)), np.float32)
-    for k, (body, _, shape) in enumerate(parts):
+    for k, (body, shape) in enumerate(zip(bodies, shapes, strict=True)):
         rows, columns = slice(sum(points[:k]), sum(points[:k + 1])), slice(sum(counts[:k]), sum(counts[:k + 1]))
         recovery[rows, :2, columns] = body.shape @ shape
     flat = np.vstack([b.position for b in bodies])
     first = np.cumsum([0, *points])
-    area = settings.slider.width * settings.slider.thickness
-    up = np.array([np.sin(settings.slider.tilt), np.cos(settings.slider.tilt)])
-    touch = np.array([contact.distance, settings.track.thickness / 2])
+    area, touch = settings.slider.width * settings.slider.thickness, touching(settings)
+    sensed = touch + settings.sensor.height * upwards(settings)
     return {
-        "mode_body": np.repeat([0, 1], counts), "mode_frequency": np.sqrt(np.maximum(squared, 0.0)) / (2 * np.pi),
-        "mode_damping": settings.material.mass_damping + settings.material.stiffness_damping * squared,
+        "mode_body": np.repeat([0, 1], counts), "mode_frequency": np.sqrt(np.maximum(modes.squared, 0.0)) / (2 * np.pi),
+        "mode_damping": settings.material.mass_damping + settings.material.stiffness_damping * modes.squared,
         "contact_normal": modes.normal[None], "contact_tangent": modes.tangent[None],
-        "contact_position": np.r_[touch, 0.0][None], "contact_area": [area], "force": contact.force,
-        "load_row": np.concatenate([(b.load @ s)[0] for b, _, s in parts])[None],
-        "sensor_name": ["B_x"], "sensor_position": np.r_[touch + settings.sensor.height * up, 0.0][None],
-        "sensor_direction": [[1.0, 0.0, 0.0]],
-        "sensor_rows": np.concatenate([b.sensor[0] @ s for b, _, s in parts])[None],
+        "contact_position": np.r_[touch, 0.0][None], "contact_area": [area], "force": settings.contact.force,
+        "load_row": load[None], "sensor_name": ["B_x"], "sensor_position": np.r_[sensed, 0.0][None],
+        "sensor_direction": [[1.0, 0.0, 0.0]], "sensor_rows": sensor[None],
         "visible_position": np.column_stack((flat, np.zeros(len(flat)))), "visible_body": np.repeat([0, 1], points),
         "visible_face": np.vstack([b.face + first[k] for k, b in enumerate(bodies)]), "recovery": recovery}

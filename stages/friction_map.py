@@ -15,7 +15,7 @@ class Settings(Section):
     distance_subdivisions: int = option(5, "parts of each interval between recorded distances", ge=1)
 
 
-def companions(product):
+def companions(product, case=None):
     """friction_map.csv: the long table, one line per point, SI units in the head."""
     grids = np.meshgrid(product.pressure, product.speed, product.distance, indexing="ij")
     rows = zip(*(a.ravel() for a in (*grids, product.friction, product.friction_std)), strict=True)

@@ -4,20 +4,19 @@ from dataclasses import dataclass, replace
 from functools import partial
 
 import numpy as np
-import scipy.sparse as sp
 
+from pipeline.assembled import elastic_body
 from pipeline.contract import ConfigError, Context, Quantities, Quantity, Section, option, stage
 from pipeline.physics.body_exchange import exchanged
-from pipeline.physics.body_reduction import ElasticBody, reduce_body
+from pipeline.physics.body_reduction import reduce_body
 from pipeline.physics.dry_friction import constant
-from pipeline.physics.eigen import lowest_modes
-from pipeline.physics.elasticity import assemble
 from pipeline.physics.limit_cycle import cycle
 from pipeline.physics.lock_in import KINDS, NONE, harmonic_levels
 from pipeline.physics.lock_in import lock_in as classified
 from pipeline.physics.quadratic_modes import quadratic_roots
 from pipeline.physics.sliding_model import sliding_model
 from pipeline.physics.static_contact import normal_force
+from pipeline.physics.supports import held_modes
 from pipeline.physics.tangential_law import tangential_law
 from pipeline.physics.time_stepping import Penalty, simulate
 from pipeline.physics.time_stepping_linear import modal_system
@@ -162,23 +161,13 @@ def _visit(system, model, settings, solver, point):
 
 def _pin(system, point, solver):
     """The pin of a point as an ElasticBody, and its own frequencies, rigidly clamped."""
-    pin = system.pin
-    clamp = list(pin.material_name).index("clamp")
-    node = _nodes(system, point)
-    density = pin.density.copy()
+    body = elastic_body(system, "pin")
+    clamp = list(system.pin.material_name).index("clamp")
+    density = body.density.copy()
     density[clamp] *= point.base_mass / float(system.base_mass)
-    incidences = (system.joint_rows, system.contact_normal, system.contact_tangent, system.contact_lateral,
-                  system.load_rows, system.sensor_rows)
-    rows = sp.vstack([_rows(i, 3 * len(node)) for i in incidences], format="csr")
-    forces = rows.shape[0] - int(system.sensor_rows.rows)
-    body = ElasticBody(
-        name="pin", node=node, element=pin.element, kind=str(pin.kind), material=pin.element_material, density=density,
-        elasticity=pin.elasticity, damping_ratio=float(pin.damping_ratio), supported=pin.supported, rows=rows,
-        interface=np.arange(forces), turns=False, frequency=np.empty(0), modes=np.empty((3 * len(node), 0)))
-    stiffness, mass = assemble(node, pin.element, str(pin.kind), pin.element_material, density, pin.elasticity)
-    held = np.unique(pin.element[pin.element_material == clamp])
-    free = np.setdiff1d(np.arange(3 * len(node)), 3 * held[:, None] + np.arange(3))
-    return body, lowest_modes(stiffness[free][:, free], mass[free][:, free], solver, count=_PIN_MODES)[0]
+    body = replace(body, node=_nodes(system, point), density=density)
+    held = np.unique(body.element[body.material == clamp])
+    return body, held_modes(*body.matrices(), held, solver, count=_PIN_MODES)[0]
 
 
 def _nodes(system, point):
@@ -188,13 +177,6 @@ def _nodes(system, point):
         return pin.node
     return reshaped(pin.node, system.contact_position[0], pin.element, pin.element_material, length, tilt,
                     (point.length, point.tilt))
-
-
-def _rows(incidence, size):
-    """(rows, 3n) sparse: the part of the rows that the pin moves."""
-    chosen = incidence.body == 1
-    place = incidence.row[chosen], 3 * incidence.node[chosen] + incidence.axis[chosen]
-    return sp.csr_matrix((incidence.weight[chosen], place), (int(incidence.rows), size))
 
 
 def _pressed(system, model, settings, point):

@@ -6,13 +6,13 @@ from typing import Literal
 
 import numpy as np
 
+from pipeline.assembled import assembly_fields, body_product, incidence
 from pipeline.contract import ConfigError, Context, Quantities, Quantity, Section, option, stage
 from pipeline.physics.disc_modes import describe
-from pipeline.physics.eigen import lowest_modes
-from pipeline.physics.elasticity import assemble
 from pipeline.physics.static_contact import contact_law, normal_force
+from pipeline.physics.supports import held_modes
 from pipeline.physics.tangential_law import TangentialLaw
-from pipeline.products import Body, Incidence, InterfaceLaw, PinOnDisc
+from pipeline.products import InterfaceLaw, PinOnDisc
 from pipeline.systems.pin_on_disc import BODIES, SENSORS, build, pin, sliding_flexibility
 
 _GRAVITY = 9.81
@@ -119,21 +119,16 @@ def pin_on_disc(interface_law: InterfaceLaw, settings: Settings, context: Contex
     area = float(model.contacts.area[0])
     law = _law(interface_law, force / area, settings)
     _refuse_locking(model, settings, law["friction"].max(), context)
-    frequency, shape = _disc_modes(model.bodies[0], settings.frequency_max, context.solver)
-    diameters, out_of_plane = describe(model.bodies[0].mesh.node, shape)
+    disc = model.bodies[0]
+    frequency, shape = held_modes(*disc.matrices(), disc.supported, context.solver, below=settings.frequency_max)
+    diameters, out_of_plane = describe(disc.mesh.node, shape)
     return PinOnDisc(
-        body_name=BODIES, disc=_body(model.bodies[0], frequency, shape), pin=_body(model.bodies[1]),
-        joint_name=model.joints.name, joint_rows=_incidence(model.joints.rows),
-        joint_stiffness=model.joints.stiffness, joint_damping=model.joints.damping,
-        contact_body=model.contacts.pad, contact_position=model.contacts.position, contact_area=model.contacts.area,
-        contact_normal=_incidence(model.contacts.normal), contact_tangent=_incidence(model.contacts.tangent),
-        contact_lateral=_incidence(model.contacts.lateral), load=settings.loads, pressure=force / area,
+        body_name=BODIES, disc=body_product(disc, frequency, shape), pin=body_product(model.bodies[1]),
+        **assembly_fields(model), sensor_name=SENSORS, load=settings.loads, pressure=force / area,
         preload=force[:, None], closed=np.ones((len(force), 1), int), **law, disc_frequency=frequency,
         disc_diameters=diameters, disc_out_of_plane=out_of_plane, **_pin_modes(settings, context),
         tilt=settings.pin.tilt, contact_offset=settings.contact.offset, base_mass=settings.pin.base_mass,
-        sensor_name=SENSORS,
-        sensor_position=model.sensor_position, sensor_direction=model.sensor_direction,
-        sensor_rows=_incidence(model.sensors), load_rows=_incidence(model.load), load_area=area)
+        load_rows=incidence(model.load), load_area=area)
 
 
 def _law(interface_law, pressure, settings):
@@ -171,11 +166,6 @@ def _refuse_locking(model, settings, friction, context):
                           "turn the pin the other way, or further, or lower the friction")
 
 
-def _disc_modes(body, below, solver):
-    """Frequencies (m,) and shapes (3n, m) of the disc on its shaft."""
-    return _held_modes(body, body.supported, solver, below=below)
-
-
 def _pin_modes(settings, context):
     """Own frequencies of the pin at the lengths compared, rigidly clamped."""
     lengths = (settings.pin.length, *settings.lengths)
@@ -188,32 +178,4 @@ def _pin_modes(settings, context):
 def _clamped_pin(solver, settings):
     body = pin(settings)
     block = np.unique(body.mesh.element[body.element_material == body.material_name.index("clamp")])
-    return _held_modes(body, block, solver, count=_PIN_MODES)[0]
-
-
-def _held_modes(body, held, solver, **wanted):
-    mesh = body.mesh
-    stiffness, mass = assemble(mesh.node, mesh.element, mesh.kind, body.element_material, body.density, body.elasticity)
-    free = np.setdiff1d(np.arange(3 * len(mesh.node)), 3 * held[:, None] + np.arange(3))
-    frequency, found = lowest_modes(stiffness[free][:, free], mass[free][:, free], solver, **wanted)
-    shape = np.zeros((stiffness.shape[0], len(frequency)))
-    shape[free] = found
-    return frequency, shape
-
-
-def _body(body, frequency=(), shape=None):
-    mesh = body.mesh
-    shape = np.zeros((3 * len(mesh.node), 0)) if shape is None else shape
-    return Body(node=mesh.node, element=mesh.element, kind=mesh.kind, element_material=body.element_material,
-                material_name=body.material_name, density=body.density, elasticity=body.elasticity,
-                damping_ratio=body.damping_ratio, frequency=frequency,
-                shape=shape.T.reshape(len(frequency), len(mesh.node), 3), supported=body.supported)
-
-
-def _incidence(rows):
-    parts = [part.tocoo() for part in rows.parts]
-    body = np.repeat(np.arange(len(parts)), [part.nnz for part in parts])
-    row, column, weight = (np.concatenate([getattr(part, name) for part in parts]) for name in ("row", "col", "data"))
-    used = weight != 0
-    return Incidence(rows=parts[0].shape[0], row=row[used], body=body[used], node=column[used] // 3,
-                     axis=column[used] % 3, weight=weight[used])
+    return held_modes(*body.matrices(), block, solver, count=_PIN_MODES)[0]

@@ -7,18 +7,13 @@ from dataclasses import fields
 from functools import partial
 
 import numpy as np
-import scipy.sparse as sp
 from scipy.linalg import block_diag
 
+from pipeline.assembled import INPUTS, elastic_body, row_fields
 from pipeline.contract import Context, Quantity, Section, option, stage
-from pipeline.physics.body_reduction import ElasticBody, reduce_body
+from pipeline.physics.body_reduction import reduce_body
 from pipeline.products import BeamOnBeam, Lumped, PinOnDisc, ReducedModel, Structure
 
-#: rows of the structure that carry forces besides those of its input, then those that only observe
-FORCES = ("joint_rows", "contact_normal", "contact_tangent", "contact_lateral")
-SENSORS = "sensor_rows"
-#: what presses the contacts of a system, in its fields <input>_rows and <input>_area
-INPUTS = {Structure: "piston", PinOnDisc: "load"}
 #: the tangential law of a system that has none: its friction comes from a map or from settings
 NO_SHEAR = {f"shear_{name}": [] for name in ("pressure", "friction", "stiffness", "elastic_stiffness", "exponent")}
 
@@ -48,7 +43,7 @@ def reduced_model(structure: Structure | PinOnDisc | BeamOnBeam | Lumped, settin
 
 def _from_solids(structure, settings, context):
     """Brake or pin on disc, whose bodies are finite elements with supports or interfaces."""
-    bodies = [_elastic_body(structure, name, index) for index, name in enumerate(structure.body_name)]
+    bodies = [elastic_body(structure, name) for name in structure.body_name]
     reduce = partial(reduce_body, fixed_below=settings.fixed_below, residual_below=settings.residual_below,
                      solver=context.solver)
     terms = context.map(reduce, bodies, "reducing bodies")
@@ -97,35 +92,9 @@ def _from_lumps(lumped, settings, context):
 SYSTEMS = {Structure: _from_solids, PinOnDisc: _from_solids, BeamOnBeam: _from_beams, Lumped: _from_lumps}
 
 
-def _elastic_body(structure, name, index):
-    """One body with its part of every row; modes go along only where they are used."""
-    body = getattr(structure, name)
-    incidences = [getattr(structure, field) for field in _fields(structure)]
-    rows = sp.vstack([_body_rows(i, index, 3 * len(body.node)) for i in incidences], format="csr")
-    count = len(body.frequency) if len(body.supported) else 0
-    return ElasticBody(
-        name=name, node=body.node, element=body.element, kind=str(body.kind), material=body.element_material,
-        density=body.density, elasticity=body.elasticity, damping_ratio=float(body.damping_ratio),
-        supported=body.supported, rows=rows, interface=np.arange(sum(int(i.rows) for i in incidences[:-1])),
-        turns=name == "disc", frequency=body.frequency[:count],
-        modes=body.shape[:count].reshape(count, 3 * len(body.node)).T)
-
-
-def _fields(structure):
-    """Fields of all rows, those that only observe last."""
-    return *FORCES, f"{INPUTS[type(structure)]}_rows", SENSORS
-
-
-def _body_rows(incidence, body, size):
-    """(rows, 3n) sparse: the part of the rows that one body moves."""
-    chosen = incidence.body == body
-    place = incidence.row[chosen], 3 * incidence.node[chosen] + incidence.axis[chosen]
-    return sp.csr_matrix((incidence.weight[chosen], place), (int(incidence.rows), size))
-
-
 def _split_rows(structure, rows):
     """The stacked reduced rows, back under their names."""
-    fields, name = _fields(structure), INPUTS[type(structure)]
+    fields, name = row_fields(structure), INPUTS[type(structure)]
     ends = np.cumsum([int(getattr(structure, field).rows) for field in fields])
     parts = dict(zip(fields, np.split(rows, ends[:-1]), strict=True))
     inputs = parts.pop(f"{name}_rows")

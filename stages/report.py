@@ -11,7 +11,7 @@ class Settings(Section):
     mode_pictures: int = option(6, "mode shapes drawn of the disc and of the unstable brake, each", ge=0, le=40)
 
 
-@stage(companions=lambda product: {"report.html": product.html.item()}, reads_case=True)
+@stage(companions=lambda product, case: {"report.html": product.html.item()}, reads_case=True)
 def report(products: Products, settings: Settings, context: Context) -> Report:
     """Write one HTML page with pictures, tables, settings and methods.
 

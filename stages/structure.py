@@ -6,12 +6,12 @@ from typing import Literal
 import numpy as np
 import scipy.sparse as sp
 
+from pipeline.assembled import assembly_fields, body_product, incidence
 from pipeline.contract import Context, InputFile, Quantities, Quantity, Section, option, stage
 from pipeline.physics.disc_modes import describe
-from pipeline.physics.eigen import lowest_modes
-from pipeline.physics.elasticity import assemble
 from pipeline.physics.static_contact import condense, contact_law, solve_preload
-from pipeline.products import Body, FrictionMap, Incidence, Structure
+from pipeline.physics.supports import free_freedoms, held_modes
+from pipeline.products import FrictionMap, Structure
 from pipeline.systems.disc_brake import BODIES, build
 
 #: the contact law is tabulated up to so many times the largest nominal pressure
@@ -150,20 +150,14 @@ def structure(friction_map: FrictionMap, settings: Settings, context: Context) -
     """
     brake = build(settings)
     free, *modes = _all_modes(brake, settings, context)
-    bodies = {name: _body(body, *found) for name, body, found in zip(BODIES, brake.bodies, modes, strict=True)}
+    bodies = {name: body_product(body, *found) for name, body, found in zip(BODIES, brake.bodies, modes, strict=True)}
     law = _law(friction_map, settings)
     diameters, out_of_plane = describe(brake.bodies[0].mesh.node, free[1])
-    contacts = brake.contacts
     return Structure(
-        body_name=BODIES, **bodies, free_frequency=free[0], free_diameters=diameters,
-        free_out_of_plane=out_of_plane, joint_name=brake.joints.name, joint_rows=_incidence(brake.joints.rows),
-        joint_stiffness=brake.joints.stiffness, joint_damping=brake.joints.damping, contact_body=contacts.pad,
-        contact_position=contacts.position, contact_area=contacts.area, contact_normal=_incidence(contacts.normal),
-        contact_tangent=_incidence(contacts.tangent), contact_lateral=_incidence(contacts.lateral),
+        body_name=BODIES, **bodies, free_frequency=free[0], free_diameters=diameters, free_out_of_plane=out_of_plane,
+        **assembly_fields(brake), sensor_name=[s.name for s in settings.sensors],
         **_preload(brake, law, settings, context), law_closure=law[0], law_pressure=law[1],
-        sensor_name=[s.name for s in settings.sensors], sensor_position=brake.sensor_position,
-        sensor_direction=brake.sensor_direction, sensor_rows=_incidence(brake.sensors),
-        piston_rows=_incidence(brake.piston), piston_area=brake.pad_area)
+        piston_rows=incidence(brake.piston), piston_area=brake.pad_area)
 
 
 def _all_modes(brake, settings, context):
@@ -179,29 +173,7 @@ def _all_modes(brake, settings, context):
 
 def _modes(solver, task):
     body, supported, below = task
-    stiffness, mass = _matrices(body)
-    free = _free(body, supported)
-    frequency, found = lowest_modes(stiffness[free][:, free], mass[free][:, free], solver, below=below)
-    shape = np.zeros((stiffness.shape[0], len(frequency)))
-    shape[free] = found
-    return frequency, shape
-
-
-def _matrices(body):
-    mesh = body.mesh
-    return assemble(mesh.node, mesh.element, mesh.kind, body.element_material, body.density, body.elasticity)
-
-
-def _free(body, supported):
-    return np.setdiff1d(np.arange(3 * len(body.mesh.node)), 3 * supported[:, None] + np.arange(3))
-
-
-def _body(body, frequency, shape):
-    mesh = body.mesh
-    return Body(node=mesh.node, element=mesh.element, kind=mesh.kind, element_material=body.element_material,
-                material_name=body.material_name, density=body.density, elasticity=body.elasticity,
-                damping_ratio=body.damping_ratio, frequency=frequency,
-                shape=shape.T.reshape(len(frequency), -1, 3), supported=body.supported)
+    return held_modes(*body.matrices(), supported, solver, below=below)
 
 
 def _law(friction_map, settings):
@@ -213,23 +185,15 @@ def _law(friction_map, settings):
 
 def _preload(brake, law, settings, context):
     """Contact force, stiffness and status at every pressure."""
-    stiffness = sp.block_diag([_matrices(body)[0] for body in brake.bodies], format="csr")
+    stiffness = sp.block_diag([body.matrices()[0] for body in brake.bodies], format="csr")
     joints = brake.joints.rows.matrix
     stiffness = stiffness + joints.T @ sp.diags(brake.joints.stiffness) @ joints
     sizes = np.cumsum([0, *(3 * len(b.mesh.node) for b in brake.bodies)])
-    free = np.concatenate([first + _free(b, b.supported) for first, b in zip(sizes, brake.bodies, strict=False)])
+    free = np.concatenate([first + free_freedoms(len(b.mesh.node), b.supported)
+                           for first, b in zip(sizes, brake.bodies, strict=False)])
     normal, piston = (rows.matrix[:, free] for rows in (brake.contacts.normal, brake.piston))
     compliance, closure = condense(stiffness[free][:, free], normal, piston.toarray()[0] * brake.pad_area,
                                    context.solver)
     found = [solve_preload(compliance, p * closure, brake.contacts.area, *law) for p in settings.pressures]
     return {"pressure": settings.pressures, "preload": [f.force for f in found],
             "contact_stiffness": [f.stiffness for f in found], "closed": [f.closed.astype(int) for f in found]}
-
-
-def _incidence(rows):
-    parts = [part.tocoo() for part in rows.parts]
-    body = np.repeat(np.arange(len(parts)), [part.nnz for part in parts])
-    row, column, weight = (np.concatenate([getattr(part, name) for part in parts]) for name in ("row", "col", "data"))
-    used = weight != 0
-    return Incidence(rows=parts[0].shape[0], row=row[used], body=body[used], node=column[used] // 3,
-                     axis=column[used] % 3, weight=weight[used])

@@ -10,6 +10,7 @@ from pipeline.physics.rough_surface import plateau_pad, turned_disc
 from pipeline.physics.topography import isotropic_spectrum, level, read_scan, remove_outliers, statistics, to_grid
 from pipeline.products import Surface
 
+#: the two surfaces by their sections of the settings
 BODIES = ("disc", "pad")
 
 
@@ -64,6 +65,7 @@ class Settings(Section):
     disc_thickness: Quantity("m", gt=0) = option("1 mm", "depth of the disc block under its surface")
     pad_thickness: Quantity("m", gt=0) = option("1 mm", "depth of the pad block under its surface")
     layer_growth: float = option(1.5, "thickness ratio of neighbouring FE layers; the first is a grid cube", ge=1)
+    bodies: tuple[str, str] = option(BODIES, "names of the bodies in the report, that of 'pad' last")
     disc: TurnedDisc | Scan = option(TurnedDisc(), "surface of the disc", discriminator="kind")
     pad: PlateauPad | Scan = option(PlateauPad(), "surface of the pad", discriminator="kind")
 
@@ -76,7 +78,7 @@ def surface(settings: Settings, context: Context) -> Surface:
     Both surfaces live on one periodic patch of {patch_length} edge with {nodes} nodes per edge and no wavelength
     below {shortest_wavelength}. Scans lose outliers by a local median test, holes by harmonic filling and their
     quadratic form, fade periodically at the margins and are scaled to the declared rms height; generated surfaces are
-    a turned disc (tool marks, roughness, grain outbreaks) and a pad of rough plateaus over a smoother matrix.
+    a turned disc (tool marks, roughness, grain outbreaks) and, against it, rough plateaus over a smoother matrix.
     """
     spacing = settings.patch_length / settings.nodes
     if settings.shortest_wavelength < 2.0 * spacing:
@@ -91,7 +93,7 @@ def surface(settings: Settings, context: Context) -> Surface:
         x=position, y=position, disc_height=heights[0], pad_height=heights[1],
         disc_depth=graded_depth(spacing, settings.disc_thickness, settings.layer_growth),
         pad_depth=graded_depth(spacing, settings.pad_thickness, settings.layer_growth),
-        body=BODIES, source=[m["source"] for m in made],
+        body=settings.bodies, source=[m["source"] for m in made],
         outlier_share=[m["outliers"] for m in made], filled_share=[m["filled"] for m in made],
         shortest_wavelength=[settings.shortest_wavelength] * 2,
         nodes_per_wavelength=[settings.shortest_wavelength / spacing] * 2,

@@ -5,43 +5,21 @@ from typing import Literal
 
 import numpy as np
 
-from pipeline.contract import ConfigError, Context, Quantities, Quantity, Section, option, stage
-from pipeline.physics.dry_friction import constant, falling
+from pipeline.benches.laws import Laws, friction_law, normal_law
+from pipeline.contract import ConfigError, Context, Quantities, Quantity, option, stage
+from pipeline.physics.dry_friction import constant
 from pipeline.physics.limit_cycle import cycle, harmonic_levels
 from pipeline.physics.sliding_model import sliding_model
 from pipeline.physics.spectra import power_spectrum
-from pipeline.physics.tangential_law import tangential_law
-from pipeline.physics.time_stepping import Forward, Hard, History, Lagrange, Penalty, Start, Table, simulate
+from pipeline.physics.time_stepping import History, Start, simulate
 from pipeline.physics.time_stepping_linear import modal_system
 from pipeline.physics.time_stepping_start import random_kick, steady_start
 from pipeline.products import ReducedModel, Transient
 
 
-class Settings(Section):
+class Settings(Laws):
     """Contact, friction, operating points, and what is kept of the motion."""
 
-    contact: Literal["hard", "penalty", "table", "lagrange", "forward"] = option(
-        "hard", "hard: impulses on velocities; penalty: linear spring and damper; table: the contact law of the model;"
-        " lagrange: multipliers on displacements under Newmark's rule; forward: multipliers as explicit codes set them,"
-        " a step ahead")
-    restitution: float = option(0.0, "hard: rebound velocity over impact velocity", ge=0, le=1)
-    contact_stiffness: Quantity("N/m", gt=0) | None = option(
-        None, "penalty: stiffness of each contact; none = that of the model about its preload")
-    contact_damping: Quantity("N s/m", ge=0) = option("0 N s/m", "penalty: damping of each contact")
-    damping_speed: Quantity("m/s", gt=0) = option("1 m/s", "table: closing speed that doubles the contact force")
-    gamma: float = option(0.5, "Newmark's gamma; 0.5 trapezoidal, more damps the highest modes", ge=0.5, le=1)
-    rule: Literal["exact", "newmark"] = option(
-        "exact", "penalty: exact: linear part exactly; newmark: all by Newmark's rule, as FE codes do")
-    friction: float | None = option(
-        None, "coefficient of friction at high slip speed; none = that of the model about its preload", ge=0)
-    friction_at_rest: float | None = option(None, "coefficient as the slip speed goes to zero; none = the same", ge=0)
-    decay_speed: Quantity("m/s", gt=0) = option("10 mm/s", "slip speed over which friction falls from one to the other")
-    static_factor: float = option(1.0, "hold of a sticking contact over friction at rest", ge=1)
-    description: Literal["rigid", "elastic", "evolution"] = option("rigid", "how a contact sticks (1999, section 4)")
-    tangential_stiffness: Quantity("N/m", gt=0) | None = option(
-        None, "elastic and evolution: stiffness of each contact; none = that of the model about its preload")
-    exponent: float | None = option(
-        None, "evolution: how gradually slip sets in, 1/3 is one Hertz contact; none = that of the model", gt=0)
     speeds: Quantities("rad/s") = option(("1 rad/s",), "speeds of the drive, either sign, for each pressure")
     step: Quantity("s", gt=0) = option("1 us", "time step")
     duration: Quantity("s", gt=0) = option("0.5 s", "length of the motion")
@@ -108,7 +86,8 @@ def _move(model, settings, task):
     """Motion at one operating point: (row of the preload table, speed of the drive)."""
     state, speed = task
     sliding = sliding_model(model, state, speed)
-    law, friction = _law(model, sliding, settings), _friction(model, sliding, settings)
+    law = normal_law(model, sliding.contacts, settings, "transient")
+    friction = friction_law(model, sliding.contacts, settings, "transient")
     inputs = model.pressure[state] * model.input_area
     system = modal_system(sliding, settings.damping, settings.highest_frequency)
     drawn = {"sliding": friction, "pressed": constant(0.0)}.get(settings.start)
@@ -129,53 +108,6 @@ def _history(model, samples, constant):
 
 def _kicked(start, kick):
     return Start(np.zeros_like(kick), kick) if start is None else start.kicked(kick)
-
-
-def _law(model, sliding, settings):
-    """Normal law of the contacts."""
-    if settings.contact == "table":
-        if not len(model.law_closure):
-            raise ConfigError("transient.contact", "hard, penalty, lagrange or forward: no law comes with the contacts",
-                              "table")
-        return Table(model.law_closure, model.law_pressure, settings.damping_speed, model.contact_gap)
-    gap = model.contact_gap
-    if settings.contact == "penalty":
-        stiffness = sliding.contacts.stiffness if settings.contact_stiffness is None else settings.contact_stiffness
-        return Penalty(stiffness, settings.contact_damping, gap, settings.gamma if settings.rule == "newmark" else None)
-    return {"hard": Hard(settings.restitution, gap), "lagrange": Lagrange(settings.gamma, gap),
-            "forward": Forward(gap)}[settings.contact]
-
-
-def _friction(model, sliding, settings):
-    """Friction of the contacts: of the settings, or of the model about its preload."""
-    sticking = {"static_factor": settings.static_factor, "description": settings.description}
-    if settings.description != "rigid":
-        sticking |= _sticking(model, sliding, settings)
-    if settings.friction is None:
-        if settings.friction_at_rest is not None:
-            raise ConfigError("transient.friction", "a coefficient beside friction_at_rest", "none",
-                              "give both, or neither for the tangential law of the model")
-        return constant(_own_friction(model, sliding.contacts), **sticking)
-    at_rest = settings.friction if settings.friction_at_rest is None else settings.friction_at_rest
-    return falling(at_rest, settings.friction, settings.decay_speed, **sticking)
-
-
-def _own_friction(model, contacts):
-    """Coefficient of the model about its preload, mean weighted by the preload; 0 without contacts."""
-    if not len(contacts.area):
-        return 0.0
-    return float(np.average(tangential_law(model).at(contacts.pressure).friction, weights=contacts.preload))
-
-
-def _sticking(model, sliding, settings):
-    """Stiffness (c,) N/m and exponent of the elastic and the evolution description."""
-    stiffness, exponent = settings.tangential_stiffness, settings.exponent
-    if stiffness is None or (exponent is None and settings.description == "evolution"):
-        own = tangential_law(model).at(sliding.contacts.pressure)
-        per_area = own.elastic_stiffness if settings.description == "elastic" else own.stiffness
-        stiffness = per_area * sliding.contacts.area if stiffness is None else stiffness
-        exponent = float(own.exponent.mean()) if exponent is None else exponent
-    return {"stiffness": stiffness, "exponent": 1.0 if exponent is None else exponent}
 
 
 def _kept(signals):

@@ -26,13 +26,19 @@ MAY_IMPORT = {
     "pipeline.effects": {"pipeline.effects", "pipeline.physics", "pipeline.inference.priors",
                          "pipeline.contract.errors"},
     "pipeline.systems": {"pipeline.systems", "pipeline.physics", "pipeline.contract.errors"},
+    "pipeline.assembled": {"pipeline.products", "pipeline.physics"},
     "pipeline.published": {"pipeline.contract"},
     "pipeline.computed": {"pipeline.computed"},
     "pipeline.measured": {"pipeline.contract"},
     "pipeline.recordings": {"pipeline.recordings", "pipeline.products", "pipeline.contract"},
+    "pipeline.benches": {"pipeline.benches", "pipeline.products", "pipeline.effects", "pipeline.physics",
+                         "pipeline.inference.priors", "pipeline.contract"},
+    "pipeline.diagnosis": {"pipeline.diagnosis", "pipeline.benches", "pipeline.products", "pipeline.effects",
+                           "pipeline.inference", "pipeline.physics", "pipeline.contract"},
     "pipeline.views": {"pipeline.views", "pipeline.products", "pipeline.contract"},
-    "stages": {"pipeline.contract", "pipeline.products", "pipeline.physics", "pipeline.systems", "pipeline.published",
-               "pipeline.computed", "pipeline.views", "pipeline.recordings"},
+    "stages": {"pipeline.contract", "pipeline.products", "pipeline.physics", "pipeline.systems", "pipeline.assembled",
+               "pipeline.published", "pipeline.computed", "pipeline.views", "pipeline.recordings", "pipeline.benches",
+               "pipeline.diagnosis", "pipeline.inference.diagnose"},
     "pipeline.inspection": {"pipeline.contract"},
     "pipeline.schema": {"pipeline.contract"},
     "pipeline.console": {"pipeline.contract"},
@@ -115,7 +121,7 @@ def test_a_file_says_what_it_is(path):
 
 
 @pytest.mark.parametrize("folder", ["stages", "pipeline/physics", "pipeline/systems", "pipeline/recordings",
-                                    "pipeline/inference", "pipeline/effects"])
+                                    "pipeline/inference", "pipeline/effects", "pipeline/benches", "pipeline/diagnosis"])
 def test_every_file_has_its_test(folder):
     for path in ROOT.glob(f"{folder}/*.py"):
         if path.stem != "__init__":

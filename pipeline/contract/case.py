@@ -18,6 +18,14 @@ SOLVERS = ("auto", "pypardiso", "superlu")
 
 
 @dataclass(frozen=True)
+class CaseText:
+    """The name of a case and its whole document, origins included: what a completed case is written from."""
+
+    name: str
+    document: dict
+
+
+@dataclass(frozen=True)
 class CaseFile:
     """The YAML of a case, checked whole before anything is computed."""
 
@@ -50,6 +58,11 @@ class CaseFile:
         """The settings of a stage as the YAML gives them, with origins."""
         section = self.document.get(stage.name)
         return {} if section is None else section
+
+    def seen_from(self, folder):
+        """CaseText for a file in ``folder``: as run, with the files that it names as seen from there."""
+        document = {key: value for key, value in self.document.items() if key != "based_on"}
+        return CaseText(self.name, settings.seen_from(document, self.folders, folder))
 
     @property
     def digest(self):

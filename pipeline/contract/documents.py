@@ -50,6 +50,20 @@ def _unshared(value):
     return [_unshared(inner) for inner in value] if isinstance(value, list) else value
 
 
+def yaml_text(document):
+    """The document as YAML, keys in their order, long texts folded."""
+    return yaml.dump(_plain(document), sort_keys=False, allow_unicode=True, width=110, default_flow_style=None)
+
+
+def _plain(value):
+    """``value`` of plain types alone."""
+    if isinstance(value, dict):
+        return {str(key): _plain(inner) for key, inner in value.items()}
+    if isinstance(value, list | tuple):
+        return [_plain(inner) for inner in value]
+    return str(value) if isinstance(value, str) else value
+
+
 def parse_value(text):
     """One YAML value from the command line: ``--set key=TEXT``."""
     try:

@@ -148,12 +148,12 @@ class Run:
         now = self.fingerprint(stage)
         wall, cpu = time.perf_counter(), _cpu_seconds(context)
         with context.stage(stage):
-            output = stage.run(**inputs, settings=self.case.sections[stage.name], context=context)
+            output = stage(**inputs, settings=self.case.sections[stage.name], context=context)
         seconds = time.perf_counter() - wall
         if fingerprint.code_of(stage.run.__module__) != self.code[stage.name]:
             raise ProductError(f"stage {stage.name}", "the same code from begin to end", "code that changed meanwhile",
                                "run again")
-        companions = stage.companions(output) if stage.companions else {}
+        companions = stage.companions(output, self.case.seen_from(self.folder)) if stage.companions else {}
         for name in companions:     # gone first: a product never stands beside the companions of another one
             (self.folder / name).unlink(missing_ok=True)
         store.write(output, self.path(stage.output), {

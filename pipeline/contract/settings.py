@@ -9,12 +9,22 @@ and read from ``{thickness: 7 mm}`` or, with its origin, from
 ``{thickness: {value: 7 mm, origin: stated, source: "Table 1"}}``.
 """
 
+import os
 from dataclasses import dataclass
 from difflib import get_close_matches
 from pathlib import Path
 from typing import Annotated, get_args
 
-from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationError, ValidationInfo, WithJsonSchema
+from pydantic import (
+    BaseModel,
+    BeforeValidator,
+    ConfigDict,
+    Field,
+    ValidationError,
+    ValidationInfo,
+    WithJsonSchema,
+    create_model,
+)
 
 from pipeline.contract.errors import BrakechainError, ConfigError
 from pipeline.contract.units import example, to_si
@@ -30,6 +40,11 @@ class Section(BaseModel):
     model_config = ConfigDict(extra="forbid", frozen=True, validate_default=True, allow_inf_nan=False)
 
 
+def section(name, meaning, fields):
+    """A Section class from ``fields`` {key: (annotation, option)}, for keys that a catalogue gives."""
+    return create_model(name, __base__=Section, __doc__=meaning, **fields)
+
+
 @dataclass(frozen=True)
 class Unit:
     """Marks the SI unit of an annotated setting."""
@@ -40,7 +55,7 @@ class Unit:
 def Quantity(unit, **bounds):  # noqa: N802 - reads as a type in annotations
     """A float in the SI unit ``unit``; ``bounds`` are pydantic's gt, ge, lt, le."""
     spelt = {"type": ["string", "number"], "examples": [example(unit)], "x-unit": unit}
-    return Annotated[float, BeforeValidator(lambda v: _in_si(v, unit)), Field(**bounds), WithJsonSchema(spelt),
+    return Annotated[float, BeforeValidator(lambda v, info: _in_si(v, unit, info)), Field(**bounds), WithJsonSchema(spelt),
                      Unit(unit)]
 
 
@@ -54,7 +69,19 @@ def option(default, meaning, **more):
     return Field(default, description=meaning, **more)
 
 
-def _in_si(value, unit):
+def stored(section):
+    """A filled section as text, for a product that must be built again from it."""
+    return section.model_dump_json()
+
+
+def restored(cls, text):
+    """The section that ``stored`` wrote."""
+    return cls.model_validate_json(text, context={"stored": True})
+
+
+def _in_si(value, unit, info):
+    if (info.context or {}).get("stored") and isinstance(value, float | int):
+        return float(value)
     try:
         return to_si(value, unit, "")
     except ConfigError as error:
@@ -77,6 +104,23 @@ def written_in(folder, value):
         value = Written(value)
         value.folder = folder
     return value
+
+
+def seen_from(value, folders, place):
+    """The document ``value`` for a file in the folder ``place``: texts that name a file beside them, as seen from there.
+
+    ``folders``: where else the files of the case are looked for.
+    """
+    if isinstance(value, dict):
+        return {key: seen_from(inner, folders, place) for key, inner in value.items()}
+    if isinstance(value, list):
+        return [seen_from(inner, folders, place) for inner in value]
+    if not isinstance(value, str) or "/" not in value and "." not in value:
+        return value
+    beside = (value.folder,) if isinstance(value, Written) else ()
+    candidates = [Path(folder) / value for folder in (*beside, *folders)]
+    found = next((path for path in candidates if path.is_file()), None)
+    return str(value) if found is None else os.path.relpath(found, place)
 
 
 def _existing(value, info: ValidationInfo):

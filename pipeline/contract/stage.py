@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Union, get_args, get_origin, get_type_hints
 
 from pipeline.contract.context import Context
-from pipeline.contract.errors import ProductError
+from pipeline.contract.errors import ConfigError, ProductError
 from pipeline.contract.product import is_product
 from pipeline.contract.settings import Section
 
@@ -44,14 +44,29 @@ class Stage:
     settings: type      # settings class
     summary: str        # first docstring line: the CLI help
     method: str         # docstring paragraph after 'Method:': the sentence of the report
-    companions: Callable | None     # product -> {file name: str or bytes}, written beside it
+    companions: Callable | None     # (product, CaseText) -> {file name: str or bytes}, written beside it
     reads_case: bool    # True for the report: all it may tell about the case joins its hash
     check: Callable     # {stage: settings} -> None; refuses settings that do not fit those of other stages
 
     def __call__(self, *args, **kwargs):
-        """Run the pure function; ``context`` and optional inputs may be left out."""
+        """Run the pure function; ``context`` and optional inputs may be left out.
+
+        A ConfigError about something that is a setting of this stage names that setting.
+        """
         absent = dict.fromkeys(name for name in list(self.inputs)[len(args):] if name in self.optional)
-        return self.run(*args, **{"context": Context(), **absent, **kwargs})
+        try:
+            return self.run(*args, **{"context": Context(), **absent, **kwargs})
+        except ConfigError as error:
+            setting = self._setting(error.where)
+            if setting is None:
+                raise
+            raise ConfigError(setting, error.expected, error.found, error.remedy) from error
+
+    def _setting(self, where):
+        """'transient.step (time stepping)' for 'time stepping: step', 'steps' where it holds several; else None."""
+        part, _, found = str(where).rpartition(": ")
+        key = next((k for k in (found, f"{found}s") if part and k in self.settings.model_fields), None)
+        return key and f"{self.name}.{key} ({part})"
 
 
 def stage(run=None, *, companions=None, reads_case=False, check=lambda sections: None):

@@ -21,9 +21,9 @@ from pipeline.physics.elements import alone
 from pipeline.physics.friction_law import friction_at
 from pipeline.physics.friction_state_steps import MEMORY, SETTLING, factor_slope, rate_slopes
 from pipeline.physics.friction_states import factors, shapeless, started, state_kernel
-from pipeline.physics.normal_law import tangent
 from pipeline.physics.sliding_model import FrictionState, spread
 from pipeline.physics.time_stepping_elements import no_memory
+from pipeline.physics.time_stepping_laws import tangent
 from pipeline.physics.time_stepping_start import steady_start
 
 

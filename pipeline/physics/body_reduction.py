@@ -15,6 +15,7 @@ from pipeline.physics.elasticity import assemble, centrifugal_load, geometric_st
 from pipeline.physics.linear_solver import factorise
 from pipeline.physics.mesh import Mesh, boundary_faces
 from pipeline.physics.reduction import attachment, craig_bampton, independent_rows, modal_damping, projected
+from pipeline.physics.supports import free_freedoms
 
 
 @dataclass(frozen=True)
@@ -40,6 +41,10 @@ class ElasticBody:
     frequency: np.ndarray
     modes: np.ndarray
 
+    def matrices(self):
+        """Stiffness and mass (3n, 3n) sparse of the body, supports not yet held."""
+        return assemble(self.node, self.element, self.kind, self.material, self.density, self.elasticity)
+
 
 @dataclass(frozen=True)
 class BodyTerms:
@@ -62,8 +67,8 @@ def reduce_body(body, fixed_below, residual_below, solver):
     ``fixed_below`` [Hz] limits the fixed-interface modes of a free body, ``residual_below`` [Hz] the pseudo-frequencies
     of the residual shapes of both kinds. Raises ConfigError for a turning body without supports.
     """
-    stiffness, mass = assemble(body.node, body.element, body.kind, body.material, body.density, body.elasticity)
-    free = np.setdiff1d(np.arange(3 * len(body.node)), 3 * body.supported[:, None] + np.arange(3))
+    stiffness, mass = body.matrices()
+    free = free_freedoms(len(body.node), body.supported)
     stiffness, mass, rows = stiffness[free][:, free], mass[free][:, free], sp.csr_matrix(body.rows)[:, free]
     interface = rows[body.interface]
     interface = interface[independent_rows(interface)]

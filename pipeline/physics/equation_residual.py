@@ -19,8 +19,8 @@ from pipeline.physics.contact_groups import read
 from pipeline.physics.element_forces import element_force, turn
 from pipeline.physics.elements import alone
 from pipeline.physics.friction_states import friction_along
-from pipeline.physics.normal_law import force_along
 from pipeline.physics.time_stepping_elements import no_memory, surface_shift
+from pipeline.physics.time_stepping_laws import force_along
 
 _SMALLEST_SHARE = 1e-9
 

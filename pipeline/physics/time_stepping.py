@@ -15,32 +15,34 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from pipeline.contract.errors import ConfigError, ConvergenceError
-from pipeline.physics.contact_groups import parts
-from pipeline.physics.dry_friction import FACTOR, RIGID, STIFFNESS, coefficient, constant, kernel
+from pipeline.physics.dry_friction import FACTOR, coefficient, constant, kernel
 from pipeline.physics.element_forces import TOO_STIFF, UNSETTLED
-from pipeline.physics.elements import element_kernel
-from pipeline.physics.friction_state_steps import MEMORY
 from pipeline.physics.friction_states import factors, started, state_kernel
-from pipeline.physics.normal_law import Forward, Hard, Lagrange, Penalty, Table, normal_force, normal_kernel
 from pipeline.physics.time_stepping_contact import (
     JAMMED,
-    LARGEST_STIFFNESS,
     OPEN,
-    PENALTY,
     SLIP,
     SOLVED,
     STICK,
-    TABLE,
     TOO_LONG,
     UNCONVERGED,
 )
 from pipeline.physics.time_stepping_elements import no_memory, surface_shift
-from pipeline.physics.time_stepping_linear import modal_system, newmark_matrices, step_matrices
-from pipeline.physics.time_stepping_march import HistoryKernel, LinearKernel, Record, march
+from pipeline.physics.time_stepping_kernels import elements_kernel, linear_kernel, refuse
+from pipeline.physics.time_stepping_laws import (
+    Forward,
+    Hard,
+    Lagrange,
+    Penalty,
+    Table,
+    contiguous,
+    normal_force,
+    normal_kernel,
+)
+from pipeline.physics.time_stepping_linear import modal_system
+from pipeline.physics.time_stepping_march import HistoryKernel, Record, march
 
 __all__ = ["Forward", "Hard", "History", "Lagrange", "Motion", "Penalty", "Start", "Table", "imposed", "simulate"]
-#: fewest steps in a period of the highest mode
-STEPS_PER_PERIOD = 2.5
 
 
 @dataclass(frozen=True)
@@ -129,18 +131,17 @@ def simulate(model, law, friction=None, *, step, duration, drive=None, inputs=No
     system = modal_system(model) if system is None else system
     friction = friction or constant(0.0)
     normal, dry = normal_kernel(law, model.contacts), kernel(friction, len(model.contacts.area))
-    linear = _linear(model, system, law, dry, step)
-    states = state_kernel(friction, model.contacts.area)
-    _check(system, linear, normal, dry, states, model, step)
+    linear, states = linear_kernel(model, system, law, dry, step), state_kernel(friction, model.contacts.area)
+    refuse(system, linear, normal, dry, states, model, step)
     rest = np.zeros(model.size)
     start = Start(rest, rest) if start is None else start
-    elements = _elements(model, system, linear)
-    memory = no_memory(elements) if start.memory is None else _own(start.memory)
+    elements = elements_kernel(model, system, linear)
+    memory = no_memory(elements) if start.memory is None else contiguous(start.memory)
     pairs, force, status, value = _begin(model, system, normal, dry, start, _speed_at_start(model, drive), elements,
                                          states)
     record = _empty(linear, elements, len(value), steps // record_every + 1, start.angle)
     code, number, contact = march(
-        linear, normal, dry, elements, states, _own(model.contacts.lever),
+        linear, normal, dry, elements, states, contiguous(model.contacts.lever),
         _history(model.speed if drive is None else drive, 1, "drive"), _inputs(model, inputs), pairs, force, status,
         memory, value, float(start.age), float(step), steps, int(record_every), bool(book), record)
     if code != SOLVED:
@@ -160,91 +161,6 @@ def imposed(model, joint):
                    input_rows=np.vstack((model.input_rows, row)))
 
 
-def _linear(model, system, law, dry, step):
-    """LinearKernel: rows of contacts, inputs and elements, seen and driven through one step."""
-    contacts, count = model.contacts, len(model.contacts.area)
-    law = parts(law, count)[0][0]       # those of all groups are stepped alike
-    gamma = getattr(law, "gamma", None)
-    matrices = step_matrices(system, step) if gamma is None else newmark_matrices(system, step, gamma)
-    forced = system.driven(np.vstack((contacts.normal, contacts.tangent, model.input_rows, -_element_rows(model))))
-    first, last = (np.einsum("bxy,ryb->rxb", matrix, forced) for matrix in matrices[1:])
-    kicks = isinstance(law, Forward)
-    hold = np.array([kicks or isinstance(law, Hard), dry.description == RIGID])
-    if gamma is not None:
-        hold[:] = False
-    for f in np.flatnonzero(hold):
-        own = slice(f * count, (f + 1) * count)
-        flown = step * np.einsum("bxy,ryb->rxb", matrices[0], forced[own])
-        last[own], first[own] = flown if kicks else first[own] + last[own], 0.0
-    rows = np.concatenate([system.observed(r) for r in (contacts.normal, contacts.tangent)])
-    response = np.einsum("oibx,fjbx->ofij", rows, last[:2 * count].reshape(2, count, *last.shape[1:]))
-    struck = step * np.repeat(hold, count)[:, None, None] * forced[:2 * count]
-    energy, power = _forms(system)
-    arrays = (np.moveaxis(matrices[0], 0, 2), first, last, _stacked(rows), response,
-              system.observed(model.input_rows)[0], _stacked(system.observed(model.sensor_rows)), hold, system.squared,
-              np.diag(system.damping), energy, power, struck if kicks else struck[:0])
-    return LinearKernel(*(_own(a) for a in arrays))
-
-
-def _element_rows(model):
-    return np.array([e.row for e in model.elements], float).reshape(-1, model.size)
-
-
-def _elements(model, system, linear):
-    """ElementKernel: rows of the elements, seen and driven through one step, with those of the contacts."""
-    count, elements = len(model.contacts.area), len(model.elements)
-    seen = system.observed(_element_rows(model))
-    drawn, pressed = linear.last[len(linear.last) - elements:], linear.last[:2 * count]
-    contact_rows = linear.rows.reshape(4, count, *linear.rows.shape[1:])
-    arrays = {"rows": _stacked(seen), "own": np.einsum("oeax,fax->oef", seen, drawn),
-              "to_contacts": np.einsum("ocax,fax->ocf", contact_rows, drawn),
-              "to_elements": np.einsum("oeax,fax->oef", seen, pressed).reshape(2, elements, 2, count)}
-    return element_kernel(model.elements, model.contacts.waviness, **{n: _own(a) for n, a in arrays.items()})
-
-
-def _stacked(rows):
-    """(a, r, 2, m) as (a r, 2, m)."""
-    return rows.reshape(-1, *rows.shape[2:])
-
-
-def _own(values):
-    """A writable, contiguous copy: one type of array for all compiled calls."""
-    return np.array(values, dtype=float, order="C")
-
-
-def _forms(system):
-    """Quadratic forms (2m, 2m) of energy and loss in coupled pairs; empty where the modes are the pairs."""
-    if not system.coupled:
-        return np.empty((0, 0)), np.empty((0, 0))
-    place, speed = np.split(system.state.reshape(len(system.state), -1), 2)
-    drag = (system.damping + system.damping.T) / 2
-    return (speed.T @ speed + place.T @ (system.squared[:, None] * place)) / 2, speed.T @ drag @ speed
-
-
-def _check(system, linear, normal, dry, states, model, step):
-    """Refuse, before the first step, one that is too long, contacts that nothing can move, memory of impulses."""
-    if np.any(states.kind == MEMORY) and (normal.kind not in (PENALTY, TABLE) or normal.newmark):
-        raise ConfigError("time stepping: friction with memory", "contacts that yield, Penalty or Table without gamma",
-                          "another law", "give the contacts a stiffness")
-    if not normal.newmark and system.highest * step > 2 * np.pi / STEPS_PER_PERIOD:
-        longest = 2 * np.pi / STEPS_PER_PERIOD / system.highest
-        raise ConfigError("time stepping: step", f"at most {longest:.3g} s, {STEPS_PER_PERIOD:g} steps in a period of"
-                          f" the highest mode ({system.highest / (2 * np.pi):.4g} Hz)", f"{step:.3g} s",
-                          "shorten the step, or leave out the highest modes")
-    for i in range(len(normal.gap)):
-        if normal.fixed[i] < 0 and not linear.response[1, 0, i, i] > 0:
-            raise ConfigError(f"time stepping: contact {i}", "bodies that its normal force moves", "none")
-        if normal.newmark:
-            continue
-        found = [normal.stiffness[i] * linear.response[0, 0, i, i]]
-        if dry.description != RIGID:
-            found.append(dry.contact[i, STIFFNESS] * linear.response[2, 1, i, i])
-        if max(found) > LARGEST_STIFFNESS:
-            longest = step * np.sqrt(LARGEST_STIFFNESS / max(found))
-            raise ConfigError("time stepping: step", f"at most about {longest:.2g} s for the stiffness of contact {i}",
-                              f"{step:.3g} s", "shorten the step, soften the contact, or take hard contacts")
-
-
 def _begin(model, system, normal, dry, start, speed, elements, states):
     """Pairs (2, m), forces (2, c), status (c,) and states of friction (k, 2) at time 0."""
     contacts = model.contacts
@@ -260,12 +176,12 @@ def _begin(model, system, normal, dry, start, speed, elements, states):
         force[0] = np.where(yields, force[0], start.normal)
     force[0] = np.where(normal.fixed >= 0, normal.fixed, force[0])
     closed = (gap <= 0) | (force[0] > 0)
-    value = started(states, force[0], slip) if start.states is None else _own(start.states)
+    value = started(states, force[0], slip) if start.states is None else contiguous(start.states)
     dry.contact[:, FACTOR] = factors(states, value, start.angle)
     mu = [coefficient(dry, i, force[0, i] / contacts.area[i], slip[i], slip[i]) for i in range(len(gap))]
     force[1] = np.sign(slip) * mu * force[0] if start.friction is None else start.friction
     status = np.where(closed, np.where(slip == 0, STICK, SLIP), OPEN).astype(np.int64)
-    return _own(system.to_pairs(start.displacement, start.velocity)), force, status, value
+    return contiguous(system.to_pairs(start.displacement, start.velocity)), force, status, value
 
 
 def _speed_at_start(model, drive):
@@ -276,7 +192,7 @@ def _speed_at_start(model, drive):
 
 def _history(given, width, where):
     history = given if isinstance(given, History) else History(np.reshape(given, (1, width)), 1.0)
-    value = _own(np.reshape(history.value, (len(history.value), -1)))
+    value = contiguous(np.reshape(history.value, (len(history.value), -1)))
     if value.shape[1] != width or not np.isfinite(value).all() or not history.interval > 0:
         raise ConfigError(f"time stepping: {where}", f"finite samples of {width} values at a positive interval",
                           f"{value.shape[1]} values at {history.interval:g} s")
@@ -309,12 +225,12 @@ def _failure(code, time, contact, step, model):
     if code in (TOO_STIFF, UNSETTLED):
         where = f"time stepping at t = {time:.6g} s, element {model.elements[contact].name}"
         if code == TOO_STIFF:
-            return ConfigError(where, "at least 8 steps in a period of the element", f"steps of {step:.3g} s",
-                               "shorten the step, or soften the element")
+            return ConfigError(f"{where}: step", "at least 8 steps in a period of the element",
+                               f"steps of {step:.3g} s", "shorten the step, or soften the element")
         return ConvergenceError(where, "a force that settles", "none after the last sweep", "take a shorter step")
     where = f"time stepping at t = {time:.6g} s, contact {contact}"
     if code == TOO_LONG:
-        return ConfigError(where, "at least 8 steps in a period of the contact", f"steps of {step:.3g} s",
+        return ConfigError(f"{where}: step", "at least 8 steps in a period of the contact", f"steps of {step:.3g} s",
                            "shorten the step, or soften the contact")
     if code == JAMMED:
         return ConvergenceError(where, "contact forces that stop the approach", "friction that jams the contact",

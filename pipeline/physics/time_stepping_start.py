@@ -19,9 +19,9 @@ from pipeline.physics.dry_friction import coefficients
 from pipeline.physics.element_forces import DRY, element_force, wave
 from pipeline.physics.elements import alone
 from pipeline.physics.friction_states import factors, started, state_kernel
-from pipeline.physics.normal_law import closing
 from pipeline.physics.time_stepping import Start
 from pipeline.physics.time_stepping_elements import no_memory
+from pipeline.physics.time_stepping_laws import closing
 
 _ROUNDS = 200
 _TOLERANCE = 1e-10

@@ -8,6 +8,7 @@ radially outwards. A relative displacement is pad minus disc: positive normal op
 
 from pipeline.products.beams import BeamGeometry, BeamOnBeam, MotionScatter
 from pipeline.products.bodies import Body, Incidence
+from pipeline.products.diagnosis import Bench, BenchRun, DiagnosedRun, Diagnosis, Effects, Located
 from pipeline.products.friction import FrictionDescriptions, FrictionMap, InterfaceLaw, MicroFriction
 from pipeline.products.lumped import Lumped
 from pipeline.products.motion import ComplexModes, Multibody, Transient
@@ -30,8 +31,8 @@ from pipeline.products.sound import Response, Squeal
 from pipeline.products.structure import Structure
 from pipeline.products.surfaces import Surface
 
-__all__ = ["BeamGeometry", "BeamOnBeam", "Body", "Channel", "Comparison", "ComplexModes", "Condition",
-           "FrequencyResponse", "FrictionDescriptions", "FrictionMap", "Incidence", "InterfaceLaw", "Lines", "LockIn",
-           "Lumped", "MeasuredFriction", "MeasuredModes", "MicroFriction", "MotionScatter", "Multibody", "PinOnDisc",
-           "Recording", "ReducedModel", "Report", "Response", "Run", "Rupture", "Squeal", "Structure", "Surface",
-           "Topography", "Transient"]
+__all__ = ["BeamGeometry", "BeamOnBeam", "Bench", "BenchRun", "Body", "Channel", "Comparison", "ComplexModes",
+           "Condition", "DiagnosedRun", "Diagnosis", "Effects", "FrequencyResponse", "FrictionDescriptions",
+           "FrictionMap", "Incidence", "InterfaceLaw", "Lines", "Located", "LockIn", "Lumped", "MeasuredFriction",
+           "MeasuredModes", "MicroFriction", "MotionScatter", "Multibody", "PinOnDisc", "Recording", "ReducedModel",
+           "Report", "Response", "Run", "Rupture", "Squeal", "Structure", "Surface", "Topography", "Transient"]

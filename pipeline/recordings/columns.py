@@ -1,6 +1,8 @@
 """Files that hold columns under names and nothing else: MATLAB, plain HDF5 and text tables."""
 
 import csv
+import struct
+from io import BytesIO
 from pathlib import Path
 
 import numpy as np
@@ -22,29 +24,47 @@ def read_columns(path):
         return read_matlab(path)
     if kind not in (".h5", ".hdf5"):
         return read_table(path)
-    try:
-        return _vectors(_read_hdf5(path), path)
-    except OSError as error:
-        raise ConfigError(path, "an HDF5 file", str(error)) from None
+    return _vectors(_read_hdf5(path, "an HDF5 file"), path)
 
 
 def read_matlab(path):
     """Name -> 1-D array of every numeric variable of a MATLAB file, version 4 to 7.3; vectors lose their second axis.
 
-    Raises ConfigError for a file that is no MATLAB file or holds no numbers.
+    Raises ConfigError for a file that is no MATLAB file, is cut off or holds no numbers.
     """
+    path = Path(path)
+    try:
+        content = path.read_bytes()
+    except OSError as error:
+        raise ConfigError(path, "a readable MATLAB file", str(error)) from None
+    if content.startswith(b"MATLAB 7.3 MAT-file"):
+        return _vectors(_read_hdf5(path, "a MATLAB file of version 7.3"), path)
+    return _vectors(_decoded(content, path), path)
+
+
+def _decoded(content, path):
+    """Variables of a MATLAB file of version 4 to 7; a file that is cut off or damaged is refused."""
     from scipy.io import loadmat
     from scipy.io.matlab import MatReadError
 
-    path = Path(path)
+    if 0 not in content[:4]:        # version 4 begins with a small number, later ones with text
+        byte_order = {b"IM": "<", b"MI": ">"}.get(content[126:128])
+        if not byte_order:
+            raise ConfigError(path, "a MATLAB file", "another kind of file, or none")
+        if not _whole(content, byte_order):
+            raise ConfigError(path, "a whole MATLAB file", "one that is cut off", "copy it again")
     try:
-        if path.read_bytes()[:19].startswith(b"MATLAB 7.3 MAT-file"):
-            found = _read_hdf5(path)
-        else:
-            found = {k: v for k, v in loadmat(path).items() if not k.startswith("__")}
-    except (MatReadError, OSError, ValueError, NotImplementedError, TypeError) as error:
-        raise ConfigError(path, "a MATLAB file", str(error)) from None
-    return _vectors(found, path)
+        return {k: v for k, v in loadmat(BytesIO(content)).items() if not k.startswith("__")}
+    except (MatReadError, TypeError, ValueError) as error:
+        raise ConfigError(path, "an undamaged MATLAB file", str(error)) from None
+
+
+def _whole(content, byte_order):
+    """True where the elements behind the head of 128 bytes end with the file (MathWorks, MAT-File Format, level 5)."""
+    end = 128
+    while end + 8 <= len(content):
+        end += 8 + struct.unpack_from(f"{byte_order}I", content, end + 4)[0]
+    return end == len(content)
 
 
 def _vectors(found, path):
@@ -57,11 +77,14 @@ def _vectors(found, path):
     return columns
 
 
-def _read_hdf5(path):
+def _read_hdf5(path, expected):
     import h5py
 
-    with h5py.File(path, "r") as h5:
-        return {name: node[()] for name, node in h5.items() if isinstance(node, h5py.Dataset)}
+    try:
+        with h5py.File(path, "r") as h5:
+            return {name: node[()] for name, node in h5.items() if isinstance(node, h5py.Dataset)}
+    except OSError as error:
+        raise ConfigError(path, expected, str(error)) from None
 
 
 def read_table(path, delimiter=None, skip=0):

@@ -13,8 +13,8 @@ import numpy as np
 from scipy.linalg import eigh
 
 from pipeline.contract.errors import ConfigError
-from pipeline.physics.hard_coalescence import ContactModes, coalescences
-from pipeline.systems.beam_on_beam import build
+from pipeline.physics.hard_coalescence import coalescences
+from pipeline.systems.beam_on_beam import build, joined
 
 #: name, lower and upper bound; lengths in mm, widths and damping as logarithms, stiffnesses as powers of ten (SI)
 PARAMETERS = (
@@ -73,15 +73,8 @@ def described(vector, tilt=TILT):
 
 def modes_of(bodies):
     """(ContactModes, sensor row, load row) of all modes of both beams."""
-    squared, normal, tangent, sensor, load = [], [], [], [], []
-    for sign, body in zip((1, -1), bodies, strict=True):
-        own, shape = eigh(body.stiffness.toarray(), body.mass.toarray())
-        squared.append(np.maximum(own, 0.0))
-        for rows, row in ((tangent, sign * body.contact[0]), (normal, sign * body.contact[1]), (sensor, body.sensor[0]),
-                          (load, body.load[0])):
-            rows.append(row @ shape)
-    join = np.concatenate
-    return ContactModes(join(squared), join(normal), join(tangent)), join(sensor), join(load)
+    squared, shapes = zip(*(eigh(b.stiffness.toarray(), b.mass.toarray()) for b in bodies), strict=True)
+    return joined(bodies, [np.maximum(own, 0.0) for own in squared], shapes)
 
 
 def linear(vector, tilt=TILT):

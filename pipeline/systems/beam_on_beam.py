@@ -17,6 +17,7 @@ import numpy as np
 import scipy.sparse as sp
 
 from pipeline.contract.errors import ConfigError
+from pipeline.physics.hard_coalescence import ContactModes
 from pipeline.physics.plane_stress import sheet
 from pipeline.physics.timoshenko import BeamSection, beam
 
@@ -72,9 +73,9 @@ def build(parameters, element="plane"):
 def slider(parameters, element):
     """P1 from its tip to A; stations tip, sensor, A."""
     p = parameters.slider
-    up = np.array([np.sin(p.tilt), np.cos(p.tilt)])
+    up = upwards(parameters)
     reach = parameters.contact.offset * p.thickness / 2 * np.array([up[1], -up[0]])
-    tip = np.array([parameters.contact.distance, parameters.track.thickness / 2]) - reach
+    tip = touching(parameters) - reach
     strip = _strip(parameters, p, tip, up, [0.0, parameters.sensor.height, p.length], element, patch=None)
     foot, sensed, end = strip.sections
     heavy = strip.mass + parameters.contact.mass * end[1:2].T @ end[1:2]
@@ -93,6 +94,29 @@ def track(parameters, element):
     lever = np.array([0.0, c.lever * p.thickness / 2])
     nothing = np.zeros((2, len(clamp[0])))
     return _body("track", strip, stiffness, strip.mass, held, _moved(contact, lever), nothing, nothing[:1])
+
+
+def touching(parameters):
+    """(2,) m: the point of the track where the slider stands."""
+    return np.array([parameters.contact.distance, parameters.track.thickness / 2])
+
+
+def upwards(parameters):
+    """(2,) unit vector along the axis of the slider, from its tip to A."""
+    return np.array([np.sin(parameters.slider.tilt), np.cos(parameters.slider.tilt)])
+
+
+def joined(bodies, squared, shapes):
+    """(ContactModes, sensor row (m,), load row (m,)) of slider and track in one numbering of their modes.
+
+    Of each body ``squared`` (k,) rad^2/s^2 and mass-normalised ``shapes`` (n, k). Rows of the contact are slider less
+    track; the sensor reads x.
+    """
+    (slider, track), (own, other) = bodies, shapes
+    tangent, normal = (np.r_[slider.contact[axis] @ own, -track.contact[axis] @ other] for axis in range(2))
+    sensor, load = (np.r_[upper[0] @ own, lower[0] @ other]
+                    for upper, lower in ((slider.sensor, track.sensor), (slider.load, track.load)))
+    return ContactModes(np.concatenate(squared), normal, tangent), sensor, load
 
 
 def check(parameters):

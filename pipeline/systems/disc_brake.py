@@ -15,8 +15,9 @@ import numpy as np
 
 from pipeline.contract.errors import ConfigError
 from pipeline.physics.elasticity import isotropic, orthotropic
-from pipeline.physics.mesh import Mesh, boundary_faces, face_normals, read_mesh, revolve
-from pipeline.systems.disc_brake_rows import Contacts, Joints, Rows, contacts, joints, piston_rows, sensor_rows
+from pipeline.physics.mesh import boundary_faces, face_normals, read_mesh, revolve
+from pipeline.systems.disc_brake_rows import contacts, joints, piston_rows, sensor_rows
+from pipeline.systems.solids import Assembly, Rows, Solid
 
 BODIES = ("disc", "pad_outer", "pad_inner", "caliper")
 #: a mount counts as rigid when the web bends into it over less than this share of the clamped width
@@ -26,28 +27,9 @@ _SEPARATION_SHARE = 0.4
 
 
 @dataclass(frozen=True)
-class ElasticBody:
-    """Mesh, material row of each element, material table, rigidly held nodes."""
+class DiscBrake(Assembly):
+    """Bodies in the order of BODIES, and the piston row."""
 
-    mesh: Mesh
-    element_material: np.ndarray
-    material_name: tuple
-    density: np.ndarray
-    elasticity: np.ndarray
-    damping_ratio: float
-    supported: np.ndarray
-
-
-@dataclass(frozen=True)
-class DiscBrake:
-    """Bodies in the order of BODIES, their joints, contacts, sensors and the piston row."""
-
-    bodies: tuple
-    joints: Joints
-    contacts: Contacts
-    sensors: Rows
-    sensor_position: np.ndarray
-    sensor_direction: np.ndarray
     piston: Rows
     pad_area: float
 
@@ -63,14 +45,14 @@ def build(parameters):
     sensors, position, direction = sensor_rows([b.mesh for b in bodies], parameters)
     meshes = [b.mesh for b in bodies]
     return DiscBrake(bodies, joints(meshes, parameters), touching, sensors, position, direction,
-                     piston_rows(meshes, parameters), float(touching.area[touching.pad == 1].sum()))
+                     piston_rows(meshes, parameters), float(touching.area[touching.body == 1].sum()))
 
 
 def disc(parameters):
     """Stepped disc: friction ring centred on z = 0, web flush with the inner face, clamped by the bolts."""
     mesh = read_mesh(parameters.mesh_file) if parameters.mesh_file else disc_mesh(parameters)
     elasticity = isotropic(parameters.young, parameters.poisson)
-    return ElasticBody(mesh, np.zeros(len(mesh.element), int), ("cast iron",), np.array([parameters.density]),
+    return Solid(mesh, np.zeros(len(mesh.element), int), ("cast iron",), np.array([parameters.density]),
                        elasticity[None], parameters.damping_ratio, clamped_nodes(mesh, parameters))
 
 
@@ -129,7 +111,7 @@ def pad(parameters, side):
     lining = orthotropic((p.lining_young_radial, p.lining_young_tangential, p.lining_young_normal),
                          (p.lining_poisson,) * 3,
                          (p.lining_shear_normal, p.lining_shear_normal, p.lining_shear_in_plane))
-    return ElasticBody(mesh, (layer == p.lining_layers).astype(int), ("lining", "steel"),
+    return Solid(mesh, (layer == p.lining_layers).astype(int), ("lining", "steel"),
                        np.array([p.lining_density, p.backplate_density]),
                        np.array([lining, isotropic(p.backplate_young, p.backplate_poisson)]), p.damping_ratio,
                        np.empty(0, int))
@@ -146,7 +128,7 @@ def caliper(parameters):
     mask = np.ones((len(radius) - 1, p.angular_cells, len(middle)), bool)
     mask[:-1, :, (middle > front) & (middle < back)] = False
     mesh = revolve(radius, np.linspace(-p.angle / 2, p.angle / 2, p.angular_cells + 1), line, mask)
-    return ElasticBody(mesh, np.zeros(len(mesh.element), int), ("ductile iron",), np.array([p.density]),
+    return Solid(mesh, np.zeros(len(mesh.element), int), ("ductile iron",), np.array([p.density]),
                        isotropic(p.young, p.poisson)[None], p.damping_ratio, np.empty(0, int))
 
 

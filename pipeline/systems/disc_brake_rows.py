@@ -1,7 +1,6 @@
 """Joints, contact patches, sensors and the piston of the disc brake as displacement rows.
 
-A row holds one weight per body and degree of freedom (3 node + axis). What is not meshed is a
-spring with a damper between two such surface means: fingers and piston on the backplates, pads in
+What is not meshed is a spring with a damper between two surface means: fingers and piston on the backplates, pads in
 their abutments, guide pins.
 """
 
@@ -12,45 +11,12 @@ import scipy.sparse as sp
 
 from pipeline.physics.faces import along, face_points, surface_rows
 from pipeline.physics.mesh import boundary_faces, face_normals
+from pipeline.systems.solids import Contacts, Joints, Rows
 
 DISC, OUTER, INNER, CALIPER = range(4)
 _AXES = {"radial": 0, "tangential": 1, "axial": 2}
 #: points per direction that sample a spot
 _SPOT_POINTS = 5
-
-
-@dataclass(frozen=True)
-class Rows:
-    """One (rows, 3 nodes) sparse matrix per body."""
-
-    parts: tuple
-
-    @property
-    def matrix(self):
-        """All bodies side by side."""
-        return sp.hstack(self.parts, format="csr")
-
-
-@dataclass(frozen=True)
-class Joints:
-    """Springs [N/m] and dampers [N s/m] along rows."""
-
-    name: tuple
-    stiffness: np.ndarray
-    damping: np.ndarray
-    rows: Rows
-
-
-@dataclass(frozen=True)
-class Contacts:
-    """Patches between the pads and the disc: pad (body), centroid, area and three relative displacements."""
-
-    pad: np.ndarray
-    position: np.ndarray
-    area: np.ndarray
-    normal: Rows
-    tangent: Rows
-    lateral: Rows
 
 
 @dataclass(frozen=True)

@@ -19,8 +19,8 @@ from pipeline.physics.elasticity import assemble, isotropic
 from pipeline.physics.faces import along, surface_rows
 from pipeline.physics.linear_solver import factorise
 from pipeline.physics.mesh import Mesh, block, boundary_faces, face_normals, revolve
-from pipeline.systems.disc_brake import ElasticBody
-from pipeline.systems.disc_brake_rows import Contacts, Joints, Rows
+from pipeline.physics.supports import free_freedoms
+from pipeline.systems.solids import Assembly, Contacts, Joints, Rows, Solid
 
 BODIES = ("disc", "pin")
 DISC, PIN = range(2)
@@ -33,15 +33,9 @@ _SIDES = {"outer": (1, 0), "upstream": (0, -1), "downstream": (0, 1)}
 
 
 @dataclass(frozen=True)
-class PinOnDiscModel:
-    """Bodies in the order of BODIES, joints, the contact, sensors and the row on which the weight acts."""
+class PinOnDiscModel(Assembly):
+    """Bodies in the order of BODIES, and the row on which the weight acts."""
 
-    bodies: tuple
-    joints: Joints
-    contacts: Contacts
-    sensors: Rows
-    sensor_position: np.ndarray
-    sensor_direction: np.ndarray
     load: Rows
 
 
@@ -69,7 +63,7 @@ def disc(parameters):
     material = np.array([2, 1] + [0] * p.radial_cells)[mesh.cell[:, 0]]
     collar = p.rocking_stiffness / _rocking_stiffness(revolve(radius[:2], angle, height), p.poisson)
     elasticity = np.array([isotropic(young, p.poisson) for young in (p.young, _RIGID * p.young, collar)])
-    return ElasticBody(mesh, material, ("aluminium", "hub", "collar"), np.full(3, p.density), elasticity,
+    return Solid(mesh, material, ("aluminium", "hub", "collar"), np.full(3, p.density), elasticity,
                        p.damping_ratio, np.flatnonzero(np.hypot(*mesh.node[:, :2].T) < p.shaft_radius * (1 + 1e-6)))
 
 
@@ -101,7 +95,7 @@ def pin(parameters):
                         p.base_mass / (p.side**2 * p.clamp_length)])
     elasticity = np.array([isotropic(young, p.poisson) for young in (p.young, p.young, _RIGID * p.young)])
     mesh = Mesh(place(straight.node, parameters), straight.element, straight.kind, straight.cell)
-    return ElasticBody(mesh, material, ("aluminium", "tip", "clamp"), density, elasticity, p.damping_ratio,
+    return Solid(mesh, material, ("aluminium", "tip", "clamp"), density, elasticity, p.damping_ratio,
                        np.empty(0, int))
 
 
@@ -195,15 +189,13 @@ def sliding_flexibility(model, friction, solver):
     """
     closure = 0.0
     for number, body in enumerate(model.bodies):
-        mesh = body.mesh
-        stiffness, _ = assemble(mesh.node, mesh.element, mesh.kind, body.element_material, body.density,
-                                body.elasticity)
+        stiffness, _ = body.matrices()
         held = [(model.joints.rows.parts[number], model.joints.stiffness)]
         if number == PIN:
             held.append((model.load.parts[number], model.joints.stiffness.max()))
         for rows, springs in held:
             stiffness = stiffness + rows.T @ sp.diags(np.broadcast_to(springs, rows.shape[0])) @ rows
-        free = np.setdiff1d(np.arange(stiffness.shape[0]), 3 * body.supported[:, None] + np.arange(3))
+        free = free_freedoms(len(body.mesh.node), body.supported)
         normal, tangent = (rows.parts[number].toarray()[0, free] for rows in (model.contacts.normal,
                                                                               model.contacts.tangent))
         moved = factorise(stiffness.tocsr()[free][:, free], solver).solve(normal + friction * tangent)

@@ -5,9 +5,9 @@ import numpy as np
 from pipeline.views.style import COLOURS, HEIGHTS, INK, LINES, drawing, image, legend, png, svg
 
 
-def height_map(surface, body, dpi):
-    """PNG of the heights of 'disc' or 'pad' in µm, over mm."""
-    heights = 1e6 * _heights(surface, body)
+def height_map(surface, index, dpi):
+    """PNG of the heights of body 0 or 1 in µm, over mm."""
+    heights = 1e6 * _heights(surface)[index]
     low, high = np.percentile(heights, [0.2, 99.8])
     with drawing(3.55, bar=True) as figure:
         image(figure.subplots(), surface.x, surface.y, heights, "height / µm", cmap=HEIGHTS, vmin=low, vmax=high)
@@ -15,19 +15,19 @@ def height_map(surface, body, dpi):
 
 
 def profile(surface):
-    """SVG of the middle section along sliding: pad above disc, both as measured from their mean planes."""
+    """SVG of the middle section along sliding: second body above the first, both as measured from their mean planes."""
     row = len(surface.y) // 2
-    disc, pad = 1e6 * surface.disc_height[row], -1e6 * surface.pad_height[row]
-    gap = np.max(disc - pad) * 1.05
+    lower, upper = 1e6 * surface.disc_height[row], -1e6 * surface.pad_height[row]
+    upper = upper + np.max(lower - upper) * 1.05
     with drawing(2.6, top=0.12) as figure:
         axes = figure.subplots()
         x = 1e3 * surface.x
-        axes.fill_between(x, disc.min() - 4, disc, color=COLOURS[0], alpha=0.35, lw=0)
-        axes.fill_between(x, pad + gap, (pad + gap).max() + 4, color=COLOURS[1], alpha=0.35, lw=0)
-        axes.plot(x, disc, color=COLOURS[0], lw=0.9)
-        axes.plot(x, pad + gap, color=COLOURS[1], lw=0.9)
-        axes.text(0.01, 0.03, "disc", transform=axes.transAxes, color=INK)
-        axes.text(0.01, 0.97, "pad", transform=axes.transAxes, va="top", color=INK)
+        axes.fill_between(x, lower.min() - 4, lower, color=COLOURS[0], alpha=0.35, lw=0)
+        axes.fill_between(x, upper, upper.max() + 4, color=COLOURS[1], alpha=0.35, lw=0)
+        axes.plot(x, lower, color=COLOURS[0], lw=0.9)
+        axes.plot(x, upper, color=COLOURS[1], lw=0.9)
+        axes.text(0.01, 0.03, surface.body[0], transform=axes.transAxes, color=INK)
+        axes.text(0.01, 0.97, surface.body[1], transform=axes.transAxes, va="top", color=INK)
         axes.set(xlabel="along sliding x / mm", ylabel="height / µm")
         axes.margins(x=0, y=0)
         return svg(figure)
@@ -38,7 +38,7 @@ def height_distribution(surface):
     with drawing() as figure:
         axes = figure.subplots()
         for index, body in enumerate(surface.body):
-            heights = 1e6 * _heights(surface, body)
+            heights = 1e6 * _heights(surface)[index]
             density, edges = np.histogram(heights, bins=80, density=True)
             axes.plot(0.5 * (edges[1:] + edges[:-1]), density, color=COLOURS[index], ls=LINES[index], label=body)
         axes.set(xlabel="height above mean plane / µm", ylabel="probability density / 1/µm", ylim=(0, None))
@@ -63,8 +63,9 @@ def power_spectrum(surface):
         return svg(figure)
 
 
-def _heights(surface, body):
-    return {"disc": surface.disc_height, "pad": surface.pad_height}[str(body)]
+def _heights(surface):
+    """Heights of both bodies in the order of their names."""
+    return surface.disc_height, surface.pad_height
 
 
 def _decades(surface):

@@ -133,7 +133,7 @@ def test_beams_whose_settings_cannot_be(tmp_path, override, message):
 ])
 def test_a_step_too_long_for_the_highest_mode(tmp_path, case, settings, longest):
     told = refused(2, "run", case, "--run", tmp_path / "run", *(a for s in settings for a in ("--set", s)))
-    assert f"step: expected at most {longest}, 2.5 steps in a period of the highest mode" in told
+    assert f"transient.step (time stepping): expected at most {longest}, 2.5 steps in a period of" in told
 
 
 def test_a_cycle_that_has_not_settled_is_told_and_not_judged_as_one(tmp_path):

@@ -2,7 +2,7 @@
 
 import pytest
 
-from pipeline.contract import Context, ProductError, Products, stage
+from pipeline.contract import ConfigError, Context, ProductError, Products, Quantities, Section, option, stage
 from tests.contract.toy import load
 from tests.contract.toy.products import Source
 from tests.contract.toy.source import Settings
@@ -30,6 +30,43 @@ def test_refuses_an_incomplete_signature_or_another_name():
         stage(source)
     with pytest.raises(ProductError, match="share one name"):
         stage(other)
+
+
+@pytest.mark.parametrize("where, told", [
+    ("stepping: duration", "source.duration (stepping)"), ("pressing at 1 s: level", "source.level (pressing at 1 s)"),
+    ("stepping: mass", "stepping: mass"), ("duration", "duration"), ("source.level", "source.level")])
+def test_an_error_about_a_setting_names_it(where, told):
+    def source(settings: Settings, context: Context) -> Source:
+        """Fail.
+
+        Method:
+        Nothing was made.
+        """
+        raise ConfigError(where, "less", "more", "take less")
+
+    source.__module__ = "stages.source"
+    with pytest.raises(ConfigError) as raised:
+        stage(source)(settings=Settings())
+    assert str(raised.value) == f"{told}: expected less, found more; take less"
+
+
+def test_an_error_about_one_of_several_names_the_setting_that_holds_them():
+    class Steps(Section):
+        """Several steps."""
+
+        steps: Quantities("s", gt=0) = option(("1 s",), "steps")
+
+    def source(settings: Steps, context: Context) -> Source:
+        """Fail.
+
+        Method:
+        Nothing was made.
+        """
+        raise ConfigError("stepping: step")
+
+    source.__module__ = "stages.source"
+    with pytest.raises(ConfigError, match=r"^source\.steps \(stepping\)$"):
+        stage(source)(settings=Steps())
 
 
 def test_products_are_read_once_and_only_when_asked_for():

@@ -8,10 +8,10 @@ import scipy.sparse as sp
 
 from pipeline.contract.errors import ConfigError
 from pipeline.physics.body_reduction import ElasticBody, reduce_body
-from pipeline.physics.eigen import lowest_modes
 from pipeline.physics.elasticity import assemble, isotropic
 from pipeline.physics.mesh import revolve
 from pipeline.physics.quadratic_modes import quadratic_roots
+from pipeline.physics.supports import held_modes
 
 SPEED = 12.0
 
@@ -22,11 +22,8 @@ def ring():
     mesh = revolve(np.array([0.03, 0.06, 0.09, 0.12]), np.linspace(0, 2 * np.pi, 25), np.array([0.0, 0.006]))
     tables = np.zeros(len(mesh.element), int), np.array([7800.0]), isotropic(210e9, 0.3)[None]
     supported = np.flatnonzero(np.hypot(*mesh.node[:, :2].T) < 0.0301)
-    free = np.setdiff1d(np.arange(3 * len(mesh.node)), 3 * supported[:, None] + np.arange(3))
-    stiffness, mass = assemble(mesh.node, mesh.element, mesh.kind, *tables)
-    frequency, shape = lowest_modes(stiffness[free][:, free], mass[free][:, free], "superlu", below=6e3)
-    modes = np.zeros((3 * len(mesh.node), len(frequency)))
-    modes[free] = shape
+    frequency, modes = held_modes(*assemble(mesh.node, mesh.element, mesh.kind, *tables), supported, "superlu",
+                                  below=6e3)
     rim = np.flatnonzero((np.hypot(*mesh.node[:, :2].T) > 0.1199) & (mesh.node[:, 2] == 0.006))
     rows = sp.csr_matrix((np.ones(2), ([0, 1], 3 * rim[:2] + 2)), (2, 3 * len(mesh.node)))
     return ElasticBody("ring", mesh.node, mesh.element, mesh.kind, *tables, 0.01, supported, rows, np.arange(2), True,

@@ -32,6 +32,32 @@ def test_matlab_refuses_what_is_none(tmp_path):
         read_matlab(tmp_path / "d.mat")
 
 
+@pytest.mark.parametrize("form", [{"format": "5"}, {"format": "5", "do_compression": True}, {"format": "4"}])
+def test_matlab_refuses_a_file_that_is_cut_off_anywhere(tmp_path, form):
+    """One sentence for every length; what reads all the same is whole as far as it goes."""
+    savemat(tmp_path / "whole.mat", {"x": np.arange(5.0), "y": np.ones(3)}, **form)
+    content, cut, read = (tmp_path / "whole.mat").read_bytes(), tmp_path / "cut.mat", set()
+    for length in range(len(content)):
+        cut.write_bytes(content[:length])
+        try:
+            read.add(frozenset(read_matlab(cut)))
+        except ConfigError as error:
+            assert error.where == cut
+    assert frozenset(read_matlab(tmp_path / "whole.mat")) == {"x", "y"}
+    assert read <= {frozenset("x")}, "a cut between two variables leaves a whole file of the first"
+
+
+@pytest.mark.parametrize("content, message", [
+    (b"", "another kind of file"), (b"time,force\n0,1\n", "another kind of file"),
+    (b"MATLAB 7.3 MAT-file, Platform: any", "a MATLAB file of version 7.3"), (b"\0\0\0\0", "an undamaged MATLAB file")])
+def test_matlab_tells_what_it_found_instead(tmp_path, content, message):
+    (tmp_path / "e.mat").write_bytes(content)
+    with pytest.raises(ConfigError, match=message):
+        read_matlab(tmp_path / "e.mat")
+    with pytest.raises(ConfigError, match="a readable MATLAB file"):
+        read_matlab(tmp_path)
+
+
 @pytest.mark.parametrize("mark", ["\t", ";", ","])
 def test_tables_find_their_delimiter_and_mark_missing_samples(tmp_path, mark):
     path = tmp_path / "a.txt"

@@ -2,10 +2,10 @@
 
 import numpy as np
 
-from pipeline.physics.eigen import lowest_modes
 from pipeline.physics.elasticity import assemble, isotropic
 from pipeline.physics.faces import interpolation
 from pipeline.physics.mesh import block, boundary_faces, face_normals, revolve
+from pipeline.physics.supports import held_modes
 from pipeline.products import Body, FrictionMap, Incidence, Structure
 
 NAMES = ("disc", "pad_outer", "pad_inner", "caliper")
@@ -58,11 +58,9 @@ def small_body(mesh, modulus, density, supported, modes_below):
     elastic, cells = isotropic(modulus, 0.27), np.zeros(len(mesh.element), int)
     frequency, shape = np.array([1.0]), np.zeros((1, 3 * len(mesh.node)))
     if modes_below:
-        free = np.setdiff1d(np.arange(3 * len(mesh.node)), 3 * supported[:, None] + np.arange(3))
-        stiffness, mass = assemble(mesh.node, mesh.element, mesh.kind, cells, np.array([density]), elastic[None])
-        frequency, modes = lowest_modes(stiffness[free][:, free], mass[free][:, free], "superlu", below=modes_below)
-        shape = np.zeros((len(frequency), 3 * len(mesh.node)))
-        shape[:, free] = modes.T
+        matrices = assemble(mesh.node, mesh.element, mesh.kind, cells, np.array([density]), elastic[None])
+        frequency, modes = held_modes(*matrices, supported, "superlu", below=modes_below)
+        shape = modes.T
     return Body(node=mesh.node, element=mesh.element, kind=mesh.kind, element_material=cells, material_name=["one"],
                 density=[density], elasticity=[elastic], damping_ratio=0.002, frequency=frequency,
                 shape=shape.reshape(len(frequency), -1, 3), supported=supported)

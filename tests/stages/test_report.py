@@ -23,7 +23,7 @@ def test_the_same_products_give_the_same_bytes_and_others_give_others():
 
 def test_the_page_is_the_companion_file():
     product = written()
-    assert report.companions(product) == {"report.html": product.html.item()}
+    assert report.companions(product, None) == {"report.html": product.html.item()}
 
 
 def test_missing_products_leave_out_their_chapters_only():

@@ -21,6 +21,12 @@ def test_generated_surfaces():
     assert made.power_spectrum.shape == (2, made.wavenumber.size)
 
 
+def test_bodies_are_called_as_the_case_calls_them():
+    made = surface(settings=Settings(**SMALL, bodies=["disc", "pin"]))
+    assert list(made.body) == ["disc", "pin"]
+    assert np.array_equal(made.pad_height, surface(settings=Settings(**SMALL)).pad_height)
+
+
 def test_a_scan_replaces_a_generator(tmp_path):
     heights = 1e-7 * self_affine(np.random.default_rng(3), 80, 1.2e-3, 60e-6, 300e-6, 0.8)
     heights[7, 9] += 1e-5

@@ -5,7 +5,7 @@ import pytest
 from scipy.linalg import eigh
 
 from pipeline.contract.errors import ConfigError
-from pipeline.systems.beam_on_beam import build
+from pipeline.systems.beam_on_beam import build, joined, touching, upwards
 from stages.beam_on_beam import Contact, Sensor, Settings, Slider, Track
 
 SETTINGS = Settings()
@@ -91,3 +91,22 @@ def test_systems_that_cannot_be_built_are_refused(parts, said):
 def test_unknown_element_is_refused():
     with pytest.raises(ConfigError, match="element"):
         build(SETTINGS, "solid")
+
+
+@pytest.mark.exact
+def test_rows_of_the_pair_are_slider_less_track():
+    """Seen in the free coordinates themselves; only the slider is loaded and carries the sensor."""
+    bodies = build(SETTINGS, "timoshenko")
+    modes, sensor, load = joined(bodies, [np.zeros(len(b.load[0])) for b in bodies],
+                                 [np.eye(len(b.load[0])) for b in bodies])
+    slider, track = np.split(modes.normal, [len(bodies[0].load[0])])
+    assert np.array_equal(slider, bodies[0].contact[1]) and np.array_equal(track, -bodies[1].contact[1])
+    assert np.array_equal(modes.tangent, np.r_[bodies[0].contact[0], -bodies[1].contact[0]])
+    assert not sensor[len(slider):].any() and not load[len(slider):].any() and load[:len(slider)].any()
+
+
+@pytest.mark.exact
+def test_the_slider_stands_where_it_touches_and_leans_by_its_tilt():
+    assert touching(SETTINGS) == pytest.approx([SETTINGS.contact.distance, SETTINGS.track.thickness / 2])
+    along = upwards(changed(slider=Slider(tilt="30 deg")))
+    assert along == pytest.approx([0.5, np.sqrt(0.75)])

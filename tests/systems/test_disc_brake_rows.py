@@ -46,7 +46,7 @@ def test_directions_of_contact_and_piston(brake):
     motion[sizes[1]:sizes[2]] = np.cross([0, 0, 1.0], outer).ravel()
     speed = brake.contacts.tangent.matrix @ motion
     radius = np.hypot(*brake.contacts.position[:, :2].T)
-    own = brake.contacts.pad == 1
+    own = brake.contacts.body == 1
     assert speed[own] == pytest.approx(radius[own], rel=1e-3) and not speed[~own].any()
     motion[:] = 0
     motion[sizes[1] + 2:sizes[2]:3] = 1.0
@@ -56,7 +56,7 @@ def test_directions_of_contact_and_piston(brake):
 
 
 def test_patches_fill_the_pad(brake):
-    assert len(brake.contacts.pad) == 36
+    assert len(brake.contacts.body) == 36
     assert brake.contacts.area[:18].sum() == pytest.approx(brake.contacts.area[18:].sum()) == brake.pad_area
     assert np.sign(brake.contacts.position[:, 2]) == pytest.approx(np.repeat([1, -1], 18))
 

@@ -6,9 +6,8 @@ import numpy as np
 import pytest
 
 from pipeline.contract.errors import ConfigError
-from pipeline.physics.eigen import lowest_modes
-from pipeline.physics.elasticity import assemble
 from pipeline.physics.linear_solver import available
+from pipeline.physics.supports import held_modes
 from pipeline.systems.pin_on_disc import DISC, PIN, build, pin, reshaped, sliding_flexibility
 
 pytestmark = pytest.mark.exact
@@ -32,16 +31,9 @@ def parameters(**changes):
     return SimpleNamespace(**{name: SimpleNamespace(**values) for name, values in parts.items()})
 
 
-def matrices(body):
-    mesh = body.mesh
-    return assemble(mesh.node, mesh.element, mesh.kind, body.element_material, body.density, body.elasticity)
-
-
 def clamped_frequencies(body, count):
     held = np.unique(body.mesh.element[body.element_material == 2])
-    free = np.setdiff1d(np.arange(3 * len(body.mesh.node)), 3 * held[:, None] + np.arange(3))
-    stiffness, mass = matrices(body)
-    return lowest_modes(stiffness[free][:, free], mass[free][:, free], available()[0], count=count)[0]
+    return held_modes(*body.matrices(), held, available()[0], count=count)[0]
 
 
 @pytest.fixture(scope="module")
@@ -51,7 +43,7 @@ def system():
 
 def test_masses_are_those_declared(system):
     ones = np.tile([0.0, 0.0, 1.0], len(system.bodies[PIN].mesh.node))
-    _, mass = matrices(system.bodies[PIN])
+    _, mass = system.bodies[PIN].matrices()
     assert ones @ mass @ ones == pytest.approx(2700 * 1e-4 * 0.1465 + 1.3e-3 + 0.005, rel=1e-9)
 
 
@@ -66,9 +58,7 @@ def test_pin_bends_as_a_cantilever_without_its_accelerometer():
 def test_shaft_gives_way_as_declared(system):
     """Rocking of a rigid body: the disc's inertia about its diameter on the declared spring, hub and disc stiff."""
     stiff = build(parameters(disc__rocking_stiffness=8.2e3)).bodies[DISC]
-    free = np.setdiff1d(np.arange(3 * len(stiff.mesh.node)), 3 * stiff.supported[:, None] + np.arange(3))
-    stiffness, mass = matrices(stiff)
-    found = lowest_modes(stiffness[free][:, free], mass[free][:, free], available()[0], count=3)[0]
+    found = held_modes(*stiff.matrices(), stiff.supported, available()[0], count=3)[0]
     weight = 2700 * np.pi * (0.179**2 - 0.008**2) * 0.025
     inertia = weight * ((0.179**2 + 0.008**2) / 4 + 0.025**2 / 12)
     rocking = np.sqrt(8.2e3 / inertia) / (2 * np.pi)

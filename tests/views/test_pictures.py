@@ -26,7 +26,7 @@ PICTURES = {
     "shear law": (lock_in.shear_law, small.interface_law, "shear"),
     "descriptions": (lock_in.descriptions, small.interface_law, "evolution_shear"),
     "lock-in": (lock_in.length_map, small.lock_in, "base"),
-    "height map": (lambda p: surfaces.height_map(p, "disc", 60), small.surface, "disc_height"),
+    "height map": (lambda p: surfaces.height_map(p, 0, 60), small.surface, "disc_height"),
     "profile": (surfaces.profile, small.surface, "pad_height"),
     "heights": (surfaces.height_distribution, small.surface, "pad_height"),
     "spectrum": (surfaces.power_spectrum, small.surface, "power_spectrum"),

@@ -7,12 +7,13 @@ from pipeline.views.readable import number, percent, quantity, span
 
 def chapter(surface, look):
     """Chapter of the product Surface."""
-    figures = [Figure(surfaces.height_map(surface, body, look.dpi), _map_caption(surface, i, body))
+    lower, upper = surface.body
+    figures = [Figure(surfaces.height_map(surface, i, look.dpi), _map_caption(surface, i, body))
                for i, body in enumerate(surface.body)]
     side = f"{quantity(surface.x[-1], 'm', 3)} × {quantity(surface.y[-1], 'm', 3)}"
     figures += [
-        Figure(surfaces.profile(surface), "Middle section along sliding, pad above disc; heights are drawn enlarged, so"
-               " real slopes are much gentler."),
+        Figure(surfaces.profile(surface), f"Middle section along sliding, {upper} above {lower}; heights are drawn"
+               " enlarged, so real slopes are much gentler."),
         Figure(surfaces.height_distribution(surface), "Heights about the mean plane. A tail to the right means peaks"
                " that carry load first."),
         Figure(surfaces.power_spectrum(surface), "Isotropic power spectrum. Roughness right of the dotted line"
@@ -21,7 +22,7 @@ def chapter(surface, look):
     ]
     return Chapter(
         "surface", "The rough surfaces",
-        f"Height maps of disc and pad, {side}, {len(surface.x)} × {len(surface.y)} nodes."
+        f"Height maps of {lower} and {upper}, {side}, {len(surface.x)} × {len(surface.y)} nodes."
         f" Sources: {', '.join(f'{b}: {s}' for b, s in zip(surface.body, surface.source, strict=True))}.",
         "These heights enter the contact computation node by node; everything below follows from them. With"
         f" {number(surface.nodes_per_wavelength.min(), 3)} nodes on the shortest wavelength"

@@ -16,7 +16,7 @@ def _times(factor, signal):
     return factor * signal
 
 
-def _companions(product):
+def _companions(product, case):
     return {"doubled.csv": "\n".join(",".join(map(str, row)) for row in product.signal)}
 
 

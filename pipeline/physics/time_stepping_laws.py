@@ -1,4 +1,4 @@
-"""Laws of the normal contact, what they ask of gap and force, and their arrays for the compiled steps."""
+"""Normal laws of the contacts in time stepping, what they ask of gap and force, and their form for compiled steps."""
 
 from dataclasses import dataclass
 
@@ -85,7 +85,7 @@ def normal_kernel(law, contacts):
         Table if tables else kinds.pop()]
     fixed = contacts.fixed
     return NormalKernel(kind, np.where(fixed, 0.0, read(law, "gap", count)),
-                        np.where(fixed, contacts.preload, -1.0), np.array(contacts.area, float),
+                        np.where(fixed, contacts.preload, -1.0), contiguous(contacts.area),
                         read(law, "stiffness", count, 0.0), read(law, "damping", count, 0.0), closure, pressure, first,
                         read(law, "damping_speed", count, np.inf), float(restitution), gamma is not None)
 
@@ -108,7 +108,7 @@ def _stacked_tables(tables, count, fill):
     first = np.full(count, fill, np.int64)
     if not tables:
         return np.array([0.0, 1.0]), np.array([0.0, 1.0]), first
-    closure = np.array(tables[0][0].closure, float)
+    closure = contiguous(tables[0][0].closure)
     if len(tables) > 1:
         closure = np.unique(np.concatenate([table.closure for table, _ in tables]))
     for k, (_, own) in enumerate(tables):
@@ -176,3 +176,8 @@ def force_along(law, i, area, closure, closing):
         raise ConfigError(f"contact {i}", "a contact law that yields", type(each).__name__,
                           "give the contact a stiffness, or simulate instead")
     return area[i] * each.at(shut) * np.maximum(1 + closing / each.damping_speed, 0.0)
+
+
+def contiguous(values):
+    """A writable, contiguous copy: one type of array for all compiled calls."""
+    return np.array(values, dtype=float, order="C")

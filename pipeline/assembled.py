@@ -1,0 +1,69 @@
+"""Systems of finite-element bodies as products, and back: what brake and pin on disc share between their stages."""
+
+import numpy as np
+import scipy.sparse as sp
+
+from pipeline.physics.body_reduction import ElasticBody
+from pipeline.products import Body, Incidence, PinOnDisc, Structure
+
+#: what presses the contacts of a system, in its fields <input>_rows and <input>_area
+INPUTS = {Structure: "piston", PinOnDisc: "load"}
+
+
+def body_product(solid, frequency=(), shape=None):
+    """Body of a Solid with its modes: ``frequency`` (m,) Hz, ``shape`` (3n, m) 1/kg^0.5; none by default."""
+    mesh, count = solid.mesh, len(frequency)
+    shape = np.zeros((3 * len(mesh.node), 0)) if shape is None else shape
+    return Body(node=mesh.node, element=mesh.element, kind=mesh.kind, element_material=solid.element_material,
+                material_name=solid.material_name, density=solid.density, elasticity=solid.elasticity,
+                damping_ratio=solid.damping_ratio, frequency=frequency,
+                shape=shape.T.reshape(count, len(mesh.node), 3), supported=solid.supported)
+
+
+def incidence(rows):
+    """Incidence of Rows; weights of 0 are left out."""
+    parts = [part.tocoo() for part in rows.parts]
+    body = np.repeat(np.arange(len(parts)), [part.nnz for part in parts])
+    row, column, weight = (np.concatenate([getattr(part, name) for part in parts]) for name in ("row", "col", "data"))
+    used = weight != 0
+    return Incidence(rows=parts[0].shape[0], row=row[used], body=body[used], node=column[used] // 3,
+                     axis=column[used] % 3, weight=weight[used])
+
+
+def assembly_fields(assembly):
+    """Fields of joints, contacts and sensors of an Assembly, under the names that its products share."""
+    joints, contacts = assembly.joints, assembly.contacts
+    return {
+        "joint_name": joints.name, "joint_rows": incidence(joints.rows), "joint_stiffness": joints.stiffness,
+        "joint_damping": joints.damping, "contact_body": contacts.body, "contact_position": contacts.position,
+        "contact_area": contacts.area, "contact_normal": incidence(contacts.normal),
+        "contact_tangent": incidence(contacts.tangent), "contact_lateral": incidence(contacts.lateral),
+        "sensor_position": assembly.sensor_position, "sensor_direction": assembly.sensor_direction,
+        "sensor_rows": incidence(assembly.sensors)}
+
+
+def row_fields(system):
+    """Fields of all rows of a product: those that carry forces, then those of the sensors, which only observe."""
+    return ("joint_rows", "contact_normal", "contact_tangent", "contact_lateral", f"{INPUTS[type(system)]}_rows",
+            "sensor_rows")
+
+
+def elastic_body(system, name):
+    """ElasticBody of the body ``name`` of a product, with its part of every row; modes only where it is supported."""
+    body, index = getattr(system, name), list(system.body_name).index(name)
+    incidences = [getattr(system, field) for field in row_fields(system)]
+    rows = sp.vstack([body_rows(i, index, len(body.node)) for i in incidences], format="csr")
+    count = len(body.frequency) if len(body.supported) else 0
+    return ElasticBody(
+        name=name, node=body.node, element=body.element, kind=str(body.kind), material=body.element_material,
+        density=body.density, elasticity=body.elasticity, damping_ratio=float(body.damping_ratio),
+        supported=body.supported, rows=rows, interface=np.arange(sum(int(i.rows) for i in incidences[:-1])),
+        turns=name == "disc", frequency=body.frequency[:count],
+        modes=body.shape[:count].reshape(count, 3 * len(body.node)).T)
+
+
+def body_rows(incidence, body, nodes):
+    """(rows, 3 nodes) sparse: the part of an Incidence that one body, by its number, moves."""
+    chosen = incidence.body == body
+    place = incidence.row[chosen], 3 * incidence.node[chosen] + incidence.axis[chosen]
+    return sp.csr_matrix((incidence.weight[chosen], place), (int(incidence.rows), 3 * nodes))

@@ -1,0 +1,83 @@
+"""From a reduced model and the section ``bench`` of a case to a Bench: laws, sensors, corrected values, effects."""
+
+from dataclasses import replace
+
+import numpy as np
+
+from pipeline.benches import corrections
+from pipeline.benches.laws import Laws, friction_law, normal_law
+from pipeline.contract import ConfigError, Quantity, Section, option
+from pipeline.physics.bench import FORCES, MOTIONS, Bench, Channel
+from pipeline.physics.sliding_model import sliding_model
+
+
+class Sensor(Section):
+    """What a recorded channel shows of the model."""
+
+    quantity: str = option(..., f"one of {', '.join(MOTIONS + FORCES)}")
+    source: str = option(..., "sensor, joint, contact group, element or input whose quantity it shows")
+    gain: float = option(1.0, "in SI units shown per SI unit")
+    delay: Quantity("s", ge=0) = option("0 s", "delay")
+    corner: Quantity("Hz", gt=0) | None = option(None, "corner of its first-order low pass; none = no filter")
+    limit: float | None = option(None, "SI value at which it clips; none = never", gt=0)
+
+
+class Fed(Section):
+    """A recorded channel that feeds an input."""
+
+    channel: str = option(..., "recorded channel")
+    gain: float = option(1.0, "in SI units of the input per SI unit of the channel")
+
+
+class Settings(Laws):
+    """Sensors, laws and inputs of the bench that was recorded."""
+
+    step: Quantity("s", gt=0) = option("0.1 ms", "longest time step; samples are divided evenly")
+    speed: Quantity("rad/s") = option("1 rad/s", "speed of the drive where a run tells none")
+    channels: dict[str, Sensor] = option({}, "recorded channel: what it shows")
+    inputs: dict[str, Fed] = option({}, "input of the model: the recorded channel that feeds it")
+    drive: Fed | None = option(None, "recorded channel with the speed of the drive in rad/s (belts: m/s)")
+    settled: bool = option(False, "runs start in steady sliding under their first inputs, else at rest")
+    state: int = option(0, "state of the model whose preload is used", ge=0)
+    corrections: dict[str, str | float] = option({}, "nominal values in place of those of the model, as in"
+                                                 " joints.guide.damping: 220 N s/m")
+
+
+def built(model, settings):
+    """The Bench of a product ReducedModel and a filled section, without effects. ConfigError for unknown names."""
+    sliding = sliding_model(model, settings.state, settings.speed)
+    bench = Bench(sliding, normal_law(model, sliding.contacts, settings, "bench"),
+                  friction_law(model, sliding.contacts, settings, "bench"), settings.step,
+                  tuple(_channel(name, sensor) for name, sensor in settings.channels.items()), groups(model),
+                  settings.settled)
+    for channel in bench.channels:
+        _check_source(bench, channel)
+    return corrections.corrected(bench, corrections.read(bench, settings.corrections, "bench.corrections"))
+
+
+def groups(model):
+    """Contacts of each body by its name, where several bodies rub; ``model`` is a product ReducedModel."""
+    rubbed = [str(model.body_name[k]) for k in model.contact_body]
+    names = dict.fromkeys(rubbed)
+    return {name: tuple(k for k, own in enumerate(rubbed) if own == name) for name in names} if len(names) > 1 else {}
+
+
+def _channel(name, sensor):
+    return Channel(name, sensor.quantity, sensor.source, sensor.gain, sensor.delay,
+                   corner=np.inf if sensor.corner is None else sensor.corner,
+                   limit=np.inf if sensor.limit is None else sensor.limit)
+
+
+def _check_source(bench, channel):
+    known = {"joint_force": bench.model.joints.name, "normal_force": ("contact", *bench.groups),
+             "friction_force": ("contact", *bench.groups), "input": bench.model.input_name,
+             "element_force": None}.get(channel.quantity, bench.model.sensor_name)
+    if known is not None and channel.source not in known:
+        raise ConfigError(f"bench.channels.{channel.name}.source", f"one of {', '.join(known) or 'none that are there'}",
+                          repr(channel.source), "name a part of the model, or add it")
+
+
+def only(bench, names):
+    """The bench with the channels ``names`` alone, in that order."""
+    known = {c.name: c for c in bench.channels}
+    return replace(bench, channels=tuple(known[name] for name in names))

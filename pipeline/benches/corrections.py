@@ -1,0 +1,139 @@
+"""Nominal numbers of a bench by name, to read and to change: what a calibration fits and a completed case states.
+
+    joints.NAME.stiffness  N/m          inputs.NAME.gain    1       channels.NAME.gain    1
+    joints.NAME.damping    N s/m        inputs.NAME.offset  N       channels.NAME.delay   s
+    bodies.NAME.mass       1 (factor)   friction            1 (factor)
+    bodies.NAME.stiffness  1 (factor)   contact.stiffness   1 (factor)     contact.damping  N s/m
+
+Factors are of the given model. Bodies of one coordinate also have masses.NAME in kg.
+"""
+
+from dataclasses import replace
+from difflib import get_close_matches
+
+import numpy as np
+
+from pipeline.contract import ConfigError
+from pipeline.contract.units import to_si
+from pipeline.physics.elements import Element, Wave
+from pipeline.physics.friction_law import FrictionLaw
+from pipeline.physics.time_stepping import Penalty
+
+
+def known(bench):
+    """{name: SI unit} of every number of the bench that can be changed."""
+    model = bench.model
+    found = {"friction": "1"} if len(model.contacts.area) else {}
+    if isinstance(bench.law, Penalty) and len(model.contacts.area):
+        found |= {"contact.stiffness": "1", "contact.damping": "N s/m"}
+    for name in model.joints.name:
+        found |= {f"joints.{name}.stiffness": "N/m", f"joints.{name}.damping": "N s/m"}
+    for index, name in enumerate(model.body_name):
+        found |= {f"bodies.{name}.mass": "1", f"bodies.{name}.stiffness": "1"}
+        if np.sum(model.coordinate_body == index) == 1:
+            found[f"masses.{name}"] = "kg"
+    for name in model.input_name:
+        found |= {f"inputs.{name}.gain": "1", f"inputs.{name}.offset": "N"}
+    for channel in bench.channels:
+        found |= {f"channels.{channel.name}.gain": "1", f"channels.{channel.name}.delay": "s"}
+    return found
+
+
+def read(bench, given, where):
+    """{name: SI value} of ``given`` {name: quantity as written}; ConfigError for unknown names and units."""
+    units = known(bench)
+    return {name: to_si(value, _known(name, units, where), f"{where}.{name}") for name, value in given.items()}
+
+
+def nominal(bench, name, where="parameters"):
+    """The value that the bench has now; 1 of a factor."""
+    unit = _known(name, known(bench), where)
+    kind, own, what = _steps(name)
+    if kind == "joints":
+        row = bench.model.joints.name.index(own)
+        return float(getattr(bench.model.joints, what)[row])
+    if kind == "masses":
+        index = np.flatnonzero(bench.model.coordinate_body == bench.model.body_name.index(own))
+        return float(bench.model.mass[index, index][0])
+    if kind == "channels":
+        return float(getattr(next(c for c in bench.channels if c.name == own), what))
+    if name == "contact.damping":
+        return float(np.mean(bench.law.damping))
+    return 1.0 if unit == "1" else 0.0
+
+
+def corrected(bench, values):
+    """The bench with ``values`` {name: SI value} in place of its own."""
+    for name, value in values.items():
+        kind, own, what = _steps(name)
+        bench = _CHANGES[kind](bench, own, what, value)
+    return bench
+
+
+def _steps(name):
+    """(kind, owner, what) of a name; owners may hold dots."""
+    kind, _, rest = name.partition(".")
+    if kind in ("friction", "masses", "contact"):
+        return kind, rest, rest
+    own, _, what = rest.rpartition(".")
+    return kind, own, what
+
+
+def _known(name, units, where):
+    if name in units:
+        return units[name]
+    near = get_close_matches(str(name), units, 1)
+    raise ConfigError(f"{where}.{name}", "a number of the bench, such as " + ", ".join(list(units)[:4]), "none of them",
+                      f"did you mean '{near[0]}'?" if near else None)
+
+
+def _joint(bench, own, what, value):
+    joints = bench.model.joints
+    values = np.array(getattr(joints, what), float)
+    values[joints.name.index(own)] = value
+    return _with_model(bench, joints=replace(joints, **{what: values}))
+
+
+def _mass(bench, own, what, value):
+    return _body(bench, own, "mass", value / nominal(bench, f"masses.{own}"))
+
+
+def _body(bench, own, what, factor):
+    """Rows and columns of one body times the factor: its own block exactly."""
+    own_coordinates = bench.model.coordinate_body == bench.model.body_name.index(own)
+    root = np.where(own_coordinates, np.sqrt(factor), 1.0)
+    return _with_model(bench, **{what: getattr(bench.model, what) * np.outer(root, root)})
+
+
+def _input(bench, own, what, value):
+    model = bench.model
+    row = model.input_name.index(own)
+    if what == "offset":
+        force = Element(f"offset {own}", model.input_rows[row], Wave(1.0, amplitude=value))
+        return bench.with_elements(force) if value else bench
+    rows = np.array(model.input_rows)
+    rows[row] *= value
+    return _with_model(bench, input_rows=rows)
+
+
+def _channel(bench, own, what, value):
+    return bench.with_channels(lambda c: replace(c, **{what: value}) if c.name == own else c)
+
+
+def _friction(bench, own, what, factor):
+    law = bench.friction.law
+    table = FrictionLaw(law.pressure, law.speed, law.distance, factor * np.asarray(law.friction))
+    return replace(bench, friction=replace(bench.friction, law=table))
+
+
+def _contact(bench, own, what, value):
+    own_value = value * np.asarray(bench.law.stiffness) if what == "stiffness" else value
+    return replace(bench, law=replace(bench.law, **{what: own_value}))
+
+
+def _with_model(bench, **change):
+    return replace(bench, model=replace(bench.model, **change))
+
+
+_CHANGES = {"joints": _joint, "masses": _mass, "bodies": _body, "inputs": _input, "channels": _channel,
+            "friction": _friction, "contact": _contact}

@@ -1,0 +1,64 @@
+"""The block ``effects`` of a case: terms of the catalogue, from YAML to a product and from there onto a bench.
+
+    effects:
+      falling_friction: {contact: {rise: 0.2, decay_speed: 100 mm/s}}         # effect: {place: {parameter: value}}
+"""
+
+from pipeline.contract import ConfigError, Quantity, option, section
+from pipeline.effects import CATALOGUE, named
+from pipeline.effects.effect import Term, compose
+from pipeline.effects.typical import Typical
+from pipeline.products import Effects
+
+
+def parameters(effect):
+    """Parameters of an effect: names, units and bounds, whatever the bench."""
+    return effect.parameters(Typical())
+
+
+def _values(effect):
+    """Section of the values of one effect at one place."""
+    fields = {p.name: (Quantity(p.unit), option(..., f"{p.name.replace('_', ' ')} [{p.unit}]"))
+              for p in parameters(effect)}
+    return section(f"{effect.name}_values", effect.summary, fields)
+
+
+#: the section: one key an effect, each a mapping from places to values
+Settings = section("Settings", "Physics added to the model: effect, place, values.", {
+    effect.name: (dict[str, _values(effect)], option({}, f"{effect.summary}; at: {effect.place}"))
+    for effect in CATALOGUE})
+
+
+def product(settings):
+    """The product Effects of a filled section."""
+    rows = [(name, place, dict(values)) for name, places in dict(settings).items() for place, values in places.items()]
+    units = {(e.name, p.name): p.unit for e in CATALOGUE for p in parameters(e)}
+    flat = [(k, name, parameter, value) for k, (name, _, values) in enumerate(rows)
+            for parameter, value in values.items()]
+    return Effects(effect=[r[0] for r in rows], place=[r[1] for r in rows], term=[f[0] for f in flat],
+                   parameter=[f[2] for f in flat], value=[f[3] for f in flat],
+                   unit=[units[f[1], f[2]] for f in flat])
+
+
+def terms(effects):
+    """Terms of a product Effects; none of None."""
+    if effects is None:
+        return ()
+    values = [{} for _ in effects.effect]
+    for term, parameter, value in zip(effects.term, effects.parameter, effects.value, strict=True):
+        values[term][str(parameter)] = float(value)
+    return tuple(Term(named(str(name)), str(place), given)
+                 for name, place, given in zip(effects.effect, effects.place, values, strict=True))
+
+
+def with_effects(bench, effects, channels=True):
+    """The bench with a product Effects (or None) on it.
+
+    Without ``channels`` effects of sensors are refused, where nothing is compared with a recording.
+    """
+    found = terms(effects)
+    for term in found:
+        if not channels and term.effect.kind == "sensor":
+            raise ConfigError(f"effects.{term.effect.name}", "physics", "an effect of a sensor",
+                              "sensors are part of a bench: use it in a case with recordings")
+    return compose(bench, found)

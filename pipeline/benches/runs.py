@@ -1,0 +1,88 @@
+"""From a recording to what a bench is run with, and what a diagnosis compares with.
+
+Scalar conditions of a run are handed on by name: ``speed`` is that of the drive, a condition named as an input is its
+force. Recorded channels feed inputs and the drive where the case says so.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from pipeline.contract import ConfigError
+from pipeline.physics.bench import Run
+
+
+@dataclass(frozen=True)
+class Recorded:
+    """One recorded run in the form of a bench: how it was run, and what its ``channels`` (c,) wrote.
+
+    ``samples`` (c, n) in SI, ``valid`` (c, n), ``unit`` (c,); ``repeat_of`` names the run that it repeats.
+    """
+
+    run: Run
+    channels: tuple
+    unit: tuple
+    samples: np.ndarray
+    valid: np.ndarray
+    repeat_of: str
+
+
+def recorded(recording, settings, names=None):
+    """{run name: Recorded} of a product Recording under the section ``bench``; of the runs ``names`` alone.
+
+    Raises ConfigError for runs without any channel of the bench, unequal sampling, and units other than the model's.
+    """
+    chosen = recording.runs if names is None else {n: recording.runs[n] for n in names}
+    found = {name: _recorded(name, run, settings) for name, run in chosen.items()
+             if set(run.channels) & set(settings.channels)}
+    if not found:
+        known = sorted({c for run in recording.runs.values() for c in run.channels})
+        raise ConfigError("bench.channels", f"channels of the recording, of {', '.join(known) or 'which there are none'}",
+                          ", ".join(settings.channels) or "none", "name recorded channels and what they show")
+    check_units(found, settings)
+    return found
+
+
+def _recorded(name, run, settings):
+    seen = [c for c in settings.channels if c in run.channels]
+    parts = [run.channels[c] for c in seen]
+    fed = {n: f for n, f in settings.inputs.items()} | ({"drive": settings.drive} if settings.drive else {})
+    for key, given in fed.items():
+        if given.channel not in run.channels:
+            raise ConfigError(f"bench.{'drive' if key == 'drive' else f'inputs.{key}'}.channel",
+                              f"one of {', '.join(run.channels)} of run {name}", repr(given.channel))
+    rates = {float(p.rate) for p in parts} | {float(run.channels[f.channel].rate) for f in fed.values()}
+    lengths = {len(p.samples) for p in parts} | {len(run.channels[f.channel].samples) for f in fed.values()}
+    if len(rates) > 1 or len(lengths) > 1:
+        raise ConfigError(f"run {name}", "channels of one rate and length",
+                          f"{sorted(rates)} Hz, {sorted(lengths)} samples", "resample them to one rate first")
+    rate, count = rates.pop(), lengths.pop()
+    inputs = {key: f.gain * np.array(run.channels[f.channel].samples) for key, f in settings.inputs.items()}
+    drive = None if settings.drive is None else settings.drive.gain * np.array(
+        run.channels[settings.drive.channel].samples)
+    conditions = {key: float(np.ravel(c.value)[0]) for key, c in run.conditions.items()}
+    own = Run(name, (count - 1) / rate, rate, inputs, drive, conditions)
+    return Recorded(own, tuple(seen), tuple(str(p.unit) for p in parts), np.array([p.samples for p in parts]),
+                    np.array([valid(p) for p in parts]), str(run.repeat_of))
+
+
+def valid(channel):
+    """(n,) False where samples of a product Channel are missing."""
+    kept = np.ones(len(channel.samples), bool)
+    for first, after in np.reshape(channel.missing, (-1, 2)):
+        kept[int(first):int(after)] = False
+    return kept
+
+
+#: SI unit of what a quantity is in
+_UNIT = {"displacement": "m", "velocity": "m/s", "acceleration": "m/s^2"}
+
+
+def check_units(found, settings):
+    """Refuse channels whose unit is not that of the quantity which the case says they show."""
+    for name, one in found.items():
+        for channel, unit in zip(one.channels, one.unit, strict=True):
+            quantity, gain = settings.channels[channel].quantity, settings.channels[channel].gain
+            wanted = _UNIT.get(quantity, "N")
+            if unit != wanted and gain == 1.0:
+                raise ConfigError(f"bench.channels.{channel}", f"a recorded unit of {wanted}, because it shows {quantity}", f"{unit} in run {name}", "state its gain, or convert the recording")

@@ -1,0 +1,1 @@
+"""What joins recordings, benches, effects and inference into one verdict."""

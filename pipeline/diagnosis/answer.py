@@ -1,0 +1,113 @@
+"""From the course of a diagnosis to its product: hypotheses, parameters, errors, runs under three models."""
+
+import numpy as np
+
+from pipeline.diagnosis.question import split_name
+from pipeline.inference.evidence import cautious_prior, posterior, screened
+from pipeline.inference.noise import floor, normalised_error
+from pipeline.inference.verify import errors
+from pipeline.inference.weigh import unexplained
+from pipeline.products import DiagnosedRun, Diagnosis, Located
+
+#: models that are compared, in the order of the tables
+MODELS = ("nominal", "recalibrated", "completed", "noise")
+
+
+def answer(question, found):
+    """Product Diagnosis of a Question and the inference's Diagnosis over it."""
+    first = found.base or found
+    best = _best(found)
+    table = _hypotheses(found)
+    runs = {run.name: _run(question, run, first.null, best) for run in question.problem.runs}
+    channels = tuple(question.units)
+    return Diagnosis(
+        verdict=found.decision.verdict, reason=list(found.decision.reasons), channel=channels,
+        channel_unit=[question.units[c] for c in channels], **table, **_parameters(question, found, best, table),
+        fit=[_errors(question, first.null, best, part) for part in (question.problem.training,
+                                                                    question.problem.held_out)],
+        unexplained_share=unexplained(first.null, best, question.rules),
+        drift_p_value=found.drift.p_value, location={name: located(*axis) for name, axis in
+                                                     question.axes(found).items()},
+        next_condition=[], next_separates=[], next_value=0.0, runs=runs)
+
+
+def located(location, unit="", edges=None):
+    """Product Located of a Location; ``edges`` (n, 2) of bins in ``unit``."""
+    edges = np.zeros((len(location.items), 2)) if edges is None else np.asarray(edges, float)
+    return Located(item=[str(i) for i in location.items], low=edges[:, 0], high=edges[:, 1], unit=unit,
+                   score=location.score, p_value=location.p_value, member=location.members.astype(int))
+
+
+def _best(found):
+    """The Fit of the model that the decision completes: that of its first named hypothesis, else the nominal one."""
+    named = [c.name for c in found.decision.named]
+    return next((w.fit for name in named for w in found.weighed if w.candidate.name == name), found.null)
+
+
+def _hypotheses(found):
+    """Columns of the table of everything weighed: nothing missing first, then what is known, then the catalogue."""
+    known = found.nominal.effects
+    weighed = {w.candidate.name: w for w in found.weighed}
+    rows = [_row("nothing missing" if not known else found.nominal.name, (), "physics")]
+    rows += [_row(f"{e} at {p}", ((e, p),), "physics", posterior=1 - found.base.posterior_of_null, refitted=1)
+             for e, p in known]
+    share = _shares(found, weighed)
+    rows[0]["posterior"] = share[0]
+    screen = found.screen
+    for k, candidate in enumerate(screen.candidates):
+        own = weighed.get(candidate.name)
+        rows.append(_row(candidate.name, candidate.effects, candidate.kind, posterior=share[1 + k],
+                         score=max(float(screen.score[k]), -1e3), p_value=float(screen.p_value[k]),
+                         power=float(screen.power[k]), evidence_gain=own.contender.evidence_gain if own else 0.0,
+                         refitted=int(own is not None), objection=found.failures.get(candidate.name, "")))
+    names = [row["hypothesis"] for row in rows]
+    return {**{key: [row[key] for row in rows] for key in rows[0]},
+            "named": [names.index(c.name) for c in found.decision.named],
+            "known": [names.index(f"{e} at {p}") for e, p in known]}
+
+
+def _row(name, effects, kind, **values):
+    row = {"hypothesis": name, "effect": " + ".join(e for e, _ in effects), "place": " + ".join(p for _, p in effects),
+           "kind": kind, "posterior": 0.0, "score": 0.0, "p_value": 1.0, "power": 0.0, "evidence_gain": 0.0,
+           "refitted": 0, "objection": ""}
+    return row | values
+
+
+def _shares(found, weighed):
+    """Probabilities of nothing missing and of every screened candidate, by full evidence where it was refitted."""
+    rough = screened(found.null_evidence.log_evidence, found.screen.score, found.screen.power)
+    logs = [weighed[c.name].evidence.log_evidence if c.name in weighed else value
+            for c, value in zip(found.screen.candidates, rough, strict=True)]
+    return posterior([found.null_evidence.log_evidence, *logs], cautious_prior(len(logs)))
+
+
+def _parameters(question, found, best, table):
+    std, values = best.spread(found.weights), best.values
+    owners = dict(zip(table["hypothesis"], range(len(table["hypothesis"])), strict=True))
+    rows = []
+    for parameter in best.hypothesis.parameters:
+        effect, place, _ = split_name(parameter.name)
+        given = parameter.nominal if parameter.null is None else parameter.null
+        rows.append((parameter.name, parameter.unit, given, values[parameter.name], std[parameter.name],
+                     owners.get(f"{effect} at {place}", 0)))
+    keys = ("parameter", "parameter_unit", "parameter_nominal", "parameter_value", "parameter_std", "parameter_owner")
+    return {key: [row[k] for row in rows] for k, key in enumerate(keys)}
+
+
+def _errors(question, null, best, runs):
+    if not runs:
+        return [0.0] * len(MODELS)
+    told = errors(question.problem, question.budget, question.problem.nominal, null, best, runs)
+    return [told.before, told.recalibrated, told.after, told.noise_floor]
+
+
+def _run(question, run, null, best):
+    nominal = question.problem.nominal
+    noise = question.budget[run.name]
+    shown = [np.asarray(question.problem.predict(h, h.values(latent), run), float) for h, latent in (
+        (nominal, nominal.nominal), (null.hypothesis, null.latent), (best.hypothesis, best.latent))]
+    rate = run.rate or 1.0
+    return DiagnosedRun(
+        held_out=int(run.held_out), time=np.arange(run.samples.shape[1]) / rate, measured=run.samples,
+        valid=run.valid.astype(int), nominal=shown[0], recalibrated=shown[1], completed=shown[2], noise=noise.std,
+        error=[*(normalised_error(run, run.samples - s) for s in shown), floor(run, noise)])

@@ -1,0 +1,112 @@
+"""What a diagnosis writes beside its HDF5: diagnosis.json, and the completed case."""
+
+import copy
+import json
+
+from pipeline.contract import documents as yaml
+from pipeline.diagnosis.question import split_name
+
+SCHEMA = "brakechain-diagnosis/1"
+#: hypotheses that are listed beside those named
+ALTERNATIVES = 5
+
+
+def companions(product, case):
+    """{file name: text}: diagnosis.json and, where something is added to the case, the completed case."""
+    found = {"diagnosis.json": json.dumps(as_json(product), indent=2, ensure_ascii=False) + "\n"}
+    if case is not None and (name := completed_name(product, case.name)):
+        found[name] = yaml.yaml_text(completed(product, case))
+    return found
+
+
+def completed_name(product, case_name):
+    """Name of the file of the completed case; empty where the diagnosis adds nothing to it."""
+    verdict = product.verdict.item()
+    if verdict == "parameters":
+        return f"{case_name}_with_other_values.yaml"
+    effects = dict.fromkeys(str(product.effect[k]) for k in _completing(product))
+    return f"{case_name}_with_{'_and_'.join(effects)}.yaml" if effects and verdict != "numerics" else ""
+
+
+def completed(product, case):
+    """The document of the case with the fitted values and the named effects, each with its origin."""
+    document = copy.deepcopy(case.document)
+    corrections, effects = {}, {}
+    for k, name in enumerate(product.parameter):
+        effect, place, parameter = split_name(str(name))
+        value = {"value": _written(product, k), "origin": "inferred",
+                 "source": f"diagnosis of {case.name}, +- {product.parameter_std[k]:.2g}"}
+        if not parameter:
+            corrections[str(name)] = value
+        else:
+            effects.setdefault(effect, {}).setdefault(place, {})[parameter] = value
+    bench = document.setdefault("bench", {})
+    bench["corrections"] = {**(bench.get("corrections") or {}), **corrections}
+    own = document["effects"] = document.get("effects") or {}
+    for effect, places in effects.items():
+        own[effect] = {**own.get(effect, {}), **places}
+    document["title"] = f"{document.get('title', case.name)}, completed"
+    return document
+
+
+def _written(product, k):
+    value, unit = float(product.parameter_value[k]), str(product.parameter_unit[k])
+    return value if unit == "1" else f"{value!r} {unit}"
+
+
+def _completing(product):
+    """Rows of the hypotheses whose effects the completed model has: those known, and the first named."""
+    return [*product.known, *product.named[:1]]
+
+
+def as_json(product):
+    """The verdict for machines; the schema is that of SCHEMA."""
+    told = set(_completing(product)) | set(product.named)
+    ordered = sorted(range(len(product.hypothesis)), key=lambda k: -product.posterior[k])
+    return {
+        "schema": SCHEMA, "verdict": product.verdict.item(), "reasons": [str(r) for r in product.reason],
+        "effects": [_effect(product, k) for k in (*product.known, *product.named)],
+        "alternatives": [_effect(product, k, False) for k in ordered if k not in told][:ALTERNATIVES],
+        "location": _location(product),
+        "parameters": {str(name): {"nominal": float(product.parameter_nominal[k]),
+                                   "value": float(product.parameter_value[k]),
+                                   "std": float(product.parameter_std[k]), "unit": str(product.parameter_unit[k])}
+                       for k, name in enumerate(product.parameter) if not split_name(str(name))[2]},
+        "fit": {part: _fit(product, row, held_out) for row, (part, held_out) in enumerate(
+            (("training", 0), ("held_out", 1)))},
+        "unexplained_share": float(product.unexplained_share),
+        "next_experiment": {"conditions": [str(c) for c in product.next_condition],
+                            "separates": [str(s) for s in product.next_separates], "value": float(product.next_value)},
+    }
+
+
+def _effect(product, k, with_parameters=True):
+    names = str(product.effect[k]).split(" + ")
+    told = {"name": names[0], "place": str(product.place[k]), "kind": str(product.kind[k]),
+            "posterior": float(product.posterior[k])}
+    if not product.effect[k]:
+        told["name"] = "nothing missing"
+    if with_parameters:
+        told["parameters"] = {
+            split_name(str(name))[2]: {"value": float(product.parameter_value[i]), "std": float(product.parameter_std[i]),
+                                       "unit": str(product.parameter_unit[i])}
+            for i, name in enumerate(product.parameter) if product.parameter_owner[i] == k and split_name(str(name))[2]}
+    return told
+
+
+def _location(product):
+    """Members of the 95 % set of every axis that was located."""
+    return {axis: [_item(found, k) for k in range(len(found.item)) if found.member[k]]
+            for axis, found in product.location.items()}
+
+
+def _item(found, k):
+    if found.unit.item():
+        return {"from": float(found.low[k]), "to": float(found.high[k]), "unit": found.unit.item()}
+    return str(found.item[k])
+
+
+def _fit(product, row, held_out):
+    before, recalibrated, after, noise = (float(v) for v in product.fit[row])
+    runs = [name for name, run in product.runs.items() if int(run.held_out) == held_out]
+    return {"before": before, "recalibrated": recalibrated, "after": after, "noise_floor": noise, "runs": runs}

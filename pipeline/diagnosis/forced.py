@@ -1,0 +1,52 @@
+"""The question of forced recordings: a bench, its recorded runs, and the section ``diagnosis``."""
+
+from pipeline.benches import corrections
+from pipeline.contract import ConfigError
+from pipeline.contract.units import to_si
+from pipeline.diagnosis.question import Question, nominal
+from pipeline.diagnosis.settings import parameter
+from pipeline.diagnosis.simulation import Simulated, candidates, halved, observed, solver_candidate
+from pipeline.effects import CATALOGUE
+from pipeline.inference.noise import budget
+from pipeline.inference.problem import Problem
+
+
+def question(bench, recorded, settings):
+    """Question over {name: Recorded} of a Bench. ConfigError for unknown runs, effects, places and parameters."""
+    check_names("held_out", settings.held_out, recorded)
+    runs = {name: one.run for name, one in recorded.items()}
+    shown = {c: u for one in recorded.values() for c, u in zip(one.channels, one.unit, strict=True)}
+    change = {}
+    if settings.solver:
+        change = halved(bench, runs, {name: one.channels for name, one in recorded.items()})
+    noise = {c: to_si(v, shown[c], f"diagnosis.noise.std.{c}") for c, v in settings.noise.std.items()}
+    seen = tuple(observed(one, noise, name in settings.held_out) for name, one in recorded.items())
+    problem = Problem(seen, Simulated(bench, runs, change), nominal(nominal_parameters(bench, settings)))
+    trained = tuple(runs[o.name] for o in problem.training)
+    found = candidates(bench, trained, chosen(settings), settings.places)
+    return Question(problem, budget(problem, above=settings.noise.above),
+                    (*found, *([solver_candidate()] if settings.solver else [])), shown)
+
+
+def nominal_parameters(bench, settings):
+    """Parameters that the case says may be wrong, about the values of the bench."""
+    units = corrections.known(bench)
+    check_names("parameters", settings.parameters, units)
+    return [parameter(name, units[name], corrections.nominal(bench, name), prior, f"diagnosis.parameters.{name}")
+            for name, prior in settings.parameters.items()]
+
+
+def chosen(settings):
+    """Effects that are weighed."""
+    names = [e.name for e in CATALOGUE]
+    check_names("effects", settings.effects, names)
+    check_names("without", settings.without, names)
+    return tuple(e for e in CATALOGUE if (not settings.effects or e.name in settings.effects)
+                 and e.name not in settings.without)
+
+
+def check_names(key, wanted, known):
+    """ConfigError at ``diagnosis.key`` for a wanted name that is not known."""
+    unknown = [name for name in wanted if name not in known]
+    if unknown:
+        raise ConfigError(f"diagnosis.{key}", f"of {', '.join(known)}", ", ".join(unknown))

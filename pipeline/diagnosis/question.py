@@ -1,0 +1,50 @@
+"""The question that a diagnosis answers: runs, a forward model, hypotheses, noise, and where it looks for the place."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from pipeline.inference.decide import Rules
+from pipeline.inference.problem import Hypothesis, Problem
+
+
+def _nowhere(diagnosis):
+    return {}
+
+
+@dataclass(frozen=True)
+class Question:
+    """A Problem with {run: Noise} ``budget`` and ``candidates`` (Hypotheses of effects alone).
+
+    ``units`` {channel: SI unit}; ``axes(diagnosis)`` -> {axis: Location} tells where the mismatch lies; ``next_runs``
+    (Observed, whose samples do not count): conditions that could be recorded next.
+    """
+
+    problem: Problem
+    budget: dict
+    candidates: tuple
+    units: dict
+    rules: Rules = Rules()
+    axes: Callable = _nowhere
+    next_runs: tuple = ()
+
+
+def parameter_name(effect, place, parameter):
+    """Name of a parameter of an effect at a place, among all parameters of a hypothesis."""
+    return f"{effect}@{place}.{parameter}"
+
+
+def split_name(name):
+    """(effect, place, parameter) of such a name, all empty for a nominal one; places may hold dots."""
+    effect, _, rest = name.partition("@") if "@" in name else ("", "", "")
+    place, _, parameter = rest.rpartition(".")
+    return effect, place, parameter
+
+
+def label(effects):
+    """Name of a hypothesis from its ((effect, place), ...)."""
+    return " + ".join(f"{effect} at {place}" for effect, place in effects)
+
+
+def nominal(parameters):
+    """The hypothesis that nothing is missing."""
+    return Hypothesis("nominal", (), tuple(parameters))

@@ -1,0 +1,58 @@
+"""The section ``diagnosis`` of a case: what may be wrong, what may be missing, what was held out, how noise is known."""
+
+from typing import Literal
+
+from pipeline.contract import ConfigError, Quantity, Section, option
+from pipeline.contract.units import to_si
+from pipeline.inference.priors import HalfNormal, LogNormal, Normal, Parameter, Uniform
+
+
+class Prior(Section):
+    """How far a nominal value may be off."""
+
+    prior: Literal["log_normal", "normal", "half_normal", "uniform"] = option(
+        "log_normal", "log_normal: positive, spread relative; normal: either sign; half_normal: zero or more")
+    spread: float = option(0.2, "log_normal: standard deviation of the logarithm, 0.2 = about 20 %", gt=0)
+    std: str | float | None = option(None, "normal: standard deviation; half_normal: root mean square")
+    low: str | float | None = option(None, "uniform: lower end")
+    high: str | float | None = option(None, "uniform: upper end")
+
+
+class NoiseOf(Section):
+    """What is known of the noise of the channels; none of it: from repeats of runs."""
+
+    std: dict[str, str | float] = option({}, "standard deviation by channel, with its unit")
+    above: Quantity("Hz", gt=0) | None = option(None, "frequency above which recordings hold nothing but noise")
+
+
+class Settings(Section):
+    """What is asked."""
+
+    forward: Literal["simulation", "equation"] = option(
+        "simulation", "simulation: runs are simulated; equation: measured motions are put into the equation of motion")
+    parameters: dict[str, Prior] = option({}, "nominal values that may be wrong, by name as in bench.corrections")
+    held_out: tuple[str, ...] = option((), "runs that are kept for verification and never fitted")
+    effects: tuple[str, ...] = option((), "effects that are weighed; none = the whole catalogue")
+    without: tuple[str, ...] = option((), "effects that are not weighed, because they are known not to be there")
+    places: tuple[str, ...] = option((), "places that are weighed; none = all")
+    noise: NoiseOf = option(NoiseOf(), "noise of the recordings")
+    solver: bool = option(True, "weigh the solver too, by halving its step")
+    kept: int = option(8, "candidates that are refitted in the full model", ge=1)
+    draws: int = option(20000, "draws of the null of the screen", ge=100)
+    seed: int = option(0, "seed of all draws", ge=0)
+
+
+def parameter(name, unit, value, given, where):
+    """Parameter of a nominal number of ``value`` with the Prior ``given``; ConfigError for priors that lack a size."""
+    def size(key):
+        told = getattr(given, key)
+        if told is None:
+            raise ConfigError(f"{where}.{key}", f"a value, because the prior is {given.prior}", "none")
+        return to_si(told, unit, f"{where}.{key}")
+
+    if given.prior == "log_normal" and not value > 0:
+        raise ConfigError(f"{where}.prior", "normal, half_normal or uniform, because the nominal value is not positive",
+                          f"log_normal about {value:g} {unit}")
+    prior = {"log_normal": lambda: LogNormal(value, given.spread), "normal": lambda: Normal(value, size("std")),
+             "half_normal": lambda: HalfNormal(size("std")), "uniform": lambda: Uniform(size("low"), size("high"))}
+    return Parameter(name, unit, value, prior[given.prior]())

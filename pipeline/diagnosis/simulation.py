@@ -1,0 +1,85 @@
+"""Runs simulated with parameters and effects: the forward model of forced recordings."""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from pipeline.benches import corrections
+from pipeline.benches.bench import only
+from pipeline.diagnosis.question import label, parameter_name, split_name
+from pipeline.effects import named
+from pipeline.effects.effect import Term, compose
+from pipeline.inference.priors import Normal, Parameter
+from pipeline.inference.problem import Hypothesis, Observed
+from pipeline.physics.bench import respond
+
+#: the solver as a hypothesis: its place, and its parameter: 0 as it is, 1 with half its step (4/3: none, at order 2)
+STEP, SOLVER, REFINEMENT = "time_step", "solver", "refinement"
+
+
+def observed(recorded, noise_std=None, held_out=False):
+    """Observed of a Recorded run; ``noise_std`` {channel: SI value} where it is given."""
+    one = recorded
+    told = np.array([noise_std[c] for c in one.channels]) if noise_std else None
+    return Observed(one.run.name, one.run.conditions, one.channels, one.samples, one.run.sample_rate, one.valid,
+                    noise_std=told, held_out=held_out, repeat_of=one.repeat_of)
+
+
+def completed(bench, hypothesis, values):
+    """The bench with the values of a hypothesis: corrected numbers first, then its effects."""
+    effects = {pair: {} for pair in hypothesis.effects if pair[0] != STEP}
+    numbers = {}
+    for name in (p.name for p in hypothesis.parameters):
+        effect, place, parameter = split_name(name)
+        if not parameter:
+            numbers[name] = values[name]
+        elif effect != STEP:
+            effects[effect, place][parameter] = values[name]
+    terms = [Term(named(effect), place, given) for (effect, place), given in effects.items()]
+    return compose(corrections.corrected(bench, numbers), terms)
+
+
+@dataclass(frozen=True)
+class Simulated:
+    """Picklable prediction: ``runs`` {name: Run}; ``change`` {name: (c, n)}: what half the step changes."""
+
+    bench: object
+    runs: dict
+    change: dict
+
+    def __call__(self, hypothesis, values, run):
+        predicted = shown(completed(self.bench, hypothesis, values), self.runs[run.name], run.channels)
+        refinement = values.get(parameter_name(STEP, SOLVER, REFINEMENT), 0.0)
+        return predicted + refinement * self.change[run.name] if refinement else predicted
+
+
+def shown(bench, run, channels):
+    """Samples (c, n) of ``channels`` in one run."""
+    answer = respond(only(bench, channels), run)
+    return np.array([answer[c] for c in channels])
+
+
+def halved(bench, runs, channels):
+    """{run name: (c, n)} what half the step changes in the prediction of the bench; ``channels`` {run name: names}."""
+    finer = replace(bench, step=bench.step / 2)
+    return {name: shown(finer, run, channels[name]) - shown(bench, run, channels[name]) for name, run in runs.items()}
+
+
+def candidates(bench, runs, catalogue, places=()):
+    """Hypotheses of every effect at each of its places (of ``places`` where given), with priors of nominal sizes."""
+    found = []
+    for effect in catalogue:
+        for place in effect.places(bench):
+            if places and place not in places:
+                continue
+            parameters = tuple(replace(p, name=parameter_name(effect.name, place, p.name))
+                               for p in effect.at(bench, place, runs))
+            found.append(Hypothesis(label(((effect.name, place),)), ((effect.name, place),), parameters, effect.kind))
+    return tuple(found)
+
+
+def solver_candidate():
+    """The hypothesis that the time step is too long."""
+    name = parameter_name(STEP, SOLVER, REFINEMENT)
+    return Hypothesis(label(((STEP, SOLVER),)), ((STEP, SOLVER),),
+                      (Parameter(name, "1", 0.0, Normal(0.0, 1.0), 0.0),), "numerics")

@@ -1,0 +1,103 @@
+"""Diagnosis: the effects of a case, what its bench would have shown, and what recordings say is missing."""
+
+from pipeline.contract import Array, count, parts, product, quantity, text
+
+
+@product(version=1)
+class Effects:
+    """Physics that the case adds to its model: terms of the catalogue, each at a place."""
+
+    effect: Array = text("entry", "effect of the catalogue")
+    place: Array = text("entry", "joint, contact group, point or channel where it acts")
+    term: Array = count("value", "term that each value belongs to")
+    parameter: Array = text("value", "parameter of the effect")
+    value: Array = quantity("1", "value", "its value in the SI unit that `unit` names")
+    unit: Array = text("value", "SI unit of the value")
+
+
+@product(version=1)
+class BenchRun:
+    """One recorded run beside what the sensors of the bench would have shown in it."""
+
+    time: Array = quantity("s", "sample", "time since the begin of the run")
+    measured: Array = quantity("1", "channel sample", "recorded samples, each channel in its SI unit; 0 where missing")
+    predicted: Array = quantity("1", "channel sample", "what the model shows")
+    valid: Array = count("channel sample", "1 where a sample was recorded")
+    error: Array = quantity("1", "channel", "root mean square error over the standard deviation of the recorded signal")
+    root_mean_square: Array = quantity("1", "channel", "root mean square error in the unit of the channel")
+
+
+@product(version=1)
+class Bench:
+    """The bench: sensors, laws and inputs of the model, and what it would have shown in the recorded runs."""
+
+    settings: Array = text("", "the section of the case that describes it, as JSON")
+    channel: Array = text("channel", "sensors in order")
+    unit: Array = text("channel", "SI unit of what each shows")
+    runs: dict[str, BenchRun] = parts("recorded runs by name")
+
+
+@product(version=1)
+class DiagnosedRun:
+    """One run under the nominal, the recalibrated and the completed model."""
+
+    held_out: Array = count("", "1 where the run was not fitted")
+    time: Array = quantity("s", "sample", "time since the begin of the run; sample number for features")
+    measured: Array = quantity("1", "channel sample", "recorded samples; 0 where missing")
+    valid: Array = count("channel sample", "1 where a sample was recorded")
+    nominal: Array = quantity("1", "channel sample", "prediction with the given values")
+    recalibrated: Array = quantity("1", "channel sample", "prediction with refitted nominal values")
+    completed: Array = quantity("1", "channel sample", "prediction with the named effects; as recalibrated without any")
+    noise: Array = quantity("1", "channel", "standard deviation of the noise")
+    error: Array = quantity("1", "model", "error over standard deviation: nominal, recalibrated, completed, noise alone")
+
+
+@product(version=1)
+class Located:
+    """One axis of the location of a mismatch."""
+
+    item: Array = text("item", "chain stages, places, runs, bands or bins")
+    low: Array = quantity("1", "item", "lower edge of a band or bin, in the unit that `unit` names; 0 for names")
+    high: Array = quantity("1", "item", "upper edge")
+    unit: Array = text("", "unit of the edges; empty for names")
+    score: Array = quantity("1", "item", "standard deviations, or what the axis says")
+    p_value: Array = quantity("1", "item", "family-wise over the axis")
+    member: Array = count("item", "1 in the 95 % set")
+
+
+@product(version=1)
+class Diagnosis:
+    """The verdict on recordings: what differs, where, what is missing, how sure, and what to measure next."""
+
+    verdict: Array = text("", "consistent, parameters, missing, tie, sensor, numerics or unknown")
+    reason: Array = text("reason", "why, in sentences")
+    channel: Array = text("channel", "sensors, or features")
+    channel_unit: Array = text("channel", "their SI units")
+    named: Array = count("named", "rows of the hypotheses that the verdict names; all of a tie")
+    known: Array = count("known", "rows of the hypotheses that were taken as known before (first of a pair)")
+    hypothesis: Array = text("hypothesis", "everything that was weighed; nothing missing first")
+    effect: Array = text("hypothesis", "effect of the catalogue; empty for nothing missing")
+    place: Array = text("hypothesis", "where it would act")
+    kind: Array = text("hypothesis", "physics, sensor or numerics")
+    posterior: Array = quantity("1", "hypothesis", "probability among all")
+    score: Array = quantity("1", "hypothesis", "screening score in standard deviations")
+    p_value: Array = quantity("1", "hypothesis", "family-wise p-value over the catalogue")
+    power: Array = quantity("1", "hypothesis", "score expected at the prior's size: what these runs can see")
+    evidence_gain: Array = quantity("1", "hypothesis", "ln Z over the recalibrated nominal model; 0 where not refitted")
+    refitted: Array = count("hypothesis", "1 where it was refitted in the full model")
+    objection: Array = text("hypothesis", "rules that it breaks, or why it could not be judged")
+    parameter: Array = text("parameter", "fitted parameters: nominal ones, then those of the named effects")
+    parameter_unit: Array = text("parameter", "their SI units")
+    parameter_nominal: Array = quantity("1", "parameter", "given value")
+    parameter_value: Array = quantity("1", "parameter", "fitted value")
+    parameter_std: Array = quantity("1", "parameter", "standard deviation")
+    parameter_owner: Array = count("parameter", "row of the hypothesis that owns it; 0 for nominal ones")
+    fit: Array = quantity("1", "part model", "error over standard deviation, training and held out (0 without):"
+                          " nominal, recalibrated, completed, noise alone")
+    unexplained_share: Array = quantity("1", "", "share of the excess error that the completed model leaves")
+    drift_p_value: Array = quantity("1", "", "p-value that fitted values are alike over operating points; 1 untested")
+    location: dict[str, Located] = parts("axes by name: stage, place, run, band, conditions")
+    next_condition: Array = text("next", "conditions of the next experiment, as name = value unit")
+    next_separates: Array = text("separated", "hypotheses that it separates best")
+    next_value: Array = quantity("1", "", "what it is expected to tell, in nats; 0 without one")
+    runs: dict[str, DiagnosedRun] = parts("runs by name")

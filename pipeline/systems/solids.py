@@ -1,0 +1,76 @@
+"""What the systems of finite-element bodies are made of: solids, and displacement rows that tie them.
+
+A row holds one weight per body and degree of freedom (3 node + axis).
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+import scipy.sparse as sp
+
+from pipeline.physics.elasticity import assemble
+from pipeline.physics.mesh import Mesh
+
+
+@dataclass(frozen=True)
+class Solid:
+    """Mesh, material row of each element, material table, rigidly held nodes."""
+
+    mesh: Mesh
+    element_material: np.ndarray
+    material_name: tuple
+    density: np.ndarray
+    elasticity: np.ndarray
+    damping_ratio: float
+    supported: np.ndarray
+
+    def matrices(self):
+        """Stiffness and mass (3n, 3n) sparse of the body, supports not yet held."""
+        mesh = self.mesh
+        return assemble(mesh.node, mesh.element, mesh.kind, self.element_material, self.density, self.elasticity)
+
+
+@dataclass(frozen=True)
+class Rows:
+    """One (rows, 3 nodes) sparse matrix per body."""
+
+    parts: tuple
+
+    @property
+    def matrix(self):
+        """All bodies side by side."""
+        return sp.hstack(self.parts, format="csr")
+
+
+@dataclass(frozen=True)
+class Joints:
+    """Springs [N/m] and dampers [N s/m] along rows."""
+
+    name: tuple
+    stiffness: np.ndarray
+    damping: np.ndarray
+    rows: Rows
+
+
+@dataclass(frozen=True)
+class Contacts:
+    """Patches on the disc: body that slides there, centroid, area and three relative displacements, body less disc."""
+
+    body: np.ndarray
+    position: np.ndarray
+    area: np.ndarray
+    normal: Rows
+    tangent: Rows
+    lateral: Rows
+
+
+@dataclass(frozen=True)
+class Assembly:
+    """Solids, their joints, contacts and sensors."""
+
+    bodies: tuple
+    joints: Joints
+    contacts: Contacts
+    sensors: Rows
+    sensor_position: np.ndarray
+    sensor_direction: np.ndarray

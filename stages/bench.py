@@ -1,0 +1,57 @@
+"""Stage bench: what the sensors of a bench would have shown in the recorded runs."""
+
+import numpy as np
+
+from pipeline.benches.bench import Settings, built, only
+from pipeline.benches.effect_block import with_effects
+from pipeline.benches.runs import recorded
+from pipeline.contract import ConfigError, Context, stage, stored
+from pipeline.physics.bench import respond
+from pipeline.products import Bench, BenchRun, Effects, Recording, ReducedModel
+
+
+def _check(sections):
+    """Refuse a bench without sensors."""
+    if not sections["bench"].channels:
+        raise ConfigError("bench.channels", "at least one recorded channel", "none",
+                          "say what each recorded channel shows of the model")
+
+
+@stage(check=_check)
+def bench(model: ReducedModel, effects: Effects | None, recording: Recording, settings: Settings,
+          context: Context) -> Bench:
+    """Predict what the sensors of the bench would have shown in the recorded runs.
+
+    Method:
+    Every recorded run was simulated with the model, its laws of contact (contact: {contact}) and friction, the stated
+    effects and corrected values, by steps of at most {step}; sensors show what the case says, and the error is the
+    root mean square of recorded less predicted samples.
+    """
+    whole, runs = with_effects(built(model, settings), effects), recorded(recording, settings)
+    answers = context.map(_Answer(whole), list(runs.values()), "runs")
+    found = {name: _run(one, answer) for (name, one), answer in zip(runs.items(), answers, strict=True)}
+    units = {c: u for one in runs.values() for c, u in zip(one.channels, one.unit, strict=True)}
+    for name, one in found.items():
+        context.log(f"{name}: error {', '.join(f'{e:.3g}' for e in one.error)} of the standard deviation")
+    return Bench(settings=stored(settings), channel=list(units), unit=list(units.values()), runs=found)
+
+
+class _Answer:
+    """Picklable: the samples (c, n) of one recorded run."""
+
+    def __init__(self, whole):
+        self.whole = whole
+
+    def __call__(self, one):
+        shown = respond(only(self.whole, one.channels), one.run)
+        return np.array([shown[c] for c in one.channels])
+
+
+def _run(one, predicted):
+    count = one.valid.sum(axis=1)
+    left = np.where(one.valid, one.samples - predicted, 0.0)
+    size = np.sqrt((left**2).sum(axis=1) / np.maximum(count, 1))
+    spread = np.array([s[v].std() if v.any() else 0.0 for s, v in zip(one.samples, one.valid, strict=True)])
+    return BenchRun(time=one.run.time, measured=np.where(one.valid, one.samples, 0.0), predicted=predicted,
+                    valid=one.valid.astype(int), root_mean_square=size,
+                    error=np.divide(size, spread, out=np.zeros(len(size)), where=spread > 0))

@@ -1,0 +1,20 @@
+"""Stage effects: physics that a case adds to its model, from the catalogue."""
+
+from pipeline.benches import effect_block
+from pipeline.benches.effect_block import Settings
+from pipeline.contract import Context, stage
+from pipeline.products import Effects
+
+
+@stage
+def effects(settings: Settings, context: Context) -> Effects:
+    """Add physics of the catalogue to the model.
+
+    Method:
+    Effects of the catalogue were added at the places and with the values that the case states; none where it states
+    none.
+    """
+    found = effect_block.product(settings)
+    for name, place in zip(found.effect, found.place, strict=True):
+        context.log(f"{name} at {place}")
+    return found

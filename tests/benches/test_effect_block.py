@@ -1,0 +1,45 @@
+"""The block of effects: from YAML to terms, and what it refuses."""
+
+import pytest
+
+from pipeline.benches import bench as benches
+from pipeline.benches.effect_block import Settings, parameters, terms, with_effects
+from pipeline.contract import ConfigError
+from pipeline.contract.settings import fill
+from pipeline.effects import CATALOGUE
+from tests.diagnosis.small_rig import HIDDEN, effects, laid_out, model
+
+
+def test_every_effect_is_a_key_with_its_parameters():
+    assert set(Settings.model_fields) == {e.name for e in CATALOGUE}
+    term, = terms(effects({"moving_base": {"mount": {p.name: f"1 {p.unit}" if p.unit != "1" else 1
+                                                     for p in parameters(next(e for e in CATALOGUE
+                                                                              if e.name == "moving_base"))}}}))
+    assert term.effect.name == "moving_base" and term.place == "mount"
+
+
+def test_values_arrive_in_si():
+    term, = terms(effects(HIDDEN))
+    assert term.values == {"coefficient": 1.5e4}
+
+
+def test_no_effects_leave_the_bench_alone():
+    bench = benches.built(model(), laid_out())
+    assert with_effects(bench, None) is bench and with_effects(bench, effects({})) is bench
+
+
+@pytest.mark.parametrize("given, said", [
+    ({"cubic_stifness": {"mount": {"coefficient": "1 N/m^3"}}}, "did you mean 'cubic_stiffness'"),
+    ({"cubic_stiffness": {"mount": {"coefficient": "1 N/m"}}}, "N/m\\^3"),
+    ({"cubic_stiffness": {"mount": {}}}, "coefficient")])
+def test_wrong_blocks_are_refused(given, said):
+    with pytest.raises(ConfigError, match=said):
+        fill(Settings, given, "case.yaml: effects")
+
+
+def test_a_wrong_place_and_a_sensor_without_recordings_are_refused():
+    bench = benches.built(model(), laid_out())
+    with pytest.raises(ConfigError, match="mount"):
+        with_effects(bench, effects({"cubic_stiffness": {"mont": {"coefficient": "1 N/m^3"}}}))
+    with pytest.raises(ConfigError, match="sensor"):
+        with_effects(bench, effects({"sensor_gain": {"x": {"error": 0.1}}}), channels=False)

@@ -1,0 +1,46 @@
+"""diagnosis.json and the completed case."""
+
+import json
+
+import pytest
+import yaml
+
+from pipeline.benches import bench as benches
+from pipeline.benches.effect_block import Settings as EffectSettings
+from pipeline.benches.effect_block import product, with_effects
+from pipeline.benches.runs import recorded
+from pipeline.contract.case import CaseText
+from pipeline.contract.settings import fill, without_origins
+from pipeline.diagnosis.document import as_json, companions
+from pipeline.diagnosis.simulation import shown
+from pipeline.inference.noise import normalised_error
+from tests.diagnosis.small_rig import BENCH, HIDDEN, laid_out, model, recording
+from tests.diagnosis.test_answer import told
+
+CASE = CaseText("rig", {"chain": "lumped_bench", "title": "Rig", "bench": BENCH})
+
+
+def test_the_json_holds_the_verdict():
+    found = as_json(told())
+    assert found["schema"] == "brakechain-diagnosis/1" and found["verdict"] == "missing"
+    effect, = found["effects"]
+    assert effect["name"] == "cubic_stiffness" and effect["parameters"]["coefficient"]["unit"] == "N/m^3"
+    assert found["fit"]["held_out"]["runs"] == ["level_4"]
+    assert set(found["parameters"]) == {"joints.mount.stiffness", "joints.mount.damping"}
+    assert json.loads(companions(told(), CASE)["diagnosis.json"]) == found
+
+
+def test_the_completed_case_has_the_same_held_out_error():
+    files = companions(told(), CASE)
+    case = without_origins(yaml.safe_load(files["rig_with_cubic_stiffness.yaml"]), "case")
+    bench = with_effects(benches.built(model(), fill(benches.Settings, case["bench"], "bench")),
+                         product(fill(EffectSettings, case["effects"], "effects")))
+    one = recorded(recording(HIDDEN), laid_out())["level_4"]
+    left = one.samples - shown(bench, one.run, one.channels)
+    error = normalised_error(one, left)
+    assert error == pytest.approx(told().fit[1, 2], rel=1e-9)
+
+
+def test_nothing_is_written_where_nothing_is_missing():
+    assert set(companions(told(hidden=False), CASE)) == {"diagnosis.json"}
+    assert "rig_with_other_values.yaml" in companions(told(hidden=False, stiffness="430 N/m"), CASE)

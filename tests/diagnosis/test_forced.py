@@ -1,0 +1,42 @@
+"""The question of forced recordings, and what it refuses."""
+
+import pytest
+
+from pipeline.benches import bench as benches
+from pipeline.benches.runs import recorded
+from pipeline.contract import ConfigError
+from pipeline.contract.settings import fill
+from pipeline.diagnosis.forced import question
+from pipeline.diagnosis.settings import Settings
+from tests.diagnosis.small_rig import laid_out, model, recording
+
+ASKED = {"parameters": {"joints.mount.stiffness": {"spread": 0.1}}, "held_out": ["level_4"],
+         "noise": {"std": {"x": "0.2 mm"}}}
+
+
+def asked(**more):
+    return question(benches.built(model(), laid_out()), recorded(recording(), laid_out()),
+                    fill(Settings, {**ASKED, **more}, "diagnosis"))
+
+
+def test_the_question_holds_runs_noise_parameters_and_candidates():
+    found = asked(effects=["cubic_stiffness", "sensor_gain"])
+    assert [r.name for r in found.problem.held_out] == ["level_4"] and len(found.problem.training) == 3
+    assert [c.kind for c in found.candidates] == ["physics", "sensor", "numerics"]
+    assert found.budget["level_1"].std == pytest.approx([2e-4]) and found.units == {"x": "m"}
+    assert found.problem.nominal.parameters[0].nominal == 400.0
+
+
+def test_effects_can_be_left_out():
+    names = {c.effects[0][0] for c in asked(without=["coulomb"], solver=False).candidates}
+    assert "coulomb" not in names and "viscous" in names and "time_step" not in names
+
+
+@pytest.mark.parametrize("more, said", [
+    ({"held_out": ["level_9"]}, "diagnosis.held_out"), ({"effects": ["magic"]}, "diagnosis.effects"),
+    ({"parameters": {"joints.mount.stifness": {}}}, "diagnosis.parameters"),
+    ({"noise": {"std": {"x": "1 kg"}}}, "diagnosis.noise.std.x"), ({"noise": {}}, "noise"),
+    ({"held_out": ["level_1", "level_2", "level_3", "level_4"]}, "at least one run to fit")])
+def test_wrong_questions_are_refused(more, said):
+    with pytest.raises(ConfigError, match=said):
+        asked(**more)
