@@ -13,7 +13,7 @@ import numpy as np
 from numba import njit
 
 from pipeline.physics.dry_friction import RIGID
-from pipeline.physics.element_forces import turn
+from pipeline.physics.element_forces import TURNING, turn
 from pipeline.physics.friction_state_steps import expect, settle
 from pipeline.physics.time_stepping_contact import SOLVED, solve_contacts
 from pipeline.physics.time_stepping_elements import (
@@ -193,6 +193,7 @@ def march(linear, law, friction, elements, states, lever, drive, inputs, pairs, 
         _push(last, 2 * contacts, begin, steady)
     count_e, waves = elements.kind.size, elements.waviness.shape[0] > 0
     recalls, middle = states.kind.size > 0, friction.description == RIGID and not law.newmark
+    turns_aside = np.any(elements.kind == TURNING)
     special, angle, spin = count_e > 0 or waves or recalls, record.angle[0], np.zeros(1)
     slip, slipped, mean = np.zeros(contacts), np.zeros(contacts), np.zeros(contacts)
     alone, shift, shift_before = np.zeros((4, contacts)), np.zeros((2, contacts)), np.zeros((2, contacts))
@@ -235,8 +236,9 @@ def march(linear, law, friction, elements, states, lever, drive, inputs, pairs, 
                     sliding[0, i], sliding[1, i] = sliding[1, i], lever[i] * turning[0]
                     way[i] = 0.5 * step * (sliding[0, i] + sliding[1, i])
             held_flat[:] = force_flat
-            if special:
+            if recalls or turns_aside:
                 slip[:] = sliding[0] - seen[3]
+            if turns_aside:
                 turn(elements, held[1], slip, now[1])
             if recalls:
                 expect(states, value, friction, held[0], slip, held[1], angle_before, angle, step, middle)
