@@ -65,7 +65,7 @@ def motion_scatter(model: ReducedModel, settings: Settings, context: Context) ->
     Method:
     The motion from steady sliding with a random start velocity was run over {duration} for each of {formulations}, the
     steps {steps} and the seeds {seeds}, with friction {friction}; what is told are ranges over these runs after
-    {settling}.
+    {settling}; forces are means over {sampling}.
     """
     runs = list(combinations(settings.formulations, settings.steps, settings.seeds))
     rows = context.map(partial(_run, model, settings), runs, "motions")

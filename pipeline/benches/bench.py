@@ -8,6 +8,7 @@ from pipeline.benches import corrections
 from pipeline.benches.laws import Laws, friction_law, normal_law
 from pipeline.contract import ConfigError, Quantity, Section, option
 from pipeline.physics.bench import FORCES, MOTIONS, Bench, Channel
+from pipeline.physics.doublets import doublets
 from pipeline.physics.sliding_model import sliding_model
 
 
@@ -49,7 +50,7 @@ def built(model, settings):
     bench = Bench(sliding, normal_law(model, sliding.contacts, settings, "bench"),
                   friction_law(model, sliding.contacts, settings, "bench"), settings.step,
                   tuple(_channel(name, sensor) for name, sensor in settings.channels.items()), groups(model),
-                  settings.settled)
+                  settings.settled, doublets(sliding))
     for channel in bench.channels:
         _check_source(bench, channel)
     return corrections.corrected(bench, corrections.read(bench, settings.corrections, "bench.corrections"))

@@ -16,9 +16,14 @@ def parameters(effect):
     return effect.parameters(Typical())
 
 
+def _unit(parameter):
+    """Unit that a value is written in; those of a channel are numbers in its SI unit."""
+    return "1" if "unit of the channel" in parameter.unit else parameter.unit
+
+
 def _values(effect):
     """Section of the values of one effect at one place."""
-    fields = {p.name: (Quantity(p.unit), option(..., f"{p.name.replace('_', ' ')} [{p.unit}]"))
+    fields = {p.name: (Quantity(_unit(p)), option(..., f"{p.name.replace('_', ' ')} [{p.unit}]"))
               for p in parameters(effect)}
     return section(f"{effect.name}_values", effect.summary, fields)
 

@@ -6,6 +6,8 @@ from pipeline.computed import ours
 
 #: names of the three coalescences, in rising order
 _COALESCENCES = ("low", "middle", "high")
+#: how a number is read where the paper leaves it open
+_READ_AS = {"peak_force": "; means over the sampling interval, as single steps have no largest force on a hard contact"}
 #: a coalescence further than this factor from its fact is not the same
 _FARTHEST = 1.25
 
@@ -59,7 +61,8 @@ def motion_rows(scatter, known):
         "intermittency": scatter.vibrating_share, "second_harmonic": scatter.harmonic_height[:, 1],
         "third_harmonic": scatter.harmonic_height[:, 2], "no_low_line": scatter.low_level}
     return {key: ours(np.median(values), f"median of {len(values)} runs over formulation, step and seed; they span"
-                      f" {values.min():.4g} to {values.max():.4g} (SI)") for key, values in told.items()}
+                      f" {values.min():.4g} to {values.max():.4g} (SI){_READ_AS.get(key, '')}")
+            for key, values in told.items()}
 
 
 _ROWS = {"beam_on_beam": coalescence_rows, "complex_modes": stability_rows, "motion_scatter": motion_rows}

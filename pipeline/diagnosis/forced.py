@@ -5,7 +5,7 @@ from pipeline.contract import ConfigError
 from pipeline.contract.units import to_si
 from pipeline.diagnosis.question import Question, nominal
 from pipeline.diagnosis.settings import parameter
-from pipeline.diagnosis.simulation import Simulated, candidates, halved, observed, solver_candidate
+from pipeline.diagnosis.simulation import Simulated, candidates, halved, observed, reach, solver_candidate
 from pipeline.effects import CATALOGUE
 from pipeline.inference.noise import budget
 from pipeline.inference.problem import Problem
@@ -22,8 +22,9 @@ def question(bench, recorded, settings):
     noise = {c: to_si(v, shown[c], f"diagnosis.noise.std.{c}") for c, v in settings.noise.std.items()}
     seen = tuple(observed(one, noise, name in settings.held_out) for name, one in recorded.items())
     problem = Problem(seen, Simulated(bench, runs, change), nominal(nominal_parameters(bench, settings)))
-    trained = tuple(runs[o.name] for o in problem.training)
-    found = candidates(bench, trained, chosen(settings), settings.places)
+    trained = [recorded[o.name] for o in problem.training]
+    found = candidates(bench, tuple(one.run for one in trained), chosen(settings), settings.places,
+                       reach(bench, trained))
     return Question(problem, budget(problem, above=settings.noise.above),
                     (*found, *([solver_candidate()] if settings.solver else [])), shown)
 

@@ -11,7 +11,7 @@ from pipeline.effects import named
 from pipeline.effects.effect import Term, compose
 from pipeline.inference.priors import Normal, Parameter
 from pipeline.inference.problem import Hypothesis, Observed
-from pipeline.physics.bench import respond
+from pipeline.physics.bench import MOTIONS, respond
 
 #: the solver as a hypothesis: its place, and its parameter: 0 as it is, 1 with half its step (4/3: none, at order 2)
 STEP, SOLVER, REFINEMENT = "time_step", "solver", "refinement"
@@ -65,15 +65,33 @@ def halved(bench, runs, channels):
     return {name: shown(finer, run, channels[name]) - shown(bench, run, channels[name]) for name, run in runs.items()}
 
 
-def candidates(bench, runs, catalogue, places=()):
-    """Hypotheses of every effect at each of its places (of ``places`` where given), with priors of nominal sizes."""
+def reach(bench, recorded):
+    """Root mean square of recorded over nominal motion, over all displacement, velocity and acceleration channels.
+
+    A resonance that missing physics limits moves much less than its nominal model: priors follow the recording.
+    """
+    ratios = []
+    for one in recorded:
+        for channel, samples, valid, found in zip(one.channels, one.samples, one.valid,
+                                                  shown(bench, one.run, one.channels), strict=True):
+            quantity = next(c.quantity for c in bench.channels if c.name == channel)
+            if quantity in MOTIONS and valid.any() and found[valid].any():
+                ratios.append(np.sqrt(np.mean(samples[valid] ** 2) / np.mean(found[valid] ** 2)))
+    return float(np.exp(np.mean(np.log(ratios)))) if ratios and min(ratios) > 0 else 1.0
+
+
+def candidates(bench, runs, catalogue, places=(), scale=1.0):
+    """Hypotheses of every effect at each of its places (of ``places`` where given), with priors of nominal sizes.
+
+    ``scale``: recorded over nominal motion (see ``reach``).
+    """
     found = []
     for effect in catalogue:
         for place in effect.places(bench):
             if places and place not in places:
                 continue
             parameters = tuple(replace(p, name=parameter_name(effect.name, place, p.name))
-                               for p in effect.at(bench, place, runs))
+                               for p in effect.at(bench, place, runs, scale))
             found.append(Hypothesis(label(((effect.name, place),)), ((effect.name, place),), parameters, effect.kind))
     return tuple(found)
 

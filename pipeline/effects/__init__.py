@@ -40,6 +40,16 @@ _FILES = (
     "friction_scatter",
     "friction_induced_damping",
     "directional_friction",
+    "viscoelastic_pad",
+    "shim_damping",
+    "doublet_split",
+    "gyroscopic",
+    "pressure_ripple",
+    "hydraulic_compliance",
+    "wear",
+    "taper_wear",
+    "hot_spots",
+    "thermal_coning",
 )
 CATALOGUE = tuple(import_module(f"pipeline.effects.{name}").EFFECT for name in _FILES)
 

@@ -1,9 +1,6 @@
 """A spring from a point to the ground: F = k x along the direction of its sensor, as of a fixture or a cable."""
 
-from dataclasses import replace
-
-import numpy as np
-
+from pipeline.effects.attached import at_point
 from pipeline.effects.effect import Effect
 from pipeline.inference.priors import HalfNormal, Parameter
 
@@ -13,9 +10,7 @@ def parameters(typical):
 
 
 def apply(bench, place, values):
-    model = bench.model
-    row = model.sensor_rows[model.sensor_name.index(place)]
-    return replace(bench, model=replace(model, stiffness=model.stiffness + values["stiffness"] * np.outer(row, row)))
+    return at_point(bench, "stiffness", place, values["stiffness"])
 
 
 EFFECT = Effect(

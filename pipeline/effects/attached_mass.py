@@ -1,9 +1,6 @@
 """A mass at a point: m x'' along the direction of its sensor, as of an accelerometer that the model leaves out."""
 
-from dataclasses import replace
-
-import numpy as np
-
+from pipeline.effects.attached import at_point
 from pipeline.effects.effect import Effect
 from pipeline.inference.priors import HalfNormal, Parameter
 
@@ -13,9 +10,7 @@ def parameters(typical):
 
 
 def apply(bench, place, values):
-    model = bench.model
-    row = model.sensor_rows[model.sensor_name.index(place)]
-    return replace(bench, model=replace(model, mass=model.mass + values["mass"] * np.outer(row, row)))
+    return at_point(bench, "mass", place, values["mass"])
 
 
 EFFECT = Effect(

@@ -8,7 +8,7 @@ from pipeline.physics.elements import Element, Wave
 
 
 def parameters(typical):
-    size, frequency = 0.1 * typical.length, np.sqrt(typical.stiffness / typical.mass) / (2 * np.pi)
+    size, frequency = 0.1 * typical.length, 1 / (2 * np.pi * typical.period)
     return (Parameter("amplitude", "m", size, HalfNormal(2 * size), null=0.0),
             Parameter("frequency", "Hz", frequency, LogNormal(frequency, 1.0)),
             Parameter("phase", "rad", 0.0, Uniform(-np.pi, np.pi)))

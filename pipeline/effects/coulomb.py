@@ -1,7 +1,8 @@
 """Coulomb friction in a joint: F = F_c sgn(v).
 
 Before it slides the joint gives way elastically, by as little as the step of the bench resolves: 8 steps in a period
-of the mass on that spring, which is numerics, no physics.
+of the mass on that spring, which is numerics, no physics. Friction of guide pins under a steady load is this effect at
+the joint of the pins.
 """
 
 from pipeline.effects.effect import Effect

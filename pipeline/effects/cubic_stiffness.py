@@ -1,18 +1,18 @@
 """Cubic stiffness of a joint: F = k_3 e^3, hardening for k_3 > 0."""
 
+from pipeline.effects.attached import beside_joint
 from pipeline.effects.effect import Effect
 from pipeline.inference.priors import Normal, Parameter
-from pipeline.physics.elements import Element, Polynomial
+from pipeline.physics.elements import Polynomial
 
 
 def parameters(typical):
     size = 0.1 * typical.force / typical.length**3
-    return (Parameter("coefficient", "N/m^3", size, Normal(0.0, size), null=0.0),)
+    return (Parameter("coefficient", "N/m^3", size, Normal(0.0, 10 * size), null=0.0),)
 
 
 def apply(bench, place, values):
-    law = Polynomial(cubic=values["coefficient"])
-    return bench.with_elements(Element(f"cubic_stiffness {place}", bench.joint(place)[0], law))
+    return beside_joint(bench, "cubic_stiffness", place, Polynomial(cubic=values["coefficient"]))
 
 
 EFFECT = Effect(

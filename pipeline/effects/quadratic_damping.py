@@ -1,8 +1,9 @@
 """Quadratic damping of a joint: F = c_2 |v| v, as of a turbulent fluid."""
 
+from pipeline.effects.attached import beside_joint
 from pipeline.effects.effect import Effect
 from pipeline.inference.priors import HalfNormal, Parameter
-from pipeline.physics.elements import Element, Power
+from pipeline.physics.elements import Power
 
 
 def parameters(typical):
@@ -11,8 +12,7 @@ def parameters(typical):
 
 
 def apply(bench, place, values):
-    law = Power(values["coefficient"], 2.0)
-    return bench.with_elements(Element(f"quadratic_damping {place}", bench.joint(place)[0], law))
+    return beside_joint(bench, "quadratic_damping", place, Power(values["coefficient"], 2.0))
 
 
 EFFECT = Effect(

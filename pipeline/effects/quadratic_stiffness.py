@@ -1,18 +1,18 @@
 """Quadratic stiffness of a joint: F = k_2 e^2, stiffer one way than the other."""
 
+from pipeline.effects.attached import beside_joint
 from pipeline.effects.effect import Effect
 from pipeline.inference.priors import Normal, Parameter
-from pipeline.physics.elements import Element, Polynomial
+from pipeline.physics.elements import Polynomial
 
 
 def parameters(typical):
     size = 0.1 * typical.force / typical.length**2
-    return (Parameter("coefficient", "N/m^2", size, Normal(0.0, size), null=0.0),)
+    return (Parameter("coefficient", "N/m^2", size, Normal(0.0, 10 * size), null=0.0),)
 
 
 def apply(bench, place, values):
-    law = Polynomial(quadratic=values["coefficient"])
-    return bench.with_elements(Element(f"quadratic_stiffness {place}", bench.joint(place)[0], law))
+    return beside_joint(bench, "quadratic_stiffness", place, Polynomial(quadratic=values["coefficient"]))
 
 
 EFFECT = Effect(

@@ -5,13 +5,11 @@
 theta_i is the angle at which contact i sits, n the order (1: a tilted disc).
 """
 
-from dataclasses import replace
-
 import numpy as np
 
+from pipeline.effects.contact_surface import with_wave
 from pipeline.effects.effect import Effect
 from pipeline.inference.priors import HalfNormal, Parameter, Uniform
-from pipeline.physics.elements import Waviness
 
 
 def parameters(typical):
@@ -21,12 +19,7 @@ def parameters(typical):
 
 
 def apply(bench, place, values):
-    contacts, order = bench.model.contacts, values["order"]
-    angle = np.arctan2(contacts.position[:, 1], contacts.position[:, 0])
-    waves = tuple(Waviness(int(i), values["amplitude"], order, order * float(angle[i]) + values["phase"])
-                  for i in bench.contacts(place))
-    changed = replace(contacts, waviness=(*contacts.waviness, *waves))
-    return replace(bench, model=replace(bench.model, contacts=changed))
+    return with_wave(bench, place, values["amplitude"], values["order"], values["phase"])
 
 
 EFFECT = Effect(

@@ -5,13 +5,16 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from pipeline.contract.errors import ConfigError
-from pipeline.physics.bench import Channel, respond, run_drive
+from pipeline.effects.contact_surface import sliding_angle
+from pipeline.physics.bench import Channel, respond, run_drive, run_inputs
 from pipeline.physics.contact_groups import parts
 from pipeline.physics.time_stepping import Penalty, Table
 
-#: kinds of place that an effect can have; ``contacts`` is all of them, which share one law of contact and of friction
+#: kinds of place that an effect can have; ``contacts`` is all of them, which share one law of contact and of friction,
+#: ``contact row`` a group whose contacts lie one behind the other along the sliding
 JOINT, CONTACT, CONTACTS, POINT, CHANNEL = "joint", "contact", "contacts", "point", "channel"
-_SENSOR = "typical"
+CONTACT_ROW, DOUBLET, INPUT = "contact row", "doublet", "input"
+_CONTACTS, _SENSOR = (CONTACT, CONTACTS, CONTACT_ROW), "typical"
 
 
 @dataclass(frozen=True)
@@ -35,13 +38,25 @@ class Typical:
     drive: float = 1.0
     shown: float = 1.0
 
+    @property
+    def period(self):
+        """Seconds per radian of the mass on the stiffness; those of the longest run where nothing holds it."""
+        return np.sqrt(self.mass / self.stiffness) if self.stiffness > 0 else self.time
+
+    def scaled(self, reach):
+        """The same place where everything moves ``reach`` times as far; loads of contacts stay."""
+        return replace(self, length=reach * self.length, speed=reach * self.speed, force=reach * self.force,
+                       shown=reach * self.shown)
+
 
 def places(kind, bench):
     """Names of the places of this kind on a bench."""
     model = bench.model
     contact = dict.fromkeys(("contact", *bench.groups)) if len(model.contacts.area) else ()
     return {JOINT: tuple(model.joints.name), CONTACT: tuple(contact), CONTACTS: tuple(contact)[:1],
-            POINT: tuple(model.sensor_name), CHANNEL: tuple(c.name for c in bench.channels)}[kind]
+            CONTACT_ROW: tuple(g for g in contact if np.ptp(sliding_angle(model.contacts, bench.contacts(g))) > 0),
+            POINT: tuple(model.sensor_name), INPUT: tuple(model.input_name), DOUBLET: tuple(bench.doublets),
+            CHANNEL: tuple(c.name for c in bench.channels)}[kind]
 
 
 def typical(kind, bench, place, runs):
@@ -55,19 +70,25 @@ def typical(kind, bench, place, runs):
         return Typical(**common, shown=shown[place])
     row, stiffness, damping = _place(kind, bench, place)
     channels = [Channel("length", "displacement", _SENSOR), Channel("speed", "velocity", _SENSOR)]
-    if kind in (CONTACT, CONTACTS):
+    if kind in _CONTACTS:
         channels.append(Channel("force", "normal_force", place))
     model = replace(bench.model, sensor_name=(*bench.model.sensor_name, _SENSOR),
                     sensor_rows=np.vstack((bench.model.sensor_rows, row)))
     seen = _largest(replace(bench, model=model, channels=tuple(channels)), runs)
-    if kind in (CONTACT, CONTACTS):
+    if kind in _CONTACTS:
         contacts, own = bench.model.contacts, bench.contacts(place)
         seen["speed"] = drive * abs(contacts.lever[own]).max()
         seen["pressure"] = seen["force"] / contacts.area[own].sum()
     else:
         seen["force"] = stiffness * seen["length"] + damping * seen["speed"]
+    if kind == INPUT:
+        seen["force"] = max(seen["force"], *(float(np.abs(_input(bench, run, place)).max()) for run in runs))
     mass = 1 / (row @ np.linalg.solve(bench.model.mass, row)) if row.any() else 0.0
     return Typical(stiffness, damping, mass, **seen, **common)
+
+
+def _input(bench, run, place):
+    return run_inputs(bench, run)[bench.model.input_name.index(place)]
 
 
 def _largest(bench, runs):
@@ -76,9 +97,14 @@ def _largest(bench, runs):
 
 
 def _place(kind, bench, place):
-    """(row (n,), stiffness, damping) of a joint, a point, or the mean normal of a contact group."""
+    """(row (n,), stiffness, damping) of a place; of contacts along their mean normal, of a doublet's first mode."""
     if kind == JOINT:
         return bench.joint(place)
+    if kind == INPUT:
+        return bench.input(place)
+    if kind == DOUBLET:
+        (_, (stiffness, _), (first, _)) = bench.doublet(place)
+        return np.eye(bench.model.size)[first], stiffness, float(bench.model.supported()[1][first, first])
     if kind == POINT:
         row = bench.model.sensor_rows[bench.model.sensor_name.index(place)]
         return row, float(row @ bench.model.supported()[2] @ row), float(row @ bench.model.supported()[1] @ row)

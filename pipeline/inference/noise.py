@@ -4,7 +4,7 @@ Noise is described by its autocovariance R_0 ... R_p per channel, solver error i
 filter of that order (Yule-Walker) whitens residuals: w_t = sum_k a_k r_(t-k) / s. Order 0 is white noise.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.linalg import solve_toeplitz
@@ -41,6 +41,11 @@ class Noise:
         for lag in range(1, self.filter.shape[1]):
             white[..., lag:] += self.filter[:, lag, None] * residual[..., :-lag]
         return (white / self.weight)[..., self.usable]
+
+    def until(self, share):
+        """The same noise, with only the first ``share`` of the samples usable (at least one more than the filter)."""
+        kept = max(int(share * self.usable.shape[1]), self.filter.shape[1] + 1)
+        return replace(self, usable=self.usable & (np.arange(self.usable.shape[1]) < kept))
 
     def by_channel(self, white):
         """The channels (m_c,) of a whitened residual (m,)."""

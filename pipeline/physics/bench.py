@@ -87,7 +87,8 @@ class Bench:
     """Moving bodies, laws of contact and friction (of all contacts, or Grouped), and the sensors.
 
     ``step`` s is the longest step taken; ``groups`` {name: indices} names contacts, all of them ``contact`` by default;
-    ``settled``: runs start in steady sliding under their first inputs, else at rest in the origin.
+    ``doublets`` {name: (i, j)} names pairs of coordinates that are two modes of (nearly) one frequency; ``settled``:
+    runs start in steady sliding under their first inputs, else at rest in the origin.
     """
 
     model: SlidingModel
@@ -97,6 +98,7 @@ class Bench:
     channels: tuple
     groups: dict = field(default_factory=dict)
     settled: bool = False
+    doublets: dict = field(default_factory=dict)
 
     def contacts(self, group):
         """Indices (k,) of the contacts of ``group``."""
@@ -118,6 +120,18 @@ class Bench:
         count = len(self.model.contacts.area)
         return replace(self, friction=changed(self.friction, count, self.contacts(group), change))
 
+    def input(self, name):
+        """(row (n,), stiffness, damping) along an input, those of the supported bodies."""
+        row = self.model.input_rows[self.model.input_name.index(_known(name, self.model.input_name, "input"))]
+        _, damping, stiffness = self.model.supported()
+        return row, float(row @ stiffness @ row), float(row @ damping @ row)
+
+    def doublet(self, name):
+        """(mass (2,), stiffness (2,)) and indices of the two coordinates of a doublet, the others held."""
+        pair = list(self.doublets[_known(name, self.doublets, "doublet")])
+        mass, _, stiffness = self.model.supported(gyroscopic=False, centrifugal=False)
+        return mass[pair, pair], stiffness[pair, pair], pair
+
     def with_elements(self, *elements):
         """The bench with these elements added to its model."""
         return replace(self, model=replace(self.model, elements=(*self.model.elements, *elements)))
@@ -130,17 +144,18 @@ class Bench:
 def respond(bench, run, system=None):
     """{channel: (samples,)} of one run; ``system`` is the ModalSystem of the model, where runs share it.
 
-    Raises ConfigError for sources that the model does not have, and what ``simulate`` raises.
+    Gyroscopic and centrifugal terms are those of the speed with which the run begins, also in ``system``. Raises
+    ConfigError for sources that the model does not have, and what ``simulate`` raises.
     """
     parts = max(1, int(np.ceil(1 / (run.sample_rate * bench.step) * (1 - 1e-12))))
     step = 1 / run.sample_rate / parts
     seen, model = _watched(bench)
     inputs, drive = run_inputs(bench, run), run_drive(bench, run)
-    start = run.start
+    model, start = model.at_speed(float(np.ravel(drive)[0])), run.start
     friction = run_friction(bench, run)
     if start is None and bench.settled:
         first = np.array([float(np.ravel(i)[0]) for i in inputs])
-        start = steady_start(model.at_speed(float(np.ravel(drive)[0])), bench.law, friction, first)
+        start = steady_start(model, bench.law, friction, first)
     steps = (run.samples - 1) * parts
     motion = simulate(model, bench.law, friction, step=step, duration=steps * step, system=system, start=start,
                       inputs=_history(inputs, run), drive=_history([drive], run), book=False)

@@ -3,10 +3,10 @@
     M q'' + C q' + K q = B z,      z' = P q + V q' - R z
 
 Contacts count with the slope of their law under the steady load, friction with its slopes over pressure and slip speed,
-elements with the slope of their force where they stand; z are states of friction that settle in steady sliding, R
-diagonal. Excitations, the shapes of surfaces and friction that varies around the drive drop out; states that drift
-(heat, films, distance) stay where a run begins. The waveform of a squeal is not compared with anything, its growth rate
-and frequency are.
+elements with the slope of their force where they stand; z are the Maxwell branches of elements and the states of
+friction that settle in steady sliding, R diagonal. Excitations, wear, the shapes of surfaces and friction that varies
+around the drive drop out; states that drift (heat, films, distance) stay where a run begins. The waveform of a squeal
+is not compared with anything, its growth rate and frequency are.
 """
 
 from dataclasses import dataclass, replace
@@ -17,7 +17,7 @@ from pipeline.contract.errors import ConfigError
 from pipeline.physics.bench import run_drive, run_friction, run_inputs
 from pipeline.physics.contact_groups import parts
 from pipeline.physics.element_forces import DRY, element_force, turn
-from pipeline.physics.elements import alone
+from pipeline.physics.elements import Maxwell, alone
 from pipeline.physics.friction_law import friction_at
 from pipeline.physics.friction_state_steps import MEMORY, SETTLING, factor_slope, rate_slopes
 from pipeline.physics.friction_states import factors, shapeless, started, state_kernel
@@ -30,7 +30,7 @@ from pipeline.physics.time_stepping_start import steady_start
 @dataclass(frozen=True)
 class SmallMotion:
     """The matrices above: ``mass``, ``damping``, ``stiffness`` (n, n); ``push`` B (n, k), ``by_place`` P and
-    ``by_speed`` V (k, n), ``decay`` R (k,) of k states of friction."""
+    ``by_speed`` V (k, n), ``decay`` R (k,) of k branches and states."""
 
     mass: np.ndarray
     damping: np.ndarray
@@ -52,17 +52,21 @@ class SmallMotion:
 def roots(bench, run):
     """Complex roots (2 n + k,) in rad/s, by rising frequency: growth rate and angular frequency of each motion.
 
-    k states of friction add as many roots, most of them real.
+    Each of the k Maxwell branches, F' = k v - F / tau, and states of friction adds one.
     """
     found = np.linalg.eigvals(small_motion(bench, run).matrix())
     return found[np.lexsort((found.imag, abs(found.imag)))]
 
 
 def linearised(bench, run):
-    """(M, C, K), each (n, n), of ``small_motion``; ConfigError where friction has states, which no such three hold."""
+    """(M, C, K), each (n, n), of ``small_motion``, without Maxwell branches, as in a motion so slow that they relax.
+
+    ConfigError where friction has states that settle, which no such three hold.
+    """
     motion = small_motion(bench, run)
-    if len(motion.decay):
-        raise ConfigError("matrices of a bench", "friction without states", f"{len(motion.decay)} states",
+    states = len(motion.decay) - len(_branches(bench.model)[2])
+    if states:
+        raise ConfigError("matrices of a bench", "friction without states", f"{states} states",
                           "take small_motion, whose matrix holds them")
     return motion.mass, motion.damping, motion.stiffness
 
@@ -88,8 +92,11 @@ def small_motion(bench, run):
                                                                 state.speed_slope)))
     mass, drag, spring = replace(model, contacts=contacts).linearised(present, friction_damping=False)
     rows, slope, loss = _elements(model, start, slip)
+    push, place, rate, decay = _states(contacts, model.direction(), abs(slip), state, states, value)
+    branches, springs, times = _branches(model)
     return SmallMotion(mass, drag + spread(rows, loss, rows), spring + spread(rows, slope, rows),
-                       *_states(contacts, model.direction(), abs(slip), state, states, value))
+                       np.hstack((push, -branches.T)), np.vstack((place, 0 * branches)),
+                       np.vstack((rate, springs[:, None] * branches)), np.append(decay, 1 / times))
 
 
 def _friction_state(friction, speed, pressure, factor):
@@ -103,7 +110,7 @@ def _friction_state(friction, speed, pressure, factor):
 
 
 def _states(contacts, sign, speed, friction, states, value):
-    """(B, P, V, R) of the states that settle: memory of the load, of the speed, and factors."""
+    """(B, P, V, R) of the states of friction that settle: memory of the load, of the speed, and factors."""
     push, place, rate, decay = [], [], [], []
 
     def add(i, drawn, by_load, by_speed, leaving):
@@ -124,6 +131,14 @@ def _states(contacts, sign, speed, friction, states, value):
             add(i, load * friction.coefficient[i] * factor_slope(kind, p, x), -x * by_load, -x * by_speed, leaving)
     none = np.empty((0, contacts.tangent.shape[1]))
     return (np.array(push or none).T, np.array(place or none), np.array(rate or none), np.array(decay, float))
+
+
+def _branches(model):
+    """(rows (b, n), stiffness (b,), time (b,)) of the Maxwell branches of all elements."""
+    laws = [(e.row, k, t) for e in model.elements if isinstance(e.law, Maxwell)
+            for k, t in zip(e.law.stiffness, e.law.time, strict=True)]
+    rows, springs, times = zip(*laws, strict=True) if laws else ((), (), ())
+    return np.array(rows, float).reshape(-1, model.size), np.array(springs, float), np.array(times, float)
 
 
 def _elements(model, start, slip):

@@ -9,6 +9,7 @@ they remember from there:
     sliders     F = k1 e + sum_j clip(F_j + k_j de, -L_j, L_j)      parallel Jenkins elements (Iwan 1966)
     dry         F = clip(F + k de, -L(v), L(v)), L = F_c (1 + r exp(-|v| / v_s)), F_c of each direction
     bouc_wen    F = k1 e + k z, dz = (1 - |z / d|^n (s + (1 - s) sgn(z de))) de       (Wen 1976, s = beta d^n)
+    maxwell     F = k1 e + sum_j F_j, F_j' = k_j v - F_j / tau_j             v constant over the step
     gap         F = k_stop (e - i) + k_inner i, i = clip(e, -lower, upper)
     softening   F = -k (1 - exp(-t / tau)) e
     wave        F = -(k u + c u'), u = a cos(order * angle + 2 pi f t - phase)
@@ -22,7 +23,7 @@ from numba import njit
 
 from pipeline.physics.time_stepping_contact import LARGEST_STIFFNESS, SOLVED
 
-POLYNOMIAL, POWER, SLIDERS, DRY, BOUC_WEN, GAP, SOFTENING, WAVE, TURNING = range(9)
+POLYNOMIAL, POWER, SLIDERS, DRY, BOUC_WEN, GAP, SOFTENING, WAVE, MAXWELL, TURNING = range(10)
 #: codes of a step that has no solution, beside those of the contacts
 TOO_STIFF, UNSETTLED = 5, 6
 #: sizes of the way of a Bouc-Wen element after which nothing is left of where it started
@@ -35,18 +36,22 @@ SWEEPS, ITERATIONS, TOLERANCE, LOCAL_TOLERANCE = 500, 100, 1e-10, 1e-13
 
 
 class ElementKernel(NamedTuple):
-    """e elements, as the compiled loops need them; memory and sliders of element k are ``first[k]:first[k + 1]``."""
+    """e elements, as the compiled loops need them; memory and sliders of element k are ``first[k]:first[k + 1]``.
+
+    The last memory of Maxwell branches is the time at which they had their forces.
+    """
 
     kind: np.ndarray            # (e,)
     parameter: np.ndarray       # (e, 6) in the order of the law's fields
     first: np.ndarray           # (e + 1,)
-    stiffness: np.ndarray       # (s,) N/m of sliders
-    limit: np.ndarray           # (s,) N of sliders
+    stiffness: np.ndarray       # (s,) N/m of sliders and Maxwell branches
+    limit: np.ndarray           # (s,) N of sliders, s of Maxwell branches
     rows: np.ndarray            # (2 e, 2, m) elongation, then its rate, from the pairs
     own: np.ndarray             # (2, e, e) of elongation and rate to the forces at the end of the step
     to_contacts: np.ndarray     # (4, c, e) of the observables of the contacts to these forces
     to_elements: np.ndarray     # (2, e, 2, c) of elongation and rate to the contact forces
-    waviness: np.ndarray        # (w, 5) contact, amplitude (m), order, frequency (Hz), phase (rad)
+    waviness: np.ndarray        # (w, 6) contact, amplitude (m), order, frequency (Hz), phase (rad), growth (s)
+    wear: np.ndarray            # (c,) 1/N, depth per normal force and way; empty where nothing wears
 
 
 @njit(cache=True)
@@ -97,6 +102,9 @@ def element_force(kernel, k, elongation, rate, begin, remembered, memory, instan
         return slope * elongation, slope, 0.0
     if kind == TURNING:
         return p[2] * rate, 0.0, p[2]
+    if kind == MAXWELL:
+        force, slope = _maxwell(kernel, one, last - 1, moved, remembered, memory, instant[0])
+        return p[0] * elongation + force, p[0] + slope, 0.0
     place, speed = wave(p[2], p[3], p[4], p[5], instant)
     return -(p[0] * place + p[1] * speed), 0.0, 0.0
 
@@ -116,6 +124,20 @@ def turn(kernel, friction, slip, rate):
             p[2] = p[1] * abs(friction[i]) / speed if speed > 0.0 else 0.0
             if p[2] * mobile > STRONGEST_TURNING:
                 p[2] = STRONGEST_TURNING / mobile
+
+
+@njit(cache=True)
+def _maxwell(kernel, one, clock, moved, remembered, memory, time):
+    """(F, dF/de) of the branches ``one:clock`` after ``moved`` m; exact where the rate is constant over the step."""
+    passed, force, slope = time - remembered[clock], 0.0, 0.0
+    memory[clock] = time
+    for s in range(one, clock):
+        relaxed = -np.expm1(-passed / kernel.limit[s])
+        share = kernel.stiffness[s] * relaxed * kernel.limit[s] / passed if passed > 0.0 else 0.0
+        memory[s] = (1.0 - relaxed) * remembered[s] + share * moved
+        force += memory[s]
+        slope += share
+    return force, slope
 
 
 @njit(cache=True)

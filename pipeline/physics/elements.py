@@ -66,6 +66,18 @@ class BoucWen:
 
 
 @dataclass(frozen=True)
+class Maxwell:
+    """Springs ``stiffness`` (s,) N/m in series with dampers, relaxing within ``time`` (s,) s, and ``linear`` e.
+
+    Relaxed where a motion starts: steady loads do not stress the branches.
+    """
+
+    stiffness: np.ndarray
+    time: np.ndarray
+    linear: float = 0.0
+
+
+@dataclass(frozen=True)
 class Gap:
     """Stops of stiffness ``stop`` N/m beyond -lower and upper (m), and the stiffness ``inner`` between them.
 
@@ -111,7 +123,7 @@ class Turning:
 
 
 _KIND = {Polynomial: kinds.POLYNOMIAL, Power: kinds.POWER, Sliders: kinds.SLIDERS, Dry: kinds.DRY,
-         BoucWen: kinds.BOUC_WEN, Gap: kinds.GAP, Softening: kinds.SOFTENING, Wave: kinds.WAVE,
+         BoucWen: kinds.BOUC_WEN, Gap: kinds.GAP, Softening: kinds.SOFTENING, Wave: kinds.WAVE, Maxwell: kinds.MAXWELL,
          Turning: kinds.TURNING}
 
 
@@ -132,13 +144,23 @@ class Element:
 
 @dataclass(frozen=True)
 class Waviness:
-    """Shape of the surface under ``contact``, whose gap grows by u = amplitude cos(order angle + 2 pi f t - phase)."""
+    """Shape of the surface under ``contact``, whose gap grows by u = amplitude cos(order angle + 2 pi f t - phase).
+
+    With a ``growth`` s it comes up from nothing: u (1 - exp(-t / growth)).
+    """
 
     contact: int
     amplitude: float
     order: float
     phase: float = 0.0
     frequency: float = 0.0
+    growth: float = 0.0
+
+
+def wave_table(waviness):
+    """(w, 6) of Waviness, as the compiled loops need it."""
+    rows = [(w.contact, w.amplitude, w.order, w.frequency, w.phase, w.growth) for w in waviness]
+    return np.array(rows, float).reshape(-1, 6)
 
 
 def iwan(stiffness, force, exponent=0.0, count=40, elastic=False):
@@ -158,21 +180,28 @@ def iwan(stiffness, force, exponent=0.0, count=40, elastic=False):
     return Sliders(stiffness * share, empty * force * strength, -stiffness if elastic else 0.0)
 
 
-def element_kernel(elements, waviness, **linear):
-    """ElementKernel of Elements and Waviness; ``linear``: its arrays that depend on the modes and the step."""
-    sliders = [(e.law.stiffness, e.law.limit) if isinstance(e.law, Sliders)
-               else ([0.0], [0.0]) if isinstance(e.law, Dry | BoucWen) else ([], []) for e in elements]
+def element_kernel(elements, waviness, wear=(), **linear):
+    """ElementKernel of Elements, Waviness and ``wear`` (c,); ``linear``: its arrays that depend on modes and step."""
+    kept = [_remembered(e.law) for e in elements]
     parameter = np.zeros((len(elements), 6))
     for k, element in enumerate(elements):
         law = element.law
-        values = (law.linear,) if isinstance(law, Sliders) else astuple(law)
+        values = (law.linear,) if isinstance(law, Sliders | Maxwell) else astuple(law)
         parameter[k, :len(values)] = values
-    waves = [(w.contact, w.amplitude, w.order, w.frequency, w.phase) for w in waviness]
     return kinds.ElementKernel(
         np.array([_KIND[type(e.law)] for e in elements], np.int64), parameter,
-        np.cumsum([0, *(len(s[0]) for s in sliders)]),
-        *(np.concatenate([np.empty(0), *(np.asarray(s[part], float) for s in sliders)]) for part in (0, 1)),
-        waviness=np.array(waves, float).reshape(-1, 5), **linear)
+        np.cumsum([0, *(len(k[0]) for k in kept)]),
+        *(np.concatenate([np.empty(0), *(np.asarray(k[part], float) for k in kept)]) for part in (0, 1)),
+        waviness=wave_table(waviness), wear=np.array(wear, float), **linear)
+
+
+def _remembered(law):
+    """(stiffness, limit) of what a law remembers: sliders, branches with a clock behind them, one force, nothing."""
+    if isinstance(law, Sliders):
+        return law.stiffness, law.limit
+    if isinstance(law, Maxwell):
+        return [*law.stiffness, 0.0], [*law.time, 0.0]
+    return ([0.0], [0.0]) if isinstance(law, Dry | BoucWen) else ([], [])
 
 
 def alone(elements):
@@ -187,6 +216,8 @@ def _check(name, law):
              or p.decay_speed <= 0 or p.rise <= -1,
              BoucWen: lambda p: p.size <= 0 or p.exponent < 1 or not 0.5 <= p.shape <= 1,
              Gap: lambda p: p.lower < 0 or p.upper < 0, Softening: lambda p: p.time <= 0,
+             Maxwell: lambda p: np.shape(p.stiffness) != np.shape(p.time) or np.min(p.time, initial=1) <= 0
+             or np.min(p.stiffness, initial=0) < 0,
              Sliders: lambda p: np.shape(p.stiffness) != np.shape(p.limit) or np.min(p.limit, initial=0) < 0}
     values = [v for v in law.__dict__.values() if not np.isinf(v).any()] if isinstance(law, Gap) else astuple(law)
     if not all(np.isfinite(v).all() for v in values) or wrong.get(type(law), lambda p: False)(law):

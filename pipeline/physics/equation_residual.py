@@ -17,9 +17,9 @@ from pipeline.contract.errors import ConfigError
 from pipeline.physics.bench import MOTIONS, run_drive, run_friction, run_inputs
 from pipeline.physics.contact_groups import read
 from pipeline.physics.element_forces import element_force, turn
-from pipeline.physics.elements import alone
+from pipeline.physics.elements import alone, wave_table
 from pipeline.physics.friction_states import friction_along
-from pipeline.physics.time_stepping_elements import no_memory, surface_shift
+from pipeline.physics.time_stepping_elements import no_memory, surface_shift, wear_on
 from pipeline.physics.time_stepping_laws import force_along
 
 _SMALLEST_SHARE = 1e-9
@@ -64,11 +64,11 @@ def forces_missing(bench, run, motion):
     """r (n, samples) of displacements (n, samples), differentiated by central differences."""
     model, interval = bench.model, 1 / run.sample_rate
     speed = np.gradient(motion, interval, axis=1, edge_order=2)
-    mass, damping, stiffness = model.supported()
+    turning = np.broadcast_to(run_drive(bench, run), run.samples)
+    mass, damping, stiffness = model.at_speed(turning[0]).supported()
     inertia = np.gradient(speed, interval, axis=1, edge_order=2)
     inertia[:, 1:-1] = (motion[:, 2:] - 2 * motion[:, 1:-1] + motion[:, :-2]) / interval**2
     residual = mass @ inertia + damping @ speed + stiffness @ motion
-    turning = np.broadcast_to(run_drive(bench, run), run.samples)
     angle = cumulative_trapezoid(turning, dx=interval, initial=0.0)
     instants = np.column_stack((run.time, angle, turning))
     normal, drawn, slip = _contacts(bench, run, motion, speed, instants)
@@ -106,9 +106,13 @@ def _contacts(bench, run, motion, speed, instants):
     shift = _surface(contacts, instants)
     gap = (read(bench.law, "gap", len(fixed))[:, None] + contacts.normal @ motion) + shift[0]
     opening = contacts.normal @ speed + shift[1]
-    for i in np.flatnonzero(~fixed):
-        normal[i] = force_along(bench.law, i, contacts.area, -gap[i], -opening[i])
     slip = contacts.lever[:, None] * instants[:, 2] - contacts.tangent @ speed
+    wear = np.broadcast_to(contacts.wear, len(fixed))
+    for i in np.flatnonzero(~fixed):
+        if wear[i]:
+            worn = _worn(bench, i, gap[i], opening[i], wear[i] * abs(slip[i]), instants[:, 0])
+            gap[i], opening[i] = gap[i] + worn[0], opening[i] + worn[1]
+        normal[i] = force_along(bench.law, i, contacts.area, -gap[i], -opening[i])
     drawn = friction_along(run_friction(bench, run), contacts.area, normal, slip, instants[:, 1], 1 / run.sample_rate)
     return normal, drawn, slip
 
@@ -116,7 +120,18 @@ def _contacts(bench, run, motion, speed, instants):
 def _surface(contacts, instants):
     """(2, c, samples): what waviness adds to gaps and opening rates."""
     shift = np.zeros((2, len(contacts.area), len(instants)))
-    waves = np.array([(w.contact, w.amplitude, w.order, w.frequency, w.phase) for w in contacts.waviness])
+    waves = wave_table(contacts.waviness)
     for s, instant in enumerate(instants if len(waves) else ()):
         surface_shift(waves, tuple(instant), shift[:, :, s])
+    return shift
+
+
+def _worn(bench, i, gap, opening, rate, time):
+    """(2, samples): what wear adds to gap and opening rate of contact ``i``, rate (m/s) per normal force."""
+    area = bench.model.contacts.area
+    shift, worn, pace = np.zeros((2, len(time))), np.zeros(1), np.zeros(1)
+    for s, interval in enumerate(np.diff(time, prepend=time[0])):
+        shift[:, s] = worn[0] + interval * pace[0], pace[0]
+        force = force_along(bench.law, i, area, -gap[s] - shift[0, s], -opening[s] - shift[1, s])
+        wear_on(rate[s:s + 1], np.reshape(force, 1), np.ones(1), np.zeros(1), interval, worn, pace)
     return shift

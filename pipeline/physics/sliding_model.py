@@ -41,7 +41,8 @@ class Contacts:
     ``lever`` (c,) is the sliding speed per speed of the drive (the radius in m on a disc, 1 m on a belt), ``position``
     (c, 3) m, ``area`` (c,) m^2, ``preload`` (c,) N, ``stiffness`` (c,) N/m normal stiffness (0 where open), ``damping``
     (c,) N s/m normal damping, ``gap`` (c,) m in the origin of the coordinates, negative where parts are set to press;
-    ``waviness``: each a Waviness of the surface under one contact, which only transients see.
+    ``waviness``: each a Waviness of the surface under one contact, ``wear`` (c,) 1/N the depth by which a contact
+    recedes per normal force and sliding way; only transients see both.
     """
 
     normal: np.ndarray
@@ -55,6 +56,7 @@ class Contacts:
     damping: np.ndarray
     gap: np.ndarray | float = 0.0
     waviness: tuple = ()
+    wear: np.ndarray | float = 0.0
 
     @property
     def fixed(self):

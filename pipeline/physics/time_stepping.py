@@ -58,7 +58,8 @@ class Start:
     """Displacement and velocity (n,) at time 0; normal and friction force (c,) where they are known.
 
     ``memory`` (s,) of the elements, by default 0: those with memory draw with no force where the motion starts;
-    ``angle`` rad of the drive and ``age`` s that passed before; ``states`` (k, 2) of friction, by default settled.
+    ``angle`` rad of the drive, ``age`` s that passed before, ``worn`` (c,) m that the contacts have
+    receded by, which needs ``normal``; ``states`` (k, 2) of friction, by default settled.
     """
 
     displacement: np.ndarray
@@ -68,6 +69,7 @@ class Start:
     memory: np.ndarray | None = None
     angle: float = 0.0
     age: float = 0.0
+    worn: np.ndarray | None = None
     states: np.ndarray | None = None
 
     def kicked(self, velocity):
@@ -136,10 +138,10 @@ def simulate(model, law, friction=None, *, step, duration, drive=None, inputs=No
     rest = np.zeros(model.size)
     start = Start(rest, rest) if start is None else start
     elements = elements_kernel(model, system, linear)
-    memory = no_memory(elements) if start.memory is None else contiguous(start.memory)
+    memory = no_memory(elements, start.age) if start.memory is None else contiguous(start.memory)
     pairs, force, status, value = _begin(model, system, normal, dry, start, _speed_at_start(model, drive), elements,
                                          states)
-    record = _empty(linear, elements, len(value), steps // record_every + 1, start.angle)
+    record = _empty(linear, elements, len(value), steps // record_every + 1, start)
     code, number, contact = march(
         linear, normal, dry, elements, states, contiguous(model.contacts.lever),
         _history(model.speed if drive is None else drive, 1, "drive"), _inputs(model, inputs), pairs, force, status,
@@ -147,7 +149,7 @@ def simulate(model, law, friction=None, *, step, duration, drive=None, inputs=No
     if code != SOLVED:
         raise _failure(code, number * step, contact, step, model)
     end = Start(*system.from_pairs(record.end), *force, record.memory, float(record.angle[0]),
-                start.age + steps * step, record.states)
+                start.age + steps * step, record.worn, record.states)
     return _motion(record, step * record_every, steps, end)
 
 
@@ -166,13 +168,17 @@ def _begin(model, system, normal, dry, start, speed, elements, states):
     contacts = model.contacts
     gap = normal.gap + contacts.normal @ start.displacement
     rate, slip = contacts.normal @ start.velocity, contacts.lever * speed - contacts.tangent @ start.velocity
+    if start.worn is not None:
+        gap = gap + start.worn
     if len(elements.waviness):
         shift = np.zeros((2, len(gap)))
         surface_shift(elements.waviness, (float(start.age), float(start.angle), float(speed)), shift)
         gap, rate = gap + shift[0], rate + shift[1]
     force = np.zeros((2, len(gap)))
     force[0], yields = normal_force(normal, gap, rate)
-    if start.normal is not None:
+    if start.worn is not None and elements.wear.size:       # goes on where damping felt the wear as well
+        force[0] = start.normal
+    elif start.normal is not None:
         force[0] = np.where(yields, force[0], start.normal)
     force[0] = np.where(normal.fixed >= 0, normal.fixed, force[0])
     closed = (gap <= 0) | (force[0] > 0)
@@ -206,12 +212,13 @@ def _inputs(model, inputs):
     return _history(np.zeros(count) if inputs is None else inputs, count, "inputs")
 
 
-def _empty(linear, elements, states, kept, angle):
+def _empty(linear, elements, states, kept, start):
     sensors, contacts = len(linear.sensors) // 2, len(linear.rows) // 4
     return Record(*np.zeros((2, sensors, kept)), *np.zeros((4, contacts, kept)),
                   np.zeros((contacts, kept), np.int8), np.zeros(kept), np.zeros((6, kept)),
                   *np.zeros((2, len(elements.kind), kept)), np.zeros((contacts, 3)), np.zeros(linear.step.shape[1:]),
-                  no_memory(elements), np.zeros((states, 2)), np.array([float(angle)]))
+                  no_memory(elements), np.zeros((states, 2)), np.array([float(start.angle)]),
+                  np.zeros(contacts) if start.worn is None else contiguous(start.worn))
 
 
 def _motion(record, interval, steps, end):

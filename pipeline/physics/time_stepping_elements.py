@@ -1,14 +1,14 @@
 """Elements within a time step, compiled: their forces and those of the contacts, found together.
 
 The force of an element is linear between begin and end of a step, the value at its end belongs to the motion at the
-end. Contacts and elements are solved in turn until the element forces stay; the waviness of a surface moves the gap of
-its contact.
+end. Contacts and elements are solved in turn until the element forces stay; the waviness of a surface and its wear move
+the gap of its contact.
 """
 
 import numpy as np
 from numba import njit
 
-from pipeline.physics.element_forces import TOLERANCE, UNSETTLED, element_force, solve_elements, wave
+from pipeline.physics.element_forces import MAXWELL, TOLERANCE, UNSETTLED, element_force, solve_elements, wave
 from pipeline.physics.time_stepping_contact import SOLVED, solve_contacts
 
 ROUNDS = 200
@@ -21,8 +21,32 @@ def surface_shift(waviness, instant, shift):
     for w in range(waviness.shape[0]):
         contact = int(waviness[w, 0])
         place, speed = wave(waviness[w, 1], waviness[w, 2], waviness[w, 3], waviness[w, 4], instant)
-        shift[0, contact] += place
-        shift[1, contact] += speed
+        grown, growing = 1.0, 0.0
+        if waviness[w, 5] > 0.0:
+            grown = -np.expm1(-instant[0] / waviness[w, 5])
+            growing = (1.0 - grown) / waviness[w, 5]
+        shift[0, contact] += grown * place
+        shift[1, contact] += grown * speed + growing * place
+
+
+@njit(cache=True)
+def recede(worn, pace, step, shift):
+    """Add to ``shift`` (2, c) the depth ``worn`` (c,) m that a step (s) begins with, going on at ``pace`` (c,) m/s."""
+    for i in range(pace.size):
+        shift[0, i] += worn[i] + step * pace[i]
+        shift[1, i] += pace[i]
+
+
+@njit(cache=True)
+def wear_on(wear, force, drive, speed, step, worn, pace):
+    """Wear over a step, by the trapezoidal rule: fill ``worn`` (c,) m and ``pace`` (c,) m/s = wear N |slip| at its end.
+
+    ``force`` (c,) N, sliding velocity ``drive`` and velocity ``speed`` (c,) m/s along it are those at the end.
+    """
+    for i in range(wear.size):
+        last = wear[i] * force[i] * abs(drive[i] - speed[i])
+        worn[i] += 0.5 * step * (pace[i] + last)
+        pace[i] = last
 
 
 @njit(cache=True)
@@ -108,6 +132,8 @@ def middle_angle(angle, before, turning, step):
     return angle + 0.5 * step * (before + turning)
 
 
-def no_memory(elements):
-    """Memory (s,) of elements that have not yet moved."""
-    return np.zeros(int(elements.first[-1]))
+def no_memory(elements, time=0.0):
+    """Memory (s,) of elements that have not yet moved at ``time`` s."""
+    memory = np.zeros(int(elements.first[-1]))
+    memory[elements.first[1:][elements.kind == MAXWELL] - 1] = time
+    return memory

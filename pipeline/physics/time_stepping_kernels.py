@@ -48,14 +48,15 @@ def _element_rows(model):
 
 def elements_kernel(model, system, linear):
     """ElementKernel: rows of the elements, seen and driven through one step, with those of the contacts."""
-    count, elements = len(model.contacts.area), len(model.elements)
+    contacts, count, elements = model.contacts, len(model.contacts.area), len(model.elements)
+    wear = np.broadcast_to(contacts.wear, count) if np.any(contacts.wear) else ()
     seen = system.observed(_element_rows(model))
     drawn, pressed = linear.last[len(linear.last) - elements:], linear.last[:2 * count]
     contact_rows = linear.rows.reshape(4, count, *linear.rows.shape[1:])
     arrays = {"rows": _stacked(seen), "own": np.einsum("oeax,fax->oef", seen, drawn),
               "to_contacts": np.einsum("ocax,fax->ocf", contact_rows, drawn),
               "to_elements": np.einsum("oeax,fax->oef", seen, pressed).reshape(2, elements, 2, count)}
-    return element_kernel(model.elements, model.contacts.waviness, **{n: contiguous(a) for n, a in arrays.items()})
+    return element_kernel(model.elements, contacts.waviness, wear, **{n: contiguous(a) for n, a in arrays.items()})
 
 
 def _stacked(rows):

@@ -19,10 +19,12 @@ from pipeline.physics.time_stepping_contact import SOLVED, solve_contacts
 from pipeline.physics.time_stepping_elements import (
     first_forces,
     middle_angle,
+    recede,
     settle_element_books,
     shift_work,
     solve_together,
     surface_shift,
+    wear_on,
 )
 
 DIVERGED = 4
@@ -75,6 +77,7 @@ class Record(NamedTuple):
     memory: np.ndarray          # (s,) of the elements after the last step
     states: np.ndarray          # (k, 2) of friction after the last step
     angle: np.ndarray           # (1,) rad of the drive, at time 0, then after the last step
+    worn: np.ndarray            # (c,) m that the contacts have receded by, at time 0, then after the last step
 
 
 @njit(cache=True)
@@ -194,7 +197,8 @@ def march(linear, law, friction, elements, states, lever, drive, inputs, pairs, 
     count_e, waves = elements.kind.size, elements.waviness.shape[0] > 0
     recalls, middle = states.kind.size > 0, friction.description == RIGID and not law.newmark
     turns_aside = np.any(elements.kind == TURNING)
-    special, angle, spin = count_e > 0 or waves or recalls, record.angle[0], np.zeros(1)
+    wear, worn, pace = elements.wear, record.worn, np.zeros(elements.wear.size)
+    special, angle, spin = count_e > 0 or waves or wear.size > 0 or recalls, record.angle[0], np.zeros(1)
     slip, slipped, mean = np.zeros(contacts), np.zeros(contacts), np.zeros(contacts)
     alone, shift, shift_before = np.zeros((4, contacts)), np.zeros((2, contacts)), np.zeros((2, contacts))
     lonely, now, later = np.zeros((2, count_e)), np.zeros((2, count_e)), np.zeros((2, count_e))
@@ -204,7 +208,9 @@ def march(linear, law, friction, elements, states, lever, drive, inputs, pairs, 
     if special:
         read(drive, 0.0, spin)
         instant = (age, angle, spin[0])
+        wear_on(wear, force[0], sliding[1], seen[3], 0.0, worn, pace)
         surface_shift(elements.waviness, instant, shift)
+        recede(worn, pace, 0.0, shift)
         seen[0] += shift[0]
         seen[1] += shift[1]
         _see(elements.rows, pairs, now.ravel())
@@ -252,6 +258,7 @@ def march(linear, law, friction, elements, states, lever, drive, inputs, pairs, 
                     return code, number, contact
         if special:
             surface_shift(elements.waviness, instant, shift)
+            recede(worn, pace, step, shift)
             for i in range(contacts):
                 free[0, i] += shift[0, i]
                 free[1, i] += shift[1, i]
@@ -281,6 +288,7 @@ def march(linear, law, friction, elements, states, lever, drive, inputs, pairs, 
                 slipped[:] = sliding[1] - seen[3]
                 mean[:] = force[1] if holds[1] else 0.5 * (held[1] + force[1])
                 settle(states, value, force[0] if holds[0] else held[0], force[0], slip, slipped, mean, step)
+            wear_on(wear, force[0], sliding[1], seen[3], step, worn, pace)
         if book:
             rate = _loss_rate(power, drag, after)
             if struck.size:

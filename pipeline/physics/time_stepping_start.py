@@ -16,11 +16,11 @@ import numpy as np
 from pipeline.contract.errors import ConfigError, ConvergenceError
 from pipeline.physics.contact_groups import read
 from pipeline.physics.dry_friction import coefficients
-from pipeline.physics.element_forces import DRY, element_force, wave
-from pipeline.physics.elements import alone
+from pipeline.physics.element_forces import DRY, element_force
+from pipeline.physics.elements import alone, wave_table
 from pipeline.physics.friction_states import factors, started, state_kernel
 from pipeline.physics.time_stepping import Start
-from pipeline.physics.time_stepping_elements import no_memory
+from pipeline.physics.time_stepping_elements import no_memory, surface_shift
 from pipeline.physics.time_stepping_laws import closing
 
 _ROUNDS = 200
@@ -64,10 +64,9 @@ def steady_start(model, law, friction, inputs):
 
 def _waves(contacts):
     """Height (c,) of the surfaces at time 0."""
-    height = np.zeros(len(contacts.area))
-    for w in contacts.waviness:
-        height[w.contact] += wave(w.amplitude, w.order, w.frequency, w.phase, (0.0, 0.0, 0.0))[0]
-    return height
+    shift = np.zeros((2, len(contacts.area)))
+    surface_shift(wave_table(contacts.waviness), (0.0, 0.0, 0.0), shift)
+    return shift[0]
 
 
 def _drawn(elements, model, place):

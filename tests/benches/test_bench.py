@@ -1,5 +1,8 @@
 """A bench from a section: sensors, groups, corrections."""
 
+from types import SimpleNamespace
+
+import numpy as np
 import pytest
 
 from pipeline.benches import bench as benches
@@ -19,3 +22,16 @@ def test_a_sensor_of_something_unknown_is_refused():
 
 def test_one_body_is_no_group():
     assert benches.groups(model()) == {}
+
+
+def test_equal_modes_of_a_body_are_places():
+    """A second coordinate of the block, alike and by itself."""
+    one = model()
+    two = dict(coordinate_body=np.zeros(2, int), joint_name=["first", "second"], joint_rows=np.eye(2),
+               sensor_rows=np.eye(2)[:1], joint_stiffness=np.full(2, 400.0), joint_damping=np.zeros(2),
+               input_rows=np.eye(2)[:1],
+               **{name: np.empty((0, 2)) for name in ("contact_normal", "contact_tangent", "contact_lateral")},
+               **{name: np.zeros((2, 2)) for name in ("damping", "gyroscopic", "stiffness", "centrifugal")})
+    pair = SimpleNamespace(**{**vars(one), **two, "mass": np.eye(2)})
+    assert benches.built(pair, laid_out()).doublets == {"block 1": (0, 1)}
+    assert benches.built(one, laid_out()).doublets == {}

@@ -3,10 +3,11 @@
 import os
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from pipeline.contract import store
-from pipeline.products import Comparison
+from pipeline.products import Comparison, LockIn
 from tests.chain.conftest import ROOT, brakechain
 
 #: cases in full resolution; disc_brake_scanned needs recordings as well
@@ -18,17 +19,28 @@ CASES = [pytest.param(path, marks=SLOW.get(path.stem, ()), id=path.stem)
 DATA = Path(os.environ.get("BRAKECHAIN_DATA", ROOT.parent / "shared" / "data"))
 MEASURED = ("disc_brake_scanned", "emps_recording")
 CLOSED_FORM = ("belt", "two_mode_flutter", "wobbling_disc")
+#: case -> rows that may be outside. The beams' motion is chaotic: the median of the force lies nearer to its bound than
+#: it wanders (data/reference/beam_geometry.yaml). The rocking was measured below the range of the paper's update.
+NOT_MET = {"beam_on_beam": {"largest normal contact force"},
+           "pin_on_disc": {"disc, first mode (1,0): rocking on its shaft, measured"}}
 
 
 @pytest.mark.parametrize("case", CASES)
 def test_a_case_runs_to_its_report(case, tmp_path, monkeypatch):
-    """Lumped systems meet every closed form; quick variants are run by tests of their own."""
+    """Lumped systems meet every closed form, beams and pin what is printed; quick variants have tests of their own."""
     if case.stem in MEASURED:
         if not DATA.is_dir():
             pytest.skip(f"no public recordings at {DATA}; set BRAKECHAIN_DATA")
         monkeypatch.setenv("BRAKECHAIN_DATA", str(DATA.resolve()))
     brakechain("run", case, "--run", tmp_path / "run")
     assert (tmp_path / "run" / "report.html").stat().st_size > 10_000
+    if case.stem not in (*CLOSED_FORM, *NOT_MET):
+        return
+    found = store.read(Comparison, tmp_path / "run" / "comparison.h5")
+    verdict = np.array(found.verdict, str)
+    assert len(verdict) and set(np.array(found.row, str)[verdict == "outside"]) <= NOT_MET.get(case.stem, set())
     if case.stem in CLOSED_FORM:
-        found = store.read(Comparison, tmp_path / "run" / "comparison.h5")
-        assert len(found.row) and set(found.verdict) == {"within"}
+        assert set(verdict) == {"within"}
+    if case.stem == "pin_on_disc":
+        roots = store.read(LockIn, tmp_path / "run" / "lock_in.h5").root[:2]
+        assert np.all(np.abs(abs(roots.imag) / (2 * np.pi) - 2217.5) < 27.5), "golden: 2190 to 2245 Hz"

@@ -28,4 +28,5 @@ def test_unstable_modes_below_10_khz_at_the_first_point():
 def test_motion_is_told_by_its_median_and_range():
     rows = motion_rows(scatter(), {})
     assert rows["simulated_fundamental"].value == 2695 and "2680 to 2700" in rows["simulated_fundamental"].note
+    assert "means over the sampling interval" in rows["peak_force"].note, "what a force over a step means is told"
     assert rows["measured_third"].value == 3 * 2695 and rows["second_harmonic"].value == 20

@@ -29,7 +29,7 @@ def test_the_question_holds_runs_noise_parameters_and_candidates():
 
 def test_effects_can_be_left_out():
     names = {c.effects[0][0] for c in asked(without=["coulomb"], solver=False).candidates}
-    assert "coulomb" not in names and "viscous" in names and "time_step" not in names
+    assert "coulomb" not in names and "cubic_stiffness" in names and "time_step" not in names
 
 
 @pytest.mark.parametrize("more, said", [

@@ -3,8 +3,9 @@
 from dataclasses import replace
 
 import numpy as np
+from scipy.linalg import expm
 
-from pipeline.physics.bench import Bench, Channel, Run
+from pipeline.physics.bench import Bench, Channel, Run, respond
 from pipeline.physics.dry_friction import constant
 from pipeline.physics.time_stepping import Hard, Penalty, Start, Table
 from tests.physics.lumps import lumps
@@ -35,7 +36,7 @@ def rubbing(law=None, friction=None, speed=2.0, step=1e-4):
                 Channel("turn", "displacement", "sensor_2"), Channel("n", "normal_force", "contact"),
                 Channel("t", "friction_force", "contact"))
     return Bench(replace(model, contacts=contacts), law or Penalty(2e4), friction or constant(0.3), step, channels,
-                 {"left": (0,), "right": (1,)}, settled=True)
+                 {"left": (0,), "right": (1,)}, settled=True, doublets={"tilt": (1, 2)})
 
 
 def tabled():
@@ -66,6 +67,41 @@ def anchored(friction, mass=1e9):
     matrix, damping = np.diag([mass, 1.0]), np.diag([0.0, 600.0])
     channels = (bench.channels[0], *bench.channels[2:])
     return replace(bench, model=replace(bench.model, mass=matrix, damping=damping), channels=channels)
+
+
+def round_disc(doublets=None):
+    """Two modes of 20 rad/s, ``x`` and ``y``, of a disc without damping."""
+    channels = (Channel("x", "displacement", "sensor_0"), Channel("y", "displacement", "sensor_1"))
+    model = lumps([1.0, 1.0], np.eye(2), [400.0, 400.0])
+    return Bench(model, Hard(), constant(0.0), 1e-4, channels,
+                 doublets={"disc": (0, 1)} if doublets is None else doublets)
+
+
+def struck(speed=0.0, duration=3.0):
+    """A run of ``round_disc`` from a blow along its first mode, at a speed of the drive (rad/s)."""
+    return Run("struck", duration, RATE, drive=speed, start=Start(np.zeros(2), np.array([0.1, 0.0])))
+
+
+def swung(bench, angular, duration=8.0):
+    """(run, late, x) of ``sprung`` under cos(``angular`` t) N; ``late`` is where the start has rung down."""
+    run = Run("swung", duration, RATE)
+    run = replace(run, inputs={"input_0": np.cos(angular * run.time)})
+    return run, run.time > duration - 1, respond(bench, run)["x"]
+
+
+def at_angles(model, *angles, area=None):
+    """The model with its contacts on a circle of 0.1 m, of one ``area`` (m^2) where it is given."""
+    position = 0.1 * np.array([[np.cos(a), np.sin(a), 0.0] for a in angles])
+    area = model.contacts.area if area is None else np.full(len(angles), area)
+    return replace(model, contacts=replace(model.contacts, position=position, area=area))
+
+
+def evolved(matrix, start, run):
+    """(states, samples) of x' = ``matrix`` x from ``start`` over a run."""
+    states, one = [np.array(start, float)], expm(np.array(matrix) / run.sample_rate)
+    for _ in run.time[1:]:
+        states.append(one @ states[-1])
+    return np.array(states).T
 
 
 def steady(load=40.0, duration=0.1, speed=None):

@@ -2,6 +2,7 @@
 
 import pickle
 from dataclasses import replace
+from functools import cache
 from importlib import import_module
 
 import numpy as np
@@ -12,17 +13,31 @@ from pipeline.effects import CATALOGUE, named
 from pipeline.effects.effect import STAGES, Term, compose, null_values, shaped_values
 from pipeline.effects.typical import CHANNEL, Typical
 from pipeline.physics.bench import respond
+from pipeline.physics.bench_roots import roots
 from pipeline.physics.equation_residual import equation_residual
 from tests.effects.benches import pressed, rubbing, tabled
 
 BASE, RUN = rubbing(), pressed()
-ANSWER = respond(BASE, RUN)
+BENCHES = {"penalty": BASE, "table": rubbing(tabled())}
+ANSWERS = {law: respond(bench, RUN) for law, bench in BENCHES.items()}
+ANSWER = ANSWERS["penalty"]
 UPPER = 0.75        # quartile: in the middle of a prior of either sign lies the null
 
 
-def everywhere(effect, bench=BASE):
-    """(place, parameters) at each place of the bench."""
+@cache
+def everywhere(effect, law="penalty"):
+    """(place, parameters) at each place of the bench with this contact law."""
+    bench = BENCHES[law]
     return [(place, effect.at(bench, place, (RUN,))) for place in effect.places(bench)]
+
+
+def answered(calculate):
+    """What ``calculate`` gives, None where it refuses."""
+    try:
+        return calculate()
+    except ConfigError as error:
+        assert error.expected
+        return None
 
 
 def each(test):
@@ -31,16 +46,33 @@ def each(test):
 
 @each
 def test_null_is_the_base_bit_for_bit(effect):
-    for bench, answer in ((BASE, ANSWER), (rubbing(tabled()), respond(rubbing(tabled()), RUN))):
-        for place, parameters in everywhere(effect, bench):
+    for law, bench in BENCHES.items():
+        for place, parameters in everywhere(effect, law):
             assert any(p.null is not None for p in parameters)
             found = respond(effect.on(bench, place, null_values(parameters)), RUN)
-            for name, values in answer.items():
+            for name, values in ANSWERS[law].items():
                 np.testing.assert_array_equal(found[name], values)
 
 
 @each
+def test_linear_forms_know_it_too(effect):
+    """Roots and equation residual: at the null those of the base and what relaxes on its own; elsewhere finite."""
+    base, left = roots(BASE, RUN), equation_residual(BASE, RUN, ANSWER)
+    for place, parameters in everywhere(effect)[:1]:
+        null = effect.on(BASE, place, null_values(parameters))
+        found = roots(null, RUN)
+        assert all(abs(found - root).min() <= 1e-9 * abs(root) for root in base)
+        assert np.all(found[~np.isclose(found[:, None], base).any(axis=1)] < 0)
+        np.testing.assert_array_equal(equation_residual(null, RUN, ANSWER), left)
+        changed = effect.on(BASE, place, shaped_values(parameters, UPPER))
+        for form in (lambda b=changed: roots(b, RUN), lambda b=changed: equation_residual(b, RUN, ANSWER)):
+            found = answered(form)
+            assert found is None or np.isfinite(found).all()
+
+
+@each
 def test_finite_over_the_prior(effect):
+    assert effect.places(BASE)
     random = np.random.default_rng(5)
     for place, parameters in everywhere(effect)[:2]:
         draws = [shaped_values(parameters, share) for share in (0.03, 0.5, 0.97)]

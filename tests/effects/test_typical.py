@@ -4,8 +4,20 @@ import numpy as np
 import pytest
 
 from pipeline.contract.errors import ConfigError
-from pipeline.effects.typical import CHANNEL, CONTACT, CONTACTS, JOINT, POINT, places, typical
-from tests.effects.benches import RATE, let_go, rubbing, slider, sprung, steady
+from pipeline.effects.typical import (
+    CHANNEL,
+    CONTACT,
+    CONTACT_ROW,
+    CONTACTS,
+    DOUBLET,
+    INPUT,
+    JOINT,
+    POINT,
+    Typical,
+    places,
+    typical,
+)
+from tests.effects.benches import RATE, let_go, pressed, rubbing, slider, sprung, steady
 
 
 @pytest.mark.exact
@@ -24,6 +36,20 @@ def test_sizes_of_a_contact():
     assert found.pressure == pytest.approx(40.0 / 1e-3) and found.length == pytest.approx(2e-3)
 
 
+@pytest.mark.exact
+def test_sizes_along_an_input_and_of_a_mode():
+    found = typical(INPUT, slider(), "input_1", (steady(30.0), steady(50.0)))
+    assert (found.force, found.stiffness, found.mass) == (50.0, 0.0, pytest.approx(1.0))
+    found = typical(DOUBLET, rubbing(), "tilt", (pressed(),))
+    assert (found.stiffness, found.damping, found.mass) == (500.0, 5.0, pytest.approx(1.0))
+
+
+@pytest.mark.exact
+def test_the_time_scale_of_a_place():
+    assert Typical(mass=2.0, stiffness=50.0).period == pytest.approx(0.2)
+    assert Typical(stiffness=0.0, time=3.0).period == 3.0
+
+
 def test_what_a_channel_shows():
     assert typical(CHANNEL, sprung(), "v", (let_go(0.02),)).shown == pytest.approx(0.4, rel=0.02)
 
@@ -32,6 +58,9 @@ def test_places_of_each_kind():
     bench = rubbing()
     assert places(JOINT, bench) == ("joint_0", "joint_1", "joint_2")
     assert places(CONTACTS, bench) == ("contact",)
+    assert places(INPUT, bench) == ("input_0", "input_1", "input_2")
+    assert places(DOUBLET, bench) == ("tilt",) and places(DOUBLET, sprung()) == ()
+    assert places(CONTACT_ROW, bench) == ("contact",)
     assert places(CONTACT, bench) == ("contact", "left", "right") and places(CONTACT, sprung()) == ()
     assert np.all(np.isin(("x", "y"), places(CHANNEL, bench)))
     with pytest.raises(ConfigError, match="one nominal run"):

@@ -112,6 +112,29 @@ def test_force_of_an_element():
     np.testing.assert_allclose(found["f"], 1e5 * found["x"] ** 3, rtol=1e-9)
 
 
+@pytest.mark.exact
+def test_inputs_and_doublets_by_name():
+    bench = Bench(lumps([1.0, 2.0], [[1, 0], [1, -1]], [100.0, 50.0], [3.0, 4.0]), Hard(), constant(0.0), STEP, (),
+                  doublets={"pair": (0, 1)})
+    row, stiffness, damping = bench.input("input_1")
+    assert (list(row), stiffness, damping) == ([0, 1], 50.0, 4.0)
+    mass, stiffness, pair = bench.doublet("pair")
+    assert (list(mass), list(stiffness), pair) == ([1, 2], [150.0, 50.0], [0, 1])
+    with pytest.raises(ConfigError, match="pair"):
+        bench.doublet("other")
+
+
+@pytest.mark.exact
+def test_rotation_is_that_of_the_run():
+    """x'' + 2 n W y' + k x = 0 and so on: the blow of a run at W turns round at n W, whatever the model's speed."""
+    model = replace(lumps([1.0, 1.0], np.eye(2), [100.0, 100.0], speed=9.0), gyroscopic=np.array([[0, 2.0], [-2.0, 0]]))
+    bench = Bench(model, Hard(), constant(0.0), STEP, (seen("displacement"),))
+    run = Run("turning", 1.0, 100.0, drive=0.7, start=Start(np.zeros(2), np.array([0.1, 0.0])))
+    root = np.sqrt(100 + 0.7**2)
+    exact = 0.1 * np.cos(0.7 * run.time) * np.sin(root * run.time) / root
+    np.testing.assert_allclose(respond(bench, run)["seen"], exact, atol=1e-8)
+
+
 @pytest.mark.parametrize("channel, said", [
     (seen("displacement", "nobody"), "sensor_0"), (seen("joint_force", "nobody"), "joint_0"),
     (seen("normal_force", "pads"), "contact group"), (seen("element_force"), "element"),

@@ -11,6 +11,7 @@ from pipeline.physics.elements import (
     Dry,
     Element,
     Gap,
+    Maxwell,
     Polynomial,
     Power,
     Sliders,
@@ -52,9 +53,10 @@ def to(*turning, points=2000):
 LAWS = [Polynomial(3.0, -4.0, 5.0), Power(3.0, 2.0), Power(2.0, 1.0), Power(2.0, 3.0),
         Sliders(np.array([5.0, 2.0]), np.array([0.1, 0.4]), -1.0), Dry(50.0, 0.3, 0.5, 0.4, 0.2),
         BoucWen(1.0, 4.0, 0.7, 1.5, 0.7), Gap(9.0, -2.0, 0.05, 0.02), Softening(3.0, 2.0),
-        Wave(2.0, 0.1, 0.3, 2.0, 1.0)]
+        Wave(2.0, 0.1, 0.3, 2.0, 1.0), Maxwell(np.array([5.0, 2.0]), np.array([0.3, 4.0]), -1.0)]
 NULLS = [Polynomial(), Power(), iwan(0.0, 5.0, elastic=True), Dry(1e3), BoucWen(), Gap(),
-         Gap(inner=-5.0, lower=0.0, upper=0.0), Softening(), Wave(), Wave(2.0, 3.0, 0.0, 1.0)]
+         Gap(inner=-5.0, lower=0.0, upper=0.0), Softening(), Wave(), Wave(2.0, 3.0, 0.0, 1.0),
+         Maxwell(np.zeros(2), np.ones(2))]
 
 
 @pytest.mark.exact
@@ -149,6 +151,17 @@ def test_gap_polynomial_power_and_softening():
     instants = [(t, 0.0, 0.0) for t in (0.0, 1.0, 2.0, 3.0, 9.0)]
     np.testing.assert_allclose(drawn(Softening(5.0, 2.0), way, None, instants),
                                -5 * (1 - np.exp(-np.array([0, 1, 2, 3, 9]) / 2)) * way, atol=1e-15)
+
+
+@pytest.mark.exact
+def test_maxwell_branches_stretch_and_relax():
+    """Stretched evenly at v, then held: k tau v (1 - exp(-t / tau)), then its decay, in steps of any length."""
+    law, rate = Maxwell(np.array([5.0, 2.0]), np.array([0.3, 4.0]), -1.0), 0.7
+    time = np.array([0.0, 0.01, 0.5, 0.6, 2.0, 3.0, 3.1, 7.0])
+    way = rate * np.minimum(time, 2.0)
+    stretched = sum(k * t * rate * -np.expm1(-np.minimum(time, 2.0) / t) * np.exp(-np.maximum(time - 2.0, 0) / t)
+                    for k, t in ((5.0, 0.3), (2.0, 4.0)))
+    np.testing.assert_allclose(drawn(law, way, None, [(t, 0.0, 0.0) for t in time]), stretched - way, rtol=1e-12)
 
 
 @pytest.mark.exact

@@ -13,6 +13,7 @@ from pipeline.physics.elements import (
     Dry,
     Element,
     Gap,
+    Maxwell,
     Polynomial,
     Power,
     Sliders,
@@ -174,6 +175,7 @@ def test_waviness_carries_a_pressed_mass_along(law):
 
 
 MIXED = (Polynomial(0.0, 1e8, 1e13), Power(20.0, 2.0), iwan(2e6, 3.0, -0.3, elastic=True),
+         Maxwell(np.array([2e6, 1e6]), np.array([1e-3, 1e-4])),
          Dry(4e6, 1.0, 2.0, 0.3, 0.01), BoucWen(0.0, 2e6, 1e-6, 1.5, 0.7), Gap(stop=4e6, lower=1e-6, upper=2e-6))
 
 
@@ -193,7 +195,9 @@ def test_energy_is_balanced_with_all_elements_and_contacts(law):
 
 @pytest.mark.exact
 @pytest.mark.parametrize("laws", [(Polynomial(0.0, 1e6, 1e10), Power(30.0, 2.0)), (BoucWen(0.0, 1e4, 1e-3, 2.0, 0.6),),
-                                  (iwan(1e4, 20.0, -0.3, elastic=True),)], ids=("smooth", "bouc_wen", "iwan"))
+                                  (iwan(1e4, 20.0, -0.3, elastic=True),),
+                                  (Maxwell(np.full(1, 1e4), np.full(1, 0.01)),)],
+                         ids=("smooth", "bouc_wen", "iwan", "maxwell"))
 def test_order_with_elements_and_a_closed_contact_is_two(laws):
     """Memory turns round anywhere within a step: the largest error of eight numbers of steps."""
     model = lumps([1.0, 1.0], [[1, 0], [1, 1]], [4e4, 2e4], [1.0, 2.0], [[0, 1.0]], [[1.0, 0]], speed=3.0)
@@ -209,7 +213,7 @@ def test_order_with_elements_and_a_closed_contact_is_two(laws):
 
 
 NULL = (Polynomial(), Power(), iwan(0.0, 3.0, elastic=True), Dry(4e4), BoucWen(), Gap(),
-        Gap(inner=-5.0, lower=0.0, upper=0.0), Softening(), Wave(1e3, 1.0, 0.0, 2.0))
+        Gap(inner=-5.0, lower=0.0, upper=0.0), Softening(), Wave(1e3, 1.0, 0.0, 2.0), Maxwell(np.zeros(2), np.ones(2)))
 
 
 @pytest.mark.exact
@@ -218,7 +222,8 @@ NULL = (Polynomial(), Power(), iwan(0.0, 3.0, elastic=True), Dry(4e4), BoucWen()
 def test_null_elements_change_no_bit(law, description):
     model = random_structure(12, 4e3, contacts=3).at_speed(0.002)
     null = with_elements(model, *NULL, row=np.ones(12))
-    null = replace(null, contacts=replace(null.contacts, waviness=(Waviness(1, 0.0, 2.0),)))
+    flat = Waviness(1, 0.0, 2.0), Waviness(0, 0.0, 0.0, growth=1.0)
+    null = replace(null, contacts=replace(null.contacts, waviness=flat))
     friction = constant(0.5, static_factor=1.3, description=description, stiffness=3e5)
     base, same = (simulate(m, law, friction, step=1e-6, duration=0.01, inputs=[30.0]) for m in (model, null))
     for name in ("displacement", "velocity", "gap", "normal_force", "friction_force", "stored", "normal_work"):
@@ -227,13 +232,17 @@ def test_null_elements_change_no_bit(law, description):
 
 def test_a_run_with_memory_goes_on_where_another_ended():
     model = with_elements(random_structure(8, 2e3).at_speed(2.0), iwan(1e6, 0.5, elastic=True),
-                          Wave(1e4, 0, 1e-5, 40.0), Softening(1e5, 1e-3), row=np.ones(8))
+                          Wave(1e4, 0, 1e-5, 40.0), Softening(1e5, 1e-3), Maxwell(np.full(1, 1e5), np.full(1, 1e-3)),
+                          row=np.ones(8))
+    model = replace(model, contacts=replace(model.contacts, wear=1e-2))
     options = {"step": 1e-6, "inputs": [20.0]}
     whole = simulate(model, Penalty(1e6, 10.0), constant(0.4), duration=4e-3, **options)
     half = simulate(model, Penalty(1e6, 10.0), constant(0.4), duration=2e-3, **options)
     rest = simulate(model, Penalty(1e6, 10.0), constant(0.4), duration=2e-3, start=half.end, **options)
     np.testing.assert_allclose(rest.displacement[:, -1], whole.displacement[:, -1], rtol=1e-9)
     np.testing.assert_allclose(rest.element_force[:, -1], whole.element_force[:, -1], rtol=1e-9)
+    np.testing.assert_allclose(rest.end.worn, whole.end.worn, rtol=1e-9)
+    assert np.all(half.end.worn > 0) and np.all(whole.end.worn > half.end.worn)
 
 
 def test_elements_follow_their_model_into_other_coordinates():
@@ -246,11 +255,12 @@ def test_elements_follow_their_model_into_other_coordinates():
 
 
 @pytest.mark.parametrize("law", [
-    Power, Dry, BoucWen, Gap, Softening, Sliders, Polynomial])
+    Power, Dry, BoucWen, Gap, Softening, Sliders, Polynomial, Maxwell])
 def test_impossible_values_are_refused(law):
     wrong = {Power: {"exponent": 0.5}, Dry: {"stiffness": 1.0, "forward": -1.0}, BoucWen: {"size": 0.0},
              Gap: {"upper": -1e-3}, Softening: {"time": 0.0}, Polynomial: {"cubic": np.nan},
-             Sliders: {"stiffness": np.ones(2), "limit": np.ones(3)}}[law]
+             Sliders: {"stiffness": np.ones(2), "limit": np.ones(3)},
+             Maxwell: {"stiffness": -np.ones(1), "time": np.ones(1)}}[law]
     with pytest.raises(ConfigError, match=law.__name__):
         Element("bad", np.ones(1), law(**wrong))
 
@@ -273,7 +283,7 @@ def test_a_step_too_long_for_an_element_names_it():
     (Polynomial(0.0, 2e4, 1e8), lambda e: 2e4 * e**2 + 1e8 * e**3),
     (Gap(stop=500.0, lower=1e-3, upper=1e-3), lambda e: 500 * (e - 1e-3)),
     (Sliders(np.array([50.0, 80.0]), np.array([0.2, 5.0])), lambda e: 0.2 + 80 * e),
-    (Dry(1e4, 2.0, 2.0), lambda e: 0.0)])
+    (Dry(1e4, 2.0, 2.0), lambda e: 0.0), (Maxwell(np.array([1e3]), np.array([0.1])), lambda e: 0.0)])
 def test_steady_sliding_with_elements_stands_still(law, force):
     """k x + F(x) = mu N, and a motion that starts there stays there."""
     model = with_elements(belt(), law)

@@ -1,0 +1,38 @@
+"""The surface under a group of contacts: where each contact sits along the sliding, waves under it, and its wear."""
+
+from dataclasses import replace
+
+import numpy as np
+
+from pipeline.physics.elements import Waviness
+
+
+def sliding_angle(contacts, own):
+    """Angles (k,) in rad about the axis of the drive at which the contacts ``own`` (k,) sit, about their mean."""
+    turned = np.exp(1j * _angle(contacts)[own])
+    return np.angle(turned / (turned.sum() or 1.0))
+
+
+def with_wave(bench, group, amplitude, order, phase, growth=0.0):
+    """The bench with amplitude cos(order (theta - theta_i) - phase) added to the gaps of ``group``.
+
+    ``amplitude`` (k,) or one value in m; ``growth`` s, as of a Waviness; theta_i is the angle of contact i.
+    """
+    contacts, own = bench.model.contacts, bench.contacts(group)
+    angle = _angle(contacts)
+    waves = tuple(Waviness(int(i), float(a), order, order * float(angle[i]) + phase, growth=growth)
+                  for i, a in zip(own, np.broadcast_to(amplitude, len(own)), strict=True))
+    changed = replace(contacts, waviness=(*contacts.waviness, *waves))
+    return replace(bench, model=replace(bench.model, contacts=changed))
+
+
+def with_wear(bench, group, rate):
+    """The bench whose contacts of ``group`` recede by ``rate`` (k,) m^2/N times pressure and sliding way."""
+    contacts, own = bench.model.contacts, bench.contacts(group)
+    wear = np.array(np.broadcast_to(contacts.wear, len(contacts.area)), float)
+    wear[own] += rate / contacts.area[own]
+    return replace(bench, model=replace(bench.model, contacts=replace(contacts, wear=wear)))
+
+
+def _angle(contacts):
+    return np.arctan2(contacts.position[:, 1], contacts.position[:, 0])

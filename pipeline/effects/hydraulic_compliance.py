@@ -1,0 +1,31 @@
+"""A load that acts through fluid: it falls as the pad moves on, and recovers as the line refills.
+
+    F = F_in - z,    z' = k v - z / tau
+
+k is the stiffness of the enclosed fluid and its hoses along the input, v the speed along it. An ideal line has k = 0;
+tau is long where the line is narrow or closed.
+"""
+
+import numpy as np
+
+from pipeline.effects.effect import Effect
+from pipeline.inference.priors import HalfNormal, LogNormal, Parameter
+from pipeline.physics.elements import Element, Maxwell
+
+
+def parameters(typical):
+    size = 0.1 * (typical.stiffness or typical.force / typical.length)
+    return (Parameter("stiffness", "N/m", size, HalfNormal(2 * size), null=0.0),
+            Parameter("time", "s", 0.2 * typical.time, LogNormal(0.2 * typical.time, 1.0)))
+
+
+def apply(bench, place, values):
+    law = Maxwell(np.array([values["stiffness"]]), np.array([values["time"]]))
+    return bench.with_elements(Element(f"hydraulic_compliance {place}", bench.input(place)[0], law))
+
+
+EFFECT = Effect(
+    name="hydraulic_compliance", summary="a load that falls as the pad moves on, until the line refills",
+    place="input", stage="structure", parameters=parameters, apply=apply, linear=("stiffness",),
+    source="R. Limpert, Brake Design and Safety, 2nd ed. (1999), chapter 5: volume and stiffness of brake fluid",
+    valid="Valid below the first frequency of the line itself; every run starts with the pressure in balance.")

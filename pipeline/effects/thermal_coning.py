@@ -1,0 +1,30 @@
+"""Thermal coning: the disc tilts into a cone as it warms up, which opens or closes the gaps of a group.
+
+    gap_i + d (r_i / r) (1 - exp(-t / tau))
+
+r_i is the radius of contact i, r the mean of the group.
+"""
+
+import numpy as np
+
+from pipeline.effects.contact_surface import with_wave
+from pipeline.effects.effect import Effect
+from pipeline.inference.priors import LogNormal, Normal, Parameter
+
+
+def parameters(typical):
+    size = 0.3 * typical.length
+    return (Parameter("shift", "m", size, Normal(0.0, size), null=0.0),
+            Parameter("time", "s", 0.5 * typical.time, LogNormal(0.5 * typical.time, 1.0)))
+
+
+def apply(bench, place, values):
+    radius = np.abs(bench.model.contacts.lever[bench.contacts(place)])
+    return with_wave(bench, place, values["shift"] * radius / (radius.mean() or 1.0), 0.0, 0.0, values["time"])
+
+
+EFFECT = Effect(
+    name="thermal_coning", summary="contacts that open or close as the disc warms up", place="contact",
+    stage="excitation", parameters=parameters, apply=apply,
+    source="R. Limpert, Brake Design and Safety, 2nd ed. (1999), chapter 3: coning of rotors",
+    valid="Valid while heating is steady from the begin of each run, which starts cold; a belt shifts evenly.")

@@ -1,0 +1,34 @@
+"""Doublets of a sliding model: pairs of coordinates of one body that are two modes of nearly one frequency."""
+
+import numpy as np
+
+#: share of the largest entry of a matrix that counts as rounding
+_ROUNDING = 1e-9
+
+
+def doublets(model, within=1e-3):
+    """{name: (i, j)} of a SlidingModel, by body and rising frequency: what ``Bench.doublets`` asks for.
+
+    Two coordinates are modes where neither mass nor stiffness, joints counted, couples them with others of their body;
+    they belong together where their frequencies differ by less than the share ``within``. Each is in one pair at most.
+    """
+    mass, _, stiffness = model.supported(gyroscopic=False, centrifugal=False)
+    found = {}
+    for index, body in enumerate(model.body_name):
+        own = np.flatnonzero(model.coordinate_body == index)
+        own = own[~(_coupled(mass, own) | _coupled(stiffness, own))]
+        frequency = np.sqrt(np.maximum(stiffness[own, own] / mass[own, own], 0.0))
+        own, frequency = own[np.argsort(frequency, kind="stable")], np.sort(frequency)
+        free, pairs = 0, []
+        for k in range(1, len(own)):
+            if k > free and frequency[k] > 0 and frequency[k] - frequency[k - 1] < within * frequency[k]:
+                pairs.append((int(own[k - 1]), int(own[k])))
+                free = k + 1
+        found |= {f"{body} {number}": pair for number, pair in enumerate(pairs, 1)}
+    return found
+
+
+def _coupled(matrix, own):
+    """True (k,) for coordinates that ``matrix`` couples with others of their body."""
+    block = abs(matrix[np.ix_(own, own)])
+    return (block - np.diag(np.diag(block)) > _ROUNDING * block.max(initial=0.0)).any(axis=1)
