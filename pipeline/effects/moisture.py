@@ -26,6 +26,6 @@ def apply(bench, place, values):
 
 EFFECT = Effect(
     name="moisture", summary="friction that depends on the humidity of the air", place="contact", stage="friction",
-    parameters=parameters, apply=apply, linear=("slope",),
+    parameters=parameters, apply=apply, linear=("slope",), conditions=("humidity",),
     source="P. J. Blau, Friction Science and Technology (2009): humidity",
     valid="Valid while humidity is the same all over a run; simulation, roots and equation see it.")

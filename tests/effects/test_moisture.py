@@ -37,6 +37,11 @@ def test_roots_know_the_humidity():
     assert abs(found[:, None] - exact).min(axis=0).max() < 1e-9
 
 
+def test_runs_without_humidity_cannot_ask_for_it():
+    damp = replace(steady(), conditions={"humidity": 0.4})
+    assert named("moisture").told_by((damp,)) and not named("moisture").told_by((damp, steady()))
+
+
 @pytest.mark.parametrize("conditions", [{}, {"humidity": np.array([0.1, 0.2])}])
 def test_runs_without_one_humidity_are_refused(conditions):
     bench = named("moisture").on(slider(), "contact", {"slope": 0.5})
