@@ -87,7 +87,7 @@ def candidates(bench, runs, catalogue, places=(), scale=1.0):
     """
     found = []
     for effect in catalogue:
-        for place in effect.places(bench):
+        for place in effect.places(bench) if effect.told_by(runs) else ():
             if places and place not in places:
                 continue
             parameters = tuple(replace(p, name=parameter_name(effect.name, place, p.name))

@@ -12,6 +12,9 @@ from typing import NamedTuple
 import numpy as np
 from numba import njit
 
+from pipeline.physics.dry_friction import RIGID
+from pipeline.physics.element_forces import TURNING, turn
+from pipeline.physics.friction_state_steps import expect, settle
 from pipeline.physics.time_stepping_contact import SOLVED, solve_contacts
 from pipeline.physics.time_stepping_elements import (
     first_forces,
@@ -72,6 +75,7 @@ class Record(NamedTuple):
     share: np.ndarray           # (c, 3) steps open, sticking, sliding
     end: np.ndarray             # (2, m) pairs after the last step
     memory: np.ndarray          # (s,) of the elements after the last step
+    states: np.ndarray          # (k, 2) of friction after the last step
     angle: np.ndarray           # (1,) rad of the drive, at time 0, then after the last step
     worn: np.ndarray            # (c,) m that the contacts have receded by, at time 0, then after the last step
 
@@ -161,9 +165,9 @@ def _keep_elements(record, row, place, drawn):
 
 
 @njit(cache=True)
-def march(linear, law, friction, elements, lever, drive, inputs, pairs, force, status, memory, age, step, steps, every,
-          book, record):
-    """(code, step number, contact or element): fills ``record`` from ``pairs``, ``force``, ``status``, ``memory``.
+def march(linear, law, friction, elements, states, lever, drive, inputs, pairs, force, status, memory, value, age, step,
+          steps, every, book, record):
+    """(code, step number, contact or element): fills ``record`` from what stands at time 0, ``pairs`` to ``value``.
 
     ``lever`` (c,), ``drive`` HistoryKernel of the drive speed, ``inputs`` of the input forces; ``age`` s passed before
     time 0; ``book``: whether the work of inputs and dampers is summed.
@@ -191,8 +195,11 @@ def march(linear, law, friction, elements, lever, drive, inputs, pairs, force, s
         _push(first, 2 * contacts, begin, steady)
         _push(last, 2 * contacts, begin, steady)
     count_e, waves = elements.kind.size, elements.waviness.shape[0] > 0
+    recalls, middle = states.kind.size > 0, friction.description == RIGID and not law.newmark
+    turns_aside = np.any(elements.kind == TURNING)
     wear, worn, pace = elements.wear, record.worn, np.zeros(elements.wear.size)
-    special, angle, spin = count_e > 0 or waves or wear.size > 0, record.angle[0], np.zeros(1)
+    special, angle, spin = count_e > 0 or waves or wear.size > 0 or recalls, record.angle[0], np.zeros(1)
+    slip, slipped, mean = np.zeros(contacts), np.zeros(contacts), np.zeros(contacts)
     alone, shift, shift_before = np.zeros((4, contacts)), np.zeros((2, contacts)), np.zeros((2, contacts))
     lonely, now, later = np.zeros((2, count_e)), np.zeros((2, count_e)), np.zeros((2, count_e))
     drawn, drawn_before, remembered, earlier = np.zeros(count_e), np.zeros(count_e), memory.copy(), status.copy()
@@ -207,6 +214,7 @@ def march(linear, law, friction, elements, lever, drive, inputs, pairs, force, s
         seen[0] += shift[0]
         seen[1] += shift[1]
         _see(elements.rows, pairs, now.ravel())
+        turn(elements, force[1], sliding[1] - seen[3], now[1])
         first_forces(elements, now, memory, drawn, instant)
         _keep_elements(record, 0, now, drawn)
     _keep(linear, law, record, 0, pairs, watched, seen, force, sliding[1], status, 1, work)
@@ -222,7 +230,7 @@ def march(linear, law, friction, elements, lever, drive, inputs, pairs, force, s
             drawn_before[:] = drawn
             shift_before[:] = shift
             remembered[:] = memory
-            spun = spin[0]
+            spun, angle_before = spin[0], angle
             read(drive, number * step, spin)
             angle = middle_angle(angle, spun, spin[0], step)
             instant = (age + number * step, angle, spin[0])
@@ -234,6 +242,12 @@ def march(linear, law, friction, elements, lever, drive, inputs, pairs, force, s
                     sliding[0, i], sliding[1, i] = sliding[1, i], lever[i] * turning[0]
                     way[i] = 0.5 * step * (sliding[0, i] + sliding[1, i])
             held_flat[:] = force_flat
+            if recalls or turns_aside:
+                slip[:] = sliding[0] - seen[3]
+            if turns_aside:
+                turn(elements, held[1], slip, now[1])
+            if recalls:
+                expect(states, value, friction, held[0], slip, held[1], angle_before, angle, step, middle)
             if not (holds[0] and holds[1]):
                 _push(first, 0, held_flat, after)
             _see(rows, after, free_flat)
@@ -270,6 +284,10 @@ def march(linear, law, friction, elements, lever, drive, inputs, pairs, force, s
                 jump[0] = 0.5 * step * (seen[1] + hit[1])
                 jump[1] = 0.5 * step * (seen[3] + hit[3])
             _account(response, jump, holds, held, force, free, seen, way, status, share, summed, work)
+            if recalls:
+                slipped[:] = sliding[1] - seen[3]
+                mean[:] = force[1] if holds[1] else 0.5 * (held[1] + force[1])
+                settle(states, value, force[0] if holds[0] else held[0], force[0], slip, slipped, mean, step)
             wear_on(wear, force[0], sliding[1], seen[3], step, worn, pace)
         if book:
             rate = _loss_rate(power, drag, after)
@@ -293,6 +311,7 @@ def march(linear, law, friction, elements, lever, drive, inputs, pairs, force, s
             summed[:] = 0.0
     record.end[:] = pairs
     record.memory[:] = memory
+    record.states[:] = value
     record.angle[0] = angle
     return SOLVED, 0, 0
 
