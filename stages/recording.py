@@ -193,7 +193,8 @@ def _run(channels, told, where, **more):
         value, unit = in_si(given.value, given.unit, f"{where}: conditions.{name}.unit")
         conditions[name] = Condition(value=[value], time=[0.0], unit=unit)
     empty = {kind: {} for kind in ("frf", "modes", "lines", "topography", "friction")}
-    return Run(description=told.description, repeat_of=getattr(told, "repeat_of", ""), conditions=conditions, channels=channels,
+    return Run(description=told.description, repeat_of=getattr(told, "repeat_of", ""), conditions=conditions,
+               channels=channels,
                **{**empty, **more})
 
 

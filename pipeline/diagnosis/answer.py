@@ -48,7 +48,7 @@ def _hypotheses(found):
     """Columns of the table of everything weighed: nothing missing first, then what is known, then the catalogue."""
     known = found.nominal.effects
     weighed = {w.candidate.name: w for w in found.weighed}
-    rows = [_row("nothing missing" if not known else found.nominal.name, (), "physics")]
+    rows = [_row(f"nothing beside {found.nominal.name}" if known else "nothing missing", (), "physics")]
     rows += [_row(f"{e} at {p}", ((e, p),), "physics", posterior=1 - found.base.posterior_of_null, refitted=1)
              for e, p in known]
     share = _shares(found, weighed)

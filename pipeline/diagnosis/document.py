@@ -14,9 +14,14 @@ ALTERNATIVES = 5
 def companions(product, case):
     """{file name: text}: diagnosis.json and, where something is added to the case, the completed case."""
     found = {"diagnosis.json": json.dumps(as_json(product), indent=2, ensure_ascii=False) + "\n"}
-    if case is not None and (name := completed_name(product, case.name)):
+    if case is not None and _completable(case) and (name := completed_name(product, case.name)):
         found[name] = yaml.yaml_text(completed(product, case))
     return found
+
+
+def _completable(case):
+    """Lists of lines name alternatives to numbers of others, which no case can run."""
+    return (case.document.get("diagnosis") or {}).get("forward") != "lines"
 
 
 def completed_name(product, case_name):

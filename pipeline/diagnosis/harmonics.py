@@ -1,9 +1,10 @@
 """Harmonics of a squeal: which mechanism of a sliding contact makes them, by transients with each one switched off.
 
-A contact that neither opens nor reverses its slip is linear: small motion grows as one line. Both mechanisms are
-switched off by the operating point, with the linear part as it is: a much larger load keeps the contact closed, a much
-faster drive keeps the slip from reversing. The equations scale, so that either mechanism alone gives an amplitude in
-proportion to what switches it: loss of contact to the load, stick and reversal to the speed.
+A contact that neither opens nor reverses its slip is linear: small motion grows as one line, that of its fastest
+growing mode, and this is the nominal model. Either mechanism is switched off by the operating point, with the linear
+part as it is: a much larger load keeps the contact closed, a much faster drive keeps the slip from reversing. The
+equations scale, so that either mechanism alone gives an amplitude in proportion to what switches it: loss of contact to
+the load, stick and reversal to the speed.
 """
 
 from dataclasses import dataclass
@@ -11,6 +12,7 @@ from functools import partial
 from typing import Literal
 
 import numpy as np
+from scipy.special import ndtr
 
 from pipeline.benches.bench import about
 from pipeline.benches.laws import Laws
@@ -18,6 +20,7 @@ from pipeline.contract import ConfigError, Quantity, Section, option
 from pipeline.diagnosis.lines import Alternative, Features, lines_of, question
 from pipeline.effects import named
 from pipeline.effects.effect import Term, compose
+from pipeline.physics.dry_friction import constant
 from pipeline.physics.limit_cycle import cycle, harmonic_levels
 from pipeline.physics.time_stepping import simulate
 from pipeline.physics.time_stepping_linear import modal_system
@@ -25,8 +28,8 @@ from pipeline.physics.time_stepping_start import random_kick, steady_start
 
 #: name of the recorded list of the base frequency
 BASE = "base"
-#: a line stands or it does not: half-way is two standard deviations
-_STD = 0.25
+#: a line stands or it does not: half-way is two standard deviations; where the range ends is known to so many dB
+_STD, _SOFT = 0.25, 10.0
 #: rise of friction at rest over that in sliding, and decay as a share of the sliding speed, of the falling alternative
 _FALLING = (0.2, 1.0)
 #: steps between samples that are kept
@@ -64,7 +67,6 @@ class Harmonics(Laws):
     step: Quantity("s", gt=0) = option("1 us", "time step")
     duration: Quantity("s", gt=0) = option("0.2 s", "length of the motion")
     window: Quantity("s", gt=0) = option("0.1 s", "end of the motion from which lines are taken")
-    small: Quantity("s", gt=0) = option("20 ms", "length of the small motion of the nominal model")
     kick: Quantity("m/s", ge=0) = option("0.1 mm/s", "effective value of a random start velocity at the sensors")
     seed: int = option(1, "seed of the kick", ge=0)
     lowest_frequency: Quantity("Hz", gt=0) = option("200 Hz", "dominant frequencies are sought above it")
@@ -75,14 +77,13 @@ class Harmonics(Laws):
 
 @dataclass(frozen=True)
 class Variant:
-    """A motion: may the contact open, may the slip reverse, does friction fall with speed; over ``duration`` s."""
+    """A motion: may the contact open, may the slip reverse, does friction fall; ``as_published`` in step and window."""
 
     name: str
-    opens: bool
-    reverses: bool
-    duration: float
-    window: float
+    opens: bool = True
+    reverses: bool = True
     falls: bool = False
+    as_published: bool = False
 
 
 @dataclass(frozen=True)
@@ -96,16 +97,9 @@ class Shown:
     stick_share: float
 
 
-def variants(told):
-    """The small motion of the nominal model first, then each mechanism, both, both over the published window."""
-    full = (told.duration, told.window)
-    found = [Variant("nominal", False, False, told.small, told.small),
-             Variant("loss_of_contact", True, False, *full), Variant("stick", False, True, *full),
-             Variant("loss_of_contact_and_stick", True, True, *full),
-             Variant("falling_friction", False, True, *full, True)]
-    if told.published:
-        found.append(Variant("window", True, True, told.published.window, told.published.window))
-    return found
+#: each mechanism, both, and a friction that falls with the slip speed where the contact cannot open
+MECHANISMS = (Variant("loss_of_contact", reverses=False), Variant("stick", opens=False),
+              Variant("loss_of_contact_and_stick"), Variant("falling_friction", opens=False, falls=True))
 
 
 def shown(model, told, fan_out=map):
@@ -114,33 +108,38 @@ def shown(model, told, fan_out=map):
     if missing:
         raise ConfigError("diagnosis.lines.spectra", f"sensors among {', '.join(map(str, model.sensor_name))}",
                           ", ".join(sorted(missing)))
-    return {one.variant.name: one for one in fan_out(partial(_move, model, told), variants(told))}
+    every = (*MECHANISMS, *([Variant("published", as_published=True)] if told.published else []))
+    return {one.variant.name: one for one in fan_out(partial(_move, model, told), every)}
 
 
 def _move(model, told, variant):
-    bench = about(model, told, "diagnosis.lines", 0, told.speed, told.step)
+    laws, step, duration, every = told, told.step, told.duration, _EVERY
+    if variant.as_published:
+        laws, step, duration, every = told.model_copy(update={"rule": "newmark"}), told.published.step, \
+            told.published.window, 1
+    bench = about(model, laws, "diagnosis.lines", 0, told.speed, step)
     if variant.falls:
         rise, share = _FALLING
         decay = share * told.speed * float(np.mean(model.contact_lever))
         bench = compose(bench, [Term(named("falling_friction"), "contact", {"rise": rise, "decay_speed": decay})])
     drive = told.speed * (1.0 if variant.reverses else told.one_way_speed)
     inputs = model.pressure[0] * model.input_area * (1.0 if variant.opens else told.closing_load)
-    system = modal_system(bench.model, "full", told.highest_frequency)
-    start = steady_start(bench.model, bench.law, bench.friction, inputs)
-    kick = random_kick(system, bench.model.sensor_rows, told.kick, told.seed)
-    motion = simulate(bench.model, bench.law, bench.friction, step=told.step, duration=variant.duration, inputs=inputs,
-                      drive=drive, record_every=_EVERY, system=system, start=start.kicked(kick), book=False)
-    return _shown(model, told, variant, motion)
+    system = modal_system(bench.model, "diagonal" if variant.as_published else "full", told.highest_frequency)
+    start = steady_start(bench.model, bench.law, constant(0.0) if variant.as_published else bench.friction, inputs)
+    kick = random_kick(system, bench.model.sensor_rows, 0.0 if variant.as_published else told.kick, told.seed)
+    motion = simulate(bench.model, bench.law, bench.friction, step=step, duration=duration, inputs=inputs, drive=drive,
+                      record_every=every, system=system, start=start.kicked(kick), book=False)
+    return _shown(model, told, variant, motion, step * every)
 
 
-def _shown(model, told, variant, motion):
-    interval, names = told.step * _EVERY, [str(n) for n in model.sensor_name]
-    count = round(variant.window / interval)
+def _shown(model, told, variant, motion, interval):
+    names = [str(n) for n in model.sensor_name]
+    window = told.published.window if variant.as_published else told.window
     signals = {name: motion.velocity[names.index(name)] for name in told.spectra}
-    base = np.mean([cycle(s, interval, variant.window, 1.0, told.lowest_frequency).frequency for s in signals.values()])
+    base = np.mean([cycle(s, interval, window, 1.0, told.lowest_frequency).frequency for s in signals.values()])
     levels = {}
     for name, signal in signals.items():
-        amplitude = harmonic_levels(signal[-count:], 1 / interval, base, told.lines)
+        amplitude = harmonic_levels(signal[-round(window / interval):], 1 / interval, base, told.lines)
         if told.spectra[name].quantity == "acceleration":
             amplitude = amplitude * np.arange(1, told.lines + 1)
         levels[name] = 20 * np.log10(np.maximum(amplitude / amplitude[0], 1e-15))
@@ -148,18 +147,29 @@ def _shown(model, told, variant, motion):
     return Shown(variant, float(base), levels, float(share[0]), float(share[1]))
 
 
-def harmonics_question(recording, told, motions):
-    """Question over the recorded lines: which of them stand in each spectrum, and their base frequency."""
+def growing(modes):
+    """(root of the fastest growing mode, 1/s) of a product ComplexModes at its first operating point."""
+    roots = modes.unstable_root[modes.unstable_operating == 0]
+    if not len(roots):
+        raise ConfigError("diagnosis.lines", "a model of which a mode grows", "none", "see stage complex_modes")
+    return roots[np.argmax(roots.real)]
+
+
+def harmonics_question(recording, told, motions, modes):
+    """Question over the recorded lines: which of them stand in each spectrum, and their base frequency.
+
+    The nominal model is the small motion of ComplexModes ``modes``: its fastest growing mode and nothing else.
+    """
     lists = {name: lines_of(recording, told.run, s.list) for name, s in told.spectra.items()}
     bases = {name: (one.frequency[0], one.frequency_tolerance[0]) for name, one in lists.items()}
     frequency, tolerance = np.mean(list(bases.values()), axis=0)
     features = {name: Features("line", "1", _stands(one, frequency, told.lines), np.full(told.lines, _STD))
                 for name, one in lists.items()}
     features[BASE] = Features("frequency", "Hz", [frequency], [tolerance / 2])
-    nominal = _features(motions["nominal"], told)
-    others = [Alternative(name, "contact", _features(motions[name], told))
-              for name in ("loss_of_contact", "stick", "loss_of_contact_and_stick", "falling_friction")]
-    return question(features, nominal, others)
+    alone = np.concatenate(([1.0], np.zeros(told.lines - 1)))
+    nominal = {**dict.fromkeys(lists, alone), BASE: np.array([_hertz(growing(modes))])}
+    return question(features, nominal, [Alternative(m.name, "contact", _features(motions[m.name], told))
+                                        for m in MECHANISMS])
 
 
 def _stands(lines, base, count):
@@ -170,25 +180,29 @@ def _stands(lines, base, count):
 
 
 def _features(motion, told):
-    found = {name: (level > -told.spectra[name].range).astype(float) for name, level in motion.levels.items()}
+    found = {name: ndtr((level + told.spectra[name].range) / _SOFT) for name, level in motion.levels.items()}
     return {**found, BASE: np.array([motion.base])}
 
 
-def harmonics_reasons(recording, told, motions, modes=None):
+def harmonics_reasons(recording, told, motions, modes):
     """Sentences from the computed motions, and on the published computation where there is one."""
-    reasons = [_of_motion(motions[name], told) for name in motions if name != "window"]
-    reasons.append("the equations scale: with loss of contact alone the amplitude is proportional to the load and does not"
-                   " depend on the speed, with stick and reversal alone it is proportional to the speed and does not depend"
-                   " on the load")
-    if told.published:
-        reasons += _of_published(recording, told, motions, modes)
-    return reasons
+    root = growing(modes)
+    reasons = [f"the nominal model, small motion in permanent contact, grows at {_hertz(root):.0f} Hz by"
+               f" {root.real:.0f} 1/s:"
+               " one line and no harmonic"]
+    reasons += [_of_motion(motions[m.name], told) for m in MECHANISMS]
+    reasons.append("with loss of contact alone amplitudes are proportional to the load and do not depend on the"
+                   " speed, with"
+                   " stick and reversal alone they are proportional to the speed and do not depend on the load (the"
+                   " equations"
+                   " scale): levels at two loads and two speeds tell them apart")
+    return reasons + (_of_published(recording, told, motions, root) if told.published else [])
 
 
 def _of_motion(motion, told):
-    seen = ", ".join(f"{name} {int((level > -told.spectra[name].range).sum())} of {len(level)}"
-                     f" ({', '.join(f'{v:.0f}' for v in level[1:])} dB)" for name, level in motion.levels.items())
-    return (f"{motion.variant.name}: base {motion.base:.0f} Hz, lines within their ranges: {seen}; open {motion.open_share:.0%},"
+    seen = " and ".join(f"{int((level > -told.spectra[name].range).sum())} of {len(level)} lines at the {name}"
+                        f" ({', '.join(f'{v:.0f}' for v in level[1:])} dB)" for name, level in motion.levels.items())
+    return (f"{motion.variant.name.replace('_', ' ')}: base {motion.base:.0f} Hz, {seen}; open {motion.open_share:.0%},"
             f" sticking {motion.stick_share:.0%} of the time")
 
 
@@ -202,24 +216,26 @@ def unstepped(frequency, step):
     return np.tan(np.pi * frequency * step) / (np.pi * step)
 
 
-def _of_published(recording, told, motions, modes):
-    p = told.published
+def _hertz(root):
+    return abs(root.imag) / (2 * np.pi)
+
+
+def _of_published(recording, told, motions, root):
+    p, found = told.published, motions["published"]
     line = float(lines_of(recording, p.run, p.list).frequency[0])
-    true = unstepped(line, p.step)
-    reasons = [f"{line:.0f} Hz as published: if it was stepped by the trapezoidal rule with {1e6 * p.step:.3g} us, the mode"
-               f" behind it lies at {true:.0f} Hz, and {line - true:+.0f} Hz of it are the time step; lines of"
-               f" {1e3 * p.window:.3g} ms are {1 / p.window:.0f} Hz apart"]
-    if modes is not None and len(modes.unstable_root):
-        root = min(modes.unstable_root, key=lambda r: abs(abs(r.imag) / (2 * np.pi) - line))
-        own = abs(root.imag) / (2 * np.pi)
-        reasons.append(f"the growing mode of this model at {own:.0f} Hz would be shown at {stepped(own, p.step):.0f} Hz,"
-                       f" {stepped(own, p.step) - own:+.0f} Hz; it grows by {root.real:.0f} 1/s, {np.exp(root.real * p.window):.3g}"
-                       f" times in {1e3 * p.window:.3g} ms")
-    short = motions["window"]
-    lines = {name: int((level > -told.spectra[name].range).sum()) for name, level in short.levels.items()}
-    reasons.append(f"with both mechanisms present {1e3 * p.window:.3g} ms from a kick of {1e3 * told.kick:.3g} mm/s show"
-                   f" {', '.join(f'{n} of {told.lines} lines at the {name}' for name, n in lines.items())}; open"
-                   f" {short.open_share:.0%}, sticking {short.stick_share:.0%} of the time")
-    reasons.append(f"spectra to {1e-3 * p.band:.3g} kHz hold {int(p.band // short.base)} of {told.lines} lines of"
-                   f" {short.base:.0f} Hz: the others could not show at any length")
-    return reasons
+    own, base = _hertz(root), motions["loss_of_contact_and_stick"].base
+    return [
+        f"{line:.0f} Hz as published: if the trapezoidal rule stepped it by {1e6 * p.step:.3g} us, the mode behind it"
+        f" lies at"
+        f" {unstepped(line, p.step):.0f} Hz and {line - unstepped(line, p.step):+.0f} Hz of it are the time step; the"
+        f" growing"
+        f" mode of this model, {own:.0f} Hz, would be shown at {stepped(own, p.step):.0f} Hz"
+        f" ({stepped(own, p.step) - own:+.0f}"
+        f" Hz); lines of {1e3 * p.window:.3g} ms are {1 / p.window:.0f} Hz apart",
+        f"{1e3 * p.window:.3g} ms: small motion grows {np.exp(root.real * p.window):.3g} times in them; both"
+        f" mechanisms, stepped"
+        f" and windowed as published, {_of_motion(found, told).partition(': ')[2]}; nothing shows there that had to"
+        f" settle",
+        f"spectra to {1e-3 * p.band:.3g} kHz hold {int(p.band // base)} of {told.lines} lines of {base:.0f} Hz: the"
+        f" others"
+        " could not show, however long the motion"]

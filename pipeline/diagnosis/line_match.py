@@ -51,7 +51,7 @@ def covered(model, tolerance, band):
 
 
 def match(measured, tolerance, model, band, draws=DRAWS, seed=0):
-    """Match of ``measured`` lines (n,) with ``tolerance`` (n,) and the ``model`` lines (k,) in ``band`` (low, high), Hz.
+    """Match of ``measured`` lines (n,) with ``tolerance`` (n,) against ``model`` lines (k,) in ``band``, Hz.
 
     The density under the model: each measured line belongs to any line of the model alike, with a normal error of half
     its tolerance; that of random lines is even over the band.

@@ -1,7 +1,7 @@
 """Lines and modes as features: what a model shows at each of them, and what alternatives to it would show.
 
-Published numbers are few, and every alternative is one other list of numbers. A hypothesis moves the prediction from the
-nominal one by a share of the way to its alternative:
+Published numbers are few, and every alternative is one other list of numbers. A hypothesis moves the prediction from
+the nominal one by a share of the way to its alternative:
 
     predicted = factor * nominal + sum_a share_a (alternative_a - nominal),
 
@@ -9,11 +9,14 @@ share 0 is the nominal model, share 1 the alternative whole.
 """
 
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
+from scipy.stats import chi2, norm
 
 from pipeline.contract import ConfigError
 from pipeline.diagnosis.question import Question, label, nominal, parameter_name
+from pipeline.inference.calibrate import whitened
 from pipeline.inference.diagnose import diagnose
 from pipeline.inference.locate import Location, holm
 from pipeline.inference.noise import budget
@@ -59,7 +62,7 @@ class Alternative:
 
 @dataclass(frozen=True)
 class Blended:
-    """Picklable prediction from ``shown`` {run: (n,)} of the nominal model and ``alternatives`` {(effect, place): it}."""
+    """Picklable prediction: ``shown`` {run: (n,)} of the nominal model, ``alternatives`` {(effect, place): it}."""
 
     shown: dict
     alternatives: dict
@@ -80,7 +83,7 @@ def question(features, shown, alternatives, parameters=()):
     known = {(a.effect, a.place): a for a in alternatives}
     problem = Problem(seen, Blended(shown, known), nominal(parameters))
     return Question(problem, budget(problem), tuple(a.hypothesis for a in alternatives),
-                    {f.channel: f.unit for f in features.values()}, axes=differing)
+                    {f.channel: f.unit for f in features.values()}, axes=partial(differing, problem))
 
 
 def diagnosed(asked, settings, fan_out=map):
@@ -103,13 +106,19 @@ def diagnosed(asked, settings, fan_out=map):
     return single
 
 
-def differing(diagnosis):
-    """Axis ``run``: the lists that differ from the recalibrated nominal model, by their chi^2 (Holm over all)."""
-    from scipy.stats import chi2, norm
-    fit = diagnosis.base.null if diagnosis.base else diagnosis.null
-    single = np.clip(chi2.sf(fit.chi_square, fit.counts), 1e-300, 1 - 1e-12)
+def differing(problem, diagnosis):
+    """Axis ``run``: the lists that differ from the nominal model, by their chi^2 (Holm over all).
+
+    Its parameters are those of the named hypothesis, which lists that differ no longer pull aside.
+    """
+    best = diagnosis.named[0].fit if diagnosis.named else diagnosis.null
+    own = best.latent[:len(problem.nominal.parameters)]
+    residuals, error = whitened(problem, best.noises, problem.nominal, own, best.runs)
+    if error:
+        raise error
+    single = np.array([np.clip(chi2.sf(r @ r, len(r)), 1e-300, 1 - 1e-12) for r in residuals])
     p_value = holm(single)
-    return {"run": (Location(tuple(r.name for r in fit.runs), norm.isf(single), p_value, p_value <= _LEVEL),)}
+    return {"run": (Location(tuple(r.name for r in best.runs), norm.isf(single), p_value, p_value <= _LEVEL),)}
 
 
 def lines_of(recording, run, name):

@@ -1,4 +1,4 @@
-"""A table of computed and measured modes: which rows differ, and whether pairing, one wrong value or physics explains it."""
+"""A table of computed and measured modes: which rows differ, and whether pairing, a value or physics explains it."""
 
 from dataclasses import dataclass
 from typing import Literal
@@ -30,7 +30,8 @@ class ModeTable(Section):
     list: str = option("disc", "name of the list in both runs")
     pairs: dict[str, tuple[str, ...]] = option(
         {}, "measured line: its computed partners, as published; none = smallest sum of logarithmic ratios")
-    factor_spread: float = option(0.05, "prior of one factor on all frequencies: standard deviation of its logarithm; 0.05"
+    factor_spread: float = option(0.05, "prior of one factor on all frequencies: standard deviation of its logarithm;"
+                                        " 0.05"
                                   " is a modulus or a density 10 % off", gt=0)
 
 
@@ -76,7 +77,7 @@ def table(recording, told):
 
 
 def mode_question(rows, structure, told):
-    """Question of a Table: the printed pairs as nominal model; other pairs, mesh, support and kind of mode beside it."""
+    """Question of a Table: the printed pairs as nominal model; other pairs, mesh, support, kind of mode beside it."""
     features = {n: Features("frequency", "Hz", [t], [s])
                 for n, t, s in zip(rows.name, rows.test, rows.std, strict=True)}
     factor = Parameter(FACTOR, "1", 1.0, LogNormal(1.0, told.factor_spread))
@@ -142,15 +143,20 @@ def mode_reasons(rows, found):
     """Sentences on a Table and the Diagnosis over it, from its numbers."""
     null = found.base.null if found.base else found.null
     off = np.array([r[0] for r in null.residuals])
-    told = [f"{rows.name[i]}: {rows.test[i]:.1f} Hz measured beside {rows.model[i]:.1f} Hz computed ({rows.difference[i]:+.1%},"
+    told = [f"{rows.name[i]}: {rows.test[i]:.1f} Hz measured beside {rows.model[i]:.1f} Hz computed"
+            f" ({rows.difference[i]:+.1%},"
             f" {abs(off[i]):.1f} standard deviations; the tolerance of the row, an inferred number, counts as two)"
             for i in np.argsort(-np.abs(off)) if abs(off[i]) > 3]
     told.append(_of_factor(rows, null))
-    for i, mode in nearer(rows):
-        told.append(_of_pair(rows, i, mode))
+    told += [_of_pair(rows, i, mode) for i, mode in nearer(rows)]
+    other = {i for i, _ in nearer(rows)} | {i for pair in exchanges(rows) for i in pair}
+    told += [f"{rows.name[i]}: no printed mode lies nearer than its partner, alone or exchanged: it is not mis-paired"
+             f" within"
+             " the table" for i in range(len(off)) if abs(off[i]) > 3 and i not in other]
     signs = {np.sign(off[i]) for i in range(len(off)) if abs(off[i]) > 3}
     if len(signs) == 2:
-        told.append("the rows that differ most do so in opposite directions: one added stiffness or mass moves all modes"
+        told.append("the rows that differ most do so in opposite directions: one added stiffness or mass moves all"
+                    " modes"
                     " the same way and cannot explain both")
     return told
 
@@ -158,8 +164,11 @@ def mode_reasons(rows, found):
 def _of_factor(rows, null):
     before = float(np.sum(((rows.test - rows.model) / rows.std) ** 2))
     factor, std = null.values[FACTOR], null.spread()[FACTOR]
-    return (f"one factor on all frequencies, as a wrong modulus or density gives, is fitted as {factor:.3f} +- {std:.3f} and"
-            f" takes the squared deviations from {before:.1f} to {null.chi_square.sum():.1f} over {len(rows.name)} rows")
+    return (f"one factor on all frequencies, as a wrong modulus or density gives, is fitted as {factor:.3f} +-"
+            f" {std:.3f} and"
+            f" takes the squared deviations from {before:.1f} to {null.chi_square.sum():.1f} over {len(rows.name)}"
+            f" rows:"
+            f" {'enough' if null.chi_square.sum() < before / 2 else 'it does not explain the rows that differ'}")
 
 
 def _of_pair(rows, i, mode):
@@ -170,8 +179,10 @@ def _of_pair(rows, i, mode):
     share = covered(spare, apart, (every.min(), every.max()))
     kind = {1: "single", 2: "a pair"}
     told = (f"{rows.name[i]}: {frequency:.1f} Hz ({'/'.join(names)}), which the table pairs with nothing, lies"
-            f" {rows.test[i] / frequency - 1:+.1%} away instead of {rows.difference[i]:+.1%}; a line at random finds a spare"
-            f" mode as near with probability {share:.0%}, one of {len(rows.name)} with {chance(share, len(rows.name)):.0%},"
+            f" {rows.test[i] / frequency - 1:+.1%} away instead of {rows.difference[i]:+.1%}; a line at random finds"
+            f" a spare"
+            f" mode as near with probability {share:.0%}, one of {len(rows.name)} with"
+            f" {chance(share, len(rows.name)):.0%},"
             " so that frequency alone does not prove it")
     if partners and rows.partners[i] and partners != rows.partners[i]:
         told += f"; against it: the mode is {kind[partners]}, the row is counted as {kind[int(rows.partners[i])]}"

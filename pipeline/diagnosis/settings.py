@@ -4,7 +4,9 @@ from typing import Literal
 
 from pipeline.contract import ConfigError, Quantity, Section, option
 from pipeline.contract.units import to_si
+from pipeline.diagnosis.harmonics import Harmonics
 from pipeline.diagnosis.mode_table import ModeTable
+from pipeline.diagnosis.squeal_lines import SquealLines
 from pipeline.inference.priors import HalfNormal, LogNormal, Normal, Parameter, Uniform
 
 
@@ -32,7 +34,7 @@ class Settings(Section):
     forward: Literal["simulation", "equation", "lines"] = option(
         "simulation", "simulation: runs are simulated; equation: measured motions are put into the equation of motion;"
         " lines: published lines or modes are compared")
-    lines: ModeTable | None = option(None, "forward lines: which lists are compared, and how")
+    lines: ModeTable | Harmonics | SquealLines | None = option(None, "forward lines: which lists are compared, and how")
     parameters: dict[str, Prior] = option({}, "nominal values that may be wrong, by name as in bench.corrections")
     held_out: tuple[str, ...] = option((), "runs that are kept for verification and never fitted")
     effects: tuple[str, ...] = option((), "effects that are weighed; none = the whole catalogue")

@@ -186,8 +186,8 @@ def _jacobians(problem, noises, hypothesis, latent, residuals, runs):
         if moved is None:
             raise error
         columns.append([(before - after) / step for before, after in zip(residuals, moved, strict=True)])
-    jacobians = tuple(np.array([column[i] for column in columns]).reshape(len(latent), -1).T
-                      for i in range(len(residuals)))
+    jacobians = tuple(np.array([column[i] for column in columns]).reshape(len(latent), len(residual)).T
+                      for i, residual in enumerate(residuals))
     return jacobians, len(latent)
 
 

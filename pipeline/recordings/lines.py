@@ -16,7 +16,8 @@ def line_list(facts, wanted, multiples, place, where):
     """
     for pattern in wanted:
         if not any(fnmatch(fact.key, pattern) for fact in facts):
-            raise ConfigError(f"{where}.facts", "a key of the file, or a pattern of keys", f"{pattern}, which none fits")
+            raise ConfigError(f"{where}.facts", "a key of the file, or a pattern of keys", f"{pattern}, which none"
+                                                                                           f" fits")
     chosen = [fact for fact in facts if any(fnmatch(fact.key, pattern) for pattern in wanted)]
     others = [fact.key for fact in chosen if fact.value is None or fact.unit != "Hz"]
     if others:
