@@ -27,8 +27,8 @@ TOLD = fill(ModeTable, {"kind": "modes", "measured": "test", "computed": "model"
 def lines(frequency, tolerance=0.02, partners=None):
     values = np.array(list(frequency.values()), float)
     return Lines(label=list(frequency), frequency=values, frequency_tolerance=tolerance * values,
-                 level=np.zeros(len(values)), level_known=np.zeros(len(values), int), partners=partners or [1] * len(values),
-                 diameters=[-1] * len(values), place="disc")
+                 level=np.zeros(len(values)), level_known=np.zeros(len(values), int),
+                 partners=partners or [1] * len(values), diameters=[-1] * len(values), place="disc")
 
 
 def recording(measured, computed=None):
