@@ -55,7 +55,7 @@ class ElementKernel(NamedTuple):
 
 
 class LawKernel(NamedTuple):
-    """What of an ElementKernel the forces alone need: fewer arrays, which every call of a compiled function hands on."""
+    """What the forces alone need of an ElementKernel: fewer arrays, which every compiled call has to hand on."""
 
     kind: np.ndarray
     parameter: np.ndarray
