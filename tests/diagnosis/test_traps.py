@@ -68,7 +68,8 @@ def told(found):
 def test_on_a_hardening_spring_friction_that_pushes_beats_the_linear_model():
     """As on Silverbox: by the criterion of Bayes alone, "linear + Coulomb" wins with a negative force."""
     problem = recorded(hardening, stiffness=380.0)
-    either = Hypothesis("friction", (("friction", "mount"),), (Parameter("friction_force", "N", 0.0, Normal(0.0, 1.0)),))
+    force = Parameter("friction_force", "N", 0.0, Normal(0.0, 1.0))
+    either = Hypothesis("friction", (("friction", "mount"),), (force,))
     null = null_of(problem)
     found = with_more(problem, null, either)
     assert bayes_gain(null, found) > 10 and found.values["friction_force"] < 0
@@ -92,7 +93,7 @@ def test_an_output_error_refit_lets_viscous_damping_absorb_friction_and_breaks_o
 
 
 def test_a_direction_of_friction_improves_training_and_worsens_what_was_held_out():
-    """Friction of two sizes is friction of one size and an offset: here a zero of the amplifier, gone on another day."""
+    """Friction of two sizes is friction of one size and an offset: here a zero of the amplifier that day."""
     training = recorded(lambda t, x, v: friction(t, x, v) + 0.03).training
     problem = replace(recorded(friction), runs=(*training, *recorded(friction).held_out))
     null = null_of(problem)
