@@ -1,0 +1,1 @@
+"""Generators of concealed cases: own equations, bases and integrators, apart from effects and diagnosis."""
