@@ -1,1 +1,4 @@
-"""Generators of concealed cases: own equations, bases and integrators, apart from effects and diagnosis."""
+"""Truth for trials of the diagnosis: rigs, hidden physics, sensors and files, apart from what solves them.
+
+Nothing here imports the models, effects or numerics of the diagnosis, and nothing there imports this.
+"""
