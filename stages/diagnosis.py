@@ -4,13 +4,16 @@ from pipeline.benches import bench as benches
 from pipeline.benches.effect_block import with_effects
 from pipeline.benches.runs import recorded
 from pipeline.contract import ConfigError, Context, restored, stage
+from pipeline.diagnosis import forced, self_excited
 from pipeline.diagnosis.answer import answer
 from pipeline.diagnosis.document import companions
-from pipeline.diagnosis.forced import question
 from pipeline.diagnosis.published_lines import Models, published_diagnosis
 from pipeline.diagnosis.settings import Settings
 from pipeline.inference import diagnose as course
 from pipeline.products import Bench, ComplexModes, Diagnosis, Effects, Recording, ReducedModel, Structure
+
+#: forward model -> what asks by it
+QUESTIONS = {"simulation": forced.question, "poles": self_excited.question}
 
 
 def _check(sections):
@@ -46,7 +49,7 @@ def _of_runs(model, effects, recording, bench, settings, context):
         raise ConfigError("diagnosis.forward", "lines, in a chain without a bench", settings.forward)
     laid_out = restored(benches.Settings, bench.settings.item())
     whole = with_effects(benches.built(model, laid_out), effects)
-    asked = question(whole, recorded(recording, laid_out), settings)
+    asked = QUESTIONS[settings.forward](whole, recorded(recording, laid_out), settings, laid_out.poles)
     context.log(f"{len(asked.candidates)} hypotheses over {len(asked.problem.training)} runs,"
                 f" {len(asked.problem.held_out)} held out")
     found = course.diagnose(asked.problem, asked.budget, asked.candidates, course.Settings(

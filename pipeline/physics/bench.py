@@ -71,6 +71,14 @@ class Run:
             raise ConfigError(f"run {self.name}", "a sample rate above 0 and at least one interval",
                               f"{self.sample_rate:g} Hz for {self.duration:g} s")
 
+    def until(self, kept):
+        """The run cut to its first ``kept`` samples, at least two."""
+        def cut(history):
+            return history[:kept] if np.ndim(history) else history
+
+        return replace(self, duration=(kept - 1) / self.sample_rate, drive=cut(self.drive),
+                       inputs={name: cut(history) for name, history in self.inputs.items()})
+
     @property
     def samples(self):
         """Number of samples, both ends counted."""

@@ -54,6 +54,23 @@ class ElementKernel(NamedTuple):
     wear: np.ndarray            # (c,) 1/N, depth per normal force and way; empty where nothing wears
 
 
+class LawKernel(NamedTuple):
+    """What the forces alone need of an ElementKernel: fewer arrays, which every compiled call has to hand on."""
+
+    kind: np.ndarray
+    parameter: np.ndarray
+    first: np.ndarray
+    stiffness: np.ndarray
+    limit: np.ndarray
+    own: np.ndarray
+
+
+@njit(cache=True)
+def laws_of(kernel):
+    """LawKernel of an ElementKernel."""
+    return LawKernel(kernel.kind, kernel.parameter, kernel.first, kernel.stiffness, kernel.limit, kernel.own)
+
+
 @njit(cache=True)
 def wave(amplitude, order, frequency, phase, instant):
     """(u, u') at ``instant``: (time s, angle rad and speed rad/s of the drive)."""

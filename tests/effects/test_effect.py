@@ -8,7 +8,7 @@ from importlib import import_module
 import numpy as np
 import pytest
 
-from pipeline.contract.errors import ConfigError, ConvergenceError
+from pipeline.contract.errors import BrakechainError, ConfigError
 from pipeline.effects import CATALOGUE, named
 from pipeline.effects.effect import STAGES, Term, compose, null_values, shaped_values
 from pipeline.effects.typical import CHANNEL, Typical
@@ -72,7 +72,7 @@ def test_linear_forms_know_it_too(effect):
 
 @each
 def test_finite_over_the_prior(effect):
-    """Or refused where no motion exists, as where a joint softens so far that nothing holds the mass."""
+    """Or refused, as where a joint softens so far that nothing holds the mass, or hardens beyond the step."""
     assert effect.places(BASE)
     random, refused, tried = np.random.default_rng(5), 0, 0
     for place, parameters in everywhere(effect)[:2]:
@@ -82,7 +82,7 @@ def test_finite_over_the_prior(effect):
         for values in draws:
             try:
                 found = respond(effect.on(BASE, place, values), RUN)
-            except ConvergenceError:
+            except BrakechainError:
                 refused += 1
                 continue
             assert all(np.isfinite(v).all() for v in found.values()), values
