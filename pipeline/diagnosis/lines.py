@@ -109,13 +109,14 @@ def diagnosed(asked, settings, fan_out=map):
 def differing(problem, diagnosis):
     """Axis ``run``: the lists that differ from the nominal model, by their chi^2 (Holm over all).
 
-    Its parameters are those of the named hypothesis, which lists that differ no longer pull aside.
+    Its parameters are the given, the recalibrated or those of the named hypothesis, whichever leaves the smallest sum of
+    absolute deviations: lists that differ pull a least-squares fit aside.
     """
     best = diagnosis.named[0].fit if diagnosis.named else diagnosis.null
-    own = best.latent[:len(problem.nominal.parameters)]
-    residuals, error = whitened(problem, best.noises, problem.nominal, own, best.runs)
-    if error:
-        raise error
+    own = len(problem.nominal.parameters)
+    tried = [whitened(problem, best.noises, problem.nominal, latent[:own], best.runs)[0]
+             for latent in (problem.nominal.nominal, diagnosis.null.latent, best.latent)]
+    residuals = min(tried, key=lambda lists: sum(np.abs(r).sum() for r in lists))
     single = np.array([np.clip(chi2.sf(r @ r, len(r)), 1e-300, 1 - 1e-12) for r in residuals])
     p_value = holm(single)
     return {"run": (Location(tuple(r.name for r in best.runs), norm.isf(single), p_value, p_value <= _LEVEL),)}
