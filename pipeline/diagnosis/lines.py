@@ -27,6 +27,8 @@ from pipeline.inference.problem import Hypothesis, Observed, Problem
 SHARE, FACTOR = "share", "frequency_factor"
 #: largest p-value over all lines of one that differs from the model
 _LEVEL = 0.05
+#: deviations beyond which a list counts as one that differs
+_OUTLYING = 3.0
 
 
 @dataclass(frozen=True)
@@ -110,13 +112,13 @@ def differing(problem, diagnosis):
     """Axis ``run``: the lists that differ from the nominal model, by their chi^2 (Holm over all).
 
     Its parameters are the given, the recalibrated or those of the named hypothesis, whichever leaves the smallest sum of
-    absolute deviations: lists that differ pull a least-squares fit aside.
+    squares with their prior, each square counted up to that of three deviations: lists that differ pull a fit aside.
     """
     best = diagnosis.named[0].fit if diagnosis.named else diagnosis.null
     own = len(problem.nominal.parameters)
-    tried = [whitened(problem, best.noises, problem.nominal, latent[:own], best.runs)[0]
+    tried = [(latent[:own], whitened(problem, best.noises, problem.nominal, latent[:own], best.runs)[0])
              for latent in (problem.nominal.nominal, diagnosis.null.latent, best.latent)]
-    residuals = min(tried, key=lambda lists: sum(np.abs(r).sum() for r in lists))
+    _, residuals = min(tried, key=lambda t: t[0] @ t[0] + sum(np.minimum(r**2, _OUTLYING**2).sum() for r in t[1]))
     single = np.array([np.clip(chi2.sf(r @ r, len(r)), 1e-300, 1 - 1e-12) for r in residuals])
     p_value = holm(single)
     return {"run": (Location(tuple(r.name for r in best.runs), norm.isf(single), p_value, p_value <= _LEVEL),)}
