@@ -1,8 +1,9 @@
 """Before the bench: which planned run can name which effect, and the cheapest set of runs that names all wanted.
 
-Each effect stands at each of its places with the median of its prior; d is the change that it makes in the channels of
-a run, in standard deviations of noise, less what the nominal parameters can hide within their priors. About 4 names an
-effect against the nominal model; whether two effects can be told apart is not asked here.
+Each effect stands at each of its places with the median of its prior, or one standard deviation where it has either
+sign; d is the change that it makes in the channels of a run, in standard deviations of noise, less what the nominal
+parameters can hide within their priors. About 4 names an effect against the nominal model; whether two effects can be
+told apart is not asked here.
 """
 
 from dataclasses import dataclass
@@ -15,12 +16,14 @@ from pipeline.contract.units import to_si
 from pipeline.diagnosis.forced import check_names, chosen, nominal_parameters
 from pipeline.diagnosis.question import nominal
 from pipeline.diagnosis.simulation import Simulated, candidates
-from pipeline.effects.effect import shaped_values
 from pipeline.inference import plan as mathematics
 from pipeline.inference.calibrate import linearised, whitened
 from pipeline.inference.noise import budget
 from pipeline.inference.problem import Observed, Problem
 from pipeline.physics.bench import MOTIONS, Run
+
+#: quantile one standard deviation above the middle
+_ONE_SIGMA = 0.8413
 
 
 @dataclass(frozen=True)
@@ -105,8 +108,8 @@ def _seen(bench, runs, units, settings, found):
     names = tuple(c.name for c in bench.channels)
     lacking = [name for name in names if name not in settings.noise.std]
     if lacking:
-        raise ConfigError("diagnosis.noise.std", "the noise that each channel will have", f"none of {', '.join(lacking)}",
-                          "give the resolution of the sensor")
+        raise ConfigError("diagnosis.noise.std", "the noise that each channel will have",
+                          f"none of {', '.join(lacking)}", "give the resolution of the sensor")
     std = np.array([to_si(settings.noise.std[n], units[n], f"diagnosis.noise.std.{n}") for n in names])
     blank = tuple(Observed(n, {}, names, np.zeros((len(names), run.samples)), run.sample_rate, noise_std=std)
                   for n, run in runs.items())
@@ -121,8 +124,8 @@ def _seen(bench, runs, units, settings, found):
 
 def _change(problem, null, candidate):
     """(m,) whitened change by one effect of the size that its prior expects; none where it cannot be simulated."""
-    values = shaped_values(candidate.parameters)
-    latent = np.array([p.prior.latent(values[p.name]) for p in candidate.parameters])
+    latent = np.array([p.prior.latent(p.prior.quantile(_ONE_SIGMA if p.null is not None and not p.sign else 0.5))
+                       for p in candidate.parameters])
     moved, _ = whitened(problem, null.noises, problem.nominal.joined(candidate),
                         np.concatenate((null.latent, latent)), null.runs)
     return np.zeros(len(null.residuals[0])) if moved is None else null.residuals[0] - moved[0]

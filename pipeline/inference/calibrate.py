@@ -186,7 +186,7 @@ def _jacobians(problem, noises, hypothesis, latent, residuals, runs):
         if moved is None:
             raise error
         columns.append([(before - after) / step for before, after in zip(residuals, moved, strict=True)])
-    jacobians = tuple(np.array([column[i] for column in columns]).reshape(len(latent), -1).T
+    jacobians = tuple(np.array([column[i] for column in columns]).reshape(len(latent), len(residuals[i])).T
                       for i in range(len(residuals)))
     return jacobians, len(latent)
 

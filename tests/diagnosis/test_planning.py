@@ -40,7 +40,8 @@ def test_the_cheapest_set_covers_what_is_wanted():
 
 
 def test_what_is_out_of_reach_is_told():
-    found = planned(plan={"runs": {"small": ASKED["plan"]["runs"]["small"]}, "wanted": ["cubic_stiffness"]})
+    small = {"runs": {"small": ASKED["plan"]["runs"]["small"]}, "wanted": ["cubic_stiffness"]}
+    found = planned(plan=small, noise={"std": {"x": "1 m"}})
     assert found.missed == ("cubic_stiffness at mount",) and "out of reach: cubic" in conclusion(found)
 
 

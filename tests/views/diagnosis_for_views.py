@@ -31,8 +31,10 @@ def diagnosis(verdict="missing", **values):
                         p_value=[1.0, 0.01], member=[0, 1])
     x = 1e-3 * np.sin(TIME)
     given = {
-        "verdict": verdict, "reason": ["Coulomb_at guide: posterior 0.97"], "channel": ["position"], "channel_unit": ["m"],
-        "named": [1] if verdict in ("missing", "sensor", "numerics") else [1, 2] if verdict == "tie" else [], "known": [],
+        "verdict": verdict, "reason": ["Coulomb_at guide: posterior 0.97"],
+        "channel": ["position"], "channel_unit": ["m"],
+        "named": [1] if verdict in ("missing", "sensor", "numerics") else [1, 2] if verdict == "tie" else [],
+        "known": [],
         "hypothesis": ["nothing missing", "coulomb at guide", "quadratic_damping at arm",
                        "sensor_gain at position"],
         "effect": ["", "coulomb", "quadratic_damping", "sensor_gain"],
@@ -45,8 +47,8 @@ def diagnosis(verdict="missing", **values):
         "parameter": ["joints.guide.damping", "coulomb@guide.force"], "parameter_unit": ["N s/m", "N"],
         "parameter_nominal": [200.0, 0.0], "parameter_value": [215.0, 20.4], "parameter_std": [4.0, 0.3],
         "parameter_owner": [0, 1], "fit": [[0.6, 0.3, 0.014, 0.014], [0.6, 0.3, 0.015, 0.014]],
-        "unexplained_share": 0.01,
-        "drift_p_value": 0.2, "location": {"place": place, "amplitude": amplitude}, "latent_place": "guide",
+        "unexplained_share": 0.01, "drift_p_value": 0.2,
+        "location": {"place": place, "amplitude": amplitude}, "latent_place": "guide",
         "latent_sentence": "At guide a force of 3 N root mean square is missing.",
         "latent": {"bang": LatentForce(time=TIME, force=3 * np.sign(x), std=np.ones(600), displacement=x,
                                     velocity=1e-3 * np.cos(TIME))},
