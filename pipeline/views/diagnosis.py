@@ -23,8 +23,15 @@ from pipeline.views.style import (
 MODELS = (("nominal", FAINT, ":"), ("recalibrated", ORANGE, "--"), ("completed", BLUE, "-"))
 #: bands of the mismatch map, octaves below half the sampling rate
 OCTAVES = 8
+#: runs of at most so many samples hold features
+FEATURES = 64
 #: bars of the picture of hypotheses, and panels of that of parameters
 BARS, PANELS = 8, 6
+
+
+def sampled(run):
+    """Whether a run holds samples over time; features (growth rates, frequencies) are few, and in no order."""
+    return run.measured.shape[1] > FEATURES
 
 
 def mismatch(product, model):
@@ -46,10 +53,22 @@ def mismatch(product, model):
     return edges, table
 
 
+def by_channel(product, model):
+    """(names (c,) of channels, (run, c) residual over noise) of one model; NaN where a run lacks a channel."""
+    most = max(len(run.measured) for run in product.runs.values())
+    names = [str(product.channel[k]) if k < len(product.channel) else str(k) for k in range(most)]
+    table = np.full((len(product.runs), most), np.nan)
+    for row, run in enumerate(product.runs.values()):
+        left = np.where(run.valid > 0, run.measured - getattr(run, model), 0.0) / run.noise[:, None]
+        table[row, :len(left)] = np.sqrt(np.sum(left**2, axis=1) / np.maximum(run.valid.sum(axis=1), 1))
+    return names, table
+
+
 def mismatch_map(product):
     """SVG: residual over noise of every run in every octave, before (recalibrated) and after (completed)."""
-    edges, before = mismatch(product, "recalibrated")
-    tables = (("best values of the nominal model", before), ("completed model", mismatch(product, "completed")[1]))
+    table_of = mismatch if all(map(sampled, product.runs.values())) else by_channel
+    edges, before = table_of(product, "recalibrated")
+    tables = (("best values of the nominal model", before), ("completed model", table_of(product, "completed")[1]))
     top = max(2.0, float(np.nanmax(before)))
     with drawing(1.35 + 0.56 * len(product.runs), left=1.1, top=0.3, bar=True) as figure:
         from matplotlib.colors import LogNorm
@@ -61,8 +80,11 @@ def mismatch_map(product):
             axes.set_yticks(range(len(product.runs)), [_run_label(n, r) for n, r in product.runs.items()])
             axes.grid(False)
             colour_bar(axes, shown, "over noise")
-        axes.set_xticks(np.arange(0, len(edges), 2) - 0.5, [f"{e:.3g}" for e in edges[::2]])
-        axes.set_xlabel("frequency / Hz")
+        if table_of is mismatch:
+            axes.set_xticks(np.arange(0, len(edges), 2) - 0.5, [f"{e:.3g}" for e in edges[::2]])
+            axes.set_xlabel("frequency / Hz")
+        else:
+            axes.set_xticks(range(len(edges)), edges, rotation=40)
         return svg(figure)
 
 

@@ -67,6 +67,17 @@ def test_the_map_shows_the_tone_in_its_octave_and_noise_as_one():
     assert after[:, -3:] == pytest.approx(np.ones((2, 3)), rel=0.25)
 
 
+def test_features_are_mapped_by_channel():
+    """Four features a run: no octaves, no spectrum; 0.05 beside a noise of 0.01 is 5."""
+    few = {"time": np.arange(4.0), "measured": np.ones((1, 4)), "valid": np.ones((1, 4), int),
+           "nominal": np.zeros((1, 4)), "recalibrated": np.full((1, 4), 0.95), "completed": np.ones((1, 4))}
+    found = diagnosis()
+    short = changed(found, runs={name: changed(run, **few) for name, run in found.runs.items()})
+    names, table = pictures.by_channel(short, "recalibrated")
+    assert names == ["position"] and table == pytest.approx(np.full((2, 1), 5.0))
+    assert len(chapter(short, Look()).figures) == len(chapter(found, Look()).figures) - 2
+
+
 def test_pictures_are_the_same_twice_and_follow_the_product():
     found = diagnosis()
     other = changed(found, posterior=found.posterior[::-1].copy(), parameter_value=2 * found.parameter_value)

@@ -192,12 +192,8 @@ def _figures(product):
         yield Figure(pictures.stage_place(product), "Probability by stage of the chain and place, all hypotheses"
                      " there together; empty: the catalogue has nothing there.")
     name, held_out = _shown_run(product)
-    channel = 0
-    yield Figure(pictures.trace(product, name, channel),
-                 f"Run {name}{', never fitted' if held_out else ''}: measured, nominal, recalibrated and completed"
-                 f" about the largest {product.channel[channel]}; below, what each leaves.")
-    yield Figure(pictures.spectra(product, name, channel),
-                 f"What the models leave of {product.channel[channel]} in run {name}, as a spectrum, with the noise.")
+    if pictures.sampled(product.runs[name]):
+        yield from _signals(product, name, held_out)
     if len(product.parameter):
         yield Figure(pictures.parameters(product), "What the recordings say of the fitted values (orange: nominal"
                      " values, blue: of what was added); dashed: the value given, 0 for what was added.")
@@ -210,6 +206,15 @@ def _figures(product):
         yield Figure(pictures.latent_force(product, first),
                      f"The missing force of run {first}, beside the recalibrated nominal model and without any"
                      " hypothesis; red: mean over bins of all fitted runs. Description, not identified physics.")
+
+
+def _signals(product, name, held_out, channel=0):
+    """Excerpt and spectrum of one channel of a run."""
+    yield Figure(pictures.trace(product, name, channel),
+                 f"Run {name}{', never fitted' if held_out else ''}: measured, nominal, recalibrated and completed"
+                 f" about the largest {product.channel[channel]}; below, what each leaves.")
+    yield Figure(pictures.spectra(product, name, channel),
+                 f"What the models leave of {product.channel[channel]} in run {name}, as a spectrum, with the noise.")
 
 
 def _shown_run(product):
