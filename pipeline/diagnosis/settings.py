@@ -28,6 +28,32 @@ class NoiseOf(Section):
     above: Quantity("Hz", gt=0) | None = option(None, "frequency above which recordings hold nothing but noise")
 
 
+class PlannedInput(Section):
+    """A sine sweep that a planned run feeds to an input."""
+
+    amplitude: Quantity("N", gt=0) = option(..., "amplitude")
+    start: Quantity("Hz", ge=0) = option("1 Hz", "frequency at the begin")
+    end: Quantity("Hz", ge=0) = option("10 Hz", "frequency at the end")
+
+
+class PlannedRun(Section):
+    """A run that could be recorded."""
+
+    duration: Quantity("s", gt=0) = option(..., "length")
+    sample_rate: Quantity("Hz", gt=0) = option(..., "samples per second of every channel")
+    inputs: dict[str, PlannedInput] = option({}, "input of the model: what it is fed")
+    speed: Quantity("rad/s") | None = option(None, "speed of the drive; none = that of the bench")
+    cost: float = option(1.0, "what it costs, in any unit", gt=0)
+
+
+class Plan(Section):
+    """What could be recorded, and what it should be able to name: 'brakechain plan'."""
+
+    runs: dict[str, PlannedRun] = option({}, "runs that could be recorded")
+    wanted: tuple[str, ...] = option((), "effects that the cheapest set of runs must be able to name; none = all")
+    needed: float = option(4.0, "standard deviations that naming takes", gt=0)
+
+
 class Settings(Section):
     """What is asked."""
 
@@ -43,6 +69,7 @@ class Settings(Section):
     places: tuple[str, ...] = option((), "places that are weighed; none = all")
     noise: NoiseOf = option(NoiseOf(), "noise of the recordings")
     solver: bool = option(True, "weigh the solver too, by halving its step")
+    plan: Plan = option(Plan(), "runs that could be recorded, for 'brakechain plan'")
     kept: int = option(8, "candidates that are refitted in the full model", ge=1)
     draws: int = option(20000, "draws of the null of the screen", ge=100)
     seed: int = option(0, "seed of all draws", ge=0)
