@@ -2,11 +2,12 @@
 
 from pipeline.benches import bench as benches
 from pipeline.benches.effect_block import with_effects
+from pipeline.benches.equation import started
 from pipeline.benches.runs import recorded
 from pipeline.contract import ConfigError, Context, restored, stage
+from pipeline.diagnosis import equation, forced
 from pipeline.diagnosis.answer import answer
 from pipeline.diagnosis.document import companions
-from pipeline.diagnosis.forced import question
 from pipeline.diagnosis.settings import Settings
 from pipeline.inference import diagnose as course
 from pipeline.products import Bench, Diagnosis, Effects, Recording, ReducedModel
@@ -26,13 +27,17 @@ def diagnosis(model: ReducedModel, effects: Effects | None, recording: Recording
     """Compare recordings with the model, locate what differs and name what is missing.
 
     Method:
-    Nominal values were refitted first (forward model: {forward}); only what they cannot explain counts as evidence of
-    missing physics. Every effect of the catalogue at every place was screened, the best {kept} were refitted in the
-    full model, and an effect is named only by the rules that the page states; held-out runs were never fitted.
+    Nominal values were refitted first; only what they cannot explain counts as evidence of missing physics. Every
+    effect of the catalogue at every place was screened, the best {kept} were refitted in the full model, and an effect
+    is named only by the rules that the page states; held-out runs were never fitted.
     """
     laid_out = restored(benches.Settings, bench.settings.item())
     whole = with_effects(benches.built(model, laid_out), effects)
-    asked = question(whole, recorded(recording, laid_out), settings)
+    runs = recorded(recording, laid_out)
+    if laid_out.forward == "equation":
+        asked = equation.question(whole, runs, settings, laid_out.equation)
+    else:
+        asked = forced.question(whole, started(whole, runs, laid_out), settings)
     context.log(f"{len(asked.candidates)} hypotheses over {len(asked.problem.training)} runs,"
                 f" {len(asked.problem.held_out)} held out")
     found = course.diagnose(asked.problem, asked.budget, asked.candidates, course.Settings(

@@ -28,8 +28,6 @@ class NoiseOf(Section):
 class Settings(Section):
     """What is asked."""
 
-    forward: Literal["simulation", "equation"] = option(
-        "simulation", "simulation: runs are simulated; equation: measured motions are put into the equation of motion")
     parameters: dict[str, Prior] = option({}, "nominal values that may be wrong, by name as in bench.corrections")
     held_out: tuple[str, ...] = option((), "runs that are kept for verification and never fitted")
     effects: tuple[str, ...] = option((), "effects that are weighed; none = the whole catalogue")
