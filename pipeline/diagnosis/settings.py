@@ -1,4 +1,4 @@
-"""The section ``diagnosis`` of a case: what may be wrong, what may be missing, what was held out, how noise is known."""
+"""The section ``diagnosis`` of a case: what may be wrong, what may be missing, what was held out, what noise is."""
 
 from typing import Literal
 
