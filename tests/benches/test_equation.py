@@ -44,7 +44,8 @@ def test_a_run_may_start_where_it_was():
                     valid=one.valid[:, 300:501])
     start = measured_start(bench, later)
     assert start.displacement == pytest.approx(one.samples[:, 300], abs=1e-3 * one.samples.std())
-    assert start.velocity == pytest.approx(np.gradient(one.samples[0], 1 / 200)[300:301], rel=0.05)     # (w T)^2 / 10, T = 30 ms
+    assert start.velocity == pytest.approx(np.gradient(one.samples[0], 1 / 200)[300:301], rel=0.05), \
+        "(w T)^2 / 10 with T = 30 ms"
     assert started(bench, {"a": later}, settings)["a"].run.start is not None
     assert started(bench, runs, laid_out()) is runs
 
