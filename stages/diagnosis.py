@@ -5,7 +5,7 @@ from pipeline.benches.effect_block import with_effects
 from pipeline.benches.equation import started
 from pipeline.benches.runs import recorded
 from pipeline.contract import ConfigError, Context, restored, stage
-from pipeline.diagnosis import equation, forced
+from pipeline.diagnosis import equation, forced, self_excited
 from pipeline.diagnosis.answer import answer
 from pipeline.diagnosis.document import companions
 from pipeline.diagnosis.settings import Settings
@@ -33,11 +33,7 @@ def diagnosis(model: ReducedModel, effects: Effects | None, recording: Recording
     """
     laid_out = restored(benches.Settings, bench.settings.item())
     whole = with_effects(benches.built(model, laid_out), effects)
-    runs = recorded(recording, laid_out)
-    if laid_out.forward == "equation":
-        asked = equation.question(whole, runs, settings, laid_out.equation)
-    else:
-        asked = forced.question(whole, started(whole, runs, laid_out), settings)
+    asked = _question(whole, recorded(recording, laid_out), settings, laid_out)
     context.log(f"{len(asked.candidates)} hypotheses over {len(asked.problem.training)} runs,"
                 f" {len(asked.problem.held_out)} held out")
     found = course.diagnose(asked.problem, asked.budget, asked.candidates, course.Settings(
@@ -45,3 +41,12 @@ def diagnosis(model: ReducedModel, effects: Effects | None, recording: Recording
     told = answer(asked, found)
     context.log(f"verdict: {told.verdict.item()}")
     return told
+
+
+def _question(whole, runs, settings, laid_out):
+    """What the forward model of the case asks of a Bench and {name: Recorded}."""
+    if settings.forward == "poles":
+        return self_excited.question(whole, runs, settings, laid_out.poles)
+    if laid_out.forward == "equation":
+        return equation.question(whole, runs, settings, laid_out.equation)
+    return forced.question(whole, started(whole, runs, laid_out), settings)

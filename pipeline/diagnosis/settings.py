@@ -1,4 +1,4 @@
-"""The section ``diagnosis`` of a case: what may be wrong, what may be missing, what was held out, what noise is."""
+"""The section ``diagnosis`` of a case: what may be wrong or missing, what was held out, how noise is known."""
 
 from typing import Literal
 
@@ -28,6 +28,9 @@ class NoiseOf(Section):
 class Settings(Section):
     """What is asked."""
 
+    forward: Literal["simulation", "poles"] = option(
+        "simulation", "simulation: samples as bench.forward predicts them; poles: poles of free vibrations by complex"
+        " eigenvalues, as bench.poles says")
     parameters: dict[str, Prior] = option({}, "nominal values that may be wrong, by name as in bench.corrections")
     held_out: tuple[str, ...] = option((), "runs that are kept for verification and never fitted")
     effects: tuple[str, ...] = option((), "effects that are weighed; none = the whole catalogue")

@@ -7,6 +7,7 @@ import numpy as np
 from pipeline.contract.errors import ConfigError
 from pipeline.effects.contact_surface import sliding_angle
 from pipeline.physics.bench import Channel, respond, run_drive, run_inputs
+from pipeline.physics.contact_groups import parts
 from pipeline.physics.time_stepping import Penalty, Table
 
 #: kinds of place that an effect can have; ``contacts`` is all of them, which share one law of contact and of friction,
@@ -118,10 +119,12 @@ def _place(kind, bench, place):
 
 def _contact_law(bench, own):
     """(stiffness, damping) of a whole group, 0 for contacts that do not yield; a table by its last slope."""
-    law, area = bench.law, bench.model.contacts.area
-    if isinstance(law, Penalty):
-        return tuple(float(np.broadcast_to(v, len(area))[own].sum()) for v in (law.stiffness, law.damping))
-    if isinstance(law, Table):
-        slope = float((law.pressure[-1] - law.pressure[-2]) / (law.closure[-1] - law.closure[-2]))
-        return slope * float(area[own].sum()), 0.0
-    return 0.0, 0.0
+    area, found = bench.model.contacts.area, np.zeros(2)
+    for law, members in parts(bench.law, len(area)):
+        mine = np.intersect1d(members, own)
+        if isinstance(law, Penalty):
+            found += [np.broadcast_to(v, len(area))[mine].sum() for v in (law.stiffness, law.damping)]
+        elif isinstance(law, Table):
+            slope = (law.pressure[-1] - law.pressure[-2]) / (law.closure[-1] - law.closure[-2])
+            found[0] += slope * area[mine].sum()
+    return tuple(float(v) for v in found)
