@@ -28,6 +28,7 @@ class Fed(Section):
 
     channel: str = option(..., "recorded channel")
     gain: float = option(1.0, "in SI units of the input per SI unit of the channel")
+    derivative: bool = option(False, "the rate of change of the channel feeds it: a recorded position gives a speed")
 
 
 class Settings(Laws):

@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from pipeline.diagnosis.next_run import next_experiment
 from pipeline.diagnosis.question import split_name
 from pipeline.inference.evidence import cautious_prior, posterior, screened
 from pipeline.inference.noise import floor, normalised_error
@@ -28,7 +29,7 @@ def answer(question, found):
         unexplained_share=unexplained(first.null, best, question.rules),
         drift_p_value=found.drift.p_value, location={name: located(*axis) for name, axis in
                                                      question.axes(found).items()},
-        next_condition=[], next_separates=[], next_value=0.0, runs=runs)
+        **next_experiment(question, found), runs=runs)
 
 
 def located(location, unit="", edges=None):

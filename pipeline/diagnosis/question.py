@@ -16,7 +16,7 @@ class Question:
     """A Problem with {run: Noise} ``budget`` and ``candidates`` (Hypotheses of effects alone).
 
     ``units`` {channel: SI unit}; ``axes(diagnosis)`` -> {axis: Location} tells where the mismatch lies; ``next_runs``
-    (Observed, whose samples do not count): conditions that could be recorded next.
+    (Observed, whose samples do not count): what could be recorded next, named by what is changed, each with its budget.
     """
 
     problem: Problem
