@@ -95,7 +95,7 @@ def candidates(bench, runs, catalogue, places=(), scale=1.0, priors=()):
     """
     found = []
     for effect in catalogue:
-        for place in effect.places(bench):
+        for place in effect.places(bench) if effect.told_by(runs) else ():
             if places and place not in places:
                 continue
             parameters = tuple(_named(p, effect, place, dict(priors))

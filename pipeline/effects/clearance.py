@@ -5,10 +5,9 @@ N acts where gap + d < 0: contacts that were thought closed may open, and the ot
 
 from dataclasses import replace
 
-import numpy as np
-
 from pipeline.effects.effect import Effect
 from pipeline.inference.priors import Normal, Parameter
+from pipeline.physics.contact_groups import read, with_field
 
 
 def parameters(typical):
@@ -17,13 +16,13 @@ def parameters(typical):
 
 
 def apply(bench, place, values):
-    gap = np.array(np.broadcast_to(np.asarray(bench.law.gap, float), len(bench.model.contacts.area)))
+    gap = read(bench.law, "gap", len(bench.model.contacts.area))
     gap[bench.contacts(place)] += values["gap"]
-    return replace(bench, law=replace(bench.law, gap=gap))
+    return replace(bench, law=with_field(bench.law, gap=gap))
 
 
 EFFECT = Effect(
-    name="clearance", summary="contacts that close later, or earlier, than thought", place="contact", stage="contact",
+    name="clearance", summary="contacts that close later, or earlier, than thought", place="pressed contact", stage="contact",
     parameters=parameters, apply=apply,
     source="A. Signorini, Atti Soc. Ital. Progr. Sci. (1933): unilateral contact, with an initial gap",
     valid="Valid while the gap is the same all over the group.")

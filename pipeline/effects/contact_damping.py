@@ -21,19 +21,21 @@ def parameters(typical):
 
 
 def apply(bench, place, values):
-    law, loss = bench.law, values["loss"]
+    return bench.with_law(place, lambda law: _damped(law, values["loss"], values["length"]))
+
+
+def _damped(law, loss, length):
     if isinstance(law, Table):
         speed = law.damping_speed
         together = speed / (1 + loss * speed) if np.isfinite(speed) else (1 / loss if loss > 0 else np.inf)
-        return replace(bench, law=replace(law, damping_speed=together))
+        return replace(law, damping_speed=together)
     if not isinstance(law, Penalty):
         raise ConfigError("effect contact_damping", "contacts that yield", type(law).__name__)
-    damping = np.asarray(law.damping, float) + np.asarray(law.stiffness, float) * values["length"] * loss
-    return replace(bench, law=replace(law, damping=damping))
+    return replace(law, damping=np.asarray(law.damping, float) + np.asarray(law.stiffness, float) * length * loss)
 
 
 EFFECT = Effect(
-    name="contact_damping", summary="damping of contacts along their normals", place="pressed contacts", stage="contact",
+    name="contact_damping", summary="damping of contacts along their normals", place="pressed contact", stage="contact",
     parameters=parameters, apply=apply, linear=("loss",),
     source="K. H. Hunt, F. R. E. Crossley, J. Appl. Mech. 42 (1975) 440",
     valid="Valid while contacts do not stick to each other: the force never pulls.")

@@ -3,8 +3,6 @@
 a = 1 is the elastic foundation turned into a quadratic law, a = 1/2 Hertz's; at p_0 the pressure stays as it was.
 """
 
-from dataclasses import replace
-
 import numpy as np
 
 from pipeline.contract.errors import ConfigError
@@ -24,20 +22,23 @@ def parameters(typical):
 def apply(bench, place, values):
     if values["exponent"] == 0:
         return bench
-    closure, pressure = _table(bench, values["pressure"])
-    law, ratio = bench.law, pressure / values["pressure"]
-    speed = law.damping_speed if isinstance(law, Table) else np.inf
-    return replace(bench, law=Table(closure, pressure * ratio ** values["exponent"], speed, law.gap))
+    own, area = bench.contacts(place), bench.model.contacts.area
+
+    def steeper(law):
+        closure, pressure = _table(law, own, area, values["pressure"])
+        speed = law.damping_speed if isinstance(law, Table) else np.inf
+        return Table(closure, pressure * (pressure / values["pressure"]) ** values["exponent"], speed, law.gap)
+
+    return bench.with_law(place, steeper)
 
 
-def _table(bench, reference):
+def _table(law, own, area, reference):
     """(closure, pressure) of the nominal law, finely sampled from 0 to far beyond the reference pressure."""
-    law, area = bench.law, bench.model.contacts.area
     if isinstance(law, Table):
         closure, pressure = np.asarray(law.closure, float), np.asarray(law.pressure, float)
     elif isinstance(law, Penalty):
-        each = np.broadcast_to(law.stiffness, len(area)) / area
-        if np.ptp(each) > 1e-9 * each[0] or np.any(law.damping):
+        each = (np.broadcast_to(law.stiffness, len(area)) / area)[own]
+        if np.ptp(each) > 1e-9 * each[0] or np.broadcast_to(law.damping, len(area))[own].any():
             raise ConfigError("effect contact_stiffness_law", "contacts of one stiffness per area, without damping",
                               "others", "give the contacts a table")
         closure, pressure = np.array([0.0, 1.0]), np.array([0.0, each[0]])
@@ -50,7 +51,7 @@ def _table(bench, reference):
 
 
 EFFECT = Effect(
-    name="contact_stiffness_law", summary="contacts whose stiffness changes with pressure", place="pressed contacts",
+    name="contact_stiffness_law", summary="contacts whose stiffness changes with pressure", place="pressed contact",
     stage="contact", parameters=parameters, apply=apply,
     source="K. Willner, L. Gaul, Proc. Contact Mechanics II (1995); J. A. Greenwood, J. B. P. Williamson (1966)",
     valid="Valid to a hundred times the reference pressure, beyond which the last slope goes on.")

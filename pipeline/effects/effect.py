@@ -23,7 +23,7 @@ class Effect:
     ``summary``: its sentence in a report; ``place``: kind of place (``typical``); ``stage``: one of STAGES;
     ``parameters(typical)``: its Parameters, with priors of these sizes, whose supports are the bounds of sign and
     passivity; ``apply(bench, place, values)``: the equation; ``source``; ``valid``: "Valid while ..."; ``linear``:
-    parameters that the forces are linear in; ``kind``: physics or sensor.
+    parameters that the forces are linear in; ``kind``: physics or sensor; ``conditions``: those that runs must tell.
     """
 
     name: str
@@ -36,10 +36,15 @@ class Effect:
     valid: str
     linear: tuple = ()
     kind: str = "physics"
+    conditions: tuple = ()
 
     def places(self, bench):
         """Names of the places of a bench where the effect can be."""
         return places(self.place, bench)
+
+    def told_by(self, runs):
+        """Whether all ``runs`` tell the conditions that the effect depends on."""
+        return all(name in run.conditions for name in self.conditions for run in runs)
 
     def at(self, bench, place, runs, reach=1.0):
         """Parameters with priors of the sizes that nominal ``runs`` have at ``place``.

@@ -3,8 +3,6 @@
 r = 0.2 is 20 % more friction at rest than at speed. The negative slope -r mu_0 / v_s drives vibration.
 """
 
-from dataclasses import replace
-
 import numpy as np
 
 from pipeline.effects.effect import Effect
@@ -22,12 +20,15 @@ def parameters(typical):
 
 def apply(bench, place, values):
     samples = values["decay_speed"] * _SPAN * np.linspace(0, 1, _SAMPLES) ** 2
-    return replace(bench, friction=times(bench.friction, "speed", samples, lambda speed: 1 + values["rise"]
-                                         * np.exp(-speed / values["decay_speed"])))
+
+    def factor(speed):
+        return 1 + values["rise"] * np.exp(-speed / values["decay_speed"])
+
+    return bench.with_friction(place, lambda friction: times(friction, "speed", samples, factor))
 
 
 EFFECT = Effect(
-    name="falling_friction", summary="friction that falls as sliding gets faster", place="contacts", stage="friction",
+    name="falling_friction", summary="friction that falls as sliding gets faster", place="contact", stage="friction",
     parameters=parameters, apply=apply, linear=("rise",),
     source="L. C. Bo, D. Pavelescu, Wear 82 (1982) 277, with exponent 1; R. Stribeck, Z. VDI 46 (1902) 1341",
     valid="Valid while pressure, temperature and wear do not change friction as fast as speed does.")

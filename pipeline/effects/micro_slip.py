@@ -17,12 +17,14 @@ def parameters(typical):
 
 
 def apply(bench, place, values):
-    friction, added = bench.friction, values["compliance"]
-    if added == 0:
-        return bench
+    added = values["compliance"]
+    return bench if added == 0 else bench.with_friction(place, lambda friction: _yielding(friction, added))
+
+
+def _yielding(friction, added):
     before = 0.0 if friction.description == "rigid" else 1 / np.asarray(friction.stiffness, float)
     description = "evolution" if friction.description == "rigid" else friction.description
-    return replace(bench, friction=replace(friction, description=description, stiffness=1 / (before + added)))
+    return replace(friction, description=description, stiffness=1 / (before + added))
 
 
 EFFECT = Effect(

@@ -3,8 +3,6 @@
 a = 1/3 is one elastic sphere whose friction goes with its area; a brake pad that fades under load has a > 0.
 """
 
-from dataclasses import replace
-
 import numpy as np
 
 from pipeline.effects.effect import Effect
@@ -27,11 +25,11 @@ def apply(bench, place, values):
         return np.clip(pressure, samples[0], samples[-1]) ** -values["exponent"] / (
             values["pressure"] ** -values["exponent"])
 
-    return replace(bench, friction=times(bench.friction, "pressure", samples, factor))
+    return bench.with_friction(place, lambda friction: times(friction, "pressure", samples, factor))
 
 
 EFFECT = Effect(
-    name="pressure_dependent_friction", summary="friction that changes with pressure", place="contacts",
+    name="pressure_dependent_friction", summary="friction that changes with pressure", place="contact",
     stage="friction", parameters=parameters, apply=apply,
     source="F. P. Bowden, D. Tabor, The Friction and Lubrication of Solids (1950), chapter 5",
     valid="Valid from a thousandth to a thousand times the reference pressure, beyond which friction stays the same.")

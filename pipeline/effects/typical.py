@@ -7,13 +7,14 @@ import numpy as np
 from pipeline.contract.errors import ConfigError
 from pipeline.effects.contact_surface import sliding_angle
 from pipeline.physics.bench import Channel, respond, run_drive, run_inputs
+from pipeline.physics.contact_groups import parts
 from pipeline.physics.time_stepping import Penalty, Table
 
-#: kinds of place that an effect can have; ``contacts`` is all of them, which share one law of friction, ``pressed
-#: contacts`` all where some can open, which share one law of contact, ``contact`` a group of which some can open,
-#: ``contact row`` a group whose contacts lie one behind the other along the sliding
+#: kinds of place that an effect can have; ``contact`` is a group of them, ``contacts`` all together, ``pressed
+#: contact`` a group that can open, which friction joints cannot, ``contact row`` one whose contacts lie one behind the
+#: other along the sliding
 JOINT, CONTACT, CONTACTS, POINT, CHANNEL = "joint", "contact", "contacts", "point", "channel"
-PRESSED, CONTACT_ROW, DOUBLET, INPUT = "pressed contacts", "contact row", "doublet", "input"
+PRESSED, CONTACT_ROW, DOUBLET, INPUT = "pressed contact", "contact row", "doublet", "input"
 _CONTACTS, _SENSOR = (CONTACT, CONTACTS, PRESSED, CONTACT_ROW), "typical"
 
 
@@ -52,11 +53,10 @@ class Typical:
 def places(kind, bench):
     """Names of the places of this kind on a bench."""
     model = bench.model
-    every = ("contact",) if len(model.contacts.area) else ()
-    contact = tuple(g for g in dict.fromkeys((*every, *bench.groups))
-                    if not model.contacts.fixed[bench.contacts(g)].all())
-    return {JOINT: tuple(model.joints.name), CONTACT: contact, CONTACTS: every, PRESSED: contact[:1],
-            CONTACT_ROW: tuple(g for g in contact if np.ptp(sliding_angle(model.contacts, bench.contacts(g))) > 0),
+    contact = tuple(dict.fromkeys(("contact", *bench.groups))) if len(model.contacts.area) else ()
+    pressed = tuple(g for g in contact if not model.contacts.fixed[bench.contacts(g)].all())
+    return {JOINT: tuple(model.joints.name), CONTACT: contact, CONTACTS: contact[:1], PRESSED: pressed,
+            CONTACT_ROW: tuple(g for g in pressed if np.ptp(sliding_angle(model.contacts, bench.contacts(g))) > 0),
             POINT: tuple(model.sensor_name), INPUT: tuple(model.input_name), DOUBLET: tuple(bench.doublets),
             CHANNEL: tuple(c.name for c in bench.channels)}[kind]
 
@@ -120,10 +120,12 @@ def _place(kind, bench, place):
 
 def _contact_law(bench, own):
     """(stiffness, damping) of a whole group, 0 for contacts that do not yield; a table by its last slope."""
-    law, area = bench.law, bench.model.contacts.area
-    if isinstance(law, Penalty):
-        return tuple(float(np.broadcast_to(v, len(area))[own].sum()) for v in (law.stiffness, law.damping))
-    if isinstance(law, Table):
-        slope = float((law.pressure[-1] - law.pressure[-2]) / (law.closure[-1] - law.closure[-2]))
-        return slope * float(area[own].sum()), 0.0
-    return 0.0, 0.0
+    area, found = bench.model.contacts.area, np.zeros(2)
+    for law, members in parts(bench.law, len(area)):
+        mine = np.intersect1d(members, own)
+        if isinstance(law, Penalty):
+            found += [np.broadcast_to(v, len(area))[mine].sum() for v in (law.stiffness, law.damping)]
+        elif isinstance(law, Table):
+            slope = (law.pressure[-1] - law.pressure[-2]) / (law.closure[-1] - law.closure[-2])
+            found[0] += slope * area[mine].sum()
+    return tuple(float(v) for v in found)

@@ -1,7 +1,5 @@
 """Friction that rises with the sliding speed: mu(v) = mu_0(v) (1 + b |v|), a lubricating film in the contact."""
 
-from dataclasses import replace
-
 import numpy as np
 
 from pipeline.effects.effect import Effect
@@ -19,12 +17,13 @@ def parameters(typical):
 
 def apply(bench, place, values):
     fastest = _SPAN * max(1.0, abs(bench.model.sliding_speed).max())
-    return replace(bench, friction=times(bench.friction, "speed", np.linspace(0, fastest, _SAMPLES),
-                                         lambda speed: 1 + values["slope"] * speed))
+    samples = np.linspace(0, fastest, _SAMPLES)
+    return bench.with_friction(place, lambda friction: times(friction, "speed", samples,
+                                                             lambda speed: 1 + values["slope"] * speed))
 
 
 EFFECT = Effect(
-    name="viscous", summary="friction that rises with the sliding speed", place="contacts", stage="friction",
+    name="viscous", summary="friction that rises with the sliding speed", place="contact", stage="friction",
     parameters=parameters, apply=apply, linear=("slope",),
     source="R. Stribeck, Z. VDI 46 (1902) 1341: the branch of full film",
     valid="Valid below 20 m/s and 20 times the speed of the drive, beyond which friction stays the same.")

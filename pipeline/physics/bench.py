@@ -12,7 +12,8 @@ import numpy as np
 from scipy.signal import lfilter
 
 from pipeline.contract.errors import ConfigError
-from pipeline.physics.dry_friction import Friction
+from pipeline.physics.contact_groups import Grouped, changed
+from pipeline.physics.dry_friction import Friction, under
 from pipeline.physics.normal_load import loaded
 from pipeline.physics.sliding_model import SlidingModel
 from pipeline.physics.time_stepping import History, Start, simulate
@@ -54,7 +55,8 @@ class Run:
     """What was done: ``inputs`` {name: N, one value or samples}, ``drive`` rad/s (None: that of the model).
 
     Samples are at ``sample_rate`` Hz from time 0. ``conditions`` {name: value} stand in for inputs of their names,
-    ``speed`` for the drive, and ``normal_load`` for the loads of friction joints. ``start``: where the bodies are at time 0, else as the bench says.
+    ``speed`` for the drive, ``normal_load`` for the loads of friction joints; friction may depend on others. ``start``:
+    where the bodies are at time 0, else as the bench says.
     """
 
     name: str
@@ -70,6 +72,14 @@ class Run:
             raise ConfigError(f"run {self.name}", "a sample rate above 0 and at least one interval",
                               f"{self.sample_rate:g} Hz for {self.duration:g} s")
 
+    def until(self, kept):
+        """The run cut to its first ``kept`` samples, at least two."""
+        def cut(history):
+            return history[:kept] if np.ndim(history) else history
+
+        return replace(self, duration=(kept - 1) / self.sample_rate, drive=cut(self.drive),
+                       inputs={name: cut(history) for name, history in self.inputs.items()})
+
     @property
     def samples(self):
         """Number of samples, both ends counted."""
@@ -83,7 +93,7 @@ class Run:
 
 @dataclass(frozen=True)
 class Bench:
-    """Moving bodies, laws of contact and friction, and the sensors.
+    """Moving bodies, laws of contact and friction (of all contacts, or Grouped), and the sensors.
 
     ``step`` s is the longest step taken; ``groups`` {name: indices} names contacts, all of them ``contact`` by default;
     ``doublets`` {name: (i, j)} names pairs of coordinates that are two modes of (nearly) one frequency; ``settled``:
@@ -92,7 +102,7 @@ class Bench:
 
     model: SlidingModel
     law: object
-    friction: Friction
+    friction: Friction | Grouped
     step: float
     channels: tuple
     groups: dict = field(default_factory=dict)
@@ -109,6 +119,15 @@ class Bench:
         joints = self.model.joints
         k = joints.name.index(_known(name, joints.name, "joint"))
         return joints.rows[k], float(joints.stiffness[k]), float(joints.damping[k])
+
+    def with_law(self, group, change):
+        """The bench with ``change(law)`` as the law of contact of ``group``."""
+        return replace(self, law=changed(self.law, len(self.model.contacts.area), self.contacts(group), change))
+
+    def with_friction(self, group, change):
+        """The bench with ``change(friction)`` as the friction of ``group``."""
+        count = len(self.model.contacts.area)
+        return replace(self, friction=changed(self.friction, count, self.contacts(group), change))
 
     def input(self, name):
         """(row (n,), stiffness, damping) along an input, those of the supported bodies."""
@@ -143,11 +162,12 @@ def respond(bench, run, system=None):
     seen, model = _watched(bench)
     inputs, drive = run_inputs(bench, run), run_drive(bench, run)
     model, start = model.at_speed(float(np.ravel(drive)[0])), run.start
+    friction = run_friction(bench, run)
     if start is None and bench.settled:
         first = np.array([float(np.ravel(i)[0]) for i in inputs])
-        start = steady_start(model, bench.law, bench.friction, first)
+        start = steady_start(model, bench.law, friction, first)
     steps = (run.samples - 1) * parts
-    motion = simulate(model, bench.law, bench.friction, step=step, duration=steps * step, system=system, start=start,
+    motion = simulate(model, bench.law, friction, step=step, duration=steps * step, system=system, start=start,
                       inputs=_history(inputs, run), drive=_history([drive], run), book=False)
     return {channel.name: shown(channel, _looked_at(bench, run, channel, motion, seen, inputs, step), step)[::parts]
             for channel in bench.channels}
@@ -185,6 +205,11 @@ def run_inputs(bench, run):
 def run_drive(bench, run):
     """Speed of the drive in rad/s: one value or samples (samples,)."""
     return run.drive if run.drive is not None else run.conditions.get("speed", bench.model.speed)
+
+
+def run_friction(bench, run):
+    """Friction of the bench under the conditions of the run."""
+    return under(bench.friction, run.conditions, f"run {run.name}")
 
 
 def _history(values, run):

@@ -1,77 +1,136 @@
 """Small motions of a bench about steady sliding: its matrices and complex roots, for hammer records and growth rates.
 
+    M q'' + C q' + K q = B z,      z' = P q + V q' - R z
+
 Contacts count with the slope of their law under the steady load, friction with its slopes over pressure and slip speed,
-elements with the slope of their force where they stand, Maxwell branches with a state of their own; excitations, wear
-and the shapes of surfaces drop out. The waveform of a squeal is not compared with anything, its growth rate and
-frequency are.
+elements with the slope of their force where they stand; z are the Maxwell branches of elements and the states of
+friction that settle in steady sliding, R diagonal. Excitations, wear, the shapes of surfaces and friction that varies
+around the drive drop out; states that drift (heat, films, distance) stay where a run begins. The waveform of a squeal
+is not compared with anything, its growth rate and frequency are.
 """
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from pipeline.contract.errors import ConfigError
-from pipeline.physics.bench import run_drive, run_inputs
-from pipeline.physics.element_forces import DRY, element_force
+from pipeline.physics.bench import run_drive, run_friction, run_inputs
+from pipeline.physics.contact_groups import parts
+from pipeline.physics.element_forces import DRY, element_force, turn
 from pipeline.physics.elements import Maxwell, alone
 from pipeline.physics.friction_law import friction_at
+from pipeline.physics.friction_state_steps import MEMORY, SETTLING, factor_slope, rate_slopes
+from pipeline.physics.friction_states import factors, shapeless, started, state_kernel
 from pipeline.physics.sliding_model import FrictionState, spread
-from pipeline.physics.time_stepping import Penalty, Table
 from pipeline.physics.time_stepping_elements import no_memory
+from pipeline.physics.time_stepping_laws import tangent
 from pipeline.physics.time_stepping_start import steady_start
 
 
-def roots(bench, run):
-    """Complex roots (2 n + b,) in rad/s, by rising frequency: growth rate and angular frequency of each motion.
+@dataclass(frozen=True)
+class SmallMotion:
+    """The matrices above: ``mass``, ``damping``, ``stiffness`` (n, n); ``push`` B (n, k), ``by_place`` P and
+    ``by_speed`` V (k, n), ``decay`` R (k,) of k branches and states."""
 
-    Each of the b Maxwell branches of elements adds one, F' = k v - F / tau.
+    mass: np.ndarray
+    damping: np.ndarray
+    stiffness: np.ndarray
+    push: np.ndarray
+    by_place: np.ndarray
+    by_speed: np.ndarray
+    decay: np.ndarray
+
+    def matrix(self):
+        """State matrix (2 n + k, 2 n + k) of (q, q', z)."""
+        size, states = self.push.shape
+        return np.block([[np.zeros((size, size)), np.eye(size), np.zeros((size, states))],
+                         [-np.linalg.solve(self.mass, self.stiffness), -np.linalg.solve(self.mass, self.damping),
+                          np.linalg.solve(self.mass, self.push)],
+                         [self.by_place, self.by_speed, -np.diag(self.decay)]])
+
+
+def roots(bench, run):
+    """Complex roots (2 n + k,) in rad/s, by rising frequency: growth rate and angular frequency of each motion.
+
+    Each of the k Maxwell branches, F' = k v - F / tau, and states of friction adds one.
     """
-    mass, damping, stiffness = linearised(bench, run)
-    rows, springs, times = _branches(bench.model)
-    count, hidden = len(mass), len(rows)
-    state = np.block([[np.zeros((count, count)), np.eye(count), np.zeros((count, hidden))],
-                      [-np.linalg.solve(mass, part) for part in (stiffness, damping, rows.T)],
-                      [np.zeros((hidden, count)), springs[:, None] * rows, -np.diag(1 / times)]])
-    found = np.linalg.eigvals(state)
+    found = np.linalg.eigvals(small_motion(bench, run).matrix())
     return found[np.lexsort((found.imag, abs(found.imag)))]
 
 
 def linearised(bench, run):
-    """(M, C, K), each (n, n), about steady sliding under the first inputs and drive speed of ``run``.
+    """(M, C, K), each (n, n), of ``small_motion``, without Maxwell branches, as in a motion so slow that they relax.
 
-    Maxwell branches are left out, as in a motion so slow that they relax.
-    Friction turns in its plane with the motion only where friction-induced damping is a term of the simulation; here it
-    is left out as there. Raises ConfigError for contacts that do not yield, and what ``steady_start`` raises.
+    ConfigError where friction has states that settle, which no such three hold.
+    """
+    motion = small_motion(bench, run)
+    states = len(motion.decay) - len(_branches(bench.model)[2])
+    if states:
+        raise ConfigError("matrices of a bench", "friction without states", f"{states} states",
+                          "take small_motion, whose matrix holds them")
+    return motion.mass, motion.damping, motion.stiffness
+
+
+def small_motion(bench, run):
+    """SmallMotion about steady sliding under the first inputs and drive speed of ``run``.
+
+    Friction turns in its plane with the motion only where an element says so, as in the simulation. Raises ConfigError
+    for contacts that do not yield, and what ``steady_start`` raises.
     """
     model = bench.model.at_speed(float(np.ravel(run_drive(bench, run))[0]))
     inputs = np.array([float(np.ravel(i)[0]) for i in run_inputs(bench, run)])
-    start = steady_start(model, bench.law, bench.friction, inputs)
-    contacts = model.contacts
-    stiffness, damping = _tangent(bench.law, contacts, start.normal)
-    pressure, slip = start.normal / contacts.area, abs(model.sliding_speed)
-    law = bench.friction.law
-    read = np.array([friction_at(p, s, bench.friction.distance, *law.table)[:3]
-                     for p, s in zip(pressure, slip, strict=True)]).reshape(-1, 3)
+    friction = shapeless(run_friction(bench, run))
+    start = steady_start(model, bench.law, friction, inputs)
+    contacts, slip = model.contacts, model.sliding_speed
+    stiffness, damping = tangent(bench.law, np.where(contacts.fixed, 0.0, start.normal), contacts.area)
     contacts = replace(contacts, preload=start.normal, stiffness=stiffness, damping=damping)
-    moving = replace(model, contacts=contacts)
-    mass, drag, spring = moving.linearised(FrictionState(*read.T), friction_damping=False)
-    rows, slope, loss = _elements(model, start)
-    return mass, drag + spread(rows, loss, rows), spring + spread(rows, slope, rows)
+    states = state_kernel(friction, contacts.area)
+    value = started(states, start.normal, slip)
+    state = _friction_state(friction, slip, contacts.pressure, factors(states, value, 0.0))
+    heard = np.isin(np.arange(len(slip)), states.contact[states.kind == MEMORY])
+    present = FrictionState(*(np.where(heard, 0.0, v) for v in (state.coefficient, state.pressure_slope,
+                                                                state.speed_slope)))
+    mass, drag, spring = replace(model, contacts=contacts).linearised(present, friction_damping=False)
+    rows, slope, loss = _elements(model, start, slip)
+    push, place, rate, decay = _states(contacts, model.direction(), abs(slip), state, states, value)
+    branches, springs, times = _branches(model)
+    return SmallMotion(mass, drag + spread(rows, loss, rows), spring + spread(rows, slope, rows),
+                       np.hstack((push, -branches.T)), np.vstack((place, 0 * branches)),
+                       np.vstack((rate, springs[:, None] * branches)), np.append(decay, 1 / times))
 
 
-def _tangent(law, contacts, normal):
-    """Normal stiffness and damping (c,) of the law under the forces ``normal``; 0 for open contacts."""
-    shut = (normal > 0) & ~contacts.fixed
-    if isinstance(law, Penalty):
-        return tuple(np.where(shut, value, 0.0) for value in (law.stiffness, law.damping))
-    if not isinstance(law, Table):
-        if shut.any():
-            raise ConfigError("roots of a bench", "contacts that yield", type(law).__name__, "give them a stiffness")
-        return np.zeros(len(normal)), np.zeros(len(normal))
-    closure, pressure = np.asarray(law.closure, float), np.asarray(law.pressure, float)
-    k = np.clip(np.searchsorted(pressure, normal / contacts.area, side="right") - 1, 0, len(pressure) - 2)
-    slope = (pressure[k + 1] - pressure[k]) / (closure[k + 1] - closure[k])
-    return np.where(shut, contacts.area * slope, 0.0), np.where(shut, normal / law.damping_speed, 0.0)
+def _friction_state(friction, speed, pressure, factor):
+    """FrictionState (c,) at signed sliding speeds (c,) and pressures (c,), with the ``factor`` (c,) of its states."""
+    found = np.empty((3, len(speed)))
+    for law, own in parts(friction, len(speed)):
+        for i in own:
+            turned = law.backward if speed[i] < 0 else 1.0
+            found[:, i] = turned * np.array(friction_at(pressure[i], abs(speed[i]), law.distance, *law.law.table)[:3])
+    return FrictionState(*(factor * found))
+
+
+def _states(contacts, sign, speed, friction, states, value):
+    """(B, P, V, R) of the states of friction that settle: memory of the load, of the speed, and factors."""
+    push, place, rate, decay = [], [], [], []
+
+    def add(i, drawn, by_load, by_speed, leaving):
+        """One state: dT = sign drawn z, z' = by_load dN + by_speed dv - leaving z."""
+        push.append(sign[i] * drawn * contacts.tangent[i])
+        place.append(-by_load * contacts.stiffness[i] * contacts.normal[i])
+        rate.append(-by_load * contacts.damping[i] * contacts.normal[i] - by_speed * sign[i] * contacts.tangent[i])
+        decay.append(leaving)
+
+    for k, (kind, i, p) in enumerate(zip(states.kind, states.contact, states.parameter, strict=True)):
+        load, x = contacts.preload[i], value[k, 0]
+        if kind == MEMORY:
+            leaving = speed[i] / p[0]
+            add(i, friction.coefficient[i] + contacts.pressure[i] * friction.pressure_slope[i], leaving, 0.0, leaving)
+            add(i, load * friction.speed_slope[i], 0.0, leaving, leaving)
+        elif kind in SETTLING:
+            leaving, by_load, by_speed = rate_slopes(kind, p, load, contacts.area[i], speed[i])
+            add(i, load * friction.coefficient[i] * factor_slope(kind, p, x), -x * by_load, -x * by_speed, leaving)
+    none = np.empty((0, contacts.tangent.shape[1]))
+    return (np.array(push or none).T, np.array(place or none), np.array(rate or none), np.array(decay, float))
 
 
 def _branches(model):
@@ -82,11 +141,12 @@ def _branches(model):
     return np.array(rows, float).reshape(-1, model.size), np.array(springs, float), np.array(times, float)
 
 
-def _elements(model, start):
+def _elements(model, start, slip):
     """(rows (e, n), stiffness (e,), damping (e,)) of the elements about the start; dry friction sticks or slides
     through zero, which no matrix says, and counts as nothing."""
     kernel, rows = alone(model.elements), np.array([e.row for e in model.elements]).reshape(-1, model.size)
     memory = no_memory(kernel) if start.memory is None else start.memory
+    turn(kernel, start.friction, slip, np.zeros(len(rows)))
     slopes = np.zeros((2, len(rows)))
     for k, row in enumerate(rows):
         if kernel.kind[k] != DRY:

@@ -11,14 +11,15 @@ A contact that sticks is held up to ``static_factor`` times mu at slip speed 0; 
 mu itself can hold it.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
 from numba import njit
 
 from pipeline.contract.errors import ConfigError
-from pipeline.physics.friction_law import FrictionLaw, friction_at
+from pipeline.physics.contact_groups import Grouped, parts, read
+from pipeline.physics.friction_law import AXES, FrictionLaw, friction_at
 
 RIGID, ELASTIC, EVOLUTION = 0, 1, 2
 DESCRIPTIONS = {"rigid": RIGID, "elastic": ELASTIC, "evolution": EVOLUTION}
@@ -26,14 +27,29 @@ DESCRIPTIONS = {"rigid": RIGID, "elastic": ELASTIC, "evolution": EVOLUTION}
 _SAMPLES, _SPAN = 100, 20
 #: under the evolution rule a contact slides where the slope of T over s is below this share of its stiffness
 SLIDING_SLOPE = 0.01
+#: columns of FrictionKernel.contact. What friction hears of load and slip speed is kept + share x (value of the step);
+#: DELAYED is 1 where that is not the present load and speed
+(FIRST, READ_AT, STATIC, BACKWARD, STIFFNESS, EXPONENT, FACTOR, DELAYED, LOAD_KEPT, LOAD_SHARE, SPEED_KEPT,
+ SPEED_SHARE) = range(12)
+
+
+@dataclass(frozen=True)
+class Condition:
+    """Friction times 1 + ``slope`` (value - ``reference``), never below 0, ``name`` being a condition of the run."""
+
+    name: str
+    slope: float
+    reference: float
 
 
 @dataclass(frozen=True)
 class Friction:
-    """Friction of all contacts.
+    """Friction of all contacts, or, within Grouped, of some.
 
     ``law`` is read at ``distance`` (m); ``stiffness`` (c,) or () N/m is the tangential stiffness of the elastic and
-    the evolution description, ``exponent`` the m of the latter.
+    the evolution description, ``exponent`` the m of the latter; ``backward``: mu of slip below 0 over that of slip
+    above 0; ``states``: laws of ``friction_states``, whose factors come on top of ``law``; ``conditions``: each a
+    Condition, which ``under`` brings in.
     """
 
     law: FrictionLaw
@@ -42,6 +58,9 @@ class Friction:
     stiffness: np.ndarray | float = 0.0
     exponent: float = 1.0
     distance: float = 0.0
+    backward: float = 1.0
+    states: tuple = ()
+    conditions: tuple = ()
 
     def __post_init__(self):
         if self.description not in DESCRIPTIONS:
@@ -53,26 +72,47 @@ class Friction:
         if self.description != "rigid" and not np.all(np.asarray(self.stiffness) > 0):
             raise ConfigError("friction: stiffness", f"above 0 for the {self.description} description",
                               str(self.stiffness))
-        if not self.exponent > 0:
-            raise ConfigError("friction: exponent", "above 0", f"{self.exponent:g}")
+        if not (self.exponent > 0 and self.backward >= 0):
+            raise ConfigError("friction: exponent, backward", "above 0, and at least 0",
+                              f"{self.exponent:g}, {self.backward:g}")
+
+    def with_state(self, state):
+        """The friction with one more state."""
+        return replace(self, states=(*self.states, state))
 
     def at_speed(self, speed, pressure=0.0):
         """Coefficient at sliding speeds (m/s, either sign)."""
-        return self.law.evaluate(pressure, np.abs(speed), self.distance)[0]
+        found = self.law.evaluate(pressure, np.abs(speed), self.distance)[0]
+        return found if self.backward == 1 else np.where(np.asarray(speed) < 0, self.backward, 1.0) * found
+
+
+def under(friction, given, where):
+    """The Friction, Grouped or not, under conditions ``given`` {name: value}. ConfigError at ``where`` for those that
+    it asks for and does not find.
+    """
+    if isinstance(friction, Grouped):
+        return replace(friction, laws=tuple(under(law, given, where) for law in friction.laws))
+    factor = 1.0
+    for condition in friction.conditions:
+        value = given.get(condition.name)
+        if value is None or np.ndim(value) or not np.isfinite(value):
+            raise ConfigError(f"{where}: condition {condition.name}", "one value, on which friction depends",
+                              "none" if value is None else str(value), "add it to the run")
+        factor *= max(1.0 + condition.slope * (float(value) - condition.reference), 0.0)
+    if not friction.conditions:
+        return friction
+    return replace(friction, law=replace(friction.law, friction=factor * friction.law.friction), conditions=())
 
 
 class FrictionKernel(NamedTuple):
-    """What the compiled loops need of a Friction."""
+    """What the compiled loops need of the friction of c contacts: tables of g laws on common axes, stacked."""
 
-    pressure: np.ndarray
-    speed: np.ndarray
-    distance: np.ndarray
-    table: np.ndarray
-    read_at: float
-    static_factor: float
+    pressure: np.ndarray    # (P,)
+    speed: np.ndarray       # (V,)
+    distance: np.ndarray    # (S,)
+    table: np.ndarray       # (g P, V, S)
+    contact: np.ndarray     # (c, 12) the columns FIRST to SPEED_SHARE
     description: int
-    stiffness: np.ndarray
-    exponent: float
 
 
 def constant(coefficient, **options):
@@ -94,20 +134,55 @@ def falling(static, kinetic, decay_speed, **options):
 
 
 def kernel(friction, contacts):
-    """FrictionKernel of a Friction for so many contacts."""
-    table = (np.array(part) for part in friction.law.table)
-    stiffness = np.array(np.broadcast_to(np.asarray(friction.stiffness, float), contacts))
-    return FrictionKernel(*table, float(friction.distance), float(friction.static_factor),
-                          DESCRIPTIONS[friction.description], stiffness, float(friction.exponent))
+    """FrictionKernel of a Friction, or of Grouped ones, for so many contacts. ConfigError for mixed descriptions."""
+    laws = parts(friction, contacts)
+    if any(law.conditions for law, _ in laws):
+        raise ConfigError("friction", "conditions that are given", "some that are not", "take `under` first")
+    described = {law.description for law, _ in laws}
+    if len(described) > 1:
+        raise ConfigError("friction of contact groups", "one description for all contacts",
+                          " and ".join(sorted(described)))
+    contact = np.zeros((contacts, SPEED_SHARE + 1))
+    for column, name in ((READ_AT, "distance"), (STATIC, "static_factor"), (BACKWARD, "backward"),
+                         (STIFFNESS, "stiffness"), (EXPONENT, "exponent")):
+        contact[:, column] = read(friction, name, contacts)
+    contact[:, [FACTOR, LOAD_SHARE, SPEED_SHARE]] = 1.0
+    axes, tables = common([law.law for law, _ in laws])
+    for k, (_, own) in enumerate(laws):
+        contact[own, FIRST] = k * len(axes[0])
+    return FrictionKernel(*axes, np.concatenate(tables), contact, DESCRIPTIONS[described.pop()])
+
+
+def common(laws):
+    """(axes, tables) of FrictionLaws on the axes that hold the values of all."""
+    if len(laws) == 1:
+        *axes, table = (np.array(part) for part in laws[0].table)
+        return axes, [table]
+    axes = [np.unique(np.concatenate([getattr(law, name) for law in laws])) for name in AXES]
+    return axes, [law.on(*axes).friction for law in laws]
+
+
+def coefficients(friction, speed, pressure):
+    """mu (c,) or (c, samples) at sliding speeds of either sign (m/s) and pressures (Pa) of that shape."""
+    speed, pressure = np.broadcast_arrays(speed, pressure)
+    found = np.empty(speed.shape)
+    for law, own in parts(friction, len(found)):
+        found[own] = law.at_speed(speed[own], pressure[own])
+    return found
 
 
 @njit(cache=True)
-def coefficient(friction, pressure, speed):
-    """mu at a pressure and a slip speed of either sign."""
+def coefficient(friction, i, pressure, speed, sign):
+    """mu of contact ``i`` at a pressure and a slip speed whose sign counts as ``sign``."""
+    contact = friction.contact
     if friction.table.size == 1:
-        return friction.table[0, 0, 0]
-    return friction_at(pressure, abs(speed), friction.read_at, friction.pressure, friction.speed, friction.distance,
-                       friction.table)[0]
+        mu = friction.table[0, 0, 0]
+    else:
+        heard = contact[i, SPEED_KEPT] + contact[i, SPEED_SHARE] * abs(speed)
+        mu = friction_at(pressure, heard, contact[i, READ_AT], friction.pressure, friction.speed, friction.distance,
+                         friction.table, int(contact[i, FIRST]))[0]
+    mu *= contact[i, FACTOR]
+    return mu * contact[i, BACKWARD] if sign < 0 else mu
 
 
 @njit(cache=True)

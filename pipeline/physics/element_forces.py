@@ -13,6 +13,7 @@ they remember from there:
     gap         F = k_stop (e - i) + k_inner i, i = clip(e, -lower, upper)
     softening   F = -k (1 - exp(-t / tau)) e
     wave        F = -(k u + c u'), u = a cos(order * angle + 2 pi f t - phase)
+    turning     F = share |T| v / |slip|, slip and T of a contact; |slip| with v, along the row, as its other part
 """
 
 from typing import NamedTuple
@@ -22,11 +23,13 @@ from numba import njit
 
 from pipeline.physics.time_stepping_contact import LARGEST_STIFFNESS, SOLVED
 
-POLYNOMIAL, POWER, SLIDERS, DRY, BOUC_WEN, GAP, SOFTENING, WAVE, MAXWELL = range(9)
+POLYNOMIAL, POWER, SLIDERS, DRY, BOUC_WEN, GAP, SOFTENING, WAVE, MAXWELL, TURNING = range(10)
 #: codes of a step that has no solution, beside those of the contacts
 TOO_STIFF, UNSETTLED = 5, 6
 #: sizes of the way of a Bouc-Wen element after which nothing is left of where it started
 FORGOTTEN = 40.0
+#: largest product of a damper that turns with friction and the mobility along it over one step
+STRONGEST_TURNING = 10.0
 #: relative rounding of an elongation that is a sum of a few terms
 ROUNDING = 4 * np.finfo(np.float64).eps
 SWEEPS, ITERATIONS, TOLERANCE, LOCAL_TOLERANCE = 500, 100, 1e-10, 1e-13
@@ -49,6 +52,23 @@ class ElementKernel(NamedTuple):
     to_elements: np.ndarray     # (2, e, 2, c) of elongation and rate to the contact forces
     waviness: np.ndarray        # (w, 6) contact, amplitude (m), order, frequency (Hz), phase (rad), growth (s)
     wear: np.ndarray            # (c,) 1/N, depth per normal force and way; empty where nothing wears
+
+
+class LawKernel(NamedTuple):
+    """What the forces alone need of an ElementKernel: fewer arrays, which every call of a compiled function passes."""
+
+    kind: np.ndarray
+    parameter: np.ndarray
+    first: np.ndarray
+    stiffness: np.ndarray
+    limit: np.ndarray
+    own: np.ndarray
+
+
+@njit(cache=True)
+def laws_of(kernel):
+    """LawKernel of an ElementKernel."""
+    return LawKernel(kernel.kind, kernel.parameter, kernel.first, kernel.stiffness, kernel.limit, kernel.own)
 
 
 @njit(cache=True)
@@ -97,11 +117,30 @@ def element_force(kernel, k, elongation, rate, begin, remembered, memory, instan
     if kind == SOFTENING:
         slope = -p[0] * (1.0 - np.exp(-instant[0] / p[1]))
         return slope * elongation, slope, 0.0
+    if kind == TURNING:
+        return p[2] * rate, 0.0, p[2]
     if kind == MAXWELL:
         force, slope = _maxwell(kernel, one, last - 1, moved, remembered, memory, instant[0])
         return p[0] * elongation + force, p[0] + slope, 0.0
     place, speed = wave(p[2], p[3], p[4], p[5], instant)
     return -(p[0] * place + p[1] * speed), 0.0, 0.0
+
+
+@njit(cache=True)
+def turn(kernel, friction, slip, rate):
+    """Set the damping of all ``turning`` elements by friction forces and slip speeds (c,), and their own rates (e,).
+
+    As it is taken at the begin of a step, it resists whatever the step; where friction all but stops the slip, it is
+    no stronger than what stops the motion along the row within the step.
+    """
+    for k in range(kernel.kind.size):
+        if kernel.kind[k] == TURNING:
+            p = kernel.parameter[k]
+            i, mobile = int(p[0]), abs(kernel.own[1, k, k])
+            speed = np.hypot(slip[i], rate[k])
+            p[2] = p[1] * abs(friction[i]) / speed if speed > 0.0 else 0.0
+            if p[2] * mobile > STRONGEST_TURNING:
+                p[2] = STRONGEST_TURNING / mobile
 
 
 @njit(cache=True)

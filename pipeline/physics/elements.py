@@ -114,8 +114,17 @@ class Wave:
     phase: float = 0.0
 
 
+@dataclass(frozen=True)
+class Turning:
+    """Friction of ``contact`` turns in its plane with the motion along the row: a damper ``share`` |T| / |slip|."""
+
+    contact: int
+    share: float = 1.0
+
+
 _KIND = {Polynomial: kinds.POLYNOMIAL, Power: kinds.POWER, Sliders: kinds.SLIDERS, Dry: kinds.DRY,
-         BoucWen: kinds.BOUC_WEN, Gap: kinds.GAP, Softening: kinds.SOFTENING, Wave: kinds.WAVE, Maxwell: kinds.MAXWELL}
+         BoucWen: kinds.BOUC_WEN, Gap: kinds.GAP, Softening: kinds.SOFTENING, Wave: kinds.WAVE, Maxwell: kinds.MAXWELL,
+         Turning: kinds.TURNING}
 
 
 @dataclass(frozen=True)

@@ -14,12 +14,13 @@ from scipy.integrate import cumulative_trapezoid
 from scipy.signal import butter, decimate, sosfiltfilt
 
 from pipeline.contract.errors import ConfigError
-from pipeline.physics.bench import MOTIONS, run_drive, run_inputs
-from pipeline.physics.dry_friction import Friction
-from pipeline.physics.element_forces import element_force
+from pipeline.physics.bench import MOTIONS, run_drive, run_friction, run_inputs
+from pipeline.physics.contact_groups import read
+from pipeline.physics.element_forces import element_force, turn
 from pipeline.physics.elements import alone, wave_table
-from pipeline.physics.time_stepping import Penalty, Table
+from pipeline.physics.friction_states import friction_along
 from pipeline.physics.time_stepping_elements import no_memory, surface_shift, wear_on
+from pipeline.physics.time_stepping_laws import force_along
 
 _SMALLEST_SHARE = 1e-9
 
@@ -70,24 +71,27 @@ def forces_missing(bench, run, motion):
     residual = mass @ inertia + damping @ speed + stiffness @ motion
     angle = cumulative_trapezoid(turning, dx=interval, initial=0.0)
     instants = np.column_stack((run.time, angle, turning))
-    residual = residual + _elements(model, motion, speed, instants) - _contacts(bench, motion, speed, instants)
+    normal, drawn, slip = _contacts(bench, run, motion, speed, instants)
+    residual = residual + _elements(model, motion, speed, instants, drawn, slip)
+    residual = residual - (model.contacts.normal.T @ normal + model.contacts.tangent.T @ drawn)
     forces = np.array([np.broadcast_to(f, run.samples) for f in run_inputs(bench, run)]).reshape(-1, run.samples)
     return residual - model.input_rows.T @ forces
 
 
-def _elements(model, motion, speed, instants):
-    """sum_k b_k F_k (n, samples)."""
+def _elements(model, motion, speed, instants, drawn, slip):
+    """sum_k b_k F_k (n, samples), contacts being drawn at and slipping as said (c, samples)."""
     rows = np.array([e.row for e in model.elements], float).reshape(-1, model.size)
     kernel = alone(model.elements)
-    return rows.T @ _along(kernel, rows @ motion, rows @ speed, instants, no_memory(kernel))
+    return rows.T @ _along(kernel, rows @ motion, rows @ speed, instants, no_memory(kernel), drawn, slip)
 
 
 @njit(cache=True)
-def _along(kernel, place, rate, instants, memory):
+def _along(kernel, place, rate, instants, memory, drawn, slip):
     """Forces (e, samples) along elongations ``place`` and their ``rate`` (e, samples)."""
     force, after = np.zeros_like(place), memory.copy()
     for s in range(place.shape[1]):
         instant = (instants[s, 0], instants[s, 1], instants[s, 2])
+        turn(kernel, drawn[:, s], slip[:, s], rate[:, s])
         for k in range(place.shape[0]):
             begin = place[k, max(s - 1, 0)]
             force[k, s] = element_force(kernel, k, place[k, s], rate[k, s], begin, memory, after, instant)[0]
@@ -95,12 +99,12 @@ def _along(kernel, place, rate, instants, memory):
     return force
 
 
-def _contacts(bench, motion, speed, instants):
-    """sum_i (n_i N_i + t_i T_i) (n, samples), sliding everywhere."""
+def _contacts(bench, run, motion, speed, instants):
+    """(N, T, slip), each (c, samples), sliding everywhere."""
     contacts, fixed = bench.model.contacts, bench.model.contacts.fixed
     normal = np.where(fixed, contacts.preload, 0.0)[:, None] * np.ones(motion.shape[1])
     shift = _surface(contacts, instants)
-    gap = (np.broadcast_to(bench.law.gap, len(fixed))[:, None] + contacts.normal @ motion) + shift[0]
+    gap = (read(bench.law, "gap", len(fixed))[:, None] + contacts.normal @ motion) + shift[0]
     opening = contacts.normal @ speed + shift[1]
     slip = contacts.lever[:, None] * instants[:, 2] - contacts.tangent @ speed
     wear = np.broadcast_to(contacts.wear, len(fixed))
@@ -108,10 +112,9 @@ def _contacts(bench, motion, speed, instants):
         if wear[i]:
             worn = _worn(bench, i, gap[i], opening[i], wear[i] * abs(slip[i]), instants[:, 0])
             gap[i], opening[i] = gap[i] + worn[0], opening[i] + worn[1]
-        normal[i] = _pressed(bench, i, -gap[i], -opening[i])
-    friction: Friction = bench.friction
-    drawn = np.sign(slip) * friction.at_speed(slip, normal / contacts.area[:, None]) * normal
-    return contacts.normal.T @ normal + contacts.tangent.T @ drawn
+        normal[i] = force_along(bench.law, i, contacts.area, -gap[i], -opening[i])
+    drawn = friction_along(run_friction(bench, run), contacts.area, normal, slip, instants[:, 1], 1 / run.sample_rate)
+    return normal, drawn, slip
 
 
 def _surface(contacts, instants):
@@ -125,24 +128,10 @@ def _surface(contacts, instants):
 
 def _worn(bench, i, gap, opening, rate, time):
     """(2, samples): what wear adds to gap and opening rate of contact ``i``, rate (m/s) per normal force."""
+    area = bench.model.contacts.area
     shift, worn, pace = np.zeros((2, len(time))), np.zeros(1), np.zeros(1)
     for s, interval in enumerate(np.diff(time, prepend=time[0])):
         shift[:, s] = worn[0] + interval * pace[0], pace[0]
-        force = _pressed(bench, i, -gap[s] - shift[0, s], -opening[s] - shift[1, s])
+        force = force_along(bench.law, i, area, -gap[s] - shift[0, s], -opening[s] - shift[1, s])
         wear_on(rate[s:s + 1], np.reshape(force, 1), np.ones(1), np.zeros(1), interval, worn, pace)
     return shift
-
-
-def _pressed(bench, i, closure, closing):
-    """Normal force of contact ``i`` along closures (m, below 0 where open) and closing rates (m/s)."""
-    law, contacts = bench.law, bench.model.contacts
-    if not isinstance(law, Penalty | Table):
-        raise ConfigError(f"equation residual: contact {i}", "a contact law that yields", type(law).__name__,
-                          "give the contact a stiffness, or simulate instead")
-    closure = np.maximum(closure, 0.0)
-    if isinstance(law, Penalty):
-        stiffness, damping = (np.broadcast_to(v, len(contacts.area))[i] for v in (law.stiffness, law.damping))
-        return np.where(closure > 0, np.maximum(stiffness * closure + damping * closing, 0.0), 0.0)
-    last = (law.pressure[-1] - law.pressure[-2]) / (law.closure[-1] - law.closure[-2])
-    pressure = np.interp(closure, law.closure, law.pressure) + last * np.maximum(closure - law.closure[-1], 0.0)
-    return contacts.area[i] * pressure * np.maximum(1 + closing / law.damping_speed, 0.0)

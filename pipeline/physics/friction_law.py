@@ -46,6 +46,10 @@ class FrictionLaw:
         friction, outside = _evaluate(flat, *self.table)
         return friction.reshape(states[0].shape), outside.reshape(states[0].shape)
 
+    def on(self, *axes):
+        """The same law on other axes, exactly where they hold the values of its own."""
+        return FrictionLaw(*axes, self.evaluate(*np.meshgrid(*axes, indexing="ij"))[0])
+
 
 def refine(axes, values, subdivisions):
     """Monotone, overshoot-free refinement of a table.
@@ -78,13 +82,15 @@ def _locate(axis, value):
 
 
 @njit(cache=True)
-def friction_at(pressure, speed, distance, pressures, speeds, distances, table):
+def friction_at(pressure, speed, distance, pressures, speeds, distances, table, first=0):
     """(mu, dmu/dpressure in 1/Pa, dmu/dspeed in s/m, outside) at one state.
 
     Multilinear on the axes; outside them mu is constant and its slope zero, and ``outside`` is 1. An axis of one
-    value does not vary: it is outside wherever the state differs from it.
+    value does not vary: it is outside wherever the state differs from it. ``first`` is the row where the table begins,
+    where several laws on the same axes are stacked.
     """
     p0, p1, wp, ip, outside_p = _locate(pressures, pressure)
+    p0, p1 = first + p0, first + p1
     v0, v1, wv, iv, outside_v = _locate(speeds, speed)
     s0, s1, ws, _, outside_s = _locate(distances, distance)
     m00 = table[p0, v0, s0] * (1.0 - ws) + table[p0, v0, s1] * ws

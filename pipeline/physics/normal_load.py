@@ -10,6 +10,7 @@ from dataclasses import replace
 import numpy as np
 
 from pipeline.contract.errors import ConfigError
+from pipeline.physics.contact_groups import changed
 
 #: name of the condition, in N: the sum over all friction joints
 CONDITION = "normal_load"
@@ -28,8 +29,13 @@ def loaded(bench, run):
     if not (load > 0 and given > 0):
         raise ConfigError(f"run {run.name}: {CONDITION}", "a load above 0 N, of the run and of the model",
                           f"{load:g} N and {given:g} N")
-    factor, friction = load / given, bench.friction
-    if friction.description != "rigid":
-        friction = replace(friction, stiffness=factor * np.asarray(friction.stiffness, float))
+    factor, count = load / given, len(fixed)
     model = replace(bench.model, contacts=replace(contacts, preload=factor * contacts.preload))
+    friction = changed(bench.friction, count, range(count), lambda law: _stiffened(law, factor))
     return replace(bench, model=model, friction=friction)
+
+
+def _stiffened(friction, factor):
+    if friction.description == "rigid":
+        return friction
+    return replace(friction, stiffness=factor * np.asarray(friction.stiffness, float))

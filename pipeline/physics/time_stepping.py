@@ -15,23 +15,30 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from pipeline.contract.errors import ConfigError, ConvergenceError
-from pipeline.physics.dry_friction import coefficient, constant, kernel
+from pipeline.physics.dry_friction import FACTOR, coefficient, constant, kernel
 from pipeline.physics.element_forces import TOO_STIFF, UNSETTLED
+from pipeline.physics.friction_states import factors, started, state_kernel
 from pipeline.physics.time_stepping_contact import (
     JAMMED,
     OPEN,
-    PENALTY,
     SLIP,
     SOLVED,
     STICK,
-    TABLE,
     TOO_LONG,
     UNCONVERGED,
-    table_force,
 )
 from pipeline.physics.time_stepping_elements import no_memory, surface_shift
 from pipeline.physics.time_stepping_kernels import elements_kernel, linear_kernel, refuse
-from pipeline.physics.time_stepping_laws import Forward, Hard, Lagrange, Penalty, Table, contiguous, normal_kernel
+from pipeline.physics.time_stepping_laws import (
+    Forward,
+    Hard,
+    Lagrange,
+    Penalty,
+    Table,
+    contiguous,
+    normal_force,
+    normal_kernel,
+)
 from pipeline.physics.time_stepping_linear import modal_system
 from pipeline.physics.time_stepping_march import HistoryKernel, Record, march
 
@@ -52,7 +59,7 @@ class Start:
 
     ``memory`` (s,) of the elements, by default 0: those with memory draw with no force where the motion starts;
     ``angle`` rad of the drive, ``age`` s that passed before, ``worn`` (c,) m that the contacts have
-    receded by, which needs ``normal``.
+    receded by, which needs ``normal``; ``states`` (k, 2) of friction, by default settled.
     """
 
     displacement: np.ndarray
@@ -63,6 +70,7 @@ class Start:
     angle: float = 0.0
     age: float = 0.0
     worn: np.ndarray | None = None
+    states: np.ndarray | None = None
 
     def kicked(self, velocity):
         """The same with ``velocity`` (n,) added."""
@@ -112,34 +120,36 @@ def simulate(model, law, friction=None, *, step, duration, drive=None, inputs=No
              system=None, book=True):
     """Motion of a SlidingModel over ``duration`` s in steps of ``step`` s, every ``record_every``-th kept.
 
-    ``law``: Hard, Penalty, Table, Lagrange or Forward; ``friction``: Friction, none by default; ``drive``: speed of the
-    drive in rad/s, a number or a History, by default that of the model; ``inputs``: forces (i,) N on the inputs, or
-    their History; ``start``: Start, by default at rest in the origin; ``system``: the ModalSystem of the model, where
-    many runs share it; ``book=False`` leaves out the work of inputs and the loss of dampers. Raises ConfigError for a
-    step too long, ConvergenceError with time and contact where a step has no solution.
+    ``law``: Hard, Penalty, Table, Lagrange or Forward; ``friction``: Friction, none by default; either may be Grouped;
+    ``drive``: speed of the drive in rad/s, a number or a History, by default that of the model; ``inputs``: forces (i,)
+    N on the inputs, or their History; ``start``: Start, by default at rest in the origin; ``system``: the ModalSystem
+    of the model, where many runs share it; ``book=False`` leaves out the work of inputs and the loss of dampers. Raises
+    ConfigError for a step too long, ConvergenceError with time and contact where a step has no solution.
     """
     steps = round(duration / step)
     if not step > 0 or steps < 1 or record_every < 1:
         raise ConfigError("time stepping: step", "a positive step, at most as long as the motion",
                           f"{step:g} s for {duration:g} s")
     system = modal_system(model) if system is None else system
-    linear = linear_kernel(model, system, law, friction or constant(0.0), step)
-    normal, dry = normal_kernel(law, model.contacts), kernel(friction or constant(0.0), len(model.contacts.area))
-    refuse(system, linear, normal, dry, model, step)
+    friction = friction or constant(0.0)
+    normal, dry = normal_kernel(law, model.contacts), kernel(friction, len(model.contacts.area))
+    linear, states = linear_kernel(model, system, law, dry, step), state_kernel(friction, model.contacts.area)
+    refuse(system, linear, normal, dry, states, model, step)
     rest = np.zeros(model.size)
     start = Start(rest, rest) if start is None else start
     elements = elements_kernel(model, system, linear)
     memory = no_memory(elements, start.age) if start.memory is None else contiguous(start.memory)
-    pairs, force, status = _begin(model, system, normal, dry, start, _speed_at_start(model, drive), elements)
-    record = _empty(linear, elements, steps // record_every + 1, start)
+    pairs, force, status, value = _begin(model, system, normal, dry, start, _speed_at_start(model, drive), elements,
+                                         states)
+    record = _empty(linear, elements, len(value), steps // record_every + 1, start)
     code, number, contact = march(
-        linear, normal, dry, elements, contiguous(model.contacts.lever),
+        linear, normal, dry, elements, states, contiguous(model.contacts.lever),
         _history(model.speed if drive is None else drive, 1, "drive"), _inputs(model, inputs), pairs, force, status,
-        memory, float(start.age), float(step), steps, int(record_every), bool(book), record)
+        memory, value, float(start.age), float(step), steps, int(record_every), bool(book), record)
     if code != SOLVED:
         raise _failure(code, number * step, contact, step, model)
     end = Start(*system.from_pairs(record.end), *force, record.memory, float(record.angle[0]),
-                start.age + steps * step, worn=record.worn)
+                start.age + steps * step, record.worn, record.states)
     return _motion(record, step * record_every, steps, end)
 
 
@@ -153,8 +163,8 @@ def imposed(model, joint):
                    input_rows=np.vstack((model.input_rows, row)))
 
 
-def _begin(model, system, normal, dry, start, speed, elements):
-    """Pairs (2, m), forces (2, c) and status (c,) at time 0."""
+def _begin(model, system, normal, dry, start, speed, elements, states):
+    """Pairs (2, m), forces (2, c), status (c,) and states of friction (k, 2) at time 0."""
     contacts = model.contacts
     gap = normal.gap + contacts.normal @ start.displacement
     rate, slip = contacts.normal @ start.velocity, contacts.lever * speed - contacts.tangent @ start.velocity
@@ -165,20 +175,19 @@ def _begin(model, system, normal, dry, start, speed, elements):
         surface_shift(elements.waviness, (float(start.age), float(start.angle), float(speed)), shift)
         gap, rate = gap + shift[0], rate + shift[1]
     force = np.zeros((2, len(gap)))
+    force[0], yields = normal_force(normal, gap, rate)
     if start.worn is not None and elements.wear.size:       # goes on where damping felt the wear as well
         force[0] = start.normal
-    elif normal.kind == PENALTY:
-        force[0] = np.where(gap < 0, np.maximum(-normal.stiffness * gap - normal.damping * rate, 0.0), 0.0)
-    elif normal.kind == TABLE:
-        force[0] = [table_force(normal, i, -gap[i], -rate[i])[0] for i in range(len(gap))]
     elif start.normal is not None:
-        force[0] = start.normal
+        force[0] = np.where(yields, force[0], start.normal)
     force[0] = np.where(normal.fixed >= 0, normal.fixed, force[0])
     closed = (gap <= 0) | (force[0] > 0)
-    mu = [coefficient(dry, force[0, i] / contacts.area[i], slip[i]) for i in range(len(gap))]
+    value = started(states, force[0], slip) if start.states is None else contiguous(start.states)
+    dry.contact[:, FACTOR] = factors(states, value, start.angle)
+    mu = [coefficient(dry, i, force[0, i] / contacts.area[i], slip[i], slip[i]) for i in range(len(gap))]
     force[1] = np.sign(slip) * mu * force[0] if start.friction is None else start.friction
     status = np.where(closed, np.where(slip == 0, STICK, SLIP), OPEN).astype(np.int64)
-    return contiguous(system.to_pairs(start.displacement, start.velocity)), force, status
+    return contiguous(system.to_pairs(start.displacement, start.velocity)), force, status, value
 
 
 def _speed_at_start(model, drive):
@@ -203,12 +212,12 @@ def _inputs(model, inputs):
     return _history(np.zeros(count) if inputs is None else inputs, count, "inputs")
 
 
-def _empty(linear, elements, kept, start):
+def _empty(linear, elements, states, kept, start):
     sensors, contacts = len(linear.sensors) // 2, len(linear.rows) // 4
     return Record(*np.zeros((2, sensors, kept)), *np.zeros((4, contacts, kept)),
                   np.zeros((contacts, kept), np.int8), np.zeros(kept), np.zeros((6, kept)),
                   *np.zeros((2, len(elements.kind), kept)), np.zeros((contacts, 3)), np.zeros(linear.step.shape[1:]),
-                  no_memory(elements), np.array([float(start.angle)]),
+                  no_memory(elements), np.zeros((states, 2)), np.array([float(start.angle)]),
                   np.zeros(contacts) if start.worn is None else contiguous(start.worn))
 
 

@@ -19,9 +19,15 @@ import numpy as np
 from numba import njit
 
 from pipeline.physics.dry_friction import (
+    DELAYED,
     EVOLUTION,
+    EXPONENT,
+    LOAD_KEPT,
+    LOAD_SHARE,
     RIGID,
     SLIDING_SLOPE,
+    STATIC,
+    STIFFNESS,
     coefficient,
     evolution_rule,
 )
@@ -44,8 +50,9 @@ class NormalKernel(NamedTuple):
     stiffness: np.ndarray       # (c,) N/m, penalty
     damping: np.ndarray         # (c,) N s/m, penalty
     closure: np.ndarray         # (k,) m, table
-    pressure: np.ndarray        # (k,) Pa, table
-    damping_speed: float        # m/s, table
+    pressure: np.ndarray        # (g k,) Pa, tables of g groups on the same closures, stacked
+    first: np.ndarray           # (c,) where the table of a contact begins; below 0 for penalty among tables
+    damping_speed: np.ndarray   # (c,) m/s, table
     restitution: float          # hard
     newmark: bool               # the linear part is stepped by Newmark's rule, contact and friction forces with it
 
@@ -57,12 +64,13 @@ def table_force(law, i, closure, rate):
         return 0.0, 0.0, 0.0
     last = law.closure.size - 2
     k = min(max(np.searchsorted(law.closure, closure) - 1, 0), last)
-    slope = (law.pressure[k + 1] - law.pressure[k]) / (law.closure[k + 1] - law.closure[k])
-    force = law.area[i] * (law.pressure[k] + slope * (closure - law.closure[k]))
-    factor = 1.0 + rate / law.damping_speed
+    first = law.first[i] + k
+    slope = (law.pressure[first + 1] - law.pressure[first]) / (law.closure[k + 1] - law.closure[k])
+    force = law.area[i] * (law.pressure[first] + slope * (closure - law.closure[k]))
+    factor = 1.0 + rate / law.damping_speed[i]
     if factor <= 0.0:
         return 0.0, 0.0, 0.0
-    return force * factor, law.area[i] * slope * factor, force / law.damping_speed
+    return force * factor, law.area[i] * slope * factor, force / law.damping_speed[i]
 
 
 @njit(cache=True)
@@ -128,7 +136,7 @@ def _one_contact(law, friction, i, y, r, past, held, drive, way, guess, before, 
 @njit(cache=True)
 def _rigid(law, friction, i, y, r, past, held, drive, way, guess, before):
     """Sticks if the force that ends the slip (forward increments: allows none) stays below the limit, else slides."""
-    share, kept = _mean_load(law, held)
+    share, kept = _mean_load(law, friction, i, held)
     slip_begin = drive[0] - past[3]
     missing, per_force = drive[1] - y[3], r[3]
     if law.kind == LAGRANGE and not law.newmark:
@@ -140,9 +148,9 @@ def _rigid(law, friction, i, y, r, past, held, drive, way, guess, before):
         if code == SOLVED:
             tangent = fixed + slope * normal
             load = kept + share * normal
-            limit = coefficient(friction, load / law.area[i], 0.0) * load
+            limit = coefficient(friction, i, load / law.area[i], 0.0, tangent) * load
             if before == STICK:
-                limit *= friction.static_factor
+                limit *= friction.contact[i, STATIC]
             if abs(tangent) <= limit:
                 return normal, tangent, STICK if normal > 0.0 else OPEN, SOLVED
             sign = np.sign(tangent)
@@ -150,7 +158,7 @@ def _rigid(law, friction, i, y, r, past, held, drive, way, guess, before):
             return 0.0, 0.0, OPEN, code
     normal, speed, mu = guess[0], abs(slip_begin), -1.0
     for _ in range(ITERATIONS):
-        read = coefficient(friction, (kept + share * normal) / law.area[i], speed)
+        read = coefficient(friction, i, (kept + share * normal) / law.area[i], speed, sign)
         if abs(read - mu) <= LOCAL_TOLERANCE:
             return normal, sign * mu * (kept + share * normal), SLIP if normal > 0.0 else OPEN, SOLVED
         mu = read
@@ -164,8 +172,10 @@ def _rigid(law, friction, i, y, r, past, held, drive, way, guess, before):
 
 
 @njit(cache=True)
-def _mean_load(law, held):
+def _mean_load(law, friction, i, held):
     """(share, kept): the normal force that carries rigid friction over the step is kept + share N."""
+    if friction.contact[i, DELAYED] > 0.0:
+        return friction.contact[i, LOAD_SHARE], friction.contact[i, LOAD_KEPT]
     if law.kind == HARD or law.kind == LAGRANGE or law.newmark:
         return 1.0, 0.0
     return 0.5, 0.5 * held[0]
@@ -174,7 +184,7 @@ def _mean_load(law, held):
 @njit(cache=True)
 def _yielding(law, friction, i, y, r, past, held, drive, way, guess, before):
     """Friction that is a function of the slip of the step, by Newton's method on T, N following T."""
-    stiffness, tangent = friction.stiffness[i], guess[1]
+    stiffness, tangent = friction.contact[i, STIFFNESS], guess[1]
     if not law.newmark and stiffness * r[2][1] > LARGEST_STIFFNESS:
         return 0.0, 0.0, OPEN, TOO_LONG
     normal, speed = guess[0], abs(drive[1] - past[3])
@@ -187,8 +197,8 @@ def _yielding(law, friction, i, y, r, past, held, drive, way, guess, before):
         else:
             slip = way + past[2] - (y[2] + r[2][0] * normal + r[2][1] * tangent)
             speed = abs(drive[1] - (y[3] + r[3][0] * normal + r[3][1] * tangent))
-            tangent_new, slope, sliding = _drawn(friction, i, held[1], slip, normal, normal / law.area[i], speed,
-                                                 before)
+            load = friction.contact[i, LOAD_KEPT] + friction.contact[i, LOAD_SHARE] * normal
+            tangent_new, slope, sliding = _drawn(friction, i, held[1], slip, load, load / law.area[i], speed, before)
             if sliding:
                 before = SLIP       # once loose in this step, no longer held by static friction
         change = (tangent_new - tangent) / (1.0 + slope * r[2][1])
@@ -201,20 +211,20 @@ def _yielding(law, friction, i, y, r, past, held, drive, way, guess, before):
 
 
 @njit(cache=True)
-def _drawn(friction, i, begin, slip, normal, pressure, speed, before):
+def _drawn(friction, i, begin, slip, load, pressure, speed, before):
     """(T, dT/dslip, slides) of the elastic or the evolution description."""
-    stiffness = friction.stiffness[i]
+    stiffness = friction.contact[i, STIFFNESS]
     if friction.description == EVOLUTION:
-        limit = coefficient(friction, pressure, speed) * normal
-        tangent, slope = evolution_rule(begin, slip, limit, stiffness, friction.exponent)
+        limit = coefficient(friction, i, pressure, speed, slip) * load
+        tangent, slope = evolution_rule(begin, slip, limit, stiffness, friction.contact[i, EXPONENT])
         return tangent, slope, slope < SLIDING_SLOPE * stiffness
     trial = begin + stiffness * slip
-    hold = coefficient(friction, pressure, 0.0) * normal
+    hold = coefficient(friction, i, pressure, 0.0, trial) * load
     if before == STICK:
-        hold *= friction.static_factor
+        hold *= friction.contact[i, STATIC]
     if abs(trial) <= hold:
         return trial, stiffness, False
-    return np.sign(trial) * coefficient(friction, pressure, speed) * normal, 0.0, True
+    return np.sign(trial) * coefficient(friction, i, pressure, speed, trial) * load, 0.0, True
 
 
 @njit(cache=True)
@@ -233,7 +243,7 @@ def _normal(law, i, y, r, past, fixed, slope, guess):
         return 0.0, SOLVED
     if law.kind == LAGRANGE:
         return (-gap / flexible, SOLVED) if flexible > 0.0 else (0.0, JAMMED)
-    if law.kind == PENALTY:
+    if law.kind == PENALTY or law.first[i] < 0:
         k, d = law.stiffness[i], law.damping[i]
         if not law.newmark and k * r[0][0] > LARGEST_STIFFNESS:
             return 0.0, TOO_LONG

@@ -8,7 +8,15 @@ the gap of its contact.
 import numpy as np
 from numba import njit
 
-from pipeline.physics.element_forces import MAXWELL, TOLERANCE, UNSETTLED, element_force, solve_elements, wave
+from pipeline.physics.element_forces import (
+    MAXWELL,
+    TOLERANCE,
+    UNSETTLED,
+    element_force,
+    laws_of,
+    solve_elements,
+    wave,
+)
 from pipeline.physics.time_stepping_contact import SOLVED, solve_contacts
 
 ROUNDS = 200
@@ -66,7 +74,7 @@ def solve_together(law, friction, response, elements, alone, free, seen, held, s
     at the end; ``free`` gets the former with the element forces, ``place`` (2, e) the latter with all. ``earlier``
     (c,) is the status at the begin, ``drawn`` (e,) the element forces.
     """
-    contacts, count = law.gap.size, drawn.size
+    contacts, count, laws = law.gap.size, drawn.size, laws_of(elements)
     loose, grain = place.copy(), np.zeros(count)
     for _ in range(ROUNDS):
         for i in range(contacts):
@@ -90,21 +98,27 @@ def solve_together(law, friction, response, elements, alone, free, seen, held, s
                         total += elements.to_elements[o, k, f, i] * force[f, i]
                 loose[o, k] = total
             place[0, k] = drawn[k]
-        code, number = solve_elements(elements, loose, begin, remembered, memory, drawn, grain, instant)
+        code, number = solve_elements(laws, loose, begin, remembered, memory, drawn, grain, instant)
         if code != SOLVED:
             return code, number
         for k in range(count):
             size = max(size, abs(drawn[k]))
         for k in range(count):
             settled = settled and abs(drawn[k] - place[0, k]) <= TOLERANCE * size + grain[k]
-        if contacts == 0 or settled:
-            for k in range(count):
-                for o in range(2):
-                    place[o, k] = loose[o, k]
-                    for j in range(count):
-                        place[o, k] += elements.own[o, k, j] * drawn[j]
+        if settled:
+            pulled(laws.own, loose, drawn, place)
             return SOLVED, 0
     return UNSETTLED, 0
+
+
+@njit(cache=True)
+def pulled(own, loose, drawn, place):
+    """Fill ``place`` (2, e): elongation and rate ``loose`` (2, e) with the element forces ``drawn`` (e,)."""
+    for k in range(drawn.size):
+        for o in range(2):
+            place[o, k] = loose[o, k]
+            for j in range(drawn.size):
+                place[o, k] += own[o, k, j] * drawn[j]
 
 
 @njit(cache=True)

@@ -3,9 +3,11 @@
 import numpy as np
 
 from pipeline.contract.errors import ConfigError
-from pipeline.physics.dry_friction import RIGID, kernel
+from pipeline.physics.contact_groups import parts
+from pipeline.physics.dry_friction import RIGID, STIFFNESS
 from pipeline.physics.elements import element_kernel
-from pipeline.physics.time_stepping_contact import LARGEST_STIFFNESS
+from pipeline.physics.friction_state_steps import MEMORY
+from pipeline.physics.time_stepping_contact import LARGEST_STIFFNESS, PENALTY, TABLE
 from pipeline.physics.time_stepping_laws import Forward, Hard, contiguous
 from pipeline.physics.time_stepping_linear import newmark_matrices, step_matrices
 from pipeline.physics.time_stepping_march import LinearKernel
@@ -14,15 +16,16 @@ from pipeline.physics.time_stepping_march import LinearKernel
 STEPS_PER_PERIOD = 2.5
 
 
-def linear_kernel(model, system, law, friction, step):
-    """LinearKernel: rows of contacts, inputs and elements, seen and driven through one step."""
+def linear_kernel(model, system, law, dry, step):
+    """LinearKernel: rows of contacts, inputs and elements, seen and driven through one step; ``dry`` FrictionKernel."""
     contacts, count = model.contacts, len(model.contacts.area)
+    law = parts(law, count)[0][0]       # those of all groups are stepped alike
     gamma = getattr(law, "gamma", None)
     matrices = step_matrices(system, step) if gamma is None else newmark_matrices(system, step, gamma)
     forced = system.driven(np.vstack((contacts.normal, contacts.tangent, model.input_rows, -_element_rows(model))))
     first, last = (np.einsum("bxy,ryb->rxb", matrix, forced) for matrix in matrices[1:])
     kicks = isinstance(law, Forward)
-    hold = np.array([kicks or isinstance(law, Hard), kernel(friction, count).description == RIGID])
+    hold = np.array([kicks or isinstance(law, Hard), dry.description == RIGID])
     if gamma is not None:
         hold[:] = False
     for f in np.flatnonzero(hold):
@@ -70,8 +73,11 @@ def _forms(system):
     return (speed.T @ speed + place.T @ (system.squared[:, None] * place)) / 2, speed.T @ drag @ speed
 
 
-def refuse(system, linear, normal, dry, model, step):
-    """Refuse, before the first step, one that is too long, and contacts that nothing can move."""
+def refuse(system, linear, normal, dry, states, model, step):
+    """Refuse, before the first step, one that is too long, contacts that nothing can move, memory of impulses."""
+    if np.any(states.kind == MEMORY) and (normal.kind not in (PENALTY, TABLE) or normal.newmark):
+        raise ConfigError("time stepping: friction with memory", "contacts that yield, Penalty or Table without gamma",
+                          "another law", "give the contacts a stiffness")
     if not normal.newmark and system.highest * step > 2 * np.pi / STEPS_PER_PERIOD:
         longest = 2 * np.pi / STEPS_PER_PERIOD / system.highest
         raise ConfigError("time stepping: step", f"at most {longest:.3g} s, {STEPS_PER_PERIOD:g} steps in a period of"
@@ -84,7 +90,7 @@ def refuse(system, linear, normal, dry, model, step):
             continue
         found = [normal.stiffness[i] * linear.response[0, 0, i, i]]
         if dry.description != RIGID:
-            found.append(dry.stiffness[i] * linear.response[2, 1, i, i])
+            found.append(dry.contact[i, STIFFNESS] * linear.response[2, 1, i, i])
         if max(found) > LARGEST_STIFFNESS:
             longest = step * np.sqrt(LARGEST_STIFFNESS / max(found))
             raise ConfigError("time stepping: step", f"at most about {longest:.2g} s for the stiffness of contact {i}",

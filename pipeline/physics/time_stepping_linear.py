@@ -126,6 +126,12 @@ def _pairs(squared, damping):
     count = len(squared)
     blocks, state, pairs = np.zeros((count, 2, 2)), np.zeros((2 * count, 2, count)), np.zeros((2, count, 2 * count))
     linked = abs(damping) > _COUPLING * abs(damping).max(initial=0.0)
+    if not linked[~np.eye(count, dtype=bool)].any():
+        own, unit = np.arange(count), np.zeros((count, 2, 2, count))
+        blocks[:, 0, 1], blocks[:, 1, 0], blocks[:, 1, 1] = 1.0, -squared, -np.diag(damping)
+        unit[own, 0, 0, own] = unit[own, 1, 1, own] = 1.0
+        state = unit.swapaxes(0, 1).reshape(2 * count, 2, count)
+        return blocks, state, np.ascontiguousarray(state.transpose(1, 2, 0)), False
     groups, label = connected_components(linked, directed=False)
     for group in range(groups):
         own = np.flatnonzero(label == group)

@@ -12,10 +12,14 @@ from typing import NamedTuple
 import numpy as np
 from numba import njit
 
+from pipeline.physics.dry_friction import RIGID
+from pipeline.physics.element_forces import TURNING, laws_of, solve_elements, turn
+from pipeline.physics.friction_state_steps import expect, settle
 from pipeline.physics.time_stepping_contact import SOLVED, solve_contacts
 from pipeline.physics.time_stepping_elements import (
     first_forces,
     middle_angle,
+    pulled,
     recede,
     settle_element_books,
     shift_work,
@@ -72,6 +76,7 @@ class Record(NamedTuple):
     share: np.ndarray           # (c, 3) steps open, sticking, sliding
     end: np.ndarray             # (2, m) pairs after the last step
     memory: np.ndarray          # (s,) of the elements after the last step
+    states: np.ndarray          # (k, 2) of friction after the last step
     angle: np.ndarray           # (1,) rad of the drive, at time 0, then after the last step
     worn: np.ndarray            # (c,) m that the contacts have receded by, at time 0, then after the last step
 
@@ -131,39 +136,41 @@ def _loss_rate(power, drag, pairs):
 
 
 @njit(cache=True)
-def stored_energy(linear, pairs):
+def stored_energy(energy, pull, pairs):
     """Kinetic and strain energy, J."""
-    if linear.energy.size:
+    if energy.size:
         state = pairs.ravel()
-        return state @ (linear.energy @ state)
-    return 0.5 * np.sum(pairs[1] ** 2 + linear.pull * pairs[0] ** 2)
+        return state @ (energy @ state)
+    total = 0.0
+    for b in range(pairs.shape[1]):
+        total += pairs[1, b] ** 2 + pull[b] * pairs[0, b] ** 2
+    return 0.5 * total
 
 
 @njit(cache=True)
-def _keep(linear, law, record, row, pairs, watched, seen, force, drive, status, steps, work):
-    sensors = watched.size // 2
-    _see(linear.sensors, pairs, watched)
-    for s in range(sensors):
-        record.displacement[s, row], record.velocity[s, row] = watched[s], watched[sensors + s]
+def _keep(kept, gap, stored, record, row, seen, force, drive, status, steps, work):
+    for s in range(kept.size // 2):
+        record.displacement[s, row], record.velocity[s, row] = kept[s], kept[kept.size // 2 + s]
     for i in range(seen.shape[1]):
-        record.gap[i, row] = law.gap[i] + seen[0, i]
+        record.gap[i, row] = gap[i] + seen[0, i]
         record.normal[i, row], record.friction[i, row] = force[0, i] / steps, force[1, i] / steps
         record.slip[i, row] = drive[i] - seen[3, i]
         record.status[i, row] = status[i]
-    record.stored[row] = stored_energy(linear, pairs)
-    record.work[:, row] = work
+    record.stored[row] = stored
+    for k in range(work.size):
+        record.work[k, row] = work[k]
 
 
 @njit(cache=True)
-def _keep_elements(record, row, place, drawn):
+def _keep_elements(elongation, element_force, row, place, drawn):
     for k in range(drawn.size):
-        record.elongation[k, row], record.element_force[k, row] = place[0, k], drawn[k]
+        elongation[k, row], element_force[k, row] = place[0, k], drawn[k]
 
 
 @njit(cache=True)
-def march(linear, law, friction, elements, lever, drive, inputs, pairs, force, status, memory, age, step, steps, every,
-          book, record):
-    """(code, step number, contact or element): fills ``record`` from ``pairs``, ``force``, ``status``, ``memory``.
+def march(linear, law, friction, elements, states, lever, drive, inputs, pairs, force, status, memory, value, age, step,
+          steps, every, book, record):
+    """(code, step number, contact or element): fills ``record`` from what stands at time 0, ``pairs`` to ``value``.
 
     ``lever`` (c,), ``drive`` HistoryKernel of the drive speed, ``inputs`` of the input forces; ``age`` s passed before
     time 0; ``book``: whether the work of inputs and dampers is summed.
@@ -172,6 +179,7 @@ def march(linear, law, friction, elements, lever, drive, inputs, pairs, force, s
     # functions of the loop take the arrays that they need: a whole tuple of arrays costs more than their work
     one_step, first, last, rows, response = linear.step, linear.first, linear.last, linear.rows, linear.response
     input_rows, power, drag, struck, share = linear.input_rows, linear.power, linear.drag, linear.struck, record.share
+    sensors, energy, pull, gap = linear.sensors, linear.energy, linear.pull, law.gap
     holds = (linear.hold[0] > 0, linear.hold[1] > 0)
     free, seen, after = np.zeros((4, contacts)), np.zeros((4, contacts)), np.zeros_like(pairs)
     held, summed, turning = force.copy(), np.zeros((2, contacts)), np.zeros(1)
@@ -191,11 +199,15 @@ def march(linear, law, friction, elements, lever, drive, inputs, pairs, force, s
         _push(first, 2 * contacts, begin, steady)
         _push(last, 2 * contacts, begin, steady)
     count_e, waves = elements.kind.size, elements.waviness.shape[0] > 0
+    recalls, middle = states.kind.size > 0, friction.description == RIGID and not law.newmark
+    turns_aside = np.any(elements.kind == TURNING)
     wear, worn, pace = elements.wear, record.worn, np.zeros(elements.wear.size)
-    special, angle, spin = count_e > 0 or waves or wear.size > 0, record.angle[0], np.zeros(1)
+    special, angle, spin = count_e > 0 or waves or wear.size > 0 or recalls, record.angle[0], np.zeros(1)
+    slip, slipped, mean = np.zeros(contacts), np.zeros(contacts), np.zeros(contacts)
     alone, shift, shift_before = np.zeros((4, contacts)), np.zeros((2, contacts)), np.zeros((2, contacts))
     lonely, now, later = np.zeros((2, count_e)), np.zeros((2, count_e)), np.zeros((2, count_e))
     drawn, drawn_before, remembered, earlier = np.zeros(count_e), np.zeros(count_e), memory.copy(), status.copy()
+    laws, element_rows, grain, lonely_flat = laws_of(elements), elements.rows, np.zeros(count_e), lonely.ravel()
     _see(input_rows, pairs, place)
     _see(rows, pairs, seen_flat)
     if special:
@@ -207,9 +219,11 @@ def march(linear, law, friction, elements, lever, drive, inputs, pairs, force, s
         seen[0] += shift[0]
         seen[1] += shift[1]
         _see(elements.rows, pairs, now.ravel())
+        turn(elements, force[1], sliding[1] - seen[3], now[1])
         first_forces(elements, now, memory, drawn, instant)
-        _keep_elements(record, 0, now, drawn)
-    _keep(linear, law, record, 0, pairs, watched, seen, force, sliding[1], status, 1, work)
+        _keep_elements(record.elongation, record.element_force, 0, now, drawn)
+    _see(sensors, pairs, watched)
+    _keep(watched, gap, stored_energy(energy, pull, pairs), record, 0, seen, force, sliding[1], status, 1, work)
     loss = _loss_rate(power, drag, pairs) if book else 0.0
     for number in range(1, steps + 1):
         _advance(one_step, steady, pairs, after)
@@ -222,7 +236,7 @@ def march(linear, law, friction, elements, lever, drive, inputs, pairs, force, s
             drawn_before[:] = drawn
             shift_before[:] = shift
             remembered[:] = memory
-            spun = spin[0]
+            spun, angle_before = spin[0], angle
             read(drive, number * step, spin)
             angle = middle_angle(angle, spun, spin[0], step)
             instant = (age + number * step, angle, spin[0])
@@ -234,6 +248,12 @@ def march(linear, law, friction, elements, lever, drive, inputs, pairs, force, s
                     sliding[0, i], sliding[1, i] = sliding[1, i], lever[i] * turning[0]
                     way[i] = 0.5 * step * (sliding[0, i] + sliding[1, i])
             held_flat[:] = force_flat
+            if recalls or turns_aside:
+                slip[:] = sliding[0] - seen[3]
+            if turns_aside:
+                turn(elements, held[1], slip, now[1])
+            if recalls:
+                expect(states, value, friction, held[0], slip, held[1], angle_before, angle, step, middle)
             if not (holds[0] and holds[1]):
                 _push(first, 0, held_flat, after)
             _see(rows, after, free_flat)
@@ -248,12 +268,16 @@ def march(linear, law, friction, elements, lever, drive, inputs, pairs, force, s
             for i in range(contacts):
                 free[0, i] += shift[0, i]
                 free[1, i] += shift[1, i]
-            alone[:] = free
-            earlier[:] = status
-            _see(elements.rows, after, lonely.ravel())
-            code, contact = solve_together(law, friction, response, elements, alone, free, seen, held, sliding, way,
-                                           force, status, earlier, before, lonely, later, now[0], remembered, memory,
-                                           drawn, instant)
+            _see(element_rows, after, lonely_flat)
+            if contacts:
+                alone[:] = free
+                earlier[:] = status
+                code, contact = solve_together(law, friction, response, elements, alone, free, seen, held, sliding, way,
+                                               force, status, earlier, before, lonely, later, now[0], remembered,
+                                               memory, drawn, instant)
+            else:
+                code, contact = solve_elements(laws, lonely, now[0], remembered, memory, drawn, grain, instant)
+                pulled(laws.own, lonely, drawn, later)
             if code != SOLVED:
                 return code, number, contact
             _push(last, 2 * contacts + count, drawn, after)
@@ -270,6 +294,10 @@ def march(linear, law, friction, elements, lever, drive, inputs, pairs, force, s
                 jump[0] = 0.5 * step * (seen[1] + hit[1])
                 jump[1] = 0.5 * step * (seen[3] + hit[3])
             _account(response, jump, holds, held, force, free, seen, way, status, share, summed, work)
+            if recalls:
+                slipped[:] = sliding[1] - seen[3]
+                mean[:] = force[1] if holds[1] else 0.5 * (held[1] + force[1])
+                settle(states, value, force[0] if holds[0] else held[0], force[0], slip, slipped, mean, step)
             wear_on(wear, force[0], sliding[1], seen[3], step, worn, pace)
         if book:
             rate = _loss_rate(power, drag, after)
@@ -287,12 +315,15 @@ def march(linear, law, friction, elements, lever, drive, inputs, pairs, force, s
         if number % every == 0:
             if not np.isfinite(np.sum(pairs)):
                 return DIVERGED, number, 0
-            _keep(linear, law, record, number // every, pairs, watched, seen, summed, sliding[1], status, every, work)
+            _see(sensors, pairs, watched)
+            _keep(watched, gap, stored_energy(energy, pull, pairs), record, number // every, seen, summed, sliding[1],
+                  status, every, work)
             if special:
-                _keep_elements(record, number // every, now, drawn)
+                _keep_elements(record.elongation, record.element_force, number // every, now, drawn)
             summed[:] = 0.0
     record.end[:] = pairs
     record.memory[:] = memory
+    record.states[:] = value
     record.angle[0] = angle
     return SOLVED, 0, 0
 

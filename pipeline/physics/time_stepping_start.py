@@ -5,18 +5,23 @@ With s_i the sign of sliding, the closed contacts C obey
 
     K q - sum_C (n_i + s_i mu_i t_i) N_i = f,      n_i q + gap_i + c_i(N_i) = 0,
 
-solved together, so that contacts may be what holds a body. Contacts that would pull are opened, gaps that would be
-negative are closed, until neither is left. Friction joints add s_i mu_i N_i t_i to f, nonlinear elements their forces
-at rest by Newton's method: those with memory as if loaded for the first time, dry friction none.
+mu_i with what the states of friction make of it, solved together, so that contacts may be what holds a body. Contacts
+that would pull are opened, gaps that would be negative are closed, until neither is left. Friction joints add
+s_i mu_i N_i t_i to f, nonlinear elements their forces at rest by Newton's method: those with memory as if loaded for
+the first time, dry friction none.
 """
 
 import numpy as np
 
 from pipeline.contract.errors import ConfigError, ConvergenceError
+from pipeline.physics.contact_groups import read
+from pipeline.physics.dry_friction import coefficients
 from pipeline.physics.element_forces import DRY, element_force
 from pipeline.physics.elements import alone, wave_table
-from pipeline.physics.time_stepping import Penalty, Start, Table
+from pipeline.physics.friction_states import factors, started, state_kernel
+from pipeline.physics.time_stepping import Start
 from pipeline.physics.time_stepping_elements import no_memory, surface_shift
+from pipeline.physics.time_stepping_laws import closing
 
 _ROUNDS = 200
 _TOLERANCE = 1e-10
@@ -30,13 +35,14 @@ def steady_start(model, law, friction, inputs):
     """
     contacts = model.contacts
     load, stiffness = np.asarray(inputs, float) @ model.input_rows, model.supported()[2]
-    gap = np.broadcast_to(np.asarray(law.gap, float), len(contacts.area)) + _waves(contacts)
+    gap = read(law, "gap", len(contacts.area)) + _waves(contacts)
     elements, memory, rest, slope = alone(model.elements), None, 0.0, 0.0
-    fixed = contacts.fixed
+    states, fixed = state_kernel(friction, contacts.area), contacts.fixed
     sign, closed, force = np.sign(model.sliding_speed), ~fixed, contacts.preload
     for _ in range(_ROUNDS):
-        drawn = sign * friction.at_speed(model.sliding_speed, force / contacts.area)
-        give, offset = _yielding(law, force, contacts.area)
+        grown = factors(states, started(states, force, model.sliding_speed), 0.0)
+        drawn = sign * grown * coefficients(friction, model.sliding_speed, force / contacts.area)
+        give, offset = closing(law, force, contacts.area)
         held = load + (drawn * force)[fixed] @ contacts.tangent[fixed] - rest
         pushed = contacts.normal + drawn[:, None] * contacts.tangent
         place, found = _solve(stiffness + slope, held, contacts.normal, pushed, gap + offset, give, closed)
@@ -83,19 +89,6 @@ def random_kick(system, sensor_rows, velocity, seed):
     kick = system.shape @ np.random.default_rng(seed).standard_normal(len(system.squared))
     seen = np.sqrt(np.mean((sensor_rows @ kick) ** 2)) if len(sensor_rows) else 0.0
     return kick * (velocity / seen if seen else 0.0)
-
-
-def _yielding(law, force, area):
-    """(slope, rest) of the closure of each contact about its force: c = slope N + rest."""
-    none = np.zeros(len(force))
-    if isinstance(law, Penalty):
-        return none + 1 / np.asarray(law.stiffness, float), none
-    if not isinstance(law, Table):
-        return none, none
-    closure, pressure = np.asarray(law.closure, float), np.asarray(law.pressure, float)
-    k = np.clip(np.searchsorted(pressure, force / area, side="right") - 1, 0, len(pressure) - 2)
-    slope = (closure[k + 1] - closure[k]) / (pressure[k + 1] - pressure[k])
-    return slope / area, closure[k] - slope * pressure[k]
 
 
 def _solve(stiffness, load, normal, pushed, gap, give, closed):

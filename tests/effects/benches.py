@@ -30,7 +30,8 @@ def rubbing(law=None, friction=None, speed=2.0, step=1e-4):
     rows = [[1, 0, 0], [0, 1, 0], [0, 0, 1]]
     model = lumps([1.0, 1.0, 0.5], rows, [4e3, 500.0, 300.0], [6.0, 5.0, 4.0], [[0.1, 1, 0.3], [0.1, 1, -0.3]],
                   [[1, 0, 0.1], [1, 0, 0.1]], speed)
-    contacts = replace(model.contacts, position=np.array([[0.1, 0, 0], [0, 0.1, 0]]), area=np.full(2, 1e-3))
+    contacts = replace(model.contacts, position=np.array([[0.1, 0, 0], [0, 0.1, 0]]), area=np.full(2, 1e-3),
+                       lateral=np.array([[0, 0, 0.2], [0, 0, 0.2]]))
     channels = (Channel("x", "displacement", "sensor_0"), Channel("y", "displacement", "sensor_1"),
                 Channel("turn", "displacement", "sensor_2"), Channel("n", "normal_force", "contact"),
                 Channel("t", "friction_force", "contact"))
@@ -45,7 +46,7 @@ def tabled():
 
 def pressed(duration=0.3):
     """A run of ``rubbing``: pressed by 40 N, shaken along and across, the drive slowing down and turning round."""
-    run = Run("pressed", duration, RATE, conditions={"input_1": -40.0})
+    run = Run("pressed", duration, RATE, conditions={"input_1": -40.0, "humidity": 0.8})
     swing = np.sin(60 * run.time)
     return replace(run, inputs={"input_0": 6 * swing, "input_1": -40 + 8 * np.sin(35 * run.time)},
                    drive=2.0 - 2.5 * run.time / duration)
@@ -58,6 +59,14 @@ def slider(law=None, friction=None, speed=2.0, area=1e-3, step=1e-4):
     channels = (Channel("x", "displacement", "sensor_0"), Channel("y", "displacement", "sensor_1"),
                 Channel("n", "normal_force", "contact"), Channel("t", "friction_force", "contact"))
     return Bench(model, law or Penalty(2e4), friction or constant(0.3), step, channels, settled=True)
+
+
+def anchored(friction, mass=1e9):
+    """A ``slider`` so heavy along the belt that it stays where it is, on a stiffer, damped contact; 2 m/s."""
+    bench = slider(Penalty(1e6), friction)
+    matrix, damping = np.diag([mass, 1.0]), np.diag([0.0, 600.0])
+    channels = (bench.channels[0], *bench.channels[2:])
+    return replace(bench, model=replace(bench.model, mass=matrix, damping=damping), channels=channels)
 
 
 def round_disc(doublets=None):

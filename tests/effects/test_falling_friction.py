@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from pipeline.effects import named
-from pipeline.physics.bench import respond
-from tests.effects.benches import slider, steady
+from pipeline.physics.bench import Channel, respond
+from tests.effects.benches import rubbing, slider, steady
 
 
 @pytest.mark.exact
@@ -30,3 +30,12 @@ def test_growth_rate_of_a_mass_on_a_belt():
     turn = round(2 * np.pi / np.sqrt(400 - rate**2) * 2000)
     first, last = (abs(swing[k:k + turn]).max() for k in (500, 500 + 5 * turn))
     assert np.log(last / first) * 2000 / (5 * turn) == pytest.approx(rate, rel=0.03)
+
+
+@pytest.mark.exact
+def test_one_group_of_contacts_alone():
+    channels = tuple(Channel(f"{q} {g}", f"{q}_force", g) for q in ("normal", "friction") for g in ("left", "right"))
+    bench = named("falling_friction").on(replace(rubbing(), channels=channels), "left", {"rise": 0.4, "decay_speed": 2})
+    found = respond(bench, steady(speed=2.0))
+    for group, mu in (("left", 0.3 * (1 + 0.4 * np.exp(-1))), ("right", 0.3)):
+        np.testing.assert_allclose(found[f"friction {group}"], mu * found[f"normal {group}"], rtol=1e-3)

@@ -22,12 +22,12 @@ def test_falling_characteristic():
     friction, speed = falling(0.5, 0.2, 0.03), np.linspace(-0.3, 0.3, 1001)
     exact = 0.2 + 0.3 * np.exp(-abs(speed) / 0.03)
     np.testing.assert_allclose(friction.at_speed(speed), exact, atol=2e-5 * 0.3)
-    compiled = [coefficient(kernel(friction, 1), 0.0, v) for v in speed]
+    compiled = [coefficient(kernel(friction, 1), 0, 0.0, v, v) for v in speed]
     np.testing.assert_allclose(compiled, friction.at_speed(speed), rtol=1e-14)
 
 
 def test_one_coefficient_at_all_states():
-    assert coefficient(kernel(constant(0.4), 1), 3e6, -7.0) == 0.4
+    assert coefficient(kernel(constant(0.4), 1), 0, 3e6, -7.0, -1.0) == 0.4
 
 
 @pytest.mark.exact

@@ -25,7 +25,8 @@ from pipeline.physics.time_stepping_contact import (
 def normal(kind, contacts, stiffness=1e6, restitution=0.0):
     each = np.ones(contacts)
     return NormalKernel(kind, 0 * each, -1.0 * each, each, stiffness * each, 0 * each, np.array([0.0, 1e-6, 1e-5]),
-                        np.array([0.0, 1.0, 100.0]), 0.5, restitution, kind == LAGRANGE)
+                        np.array([0.0, 1.0, 100.0]), np.zeros(contacts, np.int64), 0.5 * each, restitution,
+                        kind == LAGRANGE)
 
 
 def solve(law, mobility, free, mu=0.3, past=None, status=None, **friction):

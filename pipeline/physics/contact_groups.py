@@ -1,0 +1,65 @@
+"""Laws that differ between contacts: of the normal contact or of friction, one for each group.
+
+    Grouped((Penalty(1e6), Penalty(4e6)), (0, 0, 1))        the third contact is stiffer
+
+Where all contacts share a law it stands for itself. Arrays (c,) of a law speak of all contacts of the model, whichever
+of them obey it.
+"""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from pipeline.contract.errors import ConfigError
+
+
+@dataclass(frozen=True)
+class Grouped:
+    """Contact i obeys ``laws[of[i]]``; ``of`` is (c,)."""
+
+    laws: tuple
+    of: np.ndarray
+
+    def __post_init__(self):
+        of = np.array(self.of, int)
+        object.__setattr__(self, "of", of)
+        if not (of.ndim == 1 and np.array_equal(np.unique(of), np.arange(len(self.laws)))):
+            raise ConfigError("laws of contact groups", f"every one of {len(self.laws)} laws at some contact",
+                              str(of))
+
+
+def parts(law, count):
+    """[(law, indices (k,) of the contacts that obey it)] of a law of ``count`` contacts, Grouped or not."""
+    if not isinstance(law, Grouped):
+        return [(law, np.arange(count))]
+    if len(law.of) != count:
+        raise ConfigError("laws of contact groups", f"one law for each of {count} contacts", f"{len(law.of)}")
+    return [(each, np.flatnonzero(law.of == k)) for k, each in enumerate(law.laws)]
+
+
+def read(law, name, count, default=None):
+    """Values (c,) of the field ``name`` at each contact; ``default`` for laws without it."""
+    found = np.empty(count)
+    for each, own in parts(law, count):
+        found[own] = np.broadcast_to(np.asarray(getattr(each, name, default), float), count)[own]
+    return found
+
+
+def changed(law, count, chosen, change):
+    """The law with ``change(law)`` at the contacts ``chosen`` (indices), elsewhere as it is."""
+    table, of = [], np.empty(count, int)
+    for each, own in parts(law, count):
+        inside = np.isin(own, chosen)
+        for one, members in ((each, own[~inside]), (change(each) if inside.any() else each, own[inside])):
+            if len(members):
+                known = [k for k, other in enumerate(table) if other is one]
+                of[members] = known[0] if known else len(table)
+                table += () if known else (one,)
+    return table[0] if len(table) == 1 else Grouped(tuple(table), of)
+
+
+def with_field(law, **fields):
+    """The law with these fields in all groups."""
+    if isinstance(law, Grouped):
+        return replace(law, laws=tuple(replace(each, **fields) for each in law.laws))
+    return replace(law, **fields)
