@@ -1,4 +1,4 @@
-"""What to record next: runs like one that was fitted with one thing changed each, and the one that separates a tie best.
+"""What to record next: runs like a fitted one with one thing changed each, and the one that separates a tie best.
 
 A condition or number of the bench is given as a value with its unit, or as a factor on that of the recorded run:
 
@@ -91,7 +91,8 @@ def _changed(bench, run, name, value, where):
         raise ConfigError(where, f"one of {', '.join(own)} or a number of the bench ({DRIVE}: a factor)", repr(value))
     if name == DRIVE:
         return replace(run, drive=value * np.asarray(run_drive(bench, run), float)), {}
-    changed = value * np.asarray(own[name], float) if factor else to_si(value, "rad/s" if name == "speed" else "N", where)
+    unit = "rad/s" if name == "speed" else "N"
+    changed = value * np.asarray(own[name], float) if factor else to_si(value, unit, where)
     if name in bench.model.input_name:
         return replace(run, inputs={**run.inputs, name: changed}), {}
     drive = None if name == "speed" else run.drive
