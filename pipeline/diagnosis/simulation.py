@@ -43,7 +43,7 @@ def completed(bench, hypothesis, values):
 
 @dataclass(frozen=True)
 class Simulated:
-    """Picklable prediction: ``runs`` {name: Run}; ``change`` {name: (c, n)}: what half the step changes.
+    """Picklable prediction, of cut runs too: ``runs`` {name: Run}; ``change`` {name: (c, n)}: what half the step changes.
 
     ``altered`` {name: changes}: runs on another bench, see ``next_run``.
     """
@@ -54,10 +54,14 @@ class Simulated:
     altered: dict = field(default_factory=dict)
 
     def __call__(self, hypothesis, values, run):
+        own, kept = self.runs[run.name], run.samples.shape[1]
+        own = own.until(kept) if kept < own.samples else own
         bench = altered(completed(self.bench, hypothesis, values), self.altered.get(run.name, {}))
-        predicted = shown(bench, self.runs[run.name], run.channels)
+        predicted = shown(bench, own, run.channels)
         refinement = values.get(parameter_name(STEP, SOLVER, REFINEMENT), 0.0)
-        return predicted + refinement * self.change.get(run.name, 0.0) if refinement else predicted
+        if not refinement or run.name not in self.change:       # runs that were not recorded have no change of theirs
+            return predicted
+        return predicted + refinement * self.change[run.name][:, :kept]
 
 
 def shown(bench, run, channels):
