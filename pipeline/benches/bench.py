@@ -29,6 +29,7 @@ class Fed(Section):
 
     channel: str = option(..., "recorded channel")
     gain: float = option(1.0, "in SI units of the input per SI unit of the channel")
+    derivative: bool = option(False, "the rate of change of the channel feeds it: a recorded position gives a speed")
     hold: Literal["linear", "step", "band_limited"] = option(
         "linear", "between samples; step: each is held until the next, as converters do; band_limited: nothing lies"
         " above half the sample rate (an anti-aliasing filter)")

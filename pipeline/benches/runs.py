@@ -1,7 +1,8 @@
 """From a recording to what a bench is run with, and what a diagnosis compares with.
 
 Scalar conditions of a run are handed on by name: ``speed`` is that of the drive, a condition named as an input is its
-force. Recorded channels feed inputs and the drive where the case says so.
+force, ``normal_load`` that of friction joints. Recorded channels feed inputs and the drive where the case says so;
+between samples of theirs that were lost they count as straight.
 """
 
 from dataclasses import dataclass
@@ -58,9 +59,8 @@ def _recorded(name, run, settings):
         raise ConfigError(f"run {name}", "channels of one rate and length",
                           f"{sorted(rates)} Hz, {sorted(lengths)} samples", "resample them to one rate first")
     rate, count = rates.pop(), lengths.pop()
-    inputs = {key: f.gain * held(run.channels[f.channel].samples, f.hold) for key, f in settings.inputs.items()}
-    drive = None if settings.drive is None else settings.drive.gain * np.array(
-        run.channels[settings.drive.channel].samples)
+    inputs = {key: _fed(given, run) for key, given in settings.inputs.items()}
+    drive = None if settings.drive is None else _fed(settings.drive, run)
     conditions = {key: float(np.ravel(c.value)[0]) for key, c in run.conditions.items()}
     compared = np.array([valid(p) for p in parts]) & (np.arange(count) >= settings.settle * rate)
     own = Run(name, (count - 1) / rate, rate, inputs, drive, conditions)
@@ -80,6 +80,16 @@ def held(samples, hold):
     if hold == "band_limited":
         return np.fft.irfft(np.fft.rfft(samples) / np.sinc(np.fft.rfftfreq(len(samples))) ** 2, len(samples))
     return samples
+
+
+def _fed(given, run):
+    """(n,) what a section Fed makes of a channel of the product Run."""
+    channel = run.channels[given.channel]
+    kept, instants = valid(channel), np.arange(len(channel.samples))
+    samples = np.interp(instants, instants[kept], np.asarray(channel.samples)[kept])
+    if given.derivative:
+        samples = np.gradient(samples, 1 / float(channel.rate))
+    return given.gain * held(samples, given.hold)
 
 
 def valid(channel):

@@ -3,6 +3,7 @@
 import numpy as np
 
 from pipeline.diagnosis.location import stage_of
+from pipeline.diagnosis.next_run import next_experiment
 from pipeline.diagnosis.question import split_name
 from pipeline.inference.noise import floor, normalised_error
 from pipeline.inference.verify import errors
@@ -30,7 +31,7 @@ def answer(question, found):
                                                                     question.problem.held_out)],
         unexplained_share=unexplained(first.null, best, question.rules),
         drift_p_value=found.drift.p_value, location={name: located(*axis) for name, axis in axes.items()},
-        **_latent(latent), next_condition=[], next_separates=[], next_value=0.0, runs=runs)
+        **_latent(latent), **next_experiment(question, found), runs=runs)
 
 
 def located(location, unit="", edges=None):

@@ -1,10 +1,12 @@
 """The question of forced recordings: a bench, its recorded runs, and the section ``diagnosis``."""
 
 from pipeline.benches import corrections
+from pipeline.benches.effect_block import parameters
 from pipeline.contract import ConfigError
 from pipeline.contract.units import to_si
 from pipeline.diagnosis.latent import Describe
 from pipeline.diagnosis.location import Axes
+from pipeline.diagnosis.next_run import feasible
 from pipeline.diagnosis.question import Question, nominal
 from pipeline.diagnosis.settings import parameter
 from pipeline.diagnosis.simulation import Simulated, candidates, halved, observed, reach, solver_candidate
@@ -23,14 +25,20 @@ def question(bench, recorded, settings):
         change = halved(bench, runs, {name: one.channels for name, one in recorded.items()})
     given = {c: to_si(v, shown[c], f"diagnosis.noise.std.{c}") for c, v in settings.noise.std.items()}
     seen = tuple(observed(one, given, name in settings.held_out) for name, one in recorded.items())
-    problem = Problem(seen, Simulated(bench, runs, change), nominal(nominal_parameters(bench, settings)))
-    trained = [recorded[o.name] for o in problem.training]
+    trained = [recorded[o.name] for o in seen if not o.held_out]
+    after = feasible(bench, settings.next, trained[0]) if trained else ()
+    forward = Simulated(bench, runs | {f.run.name: f.run for f in after}, change,
+                        {f.run.name: f.altered for f in after})
+    problem = Problem(seen, forward, nominal(nominal_parameters(bench, settings)))
+    check_names("priors", settings.priors, [f"{e.name}.{p.name}" for e in CATALOGUE for p in parameters(e)])
     found = candidates(bench, tuple(one.run for one in trained), chosen(settings), settings.places,
-                       reach(bench, trained))
-    noise = budget(problem, above=settings.noise.above)
-    return Question(problem, noise, (*found, *([solver_candidate()] if settings.solver else [])), shown,
-                    axes=Axes(bench, runs, problem, noise, seed=settings.seed),
-                    describe=Describe(bench, runs, problem, noise, seed=settings.seed))
+                       reach(bench, trained), settings.priors)
+    noises = budget(problem, above=settings.noise.above)
+    return Question(problem, noises | {f.run.name: noises[trained[0].run.name] for f in after},
+                    (*found, *([solver_candidate()] if settings.solver else [])), shown,
+                    axes=Axes(bench, runs, problem, noises, seed=settings.seed),
+                    describe=Describe(bench, runs, problem, noises, seed=settings.seed),
+                    next_runs=tuple(f.observed for f in after))
 
 
 def nominal_parameters(bench, settings):

@@ -21,7 +21,8 @@ class Question:
 
     ``units`` {channel: SI unit}; ``axes(diagnosis)`` -> {axis: (Location, unit, edges)} tells where the mismatch lies,
     ``describe(diagnosis, axes)`` -> Description or None what force is missing there, whatever its physics;
-    ``next_runs`` (Observed, whose samples do not count): conditions that could be recorded next.
+    ``next_runs`` (Observed, whose samples do not count): what could be recorded next, named by what is changed, each
+    with its budget.
     """
 
     problem: Problem

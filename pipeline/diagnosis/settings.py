@@ -66,6 +66,11 @@ class Settings(Section):
     effects: tuple[str, ...] = option((), "effects that are weighed; none = the whole catalogue")
     without: tuple[str, ...] = option((), "effects that are not weighed, because they are known not to be there")
     places: tuple[str, ...] = option((), "places that are weighed; none = all")
+    priors: dict[str, Prior] = option({}, "what is known of effects, as in compliant_arm.compliance: {...}; for the"
+                                          " others priors of the sizes that nominal runs have")
+    next: dict[str, tuple[str | float, ...]] = option({}, "what could be recorded next, by the condition (normal_load,"
+                                                          " speed, drive, an input) or number of the bench that would"
+                                                          " change: values with a unit, or factors")
     noise: NoiseOf = option(NoiseOf(), "noise of the recordings")
     solver: bool = option(True, "weigh the solver too, by halving its step")
     plan: Plan = option(Plan(), "runs that could be recorded, for 'brakechain plan'")

@@ -1,12 +1,14 @@
 """Runs simulated with parameters and effects: the forward model of forced recordings."""
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
 from pipeline.benches import corrections
 from pipeline.benches.bench import only
+from pipeline.diagnosis.next_run import altered
 from pipeline.diagnosis.question import label, parameter_name, split_name
+from pipeline.diagnosis.settings import parameter
 from pipeline.effects import named
 from pipeline.effects.effect import Term, compose
 from pipeline.inference.priors import Normal, Parameter
@@ -41,18 +43,25 @@ def completed(bench, hypothesis, values):
 
 @dataclass(frozen=True)
 class Simulated:
-    """Picklable prediction, of cut runs too: ``runs`` {name: Run}; ``change`` {name: (c, n)}: what half the step changes."""
+    """Picklable prediction, of cut runs too: ``runs`` {name: Run}; ``change`` {name: (c, n)}: what half the step changes.
+
+    ``altered`` {name: changes}: runs on another bench, see ``next_run``.
+    """
 
     bench: object
     runs: dict
     change: dict
+    altered: dict = field(default_factory=dict)
 
     def __call__(self, hypothesis, values, run):
         own, kept = self.runs[run.name], run.samples.shape[1]
         own = own.until(kept) if kept < own.samples else own
-        predicted = shown(completed(self.bench, hypothesis, values), own, run.channels)
+        bench = altered(completed(self.bench, hypothesis, values), self.altered.get(run.name, {}))
+        predicted = shown(bench, own, run.channels)
         refinement = values.get(parameter_name(STEP, SOLVER, REFINEMENT), 0.0)
-        return predicted + refinement * self.change[run.name][:, :kept] if refinement else predicted
+        if not refinement or run.name not in self.change:       # runs that were not recorded have no change of theirs
+            return predicted
+        return predicted + refinement * self.change[run.name][:, :kept]
 
 
 def shown(bench, run, channels):
@@ -86,20 +95,30 @@ def reach(bench, recorded):
     return float(np.exp(np.mean(np.log(ratios)))) if ratios and min(ratios) > 0 else 1.0
 
 
-def candidates(bench, runs, catalogue, places=(), scale=1.0):
+def candidates(bench, runs, catalogue, places=(), scale=1.0, priors=()):
     """Hypotheses of every effect at each of its places (of ``places`` where given), with priors of nominal sizes.
 
-    ``scale``: recorded over nominal motion (see ``reach``).
+    ``scale``: recorded over nominal motion (see ``reach``); ``priors`` {effect.parameter: section Prior} that are
+    known otherwise.
     """
     found = []
     for effect in catalogue:
         for place in effect.places(bench) if effect.told_by(runs) else ():
             if places and place not in places:
                 continue
-            parameters = tuple(replace(p, name=parameter_name(effect.name, place, p.name))
+            parameters = tuple(_named(p, effect, place, dict(priors))
                                for p in effect.at(bench, place, runs, scale))
             found.append(Hypothesis(label(((effect.name, place),)), ((effect.name, place),), parameters, effect.kind))
     return tuple(found)
+
+
+def _named(own, effect, place, priors):
+    """The parameter of an effect under its name at a place, with the prior that the case states for it, if any."""
+    key, name = f"{effect.name}.{own.name}", parameter_name(effect.name, place, own.name)
+    if key not in priors:
+        return replace(own, name=name)
+    stated = parameter(name, own.unit, own.nominal, priors[key], f"diagnosis.priors.{key}")
+    return replace(stated, null=own.null)
 
 
 def solver_candidate():

@@ -35,7 +35,7 @@ def _damped(law, loss, length):
 
 
 EFFECT = Effect(
-    name="contact_damping", summary="damping of contacts along their normals", place="contact", stage="contact",
+    name="contact_damping", summary="damping of contacts along their normals", place="pressed contact", stage="contact",
     parameters=parameters, apply=apply, linear=("loss",),
     source="K. H. Hunt, F. R. E. Crossley, J. Appl. Mech. 42 (1975) 440",
     valid="Valid while contacts do not stick to each other: the force never pulls.")

@@ -51,7 +51,7 @@ def _table(law, own, area, reference):
 
 
 EFFECT = Effect(
-    name="contact_stiffness_law", summary="contacts whose stiffness changes with pressure", place="contact",
+    name="contact_stiffness_law", summary="contacts whose stiffness changes with pressure", place="pressed contact",
     stage="contact", parameters=parameters, apply=apply,
     source="K. Willner, L. Gaul, Proc. Contact Mechanics II (1995); J. A. Greenwood, J. B. P. Williamson (1966)",
     valid="Valid to a hundred times the reference pressure, beyond which the last slope goes on.")

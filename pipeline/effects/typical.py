@@ -10,11 +10,12 @@ from pipeline.physics.bench import Channel, respond, run_drive, run_inputs
 from pipeline.physics.contact_groups import parts
 from pipeline.physics.time_stepping import Penalty, Table
 
-#: kinds of place that an effect can have; ``contacts`` is all of them, which share one law of contact and of friction,
-#: ``contact row`` a group whose contacts lie one behind the other along the sliding
+#: kinds of place that an effect can have; ``contact`` is a group of them, ``contacts`` all together, ``pressed
+#: contact`` a group that can open, which friction joints cannot, ``contact row`` one whose contacts lie one behind the
+#: other along the sliding
 JOINT, CONTACT, CONTACTS, POINT, CHANNEL = "joint", "contact", "contacts", "point", "channel"
-CONTACT_ROW, DOUBLET, INPUT = "contact row", "doublet", "input"
-_CONTACTS, _SENSOR = (CONTACT, CONTACTS, CONTACT_ROW), "typical"
+PRESSED, CONTACT_ROW, DOUBLET, INPUT = "pressed contact", "contact row", "doublet", "input"
+_CONTACTS, _SENSOR = (CONTACT, CONTACTS, PRESSED, CONTACT_ROW), "typical"
 
 
 @dataclass(frozen=True)
@@ -57,9 +58,10 @@ class Typical:
 def places(kind, bench):
     """Names of the places of this kind on a bench."""
     model = bench.model
-    contact = dict.fromkeys(("contact", *bench.groups)) if len(model.contacts.area) else ()
-    return {JOINT: tuple(model.joints.name), CONTACT: tuple(contact), CONTACTS: tuple(contact)[:1],
-            CONTACT_ROW: tuple(g for g in contact if np.ptp(sliding_angle(model.contacts, bench.contacts(g))) > 0),
+    contact = tuple(dict.fromkeys(("contact", *bench.groups))) if len(model.contacts.area) else ()
+    pressed = tuple(g for g in contact if not model.contacts.fixed[bench.contacts(g)].all())
+    return {JOINT: tuple(model.joints.name), CONTACT: contact, CONTACTS: contact[:1], PRESSED: pressed,
+            CONTACT_ROW: tuple(g for g in pressed if np.ptp(sliding_angle(model.contacts, bench.contacts(g))) > 0),
             POINT: tuple(model.sensor_name), INPUT: tuple(model.input_name), DOUBLET: tuple(bench.doublets),
             CHANNEL: tuple(c.name for c in bench.channels)}[kind]
 
@@ -102,7 +104,9 @@ def _largest(bench, runs):
 
 
 def _place(kind, bench, place):
-    """(row (n,), stiffness, damping) of a place; of contacts along their mean normal, of a doublet's first mode."""
+    """(row (n,), stiffness, damping) of a place: of contacts along their mean normal, of friction joints along the
+    sliding, of a doublet's first mode.
+    """
     if kind == JOINT:
         return bench.joint(place)
     if kind == INPUT:
@@ -114,7 +118,9 @@ def _place(kind, bench, place):
         row = bench.model.sensor_rows[bench.model.sensor_name.index(place)]
         return row, float(row @ bench.model.supported()[2] @ row), float(row @ bench.model.supported()[1] @ row)
     own = bench.contacts(place)
-    return bench.model.contacts.normal[own].mean(axis=0), *_contact_law(bench, own)
+    contacts = bench.model.contacts
+    rows = contacts.tangent if contacts.fixed[own].all() else contacts.normal
+    return rows[own].mean(axis=0), *_contact_law(bench, own)
 
 
 def _contact_law(bench, own):

@@ -14,6 +14,7 @@ from scipy.signal import lfilter
 from pipeline.contract.errors import ConfigError
 from pipeline.physics.contact_groups import Grouped, changed
 from pipeline.physics.dry_friction import Friction, under
+from pipeline.physics.normal_load import loaded
 from pipeline.physics.sliding_model import SlidingModel
 from pipeline.physics.time_stepping import History, Start, simulate
 from pipeline.physics.time_stepping_start import steady_start
@@ -54,8 +55,8 @@ class Run:
     """What was done: ``inputs`` {name: N, one value or samples}, ``drive`` rad/s (None: that of the model).
 
     Samples are at ``sample_rate`` Hz from time 0. ``conditions`` {name: value} stand in for inputs of their names,
-    ``speed`` for the drive; friction may depend on others. ``start``: where the bodies are at time 0, else as the bench
-    says.
+    ``speed`` for the drive, ``normal_load`` for the loads of friction joints; friction may depend on others. ``start``:
+    where the bodies are at time 0, else as the bench says.
     """
 
     name: str
@@ -155,6 +156,7 @@ def respond(bench, run, system=None):
     Gyroscopic and centrifugal terms are those of the speed with which the run begins, also in ``system``. Raises
     ConfigError for sources that the model does not have, and what ``simulate`` raises.
     """
+    bench = loaded(bench, run)
     parts = max(1, int(np.ceil(1 / (run.sample_rate * bench.step) * (1 - 1e-12))))
     step = 1 / run.sample_rate / parts
     seen, model = _watched(bench)

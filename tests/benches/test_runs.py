@@ -7,6 +7,7 @@ import pytest
 
 from pipeline.benches.runs import check_units, held, recorded
 from pipeline.contract import ConfigError
+from tests.diagnosis import pin_rig
 from tests.diagnosis.small_rig import RATE, SAMPLES, force, laid_out, recording
 
 
@@ -62,3 +63,17 @@ def test_straight_lines_lose_nothing_of_a_tone_within_the_band():
     tone = np.exp(-0.6j * np.pi * np.arange(0, 199, 0.05))
     size = 2 * abs(np.mean((drawn * tone)[: 20 * 190]))
     assert size == pytest.approx(1.0, abs=2e-3)
+
+
+def test_a_recorded_position_drives_by_its_rate_of_change():
+    found = pin_rig.recording((5.0,), (4e-4,))
+    run = found.runs["run_1"]
+    moved = run.channels["position"]
+    lost = replace(moved, missing=np.array([[60, 61]]), samples=np.where(np.arange(pin_rig.SAMPLES) == 60, 0.0,
+                                                                         moved.samples))
+    gappy = replace(found, runs={"run_1": replace(run, channels={**run.channels, "position": lost})})
+    time = np.arange(pin_rig.SAMPLES) / pin_rig.RATE
+    whole, patched = (recorded(r, pin_rig.laid_out())["run_1"].run.drive for r in (found, gappy))
+    speed = 4e-4 * np.pi * pin_rig.FREQUENCY * np.cos(2 * np.pi * pin_rig.FREQUENCY * time)
+    np.testing.assert_allclose(whole[1:-1], speed[1:-1], atol=2e-3 * speed.max())
+    np.testing.assert_allclose(patched[1:-1], speed[1:-1], atol=0.03 * speed.max())

@@ -1,5 +1,6 @@
 """The question of forced recordings, and what it refuses."""
 
+import numpy as np
 import pytest
 
 from pipeline.benches import bench as benches
@@ -8,6 +9,7 @@ from pipeline.contract import ConfigError
 from pipeline.contract.settings import fill
 from pipeline.diagnosis.forced import question
 from pipeline.diagnosis.settings import Settings
+from pipeline.inference.priors import HalfNormal
 from tests.diagnosis.small_rig import laid_out, model, recording
 
 ASKED = {"parameters": {"joints.mount.stiffness": {"spread": 0.1}}, "held_out": ["level_4"],
@@ -32,7 +34,25 @@ def test_effects_can_be_left_out():
     assert "coulomb" not in names and "cubic_stiffness" in names and "time_step" not in names
 
 
+def test_stated_priors_of_effects_take_the_place_of_typical_ones():
+    given = {"prior": "half_normal", "std": "3 mm/N"}
+    found = asked(effects=["compliant_arm"], solver=False, priors={"compliant_arm.compliance": given})
+    parameter, = found.candidates[0].parameters
+    assert parameter.prior == HalfNormal(3e-3) and parameter.null == 0.0
+
+
+def test_runs_that_could_be_next_come_with_their_noise():
+    found = asked(next={"shaker": [2.0]}, effects=["coulomb"])
+    run, = found.next_runs
+    assert run.name == "shaker x 2" and found.budget[run.name] is found.budget["level_1"]
+    values = found.problem.nominal.values(found.problem.nominal.nominal)
+    once, twice = (found.problem.predict(found.problem.nominal, values, r) for r in (found.problem.runs[0], run))
+    np.testing.assert_allclose(twice, 2 * once, rtol=1e-9, atol=1e-12)
+
+
 @pytest.mark.parametrize("more, said", [
+    ({"priors": {"compliant_arm.stiffness": {}}}, "diagnosis.priors"),
+    ({"next": {"temperature": ["20 K"]}}, "diagnosis.next.temperature"),
     ({"held_out": ["level_9"]}, "diagnosis.held_out"), ({"effects": ["magic"]}, "diagnosis.effects"),
     ({"parameters": {"joints.mount.stifness": {}}}, "diagnosis.parameters"),
     ({"noise": {"std": {"x": "1 kg"}}}, "diagnosis.noise.std.x"), ({"noise": {}}, "noise"),

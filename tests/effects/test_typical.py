@@ -1,5 +1,7 @@
 """Typical sizes at places of a bench."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -13,10 +15,13 @@ from pipeline.effects.typical import (
     INPUT,
     JOINT,
     POINT,
+    PRESSED,
     Typical,
     places,
     typical,
 )
+from pipeline.physics.bench import respond
+from pipeline.physics.time_stepping import Hard
 from tests.effects.benches import RATE, let_go, pressed, rubbing, slider, sprung, steady
 
 
@@ -67,3 +72,13 @@ def test_places_of_each_kind():
     assert np.all(np.isin(("x", "y"), places(CHANNEL, bench)))
     with pytest.raises(ConfigError, match="one nominal run"):
         typical(JOINT, bench, "joint_0", ())
+
+
+def test_what_cannot_open_is_no_pressed_contact():
+    """Friction joints have friction, whose way is that along the sliding, but no gap, waviness or normal law."""
+    bench = slider()
+    fixed = replace(bench.model.contacts, normal=np.zeros((1, 2)), preload=np.array([40.0]))
+    held = replace(bench, model=replace(bench.model, contacts=fixed), law=Hard(), settled=False)
+    assert places(PRESSED, bench) == places(CONTACT, held) == ("contact",) and places(PRESSED, held) == ()
+    run = replace(steady(), inputs={"input_0": 8.0})
+    assert typical(CONTACTS, held, "contact", (run,)).length == respond(held, run)["x"].max() > 0

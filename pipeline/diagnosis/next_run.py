@@ -1,0 +1,111 @@
+"""What to record next: runs like a fitted one with one thing changed each, and the one that separates a tie best.
+
+A condition or number of the bench is given as a value with its unit, or as a factor on that of the recorded run:
+
+    normal_load: [2 N, 10 N]        joints.arm.stiffness: [5]        drive: [0.1]
+
+Numbers of the bench are changed as each hypothesis has completed it: an arm five times as stiff is so with all that
+gives way in it.
+"""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from pipeline.benches import corrections
+from pipeline.contract import ConfigError
+from pipeline.contract.units import to_si
+from pipeline.inference.calibrate import linearised
+from pipeline.inference.next_experiment import choose, predicted
+from pipeline.inference.problem import Observed
+from pipeline.physics.bench import Run, run_drive, run_inputs
+from pipeline.physics.normal_load import CONDITION as NORMAL_LOAD
+
+#: factor on the speed of the drive, whether it is constant or recorded
+DRIVE = "drive"
+
+
+@dataclass(frozen=True)
+class Feasible:
+    """A run that could be recorded: ``observed``, whose samples do not count, what is done, what bench it is done on.
+
+    ``altered`` {number of the bench: (value in SI or factor, whether it is a factor)}.
+    """
+
+    observed: Observed
+    run: Run
+    altered: dict
+
+
+def feasible(bench, given, like, where="diagnosis.next"):
+    """Feasible runs (n,) of the section ``next`` {name: values}, each like the Recorded ``like`` but for one thing.
+
+    ConfigError for names that the bench does not have, and units that do not fit.
+    """
+    found = []
+    for name, values in given.items():
+        for value in values:
+            run, altered = _changed(bench, like.run, name, value, f"{where}.{name}")
+            told = f"{name} = {value}" if isinstance(value, str) else f"{name} x {value:g}"
+            blank = Observed(told, run.conditions, like.channels, np.zeros(like.samples.shape), run.sample_rate)
+            found.append(Feasible(blank, replace(run, name=told), altered))
+    return tuple(found)
+
+
+def altered(bench, changes):
+    """The bench with the changed numbers of a Feasible run."""
+    return corrections.corrected(bench, {name: value * corrections.nominal(bench, name) if factor else value
+                                         for name, (value, factor) in changes.items()})
+
+
+def next_experiment(question, found):
+    """Fields next_condition, next_separates and next_value of the product Diagnosis; empty where nothing is tied.
+
+    Predictions are tempered as the evidence was: by the mean weight of the fitted runs.
+    """
+    rivals = found.named
+    if len(rivals) < 2 or not question.next_runs:
+        return {"next_condition": [], "next_separates": [], "next_value": 0.0}
+    share = np.array([w.contender.posterior for w in rivals])
+    choice = choose(share / share.sum(), [[_prediction(question, found, w.fit, run) for w in rivals]
+                                          for run in question.next_runs])
+    return {"next_condition": [question.next_runs[choice.index].name],
+            "next_separates": [rivals[k].candidate.name for k in choice.separates],
+            "next_value": float(choice.value[choice.index])}
+
+
+def _prediction(question, found, fit, run):
+    noise, weight = question.budget[run.name], np.sqrt(np.mean(found.weights))
+    there = linearised(question.problem, [noise], fit.hypothesis, fit.latent, [run])
+    return predicted(-weight * there.residuals[0], weight * there.jacobians[0], fit.covariance(found.weights))
+
+
+def _changed(bench, run, name, value, where):
+    """(Run, altered) with one thing changed."""
+    factor = not isinstance(value, str)
+    numbers = corrections.known(bench)
+    if name in numbers:
+        return run, {name: (value if factor else to_si(value, numbers[name], where), factor)}
+    own = _conditions(bench, run)
+    if name not in own or (name == DRIVE and not factor):
+        raise ConfigError(where, f"one of {', '.join(own)} or a number of the bench ({DRIVE}: a factor)", repr(value))
+    if name == DRIVE:
+        return replace(run, drive=value * np.asarray(run_drive(bench, run), float)), {}
+    unit = "rad/s" if name == "speed" else "N"
+    changed = value * np.asarray(own[name], float) if factor else to_si(value, unit, where)
+    if name in bench.model.input_name:
+        return replace(run, inputs={**run.inputs, name: changed}), {}
+    drive = None if name == "speed" else run.drive
+    return replace(run, drive=drive, conditions={**run.conditions, name: float(changed)}), {}
+
+
+def _conditions(bench, run):
+    """{name: value or samples} of what can be done differently."""
+    inputs = dict(zip(bench.model.input_name, run_inputs(bench, run), strict=True))
+    own = {DRIVE: run_drive(bench, run), **inputs}
+    if np.ndim(own[DRIVE]) == 0:
+        own["speed"] = own[DRIVE]
+    contacts = bench.model.contacts
+    if len(contacts.fixed) and contacts.fixed.all():
+        own[NORMAL_LOAD] = run.conditions.get(NORMAL_LOAD, contacts.preload.sum())
+    return own

@@ -1,0 +1,32 @@
+"""The recording of a real tribometer: what the issue asks of its diagnosis. Measured data, minutes: a slow test."""
+
+import json
+import os
+from pathlib import Path
+
+import pytest
+
+from pipeline.contract import store
+from pipeline.products import Diagnosis
+from tests.chain.conftest import ROOT, brakechain
+
+DATA = Path(os.environ.get("BRAKECHAIN_DATA", ROOT.parent / "shared" / "data"))
+RIVALS = {"compliant_arm": "arm", "micro_slip": "contact"}
+
+
+@pytest.mark.slow
+@pytest.mark.measured
+def test_micro_slip_and_the_arm_tie_until_another_load_or_arm_is_taken(tmp_path, monkeypatch):
+    if not (DATA / "recordings" / "friction_tribometer").is_dir():
+        pytest.skip(f"no public recordings at {DATA}; set BRAKECHAIN_DATA")
+    monkeypatch.setenv("BRAKECHAIN_DATA", str(DATA.resolve()))
+    brakechain("diagnosis", ROOT / "configs" / "tribometer.yaml", "--run", tmp_path / "run")
+    told = json.loads((tmp_path / "run" / "diagnosis.json").read_text())
+    assert told["verdict"] == "tie" and {e["name"]: e["place"] for e in told["effects"]} == RIVALS
+    held_out = told["fit"]["held_out"]
+    assert held_out["after"] <= 0.06 and min(held_out["before"], held_out["recalibrated"]) > 0.5
+    following = told["next_experiment"]
+    assert following["conditions"][0] in ("normal_load = 2 N", "normal_load = 10 N", "joints.arm.stiffness x 5")
+    assert {s.split(" at ")[0] for s in following["separates"]} == set(RIVALS)
+    found = store.read(Diagnosis, tmp_path / "run" / "diagnosis.h5")
+    assert min(found.posterior[found.named]) > 0.05, "neither is excluded"
