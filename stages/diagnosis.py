@@ -11,9 +11,6 @@ from pipeline.diagnosis.settings import Settings
 from pipeline.inference import diagnose as course
 from pipeline.products import Bench, Diagnosis, Effects, Recording, ReducedModel
 
-#: forward model -> what asks by it
-QUESTIONS = {"simulation": forced.question, "poles": self_excited.question}
-
 
 def _check(sections):
     """Refuse a diagnosis in which nothing is asked."""
@@ -35,7 +32,7 @@ def diagnosis(model: ReducedModel, effects: Effects | None, recording: Recording
     """
     laid_out = restored(benches.Settings, bench.settings.item())
     whole = with_effects(benches.built(model, laid_out), effects)
-    asked = QUESTIONS[settings.forward](whole, recorded(recording, laid_out), settings, laid_out.poles)
+    asked = _question(whole, recorded(recording, laid_out), settings, laid_out.poles)
     context.log(f"{len(asked.candidates)} hypotheses over {len(asked.problem.training)} runs,"
                 f" {len(asked.problem.held_out)} held out")
     found = course.diagnose(asked.problem, asked.budget, asked.candidates, course.Settings(
@@ -43,3 +40,13 @@ def diagnosis(model: ReducedModel, effects: Effects | None, recording: Recording
     told = answer(asked, found)
     context.log(f"verdict: {told.verdict.item()}")
     return told
+
+
+def _question(whole, runs, settings, poles):
+    """The Question of the forward model that the case asks for."""
+    if (settings.forward == "poles") != (poles is not None):
+        raise ConfigError("diagnosis.forward", "poles where the section bench.poles is given, and only there",
+                          settings.forward, "give both or neither")
+    if poles is not None:
+        return self_excited.question(whole, runs, settings, poles)
+    return forced.question(whole, runs, settings)
