@@ -2,12 +2,12 @@
 
 import numpy as np
 
+from pipeline.diagnosis.location import stage_of
 from pipeline.diagnosis.question import split_name
-from pipeline.inference.evidence import cautious_prior, posterior, screened
 from pipeline.inference.noise import floor, normalised_error
 from pipeline.inference.verify import errors
 from pipeline.inference.weigh import unexplained
-from pipeline.products import DiagnosedRun, Diagnosis, Located
+from pipeline.products import DiagnosedRun, Diagnosis, Follows, LatentForce, Located
 
 #: models that are compared, in the order of the tables
 MODELS = ("nominal", "recalibrated", "completed", "noise")
@@ -20,15 +20,17 @@ def answer(question, found):
     table = _hypotheses(found)
     runs = {run.name: _run(question, run, first.null, best) for run in question.problem.runs}
     channels = tuple(question.units)
+    axes = question.axes(found)
+    latent = question.describe(found, axes)
+    axes |= latent.regimes if latent else {}
     return Diagnosis(
         verdict=found.decision.verdict, reason=list(found.decision.reasons), channel=channels,
         channel_unit=[question.units[c] for c in channels], **table, **_parameters(question, found, best, table),
         fit=[_errors(question, first.null, best, part) for part in (question.problem.training,
                                                                     question.problem.held_out)],
         unexplained_share=unexplained(first.null, best, question.rules),
-        drift_p_value=found.drift.p_value, location={name: located(*axis) for name, axis in
-                                                     question.axes(found).items()},
-        next_condition=[], next_separates=[], next_value=0.0, runs=runs)
+        drift_p_value=found.drift.p_value, location={name: located(*axis) for name, axis in axes.items()},
+        **_latent(latent), next_condition=[], next_separates=[], next_value=0.0, runs=runs)
 
 
 def located(location, unit="", edges=None):
@@ -38,6 +40,17 @@ def located(location, unit="", edges=None):
                    score=location.score, p_value=location.p_value, member=location.members.astype(int))
 
 
+def _latent(description):
+    """Fields of the latent force of a Description or None."""
+    if description is None:
+        return {"latent_place": "", "latent_sentence": "", "latent": {}, "follows": {}}
+    return {"latent_place": description.place, "latent_sentence": description.sentence,
+            "latent": {name: LatentForce(time=one.time, force=one.force, std=one.std, displacement=one.displacement,
+                                         velocity=one.velocity) for name, one in description.runs.items()},
+            "follows": {f.name: Follows(share=f.share, p_value=f.p_value, unit=unit, centre=f.centre, curve=f.curve)
+                        for f, unit in description.follows}}
+
+
 def _best(found):
     """The Fit of the model that the decision completes: that of its first named hypothesis, else the nominal one."""
     named = [c.name for c in found.decision.named]
@@ -45,40 +58,39 @@ def _best(found):
 
 
 def _hypotheses(found):
-    """Columns of the table of everything weighed: nothing missing first, then what is known, then the catalogue."""
-    known = found.nominal.effects
+    """Columns of the table of everything weighed; its probabilities sum to 1.
+
+    Nothing missing first, then what is taken as known, alone, then the catalogue: candidates beside what is known.
+    """
+    known, screen = found.nominal.effects, found.screen
     weighed = {w.candidate.name: w for w in found.weighed}
-    rows = [_row("nothing missing" if not known else found.nominal.name, (), "physics")]
-    rows += [_row(f"{e} at {p}", ((e, p),), "physics", posterior=1 - found.base.posterior_of_null, refitted=1)
-             for e, p in known]
-    share = _shares(found, weighed)
-    rows[0]["posterior"] = share[0]
-    screen = found.screen
+    rows, share = [_row("nothing missing", (), "physics", posterior=found.posterior[0])], found.posterior
+    if known:
+        nothing = found.base.posterior[0]
+        rows[0]["posterior"], share = nothing, (1 - nothing) * share
+        rows.append(_row(found.nominal.name, known, "physics", posterior=share[0], refitted=1))
     for k, candidate in enumerate(screen.candidates):
         own = weighed.get(candidate.name)
         rows.append(_row(candidate.name, candidate.effects, candidate.kind, posterior=share[1 + k],
                          score=max(float(screen.score[k]), -1e3), p_value=float(screen.p_value[k]),
                          power=float(screen.power[k]), evidence_gain=own.contender.evidence_gain if own else 0.0,
-                         refitted=int(own is not None), objection=found.failures.get(candidate.name, "")))
+                         refitted=int(own is not None), objection=_objection(found, candidate, own)))
     names = [row["hypothesis"] for row in rows]
     return {**{key: [row[key] for row in rows] for key in rows[0]},
-            "named": [names.index(c.name) for c in found.decision.named],
-            "known": [names.index(f"{e} at {p}") for e, p in known]}
+            "named": [names.index(c.name) for c in found.decision.named], "known": [1] if known else []}
+
+
+def _objection(found, candidate, own):
+    """Why a candidate was not judged, or what speaks against its fit."""
+    return "; ".join(filter(None, (found.failures.get(candidate.name, ""), own.contender.forbidden if own else "",
+                                   *(own.contender.doubts if own else ()))))
 
 
 def _row(name, effects, kind, **values):
     row = {"hypothesis": name, "effect": " + ".join(e for e, _ in effects), "place": " + ".join(p for _, p in effects),
-           "kind": kind, "posterior": 0.0, "score": 0.0, "p_value": 1.0, "power": 0.0, "evidence_gain": 0.0,
-           "refitted": 0, "objection": ""}
+           "kind": kind, "stage": stage_of(effects), "posterior": 0.0, "score": 0.0, "p_value": 1.0, "power": 0.0,
+           "evidence_gain": 0.0, "refitted": 0, "objection": ""}
     return row | values
-
-
-def _shares(found, weighed):
-    """Probabilities of nothing missing and of every screened candidate, by full evidence where it was refitted."""
-    rough = screened(found.null_evidence.log_evidence, found.screen.score, found.screen.power)
-    logs = [weighed[c.name].evidence.log_evidence if c.name in weighed else value
-            for c, value in zip(found.screen.candidates, rough, strict=True)]
-    return posterior([found.null_evidence.log_evidence, *logs], cautious_prior(len(logs)))
 
 
 def _parameters(question, found, best, table):

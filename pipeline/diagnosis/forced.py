@@ -3,6 +3,8 @@
 from pipeline.benches import corrections
 from pipeline.contract import ConfigError
 from pipeline.contract.units import to_si
+from pipeline.diagnosis.latent import Describe
+from pipeline.diagnosis.location import Axes
 from pipeline.diagnosis.question import Question, nominal
 from pipeline.diagnosis.settings import parameter
 from pipeline.diagnosis.simulation import Simulated, candidates, halved, observed, reach, solver_candidate
@@ -19,14 +21,16 @@ def question(bench, recorded, settings):
     change = {}
     if settings.solver:
         change = halved(bench, runs, {name: one.channels for name, one in recorded.items()})
-    noise = {c: to_si(v, shown[c], f"diagnosis.noise.std.{c}") for c, v in settings.noise.std.items()}
-    seen = tuple(observed(one, noise, name in settings.held_out) for name, one in recorded.items())
+    given = {c: to_si(v, shown[c], f"diagnosis.noise.std.{c}") for c, v in settings.noise.std.items()}
+    seen = tuple(observed(one, given, name in settings.held_out) for name, one in recorded.items())
     problem = Problem(seen, Simulated(bench, runs, change), nominal(nominal_parameters(bench, settings)))
     trained = [recorded[o.name] for o in problem.training]
     found = candidates(bench, tuple(one.run for one in trained), chosen(settings), settings.places,
                        reach(bench, trained))
-    return Question(problem, budget(problem, above=settings.noise.above),
-                    (*found, *([solver_candidate()] if settings.solver else [])), shown)
+    noise = budget(problem, above=settings.noise.above)
+    return Question(problem, noise, (*found, *([solver_candidate()] if settings.solver else [])), shown,
+                    axes=Axes(bench, runs, problem, noise, seed=settings.seed),
+                    describe=Describe(bench, runs, problem, noise, seed=settings.seed))
 
 
 def nominal_parameters(bench, settings):

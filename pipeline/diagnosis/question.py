@@ -11,12 +11,17 @@ def _nowhere(diagnosis):
     return {}
 
 
+def _nothing(diagnosis, axes):
+    return None
+
+
 @dataclass(frozen=True)
 class Question:
     """A Problem with {run: Noise} ``budget`` and ``candidates`` (Hypotheses of effects alone).
 
-    ``units`` {channel: SI unit}; ``axes(diagnosis)`` -> {axis: Location} tells where the mismatch lies; ``next_runs``
-    (Observed, whose samples do not count): conditions that could be recorded next.
+    ``units`` {channel: SI unit}; ``axes(diagnosis)`` -> {axis: (Location, unit, edges)} tells where the mismatch lies,
+    ``describe(diagnosis, axes)`` -> Description or None what force is missing there, whatever its physics;
+    ``next_runs`` (Observed, whose samples do not count): conditions that could be recorded next.
     """
 
     problem: Problem
@@ -25,6 +30,7 @@ class Question:
     units: dict
     rules: Rules = Rules()
     axes: Callable = _nowhere
+    describe: Callable = _nothing
     next_runs: tuple = ()
 
 
