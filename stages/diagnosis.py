@@ -2,9 +2,10 @@
 
 from pipeline.benches import bench as benches
 from pipeline.benches.effect_block import with_effects
+from pipeline.benches.equation import started
 from pipeline.benches.runs import recorded
 from pipeline.contract import ConfigError, Context, restored, stage
-from pipeline.diagnosis import forced, self_excited
+from pipeline.diagnosis import equation, forced, self_excited
 from pipeline.diagnosis.answer import answer
 from pipeline.diagnosis.document import companions
 from pipeline.diagnosis.published_lines import Models, published_diagnosis
@@ -28,9 +29,9 @@ def diagnosis(model: ReducedModel | None, effects: Effects | None, recording: Re
     """Compare recordings with the model, locate what differs and name what is missing.
 
     Method:
-    Nominal values were refitted first (forward model: {forward}); only what they cannot explain counts as evidence of
-    missing physics. Every effect of the catalogue at every place was screened, the best {kept} were refitted in the
-    full model, and an effect is named only by the rules that the page states; held-out runs were never fitted.
+    Nominal values were refitted first; only what they cannot explain counts as evidence of missing physics. Every
+    effect of the catalogue at every place was screened, the best {kept} were refitted in the full model, and an effect
+    is named only by the rules that the page states; held-out runs were never fitted.
     """
     if settings.forward == "lines":
         told = published_diagnosis(recording, Models(model, structure, modes), settings, context)
@@ -46,7 +47,7 @@ def _of_runs(model, effects, recording, bench, settings, context):
         raise ConfigError("diagnosis.forward", "lines, in a chain without a bench", settings.forward)
     laid_out = restored(benches.Settings, bench.settings.item())
     whole = with_effects(benches.built(model, laid_out), effects)
-    asked = _question(whole, recorded(recording, laid_out), settings, laid_out.poles)
+    asked = _question(whole, recorded(recording, laid_out), settings, laid_out)
     context.log(f"{len(asked.candidates)} hypotheses over {len(asked.problem.training)} runs,"
                 f" {len(asked.problem.held_out)} held out")
     found = course.diagnose(asked.problem, asked.budget, asked.candidates, course.Settings(
@@ -54,11 +55,13 @@ def _of_runs(model, effects, recording, bench, settings, context):
     return answer(asked, found)
 
 
-def _question(whole, runs, settings, poles):
-    """The Question of the forward model that the case asks for."""
-    if (settings.forward == "poles") != (poles is not None):
+def _question(whole, runs, settings, laid_out):
+    """What the forward model of the case asks of a Bench and {name: Recorded}."""
+    if (settings.forward == "poles") != (laid_out.poles is not None):
         raise ConfigError("diagnosis.forward", "poles where the section bench.poles is given, and only there",
                           settings.forward, "give both or neither")
-    if poles is not None:
-        return self_excited.question(whole, runs, settings, poles)
-    return forced.question(whole, runs, settings)
+    if laid_out.poles is not None:
+        return self_excited.question(whole, runs, settings, laid_out.poles)
+    if laid_out.forward == "equation":
+        return equation.question(whole, runs, settings, laid_out.equation)
+    return forced.question(whole, started(whole, runs, laid_out), settings)

@@ -57,10 +57,9 @@ class Plan(Section):
 class Settings(Section):
     """What is asked."""
 
-    forward: Literal["simulation", "equation", "poles", "lines"] = option(
-        "simulation", "simulation: runs are simulated; equation: measured motions are put into the equation of motion;"
-        " poles: poles of free vibrations by complex eigenvalues, as bench.poles says; lines: published lines or modes"
-        " are compared")
+    forward: Literal["simulation", "poles", "lines"] = option(
+        "simulation", "simulation: samples as bench.forward predicts them; poles: poles of free vibrations by complex"
+        " eigenvalues, as bench.poles says; lines: published lines or modes are compared")
     lines: ModeTable | Harmonics | SquealLines | None = option(None, "forward lines: which lists are compared, and how")
     parameters: dict[str, Prior] = option({}, "nominal values that may be wrong, by name as in bench.corrections")
     held_out: tuple[str, ...] = option((), "runs that are kept for verification and never fitted")

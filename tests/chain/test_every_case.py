@@ -15,12 +15,13 @@ from tests.studies.self_excited import practice
 SLOW = {**dict.fromkeys(("disc_brake", "bimaterial_rupture", "bimaterial_rupture_fine", "pin_on_disc",
                           "pin_on_disc_bench", "pin_on_disc_paper_step", "beam_geometry", "disc_table1",
                           "disc_brake_lines", "pin_on_disc_lines"), [pytest.mark.slow]),
-        "disc_brake_scanned": [pytest.mark.slow, pytest.mark.measured], "emps_recording": [pytest.mark.measured]}
+         **dict.fromkeys(("disc_brake_scanned", "emps", "silverbox"), [pytest.mark.slow, pytest.mark.measured]),
+         "emps_recording": [pytest.mark.measured]}
 CASES = [pytest.param(path, marks=SLOW.get(path.stem, ()), id=path.stem)
          for path in sorted((ROOT / "configs").glob("*.yaml")) if not path.stem.endswith("_quick")]
 DATA = Path(os.environ.get("BRAKECHAIN_DATA", ROOT.parent / "shared" / "data"))
 PRACTICE = ROOT / "data" / "runs" / "practice"
-MEASURED = ("disc_brake_scanned", "emps_recording")
+MEASURED = ("disc_brake_scanned", "emps", "emps_recording", "silverbox")
 CLOSED_FORM = ("belt", "two_mode_flutter", "wobbling_disc")
 #: case -> rows that may be outside. The beams' motion is chaotic: the median of the force lies nearer to its bound than
 #: it wanders (data/reference/beam_geometry.yaml). The rocking was measured below the range of the paper's update.
