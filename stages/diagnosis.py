@@ -57,7 +57,10 @@ def _of_runs(model, effects, recording, bench, settings, context):
 
 def _question(whole, runs, settings, laid_out):
     """What the forward model of the case asks of a Bench and {name: Recorded}."""
-    if settings.forward == "poles":
+    if (settings.forward == "poles") != (laid_out.poles is not None):
+        raise ConfigError("diagnosis.forward", "poles where the section bench.poles is given, and only there",
+                          settings.forward, "give both or neither")
+    if laid_out.poles is not None:
         return self_excited.question(whole, runs, settings, laid_out.poles)
     if laid_out.forward == "equation":
         return equation.question(whole, runs, settings, laid_out.equation)

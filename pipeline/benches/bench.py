@@ -50,7 +50,7 @@ class Poles(Section):
     low: Quantity("Hz", gt=0) = option("200 Hz", "lowest frequency at which poles are looked for")
     high: Quantity("Hz", gt=0) = option("5 kHz", "highest frequency")
     saturation: float = option(0.12, "share of the largest amplitude up to which growth counts as free", gt=0, le=1)
-    resolution: float = option(1e-4, "least standard deviation of a pole as a share of its frequency: what the modes"
+    resolution: float = option(1e-3, "least standard deviation of a pole as a share of its frequency: what the modes"
                                      " that the model leaves out may do", gt=0)
 
 

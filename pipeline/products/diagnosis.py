@@ -23,7 +23,7 @@ class BenchRun:
     measured: Array = quantity("1", "channel sample", "recorded samples, each channel in its SI unit; 0 where missing")
     predicted: Array = quantity("1", "channel sample", "what the model shows")
     valid: Array = count("channel sample", "1 where a sample was recorded")
-    error: Array = quantity("1", "channel", "root mean square error over the standard deviation of the recorded signal")
+    error: Array = quantity("1", "channel", "root mean square error over the standard deviation of the recorded signal; of features, over their own")
     root_mean_square: Array = quantity("1", "channel", "root mean square error in the unit of the channel")
 
 

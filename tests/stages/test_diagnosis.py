@@ -25,6 +25,13 @@ def test_what_is_known_to_be_there_is_no_longer_missing():
     assert found.verdict.item() == "consistent"
 
 
+def test_poles_are_asked_for_on_both_sides():
+    given = recording()
+    shown = bench(model(), effects({}), given, settings=laid_out())
+    with pytest.raises(ConfigError, match="diagnosis.forward"):
+        diagnosis(model(), effects({}), given, shown, settings=fill(Settings, {**ASKED, "forward": "poles"}, "d"))
+
+
 def test_an_effect_both_weighed_and_not_is_refused():
     with pytest.raises(ConfigError, match="diagnosis.without"):
         diagnosis.check({"diagnosis": fill(Settings, {"effects": ["coulomb"], "without": ["coulomb"]}, "d")})
