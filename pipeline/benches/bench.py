@@ -30,6 +30,16 @@ class Fed(Section):
     gain: float = option(1.0, "in SI units of the input per SI unit of the channel")
 
 
+class Poles(Section):
+    """Free vibrations are compared by their poles: taps and growth phases, each recorded twice."""
+
+    low: Quantity("Hz", gt=0) = option("200 Hz", "lowest frequency at which poles are looked for")
+    high: Quantity("Hz", gt=0) = option("5 kHz", "highest frequency")
+    saturation: float = option(0.12, "share of the largest amplitude up to which growth counts as free", gt=0, le=1)
+    resolution: float = option(1e-4, "least standard deviation of a pole as a share of its frequency: what the modes"
+                                     " that the model leaves out may do", gt=0)
+
+
 class Settings(Laws):
     """Sensors, laws and inputs of the bench that was recorded."""
 
@@ -40,6 +50,7 @@ class Settings(Laws):
     drive: Fed | None = option(None, "recorded channel with the speed of the drive in rad/s (belts: m/s)")
     settled: bool = option(False, "runs start in steady sliding under their first inputs, else at rest")
     state: int = option(0, "state of the model whose preload is used", ge=0)
+    poles: Poles | None = option(None, "compare poles, sensor ratios and order-locked forces; none = samples")
     corrections: dict[str, str | float] = option({}, "nominal values in place of those of the model, as in"
                                                  " joints.guide.damping: 220 N s/m")
 

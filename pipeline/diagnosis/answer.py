@@ -3,7 +3,6 @@
 import numpy as np
 
 from pipeline.diagnosis.question import split_name
-from pipeline.inference.evidence import cautious_prior, posterior, screened
 from pipeline.inference.noise import floor, normalised_error
 from pipeline.inference.verify import errors
 from pipeline.inference.weigh import unexplained
@@ -45,25 +44,32 @@ def _best(found):
 
 
 def _hypotheses(found):
-    """Columns of the table of everything weighed: nothing missing first, then what is known, then the catalogue."""
-    known = found.nominal.effects
+    """Columns of the table of everything weighed; its probabilities sum to 1.
+
+    Nothing missing first, then what is taken as known, alone, then the catalogue: candidates beside what is known.
+    """
+    known, screen = found.nominal.effects, found.screen
     weighed = {w.candidate.name: w for w in found.weighed}
-    rows = [_row("nothing missing" if not known else found.nominal.name, (), "physics")]
-    rows += [_row(f"{e} at {p}", ((e, p),), "physics", posterior=1 - found.base.posterior_of_null, refitted=1)
-             for e, p in known]
-    share = _shares(found, weighed)
-    rows[0]["posterior"] = share[0]
-    screen = found.screen
+    rows, share = [_row("nothing missing", (), "physics", posterior=found.posterior[0])], found.posterior
+    if known:
+        nothing = found.base.posterior[0]
+        rows[0]["posterior"], share = nothing, (1 - nothing) * share
+        rows.append(_row(found.nominal.name, known, "physics", posterior=share[0], refitted=1))
     for k, candidate in enumerate(screen.candidates):
         own = weighed.get(candidate.name)
         rows.append(_row(candidate.name, candidate.effects, candidate.kind, posterior=share[1 + k],
                          score=max(float(screen.score[k]), -1e3), p_value=float(screen.p_value[k]),
                          power=float(screen.power[k]), evidence_gain=own.contender.evidence_gain if own else 0.0,
-                         refitted=int(own is not None), objection=found.failures.get(candidate.name, "")))
+                         refitted=int(own is not None), objection=_objection(found, candidate, own)))
     names = [row["hypothesis"] for row in rows]
     return {**{key: [row[key] for row in rows] for key in rows[0]},
-            "named": [names.index(c.name) for c in found.decision.named],
-            "known": [names.index(f"{e} at {p}") for e, p in known]}
+            "named": [names.index(c.name) for c in found.decision.named], "known": [1] if known else []}
+
+
+def _objection(found, candidate, own):
+    """Why a candidate was not judged, or what speaks against its fit."""
+    return "; ".join(filter(None, (found.failures.get(candidate.name, ""), own.contender.forbidden if own else "",
+                                   *(own.contender.doubts if own else ()))))
 
 
 def _row(name, effects, kind, **values):
@@ -71,14 +77,6 @@ def _row(name, effects, kind, **values):
            "kind": kind, "posterior": 0.0, "score": 0.0, "p_value": 1.0, "power": 0.0, "evidence_gain": 0.0,
            "refitted": 0, "objection": ""}
     return row | values
-
-
-def _shares(found, weighed):
-    """Probabilities of nothing missing and of every screened candidate, by full evidence where it was refitted."""
-    rough = screened(found.null_evidence.log_evidence, found.screen.score, found.screen.power)
-    logs = [weighed[c.name].evidence.log_evidence if c.name in weighed else value
-            for c, value in zip(found.screen.candidates, rough, strict=True)]
-    return posterior([found.null_evidence.log_evidence, *logs], cautious_prior(len(logs)))
 
 
 def _parameters(question, found, best, table):

@@ -82,8 +82,9 @@ def as_json(product):
 
 def _effect(product, k, with_parameters=True):
     names = str(product.effect[k]).split(" + ")
+    known = k in product.known      # it is part of every hypothesis but that nothing is missing
     told = {"name": names[0], "place": str(product.place[k]), "kind": str(product.kind[k]),
-            "posterior": float(product.posterior[k])}
+            "posterior": float(1 - product.posterior[0] if known else product.posterior[k])}
     if not product.effect[k]:
         told["name"] = "nothing missing"
     if with_parameters:

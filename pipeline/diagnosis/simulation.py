@@ -41,16 +41,18 @@ def completed(bench, hypothesis, values):
 
 @dataclass(frozen=True)
 class Simulated:
-    """Picklable prediction: ``runs`` {name: Run}; ``change`` {name: (c, n)}: what half the step changes."""
+    """Picklable prediction, of cut runs too: ``runs`` {name: Run}; ``change`` {name: (c, n)}: what half the step changes."""
 
     bench: object
     runs: dict
     change: dict
 
     def __call__(self, hypothesis, values, run):
-        predicted = shown(completed(self.bench, hypothesis, values), self.runs[run.name], run.channels)
+        own, kept = self.runs[run.name], run.samples.shape[1]
+        own = own.until(kept) if kept < own.samples else own
+        predicted = shown(completed(self.bench, hypothesis, values), own, run.channels)
         refinement = values.get(parameter_name(STEP, SOLVER, REFINEMENT), 0.0)
-        return predicted + refinement * self.change[run.name] if refinement else predicted
+        return predicted + refinement * self.change[run.name][:, :kept] if refinement else predicted
 
 
 def shown(bench, run, channels):

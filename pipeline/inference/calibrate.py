@@ -9,12 +9,13 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from pipeline.contract.errors import BrakechainError, ConfigError, ConvergenceError
+from pipeline.inference.effective import tempering
 from pipeline.inference.priors import LATENT_LIMIT
 
 ITERATIONS = 60
 #: forward-difference step in latent coordinates
 DIFFERENCE = 1e-4
-#: the expected decrease of the objective at which a fit counts as converged, per unit of mean square residual
+#: the expected decrease of the objective at which a fit counts as converged, tempered as the evidence will be
 TOLERANCE = 1e-3
 #: longest step of a latent coordinate in one iteration
 _LONGEST = 1.5
@@ -25,7 +26,9 @@ _STALLED = 0.25
 _TRIAL = 8
 #: shares of the runs that are fitted first where the residual is beyond _FAR noise powers: over a short horizon the
 #: phase of a nonlinear motion cannot slip, so that the optimum is reached from far away
-_HORIZONS, _FAR = (0.08, 0.3), 100.0
+_HORIZONS, _FAR, _FEWEST = (0.08, 0.3), 100.0, 32
+#: share of the promised decrease below which an updated Jacobian is replaced by differences
+_TRUSTED = 0.25
 
 
 @dataclass(frozen=True)
@@ -33,7 +36,8 @@ class Fit:
     """A hypothesis at latent coordinates ``latent`` (k,) against runs.
 
     Per run: whitened ``residuals`` (m_r,) = observed less predicted and ``jacobians`` (m_r, k) of the prediction.
-    ``converged``: whether the iteration reached its tolerance; ``evaluations`` counts forward runs.
+    ``converged``: whether the iteration reached its tolerance; ``evaluations`` counts predictions of all runs;
+    ``fresh``: whether the Jacobians are differences taken here, not updates of earlier ones.
     """
 
     hypothesis: object
@@ -44,6 +48,7 @@ class Fit:
     jacobians: tuple
     converged: bool
     evaluations: int
+    fresh: bool = True
 
     @property
     def values(self):
@@ -105,44 +110,53 @@ def fit(problem, noises, hypothesis, start, runs, iterations=ITERATIONS):
 
     ``noises`` [Noise] belong to ``runs``. Raises what the forward model raises at the start.
     """
-    return _continued(problem, linearised(problem, noises, hypothesis, start, runs), iterations)
+    return continued(problem, linearised(problem, noises, hypothesis, start, runs), iterations)
 
 
-def calibrate(problem, noises, hypothesis, starts, runs):
+def calibrate(problem, noises, hypothesis, starts, runs, settled=True):
     """The best of several fits. Raises ConvergenceError where none converged, telling what stopped them.
 
     A few iterations are made from each start; then the best goes on, the next best only where it does not converge.
+    Without ``settled`` the best is returned even if it has not ``converged``, and no other goes on.
     """
-    begun, reasons = [], []
+    reasons = []
+    near = _approached(problem, noises, hypothesis, starts, runs, reasons)
+    for state in _begun(problem, noises, hypothesis, near, runs, reasons):
+        found = state if state.converged else continued(problem, state, ITERATIONS)
+        if found.converged or not settled:
+            return found
+        reasons.append(f"not converged after {found.evaluations} predictions")
+    raise ConvergenceError(f"calibration of {hypothesis.name}", "a fit that converges from one of its starts",
+                           "; ".join(dict.fromkeys(reasons)), "check the nominal values and priors")
+
+
+def _begun(problem, noises, hypothesis, starts, runs, reasons):
+    """[Fit] after a few iterations from each start, best first; ``reasons`` gets what stopped the others."""
+    begun = []
     for start in starts:
         try:
-            near = _approached(problem, noises, hypothesis, start, runs)
-            begun.append(fit(problem, noises, hypothesis, near, runs, _TRIAL))
+            begun.append(fit(problem, noises, hypothesis, start, runs, _TRIAL))
         except BrakechainError as error:
             reasons.append(str(error))
-    for state in sorted(begun, key=lambda f: f.objective):
-        best = state if state.converged else _continued(problem, state, ITERATIONS)
-        if best.converged:
-            break
-        reasons.append(f"not converged after {best.evaluations} forward runs")
-    else:
-        raise ConvergenceError(f"calibration of {hypothesis.name}", "a fit that converges from one of its starts",
-                               "; ".join(dict.fromkeys(reasons)), "check the nominal values and priors")
-    return best
+    return sorted(begun, key=lambda f: f.objective)
 
 
-def _approached(problem, noises, hypothesis, start, runs):
-    """Latent coordinates (k,) nearer to the optimum than ``start``: fits over rising horizons where it is far off."""
-    if not all(noise.ordered for noise in noises):
-        return start
-    residuals, error = whitened(problem, noises, hypothesis, start, runs)
-    if error:
-        raise error
-    if np.mean(np.concatenate(residuals) ** 2) < _FAR:
-        return start
+def _approached(problem, noises, hypothesis, starts, runs, reasons):
+    """Where fits begin: ``starts``, or, where all are far off, the nearest and where fits over rising horizons end."""
+    sizes = [_mean_square(whitened(problem, noises, hypothesis, start, runs)[0]) for start in starts]
+    if not all(noise.ordered for noise in noises) or min(sizes) < _FAR:
+        return starts
+    ahead = starts
     for share in _HORIZONS:
-        start = fit(problem, [noise.until(share) for noise in noises], hypothesis, start, runs, _TRIAL).latent
-    return start
+        kept = [max(int(share * run.samples.shape[1]), _FEWEST) for run in runs]
+        begun = _begun(problem, [noise.until(n) for noise, n in zip(noises, kept, strict=True)], hypothesis, ahead,
+                       [run.until(n) for run, n in zip(runs, kept, strict=True)], reasons)
+        ahead = [begun[0].latent] if begun else []
+    return [*ahead, starts[int(np.argmin(sizes))]]
+
+
+def _mean_square(residuals):
+    return np.inf if residuals is None else np.mean(np.concatenate(residuals) ** 2)
 
 
 def orthogonal(residual, jacobian, prior_precision=None):
@@ -170,7 +184,8 @@ def _information(jacobians, weights=None):
 
 
 def _scale(state):
-    return max(1.0, state.chi_square.sum() / max(state.counts.sum(), 1))
+    """Objective per unit of log evidence (see ``effective.tempering``)."""
+    return 1 / max(tempering(state.noises, state.residuals).max(), 1e-12)
 
 
 def _jacobians(problem, noises, hypothesis, latent, residuals, runs):
@@ -191,37 +206,67 @@ def _jacobians(problem, noises, hypothesis, latent, residuals, runs):
     return jacobians, len(latent)
 
 
-def _continued(problem, state, iterations):
+def continued(problem, state, iterations=ITERATIONS):
+    """The Fit after further iterations. Jacobians are updated by the secant (Broyden 1965) as long as that serves."""
     damping, growth = 1e-3, 2.0
     for _ in range(iterations):
-        gradient = sum(j.T @ r for j, r in zip(state.jacobians, state.residuals, strict=True)) - state.latent
-        gradient[(np.abs(state.latent) >= LATENT_LIMIT) & (gradient * state.latent > 0)] = 0.0
-        hessian = _information(state.jacobians) + np.eye(len(state.latent))
+        gradient, hessian = _slopes(state)
         expected, scale = gradient @ np.linalg.solve(hessian, gradient), _scale(state)
         if expected < TOLERANCE * scale:
-            return replace(state, converged=True)
+            if state.fresh:
+                return replace(state, converged=True)
+            state = _refreshed(problem, state)
+            continue
         moved, damping, growth = _step(problem, state, gradient, hessian, damping, growth)
-        if moved is None:
+        if moved is None and not state.fresh:
+            state, damping, growth = _refreshed(problem, state), 1e-3, 2.0
+        elif moved is None:
             return replace(state, converged=bool(expected < _STALLED * scale))
-        state = moved
-    return state
+        else:
+            state = moved
+    return state if state.fresh else _refreshed(problem, state)
+
+
+def _slopes(state):
+    """Gradient (k,), 0 along bounds that hold, and Gauss-Newton's Hessian (k, k) of half the objective."""
+    gradient = sum(j.T @ r for j, r in zip(state.jacobians, state.residuals, strict=True)) - state.latent
+    gradient[(np.abs(state.latent) >= LATENT_LIMIT) & (gradient * state.latent > 0)] = 0.0
+    return gradient, _information(state.jacobians) + np.eye(len(state.latent))
+
+
+def _refreshed(problem, state):
+    jacobians, count = _jacobians(problem, state.noises, state.hypothesis, state.latent, state.residuals, state.runs)
+    return replace(state, jacobians=jacobians, fresh=True, evaluations=state.evaluations + count)
 
 
 def _step(problem, state, gradient, hessian, damping, growth):
     """The next state that lowers the objective, with the new damping; None where no step does."""
-    objective = state.objective
+    objective, tries = state.objective, 0
     while damping < 1e12:
         step = np.linalg.solve(hessian + damping * np.diag(np.diag(hessian)), gradient)
         step *= min(1.0, _LONGEST / max(np.abs(step).max(), 1e-300))
         latent = np.clip(state.latent + step, -LATENT_LIMIT, LATENT_LIMIT)
         residuals, _ = whitened(problem, state.noises, state.hypothesis, latent, state.runs)
+        tries += 1
         if residuals is not None:
             gain = objective - sum(r @ r for r in residuals) - latent @ latent
             promised = step @ (2 * gradient - hessian @ step)
             if gain > 0:
-                jacobians, count = _jacobians(problem, state.noises, state.hypothesis, latent, residuals, state.runs)
-                damping *= max(1 / 3, 1 - (2 * gain / max(promised, 1e-300) - 1) ** 3) if promised > 0 else 1.0
-                return replace(state, latent=latent, residuals=tuple(residuals), jacobians=jacobians,
-                               evaluations=state.evaluations + 1 + count), min(damping, 1e6), 2.0
+                ratio = gain / promised if promised > 0 else 0.5
+                moved = _moved(state, latent, residuals, tries)
+                if ratio < _TRUSTED:
+                    moved = _refreshed(problem, moved)
+                return moved, min(damping * max(1 / 3, 1 - (2 * ratio - 1) ** 3), 1e6), 2.0
+        if not state.fresh:
+            break
         damping, growth = damping * growth, 2 * growth
     return None, damping, growth
+
+
+def _moved(state, latent, residuals, tries):
+    """State at ``latent`` with Jacobians that agree with the change of the prediction on the way there."""
+    way = latent - state.latent
+    jacobians = tuple(j + np.outer(before - after - j @ way, way) / (way @ way)
+                      for j, before, after in zip(state.jacobians, state.residuals, residuals, strict=True))
+    return replace(state, latent=latent, residuals=tuple(residuals), jacobians=jacobians, fresh=False,
+                   evaluations=state.evaluations + tries)

@@ -30,7 +30,7 @@ class Contender:
 
     ``left_out_gain``: log predictive density of left-out operating points over the null's. ``from_null``: largest
     distance of an effect parameter from its null, in standard deviations. ``forbidden``: why its values cannot be
-    (sign, passivity), or empty.
+    (sign, passivity), or empty; ``doubts``: why its fit cannot be relied on, in words.
     """
 
     name: str
@@ -46,6 +46,7 @@ class Contender:
     from_null: float
     unexplained: float
     forbidden: str = ""
+    doubts: tuple = ()
 
 
 @dataclass(frozen=True)
@@ -53,7 +54,8 @@ class Situation:
     """The recordings and the recalibrated nominal model, in numbers.
 
     ``misfit``: standard deviations of its chi^2 beyond noise (noise uncertainty taken off); ``coherent``: whether its
-    residual holds frequencies that noise does not explain; ``moved_p``: of the nominal values; ``drift_p``: drift test.
+    residual holds frequencies that noise does not explain; ``moved_p``: of the nominal values; ``drift_p``: drift test;
+    ``excluded``: nominal values that the data want where their priors all but exclude them, in words.
     """
 
     runs: int
@@ -62,6 +64,7 @@ class Situation:
     coherent: bool
     moved_p: float
     drift_p: float
+    excluded: tuple = ()
 
 
 @dataclass(frozen=True)
@@ -83,12 +86,13 @@ def decide(situation, contenders, rules):
         decision = _among(survivors, situation, rules)
     else:
         decision = _nothing_named(situation, contenders, rules, bool(significant))
+        decision = replace(decision, reasons=decision.reasons + situation.excluded)
     return replace(decision, reasons=decision.reasons + tuple(told) + waived)
 
 
 def objections(contender, situation, rules):
     """Rules that a significant contender breaks, in words."""
-    told = []
+    told = list(contender.doubts)
     if contender.forbidden:
         told.append(contender.forbidden)
     if contender.from_null < rules.from_null:

@@ -8,14 +8,18 @@ from functools import partial
 
 import numpy as np
 
-from pipeline.contract.errors import BrakechainError, ConvergenceError
+from pipeline.contract.errors import BrakechainError
 from pipeline.inference import decide as rulebook
-from pipeline.inference.calibrate import calibrate
+from pipeline.inference.calibrate import calibrate, continued, fit
 from pipeline.inference.drift import drift
 from pipeline.inference.effective import tempering
-from pipeline.inference.evidence import cautious_prior, evidence, posterior, screened
+from pipeline.inference.evidence import cautious_prior, evidence, posterior, reached, screened
 from pipeline.inference.screen import directions, screen
 from pipeline.inference.weigh import contender, held_out_gains, situation
+
+
+#: iterations of a nominal model from a candidate's optimum before it is given up where it is still worse than before
+_GIVEN_UP = 16
 
 
 @dataclass(frozen=True)
@@ -43,8 +47,9 @@ class Weighed:
 class Diagnosis:
     """``decision``, with the null Fit, its drift, the screen, the refitted candidates (best first), runs' weights.
 
-    ``nominal`` is the hypothesis taken as known; ``posterior_of_null`` of its sufficing; ``base`` the Diagnosis that
-    came before a pair; ``failures`` {candidate: why it was not judged}.
+    ``nominal`` is the hypothesis taken as known; ``posterior`` (1 + candidates,) of its sufficing, then of each screened
+    candidate, 0 where one could not be judged; ``base`` the Diagnosis that came before a pair; ``failures``
+    {candidate: why it was not judged, or not to the end}.
     """
 
     decision: rulebook.Decision
@@ -55,7 +60,7 @@ class Diagnosis:
     screen: object
     weighed: tuple
     weights: np.ndarray
-    posterior_of_null: float
+    posterior: np.ndarray
     failures: dict
     base: object = None
 
@@ -96,44 +101,75 @@ def _one_step(problem, budget, catalogue, settings, fan_out, start=None, base=No
     rough = screen(null, found, None, settings.draws, settings.seed)
     kept = [i for i in rough.order()[:settings.kept] if np.isfinite(rough.score[i])
             and (base is None or rough.p_value[i] <= settings.rules.p_value)]
-    work = partial(_refitted, problem, noises, null, settings.starts)
-    results = list(fan_out(work, [(catalogue[i], rough.start[i]) for i in kept]))
-    better = min([null, *(r[1] for r in results if r[1] is not None)], key=lambda f: f.objective)
+    def refit(chosen):
+        work = partial(_refitted, problem, noises, null, settings.starts)
+        return dict(zip(chosen, fan_out(work, [(catalogue[i], rough.start[i]) for i in chosen]), strict=True))
+
+    results = refit(kept)
+    results |= refit(_overlooked(null, found, results, settings))
+    better = min([null, *(r[1] for r in results.values() if r[1] is not None)], key=lambda f: f.objective)
     if better.objective < null.objective - 0.1:
         null = better
         found = list(fan_out(partial(directions, problem, null), catalogue))
-    fits = {i: r[0] for i, r in zip(kept, results, strict=True) if r[0] is not None}
-    failures = {catalogue[i].name: r[2] for i, r in zip(kept, results, strict=True) if r[0] is None}
+    fits = {i: r[0] for i, r in results.items() if r[0] is not None}
+    failures = {catalogue[i].name: r[2] for i, r in results.items() if r[2]}
     failures |= {f.candidate.name: f.failure for f in found if f.failure}
     return _weighed(problem, budget, null, found, fits, failures, settings, base)
 
 
 def _refitted(problem, noises, null, offsets, item):
-    """(best Fit of a candidate or None, Fit of the null from its optimum or None, reason)."""
+    """(best Fit of a candidate or None, a better Fit of the null from its optimum or None, what went wrong)."""
     candidate, screened_start = item
-    hypothesis, size = problem.nominal.joined(candidate), len(null.latent)
     begins = [screened_start] + [np.full(len(candidate.parameters), offset) for offset in offsets]
     starts = [np.concatenate((null.latent, np.clip(begin, -2, 2))) for begin in begins]
     try:
-        best = calibrate(problem, noises, hypothesis, starts, null.runs)
+        best = calibrate(problem, noises, problem.nominal.joined(candidate), starts, null.runs, settled=False)
     except BrakechainError as error:
         return None, None, str(error)
+    told = "" if best.converged else f"its fit had not converged after {best.evaluations} predictions"
+    return best, _null_again(problem, null, best), told
+
+
+def _null_again(problem, null, best):
+    """A better Fit of the nominal model, found from the optimum of a candidate that fits better than it, or None."""
+    if best.objective > null.objective - 1:
+        return None
     try:
-        again = calibrate(problem, noises, problem.nominal, [best.latent[:size]], null.runs)
-    except ConvergenceError:
-        again = None
-    return best, again, ""
+        again = fit(problem, null.noises, problem.nominal, best.latent[:len(null.latent)], null.runs, _GIVEN_UP)
+    except BrakechainError:
+        return None
+    if again.objective >= null.objective:
+        return None
+    return again if again.converged else continued(problem, again)
 
 
-def _weighed(problem, budget, null, found, fits, failures, settings, base):
+def _overlooked(null, found, results, settings):
+    """Indices of candidates that were not refitted, but promise about as much as the best of the others reached."""
+    fits = {i: r[0] for i, r in results.items() if r[0] is not None}
+    if not fits:
+        return []
+    logs, evidences, final, _ = _evidences(null, found, fits, settings)
+    best = max(e.log_evidence for e in evidences.values())
+    near = [i for i in final.order() if i not in results and final.p_value[i] <= settings.rules.p_value
+            and logs[1 + i] > best - settings.rules.evidence_gain]
+    return near[:settings.kept]
+
+
+def _evidences(null, found, fits, settings, failed=()):
+    """(ln Z of the null and every candidate, {index: Evidence} of the refitted ones, their Screen, runs' weights)."""
     closest = min([null, *fits.values()], key=lambda f: f.chi_square.sum())
     weights = tempering(closest.noises, closest.residuals)
     final = screen(null, found, weights, settings.draws, settings.seed)
+    evidences = {i: (evidence if own.converged else reached)(own, weights) for i, own in fits.items()}
+    base = evidence(null, weights).log_evidence
+    rough = np.where([f.candidate.name in failed for f in found], -np.inf, screened(base, final.score, final.power))
+    logs = [base] + [evidences[i].log_evidence if i in fits else rough[i] for i in range(len(found))]
+    return np.array(logs), evidences, final, weights
+
+
+def _weighed(problem, budget, null, found, fits, failures, settings, base):
+    logs, evidences, final, weights = _evidences(null, found, fits, settings, failures)
     null_evidence = evidence(null, weights)
-    evidences = {i: evidence(fit, weights) for i, fit in fits.items()}
-    rough = screened(null_evidence.log_evidence, final.score, final.power)
-    logs = [null_evidence.log_evidence] + [evidences[i].log_evidence if i in fits else rough[i]
-                                           for i in range(len(found))]
     share = posterior(logs, cautious_prior(len(found)))
     held_out = held_out_gains(problem, budget, null, fits, share[1:])
     drifting = drift(null, weights, seed=settings.seed)
@@ -144,7 +180,7 @@ def _weighed(problem, budget, null, found, fits, failures, settings, base):
     known = situation(problem, null, weights, drifting, settings.rules)
     decision = rulebook.decide(known, [w.contender for w in weighed], settings.rules)
     return Diagnosis(decision, problem.nominal, null, null_evidence, drifting, final, tuple(weighed), weights,
-                     float(share[0]), failures, base)
+                     share, failures, base)
 
 
 def _leading(single, rules, count=2):

@@ -42,10 +42,9 @@ class Noise:
             white[..., lag:] += self.filter[:, lag, None] * residual[..., :-lag]
         return (white / self.weight)[..., self.usable]
 
-    def until(self, share):
-        """The same noise, with only the first ``share`` of the samples usable (at least one more than the filter)."""
-        kept = max(int(share * self.usable.shape[1]), self.filter.shape[1] + 1)
-        return replace(self, usable=self.usable & (np.arange(self.usable.shape[1]) < kept))
+    def until(self, kept):
+        """The noise of the run cut to its first ``kept`` samples."""
+        return replace(self, weight=self.weight[:, :kept], usable=self.usable[:, :kept])
 
     def by_channel(self, white):
         """The channels (m_c,) of a whitened residual (m,)."""

@@ -40,6 +40,10 @@ class Observed:
         object.__setattr__(self, "samples", np.where(valid, samples, 0.0))
         object.__setattr__(self, "valid", valid)
 
+    def until(self, kept):
+        """The run cut to its first ``kept`` samples; what it says of noise is that of the whole run."""
+        return replace(self, samples=self.samples[:, :kept], valid=self.valid[:, :kept])
+
     @property
     def point(self):
         """Name of its operating point: repeats of one run share it."""
@@ -88,6 +92,7 @@ class Hypothesis:
 class Problem:
     """``predict(hypothesis, values, run)`` -> (c, n), what the channels of ``run`` (Observed) would show.
 
+    Runs in order of time may come cut to their first samples, so that only these need to be predicted.
     ``values`` holds every parameter of the hypothesis by name: those of ``nominal`` first, then those of its effects.
     ``predict`` may raise a BrakechainError where it cannot (no convergence); it must be picklable to fan out.
     """

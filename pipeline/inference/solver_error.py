@@ -26,7 +26,8 @@ class _Corrected:
     def __call__(self, hypothesis, values, run):
         own = replace(hypothesis, parameters=tuple(p for p in hypothesis.parameters if p.name != NAME))
         inner = {name: value for name, value in values.items() if name != NAME}
-        return np.asarray(self.predict(own, inner, run)) + values[NAME] * self.change[run.name]
+        change = self.change[run.name][:, :run.samples.shape[1]]
+        return np.asarray(self.predict(own, inner, run)) + values[NAME] * change
 
 
 def allow(problem, change):

@@ -8,7 +8,11 @@ from pipeline.inference.calibrate import linearised
 from pipeline.inference.decide import Contender, Situation
 from pipeline.inference.drift import agreement
 from pipeline.inference.effective import coherent_energy, effective_share
+from pipeline.inference.priors import LATENT_LIMIT
 from pipeline.inference.verify import gain, held_out_residuals
+
+#: standard deviations of a prior beyond which it all but excludes a value (1 in 2 million)
+EXCLUDED = 5.0
 
 
 def held_out_gains(problem, budget, null, fits, share):
@@ -47,7 +51,20 @@ def contender(null, null_evidence, candidate, fit, own, share, p_value, held_out
         candidate.name, candidate.kind, float(share), own.log_evidence - null_evidence.log_evidence, float(p_value),
         float(own.left_out.sum() - null_evidence.left_out.sum()), gained and gained.errors, gained and gained.share,
         held_out[1], max(differing, default=0.0), max(moved, default=0.0), unexplained(null, fit, rules),
-        candidate.forbidden(fit.values) if candidate.forbidden else "")
+        candidate.forbidden(fit.values) if candidate.forbidden else "", _doubts(fit))
+
+
+def _doubts(fit):
+    """Why a Fit cannot be relied on, in words."""
+    told = () if fit.converged else ("its fit did not converge",)
+    return told + excluded(fit, LATENT_LIMIT - 1e-6)
+
+
+def excluded(fit, beyond):
+    """A sentence for each parameter of a Fit that lies ``beyond`` so many standard deviations of its prior."""
+    return tuple(f"the prior of {p.name} excludes the data: they ask for {fit.values[p.name]:.4g} {p.unit} or beyond,"
+                 f" {abs(u):.1f} of its standard deviations away; check its unit, or widen the prior"
+                 for p, u in zip(fit.hypothesis.parameters, fit.latent, strict=True) if abs(u) > beyond)
 
 
 def _immaterial(fit, index, rules):
@@ -76,7 +93,7 @@ def situation(problem, null, weights, drifting, rules):
     effective = sum(len(r) * effective_share(n, r) for n, r in zip(null.noises, null.residuals, strict=True))
     misfit = (null.chi_square.sum() - level * counts) / (counts * np.sqrt(2 / effective))
     return Situation(len(problem.runs), len(drifting.points), float(misfit), _coherent(null, level) > 0,
-                     _moved_p(problem, null, weights), drifting.p_value)
+                     _moved_p(problem, null, weights), drifting.p_value, excluded(null, EXCLUDED))
 
 
 def _moved_p(problem, null, weights):

@@ -55,7 +55,7 @@ class ElementKernel(NamedTuple):
 
 
 class LawKernel(NamedTuple):
-    """What the forces alone need of an ElementKernel: fewer arrays, which every call of a compiled function passes."""
+    """What the forces alone need of an ElementKernel: fewer arrays, which every compiled call has to hand on."""
 
     kind: np.ndarray
     parameter: np.ndarray

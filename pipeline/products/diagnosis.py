@@ -79,7 +79,7 @@ class Diagnosis:
     effect: Array = text("hypothesis", "effect of the catalogue; empty for nothing missing")
     place: Array = text("hypothesis", "where it would act")
     kind: Array = text("hypothesis", "physics, sensor or numerics")
-    posterior: Array = quantity("1", "hypothesis", "probability among all")
+    posterior: Array = quantity("1", "hypothesis", "probability among all; beside what is known, that of both")
     score: Array = quantity("1", "hypothesis", "screening score in standard deviations")
     p_value: Array = quantity("1", "hypothesis", "family-wise p-value over the catalogue")
     power: Array = quantity("1", "hypothesis", "score expected at the prior's size: what these runs can see")

@@ -21,7 +21,7 @@ def hypotheses(sizes, prior=1.0):
 
 def predict(tables, hypothesis, values, run):
     """Sum over parameters of value times the run's column, (1, n)."""
-    return sum(value * tables[run.name][name] for name, value in values.items())[None]
+    return sum(value * tables[run.name][name] for name, value in values.items())[None, :run.samples.shape[1]]
 
 
 def problem(sizes=(2, 1), runs=3, samples=60, truth=None, seed=0, held_out=0, prior=1.0):

@@ -75,6 +75,7 @@ def _pull(force, x, v, stiffness, damping, laws):
 def predict(hypothesis, values, run):
     """What both channels show in ``run``."""
     force = drive_on_grid(run.conditions["amplitude"], run.conditions["tones"])
+    force = force[:2 * SUBSTEPS * (run.samples.shape[1] - 1) + 1]
     laws = np.array([values.get(name, 0.0) for name, _, _ in LAWS.values()])
     motion = march(force, 1 / (RATE * SUBSTEPS), values["stiffness"], values["damping"], laws)[:, ::SUBSTEPS]
     return motion * np.array([[1.0 + values.get("gain_error", 0.0)], [1.0]])
@@ -121,6 +122,7 @@ def predict_with_lag(hypothesis, values, run):
     good = predict(hypothesis, values, run)
     late = np.roll(drive_on_grid(run.conditions["amplitude"], run.conditions["tones"]), SUBSTEPS)
     late[:SUBSTEPS] = 0.0
+    late = late[:2 * SUBSTEPS * (run.samples.shape[1] - 1) + 1]
     laws = np.array([values.get(name, 0.0) for name, _, _ in LAWS.values()])
     lagging = march(late, 1 / (RATE * SUBSTEPS), values["stiffness"], values["damping"], laws)[:, ::SUBSTEPS]
     with np.errstate(all="ignore"):
