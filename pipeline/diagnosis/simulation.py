@@ -43,9 +43,10 @@ def completed(bench, hypothesis, values):
 
 @dataclass(frozen=True)
 class Simulated:
-    """Picklable prediction, of cut runs too: ``runs`` {name: Run}; ``change`` {name: (c, n)}: what half the step changes.
+    """Picklable prediction, of cut runs too: ``runs`` {name: Run}.
 
-    ``altered`` {name: changes}: runs on another bench, see ``next_run``.
+    ``change`` {name: (c, n)}: what half the step changes; ``altered`` {name: changes}: runs on another bench, see
+    ``next_run``.
     """
 
     bench: object

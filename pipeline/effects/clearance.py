@@ -23,7 +23,6 @@ def apply(bench, place, values):
 
 EFFECT = Effect(
     name="clearance", summary="contacts that close later, or earlier, than thought",
-    place="pressed contact", stage="contact",
-    parameters=parameters, apply=apply,
+    place="pressed contact", stage="contact", parameters=parameters, apply=apply,
     source="A. Signorini, Atti Soc. Ital. Progr. Sci. (1933): unilateral contact, with an initial gap",
     valid="Valid while the gap is the same all over the group.")
