@@ -8,7 +8,7 @@ from functools import partial
 
 import numpy as np
 
-from pipeline.contract.errors import BrakechainError
+from pipeline.contract.errors import BrakechainError, ConvergenceError
 from pipeline.inference import decide as rulebook
 from pipeline.inference.calibrate import calibrate, continued, fit
 from pipeline.inference.drift import drift
@@ -77,7 +77,7 @@ def diagnose(problem, budget, catalogue, settings=None, fan_out=map):
     A second effect is refitted only where its score is significant beside the first.
 
     ``fan_out(function, items)`` maps as the builtin does. Where one effect is not enough, pairs with each of the
-    leading ones are tried by the same rules, the first taken as known. Raises ConvergenceError where the nominal model
+    leading ones that can be fitted are tried by the same rules, the first taken as known. Raises ConvergenceError where the nominal model
     has no fit.
     """
     settings = settings or Settings()
@@ -86,7 +86,10 @@ def diagnose(problem, budget, catalogue, settings=None, fan_out=map):
         return single
     for first in _leading(single, settings.rules):
         rest = [c for c in catalogue if c.name != first.candidate.name]
-        pair = _one_step(problem.given(first.candidate), budget, rest, settings, fan_out, first.fit, single)
+        try:
+            pair = _one_step(problem.given(first.candidate), budget, rest, settings, fan_out, first.fit, single)
+        except ConvergenceError:
+            continue
         if pair.decision.verdict in ("missing", "sensor", "numerics"):
             return pair
     return single
@@ -186,7 +189,8 @@ def _weighed(problem, budget, null, found, fits, failures, settings, base):
 def _leading(single, rules, count=2):
     """Refitted candidates worth taking as known: significant ones, best first."""
     good = [w for w in single.weighed if w.contender.p_value <= rules.p_value
-            and w.contender.evidence_gain >= rules.evidence_gain and w.contender.unexplained < 0.5]
+            and w.contender.evidence_gain >= rules.evidence_gain and w.contender.unexplained < 0.5
+            and not w.contender.doubts]
     if single.decision.verdict == "missing":
         return single.named[:1]
     return good[:count]
