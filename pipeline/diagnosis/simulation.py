@@ -41,7 +41,7 @@ def completed(bench, hypothesis, values):
 
 @dataclass(frozen=True)
 class Simulated:
-    """Picklable prediction, of cut runs too: ``runs`` {name: Run}; ``change`` {name: (c, n)}: what half the step changes."""
+    """Picklable prediction: ``runs`` {name: Run}; ``change`` {name: (c, n)}: what half the step changes."""
 
     bench: object
     runs: dict
