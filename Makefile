@@ -3,18 +3,18 @@ CASE   ?= disc_brake
 PYTHON ?= python3
 ARGS   ?=
 TESTS  ?= tests
-STAGES := surface micro_friction friction_map structure reduced_model complex_modes multibody response squeal comparison report interface_law friction_descriptions pin_on_disc transient lock_in lumped effects rupture beam_on_beam motion_scatter beam_geometry recording bench diagnosis
+STAGES := surface micro_friction friction_map structure reduced_model complex_modes multibody response squeal comparison report interface_law friction_descriptions pin_on_disc effects transient lock_in lumped rupture beam_on_beam motion_scatter beam_geometry recording bench diagnosis
 
 CONFIG := configs/$(CASE).yaml
 READY  := .venv/.ready
 BIN    := .venv/bin
 
 .DEFAULT_GOAL := help
-.PHONY: help setup run test test-slow bench lint clean $(STAGES)
+.PHONY: help setup run test test-slow bench study_diagnosis lint clean $(STAGES)
 
 help:            ## show this list
 	@echo "usage: make TARGET [CASE=disc_brake] [ARGS=...]      cases: $(basename $(notdir $(wildcard configs/*.yaml)))"
-	@grep -hE '^[a-z-]+:.*##' Makefile | sed -E 's/:.*## */ /' | awk '{name = $$1; sub(/^[^ ]* */, ""); printf "  %-12s %s\n", name, $$0}'
+	@grep -hE '^[a-z_-]+:.*##' Makefile | sed -E 's/:.*## */ /' | awk '{name = $$1; sub(/^[^ ]* */, ""); printf "  %-12s %s\n", name, $$0}'
 	@echo "  one stage:   $(STAGES)"
 
 setup: $(READY)  ## create the virtual environment .venv from the pinned lock, wheels only
@@ -38,6 +38,9 @@ test-slow: $(READY)  ## the slow studies: full cases, kill-and-resume in every s
 
 bench: $(READY)  ## benchmarks: seconds and memory of every stage and kernel
 	$(BIN)/python -m tests.benchmarks $(ARGS)
+
+study_diagnosis: $(READY)  ## hidden physics on forced rigs: rates of right answers; resumes case by case
+	$(BIN)/python -m tests.studies.forced $(ARGS)
 
 lint: $(READY)   ## style of the code
 	$(BIN)/python -m ruff check .

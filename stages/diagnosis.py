@@ -4,12 +4,15 @@ from pipeline.benches import bench as benches
 from pipeline.benches.effect_block import with_effects
 from pipeline.benches.runs import recorded
 from pipeline.contract import ConfigError, Context, restored, stage
+from pipeline.diagnosis import forced, self_excited
 from pipeline.diagnosis.answer import answer
 from pipeline.diagnosis.document import companions
-from pipeline.diagnosis.forced import question
 from pipeline.diagnosis.settings import Settings
 from pipeline.inference import diagnose as course
 from pipeline.products import Bench, Diagnosis, Effects, Recording, ReducedModel
+
+#: forward model -> what asks by it
+QUESTIONS = {"simulation": forced.question, "poles": self_excited.question}
 
 
 def _check(sections):
@@ -32,7 +35,7 @@ def diagnosis(model: ReducedModel, effects: Effects | None, recording: Recording
     """
     laid_out = restored(benches.Settings, bench.settings.item())
     whole = with_effects(benches.built(model, laid_out), effects)
-    asked = question(whole, recorded(recording, laid_out), settings)
+    asked = QUESTIONS[settings.forward](whole, recorded(recording, laid_out), settings, laid_out.poles)
     context.log(f"{len(asked.candidates)} hypotheses over {len(asked.problem.training)} runs,"
                 f" {len(asked.problem.held_out)} held out")
     found = course.diagnose(asked.problem, asked.budget, asked.candidates, course.Settings(

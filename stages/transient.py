@@ -5,16 +5,17 @@ from typing import Literal
 
 import numpy as np
 
-from pipeline.benches.laws import Laws, friction_law, normal_law
+from pipeline.benches.bench import about
+from pipeline.benches.effect_block import with_effects
+from pipeline.benches.laws import Laws
 from pipeline.contract import ConfigError, Context, Quantities, Quantity, option, stage
 from pipeline.physics.dry_friction import constant
 from pipeline.physics.limit_cycle import cycle, harmonic_levels
-from pipeline.physics.sliding_model import sliding_model
 from pipeline.physics.spectra import power_spectrum
 from pipeline.physics.time_stepping import History, Start, simulate
 from pipeline.physics.time_stepping_linear import modal_system
 from pipeline.physics.time_stepping_start import random_kick, steady_start
-from pipeline.products import ReducedModel, Transient
+from pipeline.products import Effects, ReducedModel, Transient
 
 
 class Settings(Laws):
@@ -48,7 +49,7 @@ def _check(sections):
 
 
 @stage(check=_check)
-def transient(model: ReducedModel, settings: Settings, context: Context) -> Transient:
+def transient(model: ReducedModel, effects: Effects | None, settings: Settings, context: Context) -> Transient:
     """Step the sliding model through contact, sticking and sliding.
 
     The model is reduced to its real modes with open contacts. The linear part is stepped exactly; contact and friction
@@ -62,7 +63,7 @@ def transient(model: ReducedModel, settings: Settings, context: Context) -> Tran
     and cycles are those of the last {window}.
     """
     points = [(state, speed) for state in range(len(model.pressure)) for speed in settings.speeds]
-    motions = context.map(partial(_move, model, settings), points, "operating points")
+    motions = context.map(partial(_move, model, effects, settings), points, "operating points")
     interval = settings.step * settings.record_every
     late = motions[0].time >= motions[0].time[-1] - settings.window
     velocity = np.array([m.velocity for m in motions])
@@ -82,12 +83,11 @@ def transient(model: ReducedModel, settings: Settings, context: Context) -> Tran
         **_cycles(velocity, late, interval, settings))
 
 
-def _move(model, settings, task):
+def _move(model, effects, settings, task):
     """Motion at one operating point: (row of the preload table, speed of the drive)."""
     state, speed = task
-    sliding = sliding_model(model, state, speed)
-    law = normal_law(model, sliding.contacts, settings, "transient")
-    friction = friction_law(model, sliding.contacts, settings, "transient")
+    bench = with_effects(about(model, settings, "transient", state, speed, settings.step), effects, channels=False)
+    sliding, law, friction = bench.model, bench.law, bench.friction
     inputs = model.pressure[state] * model.input_area
     system = modal_system(sliding, settings.damping, settings.highest_frequency)
     drawn = {"sliding": friction, "pressed": constant(0.0)}.get(settings.start)

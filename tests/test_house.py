@@ -35,6 +35,7 @@ MAY_IMPORT = {
                          "pipeline.inference.priors", "pipeline.contract"},
     "pipeline.diagnosis": {"pipeline.diagnosis", "pipeline.benches", "pipeline.products", "pipeline.effects",
                            "pipeline.inference", "pipeline.physics", "pipeline.contract"},
+    "pipeline.trial": {"pipeline.trial", "pipeline.contract.errors"},
     "pipeline.views": {"pipeline.views", "pipeline.products", "pipeline.contract"},
     "stages": {"pipeline.contract", "pipeline.products", "pipeline.physics", "pipeline.systems", "pipeline.assembled",
                "pipeline.published", "pipeline.computed", "pipeline.views", "pipeline.recordings", "pipeline.benches",
@@ -49,8 +50,8 @@ MAY_IMPORT = {
 #: third-party package -> its doors
 DOORS = {
     "h5py": {"pipeline.contract.store", "pipeline.inspection", "pipeline.recordings.columns",
-             "pipeline.recordings.neutral"},
-    "pyuff": {"pipeline.recordings.uff"}, "yaml": {"pipeline.contract.documents"},
+             "pipeline.recordings.neutral", "pipeline.trial.files"},
+    "pyuff": {"pipeline.recordings.uff"}, "yaml": {"pipeline.contract.documents", "pipeline.trial.files"},
     "click": {"pipeline.cli"}, "rich": {"pipeline.console"}, "pint": {"pipeline.contract.units"},
     "pydantic": {"pipeline.contract.settings", "pipeline.published", "pipeline.measured"},
     "pooch": {"pipeline.measured"}, "distributed": {"pipeline.contract.executor"},
@@ -121,7 +122,8 @@ def test_a_file_says_what_it_is(path):
 
 
 @pytest.mark.parametrize("folder", ["stages", "pipeline/physics", "pipeline/systems", "pipeline/recordings",
-                                    "pipeline/inference", "pipeline/effects", "pipeline/benches", "pipeline/diagnosis"])
+                                    "pipeline/inference", "pipeline/effects", "pipeline/benches", "pipeline/diagnosis",
+                                    "pipeline/trial"])
 def test_every_file_has_its_test(folder):
     for path in ROOT.glob(f"{folder}/*.py"):
         if path.stem != "__init__":

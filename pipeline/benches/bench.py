@@ -30,6 +30,16 @@ class Fed(Section):
     gain: float = option(1.0, "in SI units of the input per SI unit of the channel")
 
 
+class Poles(Section):
+    """Free vibrations are compared by their poles: taps and growth phases, each recorded twice."""
+
+    low: Quantity("Hz", gt=0) = option("200 Hz", "lowest frequency at which poles are looked for")
+    high: Quantity("Hz", gt=0) = option("5 kHz", "highest frequency")
+    saturation: float = option(0.12, "share of the largest amplitude up to which growth counts as free", gt=0, le=1)
+    resolution: float = option(1e-4, "least standard deviation of a pole as a share of its frequency: what the modes"
+                                     " that the model leaves out may do", gt=0)
+
+
 class Settings(Laws):
     """Sensors, laws and inputs of the bench that was recorded."""
 
@@ -40,20 +50,30 @@ class Settings(Laws):
     drive: Fed | None = option(None, "recorded channel with the speed of the drive in rad/s (belts: m/s)")
     settled: bool = option(False, "runs start in steady sliding under their first inputs, else at rest")
     state: int = option(0, "state of the model whose preload is used", ge=0)
+    poles: Poles | None = option(None, "compare poles, sensor ratios and order-locked forces; none = samples")
     corrections: dict[str, str | float] = option({}, "nominal values in place of those of the model, as in"
                                                  " joints.guide.damping: 220 N s/m")
 
 
 def built(model, settings):
     """The Bench of a product ReducedModel and a filled section, without effects. ConfigError for unknown names."""
-    sliding = sliding_model(model, settings.state, settings.speed)
-    bench = Bench(sliding, normal_law(model, sliding.contacts, settings, "bench"),
-                  friction_law(model, sliding.contacts, settings, "bench"), settings.step,
-                  tuple(_channel(name, sensor) for name, sensor in settings.channels.items()), groups(model),
-                  settings.settled, doublets(sliding))
+    channels = tuple(_channel(name, sensor) for name, sensor in settings.channels.items())
+    bench = about(model, settings, "bench", settings.state, settings.speed, settings.step)
+    bench = replace(bench, channels=channels, settled=settings.settled)
     for channel in bench.channels:
         _check_source(bench, channel)
     return corrections.corrected(bench, corrections.read(bench, settings.corrections, "bench.corrections"))
+
+
+def about(model, laws, where, state, speed, step):
+    """The Bench of a product ReducedModel about one state and speed, under Laws, without sensors or effects.
+
+    ``where`` is the stage that the laws belong to, for messages.
+    """
+    sliding = sliding_model(model, state, speed)
+    return Bench(sliding, normal_law(model, sliding.contacts, laws, where),
+                 friction_law(model, sliding.contacts, laws, where), step, (), groups(model),
+                 doublets=doublets(sliding))
 
 
 def groups(model):
@@ -74,7 +94,8 @@ def _check_source(bench, channel):
              "friction_force": ("contact", *bench.groups), "input": bench.model.input_name,
              "element_force": None}.get(channel.quantity, bench.model.sensor_name)
     if known is not None and channel.source not in known:
-        raise ConfigError(f"bench.channels.{channel.name}.source", f"one of {', '.join(known) or 'none that are there'}",
+        raise ConfigError(f"bench.channels.{channel.name}.source",
+                          f"one of {', '.join(known) or 'none that are there'}",
                           repr(channel.source), "name a part of the model, or add it")
 
 

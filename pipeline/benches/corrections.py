@@ -4,8 +4,10 @@
     joints.NAME.damping    N s/m        inputs.NAME.offset  N       channels.NAME.delay   s
     bodies.NAME.mass       1 (factor)   friction            1 (factor)
     bodies.NAME.stiffness  1 (factor)   contact.stiffness   1 (factor)     contact.damping  N s/m
+    bodies.NAME.frequency  1 (factor)   friction.stiffness  1 (factor)     bodies.NAME.damping  1 (factor)
 
-Factors are of the given model. Bodies of one coordinate also have masses.NAME in kg.
+Factors are of the given model; ``frequency`` is that of all modes of a body held by the joints that touch nothing else,
+at the same mass, and ``damping`` of body and those joints; ``friction.stiffness`` that of a contact before it slides. Bodies of one coordinate also have masses.NAME in kg.
 """
 
 from dataclasses import replace
@@ -26,10 +28,12 @@ def known(bench):
     found = {"friction": "1"} if len(model.contacts.area) else {}
     if isinstance(bench.law, Penalty) and len(model.contacts.area):
         found |= {"contact.stiffness": "1", "contact.damping": "N s/m"}
+    if getattr(bench.friction, "description", "rigid") != "rigid":
+        found["friction.stiffness"] = "1"
     for name in model.joints.name:
         found |= {f"joints.{name}.stiffness": "N/m", f"joints.{name}.damping": "N s/m"}
     for index, name in enumerate(model.body_name):
-        found |= {f"bodies.{name}.mass": "1", f"bodies.{name}.stiffness": "1"}
+        found |= {f"bodies.{name}.{what}": "1" for what in ("mass", "stiffness", "frequency", "damping")}
         if np.sum(model.coordinate_body == index) == 1:
             found[f"masses.{name}"] = "kg"
     for name in model.input_name:
@@ -101,8 +105,20 @@ def _mass(bench, own, what, value):
 def _body(bench, own, what, factor):
     """Rows and columns of one body times the factor: its own block exactly."""
     own_coordinates = bench.model.coordinate_body == bench.model.body_name.index(own)
+    if what in ("frequency", "damping"):
+        return _held_body(bench, own_coordinates, what, factor)
     root = np.where(own_coordinates, np.sqrt(factor), 1.0)
     return _with_model(bench, **{what: getattr(bench.model, what) * np.outer(root, root)})
+
+
+def _held_body(bench, own_coordinates, what, factor):
+    """One body and the joints that touch nothing else: stiffness times the factor squared, or damping times it."""
+    changed, factor = ("stiffness", factor**2) if what == "frequency" else ("damping", factor)
+    joints, root = bench.model.joints, np.where(own_coordinates, np.sqrt(factor), 1.0)
+    alone = joints.rows[:, own_coordinates].any(axis=1) & ~joints.rows[:, ~own_coordinates].any(axis=1)
+    values = getattr(joints, changed) * np.where(alone, factor, 1.0)
+    return _with_model(bench, joints=replace(joints, **{changed: values}),
+                       **{changed: getattr(bench.model, changed) * np.outer(root, root)})
 
 
 def _input(bench, own, what, value):
@@ -121,6 +137,9 @@ def _channel(bench, own, what, value):
 
 
 def _friction(bench, own, what, factor):
+    if what == "stiffness":
+        stiffer = factor * np.asarray(bench.friction.stiffness)
+        return replace(bench, friction=replace(bench.friction, stiffness=stiffer))
     law = bench.friction.law
     table = FrictionLaw(law.pressure, law.speed, law.distance, factor * np.asarray(law.friction))
     return replace(bench, friction=replace(bench.friction, law=table))

@@ -37,7 +37,8 @@ def recorded(recording, settings, names=None):
              if set(run.channels) & set(settings.channels)}
     if not found:
         known = sorted({c for run in recording.runs.values() for c in run.channels})
-        raise ConfigError("bench.channels", f"channels of the recording, of {', '.join(known) or 'which there are none'}",
+        raise ConfigError("bench.channels",
+                          f"channels of the recording, of {', '.join(known) or 'which there are none'}",
                           ", ".join(settings.channels) or "none", "name recorded channels and what they show")
     check_units(found, settings)
     return found
@@ -46,7 +47,7 @@ def recorded(recording, settings, names=None):
 def _recorded(name, run, settings):
     seen = [c for c in settings.channels if c in run.channels]
     parts = [run.channels[c] for c in seen]
-    fed = {n: f for n, f in settings.inputs.items()} | ({"drive": settings.drive} if settings.drive else {})
+    fed = settings.inputs | ({"drive": settings.drive} if settings.drive else {})
     for key, given in fed.items():
         if given.channel not in run.channels:
             raise ConfigError(f"bench.{'drive' if key == 'drive' else f'inputs.{key}'}.channel",
@@ -85,4 +86,6 @@ def check_units(found, settings):
             quantity, gain = settings.channels[channel].quantity, settings.channels[channel].gain
             wanted = _UNIT.get(quantity, "N")
             if unit != wanted and gain == 1.0:
-                raise ConfigError(f"bench.channels.{channel}", f"a recorded unit of {wanted}, because it shows {quantity}", f"{unit} in run {name}", "state its gain, or convert the recording")
+                raise ConfigError(f"bench.channels.{channel}",
+                                  f"a recorded unit of {wanted}, because it shows {quantity}", f"{unit} in run {name}",
+                                  "state its gain, or convert the recording")

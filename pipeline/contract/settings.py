@@ -55,8 +55,8 @@ class Unit:
 def Quantity(unit, **bounds):  # noqa: N802 - reads as a type in annotations
     """A float in the SI unit ``unit``; ``bounds`` are pydantic's gt, ge, lt, le."""
     spelt = {"type": ["string", "number"], "examples": [example(unit)], "x-unit": unit}
-    return Annotated[float, BeforeValidator(lambda v, info: _in_si(v, unit, info)), Field(**bounds), WithJsonSchema(spelt),
-                     Unit(unit)]
+    return Annotated[float, BeforeValidator(lambda v, info: _in_si(v, unit, info)), Field(**bounds),
+                     WithJsonSchema(spelt), Unit(unit)]
 
 
 def Quantities(unit, **bounds):  # noqa: N802
@@ -107,7 +107,7 @@ def written_in(folder, value):
 
 
 def seen_from(value, folders, place):
-    """The document ``value`` for a file in the folder ``place``: texts that name a file beside them, as seen from there.
+    """The document ``value`` for a file in the folder ``place``: names of files as seen from there.
 
     ``folders``: where else the files of the case are looked for.
     """

@@ -89,8 +89,8 @@ def _effect(product, k, with_parameters=True):
         told["name"] = "nothing missing"
     if with_parameters:
         told["parameters"] = {
-            split_name(str(name))[2]: {"value": float(product.parameter_value[i]), "std": float(product.parameter_std[i]),
-                                       "unit": str(product.parameter_unit[i])}
+            split_name(str(name))[2]: {"value": float(product.parameter_value[i]),
+                                       "std": float(product.parameter_std[i]), "unit": str(product.parameter_unit[i])}
             for i, name in enumerate(product.parameter) if product.parameter_owner[i] == k and split_name(str(name))[2]}
     return told
 

@@ -1,4 +1,4 @@
-"""The section ``diagnosis`` of a case: what may be wrong, what may be missing, what was held out, how noise is known."""
+"""The section ``diagnosis`` of a case: what may be wrong or missing, what was held out, how noise is known."""
 
 from typing import Literal
 
@@ -28,8 +28,9 @@ class NoiseOf(Section):
 class Settings(Section):
     """What is asked."""
 
-    forward: Literal["simulation", "equation"] = option(
-        "simulation", "simulation: runs are simulated; equation: measured motions are put into the equation of motion")
+    forward: Literal["simulation", "equation", "poles"] = option(
+        "simulation", "simulation: runs are simulated; equation: measured motions are put into the equation of motion;"
+        " poles: poles of free vibrations by complex eigenvalues, as bench.poles says")
     parameters: dict[str, Prior] = option({}, "nominal values that may be wrong, by name as in bench.corrections")
     held_out: tuple[str, ...] = option((), "runs that are kept for verification and never fitted")
     effects: tuple[str, ...] = option((), "effects that are weighed; none = the whole catalogue")

@@ -45,6 +45,20 @@ def read_neutral(path):
         raise ConfigError(path, "a whole HDF5 file", str(error)) from None
 
 
+def write_neutral(path, runs):
+    """Write {run: {description, repeat_of, conditions {name: (value, unit)}, channels {name: (samples, unit, quantity,
+    rate in Hz)}}} in this form."""
+    with h5py.File(path, "w") as h5:
+        for name, run in runs.items():
+            group = h5.create_group(f"runs/{name}")
+            group.attrs.update(description=run["description"], repeat_of=run["repeat_of"])
+            for key, (value, unit) in run["conditions"].items():
+                group.create_dataset(f"conditions/{key}", data=float(value)).attrs["units"] = unit
+            for key, (samples, unit, quantity, rate) in run["channels"].items():
+                node = group.create_dataset(f"channels/{key}", data=np.asarray(samples, np.float32), compression="gzip")
+                node.attrs.update(units=unit, quantity=quantity, sample_rate=float(rate))
+
+
 def _run(group, where):
     read = {"conditions": _condition, "channels": _channel, "frf": _frf, "modes": _modes, "lines": _lines,
             "topography": _topography, "friction": _friction}

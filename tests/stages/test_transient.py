@@ -12,6 +12,7 @@ from stages.reduced_model import NO_SHEAR
 from stages.squeal import Settings as SquealSettings
 from stages.squeal import squeal
 from stages.transient import Settings, transient
+from tests.diagnosis.small_rig import effects
 from tests.stages.small_brake import small_brake
 from tests.views.products_for_views import filled
 
@@ -33,10 +34,10 @@ def pair(contacts=1, law=()):
         drive_history=[], sensor_name=["x", "y"], sensor_rows=np.eye(2), sensor_position=np.zeros((2, 3)))
 
 
-def move(model=None, **settings):
+def move(model=None, added=None, **settings):
     chosen = {**QUICK, "speeds": ["3 rad/s"], "contact": "penalty", "contact_stiffness": "0.4 N/um", "friction": 0.3,
               **settings}
-    return transient(pair() if model is None else model, settings=Settings.model_validate(chosen))
+    return transient(pair() if model is None else model, added, settings=Settings.model_validate(chosen))
 
 
 CYCLING = {"friction": 0.6, "friction_at_rest": 0.6, "contact_damping": "100 N s/m", "speeds": ["20 mrad/s"],
@@ -65,6 +66,21 @@ def test_flutter_grows_as_its_root_into_a_stick_slip_cycle_that_has_settled():
     peak = found.frequency[found.velocity_spectrum[0, 0].argmax()]
     assert peak == pytest.approx(found.cycle_frequency[0, 0], abs=5)
     np.testing.assert_allclose(found.status_share.sum(axis=2), 1)
+
+
+def test_falling_friction_as_an_effect_is_that_of_the_settings():
+    """mu (1 + r exp(-v / v_s)): the table of the effect and that of the settings agree to their interpolation."""
+    short = {"speeds": ["0.2 rad/s"], "decay_speed": "0.1 m/s", "duration": "0.1 s", "window": "0.02 s"}
+    falling = effects({"falling_friction": {"contact": {"rise": 0.5, "decay_speed": "0.1 m/s"}}})
+    given = move(friction=0.3, friction_at_rest=0.45, **short)
+    added, plain = move(friction=0.3, added=falling, **short), move(friction=0.3, **short)
+    change = abs(given.velocity - plain.velocity).max()
+    assert change > 0 and abs(added.velocity - given.velocity).max() < 0.02 * change
+
+
+def test_an_effect_of_a_sensor_is_refused_where_nothing_is_recorded():
+    with pytest.raises(ConfigError, match="effects.sensor_gain"):
+        move(added=effects({"sensor_gain": {"x": {"error": 0.1}}}))
 
 
 def test_a_cycle_with_contact_loss_that_wanders_says_so():

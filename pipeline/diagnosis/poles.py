@@ -1,0 +1,176 @@
+"""Features of self-excited benches: poles of taps and growth phases, ratios of sensors, forces locked to the angle.
+
+Runs with motion channels are free vibrations: their poles count where two records (a run and its ``repeat_of``) show
+them; sensors that look at one point give the logarithm of their ratio and their delay. Runs with joint forces alone are
+slow turns: they give cosine and sine of the first orders. Every operating point is one record of features.
+"""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from scipy.optimize import linear_sum_assignment
+
+from pipeline.contract import ConfigError
+from pipeline.inference.problem import Observed
+from pipeline.physics.bench_modes import modes, motions, order_locked
+from pipeline.physics.free_decay import Poles, before_saturation, confirmed, likeness, pooled, poles
+
+#: orders of the drive that slow turns are read for
+ORDERS = (1, 2, 3)
+#: how far a predicted root may lie from a seen one, as a share of it, before it costs as much as another shape
+_NEAR = 0.03
+#: standard deviations that no sensor beats: of a logarithmic gain, and of a delay in s
+_GAIN, _DELAY = 0.005, 1e-6
+#: powers of the root that turn a quantity into a velocity
+_POWER = {"displacement": 1, "velocity": 0, "acceleration": -1}
+
+
+@dataclass(frozen=True)
+class Features:
+    """What one operating point showed: Poles ``seen``, or none; ``values``, ``std`` {feature: SI value}."""
+
+    run: object
+    seen: Poles | None
+    values: dict
+    std: dict
+
+
+def features(bench, recorded, settings):
+    """{run name: Features} of {name: Recorded}; ``settings`` the section ``bench.poles``.
+
+    Raises ConfigError where a run of free vibration has no repeat.
+    """
+    found, misfit = {}, []
+    for name, one in recorded.items():
+        if one.repeat_of:
+            continue
+        again = [other for other in recorded.values() if other.repeat_of == name]
+        if not set(one.channels) & {c.name for c in motions(bench)}:
+            found[name] = _turned(bench, one)
+            continue
+        if not again:
+            raise ConfigError(f"run {name}", "a repeat: poles count where two records show them", "none",
+                              "record it twice and set repeat_of")
+        seen, apart = confirmed(_poles(bench, one, settings), _poles(bench, again[0], settings))
+        misfit.extend(apart**2 / 2)
+        found[name] = Features(one.run, seen, {}, {})
+    factor = np.sqrt(max(1.0, np.mean(misfit))) if misfit else 1.0
+    return {name: one if one.seen is None else _told(bench, replace(one, seen=pooled(one.seen, factor)), settings)
+            for name, one in found.items()}
+
+
+def _poles(bench, one, settings):
+    """Poles of a run as its motion channels show them, shapes as velocities."""
+    seen = [c for c in motions(bench) if c.name in one.channels]
+    samples = one.samples[[one.channels.index(c.name) for c in seen]]
+    count = before_saturation(samples, one.run.sample_rate, settings.saturation)
+    told = poles(samples, one.run.sample_rate, settings.low, settings.high, count)
+    power = np.array([_POWER[c.quantity] for c in seen])
+    return replace(told, shape=told.shape * told.root[:, None] ** power)
+
+
+def _told(bench, one, settings):
+    """The Features with their values: every pole, and the ratio of every two sensors of one point."""
+    values, std = {}, {}
+    for k, (root, spread) in enumerate(zip(one.seen.root, one.seen.std, strict=True), 1):
+        frequency, growth = _named(k)
+        values |= {frequency: root.imag / (2 * np.pi), growth: root.real}
+        floor = settings.resolution * root.imag
+        std |= {frequency: np.hypot(spread, floor) / (2 * np.pi), growth: np.hypot(spread, floor)}
+    for (first, second), (gain, delay) in _pairs(bench).items():
+        ratio = one.seen.shape[:, second] / one.seen.shape[:, first]
+        trusted = 1 / (one.seen.std / abs(one.seen.root) + 1e-3) ** 2
+        late = -np.angle(ratio) / one.seen.root.imag
+        for name, each, floor in ((gain, np.log(abs(ratio)), _GAIN), (delay, late, _DELAY)):
+            middle = np.median(each)
+            kept = abs(each - middle) <= 3 * np.median(abs(each - middle)) + floor
+            values[name] = float(np.average(each[kept], weights=trusted[kept]))
+            std[name] = float(np.hypot(np.std(each[kept]) / np.sqrt(kept.sum()), floor))
+    return Features(one.run, one.seen, values, std)
+
+
+def _turned(bench, one):
+    """Features of a slow turn: least squares of the joint forces over cosine and sine of the orders."""
+    angle = one.run.conditions.get("speed", bench.model.speed) * one.run.time
+    if abs(angle[-1]) < 1.9 * np.pi:
+        raise ConfigError(f"run {one.run.name}", "a whole turn of the drive, because it shows no motion",
+                          f"{abs(angle[-1]) / (2 * np.pi):.2g} turns")
+    basis = np.column_stack([np.ones_like(angle), *(w(n * angle) for n in ORDERS for w in (np.cos, np.sin))])
+    values, std = {}, {}
+    for name, samples, valid in zip(one.channels, one.samples, one.valid, strict=True):
+        fitted, *_ = np.linalg.lstsq(basis[valid], samples[valid], rcond=None)
+        left = np.std(samples[valid] - basis[valid] @ fitted)
+        spread = left * np.sqrt(np.diag(np.linalg.inv(basis[valid].T @ basis[valid])))
+        for key, value, own in zip(_orders(name), fitted[1:], spread[1:], strict=True):
+            values[key], std[key] = float(value), float(own)
+    return Features(one.run, None, values, std)
+
+
+def observed(found, held_out=()):
+    """(Observed, ...) of {run: Features} with one list of channels, and {channel: SI unit}; what a run lacks is masked."""
+    names = sorted({name for one in found.values() for name in one.values}, key=_order)
+    told = []
+    for run, one in found.items():
+        valid = np.array([[name in one.values] for name in names])
+        samples = np.array([[one.values.get(name, 0.0)] for name in names])
+        std = np.array([one.std.get(name, 1.0) for name in names])
+        told.append(Observed(run, one.run.conditions, tuple(names), samples, None, valid, noise_std=std,
+                             held_out=run in held_out))
+    return tuple(told), {name: _unit(name) for name in names}
+
+
+def predicted(bench, one, channels):
+    """(c, 1) of the features ``channels`` that the bench would have shown where Features ``one`` were seen; 0 for
+    those that the run lacks."""
+    values = {}
+    if one.seen is not None:
+        root, shape = modes(bench, one.run)
+        for k, index in enumerate(assigned(one.seen, root, shape), 1):
+            values |= dict(zip(_named(k), (root[index].imag / (2 * np.pi), root[index].real), strict=True))
+        told = motions(bench)
+        for (first, second), (gain, delay) in _pairs(bench).items():
+            values[gain] = np.log(abs(told[second].gain / told[first].gain))
+            values[delay] = told[second].delay - told[first].delay
+    for channel in bench.channels:
+        if channel.quantity == "joint_force" and _orders(channel.name)[0] in one.values:
+            force = channel.gain * order_locked(bench, one.run, channel.source, ORDERS)
+            parts = np.column_stack((force.real, force.imag)).ravel()
+            values |= dict(zip(_orders(channel.name), parts, strict=True))
+    return np.array([[values.get(name, 0.0) if name in one.values else 0.0] for name in channels])
+
+
+def assigned(seen, root, shape):
+    """Index (p,) of the root (r,) that explains each of the Poles ``seen``, by distance and shape; each explains one."""
+    if len(root) < len(seen.root):
+        raise ConfigError("poles", f"at most {len(root)} peaks, the modes of the model", f"{len(seen.root)}",
+                          "narrow bench.poles to the band of the model")
+    apart = abs(np.subtract.outer(seen.root, root)) / (_NEAR * abs(seen.root))[:, None]
+    return linear_sum_assignment(apart + 1 - likeness(seen.shape, shape))[1]
+
+
+def _pairs(bench):
+    """{(i, j): (feature, feature)} of motion channels at one sensor: logarithm of their ratio, and delay."""
+    told = motions(bench)
+    return {(i, j): (f"gain of {b.name} over {a.name}", f"delay of {b.name} behind {a.name}")
+            for j, b in enumerate(told) for i, a in enumerate(told[:j]) if a.source == b.source}
+
+
+def _named(k):
+    return f"pole {k} frequency", f"pole {k} growth rate"
+
+
+def _orders(channel):
+    return [f"order {n} {wave} of {channel}" for n in ORDERS for wave in ("cosine", "sine")]
+
+
+def _unit(name):
+    if name.startswith("pole"):
+        return "Hz" if name.endswith("frequency") else "rad/s"
+    return {"gain": "1", "delay": "s", "order": "N"}[name.split()[0]]
+
+
+def _order(name):
+    """Sensors first, then poles by number, then orders."""
+    kind = name.split()[0]
+    number = int(name.split()[1]) if kind == "pole" else 0
+    return ("gain", "delay", "pole", "order").index(kind), number, name

@@ -1,0 +1,44 @@
+"""The question of self-excited recordings: poles and other features of a bench, by complex eigenvalues."""
+
+from dataclasses import dataclass, replace
+
+from pipeline.contract import ConfigError
+from pipeline.diagnosis.forced import check_names, chosen, nominal_parameters
+from pipeline.diagnosis.poles import features, observed, predicted
+from pipeline.diagnosis.question import Question, nominal
+from pipeline.diagnosis.simulation import candidates, completed
+from pipeline.inference.decide import Rules
+from pipeline.inference.noise import budget
+from pipeline.inference.problem import Problem
+
+#: an effect is named where its evidence is e^3 times that of the next: a share of 0.95
+RULES = Rules(posterior=0.95)
+#: how long runs are simulated for the sizes of priors
+_GLIMPSE = 5e-3
+
+
+@dataclass(frozen=True)
+class Rooted:
+    """Picklable prediction of the features ``seen`` {run: Features}."""
+
+    bench: object
+    seen: dict
+
+    def __call__(self, hypothesis, values, run):
+        return predicted(completed(self.bench, hypothesis, values), self.seen[run.name], run.channels)
+
+
+def question(bench, recorded, settings, band):
+    """Question over {name: Recorded} of a Bench whose section ``bench.poles`` is ``band``.
+
+    ConfigError for unknown runs, effects and parameters, and for recordings that show no pole twice.
+    """
+    seen = features(bench, recorded, band)
+    check_names("held_out", settings.held_out, seen)
+    told, units = observed(seen, settings.held_out)
+    if not units:
+        raise ConfigError("diagnosis", "poles that two records show", "none", "widen bench.poles, or tap harder")
+    problem = Problem(told, Rooted(bench, seen), nominal(nominal_parameters(bench, settings)))
+    brief = tuple(replace(seen[o.name].run, duration=_GLIMPSE, sample_rate=max(1 / bench.step, 2 / _GLIMPSE), inputs={},
+                          drive=None) for o in problem.training)
+    return Question(problem, budget(problem), candidates(bench, brief, chosen(settings), settings.places), units, RULES)

@@ -1,0 +1,78 @@
+"""Modes of small motions of a bench as its sensors see them, and what turns with the drive, slowly.
+
+A contact that does not slide holds on: where the drive rests, its tangential stiffness takes the place of friction.
+"""
+
+from dataclasses import replace
+
+import numpy as np
+
+from pipeline.contract.errors import ConfigError
+from pipeline.physics.bench import MOTIONS, run_drive, run_friction, run_inputs
+from pipeline.physics.bench_roots import small_motion
+from pipeline.physics.dry_friction import constant
+from pipeline.physics.sliding_model import Joints
+from pipeline.physics.time_stepping_start import steady_start
+
+#: angles of the drive at which order-locked forces are read
+_ANGLES = 16
+
+
+def modes(bench, run):
+    """(root (p,) rad/s, shape (p, c)) of the oscillating motions, by rising frequency.
+
+    Shapes are velocities that the motion channels (c,) of the bench write, gain and delay included; accelerations and
+    displacements count by their velocity. Raises what ``small_motion`` raises.
+    """
+    held = sticking(bench, run)
+    values, vectors = np.linalg.eig(small_motion(held, run).matrix())
+    kept = np.flatnonzero(values.imag > 0)
+    kept = kept[np.argsort(values[kept].imag)]
+    root, place = values[kept], vectors[:held.model.size, kept].T
+    shown = [root * (place @ _row(held, c)) * c.gain * np.exp(-root * c.delay) for c in motions(bench)]
+    return root, np.reshape(shown, (-1, len(root))).T
+
+
+def motions(bench):
+    """Channels of the bench that show a motion."""
+    return tuple(c for c in bench.channels if c.quantity in MOTIONS)
+
+
+def sticking(bench, run):
+    """The bench as ``run`` finds it: with its contacts held along sliding where the drive rests, and as it is else."""
+    if np.ravel(run_drive(bench, run))[0] != 0 or not np.any(run_inputs(bench, run)[0]):
+        return bench
+    friction, model = bench.friction, bench.model
+    stiffness = np.broadcast_to(np.asarray(friction.stiffness, float), len(model.contacts.area))
+    if friction.description == "rigid" or not (stiffness > 0).all():
+        raise ConfigError(f"run {run.name}", "contacts with a tangential stiffness, because the drive rests",
+                          f"the {friction.description} description", "set bench.description and tangential_stiffness")
+    names = tuple(f"stuck contact {k + 1}" for k in range(len(stiffness)))
+    joints = Joints((*model.joints.name, *names), np.vstack((model.joints.rows, model.contacts.tangent)),
+                    np.append(model.joints.stiffness, stiffness), np.append(model.joints.damping, 0 * stiffness))
+    return replace(bench, model=replace(model, joints=joints), friction=constant(0.0))
+
+
+def order_locked(bench, run, joint, orders):
+    """(order,) complex amplitudes F of the force of a ``joint``, Re F exp(-i order angle), turned so slowly that
+    nothing swings; 0 where no surface is wavy."""
+    model = bench.model.at_speed(float(np.ravel(run_drive(bench, run))[0]))
+    if not model.contacts.waviness:
+        return np.zeros(len(orders), complex)
+    inputs = np.array([float(np.ravel(i)[0]) for i in run_inputs(bench, run)])
+    row, stiffness, _ = bench.joint(joint)
+    angle = 2 * np.pi * np.arange(_ANGLES) / _ANGLES
+    force = []
+    for turned in angle:
+        waves = tuple(replace(w, phase=w.phase - w.order * turned) for w in model.contacts.waviness)
+        there = replace(model, contacts=replace(model.contacts, waviness=waves))
+        start = steady_start(there, bench.law, run_friction(bench, run), inputs)
+        force.append(stiffness * (row @ start.displacement))
+    return np.array([2 * np.mean(np.array(force) * np.exp(1j * order * angle)) for order in orders])
+
+
+def _row(bench, channel):
+    known = bench.model.sensor_name
+    if channel.source not in known:
+        raise ConfigError(f"bench: channel {channel.name}: sensor", f"one of {', '.join(known)}", repr(channel.source))
+    return bench.model.sensor_rows[known.index(channel.source)]

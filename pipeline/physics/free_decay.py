@@ -1,0 +1,182 @@
+"""Poles of free vibration from records: sums of growing and decaying sines, c channels with the same poles.
+
+    y_c(t) = Re sum_k a_ck exp(p_k t) + noise,     p = growth rate + i angular frequency
+
+A record is shifted to 0 Hz band by band, filtered and thinned; every band is a sum of few exponentials, found by the
+matrix pencil (Y. Hua, T. K. Sarkar, IEEE Trans. ASSP 38 (1990) 814) and refined by least squares (Gauss-Newton, the
+amplitudes eliminated), whose Jacobian gives the standard deviations.
+"""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from scipy.optimize import linear_sum_assignment
+from scipy.signal import firwin, lfilter
+
+from pipeline.contract.errors import ConfigError
+
+#: width of a band in Hz, taps of its filter per rate / width, most poles in a band
+_WIDTH, _TAPS, _MOST = 800.0, 6, 14
+#: parameter of the filters' Kaiser window: 140 dB down where thinning folds
+_KAISER = 14.0
+#: singular values of noise stay below this times their median
+_ABOVE_NOISE = 4.0
+#: a pole counts where its standard deviation is below this share of its frequency
+_KNOWN = 2e-3
+#: the fastest growth or decay that counts, as a damping ratio
+_FASTEST = 0.1
+_ITERATIONS = 12
+#: longest window of the pencil in samples
+_LONGEST_PENCIL = 120
+
+
+@dataclass(frozen=True)
+class Poles:
+    """``root`` (p,) rad/s, by rising frequency; ``std`` (p,) rad/s of its real and of its imaginary part; ``shape``
+    (p, c): amplitudes of the channels."""
+
+    root: np.ndarray
+    std: np.ndarray
+    shape: np.ndarray
+
+    def of(self, index):
+        """The poles ``index``."""
+        return Poles(self.root[index], self.std[index], self.shape[index])
+
+
+def poles(samples, rate, low, high, count=None):
+    """Poles between ``low`` and ``high`` Hz of samples (c, n) at ``rate`` Hz, of the first ``count`` samples alone.
+
+    Raises ConfigError for a band beyond the sampling and for records too short to tell poles of one band apart.
+    """
+    if not 0 < low < high < 0.5 * rate:
+        raise ConfigError("poles: band", f"0 < low < high < {0.5 * rate:g} Hz", f"{low:g} to {high:g} Hz")
+    bands = max(1, round((high - low) / _WIDTH))
+    edges = np.linspace(low, high, bands + 1)
+    found = [_band(samples[:, :count], rate, *edges[k:k + 2]) for k in range(bands)]
+    whole = Poles(*(np.concatenate(parts) for parts in zip(*((f.root, f.std, f.shape) for f in found), strict=True)))
+    return whole.of(np.argsort(whole.root.imag))
+
+
+def before_saturation(samples, rate, share=0.12, interval=2e-3):
+    """Number of samples after the begin of (c, n) until the running effective value of a growing channel first passes
+    ``share`` of its largest; all of them where none grows by more than 1 / ``share``."""
+    size = max(1, round(interval * rate))
+    blocks = samples[:, :samples.shape[1] // size * size].reshape(len(samples), -1, size)
+    level = np.sqrt(np.mean(blocks**2, axis=2))
+    first = samples.shape[1]
+    for row in level:
+        lowest = row[:row.argmax() + 1].argmin()
+        if row[lowest] < share * row.max():
+            first = min(first, size * (lowest + int(np.argmax(row[lowest:] > share * row.max()))))
+    return first
+
+
+def likeness(first, second):
+    """Modal assurance criterion (p, q) of shapes (p, c) and (q, c); 0 for a shape of zeros."""
+    size = np.outer(np.sum(abs(first) ** 2, axis=1), np.sum(abs(second) ** 2, axis=1))
+    return abs(first.conj() @ second.T) ** 2 / np.maximum(size, 1e-300)
+
+
+def matched(first, second, within, alike):
+    """[(i, j)] of two Poles that are the same: frequencies within the share ``within``, likeness above ``alike``."""
+    apart = abs(np.subtract.outer(first.root.imag, second.root.imag)) / first.root.imag[:, None]
+    same = likeness(first.shape, second.shape)
+    cost = np.where((apart < within) & (same > alike), apart / within + (1 - same), 1e3)
+    return [(int(i), int(j)) for i, j in zip(*linear_sum_assignment(cost), strict=True) if cost[i, j] < 1e3]
+
+
+def confirmed(first, second, within=0.008, alike=0.8):
+    """(mean, difference (p,) over its standard deviation) of the Poles seen in two records; others are dropped.
+
+    Differences count growth rate and frequency together: their mean square is 2 where the standard deviations hold.
+    """
+    pairs = matched(first, second, within, alike)
+    one, other = first.of([i for i, _ in pairs]), second.of([j for _, j in pairs])
+    weight = 1 / one.std**2, 1 / other.std**2
+    total = weight[0] + weight[1]
+    turned = np.sum(one.shape.conj() * other.shape, axis=1)     # shapes brought to one size and phase
+    turned = turned / np.maximum(np.sum(abs(other.shape) ** 2, axis=1), 1e-300)
+    mean = Poles((weight[0] * one.root + weight[1] * other.root) / total, 1 / np.sqrt(total),
+                 one.shape + turned.conj()[:, None] * other.shape)
+    return mean, abs(one.root - other.root) / np.hypot(one.std, other.std)
+
+
+def _band(samples, rate, low, high):
+    """Poles of one band."""
+    width = high - low
+    thin = max(1, int(rate / (2.4 * width)))
+    taps = int(_TAPS * rate / width) | 1
+    middle = np.pi * (low + high)
+    time = np.arange(samples.shape[1]) / rate
+    shifted = lfilter(firwin(taps, width, window=("kaiser", _KAISER), fs=rate), [1.0], samples * np.exp(-1j * middle * time))
+    signal = shifted[:, taps:][:, ::thin]
+    if signal.shape[1] < 12:
+        raise ConfigError("poles", f"records of at least {(taps + 12 * thin) / rate:.3g} s", f"{time[-1]:.3g} s",
+                          "tap more gently, or record longer")
+    scale = np.sqrt(np.mean(abs(signal) ** 2, axis=1))
+    seen = scale > 0
+    interval = thin / rate
+    root = _pencil(signal[seen] / scale[seen, None], interval)
+    for _ in range(2):                          # once more, weighted with the noise that the first round left
+        root, amplitude, left, std = _refined(signal[seen] / scale[seen, None], interval, root)
+        scale[seen] *= np.maximum(left, 1e-12)
+    shape = np.zeros((len(root), len(samples)), complex)
+    shape[:, seen] = amplitude * (scale[seen] / np.maximum(left, 1e-12))
+    told = Poles(root + 1j * middle, std, shape)
+    inside = abs(root.imag) <= 0.5 * 2 * np.pi * width
+    fast = abs(told.root.real) > _FASTEST * told.root.imag
+    return told.of(inside & ~fast & (std < _KNOWN * told.root.imag))
+
+
+def _pencil(signal, interval):
+    """Roots (p,) of the exponentials in complex signals (c, n), by the matrix pencil."""
+    count = signal.shape[1]
+    length = min(count // 3, _LONGEST_PENCIL)
+    rows = np.array([signal[:, k:count - length + k].ravel() for k in range(length + 1)])   # (length + 1, c (n - length))
+    square, left = np.linalg.eigh(rows @ rows.conj().T)
+    size, left = np.sqrt(np.maximum(square[::-1], 0.0)), left[:, ::-1]
+    order = int(np.clip(np.sum(size > _ABOVE_NOISE * np.median(size)), 1, min(_MOST, length - 1)))
+    ratio = np.linalg.eigvals(np.linalg.lstsq(left[:-1, :order], left[1:, :order], rcond=None)[0])
+    return np.log(ratio[abs(ratio) > 1e-6]) / interval
+
+
+def _refined(signal, interval, root):
+    """(root, amplitude (p, c), residual (c,), std (p,)) by Gauss-Newton from ``root``."""
+    time = interval * np.arange(signal.shape[1])
+    best = _fitted(signal, time, root)
+    for _ in range(_ITERATIONS):
+        step = np.linalg.pinv(best[3].conj().T @ best[3], hermitian=True) @ (best[3].conj().T @ best[4])
+        longest = max(abs(step).max() / (2 * np.pi * 5.0), 1.0)
+        for shorter in (1.0, 0.25, 0.05):
+            moved = _fitted(signal, time, best[0] + shorter * step / longest)
+            if moved[2] < best[2]:
+                break
+        else:
+            break
+        gained, best = best[2] - moved[2], moved
+        if gained < 1e-9 * best[2]:
+            break
+    root, amplitude, _, jacobian, residual = best
+    square = np.sum(abs(residual) ** 2) / max(residual.size - jacobian.shape[1] - amplitude.size, 1)
+    spread = np.real(np.diag(np.linalg.pinv(jacobian.conj().T @ jacobian, hermitian=True)))
+    left = np.sqrt(np.mean(abs(residual.reshape(signal.shape)) ** 2, axis=1))
+    return root, amplitude, left, np.sqrt(square * np.maximum(spread, 0.0) / 2)
+
+
+def _fitted(signal, time, root):
+    """(root, amplitude (p, c), sum of squares, Jacobian (c n, p), residual (c n,)) with the amplitudes fitted."""
+    waves = np.exp(np.clip(np.outer(time, root.real), -50, 50) + 1j * np.outer(time, root.imag))
+    size = np.linalg.norm(waves, axis=0)
+    basis, triangle = np.linalg.qr(waves / size)
+    amplitude = np.linalg.lstsq(triangle, basis.conj().T @ signal.T, rcond=1e-12)[0] / size[:, None]
+    residual = signal.T - waves @ amplitude
+    slope = time[:, None] * waves
+    slope = slope - basis @ (basis.conj().T @ slope)
+    jacobian = np.einsum("tp,pc->ctp", slope, amplitude).reshape(-1, len(root))
+    return root, amplitude, float(np.sum(abs(residual) ** 2)), jacobian, residual.T.ravel()
+
+
+def pooled(poles_, factor):
+    """Poles with standard deviations times ``factor``."""
+    return replace(poles_, std=factor * poles_.std)

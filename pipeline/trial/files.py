@@ -1,0 +1,76 @@
+"""Files of a case as others would write them: nominal.yaml, recordings.h5, and truth.json apart."""
+
+import json
+from pathlib import Path
+
+import h5py
+import yaml
+
+from pipeline.trial.case import CORNER, DELAY, GAIN_ERROR, LEVELS, RATE
+from pipeline.trial.hidden import HIDDEN
+
+#: believed values are off by 10 to 30 %: what the workshop says of them
+SPREAD = 0.25
+
+
+def write(case, folder):
+    """Write the files of a Case into a folder that is made where it is missing."""
+    folder = Path(folder)
+    folder.mkdir(parents=True, exist_ok=True)
+    (folder / "nominal.yaml").write_text(yaml.safe_dump(nominal(case), sort_keys=False), encoding="utf-8")
+    (folder / "truth.json").write_text(json.dumps(truth(case), indent=1) + "\n", encoding="utf-8")
+    with h5py.File(folder / "recordings.h5", "w") as h5:
+        for number, (force, shown) in enumerate(case.runs):
+            run = h5.create_group(f"runs/run_{number}")
+            _attributes(run.create_dataset("conditions/level", data=LEVELS[number]), units="N")
+            _attributes(run.create_dataset("channels/force", data=force), units="N", quantity="force",
+                        sample_rate=RATE, role="excitation")
+            for k, samples in enumerate(shown):
+                _attributes(run.create_dataset(f"channels/x_{k}", data=samples), units="m", quantity="displacement",
+                            sample_rate=RATE, role="response")
+
+
+def truth(case):
+    """What is opened only for the score."""
+    known = not case.hidden or HIDDEN[case.hidden].known
+    kind = "control" if not case.hidden else "sensor" if HIDDEN[case.hidden].place == "channel" else "effect"
+    return {"seed": case.seed, "class": kind if known else "foreign", "effect": case.hidden, "place": case.place,
+            "noise": case.level, "colour": case.colour, "size": case.size, "mass": list(case.truth.mass),
+            "stiffness": [link.stiffness for link in case.truth.links],
+            "damping": [link.damping for link in case.truth.links]}
+
+
+def nominal(case):
+    """The case file of the workshop: its beliefs, its sensors, and what of it may be wrong."""
+    rig = case.belief
+    names = range(len(rig.mass))
+    parameters = {f"masses.mass_{k}": {"spread": SPREAD} for k in names if f"mass_{k}" not in case.exact}
+    for k in range(len(rig.links)):
+        parameters |= {f"joints.link_{k}.{what}": {"spread": SPREAD} for what in ("stiffness", "damping")
+                       if f"{what}_{k}" not in case.exact}
+    parameters |= {f"channels.x_{k}.gain": {"spread": GAIN_ERROR} for k in names}
+    return {
+        "chain": "lumped_bench", "title": "Rig", "description": "Masses between walls, pushed by a shaker.",
+        "lumped": {
+            "masses": {f"mass_{k}": {"mass": f"{m:.6g} kg", "moves": ["x"]} for k, m in enumerate(rig.mass)},
+            "springs": {f"link_{k}": _spring(link) for k, link in enumerate(rig.links)},
+            "inputs": {"shaker": {"along": {f"mass_{rig.pushed}.x": 1}, "force": "1 N"}},
+            "sensors": {f"mass_{k}": {"along": {f"mass_{k}.x": 1}, "quantity": "displacement", "unit": "m"}
+                        for k in names}},
+        "recording": {"files": [{"kind": "hdf5", "file": "recordings.h5"}]},
+        "bench": {"step": f"{0.5 / RATE:g} s", "inputs": {"shaker": {"channel": "force"}},
+                  "channels": {f"x_{k}": {"quantity": "displacement", "source": f"mass_{k}", "corner": f"{CORNER:g} Hz",
+                                          "delay": f"{DELAY:g} s"} for k in names}},
+        "diagnosis": {"parameters": parameters, "held_out": [f"run_{len(case.runs) - 1}"],
+                      "noise": {"std": {f"x_{k}": f"{s:.6g} m" for k, s in enumerate(case.noise)}}}}
+
+
+def _spring(link):
+    far = f"mass_{link.far}.x" if link.far >= 0 else "ground"
+    return {"between": [f"mass_{link.near}.x", far], "stiffness": f"{link.stiffness:.6g} N/m",
+            "damping": f"{link.damping:.6g} N s/m"}
+
+
+def _attributes(dataset, **values):
+    for name, value in values.items():
+        dataset.attrs[name] = value

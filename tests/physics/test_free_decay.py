@@ -1,0 +1,64 @@
+"""Poles of free vibration: sums of known exponentials are found with the accuracy that their Jacobian tells."""
+
+import numpy as np
+import pytest
+
+from pipeline.contract.errors import ConfigError
+from pipeline.physics.free_decay import Poles, before_saturation, confirmed, likeness, matched, poles
+
+RATE = 10240.0
+ROOT = np.array([-12 + 2j * np.pi * 310, -9 + 2j * np.pi * 611, -9 + 2j * np.pi * 617, 40 + 2j * np.pi * 1502.5])
+SHAPE = np.array([[1, 0.3j], [0.8, -0.5], [0.7, 0.9], [0.02, 0.05j]])
+
+
+def record(noise, seed=0, seconds=0.25, root=ROOT, shape=SHAPE):
+    time = np.arange(round(seconds * RATE)) / RATE
+    clean = (shape.T @ np.exp(np.outer(root, time))).real
+    return clean + noise * np.random.default_rng(seed).standard_normal(clean.shape)
+
+
+@pytest.mark.exact
+def test_exponentials_without_noise_are_found_exactly():
+    found = poles(record(0.0), RATE, 200.0, 2000.0)
+    close = found.of([int(np.argmin(abs(found.root - r))) for r in ROOT])
+    np.testing.assert_allclose(close.root, ROOT, atol=1e-3)
+    np.testing.assert_allclose(np.diag(likeness(close.shape, SHAPE)), 1.0, atol=1e-6)
+
+
+def test_noise_moves_poles_by_their_standard_deviations():
+    left = []
+    for seed in range(12):
+        found = poles(record(1e-3, seed), RATE, 200.0, 2000.0)
+        pairs = matched(Poles(ROOT, np.ones(4), SHAPE.astype(complex)), found, 0.008, 0.8)
+        assert len(pairs) == 4
+        left.append([(found.root[j] - ROOT[i]) / found.std[j] for i, j in pairs])
+    size = np.mean(abs(np.array(left)) ** 2) / 2          # real and imaginary part, one each
+    assert 0.5 < size < 3.0
+
+
+def test_what_only_one_record_shows_does_not_count():
+    alone = -20 + 2j * np.pi * 1100
+    one = poles(record(1e-3, 1, root=np.append(ROOT, alone), shape=np.vstack((SHAPE, [0.5, 0.5]))), RATE, 200., 2000.)
+    other = poles(record(1e-3, 2), RATE, 200.0, 2000.0)
+    both, apart = confirmed(one, other)
+    assert abs(one.root - alone).min() < 1 and abs(both.root - alone).min() > 1000
+    assert len(both.root) == len(apart) == 4 and np.all(both.std < other.std.max())
+
+
+def test_growth_is_free_until_a_share_of_its_largest():
+    time = np.arange(4096) / RATE
+    growth = np.minimum(1e-3 * np.exp(40 * time), 1.0) * np.sin(2 * np.pi * 900 * time)
+    count = before_saturation(growth[None], RATE)
+    assert 0.09 < np.exp(40 * time[count]) * 1e-3 < 0.14
+    assert before_saturation(growth[None, ::-1], RATE) == 4096, "a decay is free from the first sample on"
+
+
+def test_a_flow_of_two_shapes():
+    np.testing.assert_allclose(likeness(np.array([[1, 1j]]), np.array([[1j, -1], [1, -1j], [0, 0]])), [[1, 0, 0]],
+                               atol=1e-12)
+
+
+@pytest.mark.parametrize("samples, low, high", [(4096, 200.0, 6000.0), (4096, 500.0, 200.0), (64, 200.0, 900.0)])
+def test_impossible_records_are_refused(samples, low, high):
+    with pytest.raises(ConfigError):
+        poles(np.ones((1, samples)), RATE, low, high)

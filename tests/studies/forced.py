@@ -1,0 +1,152 @@
+"""'make study_diagnosis': hidden physics on forced rigs, recorded by a generator of its own, diagnosed and scored.
+
+One folder a case; a case that has its answer is not solved again. Prints one line a case, then the table of rates.
+"""
+
+import argparse
+import json
+import math
+import time
+from dataclasses import dataclass
+from pathlib import Path
+
+from pipeline.contract import documents
+from pipeline.contract.errors import BrakechainError
+from pipeline.contract.settings import fill
+from pipeline.diagnosis.document import as_json
+from pipeline.products import Recording
+from pipeline.recordings.neutral import read_neutral
+from pipeline.trial.case import made, places
+from pipeline.trial.files import write
+from pipeline.trial.hidden import HIDDEN
+from stages.bench import bench
+from stages.diagnosis import diagnosis
+from stages.lumped import lumped
+from stages.reduced_model import reduced_model
+
+LEVELS, PLACES, CONTROLS = (0.01, 0.1), 2, 130
+#: share of the cases whose noise is coloured, by its correlation over a sample
+COLOURS = (0.0, 0.0, 0.0, 0.2)
+ROOT = Path(__file__).parents[2]
+
+
+@dataclass(frozen=True)
+class Plan:
+    """What to make: see ``pipeline.trial.case.made``."""
+
+    seed: int
+    hidden: str
+    place: int
+    level: float
+    masses: int
+    colour: float
+
+
+def plans(controls=CONTROLS, first=1000):
+    """Every piece of hidden physics x places x noise levels, then controls of 1 to 4 masses."""
+    found = []
+    for name, piece in HIDDEN.items():
+        masses = 3 if piece.place == "wall link" else 2
+        for place in range(min(PLACES, len(places(piece, masses)))):
+            found += [(name, place, level, masses) for level in LEVELS]
+    found += [("", 0, LEVELS[k % 2], 1 + k % 4 if k % 8 > 5 else 1 + k % 2) for k in range(controls)]
+    return [Plan(first + k, *one, COLOURS[k % len(COLOURS)]) for k, one in enumerate(found)]
+
+
+def solved(folder, **asked):
+    """diagnosis.json of a case's folder, by the stages themselves; sees nominal.yaml and recordings.h5 alone."""
+    document = documents.read_yaml(folder / "nominal.yaml")
+
+    def section(stage, **more):
+        return fill(stage.settings, {**document.get(stage.name, {}), **more}, stage.name)
+
+    model = reduced_model(lumped(settings=section(lumped)), settings=section(reduced_model))
+    recording = Recording(source=["recordings.h5"], runs=read_neutral(folder / "recordings.h5"))
+    shown = bench(model, None, recording, settings=section(bench))
+    return as_json(diagnosis(model, None, recording, shown, settings=section(diagnosis, **asked)))
+
+
+def scored(truth, answer):
+    """{name: bool} of one case: what is right, and whether a control was told to lack something."""
+    verdict, kind = answer["verdict"], truth["class"]
+    named = [(e["name"], e["place"]) for e in answer["effects"]]
+    if kind == "control":
+        return {"right": verdict in ("consistent", "parameters"),
+                "false_alarm": verdict in ("missing", "tie", "sensor", "numerics")}
+    if kind == "foreign":
+        return {"right": verdict == "unknown"}
+    alone = verdict == ("sensor" if kind == "sensor" else "missing") and len(named) == 1
+    true = (truth["effect"], truth["place"])
+    return {"right": alone and named == [true], "type": alone and named[0][0] == truth["effect"],
+            "among_tied": verdict in ("tie", "sensor") and len(named) > 1 and true in named}
+
+
+def wilson(hits, count, z=1.96):
+    """(low, high) of a rate: E. B. Wilson, J. Am. Stat. Assoc. 22 (1927) 209."""
+    if not count:
+        return 0.0, 1.0
+    rate, spread = hits / count, z**2 / count
+    centre, half = rate + spread / 2, z * math.sqrt(rate * (1 - rate) / count + spread / (4 * count))
+    return max(0.0, (centre - half) / (1 + spread)), min(1.0, (centre + half) / (1 + spread))
+
+
+def table(results):
+    """Lines of rates with their intervals from [(truth, answer)]."""
+    rows = []
+    for level in LEVELS:
+        own = [scored(t, a) for t, a in results if t["noise"] == level and t["class"] in ("effect", "sensor")]
+        rows.append((f"type and place at {level:.0%} noise", [s["right"] for s in own]))
+        rows.append((f"type alone at {level:.0%} noise", [s["type"] for s in own]))
+        rows.append((f"truth among the tied at {level:.0%} noise", [s["among_tied"] for s in own]))
+    controls = [scored(t, a) for t, a in results if t["class"] == "control"]
+    rows.append(("false alarms on controls", [s["false_alarm"] for s in controls]))
+    rows.append(("controls told right", [s["right"] for s in controls]))
+    foreign = [scored(t, a) for t, a in results if t["class"] == "foreign"]
+    rows.append(("out of the catalogue: unknown", [s["right"] for s in foreign]))
+    return [_line(name, hits) for name, hits in rows if hits]
+
+
+def _line(name, hits):
+    low, high = wilson(sum(hits), len(hits))
+    return f"{name:<38} {sum(hits):>4} of {len(hits):<4} {sum(hits) / len(hits):>6.1%}   95 %: {low:.1%} to {high:.1%}"
+
+
+def run(plan, folder, **asked):
+    """(truth, answer) of one Plan, from its files where they are there."""
+    if not (folder / "truth.json").exists():
+        write(made(plan.seed, plan.hidden, plan.place, plan.level, plan.masses, plan.colour), folder)
+    truth, kept = json.loads((folder / "truth.json").read_text()), folder / "answer.json"
+    if not kept.exists():
+        begun = time.process_time()
+        try:
+            answer = solved(folder, **asked)
+        except BrakechainError as error:
+            answer = {"verdict": "refused", "effects": [], "reason": [str(error)]}
+        kept.write_text(json.dumps({**answer, "cpu_seconds": time.process_time() - begun}, indent=1) + "\n")
+    return truth, json.loads(kept.read_text())
+
+
+def main():
+    """Solve what is chosen, print the table."""
+    parser = argparse.ArgumentParser(prog="make study_diagnosis", description=__doc__)
+    parser.add_argument("--folder", type=Path, default=ROOT / "data" / "runs" / "study_diagnosis")
+    parser.add_argument("--only", nargs="*", help="hidden physics; 'control' for none; default all")
+    parser.add_argument("--every", type=int, default=1, help="one case in so many")
+    parser.add_argument("--kept", type=int, default=4, help="candidates that are refitted")
+    chosen, results = parser.parse_args(), []
+    wanted = [p for p in plans() if not chosen.only or (p.hidden or "control") in chosen.only][::chosen.every]
+    for plan in wanted:
+        try:
+            truth, answer = run(plan, chosen.folder / f"{plan.seed}", kept=chosen.kept)
+        except BrakechainError as error:
+            print(f"{plan.seed} {plan.hidden}: not made: {error}", flush=True)
+            continue
+        named = ", ".join(f"{e['name']} at {e['place']}" for e in answer["effects"])
+        print(f"{plan.seed} {truth['class']:<8} {truth['effect']:<22} {truth['place']:<8} {truth['noise']:>4.0%}  ->"
+              f" {answer['verdict']:<10} {named}   {answer['cpu_seconds']:.0f} s", flush=True)
+        results.append((truth, answer))
+    print("\n".join(table(results)))
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,61 @@
+"""The study of forced rigs: its plan, its scores, its rates; and, slow, a sample of it."""
+
+import pytest
+
+from pipeline.trial.hidden import HIDDEN
+from tests.studies.forced import Plan, plans, run, scored, table, wilson
+
+
+def test_every_piece_stands_at_two_places_and_two_noise_levels_beside_130_controls():
+    found = plans()
+    assert sum(not p.hidden for p in found) == 130 and len({p.seed for p in found}) == len(found)
+    for name, piece in HIDDEN.items():
+        own = {(p.place, p.level) for p in found if p.hidden == name}
+        assert len(own) == (2 if piece.place == "shaker" else 4)
+    assert {p.masses for p in found} == {1, 2, 3, 4} and {p.colour > 0 for p in found} == {True, False}
+
+
+@pytest.mark.exact
+def test_wilson_bounds_of_none_in_130_and_of_half():
+    low, high = wilson(0, 130)
+    assert low == 0.0 and high == pytest.approx(1.96**2 / (130 + 1.96**2), rel=1e-12)
+    low, high = wilson(50, 100)
+    assert low + high == pytest.approx(1.0) and 0.40 < low < 0.41
+
+
+def truth(kind, effect="coulomb", place="link_1"):
+    return {"class": kind, "effect": effect, "place": place, "noise": 0.01}
+
+
+def told(verdict, *named):
+    return {"verdict": verdict, "effects": [{"name": n, "place": p} for n, p in named]}
+
+
+@pytest.mark.parametrize("kind, answer, right", [
+    ("effect", told("missing", ("coulomb", "link_1")), True), ("effect", told("missing", ("coulomb", "link_0")), False),
+    ("effect", told("missing", ("coulomb", "link_1"), ("viscous", "c")), False), ("effect", told("unknown"), False),
+    ("sensor", told("missing", ("coulomb", "link_1")), False), ("sensor", told("sensor", ("coulomb", "link_1")), True),
+    ("control", told("parameters"), True), ("control", told("unknown"), False), ("foreign", told("unknown"), True),
+    ("foreign", told("missing", ("coulomb", "link_1")), False)])
+def test_what_counts_as_right(kind, answer, right):
+    assert scored(truth(kind), answer)["right"] is right
+
+
+def test_a_tie_that_names_on_a_control_is_a_false_alarm_and_abstaining_is_none():
+    assert scored(truth("control"), told("tie", ("coulomb", "link_1"), ("viscous", "c")))["false_alarm"]
+    assert not scored(truth("control"), told("unknown"))["false_alarm"]
+
+
+def test_the_table_tells_rates_with_their_intervals():
+    lines = table([(truth("control"), told("parameters")), (truth("effect"), told("missing", ("coulomb", "link_1")))])
+    assert any(line.startswith("false alarms on controls") and "0 of 1" in line for line in lines)
+    assert any("type and place at 1%" in line and "100.0%" in line for line in lines)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("hidden, verdict", [("", "parameters"), ("cubic_stiffness", "missing")])
+def test_a_case_of_one_mass_is_answered_and_kept(tmp_path, hidden, verdict):
+    plan = Plan(1, hidden, 0, 0.01, 1, 0.0)
+    known, answer = run(plan, tmp_path, kept=4)
+    assert answer["verdict"] == verdict and scored(known, answer)["right"]
+    assert run(plan, tmp_path, kept=4)[1] == answer
