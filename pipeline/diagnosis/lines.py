@@ -111,8 +111,8 @@ def diagnosed(asked, settings, fan_out=map):
 def differing(problem, diagnosis):
     """Axis ``run``: the lists that differ from the nominal model, by their chi^2 (Holm over all).
 
-    Its parameters are the given, the recalibrated or those of the named hypothesis, whichever leaves the smallest sum of
-    squares with their prior, each square counted up to that of three deviations: lists that differ pull a fit aside.
+    Its parameters are the given, the recalibrated or those of the named hypothesis, whichever leaves the smallest sum
+    of squares with their prior, each square counted up to that of three deviations: lists that differ pull a fit aside.
     """
     best = diagnosis.named[0].fit if diagnosis.named else diagnosis.null
     own = len(problem.nominal.parameters)
