@@ -10,7 +10,7 @@ READY  := .venv/.ready
 BIN    := .venv/bin
 
 .DEFAULT_GOAL := help
-.PHONY: help setup run test test-slow bench study_diagnosis lint clean $(STAGES)
+.PHONY: help setup run test test-slow bench study_diagnosis study_squeal pin_bench lint clean $(STAGES)
 
 help:            ## show this list
 	@echo "usage: make TARGET [CASE=disc_brake] [ARGS=...]      cases: $(basename $(notdir $(wildcard configs/*.yaml)))"
@@ -41,6 +41,12 @@ bench: $(READY)  ## benchmarks: seconds and memory of every stage and kernel
 
 study_diagnosis: $(READY)  ## hidden physics on forced rigs: rates of right answers; resumes case by case
 	$(BIN)/python -m tests.studies.forced $(ARGS)
+
+study_squeal: $(READY)  ## hidden physics on the practice pin-on-disc bench; resumes case by case
+	$(BIN)/python -m tests.studies.self_excited $(ARGS)
+
+pin_bench: $(READY)  ## write the practice recordings of configs/pin_on_disc_bench.yaml to data/runs/practice
+	$(BIN)/python -m tests.studies.self_excited --practice
 
 lint: $(READY)   ## style of the code
 	$(BIN)/python -m ruff check .

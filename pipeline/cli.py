@@ -197,6 +197,31 @@ def schema(name):
     click.echo(json.dumps(case_schema(chains), indent=2))
 
 
+@cli.command()
+@_CONFIG
+@_options("set", "debug")
+@click.option("--csv", "file", metavar="FILE", type=click.Path(path_type=Path), help="write the table there too")
+def plan(config, overrides, file):
+    """Before the bench: say which planned run of CONFIG can name which effect, and the cheapest set that names all."""
+    from pipeline import measured
+    from pipeline.benches import bench, effect_block
+    from pipeline.console import table
+    from pipeline.contract import case
+    from pipeline.diagnosis import planning
+
+    chosen = case.load(config, {"lumped_bench": stages.CHAINS["lumped_bench"]}, stages.load, overrides, measured.path,
+                       unchecked=("recording",)).sections
+    model = stages.load("reduced_model")(stages.load("lumped")(settings=chosen["lumped"]),
+                                         settings=chosen["reduced_model"])
+    whole = effect_block.with_effects(bench.built(model, chosen["bench"]), effect_block.product(chosen["effects"]))
+    found = planning.plan(whole, planning.channel_units(whole), chosen["diagnosis"])
+    head, rows = planning.table(found)
+    table("d: standard deviations that each effect leaves beside the nominal values", head, rows,
+          planning.conclusion(found))
+    if file is not None:
+        file.write_text("\n".join(",".join(row) for row in (head, *rows)) + "\n", encoding="utf-8")
+
+
 @cli.group()
 def data():
     """Public measurements: what is registered, and where it lies."""

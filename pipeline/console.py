@@ -3,6 +3,7 @@
 from contextlib import contextmanager
 from dataclasses import dataclass
 
+from rich.box import SIMPLE_HEAD
 from rich.console import Console
 from rich.progress import (
     BarColumn,
@@ -13,9 +14,24 @@ from rich.progress import (
     TimeElapsedColumn,
     TimeRemainingColumn,
 )
+from rich.table import Table
 from rich.text import Text
 
 from pipeline.contract import context
+
+
+def table(title, head, rows, note=""):
+    """Print rows of text under a head, the first column to the left, and a note below."""
+    shown = Table(title=title, title_justify="left", box=SIMPLE_HEAD)
+    for index, name in enumerate(head):
+        shown.add_column(name, justify="right" if index else "left")
+    for row in rows:
+        shown.add_row(*row)
+    console = Console(highlight=False)
+    if not console.is_terminal:
+        console.width = max(console.width, sum(max(map(len, column)) + 3 for column in zip(head, *rows, strict=True)))
+    console.print(shown)
+    console.print(note, markup=False)
 
 
 class _TimeLeft(TimeRemainingColumn):

@@ -17,6 +17,11 @@ CHAINS = {
     "beam_geometry": ("beam_geometry", "report"),
     "recording": ("recording", "report"),
     "lumped_bench": ("lumped", "reduced_model", "effects", "recording", "bench", "diagnosis", "report"),
+    "disc_modes": ("surface", "micro_friction", "friction_map", "structure", "recording", "diagnosis", "report"),
+    "disc_squeal": ("surface", "micro_friction", "friction_map", "structure", "reduced_model", "complex_modes",
+                    "recording", "diagnosis", "report"),
+    "pin_squeal": ("surface", "interface_law", "pin_on_disc", "reduced_model", "complex_modes", "recording",
+                   "diagnosis", "report"),
 }
 
 #: every stage once, in the order of its first chain

@@ -4,8 +4,10 @@ import numpy as np
 
 from pipeline.benches.bench import Settings, built, only
 from pipeline.benches.effect_block import with_effects
+from pipeline.benches.equation import balance, started
 from pipeline.benches.runs import recorded
 from pipeline.contract import ConfigError, Context, stage, stored
+from pipeline.diagnosis.poles import features, observed, predicted
 from pipeline.physics.bench import respond
 from pipeline.products import Bench, BenchRun, Effects, Recording, ReducedModel
 
@@ -23,12 +25,22 @@ def bench(model: ReducedModel, effects: Effects | None, recording: Recording, se
     """Predict what the sensors of the bench would have shown in the recorded runs.
 
     Method:
-    Every recorded run was simulated with the model, its laws of contact (contact: {contact}) and friction, the stated
-    effects and corrected values, by steps of at most {step}; sensors show what the case says, and the error is the
-    root mean square of recorded less predicted samples.
+    Every recorded run was predicted with the model, its laws of contact (contact: {contact}) and friction, the stated
+    effects and corrected values (forward: {forward}; simulation: by steps of at most {step}, sensors showing what the
+    case says; equation: measured displacements give the force that they need, against the one applied); the error is
+    the root mean square of recorded less predicted samples. Where poles are compared ({poles}), the runs are free
+    vibrations, and poles come from complex eigenvalues about steady sliding.
     """
     whole, runs = with_effects(built(model, settings), effects), recorded(recording, settings)
-    answers = context.map(_Answer(whole), list(runs.values()), "runs")
+    if settings.poles is not None:
+        return _of_features(whole, runs, settings, context)
+    if settings.forward == "equation":
+        balances = [balance(whole, one, settings.equation) for one in runs.values()]
+        runs = {name: one.seen for name, one in zip(runs, balances, strict=True)}
+        answers = [one.predicted(whole) for one in balances]
+    else:
+        runs = started(whole, runs, settings)
+        answers = context.map(_Answer(whole), list(runs.values()), "runs")
     found = {name: _run(one, answer) for (name, one), answer in zip(runs.items(), answers, strict=True)}
     units = {c: u for one in runs.values() for c, u in zip(one.channels, one.unit, strict=True)}
     for name, one in found.items():
@@ -55,3 +67,17 @@ def _run(one, predicted):
     return BenchRun(time=one.run.time, measured=np.where(one.valid, one.samples, 0.0), predicted=predicted,
                     valid=one.valid.astype(int), root_mean_square=size,
                     error=np.divide(size, spread, out=np.zeros(len(size)), where=spread > 0))
+
+
+def _of_features(whole, recorded_runs, settings, context):
+    """Bench of poles and other features, one sample a feature; their errors count in their standard deviations."""
+    seen = features(whole, recorded_runs, settings.poles)
+    told, units = observed(seen)
+    found = {}
+    for one in told:
+        shown = predicted(whole, seen[one.name], one.channels)
+        left = np.where(one.valid, one.samples - shown, 0.0)[:, 0]
+        found[one.name] = BenchRun(time=[0.0], measured=one.samples, predicted=shown, valid=one.valid.astype(int),
+                                   root_mean_square=abs(left), error=abs(left) / one.noise_std)
+        context.log(f"{one.name}: {int(one.valid.sum())} features")
+    return Bench(settings=stored(settings), channel=list(units), unit=list(units.values()), runs=found)

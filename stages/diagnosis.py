@@ -2,17 +2,16 @@
 
 from pipeline.benches import bench as benches
 from pipeline.benches.effect_block import with_effects
+from pipeline.benches.equation import started
 from pipeline.benches.runs import recorded
 from pipeline.contract import ConfigError, Context, restored, stage
-from pipeline.diagnosis import forced, self_excited
+from pipeline.diagnosis import equation, forced, self_excited
 from pipeline.diagnosis.answer import answer
 from pipeline.diagnosis.document import companions
+from pipeline.diagnosis.published_lines import Models, published_diagnosis
 from pipeline.diagnosis.settings import Settings
 from pipeline.inference import diagnose as course
-from pipeline.products import Bench, Diagnosis, Effects, Recording, ReducedModel
-
-#: forward model -> what asks by it
-QUESTIONS = {"simulation": forced.question, "poles": self_excited.question}
+from pipeline.products import Bench, ComplexModes, Diagnosis, Effects, Recording, ReducedModel, Structure
 
 
 def _check(sections):
@@ -24,22 +23,45 @@ def _check(sections):
 
 
 @stage(companions=companions, check=_check)
-def diagnosis(model: ReducedModel, effects: Effects | None, recording: Recording, bench: Bench, settings: Settings,
+def diagnosis(model: ReducedModel | None, effects: Effects | None, recording: Recording, bench: Bench | None,
+              structure: Structure | None, modes: ComplexModes | None, settings: Settings,
               context: Context) -> Diagnosis:
     """Compare recordings with the model, locate what differs and name what is missing.
 
     Method:
-    Nominal values were refitted first (forward model: {forward}); only what they cannot explain counts as evidence of
-    missing physics. Every effect of the catalogue at every place was screened, the best {kept} were refitted in the
-    full model, and an effect is named only by the rules that the page states; held-out runs were never fitted.
+    Nominal values were refitted first; only what they cannot explain counts as evidence of missing physics. Every
+    effect of the catalogue at every place was screened, the best {kept} were refitted in the full model, and an effect
+    is named only by the rules that the page states; held-out runs were never fitted.
     """
+    if settings.forward == "lines":
+        told = published_diagnosis(recording, Models(model, structure, modes), settings, context)
+    else:
+        told = _of_runs(model, effects, recording, bench, settings, context)
+    context.log(f"verdict: {told.verdict.item()}")
+    return told
+
+
+def _of_runs(model, effects, recording, bench, settings, context):
+    """Product Diagnosis of recorded runs against the bench of the case."""
+    if model is None or bench is None:
+        raise ConfigError("diagnosis.forward", "lines, in a chain without a bench", settings.forward)
     laid_out = restored(benches.Settings, bench.settings.item())
     whole = with_effects(benches.built(model, laid_out), effects)
-    asked = QUESTIONS[settings.forward](whole, recorded(recording, laid_out), settings, laid_out.poles)
+    asked = _question(whole, recorded(recording, laid_out), settings, laid_out)
     context.log(f"{len(asked.candidates)} hypotheses over {len(asked.problem.training)} runs,"
                 f" {len(asked.problem.held_out)} held out")
     found = course.diagnose(asked.problem, asked.budget, asked.candidates, course.Settings(
         kept=settings.kept, draws=settings.draws, seed=settings.seed, rules=asked.rules), context.map)
-    told = answer(asked, found)
-    context.log(f"verdict: {told.verdict.item()}")
-    return told
+    return answer(asked, found)
+
+
+def _question(whole, runs, settings, laid_out):
+    """What the forward model of the case asks of a Bench and {name: Recorded}."""
+    if (settings.forward == "poles") != (laid_out.poles is not None):
+        raise ConfigError("diagnosis.forward", "poles where the section bench.poles is given, and only there",
+                          settings.forward, "give both or neither")
+    if laid_out.poles is not None:
+        return self_excited.question(whole, runs, settings, laid_out.poles)
+    if laid_out.forward == "equation":
+        return equation.question(whole, runs, settings, laid_out.equation)
+    return forced.question(whole, started(whole, runs, laid_out), settings)

@@ -6,7 +6,9 @@ from typing import Literal
 from pipeline.contract import ConfigError, Context, InputFile, Quantity, Section, option, stage
 from pipeline.contract.units import in_si
 from pipeline.products import Condition, Recording, Run
+from pipeline.published import load
 from pipeline.recordings.columns import read_matlab, read_table
+from pipeline.recordings.lines import line_list
 from pipeline.recordings.neutral import read_neutral
 from pipeline.recordings.samples import channel, even_rate, on_grid, stretch
 from pipeline.recordings.uff import read_uff
@@ -82,10 +84,34 @@ class Neutral(Section):
     file: InputFile = option(..., "the file; measured:NAME for a public one")
 
 
+class LineList(Section):
+    """Lines of one spectrum, or modes of one table."""
+
+    facts: tuple[str, ...] = option(..., "keys of published facts, or patterns such as mode_*_test", min_length=1)
+    multiples: int = option(1, "each fact is the base of so many lines: itself, twice its frequency, ...", ge=1)
+    place: str = option("", "where the spectrum was taken")
+
+
+class LineRun(Section):
+    """A run of which lines were published."""
+
+    description: str = option("", "what was done")
+    conditions: dict[str, Given] = option({}, "conditions by name")
+    lists: dict[str, LineList] = option(..., "lists of lines by name", min_length=1)
+
+
+class PublishedLines(Section):
+    """Frequencies of published facts, where no raw signal exists."""
+
+    kind: Literal["lines"] = "lines"
+    file: InputFile = option(..., "published facts, e.g. data/reference/pin_on_disc.yaml")
+    runs: dict[str, LineRun] = option(..., "runs by name", min_length=1)
+
+
 class Settings(Section):
     """Files of the bench, each with what its columns are."""
 
-    files: tuple[Matlab | Table | Uff | Neutral, ...] = option((), "files in any order; at least one")
+    files: tuple[Matlab | Table | Uff | Neutral | PublishedLines, ...] = option((), "files in any order; at least one")
 
 
 def _check(sections):
@@ -148,10 +174,17 @@ def _from_uff(file):
     return {file.run: _run(channels, file, f"{file.file}", frf=frf, modes=modes)}
 
 
+def _from_facts(file):
+    facts = load(file.file)
+    return {name: _run({}, run, f"{file.file}: runs.{name}", lines={
+        key: line_list(facts, one.facts, one.multiples, one.place, f"{file.file}: runs.{name}.lists.{key}")
+        for key, one in run.lists.items()}) for name, run in file.runs.items()}
+
+
 #: kind of file -> its runs by name
 READ = {"matlab": lambda file: _from_columns(file, read_matlab(file.file)),
         "table": lambda file: _from_columns(file, read_table(file.file, file.delimiter, file.skip)),
-        "uff": _from_uff, "hdf5": lambda file: read_neutral(file.file)}
+        "uff": _from_uff, "lines": _from_facts, "hdf5": lambda file: read_neutral(file.file)}
 
 
 def _run(channels, told, where, **more):
@@ -160,7 +193,8 @@ def _run(channels, told, where, **more):
         value, unit = in_si(given.value, given.unit, f"{where}: conditions.{name}.unit")
         conditions[name] = Condition(value=[value], time=[0.0], unit=unit)
     empty = {kind: {} for kind in ("frf", "modes", "lines", "topography", "friction")}
-    return Run(description=told.description, repeat_of=told.repeat_of, conditions=conditions, channels=channels,
+    return Run(description=told.description, repeat_of=getattr(told, "repeat_of", ""), conditions=conditions,
+               channels=channels,
                **{**empty, **more})
 
 

@@ -51,6 +51,16 @@ def test_bad_cases_are_one_sentence_without_traceback(tmp_path, text, code, mess
     assert not (tmp_path / "run").exists(), "nothing is made before the case is understood"
 
 
+def test_plan_prints_and_writes_the_table(tmp_path):
+    done = brakechain("plan", "docs/practice/rig.yaml", "--csv", tmp_path / "plan.csv", "--set",
+                      "recording.files=[]", "--set", "diagnosis.effects=[cubic_stiffness]",
+                      "--set", "diagnosis.plan.wanted=[cubic_stiffness]")
+    assert done.returncode == 0, done.stderr
+    assert "cheapest set: soft (cost 1)" in done.stdout
+    head, first, *_ = (tmp_path / "plan.csv").read_text().splitlines()
+    assert head == "effect,soft,loud,tone,all,chosen" and first.startswith("cubic_stiffness at guide,")
+
+
 def test_debug_shows_the_traceback(tmp_path):
     done = brakechain("run", tmp_path / "none.yaml", "--debug")
     assert "Traceback" in done.stderr and done.returncode == 2

@@ -44,7 +44,8 @@ MAY_IMPORT = {
     "pipeline.schema": {"pipeline.contract"},
     "pipeline.console": {"pipeline.contract"},
     "pipeline.cli": {"pipeline.contract", "pipeline.console", "pipeline.inspection", "pipeline.measured",
-                     "pipeline.physics.linear_solver", "pipeline.recordings.neutral", "pipeline.schema", "stages"},
+                     "pipeline.physics.linear_solver", "pipeline.recordings.neutral", "pipeline.schema", "stages",
+                     "pipeline.benches", "pipeline.diagnosis.planning"},
     "pipeline.__main__": {"pipeline.cli", "pipeline.environment"},
 }
 #: third-party package -> its doors

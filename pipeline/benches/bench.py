@@ -1,6 +1,7 @@
 """From a reduced model and the section ``bench`` of a case to a Bench: laws, sensors, corrected values, effects."""
 
 from dataclasses import replace
+from typing import Literal
 
 import numpy as np
 
@@ -29,6 +30,18 @@ class Fed(Section):
     channel: str = option(..., "recorded channel")
     gain: float = option(1.0, "in SI units of the input per SI unit of the channel")
     derivative: bool = option(False, "the rate of change of the channel feeds it: a recorded position gives a speed")
+    hold: Literal["linear", "step", "band_limited"] = option(
+        "linear", "between samples; step: each is held until the next, as converters do; band_limited: nothing lies"
+        " above half the sample rate (an anti-aliasing filter)")
+
+
+class Equation(Section):
+    """How measured displacements are put into the equation of motion."""
+
+    corner: Quantity("Hz", gt=0) | None = option(
+        None, "corner of the low pass of displacements, Butterworth of order 4 run forth and back; none = no filter")
+    decimation: int = option(1, "every so many samples are kept, behind a low pass", ge=1)
+    trim: int = option(0, "samples left out at both ends of a run, where filters settle", ge=0)
 
 
 class Poles(Section):
@@ -37,19 +50,25 @@ class Poles(Section):
     low: Quantity("Hz", gt=0) = option("200 Hz", "lowest frequency at which poles are looked for")
     high: Quantity("Hz", gt=0) = option("5 kHz", "highest frequency")
     saturation: float = option(0.12, "share of the largest amplitude up to which growth counts as free", gt=0, le=1)
-    resolution: float = option(1e-4, "least standard deviation of a pole as a share of its frequency: what the modes"
+    resolution: float = option(1e-3, "least standard deviation of a pole as a share of its frequency: what the modes"
                                      " that the model leaves out may do", gt=0)
 
 
 class Settings(Laws):
     """Sensors, laws and inputs of the bench that was recorded."""
 
+    forward: Literal["simulation", "equation"] = option(
+        "simulation", "simulation: runs are simulated; equation: measured displacements are put into the equation of"
+        " motion, and its forces are compared with those applied")
+    equation: Equation = option(Equation(), "how that is done")
     step: Quantity("s", gt=0) = option("0.1 ms", "longest time step; samples are divided evenly")
     speed: Quantity("rad/s") = option("1 rad/s", "speed of the drive where a run tells none")
     channels: dict[str, Sensor] = option({}, "recorded channel: what it shows")
     inputs: dict[str, Fed] = option({}, "input of the model: the recorded channel that feeds it")
     drive: Fed | None = option(None, "recorded channel with the speed of the drive in rad/s (belts: m/s)")
     settled: bool = option(False, "runs start in steady sliding under their first inputs, else at rest")
+    settle: Quantity("s", ge=0) = option("0 s", "begin of every run that is not compared: an unknown start dies away")
+    measured_start: bool = option(False, "runs start where and as fast as their displacement channels do")
     state: int = option(0, "state of the model whose preload is used", ge=0)
     poles: Poles | None = option(None, "compare poles, sensor ratios and order-locked forces; none = samples")
     corrections: dict[str, str | float] = option({}, "nominal values in place of those of the model, as in"

@@ -7,7 +7,8 @@
     bodies.NAME.frequency  1 (factor)   friction.stiffness  1 (factor)     bodies.NAME.damping  1 (factor)
 
 Factors are of the given model; ``frequency`` is that of all modes of a body held by the joints that touch nothing else,
-at the same mass, and ``damping`` of body and those joints; ``friction.stiffness`` that of a contact before it slides. Bodies of one coordinate also have masses.NAME in kg.
+at the same mass, and ``damping`` of body and those joints; ``friction.stiffness`` that of a contact before it slides.
+Bodies of one coordinate also have masses.NAME in kg.
 """
 
 from dataclasses import replace

@@ -62,9 +62,24 @@ def _recorded(name, run, settings):
     inputs = {key: _fed(given, run) for key, given in settings.inputs.items()}
     drive = None if settings.drive is None else _fed(settings.drive, run)
     conditions = {key: float(np.ravel(c.value)[0]) for key, c in run.conditions.items()}
+    compared = np.array([valid(p) for p in parts]) & (np.arange(count) >= settings.settle * rate)
     own = Run(name, (count - 1) / rate, rate, inputs, drive, conditions)
     return Recorded(own, tuple(seen), tuple(str(p.unit) for p in parts), np.array([p.samples for p in parts]),
-                    np.array([valid(p) for p in parts]), str(run.repeat_of))
+                    compared, str(run.repeat_of))
+
+
+def held(samples, hold):
+    """Samples (n,) that straight lines between them turn into what was applied.
+
+    Of a ``step`` hold the mean of the steps before and after each instant: the whole is half a sample late, as it was.
+    Straight lines shape a spectrum by sinc^2 (f / rate), which is taken off ``band_limited`` samples beforehand.
+    """
+    samples = np.array(samples, float)
+    if hold == "step":
+        return (samples + np.append(samples[:1], samples[:-1])) / 2
+    if hold == "band_limited":
+        return np.fft.irfft(np.fft.rfft(samples) / np.sinc(np.fft.rfftfreq(len(samples))) ** 2, len(samples))
+    return samples
 
 
 def _fed(given, run):
@@ -72,7 +87,9 @@ def _fed(given, run):
     channel = run.channels[given.channel]
     kept, instants = valid(channel), np.arange(len(channel.samples))
     samples = np.interp(instants, instants[kept], np.asarray(channel.samples)[kept])
-    return given.gain * (np.gradient(samples, 1 / float(channel.rate)) if given.derivative else samples)
+    if given.derivative:
+        samples = np.gradient(samples, 1 / float(channel.rate))
+    return given.gain * held(samples, given.hold)
 
 
 def valid(channel):

@@ -103,16 +103,17 @@ def _origin(given, steps):
     return {"origin": "user", **said}
 
 
-def load(path, chains, stage_of, overrides=(), measured=None):
+def load(path, chains, stage_of, overrides=(), measured=None, unchecked=()):
     """Read and check the case at ``path``.
 
     chains : dict, chain name -> names of its stages in order
     stage_of : function, stage name -> Stage
     overrides : strings 'stage.key=value', as given to --set
     measured : function, name of a public recording -> its local file
+    unchecked : names of stages that will not run, whose own demands are left out
     """
     path = Path(path)
-    document, folders = _read(path)
+    document, folders = _read(path, chains)
     for item in overrides:
         _override(document, item)
     name = document.get("chain")
@@ -122,12 +123,16 @@ def load(path, chains, stage_of, overrides=(), measured=None):
     _check_keys(path, document, stages)
     case = CaseFile(path, document, stages, folders, measured)
     for stage in stages:
-        stage.check(case.sections)
+        if stage.name not in unchecked:
+            stage.check(case.sections)
     return case
 
 
-def _read(path, readers=()):
-    """The document at ``path`` laid over the one that its key ``based_on`` names, and the folders of both."""
+def _read(path, chains, readers=()):
+    """The document at ``path`` laid over the one that its key ``based_on`` names, and the folders of both.
+
+    A case of another chain takes from that one what its own chain has, and leaves the sections of other stages.
+    """
     document = documents.read_yaml(path)
     if not isinstance(document, dict):
         raise ConfigError(path, "a mapping of sections", repr(document)[:60])
@@ -137,8 +142,10 @@ def _read(path, readers=()):
     file = path.parent / str(base)
     if file.resolve() in [reader.resolve() for reader in (*readers, path)]:
         raise ConfigError(f"{path}: based_on", "a file that does not lead back here", repr(base))
-    below, folders = _read(file, (*readers, path))
-    return _laid_over(below, document), (path.parent, *folders)
+    below, folders = _read(file, chains, (*readers, path))
+    foreign = set(chains.get(below.get("chain"), ())) - set(chains.get(document.get("chain", below.get("chain")), ()))
+    kept = {key: value for key, value in below.items() if key not in foreign}
+    return _laid_over(kept, document), (path.parent, *folders)
 
 
 def _laid_over(base, own):

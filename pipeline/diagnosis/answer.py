@@ -2,12 +2,13 @@
 
 import numpy as np
 
+from pipeline.diagnosis.location import stage_of
 from pipeline.diagnosis.next_run import next_experiment
 from pipeline.diagnosis.question import split_name
 from pipeline.inference.noise import floor, normalised_error
 from pipeline.inference.verify import errors
 from pipeline.inference.weigh import unexplained
-from pipeline.products import DiagnosedRun, Diagnosis, Located
+from pipeline.products import DiagnosedRun, Diagnosis, Follows, LatentForce, Located
 
 #: models that are compared, in the order of the tables
 MODELS = ("nominal", "recalibrated", "completed", "noise")
@@ -20,15 +21,17 @@ def answer(question, found):
     table = _hypotheses(found)
     runs = {run.name: _run(question, run, first.null, best) for run in question.problem.runs}
     channels = tuple(question.units)
+    axes = question.axes(found)
+    latent = question.describe(found, axes)
+    axes |= latent.regimes if latent else {}
     return Diagnosis(
         verdict=found.decision.verdict, reason=list(found.decision.reasons), channel=channels,
         channel_unit=[question.units[c] for c in channels], **table, **_parameters(question, found, best, table),
         fit=[_errors(question, first.null, best, part) for part in (question.problem.training,
                                                                     question.problem.held_out)],
         unexplained_share=unexplained(first.null, best, question.rules),
-        drift_p_value=found.drift.p_value, location={name: located(*axis) for name, axis in
-                                                     question.axes(found).items()},
-        **next_experiment(question, found), runs=runs)
+        drift_p_value=found.drift.p_value, location={name: located(*axis) for name, axis in axes.items()},
+        **_latent(latent), **next_experiment(question, found), runs=runs)
 
 
 def located(location, unit="", edges=None):
@@ -36,6 +39,17 @@ def located(location, unit="", edges=None):
     edges = np.zeros((len(location.items), 2)) if edges is None else np.asarray(edges, float)
     return Located(item=[str(i) for i in location.items], low=edges[:, 0], high=edges[:, 1], unit=unit,
                    score=location.score, p_value=location.p_value, member=location.members.astype(int))
+
+
+def _latent(description):
+    """Fields of the latent force of a Description or None."""
+    if description is None:
+        return {"latent_place": "", "latent_sentence": "", "latent": {}, "follows": {}}
+    return {"latent_place": description.place, "latent_sentence": description.sentence,
+            "latent": {name: LatentForce(time=one.time, force=one.force, std=one.std, displacement=one.displacement,
+                                         velocity=one.velocity) for name, one in description.runs.items()},
+            "follows": {f.name: Follows(share=f.share, p_value=f.p_value, unit=unit, centre=f.centre, curve=f.curve)
+                        for f, unit in description.follows}}
 
 
 def _best(found):
@@ -75,8 +89,8 @@ def _objection(found, candidate, own):
 
 def _row(name, effects, kind, **values):
     row = {"hypothesis": name, "effect": " + ".join(e for e, _ in effects), "place": " + ".join(p for _, p in effects),
-           "kind": kind, "posterior": 0.0, "score": 0.0, "p_value": 1.0, "power": 0.0, "evidence_gain": 0.0,
-           "refitted": 0, "objection": ""}
+           "kind": kind, "stage": stage_of(effects), "posterior": 0.0, "score": 0.0, "p_value": 1.0, "power": 0.0,
+           "evidence_gain": 0.0, "refitted": 0, "objection": ""}
     return row | values
 
 

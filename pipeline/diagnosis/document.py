@@ -1,4 +1,4 @@
-"""What a diagnosis writes beside its HDF5: diagnosis.json, and the completed case."""
+"""What a diagnosis writes beside its HDF5: diagnosis.json, the latent force as CSV, and the completed case."""
 
 import copy
 import json
@@ -12,11 +12,27 @@ ALTERNATIVES = 5
 
 
 def companions(product, case):
-    """{file name: text}: diagnosis.json and, where something is added to the case, the completed case."""
+    """{file name: text}: diagnosis.json, latent_force.csv where a force was found, the case where it is completed."""
     found = {"diagnosis.json": json.dumps(as_json(product), indent=2, ensure_ascii=False) + "\n"}
-    if case is not None and (name := completed_name(product, case.name)):
+    if product.latent:
+        found["latent_force.csv"] = latent_csv(product)
+    if case is not None and _completable(case) and (name := completed_name(product, case.name)):
         found[name] = yaml.yaml_text(completed(product, case))
     return found
+
+
+def _completable(case):
+    """Lists of lines name alternatives to numbers of others, which no case can run."""
+    return (case.document.get("diagnosis") or {}).get("forward") != "lines"
+
+
+def latent_csv(product):
+    """The latent force of every run as CSV; its head says that it is a description, not identified physics."""
+    rows = [f"# {product.latent_sentence.item()}", "run,time_s,force_N,std_N,displacement_m,velocity_m_per_s"]
+    for name, one in product.latent.items():
+        columns = (one.time, one.force, one.std, one.displacement, one.velocity)
+        rows += [",".join((name, *(f"{value:.9g}" for value in row))) for row in zip(*columns, strict=True)]
+    return "\n".join(rows) + "\n"
 
 
 def completed_name(product, case_name):

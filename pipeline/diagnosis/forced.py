@@ -4,6 +4,8 @@ from pipeline.benches import corrections
 from pipeline.benches.effect_block import parameters
 from pipeline.contract import ConfigError
 from pipeline.contract.units import to_si
+from pipeline.diagnosis.latent import Describe
+from pipeline.diagnosis.location import Axes
 from pipeline.diagnosis.next_run import feasible
 from pipeline.diagnosis.question import Question, nominal
 from pipeline.diagnosis.settings import parameter
@@ -21,8 +23,8 @@ def question(bench, recorded, settings):
     change = {}
     if settings.solver:
         change = halved(bench, runs, {name: one.channels for name, one in recorded.items()})
-    noise = {c: to_si(v, shown[c], f"diagnosis.noise.std.{c}") for c, v in settings.noise.std.items()}
-    seen = tuple(observed(one, noise, name in settings.held_out) for name, one in recorded.items())
+    given = {c: to_si(v, shown[c], f"diagnosis.noise.std.{c}") for c, v in settings.noise.std.items()}
+    seen = tuple(observed(one, given, name in settings.held_out) for name, one in recorded.items())
     trained = [recorded[o.name] for o in seen if not o.held_out]
     after = feasible(bench, settings.next, trained[0]) if trained else ()
     forward = Simulated(bench, runs | {f.run.name: f.run for f in after}, change,
@@ -36,6 +38,8 @@ def question(bench, recorded, settings):
     noises = budget(problem, above=settings.noise.above)
     return Question(problem, noises | {f.run.name: noises[trained[0].run.name] for f in after},
                     (*found, *([solver_candidate()] if settings.solver else [])), shown,
+                    axes=Axes(bench, runs, problem, noises, seed=settings.seed),
+                    describe=Describe(bench, runs, problem, noises, seed=settings.seed),
                     next_runs=tuple(f.observed for f in after))
 
 

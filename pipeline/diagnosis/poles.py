@@ -13,7 +13,7 @@ from scipy.optimize import linear_sum_assignment
 from pipeline.contract import ConfigError
 from pipeline.inference.problem import Observed
 from pipeline.physics.bench_modes import modes, motions, order_locked
-from pipeline.physics.free_decay import Poles, before_saturation, confirmed, likeness, pooled, poles
+from pipeline.physics.free_decay import Poles, before_saturation, confirmed, likeness, poles, pooled
 
 #: orders of the drive that slow turns are read for
 ORDERS = (1, 2, 3)
@@ -107,7 +107,7 @@ def _turned(bench, one):
 
 
 def observed(found, held_out=()):
-    """(Observed, ...) of {run: Features} with one list of channels, and {channel: SI unit}; what a run lacks is masked."""
+    """(Observed, ...) of {run: Features} with one list of channels, {channel: SI unit}; what a run lacks is masked."""
     names = sorted({name for one in found.values() for name in one.values}, key=_order)
     told = []
     for run, one in found.items():
@@ -140,7 +140,7 @@ def predicted(bench, one, channels):
 
 
 def assigned(seen, root, shape):
-    """Index (p,) of the root (r,) that explains each of the Poles ``seen``, by distance and shape; each explains one."""
+    """Index (p,) of the root (r,) that explains each of the Poles ``seen``, by distance and shape."""
     if len(root) < len(seen.root):
         raise ConfigError("poles", f"at most {len(root)} peaks, the modes of the model", f"{len(seen.root)}",
                           "narrow bench.poles to the band of the model")

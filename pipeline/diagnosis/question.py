@@ -11,12 +11,18 @@ def _nowhere(diagnosis):
     return {}
 
 
+def _nothing(diagnosis, axes):
+    return None
+
+
 @dataclass(frozen=True)
 class Question:
     """A Problem with {run: Noise} ``budget`` and ``candidates`` (Hypotheses of effects alone).
 
-    ``units`` {channel: SI unit}; ``axes(diagnosis)`` -> {axis: Location} tells where the mismatch lies; ``next_runs``
-    (Observed, whose samples do not count): what could be recorded next, named by what is changed, each with its budget.
+    ``units`` {channel: SI unit}; ``axes(diagnosis)`` -> {axis: (Location, unit, edges)} tells where the mismatch lies,
+    ``describe(diagnosis, axes)`` -> Description or None what force is missing there, whatever its physics;
+    ``next_runs`` (Observed, whose samples do not count): what could be recorded next, named by what is changed, each
+    with its budget.
     """
 
     problem: Problem
@@ -25,6 +31,7 @@ class Question:
     units: dict
     rules: Rules = Rules()
     axes: Callable = _nowhere
+    describe: Callable = _nothing
     next_runs: tuple = ()
 
 

@@ -1,6 +1,6 @@
 """The question of self-excited recordings: poles and other features of a bench, by complex eigenvalues."""
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 from pipeline.contract import ConfigError
 from pipeline.diagnosis.forced import check_names, chosen, nominal_parameters
@@ -19,13 +19,18 @@ _GLIMPSE = 5e-3
 
 @dataclass(frozen=True)
 class Rooted:
-    """Picklable prediction of the features ``seen`` {run: Features}."""
+    """Picklable prediction of the features ``seen`` {run: Features}; ``last`` keeps the bench that all runs share."""
 
     bench: object
     seen: dict
+    last: dict = field(default_factory=dict, compare=False)
 
     def __call__(self, hypothesis, values, run):
-        return predicted(completed(self.bench, hypothesis, values), self.seen[run.name], run.channels)
+        key = hypothesis.effects, tuple(values.items())
+        if key not in self.last:
+            self.last.clear()
+            self.last[key] = completed(self.bench, hypothesis, values)
+        return predicted(self.last[key], self.seen[run.name], run.channels)
 
 
 def question(bench, recorded, settings, band):

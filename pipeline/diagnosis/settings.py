@@ -4,6 +4,9 @@ from typing import Literal
 
 from pipeline.contract import ConfigError, Quantity, Section, option
 from pipeline.contract.units import to_si
+from pipeline.diagnosis.harmonics import Harmonics
+from pipeline.diagnosis.mode_table import ModeTable
+from pipeline.diagnosis.squeal_lines import SquealLines
 from pipeline.inference.priors import HalfNormal, LogNormal, Normal, Parameter, Uniform
 
 
@@ -25,12 +28,39 @@ class NoiseOf(Section):
     above: Quantity("Hz", gt=0) | None = option(None, "frequency above which recordings hold nothing but noise")
 
 
+class PlannedInput(Section):
+    """A sine sweep that a planned run feeds to an input."""
+
+    amplitude: Quantity("N", gt=0) = option(..., "amplitude")
+    start: Quantity("Hz", ge=0) = option("1 Hz", "frequency at the begin")
+    end: Quantity("Hz", ge=0) = option("10 Hz", "frequency at the end")
+
+
+class PlannedRun(Section):
+    """A run that could be recorded."""
+
+    duration: Quantity("s", gt=0) = option(..., "length")
+    sample_rate: Quantity("Hz", gt=0) = option(..., "samples per second of every channel")
+    inputs: dict[str, PlannedInput] = option({}, "input of the model: what it is fed")
+    speed: Quantity("rad/s") | None = option(None, "speed of the drive; none = that of the bench")
+    cost: float = option(1.0, "what it costs, in any unit", gt=0)
+
+
+class Plan(Section):
+    """What could be recorded, and what it should be able to name: 'brakechain plan'."""
+
+    runs: dict[str, PlannedRun] = option({}, "runs that could be recorded")
+    wanted: tuple[str, ...] = option((), "effects that the cheapest set of runs must be able to name; none = all")
+    needed: float = option(4.0, "standard deviations that naming takes", gt=0)
+
+
 class Settings(Section):
     """What is asked."""
 
-    forward: Literal["simulation", "equation", "poles"] = option(
-        "simulation", "simulation: runs are simulated; equation: measured motions are put into the equation of motion;"
-        " poles: poles of free vibrations by complex eigenvalues, as bench.poles says")
+    forward: Literal["simulation", "poles", "lines"] = option(
+        "simulation", "simulation: samples as bench.forward predicts them; poles: poles of free vibrations by complex"
+        " eigenvalues, as bench.poles says; lines: published lines or modes are compared")
+    lines: ModeTable | Harmonics | SquealLines | None = option(None, "forward lines: which lists are compared, and how")
     parameters: dict[str, Prior] = option({}, "nominal values that may be wrong, by name as in bench.corrections")
     held_out: tuple[str, ...] = option((), "runs that are kept for verification and never fitted")
     effects: tuple[str, ...] = option((), "effects that are weighed; none = the whole catalogue")
@@ -43,6 +73,7 @@ class Settings(Section):
                                                           " change: values with a unit, or factors")
     noise: NoiseOf = option(NoiseOf(), "noise of the recordings")
     solver: bool = option(True, "weigh the solver too, by halving its step")
+    plan: Plan = option(Plan(), "runs that could be recorded, for 'brakechain plan'")
     kept: int = option(8, "candidates that are refitted in the full model", ge=1)
     draws: int = option(20000, "draws of the null of the screen", ge=100)
     seed: int = option(0, "seed of all draws", ge=0)

@@ -66,7 +66,11 @@ class Simulated:
 
 
 def shown(bench, run, channels):
-    """Samples (c, n) of ``channels`` in one run."""
+    """Samples (c, n) of ``channels`` in one run; coordinates that an effect adds start at rest."""
+    if run.start is not None and len(run.start.displacement) < bench.model.size:
+        rest = np.zeros(bench.model.size - len(run.start.displacement))
+        run = replace(run, start=replace(run.start, displacement=np.append(run.start.displacement, rest),
+                                         velocity=np.append(run.start.velocity, rest)))
     answer = respond(only(bench, channels), run)
     return np.array([answer[c] for c in channels])
 

@@ -12,7 +12,7 @@ from pipeline.inference.priors import HalfNormal, Parameter
 
 
 def parameters(typical):
-    size = 0.1 / typical.stiffness
+    size = 0.1 / typical.holding
     return (Parameter("compliance", "m/N", size, HalfNormal(2 * size), null=0.0),)
 
 

@@ -15,7 +15,7 @@ from pipeline.physics.sliding_model import Joints
 
 
 def parameters(typical):
-    size, own = 0.1 / typical.stiffness, 1 / (2 * np.pi * typical.period)
+    size, own = 0.1 / typical.holding, 1 / (2 * np.pi * typical.period)
     return (Parameter("compliance", "m/N", size, HalfNormal(2 * size), null=0.0),
             Parameter("frequency", "Hz", own, LogNormal(own, 0.7)))
 

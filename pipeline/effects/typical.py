@@ -44,6 +44,11 @@ class Typical:
         """Seconds per radian of the mass on the stiffness; those of the longest run where nothing holds it."""
         return np.sqrt(self.mass / self.stiffness) if self.stiffness > 0 else self.time
 
+    @property
+    def holding(self):
+        """Stiffness in N/m, or force over length where no spring holds the place (a carriage on its drive)."""
+        return self.stiffness if self.stiffness > 0 else self.force / self.length
+
     def scaled(self, reach):
         """The same place where everything moves ``reach`` times as far; loads of contacts stay."""
         return replace(self, length=reach * self.length, speed=reach * self.speed, force=reach * self.force,

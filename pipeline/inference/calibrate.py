@@ -113,16 +113,16 @@ def fit(problem, noises, hypothesis, start, runs, iterations=ITERATIONS):
     return continued(problem, linearised(problem, noises, hypothesis, start, runs), iterations)
 
 
-def calibrate(problem, noises, hypothesis, starts, runs, settled=True):
+def calibrate(problem, noises, hypothesis, starts, runs, settled=True, iterations=ITERATIONS):
     """The best of several fits. Raises ConvergenceError where none converged, telling what stopped them.
 
     A few iterations are made from each start; then the best goes on, the next best only where it does not converge.
-    Without ``settled`` the best is returned even if it has not ``converged``, and no other goes on.
+    Without ``settled`` the best is returned even if ``iterations`` were not enough for it, and no other goes on.
     """
     reasons = []
     near = _approached(problem, noises, hypothesis, starts, runs, reasons)
     for state in _begun(problem, noises, hypothesis, near, runs, reasons):
-        found = state if state.converged else continued(problem, state, ITERATIONS)
+        found = state if state.converged else continued(problem, state, iterations)
         if found.converged or not settled:
             return found
         reasons.append(f"not converged after {found.evaluations} predictions")
@@ -201,8 +201,8 @@ def _jacobians(problem, noises, hypothesis, latent, residuals, runs):
         if moved is None:
             raise error
         columns.append([(before - after) / step for before, after in zip(residuals, moved, strict=True)])
-    jacobians = tuple(np.array([column[i] for column in columns]).reshape(len(latent), -1).T
-                      for i in range(len(residuals)))
+    jacobians = tuple(np.array([column[i] for column in columns]).reshape(len(latent), len(residual)).T
+                      for i, residual in enumerate(residuals))
     return jacobians, len(latent)
 
 

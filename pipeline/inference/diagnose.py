@@ -8,7 +8,7 @@ from functools import partial
 
 import numpy as np
 
-from pipeline.contract.errors import BrakechainError
+from pipeline.contract.errors import BrakechainError, ConvergenceError
 from pipeline.inference import decide as rulebook
 from pipeline.inference.calibrate import calibrate, continued, fit
 from pipeline.inference.drift import drift
@@ -17,9 +17,11 @@ from pipeline.inference.evidence import cautious_prior, evidence, posterior, rea
 from pipeline.inference.screen import directions, screen
 from pipeline.inference.weigh import contender, held_out_gains, situation
 
-
 #: iterations of a nominal model from a candidate's optimum before it is given up where it is still worse than before
 _GIVEN_UP = 16
+#: mean square of whitened residuals at which a candidate reaches the noise; others are then given up that, after a few
+#: iterations, are so many times worse
+_REACHED, _HOPELESS = 1.5, 10.0
 
 
 @dataclass(frozen=True)
@@ -47,8 +49,8 @@ class Weighed:
 class Diagnosis:
     """``decision``, with the null Fit, its drift, the screen, the refitted candidates (best first), runs' weights.
 
-    ``nominal`` is the hypothesis taken as known; ``posterior`` (1 + candidates,) of its sufficing, then of each screened
-    candidate, 0 where one could not be judged; ``base`` the Diagnosis that came before a pair; ``failures``
+    ``nominal`` is the hypothesis taken as known; ``posterior`` (1 + candidates,) of its sufficing, then of each
+    screened candidate, 0 where one could not be judged; ``base`` the Diagnosis that came before a pair; ``failures``
     {candidate: why it was not judged, or not to the end}.
     """
 
@@ -77,8 +79,8 @@ def diagnose(problem, budget, catalogue, settings=None, fan_out=map):
     A second effect is refitted only where its score is significant beside the first.
 
     ``fan_out(function, items)`` maps as the builtin does. Where one effect is not enough, pairs with each of the
-    leading ones are tried by the same rules, the first taken as known. Raises ConvergenceError where the nominal model
-    has no fit.
+    leading ones that can be fitted are tried by the same rules, the first taken as known. Raises ConvergenceError where
+    the nominal model has no fit.
     """
     settings = settings or Settings()
     single = _one_step(problem, budget, catalogue, settings, fan_out)
@@ -86,7 +88,10 @@ def diagnose(problem, budget, catalogue, settings=None, fan_out=map):
         return single
     for first in _leading(single, settings.rules):
         rest = [c for c in catalogue if c.name != first.candidate.name]
-        pair = _one_step(problem.given(first.candidate), budget, rest, settings, fan_out, first.fit, single)
+        try:
+            pair = _one_step(problem.given(first.candidate), budget, rest, settings, fan_out, first.fit, single)
+        except ConvergenceError:
+            continue
         if pair.decision.verdict in ("missing", "sensor", "numerics"):
             return pair
     return single
@@ -102,8 +107,11 @@ def _one_step(problem, budget, catalogue, settings, fan_out, start=None, base=No
     kept = [i for i in rough.order()[:settings.kept] if np.isfinite(rough.score[i])
             and (base is None or rough.p_value[i] <= settings.rules.p_value)]
     def refit(chosen):
-        work = partial(_refitted, problem, noises, null, settings.starts)
-        return dict(zip(chosen, fan_out(work, [(catalogue[i], rough.start[i]) for i in chosen]), strict=True))
+        begin = partial(_begun, problem, noises, null, settings.starts)
+        begun = dict(zip(chosen, fan_out(begin, [(catalogue[i], rough.start[i]) for i in chosen]), strict=True))
+        going = _within_reach({i: state for i, (state, _) in begun.items() if state is not None})
+        ended = dict(zip(going, fan_out(partial(_finished, problem, null), list(going.values())), strict=True))
+        return {i: ended.get(i, (state, None, told)) for i, (state, told) in begun.items()}
 
     results = refit(kept)
     results |= refit(_overlooked(null, found, results, settings))
@@ -117,15 +125,29 @@ def _one_step(problem, budget, catalogue, settings, fan_out, start=None, base=No
     return _weighed(problem, budget, null, found, fits, failures, settings, base)
 
 
-def _refitted(problem, noises, null, offsets, item):
-    """(best Fit of a candidate or None, a better Fit of the null from its optimum or None, what went wrong)."""
+def _begun(problem, noises, null, offsets, item):
+    """(Fit of a candidate after a few iterations or None, what became of it if it does not go on)."""
     candidate, screened_start = item
     begins = [screened_start] + [np.full(len(candidate.parameters), offset) for offset in offsets]
     starts = [np.concatenate((null.latent, np.clip(begin, -2, 2))) for begin in begins]
     try:
-        best = calibrate(problem, noises, problem.nominal.joined(candidate), starts, null.runs, settled=False)
+        state = calibrate(problem, noises, problem.nominal.joined(candidate), starts, null.runs, False, 0)
     except BrakechainError as error:
-        return None, None, str(error)
+        return None, str(error)
+    return state, "" if state.converged else "its fit was given up, far from what others reach"
+
+
+def _within_reach(begun):
+    """{index: Fit} of those begun ones that go on: all, or, where one reaches the noise, those not far above it."""
+    best = min(begun.values(), key=lambda f: f.objective, default=None)
+    if best is None or best.chi_square.sum() > _REACHED * best.counts.sum():
+        return begun
+    return {i: state for i, state in begun.items() if state.objective < _HOPELESS * best.objective}
+
+
+def _finished(problem, null, state):
+    """(Fit of a candidate, a better Fit of the null from its optimum or None, what went wrong)."""
+    best = state if state.converged else continued(problem, state)
     told = "" if best.converged else f"its fit had not converged after {best.evaluations} predictions"
     return best, _null_again(problem, null, best), told
 
@@ -186,7 +208,8 @@ def _weighed(problem, budget, null, found, fits, failures, settings, base):
 def _leading(single, rules, count=2):
     """Refitted candidates worth taking as known: significant ones, best first."""
     good = [w for w in single.weighed if w.contender.p_value <= rules.p_value
-            and w.contender.evidence_gain >= rules.evidence_gain and w.contender.unexplained < 0.5]
+            and w.contender.evidence_gain >= rules.evidence_gain and w.contender.unexplained < 0.5
+            and not w.contender.doubts]
     if single.decision.verdict == "missing":
         return single.named[:1]
     return good[:count]

@@ -116,4 +116,4 @@ def _reduced(information, score, index):
 
 def _rank(matrix):
     values = np.linalg.eigvalsh(matrix)
-    return int((values > 1e-9 * max(values[-1], 1e-300)).sum())
+    return int((values > 1e-9 * values.max(initial=1e-300)).sum())

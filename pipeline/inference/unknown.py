@@ -46,7 +46,10 @@ def latent_force(residual, rate, valid=None):
 
     def loss(log):
         size, length, noise = np.exp(log)
-        return -_smoothed(residual, valid, 1 / rate, size, length, noise)[2]
+        try:
+            return -_smoothed(residual, valid, 1 / rate, size, length, noise)[2]
+        except np.linalg.LinAlgError:     # a force so smooth that its two states are one number
+            return np.inf
 
     starts = [np.log([spread, samples / rate, 0.3 * spread]) for samples in (3, 30, 300)]
     options = {"xatol": 1e-3, "fatol": 1e-3, "maxiter": 600}

@@ -98,6 +98,8 @@ def situation(problem, null, weights, drifting, rules):
 
 def _moved_p(problem, null, weights):
     """p-value of the given values: their squared error over the refitted ones', chi^2 with one degree per parameter."""
+    if not len(null.latent):
+        return 1.0
     try:
         given = linearised(problem, null.noises, null.hypothesis, null.hypothesis.nominal, null.runs)
     except BrakechainError:

@@ -8,10 +8,12 @@ filtered and decimated in the same way, which keeps it linear (Gautier, Janot & 
 Technol. 21 (2013) 428).
 """
 
+from functools import lru_cache
+
 import numpy as np
 from numba import njit
 from scipy.integrate import cumulative_trapezoid
-from scipy.signal import butter, decimate, sosfiltfilt
+from scipy.signal import butter, cheby1, sosfiltfilt
 
 from pipeline.contract.errors import ConfigError
 from pipeline.physics.bench import MOTIONS, run_drive, run_friction, run_inputs
@@ -32,15 +34,40 @@ def equation_residual(bench, run, measured, corner=None, order=4, decimation=1, 
     sample is kept, behind a low pass; ``trim`` samples are left out at both ends first. Channels are read as the bench
     scales them. Raises ConfigError where the channels do not give every coordinate, or a contact does not yield.
     """
+    return thinned(forces_missing(bench, run, smoothed(bench, run, measured, corner, order)), decimation, trim)
+
+
+def smoothed(bench, run, measured, corner=None, order=4):
+    """Displacements (n, samples) of the coordinates behind the low pass of ``equation_residual``."""
     motion = coordinates(bench, run, measured)
     if corner is not None:
         if not 0 < corner < run.sample_rate / 2:
             raise ConfigError("equation residual: corner", f"between 0 and {run.sample_rate / 2:g} Hz",
                               f"{corner:g} Hz")
-        motion = sosfiltfilt(butter(order, 2 * corner / run.sample_rate, output="sos"), motion, axis=1)
-    residual = forces_missing(bench, run, motion)
-    residual = residual[:, trim:residual.shape[1] - trim]
-    return decimate(residual, decimation, axis=1, zero_phase=True) if decimation > 1 else residual
+        motion = sosfiltfilt(_low_pass(order, 2 * corner / run.sample_rate), motion, axis=1)
+    return motion
+
+
+def applied_force(bench, run, decimation=1, trim=0):
+    """Forces (n, samples) of the inputs of ``run`` on the coordinates, thinned out like the residual."""
+    return thinned(_applied(bench, run), decimation, trim)
+
+
+def thinned(values, decimation, trim):
+    """Every ``decimation``-th of the samples (n, samples) behind a low pass, ``trim`` left out at both ends first."""
+    values = values[:, trim:values.shape[1] - trim]
+    return sosfiltfilt(_before(decimation), values, axis=1)[:, ::decimation] if decimation > 1 else values
+
+
+@lru_cache
+def _low_pass(order, corner):
+    return butter(order, corner, output="sos")
+
+
+@lru_cache
+def _before(decimation):
+    """The filter of scipy.signal.decimate: Chebyshev's first kind, order 8, 0.05 dB up to 0.8 of the new range."""
+    return cheby1(8, 0.05, 0.8 / decimation, output="sos")
 
 
 def coordinates(bench, run, measured):
@@ -74,8 +101,12 @@ def forces_missing(bench, run, motion):
     normal, drawn, slip = _contacts(bench, run, motion, speed, instants)
     residual = residual + _elements(model, motion, speed, instants, drawn, slip)
     residual = residual - (model.contacts.normal.T @ normal + model.contacts.tangent.T @ drawn)
+    return residual - _applied(bench, run)
+
+
+def _applied(bench, run):
     forces = np.array([np.broadcast_to(f, run.samples) for f in run_inputs(bench, run)]).reshape(-1, run.samples)
-    return residual - model.input_rows.T @ forces
+    return bench.model.input_rows.T @ forces
 
 
 def _elements(model, motion, speed, instants, drawn, slip):

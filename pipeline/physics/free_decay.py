@@ -59,16 +59,16 @@ def poles(samples, rate, low, high, count=None):
 
 
 def before_saturation(samples, rate, share=0.12, interval=2e-3):
-    """Number of samples after the begin of (c, n) until the running effective value of a growing channel first passes
-    ``share`` of its largest; all of them where none grows by more than 1 / ``share``."""
+    """Number of samples after the begin of (c, n) until the running effective value of a growing channel last passes
+    ``share`` of its largest; all of them where none outgrows its tap (the first tenth) by more than 1 / ``share``."""
     size = max(1, round(interval * rate))
     blocks = samples[:, :samples.shape[1] // size * size].reshape(len(samples), -1, size)
     level = np.sqrt(np.mean(blocks**2, axis=2))
     first = samples.shape[1]
     for row in level:
-        lowest = row[:row.argmax() + 1].argmin()
-        if row[lowest] < share * row.max():
-            first = min(first, size * (lowest + int(np.argmax(row[lowest:] > share * row.max()))))
+        limit = share * row.max()
+        if row[:max(1, len(row) // 10)].max() < limit:
+            first = min(first, size * int(np.flatnonzero(row[:row.argmax()] < limit)[-1] + 1))
     return first
 
 
@@ -109,7 +109,8 @@ def _band(samples, rate, low, high):
     taps = int(_TAPS * rate / width) | 1
     middle = np.pi * (low + high)
     time = np.arange(samples.shape[1]) / rate
-    shifted = lfilter(firwin(taps, width, window=("kaiser", _KAISER), fs=rate), [1.0], samples * np.exp(-1j * middle * time))
+    low_pass = firwin(taps, width, window=("kaiser", _KAISER), fs=rate)
+    shifted = lfilter(low_pass, [1.0], samples * np.exp(-1j * middle * time))
     signal = shifted[:, taps:][:, ::thin]
     if signal.shape[1] < 12:
         raise ConfigError("poles", f"records of at least {(taps + 12 * thin) / rate:.3g} s", f"{time[-1]:.3g} s",
@@ -133,7 +134,7 @@ def _pencil(signal, interval):
     """Roots (p,) of the exponentials in complex signals (c, n), by the matrix pencil."""
     count = signal.shape[1]
     length = min(count // 3, _LONGEST_PENCIL)
-    rows = np.array([signal[:, k:count - length + k].ravel() for k in range(length + 1)])   # (length + 1, c (n - length))
+    rows = np.array([signal[:, k:count - length + k].ravel() for k in range(length + 1)])
     square, left = np.linalg.eigh(rows @ rows.conj().T)
     size, left = np.sqrt(np.maximum(square[::-1], 0.0)), left[:, ::-1]
     order = int(np.clip(np.sum(size > _ABOVE_NOISE * np.median(size)), 1, min(_MOST, length - 1)))

@@ -8,7 +8,16 @@ radially outwards. A relative displacement is pad minus disc: positive normal op
 
 from pipeline.products.beams import BeamGeometry, BeamOnBeam, MotionScatter
 from pipeline.products.bodies import Body, Incidence
-from pipeline.products.diagnosis import Bench, BenchRun, DiagnosedRun, Diagnosis, Effects, Located
+from pipeline.products.diagnosis import (
+    Bench,
+    BenchRun,
+    DiagnosedRun,
+    Diagnosis,
+    Effects,
+    Follows,
+    LatentForce,
+    Located,
+)
 from pipeline.products.friction import FrictionDescriptions, FrictionMap, InterfaceLaw, MicroFriction
 from pipeline.products.lumped import Lumped
 from pipeline.products.motion import ComplexModes, Multibody, Transient
@@ -32,7 +41,8 @@ from pipeline.products.structure import Structure
 from pipeline.products.surfaces import Surface
 
 __all__ = ["BeamGeometry", "BeamOnBeam", "Bench", "BenchRun", "Body", "Channel", "Comparison", "ComplexModes",
-           "Condition", "DiagnosedRun", "Diagnosis", "Effects", "FrequencyResponse", "FrictionDescriptions",
-           "FrictionMap", "Incidence", "InterfaceLaw", "Lines", "Located", "LockIn", "Lumped", "MeasuredFriction",
-           "MeasuredModes", "MicroFriction", "MotionScatter", "Multibody", "PinOnDisc", "Recording", "ReducedModel",
-           "Report", "Response", "Run", "Rupture", "Squeal", "Structure", "Surface", "Topography", "Transient"]
+           "Condition", "DiagnosedRun", "Diagnosis", "Effects", "Follows", "FrequencyResponse", "FrictionDescriptions",
+           "FrictionMap", "Incidence", "InterfaceLaw", "LatentForce", "Lines", "Located", "LockIn", "Lumped",
+           "MeasuredFriction", "MeasuredModes", "MicroFriction", "MotionScatter", "Multibody", "PinOnDisc", "Recording",
+           "ReducedModel", "Report", "Response", "Run", "Rupture", "Squeal", "Structure", "Surface", "Topography",
+           "Transient"]

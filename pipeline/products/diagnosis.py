@@ -23,7 +23,7 @@ class BenchRun:
     measured: Array = quantity("1", "channel sample", "recorded samples, each channel in its SI unit; 0 where missing")
     predicted: Array = quantity("1", "channel sample", "what the model shows")
     valid: Array = count("channel sample", "1 where a sample was recorded")
-    error: Array = quantity("1", "channel", "root mean square error over the standard deviation of the recorded signal")
+    error: Array = quantity("1", "channel", "root mean square error over the standard deviation of the recorded signal; of features, over their own")
     root_mean_square: Array = quantity("1", "channel", "root mean square error in the unit of the channel")
 
 
@@ -66,6 +66,28 @@ class Located:
 
 
 @product(version=1)
+class LatentForce:
+    """The force that is missing at the located place in one run, whatever its physics; positive along the place."""
+
+    time: Array = quantity("s", "sample", "time since the begin of the run; its ends are left out")
+    force: Array = quantity("N", "sample", "smoothed force on the moving side")
+    std: Array = quantity("N", "sample", "its standard deviation")
+    displacement: Array = quantity("m", "sample", "displacement at the place")
+    velocity: Array = quantity("m/s", "sample", "velocity at the place")
+
+
+@product(version=1)
+class Follows:
+    """What the latent force follows: its mean over one quantity, in bins of equal count."""
+
+    share: Array = quantity("1", "", "share of the variance of the force that the curve explains")
+    p_value: Array = quantity("1", "", "against circular shifts of the force")
+    unit: Array = text("", "unit of the quantity")
+    centre: Array = quantity("1", "bin", "mean of the quantity in each bin")
+    curve: Array = quantity("N", "bin", "mean force in each bin; over time its root mean square")
+
+
+@product(version=2)
 class Diagnosis:
     """The verdict on recordings: what differs, where, what is missing, how sure, and what to measure next."""
 
@@ -79,6 +101,7 @@ class Diagnosis:
     effect: Array = text("hypothesis", "effect of the catalogue; empty for nothing missing")
     place: Array = text("hypothesis", "where it would act")
     kind: Array = text("hypothesis", "physics, sensor or numerics")
+    stage: Array = text("hypothesis", "stage of the chain that it belongs to; empty for nothing missing")
     posterior: Array = quantity("1", "hypothesis", "probability among all; beside what is known, that of both")
     score: Array = quantity("1", "hypothesis", "screening score in standard deviations")
     p_value: Array = quantity("1", "hypothesis", "family-wise p-value over the catalogue")
@@ -96,7 +119,11 @@ class Diagnosis:
                           " nominal, recalibrated, completed, noise alone")
     unexplained_share: Array = quantity("1", "", "share of the excess error that the completed model leaves")
     drift_p_value: Array = quantity("1", "", "p-value that fitted values are alike over operating points; 1 untested")
-    location: dict[str, Located] = parts("axes by name: stage, place, run, band, conditions")
+    location: dict[str, Located] = parts("axes by name: stage, place, run, band, amplitude, velocity, time")
+    latent_place: Array = text("", "place of the latent force; empty where none was found")
+    latent_sentence: Array = text("", "what the latent force is and follows")
+    latent: dict[str, LatentForce] = parts("the latent force by run: description, not identified physics")
+    follows: dict[str, Follows] = parts("quantities that the latent force may follow, by name")
     next_condition: Array = text("next", "conditions of the next experiment, as name = value unit")
     next_separates: Array = text("separated", "hypotheses that it separates best")
     next_value: Array = quantity("1", "", "what it is expected to tell, in nats; 0 without one")

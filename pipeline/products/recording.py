@@ -51,14 +51,17 @@ class MeasuredModes:
     shape: Array = quantity("1", "mode place", "mode shapes", complex)
 
 
-@product(version=1)
+@product(version=2)
 class Lines:
     """A published list of peaks, where no raw signal exists."""
 
+    label: Array = text("line", "names of the lines, empty where they have none")
     frequency: Array = quantity("Hz", "line", "frequencies")
     frequency_tolerance: Array = quantity("Hz", "line", "how far off they may be read")
     level: Array = quantity("1", "line", "levels in dB re the strongest line; 0 where none is given")
     level_known: Array = count("line", "1 where a level is given")
+    partners: Array = count("line", "1: mode without a partner, 2: one of a pair; 0 where nothing is said")
+    diameters: Array = count("line", "nodal diameters of its mode; -1 where nothing is said")
     place: Array = text("", "where the spectrum was taken")
 
 
@@ -85,7 +88,7 @@ class MeasuredFriction:
     temperature: Array = quantity("K", "sample", "temperature")
 
 
-@product(version=1)
+@product(version=2)
 class Run:
     """One run on a test bench, or a declared stretch of a long record."""
 
@@ -100,7 +103,7 @@ class Run:
     friction: dict[str, MeasuredFriction] = parts("measured friction by name")
 
 
-@product(version=1)
+@product(version=2)
 class Recording:
     """What a bench wrote, in one form; simulations embed the same runs in their products."""
 

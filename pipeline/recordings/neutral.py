@@ -30,7 +30,8 @@ def read_neutral(path):
                                            reference*
             modes/NAME*                    group: frequency (Hz), frequency_std*, damping_ratio*, damping_ratio_std*,
                                            shape* (mode, place), place*
-            lines/NAME*                    group: frequency (Hz), frequency_tolerance*, level* (dB); attribute place*
+            lines/NAME*                    group: frequency (Hz), frequency_tolerance*, level* (dB), label*; attribute
+                                           place*
             topography/NAME*               (y, x) heights; attributes units, pixel_size (m), body*, state*
             friction/NAME*                 group: friction, friction_std*, pressure, speed, distance*, temperature* (SI)
 
@@ -123,8 +124,10 @@ def _lines(node, where):
     frequency = np.atleast_1d(_array(node, "frequency", where))
     level = np.asarray(node["level"][()], float) if "level" in node else np.full(len(frequency), np.nan)
     off = node["frequency_tolerance"][()] if "frequency_tolerance" in node else np.zeros(len(frequency))
-    return Lines(frequency=frequency, frequency_tolerance=off, level=np.nan_to_num(level),
-                 level_known=np.isfinite(level).astype(int), place=_said(node, "place"))
+    label = node["label"].asstr()[()] if "label" in node else [""] * len(frequency)
+    return Lines(label=label, frequency=frequency, frequency_tolerance=off, level=np.nan_to_num(level),
+                 level_known=np.isfinite(level).astype(int), partners=np.zeros(len(frequency), int),
+                 diameters=np.full(len(frequency), -1), place=_said(node, "place"))
 
 
 def _topography(node, where):

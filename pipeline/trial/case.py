@@ -10,7 +10,7 @@ from pipeline.trial.hidden import HIDDEN, Spot
 from pipeline.trial.motion import PARTS, World, moved
 
 #: sampling, sensors, and the size of the shaker: root mean squares of its force in the runs, N; the last is held out
-RATE, SAMPLES, CORNER, DELAY = 100.0, 500, 40.0, 2e-3
+RATE, SAMPLES, CORNER, DELAY = 100.0, 500, 40.0, 2.5e-3
 LEVELS, BAND = (2.0, 1.0, 4.0, 3.0), (0.8, 5.0)
 #: error of gains that a calibration leaves, and the change of motion that hidden physics makes, both relative
 GAIN_ERROR, CHANGE = 0.005, (0.25, 0.45)

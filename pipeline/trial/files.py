@@ -58,7 +58,7 @@ def nominal(case):
             "sensors": {f"mass_{k}": {"along": {f"mass_{k}.x": 1}, "quantity": "displacement", "unit": "m"}
                         for k in names}},
         "recording": {"files": [{"kind": "hdf5", "file": "recordings.h5"}]},
-        "bench": {"step": f"{0.5 / RATE:g} s", "inputs": {"shaker": {"channel": "force"}},
+        "bench": {"step": f"{0.25 / RATE:g} s", "inputs": {"shaker": {"channel": "force"}},
                   "channels": {f"x_{k}": {"quantity": "displacement", "source": f"mass_{k}", "corner": f"{CORNER:g} Hz",
                                           "delay": f"{DELAY:g} s"} for k in names}},
         "diagnosis": {"parameters": parameters, "held_out": [f"run_{len(case.runs) - 1}"],

@@ -6,7 +6,7 @@ A. C. Hindmarsh, ODEPACK (1983). Forces between samples are joined linearly, as 
 """
 
 import warnings
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 import numpy as np
 from scipy.integrate import ODEintWarning, odeint
@@ -15,7 +15,7 @@ from pipeline.contract.errors import ConvergenceError
 
 RELATIVE, ABSOLUTE = 1e-6, 1e-9
 #: instants at which the state is kept, per sample; jumps happen there only
-PARTS = 4
+PARTS = 8
 
 
 @dataclass(frozen=True)
@@ -36,7 +36,6 @@ class World:
     laws: tuple = ()
     mass: object = None
     jump: object = None
-    input: object = field(default=lambda force, time: force)
 
 
 def moved(world, force, interval, corner):
@@ -47,8 +46,7 @@ def moved(world, force, interval, corner):
     size = len(world.rig.mass)
     own = interval * np.arange(len(force))
     time = np.linspace(0, own[-1], PARTS * (len(force) - 1) + 1)
-    pushed = world.input(np.asarray(force, float), own)
-    rate = _rate(world, own, pushed, 2 * np.pi * corner)
+    rate = _rate(world, own, np.asarray(force, float), 2 * np.pi * corner)
     start = np.zeros(3 * size + sum(law.states for law in world.laws))
     if world.jump is None:
         return _integrated(rate, start, time, interval)[:, 2 * size:3 * size].T

@@ -10,6 +10,7 @@ the recorder filters (Butterworth, order 4), adds noise, delays, clips nothing a
 """
 
 from dataclasses import dataclass, field, replace
+from typing import NamedTuple
 
 import numpy as np
 from numba import njit
@@ -35,10 +36,11 @@ SPREAD = {"frequency": 0.02, "mass": 0.1, "damping": 0.3, "stiffness": 0.2, "fri
 STEP, RATE = 1 / 384e3, 25.6e3
 #: seconds that are recorded after a tap: at rest, in sliding
 DURATIONS = (0.35, 0.25)
-_DISC = {1: 600.0, 2: 1020.0, 3: 2247.0, 4: 3890.0, 5: 5900.0, 6: 8200.0}
+_DISC = {"rocking": 600.0, "two": 1020.0, "three": 2247.0, "four": 3890.0, "five": 5900.0, "six": 8200.0}
+_PIN = ("first", "second", "third", "fourth")
+_DISC_LOSS, _PIN_LOSS = 0.0015, 0.004
 _THICKNESS, _RADIUS, _OUTER, _DENSITY, _YOUNG = 0.025, 0.159, 0.179, 2700.0, 70e9
 _SIDE, _LENGTH, _TILT, _OFFSET, _HEIGHT = 0.01, 0.1515, np.radians(4.0), -0.0045, 0.05
-_PIN_MODES, _ELEMENTS = 4, 30
 _LASER_ANGLE, _HIT_ANGLE = np.radians(160.0), np.radians(40.0)
 _CARRIAGE, _ARM, _ARM_DAMPING = 0.1, 2e6, 20.0
 _CONTACT, _SHEAR, _FRICTION = 3e6, 2.4e6, 0.3
@@ -85,45 +87,64 @@ def make(seed, hidden=(), decoys=()):
         factors[name] = float(np.exp(SPREAD[kind] * random.standard_normal()))
         return factors[name]
 
-    bench = _nominal_bodies(off)
+    bench = _bodies(off)
     bench = replace(bench, contact=_CONTACT * off("contact.stiffness", "stiffness"),
                     shear=_SHEAR * off("contact.tangential_stiffness", "stiffness"),
                     friction=_FRICTION * off("friction", "friction"), hidden=values)
     return _with_structure(bench, values), {"factors": factors, "hidden": values}
 
 
-def _nominal_bodies(off):
-    mass, frequency, damping, normal, tangent, press, sensors, hit, arm = ([] for _ in range(9))
+class _Coordinate(NamedTuple):
+    """One modal coordinate: see Bench; ``loss`` is its damping ratio, ``seen`` by the sensors, ``struck`` by a tap."""
 
-    def add(m, f, loss, n, t, p, seen, struck, a=0.0):
-        for column, value in zip((mass, frequency, damping, normal, tangent, press, sensors, hit, arm),
-                                 (m, f, loss, n, t, p, seen, struck, a), strict=True):
-            column.append(value)
+    mass: float
+    frequency: float
+    loss: float
+    normal: float
+    tangent: float
+    seen: tuple = (0.0, 0.0, 0.0)
+    struck: tuple = (0.0, 0.0)
+    press: float = 0.0
+    arm: float = 0.0
 
-    names = {1: "rocking", 2: "two", 3: "three", 4: "four", 5: "five", 6: "six"}
-    for order, own in _DISC.items():
-        m = _DENSITY * _THICKNESS * np.pi * _OUTER**2 * (_OUTER / _RADIUS) ** (2 * order) / (2 * order + 2)
-        name = names[order]
-        m, f, ratio = m * off(f"{name}.mass", "mass"), own * off(f"{name}.frequency", "frequency"), 0.0015 * off(
-            f"{name}.damping", "damping")
-        turn = order * _THICKNESS / (2 * _RADIUS)
-        add(m, f, ratio, -1.0, 0.0, 0.0, (np.cos(order * _LASER_ANGLE), 0, 0), (0, np.cos(order * _HIT_ANGLE)))
-        add(m, f, ratio, 0.0, turn, 0.0, (np.sin(order * _LASER_ANGLE), 0, 0), (0, np.sin(order * _HIT_ANGLE)))
-    pin_mass, pin_frequency, slope, seen = beam_modes()
-    for k, name in zip(range(_PIN_MODES), ("first", "second", "third", "fourth"), strict=True):
-        m, f, ratio = (pin_mass[k] * off(f"{name}.mass", "mass"), pin_frequency[k] * off(f"{name}.frequency",
-                       "frequency"), 0.004 * off(f"{name}.damping", "damping"))
-        add(m, f, ratio, np.sin(_TILT) + _OFFSET * slope[k], np.cos(_TILT), 0.0, (0, seen[k], seen[k]), (seen[k], 0))
+
+def _bodies(off):
+    """The Bench of disc, pin and carriage, every value times its ``off(name, kind)``."""
+    columns = {key: np.array(column, float) for key, column in zip(
+        _Coordinate._fields, zip(*_disc(off), *_pin(off), _carriage(off), strict=True), strict=True)}
+    mass, rate = columns["mass"], 2 * np.pi * columns["frequency"]
+    return Bench(mass, rate**2, 2 * columns["loss"] * mass * rate, np.zeros((len(mass),) * 2), columns["normal"],
+                 columns["tangent"], columns["press"], columns["seen"].T, columns["struck"].T, _CONTACT, _SHEAR,
+                 _FRICTION, columns["arm"])
+
+
+def _disc(off):
+    """Doublets with w = (r / radius of the contact)^n cos n theta, sin n theta on a plate; faces turn with slopes."""
+    for n, (name, frequency) in enumerate(_DISC.items(), 1):
+        mass = _DENSITY * _THICKNESS * np.pi * _OUTER**2 * (_OUTER / _RADIUS) ** (2 * n) / (2 * n + 2)
+        own = (mass * off(f"{name}.mass", "mass"), frequency * off(f"{name}.frequency", "frequency"),
+               _DISC_LOSS * off(f"{name}.damping", "damping"))
+        for wave, normal, tangent in ((np.cos, -1.0, 0.0), (np.sin, 0.0, n * _THICKNESS / (2 * _RADIUS))):
+            yield _Coordinate(*own, normal, tangent, (wave(n * _LASER_ANGLE), 0, 0), (0, wave(n * _HIT_ANGLE)))
+
+
+def _pin(off):
+    """Modes of the tilted beam, which touches with its edge."""
+    for name, mass, frequency, slope, seen in zip(_PIN, *beam_modes(), strict=True):
+        yield _Coordinate(mass * off(f"{name}.mass", "mass"), frequency * off(f"{name}.frequency", "frequency"),
+                          _PIN_LOSS * off(f"{name}.damping", "damping"), np.sin(_TILT) + _OFFSET * slope,
+                          np.cos(_TILT), (0, seen, seen), (seen, 0))
+
+
+def _carriage(off):
+    """The mass on the arm."""
     stiffness = _ARM * off("arm.stiffness", "stiffness")
-    f = np.sqrt(stiffness / _CARRIAGE) / (2 * np.pi)
-    add(_CARRIAGE, f, _ARM_DAMPING / (2 * np.sqrt(stiffness * _CARRIAGE)), 1.0, 0.0, -1.0, (0, 0, 0), (0, 0), stiffness)
-    mass, squared = np.array(mass), (2 * np.pi * np.array(frequency)) ** 2
-    return Bench(mass, squared, 2 * np.array(damping) * mass * np.sqrt(squared), np.zeros((len(mass),) * 2),
-                 np.array(normal), np.array(tangent), np.array(press), np.array(sensors, float).T,
-                 np.array(hit, float).T, _CONTACT, _SHEAR, _FRICTION, np.array(arm))
+    rate = np.sqrt(stiffness / _CARRIAGE)
+    return _Coordinate(_CARRIAGE, rate / (2 * np.pi), _ARM_DAMPING / (2 * _CARRIAGE * rate), 1.0, 0.0, press=-1.0,
+                       arm=stiffness)
 
 
-def beam_modes(length=_LENGTH, count=_PIN_MODES, elements=_ELEMENTS):
+def beam_modes(length=_LENGTH, count=4, elements=30):
     """(mass, frequency, slope, seen) of the modes of a clamped beam, 1 at its tip: kg, Hz, 1/m, 1 at the sensor."""
     area, inertia, size = _SIDE**2, _SIDE**4 / 12, length / elements
     k = _YOUNG * inertia / size**3 * np.array([[12, 6 * size, -12, 6 * size],

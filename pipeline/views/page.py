@@ -8,7 +8,9 @@ from pipeline.views import sound as sound_pictures
 from pipeline.views.chapter import Figure
 from pipeline.views.chapters import (
     beam_on_beam,
+    bench,
     comparison,
+    diagnosis,
     friction,
     friction_descriptions,
     lock_in,
@@ -40,6 +42,7 @@ def plan(products, look):
              ("motion_scatter", beam_on_beam.scatter, (facts,)), ("beam_geometry", beam_on_beam.geometry, ()),
              ("response", sound.response, (lines,)), ("squeal", sound.squeal, (lines,)),
              ("rupture", rupture.chapter, ()), ("recording", recording.chapter, ()),
+             ("bench", bench.chapter, ()), ("diagnosis", diagnosis.chapter, ()),
              ("comparison", comparison.chapter, ()))
     return [partial(write, products[name], *more, look) for name, write, more in known
             if products.get(name) is not None]
@@ -55,6 +58,8 @@ def page(chapters, products, case, look):
 
 
 def _key_figure(products, look):
+    if products.get("diagnosis") is not None:
+        return diagnosis.key_figure(products["diagnosis"])
     squeal, broken = products.get("squeal"), products.get("rupture")
     if squeal is None and broken is not None:
         return Figure(rupture_pictures.slip_profiles(broken), rupture.headline(broken))

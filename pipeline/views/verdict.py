@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from pipeline.views.agreement import judged
+from pipeline.views.chapters import diagnosis
 from pipeline.views.chapters.motion import extremes, point, rate_in_words
 from pipeline.views.chapters.rupture import headline as rupture_headline
 from pipeline.views.chapters.sound import origin
@@ -27,9 +28,18 @@ class Verdict:
 
 def verdict(products, tuned_settings):
     """Verdict over ``products`` (name -> product or None); ``tuned_settings`` are (name, value) pairs."""
+    if products.get("diagnosis") is not None:
+        return _diagnosed(products["diagnosis"], products, tuned_settings)
     headline, tone = _headline(products)
     answers = [("Where", _where(products)), ("Why", _why(products)), ("How sure", _sure(products)),
                ("Tuned", _tuned(products, tuned_settings))]
+    return Verdict(headline, tone, tuple(a for a in answers if a[1]), tuple(_facts(products)))
+
+
+def _diagnosed(found, products, tuned_settings):
+    """Verdict of a case with recordings: what they say is missing."""
+    headline, tone = diagnosis.headline(found)
+    answers = (*diagnosis.note(found), ("Tuned", _tuned(products, tuned_settings)))
     return Verdict(headline, tone, tuple(a for a in answers if a[1]), tuple(_facts(products)))
 
 

@@ -34,6 +34,13 @@ def test_every_number_can_be_changed_and_keeps_the_rest():
             assert abs(other - base).max() > 1e-4 * abs(base).max(), name
 
 
+@pytest.mark.exact
+def test_frequency_and_damping_are_those_of_a_body_with_its_own_joints():
+    """k -> f^2 k and c -> d c of the mount, at the same mass."""
+    joints = corrections.corrected(bench(), {"bodies.block.frequency": 1.1, "bodies.block.damping": 2.0}).model.joints
+    np.testing.assert_allclose((joints.stiffness[0], joints.damping[0]), (1.21 * 400.0, 2 * 1.2), rtol=1e-12)
+
+
 def test_an_offset_is_a_constant_force():
     """Static deflection under 5 N: 5 / 400 m."""
     still = Run("still", 30.0, RATE)

@@ -2,7 +2,16 @@
 
 import numpy as np
 
+from pipeline.benches.bench import built
+from pipeline.benches.effect_block import with_effects
+from pipeline.benches.runs import recorded
+from pipeline.contract.settings import fill
+from pipeline.diagnosis.forced import question
+from pipeline.diagnosis.settings import Settings as DiagnosisSettings
+from pipeline.inference.diagnose import diagnose
 from pipeline.physics import multibody, newmark
+from pipeline.physics.bench import Run as BenchRun
+from pipeline.physics.bench import respond
 from pipeline.physics.dry_friction import constant
 from pipeline.physics.eigen import lowest_modes
 from pipeline.physics.elasticity import assemble, isotropic
@@ -25,6 +34,7 @@ from stages.pin_on_disc import Settings as PinSettings
 from stages.pin_on_disc import pin_on_disc
 from stages.reduced_model import Settings as ModelSettings
 from stages.reduced_model import reduced_model
+from tests.diagnosis import small_rig
 from tests.physics import small_ruptures
 from tests.physics.lumps import random_structure
 from tests.physics.small_pads import random_assembly
@@ -111,6 +121,25 @@ def lock_in_map():
     return lambda: lock_in(system, model, settings, context=PIN_CONTEXT), 20, "points"
 
 
+def bench_run():
+    """a recorded run of a mass with a hardening spring, 1200 samples, 2 steps each"""
+    whole = with_effects(built(small_rig.model(), small_rig.laid_out()), small_rig.effects(small_rig.HIDDEN))
+    shaken = {"shaker": small_rig.force(9.0, 1)}
+    one = BenchRun("run", (small_rig.SAMPLES - 1) / small_rig.RATE, small_rig.RATE, shaken)
+    return lambda: respond(whole, one), 2 * (small_rig.SAMPLES - 1), "steps"
+
+
+def diagnosis_of_a_rig():
+    """diagnosis of a lumped rig, 25 hypotheses, 3 runs and one held out"""
+    given, laid_out = small_rig.recording(small_rig.HIDDEN, levels=(1.0, 2.0, 4.0, 3.0)), small_rig.laid_out()
+    settings = fill(DiagnosisSettings, {
+        "parameters": {"joints.mount.stiffness": {"spread": 0.1}, "joints.mount.damping": {"spread": 0.2}},
+        "held_out": ["level_4"], "noise": {"std": {"x": f"{small_rig.NOISE} m"}}}, "diagnosis")
+    asked = question(built(small_rig.model(), laid_out), recorded(given, laid_out), settings)
+    chosen = asked.candidates[:25]
+    return lambda: diagnose(asked.problem, asked.budget, chosen), len(chosen), "hypotheses"
+
+
 def _stepping(integrate, steps=5000):
     """Steps of 5 us of a reduced model of 40 coordinates on 36 contact patches, as many as the default case has."""
     system = random_assembly(size=40, count=36)
@@ -147,6 +176,7 @@ def rupture_slices():
 
 
 KERNELS = (compliance, contact, assembly, modes, roots, superposition, exudyn_steps, newmark_steps, transient_pin,
-           transient_beam, lock_in_map, rupture_steps, rupture_slices)
+           transient_beam, lock_in_map, rupture_steps, rupture_slices,
+           bench_run, diagnosis_of_a_rig)
 #: (kernel, kernel) pairs whose rates compare: the same work done in two ways
 PAIRS = ((newmark_steps, exudyn_steps), (rupture_steps, rupture_slices))

@@ -96,6 +96,24 @@ def test_a_case_may_be_based_on_another(config):
     assert case_.card("").origins["source"]["duration"]["origin"] == "stated" and case_.card("").title == "Another"
 
 
+def test_a_case_of_another_chain_leaves_what_it_has_no_stage_for(config):
+    """Sections of the base that only its chain has are left; a misspelt one of its own is still refused."""
+    class Any(Section):
+        model_config = {"extra": "allow"}
+
+    def named(name):
+        return SimpleNamespace(name=name, settings=Any, check=lambda sections: None)
+
+    chains = {"toy": ("source", "doubled"), "short": ("source",)}
+    base, other = config.with_name("base.yaml"), config.with_name("other.yaml")
+    base.write_text("chain: toy\nsource: {}\ndoubled: {}\n")
+    other.write_text("based_on: base.yaml\nchain: short\n")
+    assert set(case.load(other, chains, named).document) == {"based_on", "chain", "source"}
+    other.write_text("based_on: base.yaml\nchain: short\ndoubled: {}\n")
+    with pytest.raises(ConfigError, match="doubled: unknown section"):
+        case.load(other, chains, named)
+
+
 def test_files_are_found_beside_the_case_and_beside_its_base(config, tmp_path):
     (tmp_path / "own").mkdir()
     other = tmp_path / "own" / "other.yaml"

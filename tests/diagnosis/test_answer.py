@@ -9,6 +9,7 @@ from pipeline.benches import bench as benches
 from pipeline.benches.runs import recorded
 from pipeline.contract.settings import fill
 from pipeline.diagnosis.answer import answer, located
+from pipeline.diagnosis.document import as_json, completed_name
 from pipeline.diagnosis.forced import question
 from pipeline.diagnosis.settings import Settings
 from pipeline.inference.diagnose import Settings as Course
@@ -25,7 +26,12 @@ ASKED = {"parameters": {"joints.mount.stiffness": {"spread": 0.1}, "joints.mount
 def told(hidden=True, stiffness=None):
     given = recording(HIDDEN if hidden else None, corrections=None if stiffness is None else
                       {"joints.mount.stiffness": stiffness})
-    asked = question(benches.built(model(), laid_out()), recorded(given, laid_out()), fill(Settings, ASKED, "d"))
+    return asked_of(given, ASKED)
+
+
+def asked_of(given, section):
+    """Product Diagnosis of a Recording under a section ``diagnosis``."""
+    asked = question(benches.built(model(), laid_out()), recorded(given, laid_out()), fill(Settings, section, "d"))
     return answer(asked, diagnose(asked.problem, asked.budget, asked.candidates, Course(kept=3, draws=2000)))
 
 
@@ -46,6 +52,22 @@ def test_errors_fall_from_nominal_to_completed_and_reach_the_noise():
     run = told().runs["level_4"]
     assert run.held_out == 1 and run.error[2] == pytest.approx(told().fit[1, 2])
     assert np.std(run.measured - run.completed) == pytest.approx(NOISE, rel=0.1)
+
+
+def test_two_effects_are_both_named_and_their_probabilities_sum_to_one():
+    given = recording({**HIDDEN, "coulomb": {"mount": {"force": "0.3 N"}}}, levels=(1.0, 2.0, 3.0, 2.5))
+    found = asked_of(given, {**ASKED, "solver": False, "effects": ["cubic_stiffness", "coulomb", "sensor_gain"]})
+    (known,), (named,) = found.known, found.named
+    assert found.verdict.item() == "missing" and {found.effect[known], found.effect[named]} == {
+        "cubic_stiffness", "coulomb"}
+    assert len(set(found.hypothesis)) == len(found.hypothesis) and found.hypothesis[0] == "nothing missing"
+    assert found.posterior.sum() == pytest.approx(1.0, abs=1e-9) and found.posterior[named] > 0.9
+    values = dict(zip(found.parameter, found.parameter_value, strict=True))
+    assert values["cubic_stiffness@mount.coefficient"] == pytest.approx(1.5e4, rel=0.01)
+    assert values["coulomb@mount.force"] == pytest.approx(0.3, rel=0.05)
+    effects = {e["name"]: e["posterior"] for e in as_json(found)["effects"]}
+    assert set(effects) == {"cubic_stiffness", "coulomb"} and min(effects.values()) > 0.9
+    assert completed_name(found, "rig") == "rig_with_cubic_stiffness_and_coulomb.yaml"
 
 
 def test_nothing_missing_and_wrong_values():

@@ -41,6 +41,12 @@ def test_the_completed_case_has_the_same_held_out_error():
     assert error == pytest.approx(told().fit[1, 2], rel=1e-9)
 
 
+def test_the_latent_force_is_written_as_numbers():
+    lines = companions(told(), CASE)["latent_force.csv"].splitlines()
+    assert lines[0].endswith("description, not identified physics.") and lines[1].startswith("run,time_s,force_N")
+    assert len(lines) == 2 + sum(len(one.time) for one in told().latent.values())
+
+
 def test_nothing_is_written_where_nothing_is_missing():
     assert set(companions(told(hidden=False), CASE)) == {"diagnosis.json"}
     assert "rig_with_other_values.yaml" in companions(told(hidden=False, stiffness="430 N/m"), CASE)

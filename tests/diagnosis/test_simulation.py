@@ -24,6 +24,7 @@ from pipeline.diagnosis.simulation import (
 )
 from pipeline.effects import CATALOGUE
 from pipeline.inference.priors import LogNormal, Parameter
+from pipeline.physics.time_stepping import Start
 from tests.diagnosis.small_rig import HIDDEN, effects, laid_out, model, recording
 
 SETTINGS = laid_out()
@@ -70,3 +71,12 @@ def test_observed_runs_keep_what_is_known(noise, held_out):
     run = observed(RECORDED["level_2"], noise, held_out)
     assert run.held_out == held_out and run.conditions == {"level": 5.0} and run.rate == 200.0
     assert run.noise_std is None if noise is None else run.noise_std == [1e-4]
+
+
+def test_coordinates_that_an_effect_adds_start_at_rest():
+    start = Start(np.array([1e-3]), np.array([0.0]))
+    run = replace(RUNS["level_1"], start=start)
+    base = next(c for c in FOUND if c.effects == (("moving_base", "mount"),))
+    values = {p.name: p.nominal for p in base.parameters} | {"moving_base@mount.compliance": 1e-8}
+    moved = shown(completed(BENCH, base, values), run, ("x",))
+    np.testing.assert_allclose(moved, shown(BENCH, run, ("x",)), atol=2e-4 * abs(moved).max())

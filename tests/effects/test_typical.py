@@ -53,6 +53,8 @@ def test_sizes_along_an_input_and_of_a_mode():
 def test_the_time_scale_of_a_place():
     assert Typical(mass=2.0, stiffness=50.0).period == pytest.approx(0.2)
     assert Typical(stiffness=0.0, time=3.0).period == 3.0
+    assert Typical(stiffness=50.0, force=3.0).holding == 50.0
+    assert Typical(stiffness=0.0, force=3.0, length=0.1).holding == pytest.approx(30.0)
 
 
 def test_what_a_channel_shows():

@@ -31,8 +31,15 @@ def test_without_candidates_the_nominal_model_decides():
     assert verdict(replace(FINE, drift_p=5e-4)) == "unknown"
 
 
+def test_values_that_priors_exclude_are_told_where_nothing_is_named():
+    situation = replace(FOUR, excluded=("the prior of stiffness excludes the data",))
+    assert situation.excluded[0] in decide(situation, [], Rules()).reasons
+    assert situation.excluded[0] not in decide(situation, [GOOD], Rules()).reasons
+
+
 @pytest.mark.parametrize("broken, told", [
     ({"forbidden": "its friction is negative"}, "its friction is negative"),
+    ({"doubts": ("its fit did not converge",)}, "its fit did not converge"),
     ({"from_null": 1.9}, "1.9 standard deviations from none"),
     ({"disagreement": 2.1}, "differs between operating points"),
     ({"left_out_gain": -0.1}, "left-out operating points no better"),

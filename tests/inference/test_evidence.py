@@ -8,7 +8,7 @@ from scipy import stats
 from scipy.integrate import quad
 
 from pipeline.inference.calibrate import fit, linearised
-from pipeline.inference.evidence import cautious_prior, evidence, nested, posterior, screened
+from pipeline.inference.evidence import cautious_prior, evidence, nested, posterior, reached, screened
 from pipeline.inference.noise import budget
 from pipeline.inference.priors import HalfNormal, Parameter
 from pipeline.inference.problem import Hypothesis, Observed, Problem
@@ -126,3 +126,11 @@ def test_a_model_that_fails_somewhere_has_no_likelihood_there():
 
 def _nothing(size, hypothesis, values, run):
     return np.full((1, size), np.nan)
+
+
+def test_what_has_not_converged_counts_by_what_it_has_reached():
+    whole, found, _ = fitted(sizes=(2, 1), truth={"nominal_0": 1.0})
+    assert reached(found).log_evidence == pytest.approx(evidence(found).log_evidence, abs=1e-3)
+    begun = linearised(whole, found.noises, found.hypothesis, np.array([2.0, -2.0]), found.runs)
+    lost = 0.5 * (begun.objective - found.objective)
+    assert reached(begun).log_evidence == pytest.approx(evidence(found).log_evidence - lost, abs=1e-2)

@@ -122,3 +122,10 @@ def test_runs_take_the_first_noise_they_have():
 def test_unusable_noise_is_refused(make, told):
     with pytest.raises(ConfigError, match=told):
         make()
+
+
+def test_noise_of_a_cut_run_whitens_its_first_samples_alike():
+    whole = run(coloured(3, 500))
+    noise = whitening(whole, autocovariance(whole.samples, whole.valid, 2))
+    cut = whole.until(60)
+    np.testing.assert_allclose(noise.until(60).whiten(cut.samples), noise.whiten(whole.samples)[:58], rtol=1e-12)

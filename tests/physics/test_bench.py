@@ -153,3 +153,9 @@ def test_impossible_channels_and_runs_are_refused():
         respond(sprung(seen("displacement")), replace(swing(), inputs={"input_0": np.zeros(7)}))
     with pytest.raises(ConfigError, match="input_0"):
         respond(sprung(seen("displacement")), replace(swing(), inputs={"hammer": 1.0}))
+
+
+def test_a_cut_run_is_the_begin_of_the_whole():
+    whole = replace(swing(), inputs={"input_0": np.sin(np.arange(201))})
+    found, cut = (respond(sprung(seen("displacement")), one)["seen"] for one in (whole, whole.until(40)))
+    np.testing.assert_allclose(cut, found[:40], rtol=0, atol=1e-15)

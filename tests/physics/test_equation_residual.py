@@ -4,12 +4,13 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from scipy.signal import decimate
 
 from pipeline.contract.errors import ConfigError
 from pipeline.physics.bench import Bench, Channel, Run, respond
 from pipeline.physics.dry_friction import constant
 from pipeline.physics.elements import Element, Polynomial, Power, iwan
-from pipeline.physics.equation_residual import equation_residual
+from pipeline.physics.equation_residual import applied_force, equation_residual, thinned
 from pipeline.physics.time_stepping import Hard, Penalty
 from tests.physics.lumps import belt, lumps
 
@@ -86,3 +87,19 @@ def test_too_few_channels_and_an_impossible_corner_are_refused():
         equation_residual(bench, run, {"one": measured["one"]})
     with pytest.raises(ConfigError, match="corner"):
         equation_residual(bench, run, measured, corner=RATE)
+
+
+@pytest.mark.exact
+def test_samples_are_thinned_out_as_scipy_does():
+    values = np.random.default_rng(5).standard_normal((2, 900))
+    np.testing.assert_allclose(thinned(values, 10, 50), decimate(values[:, 50:-50], 10, axis=1, zero_phase=True),
+                               atol=1e-10)
+    assert thinned(values, 1, 0) is not values and np.array_equal(thinned(values, 1, 0), values)
+
+
+@pytest.mark.exact
+def test_without_any_motion_what_is_left_is_the_applied_force():
+    run = shaken()
+    still = {name: np.zeros(run.samples) for name in ("one", "two")}
+    still["one"] = still["one"] + 0.1
+    np.testing.assert_allclose(equation_residual(pair(), run, still), -applied_force(pair(), run), atol=1e-9)

@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 from pipeline.contract import ConfigError
-from pipeline.recordings.neutral import read_neutral
+from pipeline.recordings.neutral import read_neutral, write_neutral
 
 
 def write(path, change=lambda run: None):
@@ -64,3 +64,14 @@ def test_files_without_runs_are_refused(tmp_path):
     (tmp_path / "c.h5").write_text("no")
     with pytest.raises(ConfigError, match="expected a whole HDF5 file"):
         read_neutral(tmp_path / "c.h5")
+
+
+def test_what_is_written_is_read_in_si(tmp_path):
+    tap = {"description": "a tap", "repeat_of": "", "conditions": {"load": (1.5, "kN")},
+           "channels": {"laser": ([1.0, 2.0, 4.0], "mm/s", "velocity", 100.0)}}
+    write_neutral(tmp_path / "taps.h5", {"one": tap, "again": {**tap, "repeat_of": "one"}})
+    runs = read_neutral(tmp_path / "taps.h5")
+    laser = runs["one"].channels["laser"]
+    np.testing.assert_allclose(laser.samples, [1e-3, 2e-3, 4e-3])
+    assert (str(laser.unit), str(laser.measures), float(laser.rate)) == ("m/s", "velocity", 100.0)
+    assert runs["one"].conditions["load"].value[0] == 1500.0 and str(runs["again"].repeat_of) == "one"

@@ -6,6 +6,7 @@ import pytest
 from pipeline.contract import ConfigError
 from stages.bench import bench
 from stages.effects import effects as effects_stage
+from tests.diagnosis import small_bench
 from tests.diagnosis.small_rig import HIDDEN, NOISE, effects, laid_out, model, recording
 
 
@@ -25,3 +26,12 @@ def test_without_the_effect_more_is_left():
 def test_a_bench_without_sensors_is_refused():
     with pytest.raises(ConfigError, match="bench.channels"):
         bench.check({"bench": laid_out(channels={})})
+
+
+def test_poles_are_one_sample_a_feature(monkeypatch):
+    """Free vibrations of the true bench: features within a few of their standard deviations."""
+    whole = small_bench.bench()
+    monkeypatch.setattr("stages.bench.recorded", lambda recording, settings: small_bench.recorded(whole))
+    found = bench(small_bench.model(), None, None, settings=small_bench.laid_out())
+    assert set(found.runs) == {*small_bench.RUNS, "turned"} and "pole 1 frequency" in list(found.channel)
+    assert max(run.error[run.valid[:, 0] == 1].max() for run in found.runs.values()) < 4

@@ -1,13 +1,27 @@
 """Stage diagnosis: from products to a verdict; what it refuses before it computes."""
 
+from dataclasses import replace
+
 import pytest
 
-from pipeline.contract import ConfigError
+from pipeline.contract import ConfigError, ConvergenceError
 from pipeline.contract.settings import fill
 from stages.bench import bench
 from stages.diagnosis import Settings, diagnosis
 from tests.diagnosis.small_rig import HIDDEN, effects, laid_out, model, recording
 from tests.diagnosis.test_answer import ASKED
+
+#: shaking at which the hidden effects are small: fits stay near and quick
+GENTLE = (1.0, 1.5, 2.0, 1.7)
+SENSORS = ["cubic_stiffness", "clipping", "sensor_delay"]
+
+
+def told(given, nothing=None, **asked):
+    """Product Diagnosis of recordings of the rig through both stages; ``nothing`` is the section bench."""
+    laid_out_so = laid_out() if nothing is None else nothing
+    shown = bench(model(), effects({}), given, settings=laid_out_so)
+    return diagnosis(model(), effects({}), given, shown,
+                     settings=fill(Settings, {**ASKED, "solver": False, "kept": 2, **asked}, "diagnosis"))
 
 
 def test_the_stage_names_what_was_hidden():
@@ -25,6 +39,51 @@ def test_what_is_known_to_be_there_is_no_longer_missing():
     assert found.verdict.item() == "consistent"
 
 
+def test_poles_are_asked_for_on_both_sides():
+    given = recording()
+    shown = bench(model(), effects({}), given, settings=laid_out())
+    with pytest.raises(ConfigError, match="diagnosis.forward"):
+        diagnosis(model(), effects({}), given, shown, settings=fill(Settings, {**ASKED, "forward": "poles"}, "d"))
+
+
 def test_an_effect_both_weighed_and_not_is_refused():
     with pytest.raises(ConfigError, match="diagnosis.without"):
         diagnosis.check({"diagnosis": fill(Settings, {"effects": ["coulomb"], "without": ["coulomb"]}, "d")})
+
+
+@pytest.mark.parametrize("hidden, found", [({"clipping": {"x": {"inverse_limit": 200.0}}}, "clipping"),
+                                           ({"sensor_delay": {"x": {"delay": "4 ms"}}}, "sensor_delay")])
+def test_a_fault_of_the_measurement_is_told_from_physics(hidden, found):
+    answer = told(recording(hidden, levels=GENTLE), effects=SENSORS)
+    row, = answer.named
+    assert answer.verdict.item() == "sensor" and answer.effect[row] == found
+
+
+def test_one_run_names_nothing_and_says_so():
+    answer = told(recording(HIDDEN, levels=GENTLE[2:3]), held_out=[], effects=["cubic_stiffness", "sensor_gain"])
+    assert answer.verdict.item() == "tie" and any("one run only" in why for why in answer.reason)
+
+
+def test_a_prior_that_excludes_the_data_is_told():
+    answer = told(recording(levels=GENTLE, corrections={"joints.mount.stiffness": "470 N/m"}), effects=["sensor_gain"],
+                  parameters={"joints.mount.stiffness": {"spread": 0.01}})
+    assert answer.verdict.item() == "unknown"
+    assert any("the prior of joints.mount.stiffness excludes the data" in why for why in answer.reason)
+
+
+def test_recordings_that_are_none_or_of_another_system_are_refused():
+    given = recording(levels=GENTLE[:1])
+    with pytest.raises(ConfigError, match="of which there are none"):
+        told(replace(given, runs={}))
+    run = given.runs["level_1"]
+    other = replace(run, channels={"pressure": run.channels["x"], "force": run.channels["force"]})
+    with pytest.raises(ConfigError, match="channels of the recording, of force, pressure"):
+        told(replace(given, runs={"level_1": other}))
+    bare = replace(run, channels={"x": run.channels["x"]})
+    with pytest.raises(ConfigError, match=r"bench.inputs.shaker.channel: expected one of x of run level_1"):
+        told(replace(given, runs={"level_1": bare}))
+
+
+def test_a_nominal_model_that_diverges_is_told():
+    with pytest.raises(ConvergenceError, match="one that grows without bound"):
+        told(recording(levels=GENTLE), laid_out(corrections={"joints.mount.damping": "-500 N s/m"}))

@@ -1,6 +1,7 @@
 """'make study_diagnosis': hidden physics on forced rigs, recorded by a generator of its own, diagnosed and scored.
 
-One folder a case; a case that has its answer is not solved again. Prints one line a case, then the table of rates.
+One folder a case; a case that has its answer is not solved again. Prints one line a case, then the table of rates. A
+case that the diagnosis refuses (``refused``) counts as not right.
 """
 
 import argparse

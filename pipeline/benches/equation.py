@@ -1,0 +1,97 @@
+"""Recorded runs as balances of forces: measured displacements put into the equation of motion, nothing simulated.
+
+What counts as observed is the force that the inputs put on each coordinate; the model says what force the measured
+motion needs: the applied one and what is left of the equation of motion (``physics.equation_residual``).
+"""
+
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+
+from pipeline.benches.runs import Recorded
+from pipeline.contract import ConfigError
+from pipeline.physics.bench import MOTIONS, Run
+from pipeline.physics.equation_residual import applied_force, coordinates, forces_missing, smoothed, thinned
+from pipeline.physics.time_stepping import Start
+
+#: samples of the parabola whose slope is the speed at the start
+_FIRST = 7
+
+
+@dataclass(frozen=True)
+class Balance:
+    """One recorded run: ``seen`` (Recorded) holds the applied forces (n, m) in N, one channel a coordinate.
+
+    ``run`` is the Run behind it, ``measured`` {channel: (samples,)} its displacements, ``equation`` the section;
+    ``motions`` holds the last filtered motion.
+    """
+
+    seen: Recorded
+    run: Run
+    measured: dict
+    equation: object
+    motions: dict = field(default_factory=dict, compare=False)
+
+    def predicted(self, bench):
+        """Forces (n, m) in N that the measured motion needs on this bench. ConfigError as of ``equation_residual``."""
+        left = forces_missing(bench, self.run, self._motion(bench))
+        return self.seen.samples + thinned(left, self.equation.decimation, self.equation.trim)
+
+    def _motion(self, bench):
+        """Filtered displacements (n, samples), kept for benches that read their channels alike."""
+        key = (bench.channels, bench.model.size)
+        if key not in self.motions:
+            self.motions.clear()
+            self.motions[key] = smoothed(bench, self.run, self.measured, self.equation.corner)
+        return self.motions[key]
+
+
+def balance(bench, one, equation):
+    """Balance of a Recorded run under the section ``equation``. ConfigError for missing samples, and runs too short."""
+    measured = _displacements(bench, one)
+    kept = (one.run.samples - 2 * equation.trim) // equation.decimation
+    if kept < 2:
+        raise ConfigError(f"run {one.run.name}", "samples left between its ends", f"{one.run.samples} in all",
+                          "trim and decimate less, or take a longer stretch")
+    applied = applied_force(bench, one.run, equation.decimation, equation.trim)
+    rate = one.run.sample_rate / equation.decimation
+    thin = Run(one.run.name, (applied.shape[1] - 1) / rate, rate, conditions=one.run.conditions)
+    seen = Recorded(thin, channel_names(bench), ("N",) * len(applied), applied, np.ones(applied.shape, bool),
+                    one.repeat_of)
+    return Balance(seen, one.run, measured, equation)
+
+
+def channel_names(bench):
+    """(n,) names of the forces on the coordinates, by their bodies."""
+    owners = [bench.model.body_name[k] for k in bench.model.coordinate_body]
+    return tuple(f"force on {own}" if owners.count(own) == 1 else f"force on {own} {owners[:k].count(own) + 1}"
+                 for k, own in enumerate(owners))
+
+
+def measured_start(bench, one):
+    """Start where and as fast as the displacement channels of a Recorded run are: a parabola through its first samples.
+
+    ConfigError where they do not give every coordinate.
+    """
+    motion = coordinates(bench, one.run, _displacements(bench, one))[:, :_FIRST]
+    if motion.shape[1] < 3:
+        raise ConfigError(f"run {one.run.name}", "three samples or more", f"{motion.shape[1]}")
+    curve = np.polynomial.polynomial.polyfit(one.run.time[:motion.shape[1]], motion.T, 2)
+    return Start(curve[0], curve[1])
+
+
+def started(bench, runs, settings):
+    """{name: Recorded} with the starts that the section ``bench`` asks for."""
+    if not settings.measured_start:
+        return runs
+    return {name: replace(one, run=replace(one.run, start=measured_start(bench, one))) for name, one in runs.items()}
+
+
+def _displacements(bench, one):
+    """{channel: (samples,)} of the displacement channels; ConfigError where samples are missing."""
+    shown = {c.name for c in bench.channels if c.quantity == MOTIONS[0]}
+    for channel, valid in zip(one.channels, one.valid, strict=True):
+        if channel in shown and not valid.all():
+            raise ConfigError(f"run {one.run.name}: {channel}", "no missing samples, because they are differentiated",
+                              f"{int((~valid).sum())} missing", "declare the stretches between them as runs")
+    return {c: s for c, s in zip(one.channels, one.samples, strict=True) if c in shown}

@@ -1,0 +1,49 @@
+"""The question of measured motions: what forces they need, put into the equation of motion, against those applied.
+
+Nothing is simulated, so that no solver can be wrong and no start state is needed; the motions must be measured at
+every coordinate.
+"""
+
+from dataclasses import dataclass, replace
+
+from pipeline.benches.equation import balance, measured_start
+from pipeline.contract.units import to_si
+from pipeline.diagnosis.forced import check_names, chosen, nominal_parameters
+from pipeline.diagnosis.question import Question, nominal
+from pipeline.diagnosis.simulation import candidates, completed, observed, reach
+from pipeline.inference.noise import budget
+from pipeline.inference.problem import Problem
+
+
+@dataclass(frozen=True)
+class Balanced:
+    """Picklable prediction: the forces that measured motions need; ``balances`` {name: Balance}."""
+
+    bench: object
+    balances: dict
+
+    def __call__(self, hypothesis, values, run):
+        return self.balances[run.name].predicted(completed(self.bench, hypothesis, values))
+
+
+def question(bench, recorded, settings, equation):
+    """Question over {name: Recorded} of a Bench under the sections ``settings`` and ``equation`` of the bench.
+
+    ConfigError for unknown runs, effects, places and parameters, and for motions that are not fully measured.
+    """
+    check_names("held_out", settings.held_out, recorded)
+    balances = {name: balance(bench, one, equation) for name, one in recorded.items()}
+    units = {c: u for one in balances.values() for c, u in zip(one.seen.channels, one.seen.unit, strict=True)}
+    check_names("noise.std", settings.noise.std, units)
+    noise = {c: to_si(v, units[c], f"diagnosis.noise.std.{c}") for c, v in settings.noise.std.items()}
+    problem = Problem(tuple(observed(one.seen, noise, name in settings.held_out) for name, one in balances.items()),
+                      Balanced(bench, balances), nominal(nominal_parameters(bench, settings)))
+    trained = [_started(bench, recorded[o.name]) for o in problem.training]
+    found = candidates(bench, tuple(one.run for one in trained), chosen(settings), settings.places,
+                       reach(bench, trained))
+    return Question(problem, budget(problem, above=settings.noise.above), found, units)
+
+
+def _started(bench, one):
+    """The Recorded run as it began, so that nominal runs have the sizes of the measured ones."""
+    return replace(one, run=replace(one.run, start=measured_start(bench, one)))

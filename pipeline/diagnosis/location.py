@@ -1,0 +1,225 @@
+"""Where forced recordings and the recalibrated nominal model differ: stage, place, run, band.
+
+Stage: a bench seldom records what lies between two stages, so that nothing measured can be put in place of it; each
+stage scores as the best of its hypotheses, and its probability is theirs together. Place: a force acts there that is an
+unknown function of what moves there (displacement x and velocity v as recorded, up to third order, and the harmonics of
+a turning drive); a force with any history at all would explain the few channels of a bench from every place alike.
+"""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from pipeline.diagnosis.deconvolution import EXTRA, motion, moved
+from pipeline.diagnosis.simulation import STEP, completed, shown
+from pipeline.effects import named
+from pipeline.effects.effect import STAGES
+from pipeline.inference import locate
+from pipeline.inference.calibrate import whitened
+from pipeline.inference.decide import Rules
+from pipeline.inference.effective import effective_share
+from pipeline.physics.bench import run_drive, run_inputs
+
+#: octaves below the highest frequency of the records that are bands of their own
+OCTAVES = 8
+#: rows of a smaller angle are one place: no recording tells them apart
+_ALIKE = 1e-6
+#: share of the rest that a unit force of the place axis has: of the largest root mean square force of a run
+_SHARE = 0.1
+#: harmonics of the drive's angle that a force may follow
+_ORDERS = 3
+
+
+@dataclass(frozen=True)
+class Axes:
+    """Axes of a Question over ``runs`` {name: Run} of a Bench: called with the inference's Diagnosis.
+
+    Returns {axis: (Location, unit of its bins or "", edges (n, 2) or None)}.
+    """
+
+    bench: object
+    runs: dict
+    problem: object
+    budget: dict
+    level: float = 1 + Rules.noise_uncertainty
+    draws: int = 2000
+    seed: int = 0
+
+    def __call__(self, found):
+        null, own = (found.base or found).null, {"draws": self.draws, "seed": self.seed}
+        whites = residuals(self.problem, self.budget, null)
+        axes = {"stage": (stage_axis(found), "", None), "run": (run_axis(whites, self.budget, self.level, **own), "",
+                                                                None)}
+        if place := place_axis(fitted(self.bench, null), self.runs, null, (found.base or found).weights, **own):
+            axes["place"] = (place, "", None)
+        if band := band_axis(self.problem.runs, whites, self.budget, self.level, **own):
+            axes["band"] = band
+        return axes
+
+
+def fitted(bench, fit):
+    """The bench with the values and effects of a Fit."""
+    return completed(bench, fit.hypothesis, fit.values)
+
+
+def residuals(problem, budget, fit):
+    """{run name: whitened residual (m,)} of a Fit on all runs, those held out included."""
+    found, error = whitened(problem, [budget[r.name] for r in problem.runs], fit.hypothesis, fit.latent, problem.runs)
+    if error:
+        raise error
+    return {run.name: white for run, white in zip(problem.runs, found, strict=True)}
+
+
+def stage_of(effects):
+    """Stage of ((effect, place), ...) by the first; ``numerics`` for the solver, empty for none."""
+    if not effects:
+        return ""
+    name = effects[0][0]
+    return "numerics" if name == STEP else named(name).stage
+
+
+def stage_axis(found):
+    """Location over the stages of the catalogue from what was screened and refitted (see the head of this file)."""
+    first = found.base or found
+    names = (*STAGES, "numerics")
+    refitted = {w.candidate.name: w.contender.posterior for w in first.weighed}
+    score, p_value, share = np.full(len(names), -np.inf), np.ones(len(names)), np.zeros(len(names))
+    for k, candidate in enumerate(first.screen.candidates):
+        row = names.index(stage_of(candidate.effects))
+        score[row] = max(score[row], first.screen.score[k])
+        p_value[row] = min(p_value[row], first.screen.p_value[k])
+        share[row] += refitted.get(candidate.name, 0.0)
+    kept = np.flatnonzero(np.isfinite(score))
+    share = share[kept] if share[kept].sum() > 0 else np.ones(len(kept))
+    return locate.Location(tuple(names[k] for k in kept), score[kept], p_value[kept],
+                           locate.credible_set(share / share.sum()))
+
+
+def run_axis(whites, budget, level=1.0, draws=2000, seed=0):
+    """Location over runs by the mean square of their whitened residuals; null: noise of power ``level``."""
+    names = tuple(whites)
+    count = np.array([len(whites[n]) for n in names])
+    power = np.array([np.mean(whites[n] ** 2) for n in names])
+    real = np.array([len(whites[n]) * effective_share(budget[n], whites[n]) for n in names])
+    random = np.random.default_rng(seed)
+    null = (random.gamma(count / 2, 2 / count, (draws, len(names))) - 1) * np.sqrt(count / 2)
+    again = power * random.gamma(real / 2, 2 / real, (draws, len(names)))
+    return locate.against_null(names, (power / level - 1) * np.sqrt(count / 2), null, again)
+
+
+def band_axis(runs, whites, budget, level=1.0, draws=2000, seed=0):
+    """(Location, "Hz", edges) over octaves of the whitened residuals of all runs of the most common rate, or None."""
+    rates = [run.rate for run in runs if run.rate]
+    if not rates:
+        return None
+    rate = max(rates, key=rates.count)
+    parts = [part for run in runs if run.rate == rate for part in budget[run.name].by_channel(whites[run.name])]
+    edges = np.concatenate(([0.0], 0.5 * rate * 2.0 ** np.arange(-OCTAVES, 1)))
+    found = locate.bands(np.concatenate(parts) / np.sqrt(level), rate, edges, draws, seed)
+    return _named(found, "Hz"), "Hz", np.array(found.items)
+
+
+def place_axis(bench, runs, null, weights, draws=2000, seed=0):
+    """Location over joints, contact groups and points at the Fit ``null``, or None where no force would be seen."""
+    size = _force(bench, [runs[run.name] for run in null.runs])
+    bases = {}
+    for name, rows in places(bench).items():
+        whole = _basis(bench, runs, null, rows, size).T
+        if np.isfinite(whole).all() and whole.any():
+            bases[name] = whole
+    return locate.places(tuple(bases), bases, null, weights, draws, seed) if bases else None
+
+
+def places(bench):
+    """{name: rows (r, n)} where a force can act: joints, contact groups (along and across their normal), points.
+
+    Places of parallel rows are one, named ``first = second``, because no recording can tell them apart.
+    """
+    model, contacts = bench.model, bench.model.contacts
+    found = {str(name): np.atleast_2d(row) for name, row in zip(model.joints.name, model.joints.rows, strict=True)}
+    for group in dict.fromkeys(("contact", *bench.groups)) if len(contacts.area) else ():
+        own = bench.contacts(group)
+        rows = np.array([contacts.tangent[own].mean(axis=0), contacts.normal[own].mean(axis=0)])
+        found[group] = rows[rows.any(axis=1)]
+    found |= {str(name): np.atleast_2d(row) for name, row in zip(model.sensor_name, model.sensor_rows, strict=True)
+              if name not in found}
+    merged = []
+    for name, rows in found.items():
+        if not rows.any():
+            continue
+        twin = next((m for m in merged if _alike(m[1], rows)), None)
+        if twin:
+            twin[0].append(name)
+        else:
+            merged.append(([name], rows))
+    return {" = ".join(names): rows for names, rows in merged}
+
+
+def drive_angle(bench, run):
+    """Angle (samples,) of the drive in rad; None where nothing turns past a contact."""
+    if not len(bench.model.contacts.area):
+        return None
+    speed = np.broadcast_to(run_drive(bench, run), run.samples)
+    return np.cumsum(speed) / run.sample_rate if speed.any() else None
+
+
+def _alike(first, second):
+    if len(first) != len(second):
+        return False
+    one, other = (r / np.linalg.norm(r, axis=1, keepdims=True) for r in (first, second))
+    return bool((1 - np.abs(np.sum(one * other, axis=1)) < _ALIKE).all())
+
+
+def _force(bench, runs):
+    """Force (N) of a unit function: a share of the largest root mean square input, else of what joints carry."""
+    inputs = [float(np.sqrt(np.mean(np.square(i)))) for run in runs for i in run_inputs(bench, run)]
+    loads = float(np.abs(bench.model.contacts.preload).sum())
+    return _SHARE * (max([*inputs, loads]) or _joint_force(bench, runs) or 1.0)
+
+
+def _joint_force(bench, runs):
+    found = [0.0]
+    for row, k, c in zip(bench.model.joints.rows, bench.model.joints.stiffness, bench.model.joints.damping,
+                         strict=True):
+        for run in runs:
+            x, v = moved(bench, run, row)
+            found.append(float(np.sqrt(np.mean((k * x + c * v) ** 2))))
+    return max(found)
+
+
+def _basis(bench, runs, null, rows, size):
+    """(q, m) whitened change by a force ``size`` times each function of the motion, along each of ``rows``."""
+    before = [shown(bench, runs[run.name], run.channels) for run in null.runs]
+    changes = []
+    for row in rows:
+        pushed = replace(bench, model=replace(bench.model, input_name=(*bench.model.input_name, EXTRA),
+                                              input_rows=np.vstack((bench.model.input_rows, row))))
+        parts = []
+        tables = _tables(bench, runs, null, row)
+        for run, noise, told, table in zip(null.runs, null.noises, before, tables, strict=True):
+            one = runs[run.name]
+            parts.append(noise.whiten(np.array([
+                shown(pushed, replace(one, inputs={**one.inputs, EXTRA: size * f}), run.channels) - told
+                for f in table])))
+        changes.append(np.concatenate(parts, axis=1))
+    return np.concatenate(changes)
+
+
+def _tables(bench, runs, null, row):
+    """[(q, n) functions of the motion along a row] of each run, of one scale over all runs."""
+    moves = [motion(bench, row, runs[run.name], run, noise) for run, noise in zip(null.runs, null.noises, strict=True)]
+    sizes = [np.sqrt(np.mean(np.concatenate(part) ** 2)) or 1.0 for part in zip(*moves, strict=True)]
+    return [_functions(x / sizes[0], v / sizes[1], drive_angle(bench, runs[run.name]))
+            for run, (x, v) in zip(null.runs, moves, strict=True)]
+
+
+def _functions(x, v, angle):
+    """Functions (q, n) of a motion: powers and products, a smooth sign, a constant, harmonics of an angle."""
+    found = [x, v, x**2, x * v, v**2, x**3, x**2 * v, x * v**2, v**3, np.tanh(5 * v), np.ones(len(x))]
+    if angle is not None:
+        found += [f(k * angle) for k in range(1, _ORDERS + 1) for f in (np.cos, np.sin)]
+    return np.array(found)
+
+
+def _named(location, unit):
+    return replace(location, items=tuple(f"{low:.3g} to {high:.3g} {unit}" for low, high in location.items))

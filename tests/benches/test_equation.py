@@ -1,0 +1,61 @@
+"""Balances of forces: a motion that the model makes needs the force that made it."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from pipeline.benches import bench as benches
+from pipeline.benches.effect_block import with_effects
+from pipeline.benches.equation import balance, channel_names, measured_start, started
+from pipeline.benches.runs import recorded
+from pipeline.contract import ConfigError
+from tests.diagnosis.small_rig import HIDDEN, effects, laid_out, model, recording
+
+BALANCED = {"forward": "equation", "equation": {"corner": "20 Hz", "decimation": 4, "trim": 60}}
+
+
+def rig(hidden=None, **more):
+    """(Bench, {name: Recorded}, section) of noiseless recordings made with ``hidden`` effects."""
+    settings = laid_out(**BALANCED, **more)
+    return benches.built(model(), settings), recorded(recording(hidden, noise=0.0), settings), settings
+
+
+def test_the_true_model_needs_the_force_that_was_applied():
+    bench, runs, settings = rig(HIDDEN)
+    one = balance(bench, runs["level_2"], settings.equation)
+    nominal, complete = (one.predicted(b) for b in (bench, with_effects(bench, effects(HIDDEN))))
+    size = one.seen.samples.std()
+    assert (complete - one.seen.samples).std() < 0.03 * size, "central differences at the third harmonic of 4 Hz: 1.2 %"
+    assert (nominal - one.seen.samples).std() > 0.1 * size
+
+
+def test_channels_are_forces_at_the_lower_rate():
+    bench, runs, settings = rig()
+    seen = balance(bench, runs["level_1"], settings.equation).seen
+    assert seen.channels == channel_names(bench) == ("force on block",) and seen.unit == ("N",)
+    assert seen.run.sample_rate == 50.0 and seen.samples.shape == (1, (1200 - 120) // 4) == seen.valid.shape
+
+
+def test_a_run_may_start_where_it_was():
+    bench, runs, settings = rig(measured_start=True)
+    one = runs["level_1"]
+    later = replace(one, run=replace(one.run, duration=1.0), samples=one.samples[:, 300:501],
+                    valid=one.valid[:, 300:501])
+    start = measured_start(bench, later)
+    assert start.displacement == pytest.approx(one.samples[:, 300], abs=1e-3 * one.samples.std())
+    assert start.velocity == pytest.approx(np.gradient(one.samples[0], 1 / 200)[300:301], rel=0.05), \
+        "(w T)^2 / 10 with T = 30 ms"
+    assert started(bench, {"a": later}, settings)["a"].run.start is not None
+    assert started(bench, runs, laid_out()) is runs
+
+
+def test_gaps_and_short_runs_are_refused():
+    bench, runs, settings = rig()
+    one = runs["level_1"]
+    valid = one.valid.copy()
+    valid[0, 7] = False
+    with pytest.raises(ConfigError, match="missing samples"):
+        balance(bench, replace(one, valid=valid), settings.equation)
+    with pytest.raises(ConfigError, match="trim"):
+        balance(bench, one, settings.equation.model_copy(update={"trim": 599}))

@@ -1,0 +1,38 @@
+"""The question of measured motions: named without any simulation of the runs."""
+
+import pytest
+
+from pipeline.benches import bench as benches
+from pipeline.benches.runs import recorded
+from pipeline.contract import ConfigError
+from pipeline.contract.settings import fill
+from pipeline.diagnosis.equation import question
+from pipeline.diagnosis.settings import Settings
+from pipeline.inference.diagnose import diagnose
+from tests.benches.test_equation import BALANCED
+from tests.diagnosis.small_rig import HIDDEN, laid_out, model, recording
+
+ASKED = {"parameters": {"joints.mount.stiffness": {"spread": 0.1}, "joints.mount.damping": {"spread": 0.3}},
+         "held_out": ["level_4"], "noise": {"std": {"force on block": "0.2 N"}},
+         "effects": ["cubic_stiffness", "coulomb", "quadratic_damping", "moving_base"]}
+
+
+def asked(hidden=None, **more):
+    settings = laid_out(**BALANCED)
+    return question(benches.built(model(), settings), recorded(recording(hidden, noise=1e-5), settings),
+                    fill(Settings, {**ASKED, **more}, "diagnosis"), settings.equation)
+
+
+def test_cubic_stiffness_is_named_with_its_value():
+    given = asked(HIDDEN)
+    found = diagnose(given.problem, given.budget, given.candidates)
+    assert found.decision.verdict == "missing" and found.named[0].candidate.effects == (("cubic_stiffness", "mount"),)
+    assert found.named[0].fit.values["cubic_stiffness@mount.coefficient"] == pytest.approx(15000.0, rel=0.02)
+    assert "give all 2 coordinates" in found.failures["moving_base at mount"], "a base that is not measured"
+
+
+def test_the_noise_is_that_of_the_forces():
+    found = asked()
+    assert found.units == {"force on block": "N"} and found.budget["level_1"].std == pytest.approx([0.2])
+    with pytest.raises(ConfigError, match="noise.std"):
+        asked(noise={"std": {"x": "0.2 mm"}})

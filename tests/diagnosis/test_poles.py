@@ -1,0 +1,63 @@
+"""Features of self-excited benches: what two records show, and what the model says of it."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from pipeline.contract import ConfigError
+from pipeline.diagnosis.poles import assigned, features, observed, predicted
+from pipeline.physics.bench_modes import modes
+from tests.diagnosis.small_bench import bench, laid_out, recorded, run
+
+BAND = laid_out().poles
+
+
+@pytest.fixture(scope="module")
+def told():
+    """(bench, its features, the observed runs, units)."""
+    whole = bench({"runout": {"contact": {"amplitude": "3 um", "order": 1, "phase": "0.7 rad"}}})
+    found = features(whole, recorded(whole), BAND)
+    return whole, found, *observed(found, ("fast",))
+
+
+def test_the_true_bench_shows_what_was_recorded(told):
+    whole, found, runs, _ = told
+    left = [((one.samples - predicted(whole, found[one.name], one.channels))[:, 0] / one.noise_std)[one.valid[:, 0]]
+            for one in runs]
+    assert max(abs(np.concatenate(left))) < 4 and len(found["slow_10"].seen.root) == 2
+
+
+def test_runs_share_their_channels_and_lack_some(told):
+    _, _, runs, units = told
+    assert {one.name for one in runs if one.held_out} == {"fast"} and len({one.channels for one in runs}) == 1
+    assert units["pole 1 frequency"] == "Hz" and units["order 1 cosine of cell"] == "N"
+    turned = next(one for one in runs if one.name == "turned")
+    assert [c for c, v in zip(turned.channels, turned.valid[:, 0], strict=True) if v] == [
+        f"order {n} {wave} of cell" for n in (1, 2, 3) for wave in ("cosine", "sine")]
+
+
+def test_ratios_of_sensors_tell_gain_and_delay():
+    whole = bench()
+    late = whole.with_channels(lambda c: replace(c, gain=1.3, delay=1e-4) if c.name == "accelerometer" else c)
+    found = features(whole, recorded(late), BAND)["rest"]
+    assert found.values["gain of accelerometer over laser"] == pytest.approx(np.log(1.3), abs=0.01)
+    assert found.values["delay of accelerometer behind laser"] == pytest.approx(1e-4, abs=3e-6)
+
+
+def test_every_peak_is_explained_by_a_root_of_its_own(told):
+    whole, found, _, _ = told
+    root, shape = modes(whole, run("slow_10"))
+    assert list(assigned(found["slow_10"].seen, root, shape)) == [0, 1]
+    with pytest.raises(ConfigError, match="at most 1 peaks"):
+        assigned(found["slow_10"].seen, root[:1], shape[:1])
+
+
+def test_records_that_cannot_be_used_are_refused():
+    whole = bench()
+    given = recorded(whole)
+    with pytest.raises(ConfigError, match="a repeat"):
+        features(whole, {"rest": given["rest"]}, BAND)
+    short = replace(given["turned"], run=replace(given["turned"].run, conditions={"press": 10.0, "speed": 0.1}))
+    with pytest.raises(ConfigError, match="a whole turn"):
+        features(whole, {"turned": short}, BAND)

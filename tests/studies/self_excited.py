@@ -1,0 +1,141 @@
+"""'make study_squeal': hidden physics on the practice pin-on-disc bench, diagnosed and scored.
+
+Each of nine effects is hidden in four draws, beside controls with other values only; thresholds were set on other draws
+(seeds below 100). 'make pin_bench' writes practice files. One folder a case; a case
+that has its answer is not solved again.
+"""
+
+import argparse
+import json
+from dataclasses import dataclass
+from pathlib import Path
+
+from pipeline.contract import documents
+from pipeline.contract.errors import BrakechainError
+from pipeline.contract.settings import fill
+from pipeline.diagnosis.document import as_json
+from pipeline.products import Recording
+from pipeline.recordings.neutral import read_neutral, write_neutral
+from pipeline.trial.pin_bench import DECOYS, HIDDEN, make, record
+from stages.bench import bench
+from stages.diagnosis import diagnosis
+from stages.lumped import lumped
+from stages.reduced_model import reduced_model
+from tests.studies.forced import wilson
+
+ROOT = Path(__file__).parents[2]
+CONFIG = ROOT / "configs" / "pin_on_disc_bench.yaml"
+DRAWS, CONTROLS = 4, 60
+#: effects of the practice files, in the order of their names; '' is the control
+PRACTICE = ("falling_friction", "contact_memory", "contact_stiffness_law", "doublet_split", "moving_base", "runout", "")
+
+
+@dataclass(frozen=True)
+class Plan:
+    """A draw: its seed and what it hides, '' for nothing but other values."""
+
+    seed: int
+    hidden: str
+
+
+def plans(first=1000):
+    """Four draws of each effect, one after the other through all effects, then the controls."""
+    names = [name for _ in range(DRAWS) for name in HIDDEN] + [""] * CONTROLS
+    return [Plan(first + k, name) for k, name in enumerate(names)]
+
+
+def write(plan, folder):
+    """recordings.h5 and truth.json of a Plan in a folder."""
+    folder.mkdir(parents=True, exist_ok=True)
+    made, truth = _made(plan)
+    write_neutral(folder / "recordings.h5", record(made, plan.seed))
+    (folder / "truth.json").write_text(json.dumps({"effect": plan.hidden, **truth}, indent=1) + "\n")
+
+
+def _made(plan):
+    decoy = plan.hidden in DECOYS
+    return make(plan.seed, () if decoy or not plan.hidden else (plan.hidden,), (plan.hidden,) if decoy else ())
+
+
+def solved(path, **asked):
+    """diagnosis.json of a file of recordings under the case pin_on_disc_bench, by the stages themselves."""
+    document = documents.read_yaml(CONFIG)
+
+    def section(stage, **more):
+        return fill(stage.settings, {**document.get(stage.name, {}), **more}, stage.name)
+
+    model = reduced_model(lumped(settings=section(lumped)), settings=section(reduced_model))
+    recording = Recording(source=[path.name], runs=read_neutral(path))
+    shown = bench(model, None, recording, settings=section(bench))
+    return as_json(diagnosis(model, None, recording, shown, settings=section(diagnosis, **asked)))
+
+
+def scored(hidden, answer):
+    """{right, false_alarm} of one case; a decoy is right where the verdict is that of a sensor."""
+    named = [e["name"] for e in answer["effects"]]
+    if not hidden:
+        return {"right": answer["verdict"] in ("parameters", "consistent"),
+                "false_alarm": answer["verdict"] in ("missing", "tie", "sensor", "numerics")}
+    wanted = "sensor" if hidden in DECOYS else "missing"
+    return {"right": answer["verdict"] == wanted and (wanted == "sensor" or named == [hidden]), "false_alarm": False}
+
+
+def table(results):
+    """Lines of rates with their 95 % intervals from [(hidden, answer)]."""
+    rows = [(name or "controls told right", [scored(h, a)["right"] for h, a in results if h == name])
+            for name in dict.fromkeys(h for h, _ in results)]
+    rows += [("all effects", [scored(h, a)["right"] for h, a in results if h]),
+             ("false alarms on controls", [scored(h, a)["false_alarm"] for h, a in results if not h])]
+    return [_line(name, hits) for name, hits in rows if hits]
+
+
+def _line(name, hits):
+    low, high = wilson(sum(hits), len(hits))
+    return f"{name:<30} {sum(hits):>3} of {len(hits):<3}   95 %: {low:.0%} to {high:.0%}"
+
+
+def run(plan, folder, **asked):
+    """Answer of one Plan, from its files where they are there."""
+    kept = folder / "answer.json"
+    if not kept.exists():
+        write(plan, folder)
+        try:
+            answer = solved(folder / "recordings.h5", **asked)
+        except BrakechainError as error:
+            answer = {"verdict": "refused", "effects": [], "reasons": [str(error)]}
+        kept.write_text(json.dumps(answer, indent=1) + "\n")
+    return json.loads(kept.read_text())
+
+
+def practice(folder):
+    """bench_0.h5 ... of PRACTICE, each with its truth beside it."""
+    folder.mkdir(parents=True, exist_ok=True)
+    for number, hidden in enumerate(PRACTICE):
+        made, truth = _made(Plan(number, hidden))
+        write_neutral(folder / f"bench_{number}.h5", record(made, number))
+        (folder / f"bench_{number}_truth.json").write_text(json.dumps({"effect": hidden, **truth}, indent=1) + "\n")
+
+
+def main():
+    """Write the practice files, or solve what is chosen and print the table."""
+    parser = argparse.ArgumentParser(prog="make study_squeal", description=__doc__)
+    parser.add_argument("--practice", action="store_true", help="write the practice files and stop")
+    parser.add_argument("--folder", type=Path, default=ROOT / "data" / "runs")
+    parser.add_argument("--only", nargs="*", help="hidden physics; 'control' for none; default all")
+    parser.add_argument("--most", type=int, default=None, help="so many cases at most")
+    parser.add_argument("--first", type=int, default=1000, help="seed of the first draw")
+    chosen, results = parser.parse_args(), []
+    if chosen.practice:
+        practice(chosen.folder / "practice")
+        return
+    wanted = [p for p in plans(chosen.first) if not chosen.only or (p.hidden or "control") in chosen.only]
+    for plan in wanted[:chosen.most]:
+        answer = run(plan, chosen.folder / "study_squeal" / f"{plan.seed}")
+        named = ", ".join(f"{e['name']} at {e['place']}" for e in answer["effects"])
+        print(f"{plan.seed} {plan.hidden or 'control':<28} -> {answer['verdict']:<10} {named}", flush=True)
+        results.append((plan.hidden, answer))
+    print("\n".join(table(results)))
+
+
+if __name__ == "__main__":
+    main()

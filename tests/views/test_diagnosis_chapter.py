@@ -1,0 +1,98 @@
+"""The chapter of a diagnosis says what the product says, for every verdict; the map shows where and how much."""
+
+import numpy as np
+import pytest
+
+from pipeline.views import diagnosis as pictures
+from pipeline.views.chapter import Look
+from pipeline.views.chapters import bench as bench_chapter
+from pipeline.views.chapters.diagnosis import chapter, headline, note
+from pipeline.views.page import page, plan
+from pipeline.views.verdict import verdict
+from tests.views import products_for_views as products
+from tests.views.diagnosis_for_views import bench, changed, diagnosis
+
+
+@pytest.mark.parametrize("kind, said, tone", [
+    ("missing", "Coulomb at guide is missing (97\u202f%)", "warning"),
+    ("tie", "Missing, but not told apart: coulomb at guide or quadratic damping at arm", "warning"),
+    ("sensor", "The measurement, not the physics: coulomb at guide (97\u202f%)", "warning"),
+    ("parameters", "Values are off, no physics is missing", "warning"),
+    ("consistent", "Nothing is missing: the model explains the recordings", "quiet"),
+    ("unknown", "Something is missing at guide that the catalogue does not hold", "squeal"),
+    ("numerics", "The solver, not the physics", "warning")])
+def test_every_verdict_has_its_headline(kind, said, tone):
+    found = diagnosis(kind)
+    assert headline(found)[0].startswith(said) and headline(found)[1] == tone
+    assert chapter(found, Look()).figures, "and a chapter"
+    assert verdict({"diagnosis": found}, ()).headline == headline(found)[0]
+
+
+def test_the_note_answers_what_a_colleague_would_ask():
+    told = dict(note(diagnosis()))
+    assert "never fitted the nominal model misses the recordings by 60\u202f%" in told["What differs"]
+    assert "at guide; amplitudes 1 to 5\u202fmm" in told["Where"]
+    assert told["What is missing"] == "Coulomb at guide: force 20.4 ± 0.3\u202fN."
+    assert "0.0005" in told["How sure"] or "10" in told["How sure"]
+    assert "within 1.5\u202f%" in told["What it changes"] and "1\u202f% of the excess" in told["What it changes"]
+    assert "level = 8 N" in told["Measure next"] and "quadratic damping at arm" in told["Measure next"]
+
+
+def test_wrong_values_are_told_with_what_was_given():
+    told = dict(note(diagnosis("parameters", parameter_nominal=[200.0, 20.4])))
+    assert told["What is missing"].endswith("joints.guide.damping 215 ± 4\u202fN s/m (given 200\u202fN s/m).")
+
+
+def test_a_description_is_never_called_physics():
+    found = diagnosis("unknown")
+    assert dict(note(found))["What is missing"] == found.latent_sentence.item()
+    assert any("not identified physics" in n for n in chapter(found, Look()).notes)
+    assert any("not identified physics" in f.caption for f in chapter(found, Look()).figures)
+
+
+def test_without_a_held_out_run_the_chapter_says_so():
+    found = diagnosis()
+    fitted = {name: changed(run, held_out=0) for name, run in found.runs.items()}
+    assert "No run was held out" in chapter(changed(found, runs=fitted), Look()).notes[0]
+
+
+def test_the_map_shows_the_tone_in_its_octave_and_noise_as_one():
+    """A tone of 30 noises in one octave of l lines: its root mean square over noise is 30 / sqrt(4 l / 600)."""
+    edges, before = pictures.mismatch(diagnosis(), "recalibrated")
+    row = int(np.searchsorted(edges, 5.0)) - 1
+    assert edges[row] < 5 < edges[row + 1] and np.argmax(before[0]) == row
+    lines = np.sum((np.arange(301) / 3 >= edges[row]) & (np.arange(301) / 3 < edges[row + 1]))
+    assert before[0, row] == pytest.approx(30 / np.sqrt(4 * lines / 600), rel=0.1)
+    _, after = pictures.mismatch(diagnosis(), "completed")
+    assert after[:, -3:] == pytest.approx(np.ones((2, 3)), rel=0.25)
+
+
+def test_features_are_mapped_by_channel():
+    """Four features a run: no octaves, no spectrum; 0.05 beside a noise of 0.01 is 5."""
+    few = {"time": np.arange(4.0), "measured": np.ones((1, 4)), "valid": np.ones((1, 4), int),
+           "nominal": np.zeros((1, 4)), "recalibrated": np.full((1, 4), 0.95), "completed": np.ones((1, 4))}
+    found = diagnosis()
+    short = changed(found, runs={name: changed(run, **few) for name, run in found.runs.items()})
+    names, table = pictures.by_channel(short, "recalibrated")
+    assert names == ["position"] and table == pytest.approx(np.full((2, 1), 5.0))
+    assert len(chapter(short, Look()).figures) == len(chapter(found, Look()).figures) - 2
+
+
+def test_pictures_are_the_same_twice_and_follow_the_product():
+    found = diagnosis()
+    other = changed(found, posterior=found.posterior[::-1].copy(), parameter_value=2 * found.parameter_value)
+    for draw in (pictures.hypotheses, pictures.stage_place, pictures.parameters):
+        assert draw(found) == draw(found) != draw(other)
+
+
+def test_the_page_begins_with_the_map():
+    shown = {"diagnosis": diagnosis(), "bench": bench()}
+    text = page([build() for build in plan(shown, Look())], shown, products.case(), Look())
+    assert 'id="bench"' in text and 'id="diagnosis"' in text and "Mismatch map" in text
+    assert "<b>Figure 1.</b> Mismatch map" in text
+
+
+def test_the_bench_shows_prediction_beside_measurement():
+    made = bench_chapter.chapter(bench(), Look())
+    assert "by 0\u202f% to 20\u202f%" in made.conclude and len(made.figures) == 2
+    assert made.tables[0].rows[1] == ("second", "position", "20\u202f%", "140\u202fmm")
