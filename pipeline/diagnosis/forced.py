@@ -30,6 +30,8 @@ def question(bench, recorded, settings):
     forward = Simulated(bench, runs | {f.run.name: f.run for f in after}, change,
                         {f.run.name: f.altered for f in after})
     problem = Problem(seen, forward, nominal(nominal_parameters(bench, settings)))
+    for one in after:       # what the model cannot do is refused before anything is fitted
+        forward(problem.nominal, problem.nominal.values(problem.nominal.nominal), one.observed)
     check_names("priors", settings.priors, [f"{e.name}.{p.name}" for e in CATALOGUE for p in parameters(e)])
     found = candidates(bench, tuple(one.run for one in trained), chosen(settings), settings.places,
                        reach(bench, trained), settings.priors)
