@@ -40,6 +40,9 @@ def _annotated(section):
 def _with_origin(schema):
     told = {k: v for k, v in schema.items() if k in ("description", "title", "default")}
     bare = {k: v for k, v in schema.items() if k not in told}
+    inner = bare.get("additionalProperties")
+    if isinstance(inner, dict) and "$ref" not in inner:     # values by name: each may have an origin of its own
+        bare["additionalProperties"] = _with_origin(inner)
     origin = {"type": "object", "additionalProperties": False, "required": ["value"],
               "properties": {"value": bare, "origin": {"enum": list(ORIGINS)}, "source": {"type": "string"},
                              "doubt": {"type": "string"}, "choose": {"type": "string"}}}
