@@ -10,7 +10,7 @@ READY  := .venv/.ready
 BIN    := .venv/bin
 
 .DEFAULT_GOAL := help
-.PHONY: help setup run test test-slow bench study_diagnosis study_squeal pin_bench lint clean $(STAGES)
+.PHONY: help setup run test test-slow test-study bench study_diagnosis study_squeal pin_bench lint clean $(STAGES)
 
 help:            ## show this list
 	@echo "usage: make TARGET [CASE=disc_brake] [ARGS=...]      cases: $(basename $(notdir $(wildcard configs/*.yaml)))"
@@ -34,7 +34,10 @@ test: $(READY)   ## all tests but the slow studies
 	$(BIN)/python -m pytest -q -m "not slow" -n auto --dist loadfile $(ARGS) $(TESTS)
 
 test-slow: $(READY)  ## the slow studies: full cases, kill-and-resume in every stage
-	$(BIN)/python -m pytest -q -m slow $(ARGS) $(TESTS)
+	$(BIN)/python -m pytest -q -m "slow and not study" $(ARGS) $(TESTS)
+
+test-study: $(READY)  ## the long diagnoses: every case of its kind, samples of the studies
+	$(BIN)/python -m pytest -q -m study $(ARGS) $(TESTS)
 
 bench: $(READY)  ## benchmarks: seconds and memory of every stage and kernel
 	$(BIN)/python -m tests.benchmarks $(ARGS)

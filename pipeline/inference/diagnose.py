@@ -1,6 +1,7 @@
 """The course of a diagnosis: recalibrate, screen, refit, weigh, verify, decide; pairs by greedy addition.
 
-A null hypothesis that has not converged lets every candidate win: it is refitted from each candidate's optimum.
+A null hypothesis that has not converged lets every candidate win: it is refitted from each candidate's optimum. A model
+that lacks physics may have no smooth optimum at all: then a candidate counts only where it goes far below the null.
 """
 
 from dataclasses import dataclass
@@ -101,7 +102,7 @@ def _one_step(problem, budget, catalogue, settings, fan_out, start=None, base=No
     runs, hypothesis = problem.training, problem.nominal
     noises = tuple(budget[run.name] for run in runs)
     first = start.latent if start else hypothesis.nominal
-    null = calibrate(problem, noises, hypothesis, [first], runs)
+    null = calibrate(problem, noises, hypothesis, [first], runs, settled=False)
     found = list(fan_out(partial(directions, problem, null), catalogue))
     rough = screen(null, found, None, settings.draws, settings.seed)
     kept = [i for i in rough.order()[:settings.kept] if np.isfinite(rough.score[i])
@@ -201,6 +202,9 @@ def _weighed(problem, budget, null, found, fits, failures, settings, base):
     weighed.sort(key=lambda w: -w.evidence.log_evidence)
     known = situation(problem, null, weights, drifting, settings.rules)
     decision = rulebook.decide(known, [w.contender for w in weighed], settings.rules)
+    if not null.converged and decision.verdict in ("consistent", "parameters"):
+        raise ConvergenceError(f"calibration of {problem.nominal.name}", "a fit that converges",
+                               f"none after {null.evaluations} predictions", "check the nominal values and priors")
     return Diagnosis(decision, problem.nominal, null, null_evidence, drifting, final, tuple(weighed), weights,
                      share, failures, base)
 

@@ -13,6 +13,8 @@ from pipeline.inference.verify import gain, held_out_residuals
 
 #: standard deviations of a prior beyond which it all but excludes a value (1 in 2 million)
 EXCLUDED = 5.0
+#: squared error of a recalibration that did not converge over that of a candidate, beyond which its end cannot matter
+_FAR_BELOW = 30.0
 
 
 def held_out_gains(problem, budget, null, fits, share):
@@ -51,12 +53,14 @@ def contender(null, null_evidence, candidate, fit, own, share, p_value, held_out
         candidate.name, candidate.kind, float(share), own.log_evidence - null_evidence.log_evidence, float(p_value),
         float(own.left_out.sum() - null_evidence.left_out.sum()), gained and gained.errors, gained and gained.share,
         held_out[1], max(differing, default=0.0), max(moved, default=0.0), unexplained(null, fit, rules),
-        candidate.forbidden(fit.values) if candidate.forbidden else "", _doubts(fit))
+        candidate.forbidden(fit.values) if candidate.forbidden else "", _doubts(fit, null))
 
 
-def _doubts(fit):
-    """Why a Fit cannot be relied on, in words."""
+def _doubts(fit, null):
+    """Why a Fit cannot be relied on beside that of the nominal model, in words."""
     told = () if fit.converged else ("its fit did not converge",)
+    if not null.converged and null.chi_square.sum() < _FAR_BELOW * fit.chi_square.sum():
+        told += ("the recalibration of the nominal model did not converge, so that nothing lies far below it",)
     return told + excluded(fit, LATENT_LIMIT - 1e-6)
 
 

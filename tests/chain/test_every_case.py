@@ -13,10 +13,12 @@ from tests.studies.self_excited import practice
 
 #: cases in full resolution; disc_brake_scanned needs recordings as well
 SLOW = {**dict.fromkeys(("disc_brake", "bimaterial_rupture", "bimaterial_rupture_fine", "pin_on_disc",
-                          "pin_on_disc_bench", "pin_on_disc_paper_step", "beam_geometry", "disc_table1",
-                          "disc_brake_lines", "pin_on_disc_lines"), [pytest.mark.slow]),
-        **dict.fromkeys(("disc_brake_scanned", "emps", "silverbox", "tribometer"),
-                        [pytest.mark.slow, pytest.mark.measured]),
+                         "pin_on_disc_paper_step", "beam_geometry"), [pytest.mark.slow]),
+        **dict.fromkeys(("pin_on_disc_bench", "disc_table1", "disc_brake_lines", "pin_on_disc_lines"),
+                        [pytest.mark.slow, pytest.mark.study]),
+        **dict.fromkeys(("emps", "silverbox", "tribometer"),
+                        [pytest.mark.slow, pytest.mark.study, pytest.mark.measured]),
+        "disc_brake_scanned": [pytest.mark.slow, pytest.mark.measured],
         "emps_recording": [pytest.mark.measured]}
 CASES = [pytest.param(path, marks=SLOW.get(path.stem, ()), id=path.stem)
          for path in sorted((ROOT / "configs").glob("*.yaml")) if not path.stem.endswith("_quick")]

@@ -15,6 +15,7 @@ RIVALS = {"compliant_arm": "arm", "micro_slip": "contact"}
 
 
 @pytest.mark.slow
+@pytest.mark.study
 @pytest.mark.measured
 def test_micro_slip_and_the_arm_tie_until_another_load_or_arm_is_taken(tmp_path, monkeypatch):
     if not (DATA / "recordings" / "friction_tribometer").is_dir():

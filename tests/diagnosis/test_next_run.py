@@ -31,6 +31,7 @@ def told(loads):
 
 
 @pytest.mark.slow
+@pytest.mark.study
 def test_under_one_load_micro_slip_and_a_compliant_arm_tie_and_another_load_is_next():
     found = told((5.0, 5.0, 5.0, 5.0))
     assert found.verdict == "tie" and {str(found.hypothesis[k]) for k in found.named} == RIVALS
@@ -39,6 +40,7 @@ def test_under_one_load_micro_slip_and_a_compliant_arm_tie_and_another_load_is_n
 
 
 @pytest.mark.slow
+@pytest.mark.study
 def test_under_two_loads_micro_slip_is_named():
     found = told((5.0, 2.0, 5.0, 2.0))
     assert found.verdict == "missing" and [str(found.hypothesis[k]) for k in found.named] == ["micro_slip at contact"]

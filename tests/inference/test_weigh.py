@@ -84,3 +84,13 @@ def test_the_misfit_of_a_good_model_is_small_and_of_a_bad_one_large():
 def misfit(truth, seed):
     whole, _, _, found = fits(truth, seed)
     return situation(whole, found[0], np.ones(4), drift(found[0]), Rules()).misfit
+
+
+def test_what_has_no_optimum_is_compared_only_by_far():
+    """The recalibration did not converge: a candidate a little below it is doubted, one far below it is not."""
+    whole, _, catalogue, found = fits()
+    null = replace(found[0], converged=False)
+    doubted = seen(whole, catalogue, [null, *found[1:]], 1)
+    assert any("recalibration" in told for told in doubted.doubts) and not seen(whole, catalogue, found, 1).doubts
+    far = replace(null, residuals=tuple(10 * r for r in null.residuals))
+    assert not seen(whole, catalogue, [far, *found[1:]], 1).doubts

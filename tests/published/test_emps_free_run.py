@@ -34,6 +34,7 @@ def bench(mass, damping, offset, friction):
 @pytest.mark.measured
 @pytest.mark.published
 @pytest.mark.slow
+@pytest.mark.study
 @pytest.mark.skipif("BRAKECHAIN_DATA" not in os.environ, reason="needs the public recordings")
 def test_the_completed_model_follows_25_s_within_5_mm():
     force, place = recorded("DATA_EMPS")

@@ -10,6 +10,7 @@ from pipeline.products import Bench, Diagnosis
 from tests.chain.conftest import ROOT, brakechain
 
 pytestmark = [pytest.mark.measured, pytest.mark.published, pytest.mark.slow,
+              pytest.mark.study,
               pytest.mark.skipif("BRAKECHAIN_DATA" not in os.environ, reason="needs the public recordings")]
 
 

@@ -53,6 +53,7 @@ def test_the_table_tells_rates_with_their_intervals():
 
 
 @pytest.mark.slow
+@pytest.mark.study
 def test_a_control_of_one_mass_is_told_as_wrong_values_down_to_the_noise_and_kept(tmp_path):
     plan = Plan(1, "", 0, 0.01, 1, 0.0)
     known, answer = run(plan, tmp_path, kept=2)

@@ -31,6 +31,7 @@ def test_the_table_tells_rates_with_their_intervals():
 
 
 @pytest.mark.slow
+@pytest.mark.study
 @pytest.mark.parametrize("hidden, verdict", [("", "parameters"), ("falling_friction", "missing")])
 def test_a_case_is_answered_and_kept(tmp_path, hidden, verdict):
     assert run(Plan(1, hidden), tmp_path)["verdict"] == verdict and (tmp_path / "answer.json").exists()
