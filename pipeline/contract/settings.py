@@ -119,7 +119,7 @@ def seen_from(value, folders, place):
         return value
     beside = (value.folder,) if isinstance(value, Written) else ()
     candidates = [Path(folder) / value for folder in (*beside, *folders)]
-    found = next((path for path in candidates if path.is_file()), None)
+    found = next((path for path in candidates if os.path.isfile(path)), None)
     return str(value) if found is None else os.path.relpath(found, place)
 
 

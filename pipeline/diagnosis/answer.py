@@ -48,8 +48,8 @@ def _latent(description):
     return {"latent_place": description.place, "latent_sentence": description.sentence,
             "latent": {name: LatentForce(time=one.time, force=one.force, std=one.std, displacement=one.displacement,
                                          velocity=one.velocity) for name, one in description.runs.items()},
-            "follows": {f.name: Follows(share=f.share, p_value=f.p_value, unit=unit, centre=f.centre, curve=f.curve)
-                        for f, unit in description.follows}}
+            "follows": {f.name.replace(" ", "_"): Follows(share=f.share, p_value=f.p_value, unit=unit, centre=f.centre,
+                                                          curve=f.curve) for f, unit in description.follows}}
 
 
 def _best(found):

@@ -73,7 +73,7 @@ def motion(bench, row, run, observed, noise):
     known = {c.name: c for c in bench.channels}
     seen = [k for k, name in enumerate(observed.channels) if known[name].quantity == "displacement"]
     rows = np.array([bench.model.sensor_rows[bench.model.sensor_name.index(known[observed.channels[k]].source)]
-                     for k in seen]).reshape(len(seen), -1)
+                     for k in seen]).reshape(len(seen), bench.model.size)
     weight = np.linalg.lstsq(rows.T, row, rcond=None)[0] if seen else np.zeros(0)
     if seen and np.allclose(weight @ rows, row, atol=1e-6 * np.abs(row).max()) and observed.valid[seen].all():
         gain = np.array([known[observed.channels[k]].gain for k in seen])

@@ -5,9 +5,10 @@ import pytest
 
 from pipeline.benches import bench as benches
 from pipeline.benches.runs import recorded
-from pipeline.diagnosis.deconvolution import FADE, deconvolved, moved, receptances
+from pipeline.diagnosis.deconvolution import FADE, deconvolved, motion, moved, receptances
 from pipeline.diagnosis.simulation import observed
 from pipeline.inference.noise import whitening
+from tests.diagnosis import pin_rig
 from tests.diagnosis.small_rig import HIDDEN, NOISE, laid_out, model, recording
 
 
@@ -37,3 +38,10 @@ def test_noise_alone_is_no_force():
     bench, one = benches.built(model(), laid_out()), recorded(recording(levels=(5.0,)), laid_out())["level_1"]
     seen = observed(one, {"x": NOISE})
     assert deconvolved(bench, np.ones(1), one.run, seen, whitening(seen, np.full((1, 1), NOISE**2))) is None
+
+
+def test_the_motion_of_a_bench_without_sensors_of_motion_is_that_of_the_model():
+    bench, one = pin_rig.bench(), recorded(pin_rig.recording((5.0,), (4e-4,), noise=0.0), pin_rig.laid_out())["run_1"]
+    seen = observed(one, {"friction": pin_rig.NOISE})
+    found = motion(bench, np.ones(1), one.run, seen, whitening(seen, np.full((1, 1), pin_rig.NOISE**2)))
+    np.testing.assert_array_equal(found, moved(bench, one.run, np.ones(1)))
