@@ -12,7 +12,7 @@ import numpy as np
 
 from pipeline.diagnosis.deconvolution import EXTRA, motion, moved
 from pipeline.diagnosis.simulation import STEP, completed, shown
-from pipeline.effects import named
+from pipeline.effects import CATALOGUE
 from pipeline.effects.effect import STAGES
 from pipeline.inference import locate
 from pipeline.inference.calibrate import whitened
@@ -71,11 +71,9 @@ def residuals(problem, budget, fit):
 
 
 def stage_of(effects):
-    """Stage of ((effect, place), ...) by the first; ``numerics`` for the solver, empty for none."""
-    if not effects:
-        return ""
-    name = effects[0][0]
-    return "numerics" if name == STEP else named(name).stage
+    """Stage of ((effect, place), ...) by the first; ``numerics`` for the solver, empty for none of the catalogue."""
+    stages = {STEP: "numerics", **{effect.name: effect.stage for effect in CATALOGUE}}
+    return stages.get(effects[0][0], "") if effects else ""
 
 
 def stage_axis(found):

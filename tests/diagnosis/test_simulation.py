@@ -77,6 +77,6 @@ def test_coordinates_that_an_effect_adds_start_at_rest():
     start = Start(np.array([1e-3]), np.array([0.0]))
     run = replace(RUNS["level_1"], start=start)
     base = next(c for c in FOUND if c.effects == (("moving_base", "mount"),))
-    values = {p.name: p.nominal for p in base.parameters} | {"moving_base@mount.compliance": 1e-8}
+    values = {p.name: p.nominal for p in base.parameters} | {"moving_base@mount.compliance": 1e-9}
     moved = shown(completed(BENCH, base, values), run, ("x",))
     np.testing.assert_allclose(moved, shown(BENCH, run, ("x",)), atol=2e-4 * abs(moved).max())
