@@ -188,14 +188,11 @@ def harmonics_reasons(recording, told, motions, modes):
     """Sentences from the computed motions, and on the published computation where there is one."""
     root = growing(modes)
     reasons = [f"the nominal model, small motion in permanent contact, grows at {_hertz(root):.0f} Hz by"
-               f" {root.real:.0f} 1/s:"
-               " one line and no harmonic"]
+               f" {root.real:.0f} 1/s: one line and no harmonic"]
     reasons += [_of_motion(motions[m.name], told) for m in MECHANISMS]
     reasons.append("with loss of contact alone amplitudes are proportional to the load and do not depend on the"
-                   " speed, with"
-                   " stick and reversal alone they are proportional to the speed and do not depend on the load (the"
-                   " equations"
-                   " scale): levels at two loads and two speeds tell them apart")
+                   " speed, with stick and reversal alone they are proportional to the speed and do not depend on the"
+                   " load (the equations scale): levels at two loads and two speeds tell them apart")
     return reasons + (_of_published(recording, told, motions, root) if told.published else [])
 
 
@@ -226,16 +223,11 @@ def _of_published(recording, told, motions, root):
     own, base = _hertz(root), motions["loss_of_contact_and_stick"].base
     return [
         f"{line:.0f} Hz as published: if the trapezoidal rule stepped it by {1e6 * p.step:.3g} us, the mode behind it"
-        f" lies at"
-        f" {unstepped(line, p.step):.0f} Hz and {line - unstepped(line, p.step):+.0f} Hz of it are the time step; the"
-        f" growing"
-        f" mode of this model, {own:.0f} Hz, would be shown at {stepped(own, p.step):.0f} Hz"
-        f" ({stepped(own, p.step) - own:+.0f}"
-        f" Hz); lines of {1e3 * p.window:.3g} ms are {1 / p.window:.0f} Hz apart",
+        f" lies at {unstepped(line, p.step):.0f} Hz and {line - unstepped(line, p.step):+.0f} Hz of it are the time"
+        f" step; the growing mode of this model, {own:.0f} Hz, would be shown at {stepped(own, p.step):.0f} Hz"
+        f" ({stepped(own, p.step) - own:+.0f} Hz); lines of {1e3 * p.window:.3g} ms are {1 / p.window:.0f} Hz apart",
         f"{1e3 * p.window:.3g} ms: small motion grows {np.exp(root.real * p.window):.3g} times in them; both"
-        f" mechanisms, stepped"
-        f" and windowed as published, {_of_motion(found, told).partition(': ')[2]}; nothing shows there that had to"
-        f" settle",
+        f" mechanisms, stepped and windowed as published, {_of_motion(found, told).partition(': ')[2]}; nothing shows"
+        " there that had to settle",
         f"spectra to {1e-3 * p.band:.3g} kHz hold {int(p.band // base)} of {told.lines} lines of {base:.0f} Hz: the"
-        f" others"
-        " could not show, however long the motion"]
+        " others could not show, however long the motion"]

@@ -31,8 +31,7 @@ class ModeTable(Section):
     pairs: dict[str, tuple[str, ...]] = option(
         {}, "measured line: its computed partners, as published; none = smallest sum of logarithmic ratios")
     factor_spread: float = option(0.05, "prior of one factor on all frequencies: standard deviation of its logarithm;"
-                                        " 0.05"
-                                  " is a modulus or a density 10 % off", gt=0)
+                                        " 0.05 is a modulus or a density 10 % off", gt=0)
 
 
 @dataclass(frozen=True)
@@ -151,13 +150,11 @@ def mode_reasons(rows, found):
     told += [_of_pair(rows, i, mode) for i, mode in nearer(rows)]
     other = {i for i, _ in nearer(rows)} | {i for pair in exchanges(rows) for i in pair}
     told += [f"{rows.name[i]}: no printed mode lies nearer than its partner, alone or exchanged: it is not mis-paired"
-             f" within"
-             " the table" for i in range(len(off)) if abs(off[i]) > 3 and i not in other]
+             " within the table" for i in range(len(off)) if abs(off[i]) > 3 and i not in other]
     signs = {np.sign(off[i]) for i in range(len(off)) if abs(off[i]) > 3}
     if len(signs) == 2:
         told.append("the rows that differ most do so in opposite directions: one added stiffness or mass moves all"
-                    " modes"
-                    " the same way and cannot explain both")
+                    " modes the same way and cannot explain both")
     return told
 
 
@@ -165,9 +162,8 @@ def _of_factor(rows, null):
     before = float(np.sum(((rows.test - rows.model) / rows.std) ** 2))
     factor, std = null.values[FACTOR], null.spread()[FACTOR]
     return (f"one factor on all frequencies, as a wrong modulus or density gives, is fitted as {factor:.3f} +-"
-            f" {std:.3f} and"
-            f" takes the squared deviations from {before:.1f} to {null.chi_square.sum():.1f} over {len(rows.name)}"
-            f" rows:"
+            f" {std:.3f} and takes the squared deviations from {before:.1f} to {null.chi_square.sum():.1f} over"
+            f" {len(rows.name)} rows:"
             f" {'enough' if null.chi_square.sum() < before / 2 else 'it does not explain the rows that differ'}")
 
 
@@ -179,11 +175,9 @@ def _of_pair(rows, i, mode):
     share = covered(spare, apart, (every.min(), every.max()))
     kind = {1: "single", 2: "a pair"}
     told = (f"{rows.name[i]}: {frequency:.1f} Hz ({'/'.join(names)}), which the table pairs with nothing, lies"
-            f" {rows.test[i] / frequency - 1:+.1%} away instead of {rows.difference[i]:+.1%}; a line at random finds"
-            f" a spare"
-            f" mode as near with probability {share:.0%}, one of {len(rows.name)} with"
-            f" {chance(share, len(rows.name)):.0%},"
-            " so that frequency alone does not prove it")
+            f" {rows.test[i] / frequency - 1:+.1%} away instead of {rows.difference[i]:+.1%}; a line at random finds a"
+            f" spare mode as near with probability {share:.0%}, one of {len(rows.name)} with"
+            f" {chance(share, len(rows.name)):.0%}, so that frequency alone does not prove it")
     if partners and rows.partners[i] and partners != rows.partners[i]:
         told += f"; against it: the mode is {kind[partners]}, the row is counted as {kind[int(rows.partners[i])]}"
     return told

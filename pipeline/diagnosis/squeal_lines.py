@@ -103,19 +103,16 @@ def squeal_reasons(recording, told, found, modes, structure=None):
     said = ["left out by the chain: the disc is rigid where forces are computed, which then excite its modes one way;"
             f" {count} lines were heard, and none follows from that",
             f"{grow or 'none'} of the complex modes {where} {'grow' if grow > 1 else 'grows'} in this model, whose"
-            f" pads,"
-            " joints and damping there are assumed"]
+            " pads, joints and damping there are assumed"]
     for c in found:
         own = np.count_nonzero(_within(c.lines, band))
         gain = f", ln density over random lines {c.match.gain:+.1f}" if own else ""
         said.append(f"{c.effect} ({c.says}): {own} lines {where}, {c.match.found} of {count} heard ones within"
-                    f" tolerance;"
-                    f" as many lines at random are met with probability {c.match.p_value:.2g}{gain}")
+                    f" tolerance; as many lines at random are met with probability {c.match.p_value:.2g}{gain}")
     spacing = (told.high - told.low) / max(np.count_nonzero(_within(found[-1].lines, band)), 1)
     needed = needed_tolerance(found[-1].lines, band, count)
     said.append(f"a mode every {spacing:.0f} Hz: for agreement of {count} lines to be rarer than 1 % by chance they"
-                f" had to be"
-                f" known, and the model right, within {needed:.1f} Hz; print and model leave"
+                f" had to be known, and the model right, within {needed:.1f} Hz; print and model leave"
                 f" {tolerance.max():.0f} Hz: frequencies alone cannot decide")
     return said + (_of_shapes(seen, tolerance, structure) if structure is not None else [])
 
