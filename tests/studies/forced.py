@@ -55,14 +55,17 @@ def plans(controls=CONTROLS, first=1000):
 
 
 def solved(folder, **asked):
-    """diagnosis.json of a case's folder, by the stages themselves; sees nominal.yaml and recordings.h5 alone."""
-    document = documents.read_yaml(folder / "nominal.yaml")
+    """diagnosis.json of a case's folder; sees nominal.yaml and recordings.h5 alone."""
+    return by_stages(documents.read_yaml(folder / "nominal.yaml"), folder / "recordings.h5", **asked)
 
+
+def by_stages(document, path, **asked):
+    """diagnosis.json of a case's ``document`` with the recordings at ``path``, by the stages themselves."""
     def section(stage, **more):
         return fill(stage.settings, {**document.get(stage.name, {}), **more}, stage.name)
 
     model = reduced_model(lumped(settings=section(lumped)), settings=section(reduced_model))
-    recording = Recording(source=["recordings.h5"], runs=read_neutral(folder / "recordings.h5"))
+    recording = Recording(source=[path.name], runs=read_neutral(path))
     shown = bench(model, None, recording, settings=section(bench))
     return as_json(diagnosis(model, None, recording, shown, settings=section(diagnosis, **asked)))
 

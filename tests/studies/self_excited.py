@@ -12,16 +12,9 @@ from pathlib import Path
 
 from pipeline.contract import documents
 from pipeline.contract.errors import BrakechainError
-from pipeline.contract.settings import fill
-from pipeline.diagnosis.document import as_json
-from pipeline.products import Recording
-from pipeline.recordings.neutral import read_neutral, write_neutral
+from pipeline.recordings.neutral import write_neutral
 from pipeline.trial.pin_bench import DECOYS, HIDDEN, make, record
-from stages.bench import bench
-from stages.diagnosis import diagnosis
-from stages.lumped import lumped
-from stages.reduced_model import reduced_model
-from tests.studies.forced import wilson
+from tests.studies.forced import by_stages, wilson
 
 ROOT = Path(__file__).parents[2]
 CONFIG = ROOT / "configs" / "pin_on_disc_bench.yaml"
@@ -58,16 +51,8 @@ def _made(plan):
 
 
 def solved(path, **asked):
-    """diagnosis.json of a file of recordings under the case pin_on_disc_bench, by the stages themselves."""
-    document = documents.read_yaml(CONFIG)
-
-    def section(stage, **more):
-        return fill(stage.settings, {**document.get(stage.name, {}), **more}, stage.name)
-
-    model = reduced_model(lumped(settings=section(lumped)), settings=section(reduced_model))
-    recording = Recording(source=[path.name], runs=read_neutral(path))
-    shown = bench(model, None, recording, settings=section(bench))
-    return as_json(diagnosis(model, None, recording, shown, settings=section(diagnosis, **asked)))
+    """diagnosis.json of a file of recordings under the case pin_on_disc_bench."""
+    return by_stages(documents.read_yaml(CONFIG), path, **asked)
 
 
 def scored(hidden, answer):
