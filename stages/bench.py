@@ -1,14 +1,16 @@
 """Stage bench: what the sensors of a bench would have shown in the recorded runs."""
 
+from functools import partial
+
 import numpy as np
 
-from pipeline.benches.bench import Settings, built, only
+from pipeline.benches.bench import Settings, built
 from pipeline.benches.effect_block import with_effects
 from pipeline.benches.equation import balance, started
 from pipeline.benches.runs import recorded
 from pipeline.contract import ConfigError, Context, stage, stored
 from pipeline.diagnosis.poles import features, observed, predicted
-from pipeline.physics.bench import respond
+from pipeline.diagnosis.simulation import shown
 from pipeline.products import Bench, BenchRun, Effects, Recording, ReducedModel
 
 
@@ -40,7 +42,7 @@ def bench(model: ReducedModel, effects: Effects | None, recording: Recording, se
         answers = [one.predicted(whole) for one in balances]
     else:
         runs = started(whole, runs, settings)
-        answers = context.map(_Answer(whole), list(runs.values()), "runs")
+        answers = context.map(partial(_shown, whole), list(runs.values()), "runs")
     found = {name: _run(one, answer) for (name, one), answer in zip(runs.items(), answers, strict=True)}
     units = {c: u for one in runs.values() for c, u in zip(one.channels, one.unit, strict=True)}
     for name, one in found.items():
@@ -48,15 +50,9 @@ def bench(model: ReducedModel, effects: Effects | None, recording: Recording, se
     return Bench(settings=stored(settings), channel=list(units), unit=list(units.values()), runs=found)
 
 
-class _Answer:
-    """Picklable: the samples (c, n) of one recorded run."""
-
-    def __init__(self, whole):
-        self.whole = whole
-
-    def __call__(self, one):
-        shown = respond(only(self.whole, one.channels), one.run)
-        return np.array([shown[c] for c in one.channels])
+def _shown(whole, one):
+    """Samples (c, n) of one recorded run."""
+    return shown(whole, one.run, one.channels)
 
 
 def _run(one, predicted):
@@ -75,9 +71,9 @@ def _of_features(whole, recorded_runs, settings, context):
     told, units = observed(seen)
     found = {}
     for one in told:
-        shown = predicted(whole, seen[one.name], one.channels)
-        left = np.where(one.valid, one.samples - shown, 0.0)[:, 0]
-        found[one.name] = BenchRun(time=[0.0], measured=one.samples, predicted=shown, valid=one.valid.astype(int),
+        told_by = predicted(whole, seen[one.name], one.channels)
+        left = np.where(one.valid, one.samples - told_by, 0.0)[:, 0]
+        found[one.name] = BenchRun(time=[0.0], measured=one.samples, predicted=told_by, valid=one.valid.astype(int),
                                    root_mean_square=abs(left), error=abs(left) / one.noise_std)
         context.log(f"{one.name}: {int(one.valid.sum())} features")
     return Bench(settings=stored(settings), channel=list(units), unit=list(units.values()), runs=found)

@@ -80,11 +80,14 @@ def measured_start(bench, one):
     return Start(curve[0], curve[1])
 
 
+def begun(bench, one):
+    """The Recorded run with its measured start."""
+    return replace(one, run=replace(one.run, start=measured_start(bench, one)))
+
+
 def started(bench, runs, settings):
     """{name: Recorded} with the starts that the section ``bench`` asks for."""
-    if not settings.measured_start:
-        return runs
-    return {name: replace(one, run=replace(one.run, start=measured_start(bench, one))) for name, one in runs.items()}
+    return {name: begun(bench, one) for name, one in runs.items()} if settings.measured_start else runs
 
 
 def _displacements(bench, one):

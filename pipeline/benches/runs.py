@@ -28,13 +28,12 @@ class Recorded:
     repeat_of: str
 
 
-def recorded(recording, settings, names=None):
-    """{run name: Recorded} of a product Recording under the section ``bench``; of the runs ``names`` alone.
+def recorded(recording, settings):
+    """{run name: Recorded} of a product Recording under the section ``bench``.
 
     Raises ConfigError for runs without any channel of the bench, unequal sampling, and units other than the model's.
     """
-    chosen = recording.runs if names is None else {n: recording.runs[n] for n in names}
-    found = {name: _recorded(name, run, settings) for name, run in chosen.items()
+    found = {name: _recorded(name, run, settings) for name, run in recording.runs.items()
              if set(run.channels) & set(settings.channels)}
     if not found:
         known = sorted({c for run in recording.runs.values() for c in run.channels})
@@ -100,8 +99,9 @@ def valid(channel):
     return kept
 
 
-#: SI unit of what a quantity is in
-_UNIT = {"displacement": "m", "velocity": "m/s", "acceleration": "m/s^2"}
+def unit_of(quantity):
+    """SI unit of what a channel shows, gain left out: of a motion, or of a force."""
+    return {"displacement": "m", "velocity": "m/s", "acceleration": "m/s^2"}.get(quantity, "N")
 
 
 def check_units(found, settings):
@@ -109,7 +109,7 @@ def check_units(found, settings):
     for name, one in found.items():
         for channel, unit in zip(one.channels, one.unit, strict=True):
             quantity, gain = settings.channels[channel].quantity, settings.channels[channel].gain
-            wanted = _UNIT.get(quantity, "N")
+            wanted = unit_of(quantity)
             if unit != wanted and gain == 1.0:
                 raise ConfigError(f"bench.channels.{channel}",
                                   f"a recorded unit of {wanted}, because it shows {quantity}", f"{unit} in run {name}",

@@ -4,8 +4,7 @@ import numpy as np
 
 from pipeline.diagnosis.location import stage_of
 from pipeline.diagnosis.next_run import next_experiment
-from pipeline.diagnosis.question import split_name
-from pipeline.inference.noise import floor, normalised_error
+from pipeline.diagnosis.question import label, split_name
 from pipeline.inference.verify import errors
 from pipeline.inference.weigh import unexplained
 from pipeline.products import DiagnosedRun, Diagnosis, Follows, LatentForce, Located
@@ -19,7 +18,10 @@ def answer(question, found):
     first = found.base or found
     best = _best(found)
     table = _hypotheses(found)
-    runs = {run.name: _run(question, run, first.null, best) for run in question.problem.runs}
+    problem = question.problem
+    fits = [errors(problem, question.budget, problem.nominal, first.null, best, part)
+            for part in (problem.training, problem.held_out)]
+    runs = {run.name: _run(question, run, fits[run.held_out]) for run in problem.runs}
     channels = tuple(question.units)
     axes = question.axes(found)
     latent = question.describe(found, axes)
@@ -27,8 +29,7 @@ def answer(question, found):
     return Diagnosis(
         verdict=found.decision.verdict, reason=list(found.decision.reasons), channel=channels,
         channel_unit=[question.units[c] for c in channels], **table, **_parameters(question, found, best, table),
-        fit=[_errors(question, first.null, best, part) for part in (question.problem.training,
-                                                                    question.problem.held_out)],
+        fit=[_part(told) for told in fits],
         unexplained_share=unexplained(first.null, best, question.rules),
         drift_p_value=found.drift.p_value, location={name: located(*axis) for name, axis in axes.items()},
         **_latent(latent), **next_experiment(question, found), runs=runs)
@@ -102,25 +103,20 @@ def _parameters(question, found, best, table):
         effect, place, _ = split_name(parameter.name)
         given = parameter.nominal if parameter.null is None else parameter.null
         rows.append((parameter.name, parameter.unit, given, values[parameter.name], std[parameter.name],
-                     owners.get(f"{effect} at {place}", 0)))
+                     owners.get(label(((effect, place),)), 0)))
     keys = ("parameter", "parameter_unit", "parameter_nominal", "parameter_value", "parameter_std", "parameter_owner")
     return {key: [row[k] for row in rows] for k, key in enumerate(keys)}
 
 
-def _errors(question, null, best, runs):
-    if not runs:
-        return [0.0] * len(MODELS)
-    told = errors(question.problem, question.budget, question.problem.nominal, null, best, runs)
-    return [told.before, told.recalibrated, told.after, told.noise_floor]
+def _part(told):
+    """Row of the table of fits from the Errors of one part; zeros where it has no runs."""
+    return [told.before, told.recalibrated, told.after, told.noise_floor] if told.runs else [0.0] * len(MODELS)
 
 
-def _run(question, run, null, best):
-    nominal = question.problem.nominal
-    noise = question.budget[run.name]
-    shown = [np.asarray(question.problem.predict(h, h.values(latent), run), float) for h, latent in (
-        (nominal, nominal.nominal), (null.hypothesis, null.latent), (best.hypothesis, best.latent))]
-    rate = run.rate or 1.0
+def _run(question, run, told):
+    """DiagnosedRun of one run of the Errors ``told``."""
+    nominal, recalibrated, completed = told.predicted[run.name]
     return DiagnosedRun(
-        held_out=int(run.held_out), time=np.arange(run.samples.shape[1]) / rate, measured=run.samples,
-        valid=run.valid.astype(int), nominal=shown[0], recalibrated=shown[1], completed=shown[2], noise=noise.std,
-        error=[*(normalised_error(run, run.samples - s) for s in shown), floor(run, noise)])
+        held_out=int(run.held_out), time=np.arange(run.samples.shape[1]) / (run.rate or 1.0), measured=run.samples,
+        valid=run.valid.astype(int), nominal=nominal, recalibrated=recalibrated, completed=completed,
+        noise=question.budget[run.name].std, error=told.by_run[run.name])

@@ -72,8 +72,7 @@ def motion(bench, row, run, observed, noise):
     """
     known = {c.name: c for c in bench.channels}
     seen = [k for k, name in enumerate(observed.channels) if known[name].quantity == "displacement"]
-    rows = np.array([bench.model.sensor_rows[bench.model.sensor_name.index(known[observed.channels[k]].source)]
-                     for k in seen]).reshape(len(seen), bench.model.size)
+    rows = np.array([bench.sensor(known[observed.channels[k]].source) for k in seen]).reshape(-1, bench.model.size)
     weight = np.linalg.lstsq(rows.T, row, rcond=None)[0] if seen else np.zeros(0)
     if seen and np.allclose(weight @ rows, row, atol=1e-6 * np.abs(row).max()) and observed.valid[seen].all():
         gain = np.array([known[observed.channels[k]].gain for k in seen])
@@ -101,8 +100,7 @@ def receptances(bench, run, row, channels, frequency):
     for k, name in enumerate(channels):
         channel, rate = known[name], 1j * omega
         if channel.quantity in MOTIONS:
-            sensor = bench.model.sensor_rows[bench.model.sensor_name.index(channel.source)]
-            shown[k] = rate ** MOTIONS.index(channel.quantity) * (sensor @ moves)
+            shown[k] = rate ** MOTIONS.index(channel.quantity) * (bench.sensor(channel.source) @ moves)
         elif channel.quantity == "joint_force":
             joint, spring, loss = bench.joint(channel.source)
             shown[k] = (spring + rate * loss) * (joint @ moves)

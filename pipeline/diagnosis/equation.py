@@ -4,9 +4,9 @@ Nothing is simulated, so that no solver can be wrong and no start state is neede
 every coordinate.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
-from pipeline.benches.equation import balance, measured_start
+from pipeline.benches.equation import balance, begun
 from pipeline.contract.units import to_si
 from pipeline.diagnosis.forced import check_names, chosen, nominal_parameters
 from pipeline.diagnosis.question import Question, nominal
@@ -38,12 +38,8 @@ def question(bench, recorded, settings, equation):
     noise = {c: to_si(v, units[c], f"diagnosis.noise.std.{c}") for c, v in settings.noise.std.items()}
     problem = Problem(tuple(observed(one.seen, noise, name in settings.held_out) for name, one in balances.items()),
                       Balanced(bench, balances), nominal(nominal_parameters(bench, settings)))
-    trained = [_started(bench, recorded[o.name]) for o in problem.training]
+    # begun as measured, so that nominal runs have the sizes of the measured ones
+    trained = [begun(bench, recorded[o.name]) for o in problem.training]
     found = candidates(bench, tuple(one.run for one in trained), chosen(settings), settings.places,
                        reach(bench, trained))
     return Question(problem, budget(problem, above=settings.noise.above), found, units)
-
-
-def _started(bench, one):
-    """The Recorded run as it began, so that nominal runs have the sizes of the measured ones."""
-    return replace(one, run=replace(one.run, start=measured_start(bench, one)))

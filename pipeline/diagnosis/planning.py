@@ -11,6 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from pipeline.benches.bench import only
+from pipeline.benches.runs import unit_of
 from pipeline.contract import ConfigError
 from pipeline.contract.units import to_si
 from pipeline.diagnosis.forced import check_names, chosen, nominal_parameters
@@ -20,7 +21,7 @@ from pipeline.inference import plan as mathematics
 from pipeline.inference.calibrate import linearised, whitened
 from pipeline.inference.noise import budget
 from pipeline.inference.problem import Observed, Problem
-from pipeline.physics.bench import MOTIONS, Run
+from pipeline.physics.bench import Run
 
 #: quantile one standard deviation above the middle
 _ONE_SIGMA = 0.8413
@@ -94,8 +95,7 @@ def planned_runs(bench, settings):
 
 def channel_units(bench):
     """{channel: SI unit} of what the channels of a bench show, gain left out."""
-    rates = dict(zip(MOTIONS, ("m", "m/s", "m/s^2"), strict=True))
-    return {c.name: rates.get(c.quantity, "N") for c in bench.channels}
+    return {c.name: unit_of(c.quantity) for c in bench.channels}
 
 
 def _sweep(time, given):

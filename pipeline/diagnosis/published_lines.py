@@ -8,6 +8,7 @@ from pipeline.contract import ConfigError
 from pipeline.diagnosis import harmonics, mode_table, squeal_lines
 from pipeline.diagnosis.answer import answer
 from pipeline.diagnosis.lines import diagnosed
+from pipeline.diagnosis.question import label
 from pipeline.inference import diagnose as course
 
 #: verdicts that name something, which needs a second list that nothing was chosen on
@@ -64,8 +65,7 @@ class _Undecided:
             return told
         rows = [k for k, name in enumerate(told.hypothesis) if str(name) in self.names]
         reason = (f"{', '.join(self.names)} would each sound at the recorded frequencies, as almost any list of modes"
-                  f" would:"
-                  " these lines cannot tell them apart")
+                  " would: these lines cannot tell them apart")
         return replace(told, verdict=np.array("tie", dtype=object), named=np.array(rows),
                        reason=np.array([reason, *told.reason[1:]], dtype=object))
 
@@ -123,7 +123,7 @@ def _harmonics(recording, models, told, context):
 def _squeal(recording, models, told, context):
     found = squeal_lines.claims(recording, told, models.needed("modes", "complex_modes"))
     asked = squeal_lines.squeal_question(recording, told, found)
-    names = tuple(f"{found[k].effect} at {found[k].place}" for k in squeal_lines.undecided(found, recording, told))
+    names = tuple(label(((found[k].effect, found[k].place),)) for k in squeal_lines.undecided(found, recording, told))
     conditions = (
         "growth phases = at three speeds and one load: falling friction makes growth depend on the speed, flutter"
         " does not",

@@ -11,6 +11,7 @@ from pipeline.diagnosis.question import label, parameter_name, split_name
 from pipeline.diagnosis.settings import parameter
 from pipeline.effects import named
 from pipeline.effects.effect import Term, compose
+from pipeline.effects.typical import typical
 from pipeline.inference.priors import Normal, Parameter
 from pipeline.inference.problem import Hypothesis, Observed
 from pipeline.physics.bench import MOTIONS, respond
@@ -102,13 +103,15 @@ def candidates(bench, runs, catalogue, places=(), scale=1.0, priors=()):
     ``scale``: recorded over nominal motion (see ``reach``); ``priors`` {effect.parameter: section Prior} that are
     known otherwise.
     """
-    found = []
+    found, sizes = [], {}
     for effect in catalogue:
         for place in effect.places(bench) if effect.told_by(runs) else ():
             if places and place not in places:
                 continue
-            parameters = tuple(_named(p, effect, place, dict(priors))
-                               for p in effect.at(bench, place, runs, scale))
+            kind = effect.place, place
+            if kind not in sizes:       # nominal runs are simulated once for all effects of a place
+                sizes[kind] = typical(effect.place, bench, place, runs).scaled(scale)
+            parameters = tuple(_named(p, effect, place, dict(priors)) for p in effect.parameters(sizes[kind]))
             found.append(Hypothesis(label(((effect.name, place),)), ((effect.name, place),), parameters, effect.kind))
     return tuple(found)
 

@@ -14,6 +14,5 @@ def beside_joint(bench, effect, joint, law):
 
 def at_point(bench, matrix, sensor, value):
     """The bench with ``value`` along the direction of ``sensor`` added to its mass or stiffness ``matrix``."""
-    model = bench.model
-    row = model.sensor_rows[model.sensor_name.index(sensor)]
+    model, row = bench.model, bench.sensor(sensor)
     return replace(bench, model=replace(model, **{matrix: getattr(model, matrix) + value * np.outer(row, row)}))

@@ -46,12 +46,9 @@ class Effect:
         """Whether all ``runs`` tell the conditions that the effect depends on."""
         return all(name in run.conditions for name in self.conditions for run in runs)
 
-    def at(self, bench, place, runs, reach=1.0):
-        """Parameters with priors of the sizes that nominal ``runs`` have at ``place``.
-
-        ``reach``: recorded over nominal motion, where a recording tells that the nominal sizes are not the real ones.
-        """
-        return self.parameters(typical(self.place, bench, place, runs).scaled(reach))
+    def at(self, bench, place, runs):
+        """Parameters with priors of the sizes that nominal ``runs`` have at ``place``."""
+        return self.parameters(typical(self.place, bench, place, runs))
 
     def on(self, bench, place, values):
         """The bench with this effect. ConfigError for unknown places, other names, values beyond the bounds."""

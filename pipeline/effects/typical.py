@@ -115,7 +115,7 @@ def _place(kind, bench, place):
         (_, (stiffness, _), (first, _)) = bench.doublet(place)
         return np.eye(bench.model.size)[first], stiffness, float(bench.model.supported()[1][first, first])
     if kind == POINT:
-        row = bench.model.sensor_rows[bench.model.sensor_name.index(place)]
+        row = bench.sensor(place)
         return row, float(row @ bench.model.supported()[2] @ row), float(row @ bench.model.supported()[1] @ row)
     own = bench.contacts(place)
     contacts = bench.model.contacts

@@ -120,6 +120,11 @@ class Bench:
         k = joints.name.index(_known(name, joints.name, "joint"))
         return joints.rows[k], float(joints.stiffness[k]), float(joints.damping[k])
 
+    def sensor(self, name, where="sensor"):
+        """Displacement row (n,) of a sensor; ``where`` for messages."""
+        model = self.model
+        return model.sensor_rows[model.sensor_name.index(_known(name, model.sensor_name, where))]
+
     def with_law(self, group, change):
         """The bench with ``change(law)`` as the law of contact of ``group``."""
         return replace(self, law=changed(self.law, len(self.model.contacts.area), self.contacts(group), change))
@@ -161,10 +166,9 @@ def respond(bench, run, system=None):
     step = 1 / run.sample_rate / parts
     seen, model = _watched(bench)
     inputs, drive = run_inputs(bench, run), run_drive(bench, run)
-    model, start = model.at_speed(float(np.ravel(drive)[0])), run.start
-    friction = run_friction(bench, run)
+    speed, first = at_begin(bench, run)
+    model, start, friction = model.at_speed(speed), run.start, run_friction(bench, run)
     if start is None and bench.settled:
-        first = np.array([float(np.ravel(i)[0]) for i in inputs])
         start = steady_start(model, bench.law, friction, first)
     steps = (run.samples - 1) * parts
     motion = simulate(model, bench.law, friction, step=step, duration=steps * step, system=system, start=start,
@@ -191,6 +195,12 @@ def low_pass(values, step, corner):
     first, last = 1 - keep - ramp, ramp
     filtered, _ = lfilter([last, first], [1.0, -keep], values, zi=[(1 - last) * values[0]])
     return filtered
+
+
+def at_begin(bench, run):
+    """(speed of the drive in rad/s, inputs (i,) in N) with which a run begins."""
+    return (float(np.ravel(run_drive(bench, run))[0]),
+            np.array([float(np.ravel(i)[0]) for i in run_inputs(bench, run)]))
 
 
 def run_inputs(bench, run):
@@ -227,8 +237,7 @@ def _watched(bench):
     for channel in bench.channels:
         if channel.quantity in MOTIONS:
             place[channel.name] = len(rows)
-            rows.append(model.sensor_rows[model.sensor_name.index(
-                _known(channel.source, model.sensor_name, f"channel {channel.name}: sensor"))])
+            rows.append(bench.sensor(channel.source, f"channel {channel.name}: sensor"))
         elif channel.quantity == "joint_force":
             place[channel.name] = len(rows)
             rows.append(bench.joint(channel.source)[0])

@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from pipeline.contract.errors import ConfigError
-from pipeline.physics.bench import MOTIONS, run_drive, run_friction, run_inputs
+from pipeline.physics.bench import MOTIONS, at_begin, run_friction, run_inputs
 from pipeline.physics.bench_roots import small_motion
 from pipeline.physics.dry_friction import constant
 from pipeline.physics.sliding_model import Joints
@@ -29,7 +29,8 @@ def modes(bench, run):
     kept = np.flatnonzero(values.imag > 0)
     kept = kept[np.argsort(values[kept].imag)]
     root, place = values[kept], vectors[:held.model.size, kept].T
-    shown = [root * (place @ _row(held, c)) * c.gain * np.exp(-root * c.delay) for c in motions(bench)]
+    shown = [root * (place @ held.sensor(c.source, f"channel {c.name}: sensor")) * c.gain * np.exp(-root * c.delay)
+             for c in motions(bench)]
     return root, np.reshape(shown, (-1, len(root))).T
 
 
@@ -40,7 +41,7 @@ def motions(bench):
 
 def sticking(bench, run):
     """The bench as ``run`` finds it: with its contacts held along sliding where the drive rests, and as it is else."""
-    if np.ravel(run_drive(bench, run))[0] != 0 or not np.any(run_inputs(bench, run)[0]):
+    if at_begin(bench, run)[0] != 0 or not np.any(run_inputs(bench, run)[0]):
         return bench
     friction, model = bench.friction, bench.model
     stiffness = np.broadcast_to(np.asarray(friction.stiffness, float), len(model.contacts.area))
@@ -56,10 +57,10 @@ def sticking(bench, run):
 def order_locked(bench, run, joint, orders):
     """(order,) complex amplitudes F of the force of a ``joint``, Re F exp(-i order angle), turned so slowly that
     nothing swings; 0 where no surface is wavy."""
-    model = bench.model.at_speed(float(np.ravel(run_drive(bench, run))[0]))
+    speed, inputs = at_begin(bench, run)
+    model = bench.model.at_speed(speed)
     if not model.contacts.waviness:
         return np.zeros(len(orders), complex)
-    inputs = np.array([float(np.ravel(i)[0]) for i in run_inputs(bench, run)])
     row, stiffness, _ = bench.joint(joint)
     angle = 2 * np.pi * np.arange(_ANGLES) / _ANGLES
     force = []
@@ -69,10 +70,3 @@ def order_locked(bench, run, joint, orders):
         start = steady_start(there, bench.law, run_friction(bench, run), inputs)
         force.append(stiffness * (row @ start.displacement))
     return np.array([2 * np.mean(np.array(force) * np.exp(1j * order * angle)) for order in orders])
-
-
-def _row(bench, channel):
-    known = bench.model.sensor_name
-    if channel.source not in known:
-        raise ConfigError(f"bench: channel {channel.name}: sensor", f"one of {', '.join(known)}", repr(channel.source))
-    return bench.model.sensor_rows[known.index(channel.source)]

@@ -14,7 +14,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from pipeline.contract.errors import ConfigError
-from pipeline.physics.bench import run_drive, run_friction, run_inputs
+from pipeline.physics.bench import at_begin, run_friction
 from pipeline.physics.contact_groups import parts
 from pipeline.physics.element_forces import DRY, element_force, turn
 from pipeline.physics.elements import Maxwell, alone
@@ -77,8 +77,8 @@ def small_motion(bench, run):
     Friction turns in its plane with the motion only where an element says so, as in the simulation. Raises ConfigError
     for contacts that do not yield, and what ``steady_start`` raises.
     """
-    model = bench.model.at_speed(float(np.ravel(run_drive(bench, run))[0]))
-    inputs = np.array([float(np.ravel(i)[0]) for i in run_inputs(bench, run)])
+    speed, inputs = at_begin(bench, run)
+    model = bench.model.at_speed(speed)
     friction = shapeless(run_friction(bench, run))
     start = steady_start(model, bench.law, friction, inputs)
     contacts, slip = model.contacts, model.sliding_speed

@@ -76,7 +76,7 @@ def coordinates(bench, run, measured):
     for channel in bench.channels:
         if channel.quantity != MOTIONS[0] or channel.name not in measured:
             continue
-        rows.append(model.sensor_rows[model.sensor_name.index(channel.source)])
+        rows.append(bench.sensor(channel.source))
         shown = np.asarray(measured[channel.name], float) - channel.offset - channel.drift * run.time
         values.append(np.interp(run.time + channel.delay, run.time, shown / channel.gain))
     rows = np.reshape(np.array(rows, float), (-1, model.size))
