@@ -24,9 +24,14 @@ _LONGEST = 1.5
 _STALLED = 0.25
 #: iterations from every start before only the best goes on
 _TRIAL = 8
-#: shares of the runs that are fitted first where the residual is beyond _FAR noise powers: over a short horizon the
+#: shares of the runs that are fitted first where the residual is beyond FAR noise powers: over a short horizon the
 #: phase of a nonlinear motion cannot slip, so that the optimum is reached from far away
-_HORIZONS, _FAR, _FEWEST = (0.08, 0.3), 100.0, 32
+_HORIZONS, FAR, _FEWEST = (0.08, 0.3), 100.0, 32
+#: standard deviations, as multiples of the true ones, with which features are fitted first where they are that far off:
+#: then priors hold what few features tell, and each is paired with what it belongs to before it counts in full
+_LOOSE = (30.0, 6.0)
+#: share of the objective that is left after as many iterations as a trial has where a fit crawls
+_CRAWLING = 0.7
 #: share of the promised decrease below which an updated Jacobian is replaced by differences
 _TRUSTED = 0.25
 
@@ -76,6 +81,16 @@ class Fit:
         std = np.sqrt(np.diag(self.covariance(weights)))
         low, high = self.hypothesis.values(self.latent - std), self.hypothesis.values(self.latent + std)
         return {name: 0.5 * (high[name] - low[name]) for name in low}
+
+
+def of_features(noises):
+    """Whether what is fitted has no order in time."""
+    return not all(noise.ordered for noise in noises)
+
+
+def far(state):
+    """Whether a Fit leaves far more than noise."""
+    return bool(state.chi_square.sum() > FAR * state.counts.sum())
 
 
 def whitened(problem, noises, hypothesis, latent, runs):
@@ -142,17 +157,28 @@ def _begun(problem, noises, hypothesis, starts, runs, reasons):
 
 
 def _approached(problem, noises, hypothesis, starts, runs, reasons):
-    """Where fits begin: ``starts``, or, where all are far off, the nearest and where fits over rising horizons end."""
+    """Where fits begin: ``starts``, or, where all are far off, the nearest and where fits to less end: over rising
+    horizons, or, of features, under falling standard deviations."""
     sizes = [_mean_square(whitened(problem, noises, hypothesis, start, runs)[0]) for start in starts]
-    if not all(noise.ordered for noise in noises) or min(sizes) < _FAR:
+    if min(sizes) < FAR:
         return starts
     ahead = starts
-    for share in _HORIZONS:
-        kept = [max(int(share * run.samples.shape[1]), _FEWEST) for run in runs]
-        begun = _begun(problem, [noise.until(n) for noise, n in zip(noises, kept, strict=True)], hypothesis, ahead,
-                       [run.until(n) for run, n in zip(runs, kept, strict=True)], reasons)
+    for noise, run in _easier(noises, runs):
+        begun = _begun(problem, noise, hypothesis, ahead, run, reasons)
         ahead = [begun[0].latent] if begun else []
     return [*ahead, starts[int(np.argmin(sizes))]]
+
+
+def _easier(noises, runs):
+    """(noises, runs) of problems on the way to this one."""
+    if of_features(noises):
+        for factor in _LOOSE:
+            yield [replace(noise, filter=noise.filter / factor) for noise in noises], runs
+        return
+    for share in _HORIZONS:
+        kept = [max(int(share * run.samples.shape[1]), _FEWEST) for run in runs]
+        yield ([noise.until(n) for noise, n in zip(noises, kept, strict=True)],
+               [run.until(n) for run, n in zip(runs, kept, strict=True)])
 
 
 def _mean_square(residuals):
@@ -208,8 +234,11 @@ def _jacobians(problem, noises, hypothesis, latent, residuals, runs):
 
 def continued(problem, state, iterations=ITERATIONS):
     """The Fit after further iterations. Jacobians are updated by the secant (Broyden 1965) as long as that serves."""
-    damping, growth = 1e-3, 2.0
+    damping, growth, reached = 1e-3, 2.0, []
     for _ in range(iterations):
+        reached.append(state.objective)
+        if _crawls(state, reached):
+            break
         gradient, hessian = _slopes(state)
         expected, scale = gradient @ np.linalg.solve(hessian, gradient), _scale(state)
         if expected < TOLERANCE * scale:
@@ -225,6 +254,12 @@ def continued(problem, state, iterations=ITERATIONS):
         else:
             state = moved
     return state if state.fresh else _refreshed(problem, state)
+
+
+def _crawls(state, reached):
+    """Whether features that are far off have stayed so: their hypothesis has no use for more iterations."""
+    return (of_features(state.noises) and far(state) and len(reached) > _TRIAL
+            and reached[-1] > _CRAWLING * reached[-1 - _TRIAL])
 
 
 def _slopes(state):

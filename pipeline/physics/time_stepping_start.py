@@ -98,7 +98,7 @@ def _solve(stiffness, load, normal, pushed, gap, give, closed):
     scale = np.sqrt(abs(np.diag(stiffness)).max(initial=0.0)) or 1.0      # bodies and contacts of one size
     weight = np.r_[np.full(size, 1 / scale), np.full(len(active), scale)]
     scaled = weight[:, None] * matrix * weight
-    if np.linalg.cond(scaled) > 1 / np.finfo(float).eps:
+    if np.linalg.cond(scaled, 1) > 1 / np.finfo(float).eps:
         raise ConfigError("steady sliding", "joints and closed contacts that hold every body", "a body that is free",
                           "support it, press it on, or start at rest")
     found = weight * np.linalg.solve(scaled, weight * np.r_[load, -gap[active]])
