@@ -145,12 +145,12 @@ def calibrate(problem, noises, hypothesis, starts, runs, settled=True, iteration
                            "; ".join(dict.fromkeys(reasons)), "check the nominal values and priors")
 
 
-def _begun(problem, noises, hypothesis, starts, runs, reasons):
+def _begun(problem, noises, hypothesis, starts, runs, reasons, rough=False):
     """[Fit] after a few iterations from each start, best first; ``reasons`` gets what stopped the others."""
     begun = []
     for start in starts:
         try:
-            begun.append(fit(problem, noises, hypothesis, start, runs, _TRIAL))
+            begun.append(continued(problem, linearised(problem, noises, hypothesis, start, runs), _TRIAL, rough))
         except BrakechainError as error:
             reasons.append(str(error))
     return sorted(begun, key=lambda f: f.objective)
@@ -164,7 +164,7 @@ def _approached(problem, noises, hypothesis, starts, runs, reasons):
         return starts
     ahead = starts
     for noise, run in _easier(noises, runs):
-        begun = _begun(problem, noise, hypothesis, ahead, run, reasons)
+        begun = _begun(problem, noise, hypothesis, ahead, run, reasons, of_features(noises))
         ahead = [begun[0].latent] if begun else []
     return [*ahead, starts[int(np.argmin(sizes))]]
 
@@ -232,8 +232,11 @@ def _jacobians(problem, noises, hypothesis, latent, residuals, runs):
     return jacobians, len(latent)
 
 
-def continued(problem, state, iterations=ITERATIONS):
-    """The Fit after further iterations. Jacobians are updated by the secant (Broyden 1965) as long as that serves."""
+def continued(problem, state, iterations=ITERATIONS, rough=False):
+    """The Fit after further iterations. Jacobians are updated by the secant (Broyden 1965) as long as that serves.
+
+    A ``rough`` one stops where updated Jacobians promise no more, and keeps them: its latent values are of use.
+    """
     damping, growth, reached = 1e-3, 2.0, []
     for _ in range(iterations):
         reached.append(state.objective)
@@ -242,8 +245,8 @@ def continued(problem, state, iterations=ITERATIONS):
         gradient, hessian = _slopes(state)
         expected, scale = gradient @ np.linalg.solve(hessian, gradient), _scale(state)
         if expected < TOLERANCE * scale:
-            if state.fresh:
-                return replace(state, converged=True)
+            if rough or state.fresh:
+                return replace(state, converged=not rough)
             state = _refreshed(problem, state)
             continue
         moved, damping, growth = _step(problem, state, gradient, hessian, damping, growth)
@@ -253,7 +256,7 @@ def continued(problem, state, iterations=ITERATIONS):
             return replace(state, converged=bool(expected < _STALLED * scale))
         else:
             state = moved
-    return state if state.fresh else _refreshed(problem, state)
+    return state if rough or state.fresh else _refreshed(problem, state)
 
 
 def _crawls(state, reached):
