@@ -129,3 +129,11 @@ def test_noise_of_a_cut_run_whitens_its_first_samples_alike():
     noise = whitening(whole, autocovariance(whole.samples, whole.valid, 2))
     cut = whole.until(60)
     np.testing.assert_allclose(noise.until(60).whiten(cut.samples), noise.whiten(whole.samples)[:58], rtol=1e-12)
+
+
+def test_channels_without_samples_do_not_count_in_errors():
+    one = Observed("rung", {}, ("seen", "lost", "lost too"), np.array([[2.0], [0.0], [0.0]]), None,
+                   np.array([[True], [False], [False]]), noise_std=np.array([0.1, 1.0, 1.0]))
+    noise = budget(Problem((one,), predict, NOMINAL))["rung"]
+    assert normalised_error(one, np.array([[0.5], [0.0], [0.0]])) == pytest.approx(0.25)
+    assert floor(one, noise) == pytest.approx(0.05)
