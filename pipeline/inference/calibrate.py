@@ -28,9 +28,16 @@ _LEAST = 0.1
 _TRIAL = 3
 #: so many times the decrease of the objective that its slope promises may a fit still come down
 _HOPE = 10.0
-#: shares of the runs that are fitted first where the residual is beyond _FAR noise powers: over a short horizon the
+#: iterations of an easier problem on the way
+_EASIER = 8
+#: shares of the runs that are fitted first where the residual is beyond FAR noise powers: over a short horizon the
 #: phase of a nonlinear motion cannot slip, so that the optimum is reached from far away
-_HORIZONS, _FAR, _FEWEST = (0.08, 0.3), 100.0, 32
+_HORIZONS, FAR, _FEWEST = (0.08, 0.3), 100.0, 32
+#: standard deviations, as multiples of the true ones, with which features are fitted first where they are that far off:
+#: then priors hold what few features tell, and each is paired with what it belongs to before it counts in full
+_LOOSE = (30.0, 6.0)
+#: share of the objective that is left after so many iterations where a fit crawls
+_CRAWLING, _PATIENCE = 0.7, 8
 #: share of the promised decrease below which an updated Jacobian is replaced by differences
 _TRUSTED = 0.25
 
@@ -80,6 +87,16 @@ class Fit:
         std = np.sqrt(np.diag(self.covariance(weights)))
         low, high = self.hypothesis.values(self.latent - std), self.hypothesis.values(self.latent + std)
         return {name: 0.5 * (high[name] - low[name]) for name in low}
+
+
+def of_features(noises):
+    """Whether what is fitted has no order in time."""
+    return not all(noise.ordered for noise in noises)
+
+
+def far(state):
+    """Whether a Fit leaves far more than noise."""
+    return bool(state.chi_square.sum() > FAR * state.counts.sum())
 
 
 def whitened(problem, noises, hypothesis, latent, runs):
@@ -161,29 +178,40 @@ def _begun(problem, noises, hypothesis, starts, runs, reasons, known=()):
     return _tried(problem, noises, hypothesis, near, runs, reasons, known)
 
 
-def _tried(problem, noises, hypothesis, starts, runs, reasons, known=()):
+def _tried(problem, noises, hypothesis, starts, runs, reasons, known=(), rough=False):
     found = []
     for start in starts:
         try:
             state = linearised(problem, noises, hypothesis, start, runs, known)
-            found.append(_iterated(problem, state, _TRIAL, np.inf))
+            found.append(_iterated(problem, state, _EASIER if rough else _TRIAL, rough=rough))
         except BrakechainError as error:
             reasons.append(str(error))
     return sorted(found, key=lambda f: f.objective)
 
 
 def _approached(problem, noises, hypothesis, starts, runs, reasons):
-    """Where fits begin: ``starts``, or, where all are far off, the nearest and where fits over rising horizons end."""
+    """Where fits begin: ``starts``, or, where all are far off, the nearest and where fits to less end: over rising
+    horizons, or, of features, under falling standard deviations."""
     sizes = [_mean_square(whitened(problem, noises, hypothesis, start, runs)[0]) for start in starts]
-    if not all(noise.ordered for noise in noises) or min(sizes) < _FAR:
+    if min(sizes) < FAR:
         return starts
     ahead = starts
-    for share in _HORIZONS:
-        kept = [noise.horizon(share, _FEWEST) for noise in noises]
-        found = _tried(problem, [noise.until(n) for noise, n in zip(noises, kept, strict=True)], hypothesis, ahead,
-                       [run.until(n) for run, n in zip(runs, kept, strict=True)], reasons)
+    for noise, run in _easier(noises, runs):
+        found = _tried(problem, noise, hypothesis, ahead, run, reasons, rough=True)
         ahead = [found[0].latent] if found else []
     return [*ahead, starts[int(np.argmin(sizes))]]
+
+
+def _easier(noises, runs):
+    """(noises, runs) of problems on the way to this one."""
+    if of_features(noises):
+        for factor in _LOOSE:
+            yield [replace(noise, filter=noise.filter / factor) for noise in noises], runs
+        return
+    for share in _HORIZONS:
+        kept = [noise.horizon(share, _FEWEST) for noise in noises]
+        yield ([noise.until(n) for noise, n in zip(noises, kept, strict=True)],
+               [run.until(n) for run, n in zip(runs, kept, strict=True)])
 
 
 def _mean_square(residuals):
@@ -246,17 +274,23 @@ def continued(problem, state, iterations=ITERATIONS, enough=np.inf):
     return found if found.fresh or found.objective > enough else _refreshed(problem, found)
 
 
-def _iterated(problem, state, iterations, enough):
-    """The Fit after ``iterations``; where no step helps, differences are taken over wider steps before it ends."""
-    damping, growth, width = 1e-3, 2.0, DIFFERENCE
+def _iterated(problem, state, iterations, enough=np.inf, rough=False):
+    """The Fit after ``iterations``; where no step helps, differences are taken over wider steps before it ends.
+
+    A ``rough`` one stops where updated Jacobians promise no more: its latent values are of use.
+    """
+    damping, growth, width, before = 1e-3, 2.0, DIFFERENCE, []
     for _ in range(iterations):
+        before.append(state.objective)
+        if _crawls(state, before):
+            break
         gradient, hessian = _slopes(state)
         expected, scale = gradient @ np.linalg.solve(hessian, gradient), _scale(state)
         if state.objective - _HOPE * expected > enough:
             break
         if expected < TOLERANCE * scale:
-            if state.fresh:
-                return replace(state, converged=True)
+            if rough or state.fresh:
+                return replace(state, converged=not rough)
             state = _refreshed(problem, state)
             continue
         moved, damping, growth = _step(problem, state, gradient, hessian, damping, growth)
@@ -270,6 +304,12 @@ def _iterated(problem, state, iterations, enough):
         width *= 10 if state.fresh else 1
         state, damping, growth = _refreshed(problem, state, width), 1e-3, 2.0
     return state
+
+
+def _crawls(state, before):
+    """Whether features that are far off have stayed so: their hypothesis has no use for more iterations."""
+    return (of_features(state.noises) and far(state) and len(before) > _PATIENCE
+            and before[-1] > _CRAWLING * before[-1 - _PATIENCE])
 
 
 def _slopes(state):

@@ -18,7 +18,6 @@ from pipeline.physics.bench import at_begin, run_friction
 from pipeline.physics.contact_groups import parts
 from pipeline.physics.element_forces import DRY, element_force, turn
 from pipeline.physics.elements import Maxwell, alone
-from pipeline.physics.friction_law import friction_at
 from pipeline.physics.friction_state_steps import MEMORY, SETTLING, factor_slope, rate_slopes
 from pipeline.physics.friction_states import factors, shapeless, started, state_kernel
 from pipeline.physics.sliding_model import FrictionState, spread
@@ -43,10 +42,11 @@ class SmallMotion:
     def matrix(self):
         """State matrix (2 n + k, 2 n + k) of (q, q', z)."""
         size, states = self.push.shape
-        return np.block([[np.zeros((size, size)), np.eye(size), np.zeros((size, states))],
-                         [-np.linalg.solve(self.mass, self.stiffness), -np.linalg.solve(self.mass, self.damping),
-                          np.linalg.solve(self.mass, self.push)],
-                         [self.by_place, self.by_speed, -np.diag(self.decay)]])
+        whole = np.zeros((2 * size + states,) * 2)
+        whole[:size, size:2 * size] = np.eye(size)
+        whole[size:2 * size] = np.linalg.solve(self.mass, np.hstack((-self.stiffness, -self.damping, self.push)))
+        whole[2 * size:] = np.hstack((self.by_place, self.by_speed, -np.diag(self.decay)))
+        return whole
 
 
 def roots(bench, run):
@@ -105,7 +105,9 @@ def _friction_state(friction, speed, pressure, factor):
     for law, own in parts(friction, len(speed)):
         for i in own:
             turned = law.backward if speed[i] < 0 else 1.0
-            found[:, i] = turned * np.array(friction_at(pressure[i], abs(speed[i]), law.distance, *law.law.table)[:3])
+            state = pressure[i], abs(speed[i]), law.distance
+            found[:, i] = turned * np.array([law.law.evaluate(*state)[0], *(law.law.slope(axis, *state)
+                                                                            for axis in ("pressure", "speed"))])
     return FrictionState(*(factor * found))
 
 
