@@ -23,7 +23,8 @@ class Effect:
     ``summary``: its sentence in a report; ``place``: kind of place (``typical``); ``stage``: one of STAGES;
     ``parameters(typical)``: its Parameters, with priors of these sizes, whose supports are the bounds of sign and
     passivity; ``apply(bench, place, values)``: the equation; ``source``; ``valid``: "Valid while ..."; ``linear``:
-    parameters that the forces are linear in; ``kind``: physics or sensor; ``conditions``: those that runs must tell.
+    parameters that the forces are linear in; ``kind``: physics or sensor; ``conditions``: those that runs must tell;
+    ``small``: whether small motions about steady sliding see it, and complex modes with them.
     """
 
     name: str
@@ -37,6 +38,7 @@ class Effect:
     linear: tuple = ()
     kind: str = "physics"
     conditions: tuple = ()
+    small: bool = True
 
     def places(self, bench):
         """Names of the places of a bench where the effect can be."""

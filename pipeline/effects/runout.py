@@ -24,6 +24,6 @@ def apply(bench, place, values):
 
 EFFECT = Effect(
     name="runout", summary="a surface that runs out: its motion follows the angle of the drive",
-    place="pressed contact", stage="excitation", parameters=parameters, apply=apply,
+    place="pressed contact", stage="excitation", parameters=parameters, apply=apply, small=False,
     source="H. Jacobsson, Proc. IMechE D 217 (2003) 419: side-face runout",
     valid="Valid while contacts are short against the wave, and waves small against radii.")

@@ -26,6 +26,6 @@ def apply(bench, place, values):
 
 EFFECT = Effect(
     name="third_body_film", summary="a film of wear particles that adds to friction", place="contact", stage="friction",
-    parameters=parameters, apply=apply, linear=("gain",),
+    parameters=parameters, apply=apply, small=False, linear=("gain",),
     source="M. Godet, Wear 100 (1984) 437: the third body; its growth with load and way after J. F. Archard (1953)",
     valid="Valid while particles leave the contact as the film slides; roots take friction where a run begins.")

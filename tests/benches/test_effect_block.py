@@ -3,7 +3,7 @@
 import pytest
 
 from pipeline.benches import bench as benches
-from pipeline.benches.effect_block import Settings, parameters, terms, with_effects
+from pipeline.benches.effect_block import Settings, conditions, parameters, terms, with_effects
 from pipeline.contract import ConfigError
 from pipeline.contract.settings import fill
 from pipeline.effects import CATALOGUE
@@ -11,7 +11,7 @@ from tests.diagnosis.small_rig import HIDDEN, effects, laid_out, model
 
 
 def test_every_effect_is_a_key_with_its_parameters():
-    assert set(Settings.model_fields) == {e.name for e in CATALOGUE}
+    assert set(Settings.model_fields) == {e.name for e in CATALOGUE} | {"conditions"}
     term, = terms(effects({"moving_base": {"mount": {p.name: f"1 {p.unit}" if p.unit != "1" else 1
                                                      for p in parameters(next(e for e in CATALOGUE
                                                                               if e.name == "moving_base"))}}}))
@@ -21,6 +21,17 @@ def test_every_effect_is_a_key_with_its_parameters():
 def test_values_arrive_in_si():
     term, = terms(effects(HIDDEN))
     assert term.values == {"coefficient": 1.5e4}
+
+
+def test_an_effect_at_its_null_is_none():
+    assert terms(effects({"moving_base": {"mount": {"compliance": "0 m/N", "frequency": "9 Hz"}}})) == ()
+
+
+def test_conditions_are_those_that_effects_ask_for():
+    assert conditions(effects({"conditions": {"humidity": 0.8}})) == {"humidity": 0.8}
+    assert conditions(effects({})) == conditions(None) == {}
+    with pytest.raises(ConfigError, match="did you mean 'humidity'"):
+        fill(Settings, {"conditions": {"humidty": 0.8}}, "case.yaml: effects")
 
 
 def test_no_effects_leave_the_bench_alone():
