@@ -3,7 +3,7 @@ CASE   ?= disc_brake
 PYTHON ?= python3
 ARGS   ?=
 TESTS  ?= tests
-STAGES := surface micro_friction friction_map structure reduced_model complex_modes multibody response squeal comparison report interface_law friction_descriptions pin_on_disc effects transient lock_in lumped rupture beam_on_beam motion_scatter beam_geometry recording bench diagnosis
+STAGES := surface effects micro_friction friction_map structure reduced_model complex_modes multibody response squeal comparison report interface_law friction_descriptions pin_on_disc transient lock_in lumped rupture beam_on_beam motion_scatter beam_geometry recording bench diagnosis
 
 CONFIG := configs/$(CASE).yaml
 READY  := .venv/.ready

@@ -7,7 +7,7 @@
 from pipeline.contract import ConfigError, Quantity, option, section
 from pipeline.effects import CATALOGUE, named
 from pipeline.effects.effect import Term, compose
-from pipeline.effects.typical import Typical
+from pipeline.effects.typical import ASPERITIES, Typical
 from pipeline.products import Effects
 
 
@@ -30,8 +30,24 @@ def _values(effect):
 
 #: the section: one key an effect, each a mapping from places to values
 Settings = section("Settings", "Physics added to the model: effect, place, values.", {
-    effect.name: (dict[str, _values(effect)], option({}, f"{effect.summary}; at: {effect.place}"))
+    effect.name: (dict[str, _values(effect)],
+                  option({}, f"{effect.summary}; at: {effect.place}{' or asperities' if effect.micro else ''}"))
     for effect in CATALOGUE})
+
+_REMEDY = {True: "asperities are places of a rough pair, such as that of the disc brake",
+           False: f"on the scale of the roughness the place is {ASPERITIES}"}
+#: stages that put effects on their model: at the asperities of a rough pair, and at any other place
+_ACTING = {True: ("micro_friction",), False: ("transient", "bench")}
+
+
+def check_places(sections):
+    """Refuse effects at places that no stage among {stage: settings} has; ConfigError."""
+    for name, places in dict(sections["effects"]).items():
+        for place in places:
+            if not set(_ACTING[place == ASPERITIES]) & set(sections):
+                raise ConfigError(f"effects.{name}.{place}",
+                                  f"a chain with {' or '.join(_ACTING[place == ASPERITIES])}, where this place is",
+                                  "none", _REMEDY[place == ASPERITIES])
 
 
 def product(settings):
@@ -57,13 +73,18 @@ def terms(effects):
 
 
 def with_effects(bench, effects, channels=True):
-    """The bench with a product Effects (or None) on it.
+    """The bench with a product Effects (or None) on it; what acts at asperities is left to ``rubbing_with_effects``.
 
     Without ``channels`` effects of sensors are refused, where nothing is compared with a recording.
     """
-    found = terms(effects)
+    found = tuple(t for t in terms(effects) if t.place != ASPERITIES)
     for term in found:
         if not channels and term.effect.kind == "sensor":
             raise ConfigError(f"effects.{term.effect.name}", "physics", "an effect of a sensor",
                               "sensors are part of a bench: use it in a case with recordings")
     return compose(bench, found)
+
+
+def rubbing_with_effects(rubbing, effects):
+    """The Rubbing with what a product Effects (or None) says of its asperities."""
+    return compose(rubbing, tuple(t for t in terms(effects) if t.place == ASPERITIES))
