@@ -78,14 +78,15 @@ def _area_on_grid(factor, surface, settings, pressure):
 
 
 def _table(records, settings):
-    """Mean over realisations (largest for the wear) of every figure, (pressure, speed, distance)."""
+    """Mean over realisations (largest for the wear) of every figure, (pressure, speed, distance); of one no scatter."""
     def every(name):
         values = np.array([getattr(record, name) for record in records])
         return values.reshape(len(settings.pressures), settings.realisations, *values.shape[1:])
 
     same = ("real_area", "normal_stiffness", "flash_temperature", "full_slip_distance", "limit_at_speed", "friction")
     approach = every("approach")
+    spread = every("friction").std(axis=1, ddof=min(1, settings.realisations - 1))
     return {**{name: every(name).mean(axis=1) for name in same},
-            "friction_std": every("friction").std(axis=1, ddof=1) / np.sqrt(settings.realisations),
+            "friction_std": spread / np.sqrt(settings.realisations),
             "wear_depth": (approach - approach[..., :1]).mean(axis=1),
             "largest_wear": every("largest_wear").max(axis=1)}

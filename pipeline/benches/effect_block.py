@@ -87,4 +87,9 @@ def with_effects(bench, effects, channels=True):
 
 def rubbing_with_effects(rubbing, effects):
     """The Rubbing with what a product Effects (or None) says of its asperities."""
-    return compose(rubbing, tuple(t for t in terms(effects) if t.place == ASPERITIES))
+    return compose(rubbing, at_asperities(effects))
+
+
+def at_asperities(effects):
+    """Terms of a product Effects (or None) that act on a rough pair."""
+    return tuple(t for t in terms(effects) if t.place == ASPERITIES)

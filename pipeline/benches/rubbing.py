@@ -55,7 +55,8 @@ class Settings(Section):
     stroke: Quantity("m", ge=0) = option("50 um", "pass of the slider before it returns to its start")
     recorded_distances: Quantities("m", ge=0) = option(
         ("0 mm", "0.3 mm", "1 mm", "2.5 mm", "5 mm", "7.5 mm", "10 mm"), "distances of the table, rising from 0")
-    realisations: int = option(3, "relative positions of the two patches, averaged", ge=2)
+    realisations: int = option(3, "relative positions of the two patches, averaged; the first is that of the maps,"
+                              " 1 where these lie as they were mounted", ge=1)
     seed: int = option(7, "seed of the relative positions", ge=0)
     refinement: Quantities("1", gt=0) = option((0.5, 1.0, 2.0), "grid factors of the convergence study of the area")
     tolerance: float = option(1e-4, "gap error over rms gap, shear error over shear limit", gt=0, lt=0.1)

@@ -54,7 +54,11 @@ class Effect:
 
     def at(self, bench, place, runs):
         """Parameters with priors of the sizes that nominal ``runs`` have at ``place``."""
-        return self.parameters(typical(ASPERITIES if place == ASPERITIES else self.place, bench, place, runs))
+        return self.parameters(typical(self.kind_at(place), bench, place, runs))
+
+    def kind_at(self, place):
+        """Kind of a place of the effect."""
+        return ASPERITIES if place == ASPERITIES else self.place
 
     def on(self, bench, place, values):
         """The model with this effect. ConfigError for unknown places, other names, values beyond the bounds."""
