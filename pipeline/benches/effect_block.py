@@ -10,7 +10,7 @@ from dataclasses import replace
 from pipeline.contract import ConfigError, Quantity, option, section
 from pipeline.effects import CATALOGUE, named
 from pipeline.effects.effect import Term, compose
-from pipeline.effects.typical import Typical
+from pipeline.effects.typical import ASPERITIES, Typical
 from pipeline.physics.dry_friction import under
 from pipeline.products import Effects
 
@@ -38,16 +38,37 @@ Conditions = section("Conditions", "Conditions of a case, as runs have them.", {
     for name in dict.fromkeys(name for effect in CATALOGUE for name in effect.conditions)})
 #: the section: one key an effect, each a mapping from places to values, and the conditions
 Settings = section("Settings", "Physics added to the model: effect, place, values.", {
-    **{effect.name: (dict[str, _values(effect)], option({}, f"{effect.summary}; at: {effect.place}"))
+    **{effect.name: (dict[str, _values(effect)],
+                     option({}, f"{effect.summary}; at: {effect.place}{' or asperities' if effect.micro else ''}"))
        for effect in CATALOGUE},
     "conditions": (Conditions, option(Conditions(), "conditions of motions that no recorded run tells"))})
+
+_REMEDY = {True: "asperities are places of a rough pair, such as that of the disc brake",
+           False: f"on the scale of the roughness the place is {ASPERITIES}"}
+#: stages that put effects on their model: at the asperities of a rough pair, and at any other place
+_ACTING = {True: ("micro_friction",), False: ("complex_modes", "multibody", "transient", "bench")}
+
+
+def check_places(sections):
+    """Refuse effects at places that no stage among {stage: settings} has; ConfigError."""
+    for name, places in _blocks(sections["effects"]).items():
+        for place in places:
+            if not set(_ACTING[place == ASPERITIES]) & set(sections):
+                raise ConfigError(f"effects.{name}.{place}",
+                                  f"a chain with {' or '.join(_ACTING[place == ASPERITIES])}, where this place is",
+                                  "none", _REMEDY[place == ASPERITIES])
+
+
+def _blocks(settings):
+    """{effect: {place: values}} of a filled section."""
+    return {name: block for name, block in dict(settings).items() if name != "conditions"}
 
 
 def product(settings):
     """The product Effects of a filled section."""
-    blocks = {name: block for name, block in dict(settings).items() if name != "conditions"}
     told = {name: value for name, value in dict(settings.conditions).items() if value is not None}
-    rows = [(name, place, dict(values)) for name, places in blocks.items() for place, values in places.items()]
+    rows = [(name, place, dict(values)) for name, places in _blocks(settings).items()
+            for place, values in places.items()]
     units = {(e.name, p.name): p.unit for e in CATALOGUE for p in parameters(e)}
     flat = [(k, name, parameter, value) for k, (name, _, values) in enumerate(rows)
             for parameter, value in values.items()]
@@ -79,23 +100,37 @@ def conditions(effects):
 
 
 def with_effects(bench, effects, channels=True):
-    """The bench with a product Effects (or None) on it.
+    """The bench with a product Effects (or None) on it; what acts at asperities is left to ``rubbing_with_effects``.
 
     Without ``channels``, where nothing is compared with a recording, effects of sensors are refused, and conditions are
     those of the block.
     """
     if channels:
-        return compose(bench, terms(effects))
+        return compose(bench, _on_benches(effects))
     found = physics_terms(effects)
     whole = compose(bench, found)
     return replace(whole, friction=under(whole.friction, conditions(effects), "effects")) if found else whole
 
 
 def physics_terms(effects):
-    """Terms of a product Effects (or None), where nothing is recorded; ConfigError for effects of sensors."""
-    found = terms(effects)
+    """Terms of a product Effects (or None) on a bench where nothing is recorded; ConfigError for effects of sensors."""
+    found = _on_benches(effects)
     for term in found:
         if term.effect.kind == "sensor":
             raise ConfigError(f"effects.{term.effect.name}", "physics", "an effect of a sensor",
                               "sensors are part of a bench: use it in a case with recordings")
     return found
+
+
+def _on_benches(effects):
+    return tuple(t for t in terms(effects) if t.place != ASPERITIES)
+
+
+def rubbing_with_effects(rubbing, effects):
+    """The Rubbing with what a product Effects (or None) says of its asperities."""
+    return compose(rubbing, at_asperities(effects))
+
+
+def at_asperities(effects):
+    """Terms of a product Effects (or None) that act on a rough pair."""
+    return tuple(t for t in terms(effects) if t.place == ASPERITIES)

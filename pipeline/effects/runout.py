@@ -2,7 +2,8 @@
 
     gap_i + a cos(n (theta - theta_i) - phase)
 
-theta_i is the angle at which contact i sits, n the order (1: a tilted disc).
+theta_i is the angle at which contact i sits, n the order (1: a tilted disc). Of a disc between two pads the far face
+has the opposite phase: one entry for each pad.
 """
 
 import numpy as np

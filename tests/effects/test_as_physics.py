@@ -9,13 +9,14 @@ import pytest
 from pipeline.contract import ConfigError
 from pipeline.effects import CATALOGUE, named
 from pipeline.effects.effect import null_values, shaped_values
+from pipeline.effects.typical import ASPERITIES
 from pipeline.physics.bench import Run
 from pipeline.physics.bench_roots import roots
 from stages.bench import bench as bench_stage
 from tests.diagnosis.small_rig import effects, laid_out, model, recording
 from tests.effects.systems import MODES, SYSTEMS, Telling, lumped_bench, system
 
-PHYSICS = tuple(e for e in CATALOGUE if e.kind == "physics")
+PHYSICS = tuple(e for e in CATALOGUE if e.kind == "physics" and e.place != ASPERITIES)
 SENSORS = tuple(e for e in CATALOGUE if e.kind == "sensor")
 UPPER, MEDIAN = (partial(shaped_values, share=share) for share in (0.75, 0.6))
 #: needs a row of contacts that wear: of all transients only those of lumped systems have one
