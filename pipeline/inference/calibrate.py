@@ -148,7 +148,7 @@ def _approached(problem, noises, hypothesis, starts, runs, reasons):
         return starts
     ahead = starts
     for share in _HORIZONS:
-        kept = [max(int(share * run.samples.shape[1]), _FEWEST) for run in runs]
+        kept = [noise.horizon(share, _FEWEST) for noise in noises]
         begun = _begun(problem, [noise.until(n) for noise, n in zip(noises, kept, strict=True)], hypothesis, ahead,
                        [run.until(n) for run, n in zip(runs, kept, strict=True)], reasons)
         ahead = [begun[0].latent] if begun else []
