@@ -9,6 +9,7 @@ over the ratio.
 """
 
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 from scipy.interpolate import RectBivariateSpline
@@ -41,25 +42,32 @@ class SpotTable:
         pressure, worn, ratio, speed = np.broadcast_arrays(*(np.atleast_1d(np.asarray(a, float))
                                                              for a in (pressure, worn, ratio, speed)))
         place = np.log(pressure), self._wear(worn), ratio
-        heating = np.log([self._read(np.log(table), *place) for table in self.heating])
+        area, *heating = (self._read(layers, *place) for layers in self._splines)
         row = np.interp(np.log(speed), np.log(self.speed), np.arange(len(self.speed)))
         low, point = np.floor(row).astype(int), np.arange(len(row))
         high = np.minimum(low + 1, len(self.speed) - 1)
+        heating = np.array(heating)
         between = (1 - row + low) * heating[low, point] + (row - low) * heating[high, point]
-        return self._read(np.log(self.area), *place), np.exp(between)
+        return np.exp(area), np.exp(between)
+
+    @cached_property
+    def _splines(self):
+        """Of ln area, then of ln heating at every speed: one spline for each of the RATIOS."""
+        axes = np.log(self.pressure), self._wear(self.worn)
+        return [[RectBivariateSpline(*axes, np.log(table[..., k])) for k in range(len(RATIOS))]
+                for table in (self.area, *self.heating)]
 
     def _wear(self, worn):
         return np.log1p(worn / (_KNEE * self.worn[-1]))
 
-    def _read(self, table, pressure, wear, ratio):
-        """exp of a table (p, w, r) at points (n,)."""
+    def _read(self, layers, pressure, wear, ratio):
+        """What the splines ``layers`` tell at points (n,), straight on outside their runs."""
         axes, found = (np.log(self.pressure), self._wear(self.worn)), 0.0
         inside = [np.clip(c, a[0], a[-1]) for c, a in zip((pressure, wear), axes, strict=True)]
-        for weight, layer in zip(_parabola(ratio), np.moveaxis(table, -1, 0), strict=True):
-            spline = RectBivariateSpline(*axes, layer)
+        for weight, spline in zip(_parabola(ratio), layers, strict=True):
             beyond = (pressure - inside[0]) * spline.ev(*inside, dx=1) + (wear - inside[1]) * spline.ev(*inside, dy=1)
             found = found + weight * (spline.ev(*inside) + beyond)
-        return np.exp(found)
+        return found
 
 
 def spot_table(pairs, pressure, cycles, speed, fan_out):

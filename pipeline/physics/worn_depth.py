@@ -28,14 +28,21 @@ def worn_depth(new, worn, against=None, stroke=0):
         height = height + maximum_filter1d(without_plane(against), 2 * stroke + 1, axis=1, mode="wrap")
     deep = height < np.quantile(height, UNTOUCHED)
     left = without_plane(new - worn, deep)
-    noise = left[deep].std(ddof=3)
-    return float(left.mean()), float(noise * np.sqrt(1 / deep.sum() - 1 / new.size))
+    basis = _planes(new.shape)
+    weight = np.full(new.shape, 1 / new.size)       # of every node in the mean, the plane through some of them included
+    weight[deep] -= basis[deep] @ np.linalg.solve(basis[deep].T @ basis[deep], basis.mean(axis=(0, 1)))
+    return float(left.mean()), float(left[deep].std(ddof=3) * np.sqrt(np.sum(weight**2)))
 
 
 def without_plane(heights, nodes=None):
     """Heights (ny, nx) less the plane of least squares through ``nodes`` (a mask; default all)."""
-    grids = np.meshgrid(*(np.linspace(-0.5, 0.5, n) for n in heights.shape), indexing="ij")
-    basis = np.stack([np.ones(heights.shape), *grids], axis=-1)
+    basis = _planes(heights.shape)
     kept = np.ones(heights.shape, bool) if nodes is None else nodes
     plane, *_ = np.linalg.lstsq(basis[kept], heights[kept], rcond=None)
     return heights - basis @ plane
+
+
+def _planes(shape):
+    """Offset and both tilts (ny, nx, 3) of a map."""
+    grids = np.meshgrid(*(np.linspace(-0.5, 0.5, n) for n in shape), indexing="ij")
+    return np.stack([np.ones(shape), *grids], axis=-1)

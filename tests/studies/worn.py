@@ -3,7 +3,8 @@
 import json
 from pathlib import Path
 
-from pipeline.contract.settings import fill
+from pipeline.contract import documents
+from pipeline.contract.settings import fill, without_origins
 from pipeline.diagnosis.document import as_json
 from pipeline.products import Recording
 from pipeline.recordings.neutral import read_neutral, write_neutral
@@ -23,7 +24,7 @@ def write(path, seed, hidden):
     """Recordings of one bench at ``path``; returns what is true of it."""
     bench, truth = make(seed, hidden)
     write_neutral(path, record(bench, seed))
-    return {"hidden": hidden, **truth}
+    return truth
 
 
 def practice(folder):
@@ -34,8 +35,10 @@ def practice(folder):
         (folder / f"worn_{number}_truth.json").write_text(json.dumps(told, indent=1) + "\n")
 
 
-def solved(path, document, context=None, **micro):
-    """diagnosis.json of a file of recordings under the ``document`` of a case, with other values of micro_friction."""
+def solved(path, context=None, **micro):
+    """diagnosis.json of a file of recordings under the case worn_pad, with other values of micro_friction."""
+    document = without_origins(documents.read_yaml(CONFIG), CONFIG.stem)
+
     def section(stage, **more):
         return fill(stage.settings, {**document.get(stage.name, {}), **more}, stage.name)
 
