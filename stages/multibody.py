@@ -187,7 +187,8 @@ def _motion_rows(model, pads, size):
         recovery = model.recovery[model.visible_body == pad][:, :, own]
         axes = sliding_axes(model.contact_position[model.contact_body == pad])
         row[:, own] = gravity_rows(model.mass[np.ix_(own, own)], recovery, axes)
-    return np.pad(rows[:, :, kept], ((0, 0), (0, 0), (0, size - np.count_nonzero(kept))))
+    added = size - np.count_nonzero(kept)
+    return np.pad(rows[:, :, kept], ((0, 0), (0, 0), (0, added))) if added else rows[:, :, kept]
 
 
 def _mean_friction(history, settled):
