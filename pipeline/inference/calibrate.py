@@ -148,7 +148,7 @@ def calibrate(problem, noises, hypothesis, starts, runs, settled=True):
     """
     reasons = []
     for state in _begun(problem, noises, hypothesis, starts, runs, reasons):
-        found = state if state.converged else continued(problem, state)
+        found = state if state.converged else continued(problem, state, patient=settled)
         if found.converged or not settled:
             return found
         reasons.append(f"not converged after {found.evaluations} predictions")
@@ -183,7 +183,7 @@ def _tried(problem, noises, hypothesis, starts, runs, reasons, known=(), rough=F
     for start in starts:
         try:
             state = linearised(problem, noises, hypothesis, start, runs, known)
-            found.append(_iterated(problem, state, _EASIER if rough else _TRIAL, rough=rough))
+            found.append(_iterated(problem, state, _EASIER if rough else _TRIAL, patient=not rough, rough=rough))
         except BrakechainError as error:
             reasons.append(str(error))
     return sorted(found, key=lambda f: f.objective)
@@ -265,16 +265,17 @@ def _jacobians(problem, noises, hypothesis, latent, residuals, runs, first=0, wi
     return jacobians, len(columns)
 
 
-def continued(problem, state, iterations=ITERATIONS, enough=np.inf):
+def continued(problem, state, iterations=ITERATIONS, enough=np.inf, patient=True):
     """The Fit after further iterations. Jacobians are updated by the secant (Broyden 1965) as long as that serves.
 
-    A fit is given up, as it is, where its slope promises nothing that would bring its objective down to ``enough``.
+    A fit is given up, as it is, where its slope promises nothing that would bring its objective down to ``enough``, and
+    without ``patient`` where features stay far off.
     """
-    found = _iterated(problem, state, iterations, enough)
+    found = _iterated(problem, state, iterations, enough, patient)
     return found if found.fresh or found.objective > enough else _refreshed(problem, found)
 
 
-def _iterated(problem, state, iterations, enough=np.inf, rough=False):
+def _iterated(problem, state, iterations, enough=np.inf, patient=True, rough=False):
     """The Fit after ``iterations``; where no step helps, differences are taken over wider steps before it ends.
 
     A ``rough`` one stops where updated Jacobians promise no more: its latent values are of use.
@@ -282,7 +283,7 @@ def _iterated(problem, state, iterations, enough=np.inf, rough=False):
     damping, growth, width, before = 1e-3, 2.0, DIFFERENCE, []
     for _ in range(iterations):
         before.append(state.objective)
-        if _crawls(state, before):
+        if not patient and _crawls(state, before):
             break
         gradient, hessian = _slopes(state)
         expected, scale = gradient @ np.linalg.solve(hessian, gradient), _scale(state)
@@ -313,10 +314,13 @@ def _crawls(state, before):
 
 
 def _slopes(state):
-    """Gradient (k,), 0 along bounds that hold, and Gauss-Newton's Hessian (k, k) of half the objective."""
+    """Gradient (k,) and Gauss-Newton's Hessian (k, k) of half the objective; bounds that hold do not take part."""
     gradient = sum(j.T @ r for j, r in zip(state.jacobians, state.residuals, strict=True)) - state.latent
-    gradient[(np.abs(state.latent) >= LATENT_LIMIT) & (gradient * state.latent > 0)] = 0.0
-    return gradient, _information(state.jacobians) + np.eye(len(state.latent))
+    hessian = _information(state.jacobians) + np.eye(len(state.latent))
+    held = (np.abs(state.latent) >= LATENT_LIMIT) & (gradient * state.latent > 0)
+    gradient[held] = hessian[held] = hessian[:, held] = 0.0
+    hessian[held, held] = 1.0
+    return gradient, hessian
 
 
 def _refreshed(problem, state, width=DIFFERENCE):
