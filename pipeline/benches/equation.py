@@ -37,6 +37,13 @@ class Balance:
         left = forces_missing(bench, self.run, self._motion(bench))
         return self.seen.samples + thinned(left, self.equation.decimation, self.equation.trim)
 
+    def left(self, bench):
+        """(forces in N, displacements in m, velocities in m/s), each (n, m): forces missing on the coordinates."""
+        motion = self._motion(bench)
+        speed = np.gradient(motion, 1 / self.run.sample_rate, axis=1, edge_order=2)
+        return tuple(thinned(values, self.equation.decimation, self.equation.trim)
+                     for values in (forces_missing(bench, self.run, motion), motion, speed))
+
     def _motion(self, bench):
         """Filtered displacements (n, samples), kept for benches that read their channels alike."""
         key = (bench.channels, bench.model.size)

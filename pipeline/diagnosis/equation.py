@@ -6,9 +6,11 @@ every coordinate.
 
 from dataclasses import dataclass
 
-from pipeline.benches.equation import balance, begun
+from pipeline.benches.equation import balance, begun, channel_names
 from pipeline.contract.units import to_si
+from pipeline.diagnosis.balance_latent import BalanceAxes, DescribeBalance
 from pipeline.diagnosis.forced import check_names, chosen, nominal_parameters
+from pipeline.diagnosis.location import Axes
 from pipeline.diagnosis.question import Question, nominal
 from pipeline.diagnosis.simulation import candidates, completed, observed, reach
 from pipeline.inference.noise import budget
@@ -42,4 +44,6 @@ def question(bench, recorded, settings, equation):
     trained = [begun(bench, recorded[o.name]) for o in problem.training]
     found = candidates(bench, tuple(one.run for one in trained), chosen(settings), settings.places,
                        reach(bench, trained))
-    return Question(problem, budget(problem, above=settings.noise.above), found, units)
+    noises = budget(problem, above=settings.noise.above)
+    return Question(problem, noises, found, units, axes=BalanceAxes(channel_names(bench), Axes(problem, noises)),
+                    describe=DescribeBalance(bench, balances, problem, noises))

@@ -5,7 +5,7 @@ from pipeline.benches.effect_block import parameters
 from pipeline.contract import ConfigError
 from pipeline.contract.units import to_si
 from pipeline.diagnosis.latent import Describe
-from pipeline.diagnosis.location import Axes
+from pipeline.diagnosis.location import Axes, ForcedAxes
 from pipeline.diagnosis.next_run import feasible
 from pipeline.diagnosis.question import Question, nominal
 from pipeline.diagnosis.settings import parameter
@@ -38,7 +38,7 @@ def question(bench, recorded, settings):
     noises = budget(problem, above=settings.noise.above)
     return Question(problem, noises | {f.run.name: noises[trained[0].run.name] for f in after},
                     (*found, *([solver_candidate()] if settings.solver else [])), shown,
-                    axes=Axes(bench, runs, problem, noises, seed=settings.seed),
+                    axes=ForcedAxes(bench, runs, Axes(problem, noises, seed=settings.seed)),
                     describe=Describe(bench, runs, problem, noises, seed=settings.seed),
                     next_runs=tuple(f.observed for f in after))
 

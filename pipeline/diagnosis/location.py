@@ -35,13 +35,11 @@ _ORDERS = 3
 
 @dataclass(frozen=True)
 class Axes:
-    """Axes of a Question over ``runs`` {name: Run} of a Bench: called with the inference's Diagnosis.
+    """Axes of a Question that its residuals alone tell: called with the inference's Diagnosis.
 
     Returns {axis: (Location, unit of its bins or "", edges (n, 2) or None)}.
     """
 
-    bench: object
-    runs: dict
     problem: object
     budget: dict
     level: float = 1 + Rules.noise_uncertainty
@@ -49,14 +47,28 @@ class Axes:
     seed: int = 0
 
     def __call__(self, found):
-        null, own = (found.base or found).null, {"draws": self.draws, "seed": self.seed}
-        whites = residuals(self.problem, self.budget, null)
+        own = {"draws": self.draws, "seed": self.seed}
+        whites = residuals(self.problem, self.budget, (found.base or found).null)
         axes = {"stage": (stage_axis(found), "", None), "run": (run_axis(whites, self.budget, self.level, **own), "",
                                                                 None)}
-        if place := place_axis(fitted(self.bench, null), self.runs, null, (found.base or found).weights, **own):
-            axes["place"] = (place, "", None)
         if band := band_axis(self.problem.runs, whites, self.budget, self.level, **own):
             axes["band"] = band
+        return axes
+
+
+@dataclass(frozen=True)
+class ForcedAxes:
+    """``Axes`` and the place, over ``runs`` {name: Run} of a Bench."""
+
+    bench: object
+    runs: dict
+    residual: Axes
+
+    def __call__(self, found):
+        first, own = found.base or found, {"draws": self.residual.draws, "seed": self.residual.seed}
+        axes = self.residual(found)
+        if place := place_axis(fitted(self.bench, first.null), self.runs, first.null, first.weights, **own):
+            axes["place"] = (place, "", None)
         return axes
 
 
@@ -102,14 +114,29 @@ def stage_axis(found, names=(*STAGES, "numerics")):
 
 def run_axis(whites, budget, level=1.0, draws=2000, seed=0):
     """Location over runs by the mean square of their whitened residuals; null: noise of power ``level``."""
-    names = tuple(whites)
-    count = np.array([len(whites[n]) for n in names])
-    power = np.array([np.mean(whites[n] ** 2) for n in names])
-    real = np.array([len(whites[n]) * effective_share(budget[n], whites[n]) for n in names])
+    return _power_axis({name: [(white, effective_share(budget[name], white))] for name, white in whites.items()},
+                       level, draws, seed)
+
+
+def channel_axis(names, whites, budget, level=1.0, draws=2000, seed=0):
+    """Location over the channels ``names`` that all runs have, by the same measure as over runs."""
+    parts = {name: [] for name in names}
+    for run, white in whites.items():
+        share = effective_share(budget[run], white)
+        for name, part in zip(names, budget[run].by_channel(white), strict=True):
+            parts[name].append((part, share))
+    return _power_axis(parts, level, draws, seed)
+
+
+def _power_axis(parts, level, draws, seed):
+    """Location over the names of {name: [(whitened residual (m,), share of it that is effective)]}."""
+    power = np.array([np.mean(np.concatenate([white for white, _ in own]) ** 2) for own in parts.values()])
+    count = np.array([sum(len(white) for white, _ in own) for own in parts.values()])
+    real = np.array([sum(len(white) * share for white, share in own) for own in parts.values()])
     random = np.random.default_rng(seed)
-    null = (random.gamma(count / 2, 2 / count, (draws, len(names))) - 1) * np.sqrt(count / 2)
-    again = power * random.gamma(real / 2, 2 / real, (draws, len(names)))
-    return locate.against_null(names, (power / level - 1) * np.sqrt(count / 2), null, again)
+    null = (random.gamma(count / 2, 2 / count, (draws, len(count))) - 1) * np.sqrt(count / 2)
+    again = power * random.gamma(real / 2, 2 / real, (draws, len(count)))
+    return locate.against_null(tuple(parts), (power / level - 1) * np.sqrt(count / 2), null, again)
 
 
 def band_axis(runs, whites, budget, level=1.0, draws=2000, seed=0):

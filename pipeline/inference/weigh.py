@@ -30,13 +30,18 @@ def held_out_gains(problem, budget, null, fits, share):
             gains[i] = gain(noises, reference, held_out_residuals(problem, noises, fit, runs))
         except BrakechainError:
             gains[i] = gain(noises, reference, reference)
-    return {i: (gains[i], _beats_decoy(i, fits, gains, share)) for i in fits}
+    return {i: (gains[i], _beats_decoy(i, null, fits, gains, share)) for i in fits}
 
 
-def _beats_decoy(index, fits, gains, share):
-    """Against the best candidate of as many parameters that is out of the question (posterior below 5 %)."""
+def _beats_decoy(index, null, fits, gains, share):
+    """Against the best candidate of as many parameters that is out of the question.
+
+    That is: posterior below 5 %, and less than half of what this candidate explains; another name for nearly the same
+    force is a rival, no decoy.
+    """
+    explained = {i: null.chi_square.sum() - fit.chi_square.sum() for i, fit in fits.items()}
     decoys = [i for i, fit in fits.items() if i != index and share[i] < 0.05
-              and len(fit.latent) == len(fits[index].latent)]
+              and explained[i] < 0.5 * explained[index] and len(fit.latent) == len(fits[index].latent)]
     if not decoys:
         return None
     return bool(gains[index].value > gains[max(decoys, key=lambda i: share[i])].value)

@@ -36,3 +36,21 @@ def test_the_noise_is_that_of_the_forces():
     assert found.units == {"force on block": "N"} and found.budget["level_1"].std == pytest.approx([0.2])
     with pytest.raises(ConfigError, match="noise.std"):
         asked(noise={"std": {"x": "0.2 mm"}})
+
+
+def test_the_place_and_the_size_of_the_missing_force_are_told():
+    given = asked(HIDDEN)
+    found = diagnose(given.problem, given.budget, given.candidates)
+    axes = given.axes(found)
+    assert axes["place"][0].significant() == ("block",) and {"stage", "run", "band"} <= set(axes)
+    told = given.describe(found, axes)
+    assert told.place == "block" and {"amplitude", "velocity", "time"} <= set(told.regimes)
+    follows = {f.name: f.p_value for f, _ in told.follows}
+    assert follows["displacement"] <= 0.01, "a cubic spring follows the displacement"
+
+
+def test_where_nothing_is_missing_no_place_is_told_and_no_force():
+    given = asked(effects=["cubic_stiffness", "coulomb"])
+    found = diagnose(given.problem, given.budget, given.candidates)
+    axes = given.axes(found)
+    assert not axes["place"][0].significant() and given.describe(found, axes) is None

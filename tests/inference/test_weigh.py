@@ -94,3 +94,15 @@ def test_what_has_no_optimum_is_compared_only_by_far():
     assert any("recalibration" in told for told in doubted.doubts) and not seen(whole, catalogue, found, 1).doubts
     far = replace(null, residuals=tuple(10 * r for r in null.residuals))
     assert not seen(whole, catalogue, [far, *found[1:]], 1).doubts
+
+
+def test_another_name_for_nearly_the_same_force_is_no_decoy():
+    whole, noise, catalogue, tables = linear.problem((2, 1, 1), runs=4, held_out=1, truth={"effect_1_0": 0.6})
+    for table in tables.values():
+        table["effect_2_0"] = 0.999 * table["effect_1_0"]
+    noises = tuple(noise[r.name] for r in whole.training)
+    null = fit(whole, noises, whole.nominal, np.zeros(2), whole.training)
+    fits = {k: fit(whole, noises, whole.nominal.joined(c), np.zeros(3), whole.training)
+            for k, c in enumerate(catalogue)}
+    gains = held_out_gains(whole, noise, null, fits, np.array([0.99, 0.01]))
+    assert gains[0][1] is None and gains[0][0].errors > 3
