@@ -28,9 +28,16 @@ _LEAST = 0.1
 _TRIAL = 3
 #: so many times the decrease of the objective that its slope promises may a fit still come down
 _HOPE = 10.0
-#: shares of the runs that are fitted first where the residual is beyond _FAR noise powers: over a short horizon the
+#: iterations of an easier problem on the way
+_EASIER = 8
+#: shares of the runs that are fitted first where the residual is beyond FAR noise powers: over a short horizon the
 #: phase of a nonlinear motion cannot slip, so that the optimum is reached from far away
-_HORIZONS, _FAR, _FEWEST = (0.08, 0.3), 100.0, 32
+_HORIZONS, FAR, _FEWEST = (0.08, 0.3), 100.0, 32
+#: standard deviations, as multiples of the true ones, with which features are fitted first where they are that far off:
+#: then priors hold what few features tell, and each is paired with what it belongs to before it counts in full
+_LOOSE = (30.0, 6.0)
+#: share of the objective that is left after so many iterations where a fit crawls
+_CRAWLING, _PATIENCE = 0.7, 8
 #: share of the promised decrease below which an updated Jacobian is replaced by differences
 _TRUSTED = 0.25
 
@@ -82,6 +89,16 @@ class Fit:
         return {name: 0.5 * (high[name] - low[name]) for name in low}
 
 
+def of_features(noises):
+    """Whether what is fitted has no order in time."""
+    return not all(noise.ordered for noise in noises)
+
+
+def far(state):
+    """Whether a Fit leaves far more than noise."""
+    return bool(state.chi_square.sum() > FAR * state.counts.sum())
+
+
 def whitened(problem, noises, hypothesis, latent, runs):
     """Whitened residuals [(m_r,)] at ``latent``; None where the forward model cannot, with its error."""
     values, residuals = hypothesis.values(latent), []
@@ -131,7 +148,7 @@ def calibrate(problem, noises, hypothesis, starts, runs, settled=True):
     """
     reasons = []
     for state in _begun(problem, noises, hypothesis, starts, runs, reasons):
-        found = state if state.converged else continued(problem, state)
+        found = state if state.converged else continued(problem, state, patient=settled)
         if found.converged or not settled:
             return found
         reasons.append(f"not converged after {found.evaluations} predictions")
@@ -161,29 +178,40 @@ def _begun(problem, noises, hypothesis, starts, runs, reasons, known=()):
     return _tried(problem, noises, hypothesis, near, runs, reasons, known)
 
 
-def _tried(problem, noises, hypothesis, starts, runs, reasons, known=()):
+def _tried(problem, noises, hypothesis, starts, runs, reasons, known=(), rough=False):
     found = []
     for start in starts:
         try:
             state = linearised(problem, noises, hypothesis, start, runs, known)
-            found.append(_iterated(problem, state, _TRIAL, np.inf))
+            found.append(_iterated(problem, state, _EASIER if rough else _TRIAL, patient=not rough, rough=rough))
         except BrakechainError as error:
             reasons.append(str(error))
     return sorted(found, key=lambda f: f.objective)
 
 
 def _approached(problem, noises, hypothesis, starts, runs, reasons):
-    """Where fits begin: ``starts``, or, where all are far off, the nearest and where fits over rising horizons end."""
+    """Where fits begin: ``starts``, or, where all are far off, the nearest and where fits to less end: over rising
+    horizons, or, of features, under falling standard deviations."""
     sizes = [_mean_square(whitened(problem, noises, hypothesis, start, runs)[0]) for start in starts]
-    if not all(noise.ordered for noise in noises) or min(sizes) < _FAR:
+    if min(sizes) < FAR:
         return starts
     ahead = starts
-    for share in _HORIZONS:
-        kept = [noise.horizon(share, _FEWEST) for noise in noises]
-        found = _tried(problem, [noise.until(n) for noise, n in zip(noises, kept, strict=True)], hypothesis, ahead,
-                       [run.until(n) for run, n in zip(runs, kept, strict=True)], reasons)
+    for noise, run in _easier(noises, runs):
+        found = _tried(problem, noise, hypothesis, ahead, run, reasons, rough=True)
         ahead = [found[0].latent] if found else []
     return [*ahead, starts[int(np.argmin(sizes))]]
+
+
+def _easier(noises, runs):
+    """(noises, runs) of problems on the way to this one."""
+    if of_features(noises):
+        for factor in _LOOSE:
+            yield [replace(noise, filter=noise.filter / factor) for noise in noises], runs
+        return
+    for share in _HORIZONS:
+        kept = [noise.horizon(share, _FEWEST) for noise in noises]
+        yield ([noise.until(n) for noise, n in zip(noises, kept, strict=True)],
+               [run.until(n) for run, n in zip(runs, kept, strict=True)])
 
 
 def _mean_square(residuals):
@@ -237,26 +265,33 @@ def _jacobians(problem, noises, hypothesis, latent, residuals, runs, first=0, wi
     return jacobians, len(columns)
 
 
-def continued(problem, state, iterations=ITERATIONS, enough=np.inf):
+def continued(problem, state, iterations=ITERATIONS, enough=np.inf, patient=True):
     """The Fit after further iterations. Jacobians are updated by the secant (Broyden 1965) as long as that serves.
 
-    A fit is given up, as it is, where its slope promises nothing that would bring its objective down to ``enough``.
+    A fit is given up, as it is, where its slope promises nothing that would bring its objective down to ``enough``, and
+    without ``patient`` where features stay far off.
     """
-    found = _iterated(problem, state, iterations, enough)
+    found = _iterated(problem, state, iterations, enough, patient)
     return found if found.fresh or found.objective > enough else _refreshed(problem, found)
 
 
-def _iterated(problem, state, iterations, enough):
-    """The Fit after ``iterations``; where no step helps, differences are taken over wider steps before it ends."""
-    damping, growth, width = 1e-3, 2.0, DIFFERENCE
+def _iterated(problem, state, iterations, enough=np.inf, patient=True, rough=False):
+    """The Fit after ``iterations``; where no step helps, differences are taken over wider steps before it ends.
+
+    A ``rough`` one stops where updated Jacobians promise no more: its latent values are of use.
+    """
+    damping, growth, width, before = 1e-3, 2.0, DIFFERENCE, []
     for _ in range(iterations):
+        before.append(state.objective)
+        if not patient and _crawls(state, before):
+            break
         gradient, hessian = _slopes(state)
         expected, scale = gradient @ np.linalg.solve(hessian, gradient), _scale(state)
         if state.objective - _HOPE * expected > enough:
             break
         if expected < TOLERANCE * scale:
-            if state.fresh:
-                return replace(state, converged=True)
+            if rough or state.fresh:
+                return replace(state, converged=not rough)
             state = _refreshed(problem, state)
             continue
         moved, damping, growth = _step(problem, state, gradient, hessian, damping, growth)
@@ -272,11 +307,20 @@ def _iterated(problem, state, iterations, enough):
     return state
 
 
+def _crawls(state, before):
+    """Whether features that are far off have stayed so: their hypothesis has no use for more iterations."""
+    return (of_features(state.noises) and far(state) and len(before) > _PATIENCE
+            and before[-1] > _CRAWLING * before[-1 - _PATIENCE])
+
+
 def _slopes(state):
-    """Gradient (k,), 0 along bounds that hold, and Gauss-Newton's Hessian (k, k) of half the objective."""
+    """Gradient (k,) and Gauss-Newton's Hessian (k, k) of half the objective; bounds that hold do not take part."""
     gradient = sum(j.T @ r for j, r in zip(state.jacobians, state.residuals, strict=True)) - state.latent
-    gradient[(np.abs(state.latent) >= LATENT_LIMIT) & (gradient * state.latent > 0)] = 0.0
-    return gradient, _information(state.jacobians) + np.eye(len(state.latent))
+    hessian = _information(state.jacobians) + np.eye(len(state.latent))
+    held = (np.abs(state.latent) >= LATENT_LIMIT) & (gradient * state.latent > 0)
+    gradient[held] = hessian[held] = hessian[:, held] = 0.0
+    hessian[held, held] = 1.0
+    return gradient, hessian
 
 
 def _refreshed(problem, state, width=DIFFERENCE):

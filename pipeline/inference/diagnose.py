@@ -11,7 +11,7 @@ import numpy as np
 
 from pipeline.contract.errors import BrakechainError, ConvergenceError
 from pipeline.inference import decide as rulebook
-from pipeline.inference.calibrate import begun, calibrate, continued, fit
+from pipeline.inference.calibrate import begun, calibrate, continued, far, fit, of_features
 from pipeline.inference.drift import drift
 from pipeline.inference.effective import tempering
 from pipeline.inference.evidence import cautious_prior, evidence, posterior, reached, screened
@@ -23,6 +23,8 @@ _GIVEN_UP = 16
 #: mean square of whitened residuals at which a candidate reaches the noise; others are then given up that will not come
 #: within so many units of log evidence of it
 _REACHED, _NEAR = 1.5, 50.0
+#: where the linearisation of the null holds, scores that chance reaches more often than this are not looked into
+_LIKELY = 0.5
 
 
 @dataclass(frozen=True)
@@ -105,8 +107,8 @@ def _one_step(problem, budget, catalogue, settings, fan_out, start=None, base=No
     null = calibrate(problem, noises, hypothesis, [first], runs, settled=False)
     found = list(fan_out(partial(directions, problem, null), catalogue))
     rough = screen(null, found, None, settings.draws, settings.seed)
-    kept = [i for i in rough.order()[:settings.kept] if np.isfinite(rough.score[i])
-            and (base is None or rough.p_value[i] <= settings.rules.p_value)]
+    largest = _hopeful(null, settings.rules) if base is None else settings.rules.p_value
+    kept = [i for i in rough.order()[:settings.kept] if np.isfinite(rough.score[i]) and rough.p_value[i] <= largest]
 
     def refit(chosen, before):
         begin = partial(_begun, problem, noises, null, settings.starts)
@@ -131,13 +133,26 @@ def _one_step(problem, budget, catalogue, settings, fan_out, start=None, base=No
     return _weighed(problem, budget, null, found, fits, failures, settings, base)
 
 
+def _hopeful(null, rules):
+    """Largest p-value of the screen at which a first effect is refitted: any, where the null's linearisation may fail.
+
+    It holds where the null reaches the noise; of features, which are few and far from linear only where they are
+    paired anew, wherever the null has an optimum.
+    """
+    reached = null.chi_square.sum() <= (1 + rules.noise_uncertainty) * null.counts.sum()
+    return _LIKELY if reached or (of_features(null.noises) and null.converged) else 1.0
+
+
 def _begun(problem, noises, null, offsets, item):
     """(Fit of a candidate after a few iterations or None, why there is none)."""
     candidate, screened_start = item
     begins = [screened_start] + [np.full(len(candidate.parameters), offset) for offset in offsets]
-    starts = [np.concatenate((null.latent, np.clip(begin, -2, 2))) for begin in begins]
+    misled = of_features(noises) and far(null)      # by pairing features with what they do not belong to
+    base = problem.nominal.nominal if misled else null.latent
+    starts = [np.concatenate((base, np.clip(begin, -2, 2))) for begin in begins]
+    known = () if misled else null.jacobians
     try:
-        return begun(problem, noises, problem.nominal.joined(candidate), starts, null.runs, null.jacobians), ""
+        return begun(problem, noises, problem.nominal.joined(candidate), starts, null.runs, known), ""
     except BrakechainError as error:
         return None, str(error)
 
@@ -153,7 +168,7 @@ def _enough(results):
 
 def _finished(problem, null, enough, state):
     """(Fit of a candidate, a better Fit of the null from its optimum or None, what went wrong)."""
-    best = state if state.converged else continued(problem, state, enough=enough)
+    best = state if state.converged else continued(problem, state, enough=enough, patient=False)
     if not best.converged and best.objective > enough:
         return best, None, "its fit was given up, far from what others reach"
     told = "" if best.converged else f"its fit had not converged after {best.evaluations} predictions"
@@ -170,7 +185,7 @@ def _null_again(problem, null, best):
         return None
     if again.objective >= null.objective:
         return None
-    return again if again.converged else continued(problem, again)
+    return again if again.converged else continued(problem, again, patient=False)
 
 
 def _overlooked(null, found, results, settings):

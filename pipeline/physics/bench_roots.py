@@ -42,10 +42,11 @@ class SmallMotion:
         """State matrix (2 n + k, 2 n + k) of (q, q', z)."""
         beside = self.settling
         size, states = beside.push.shape
-        return np.block([[np.zeros((size, size)), np.eye(size), np.zeros((size, states))],
-                         [-np.linalg.solve(self.mass, self.stiffness), -np.linalg.solve(self.mass, self.damping),
-                          np.linalg.solve(self.mass, beside.push)],
-                         [beside.by_place, beside.by_speed, -np.diag(beside.decay)]])
+        whole = np.zeros((2 * size + states,) * 2)
+        whole[:size, size:2 * size] = np.eye(size)
+        whole[size:2 * size] = np.linalg.solve(self.mass, np.hstack((-self.stiffness, -self.damping, beside.push)))
+        whole[2 * size:] = np.hstack((beside.by_place, beside.by_speed, -np.diag(beside.decay)))
+        return whole
 
 
 def roots(bench, run):

@@ -13,7 +13,6 @@ from pipeline.contract.errors import ConfigError
 from pipeline.physics.contact_groups import parts
 from pipeline.physics.element_forces import DRY, element_force, turn
 from pipeline.physics.elements import Maxwell, alone
-from pipeline.physics.friction_law import friction_at
 from pipeline.physics.friction_state_steps import MEMORY, PLATEAUS, SETTLING, factor_slope, rate_slopes
 from pipeline.physics.friction_states import factors, started, state_kernel
 from pipeline.physics.sliding_model import FrictionState
@@ -60,7 +59,9 @@ def _read(friction, speed, pressure, factor):
     for law, own in parts(friction, len(speed)):
         for i in own:
             turned = law.backward if speed[i] < 0 else 1.0
-            found[:, i] = turned * np.array(friction_at(pressure[i], abs(speed[i]), law.distance, *law.law.table)[:3])
+            state = pressure[i], abs(speed[i]), law.distance
+            found[:, i] = turned * np.array([law.law.evaluate(*state)[0], *(law.law.slope(axis, *state)
+                                                                            for axis in ("pressure", "speed"))])
     return FrictionState(*(factor * found))
 
 
