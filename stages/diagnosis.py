@@ -80,7 +80,7 @@ def _answered(asked, settings, context):
     context.log(f"{len(asked.candidates)} hypotheses over {len(asked.problem.training)} runs,"
                 f" {len(asked.problem.held_out)} held out")
     found = course.diagnose(asked.problem, asked.budget, asked.candidates, course.Settings(
-        kept=settings.kept, draws=settings.draws, seed=settings.seed, rules=asked.rules), context.map)
+        settings.kept, asked.starts, settings.draws, settings.seed, asked.rules), context.map)
     return answer(asked, found)
 
 

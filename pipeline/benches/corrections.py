@@ -5,9 +5,11 @@
     bodies.NAME.mass       1 (factor)   friction            1 (factor)
     bodies.NAME.stiffness  1 (factor)   contact.stiffness   1 (factor)     contact.damping  N s/m
     bodies.NAME.frequency  1 (factor)   friction.stiffness  1 (factor)     bodies.NAME.damping  1 (factor)
+    bodies.NAME.modal_mass 1 (factor)
 
 Factors are of the given model; ``frequency`` is that of all modes of a body held by the joints that touch nothing else,
-at the same mass, and ``damping`` of body and those joints; ``friction.stiffness`` that of a contact before it slides.
+at the same mass, and ``damping`` of body and those joints; ``modal_mass`` is of mass, damping and stiffness of body and
+those joints, which keep their frequencies; ``friction.stiffness`` is that of a contact before it slides.
 Bodies of one coordinate also have masses.NAME in kg.
 """
 
@@ -34,7 +36,8 @@ def known(bench):
     for name in model.joints.name:
         found |= {f"joints.{name}.stiffness": "N/m", f"joints.{name}.damping": "N s/m"}
     for index, name in enumerate(model.body_name):
-        found |= {f"bodies.{name}.{what}": "1" for what in ("mass", "stiffness", "frequency", "damping")}
+        found |= {f"bodies.{name}.{what}": "1" for what in ("mass", "stiffness", "frequency", "damping",
+                                                          "modal_mass")}
         if np.sum(model.coordinate_body == index) == 1:
             found[f"masses.{name}"] = "kg"
     for name in model.input_name:
@@ -106,20 +109,25 @@ def _mass(bench, own, what, value):
 def _body(bench, own, what, factor):
     """Rows and columns of one body times the factor: its own block exactly."""
     own_coordinates = bench.model.coordinate_body == bench.model.body_name.index(own)
-    if what in ("frequency", "damping"):
-        return _held_body(bench, own_coordinates, what, factor)
+    if what == "frequency":
+        return _held_body(bench, own_coordinates, {"stiffness": factor**2})
+    if what == "damping":
+        return _held_body(bench, own_coordinates, {"damping": factor})
+    if what == "modal_mass":
+        return _held_body(bench, own_coordinates, dict.fromkeys(("mass", "damping", "stiffness"), factor))
     root = np.where(own_coordinates, np.sqrt(factor), 1.0)
     return _with_model(bench, **{what: getattr(bench.model, what) * np.outer(root, root)})
 
 
-def _held_body(bench, own_coordinates, what, factor):
-    """One body and the joints that touch nothing else: stiffness times the factor squared, or damping times it."""
-    changed, factor = ("stiffness", factor**2) if what == "frequency" else ("damping", factor)
-    joints, root = bench.model.joints, np.where(own_coordinates, np.sqrt(factor), 1.0)
+def _held_body(bench, own_coordinates, factors):
+    """One body and the joints that touch nothing else: what ``factors`` {mass, damping or stiffness: factor} tell."""
+    model, joints = bench.model, bench.model.joints
     alone = joints.rows[:, own_coordinates].any(axis=1) & ~joints.rows[:, ~own_coordinates].any(axis=1)
-    values = getattr(joints, changed) * np.where(alone, factor, 1.0)
-    return _with_model(bench, joints=replace(joints, **{changed: values}),
-                       **{changed: getattr(bench.model, changed) * np.outer(root, root)})
+    held = {what: getattr(joints, what) * np.where(alone, factor, 1.0) for what, factor in factors.items()
+            if what != "mass"}
+    own = {what: getattr(model, what) * np.outer(root, root) for what, root in (
+        (what, np.where(own_coordinates, np.sqrt(factor), 1.0)) for what, factor in factors.items())}
+    return _with_model(bench, joints=replace(joints, **held), **own)
 
 
 def _input(bench, own, what, value):

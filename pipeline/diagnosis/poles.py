@@ -13,12 +13,16 @@ from scipy.optimize import linear_sum_assignment
 from pipeline.contract import ConfigError
 from pipeline.inference.problem import Observed
 from pipeline.physics.bench_modes import modes, motions, order_locked
-from pipeline.physics.free_decay import Poles, before_saturation, confirmed, likeness, poles, pooled
+from pipeline.physics.free_decay import Poles, before_saturation, confirmed, fundamental, likeness, poles
 
 #: orders of the drive that slow turns are read for
 ORDERS = (1, 2, 3)
 #: how far a predicted root may lie from a seen one, as a share of it, before it costs as much as another shape
 _NEAR = 0.03
+#: how far a root may be from a peak, as a share of it, before the distance counts less and less
+_REACH = 0.1
+#: poles closer than this share of 1 / length of a record show as one that lies anywhere between
+_UNRESOLVED = 0.05
 #: standard deviations that no sensor beats: of a logarithmic gain, and of a delay in s
 _GAIN, _DELAY = 0.005, 1e-6
 #: powers of the root that turn a quantity into a velocity
@@ -40,7 +44,7 @@ def features(bench, recorded, settings):
 
     Raises ConfigError where a run of free vibration has no repeat.
     """
-    found, misfit = {}, []
+    found = {}
     for name, one in recorded.items():
         if one.repeat_of:
             continue
@@ -51,12 +55,9 @@ def features(bench, recorded, settings):
         if not again:
             raise ConfigError(f"run {name}", "a repeat: poles count where two records show them", "none",
                               "record it twice and set repeat_of")
-        seen, apart = confirmed(_poles(bench, one, settings), _poles(bench, again[0], settings))
-        misfit.extend(apart**2 / 2)
-        found[name] = Features(one.run, seen, {}, {})
-    factor = np.sqrt(max(1.0, np.mean(misfit))) if misfit else 1.0
-    return {name: one if one.seen is None else _told(bench, replace(one, seen=pooled(one.seen, factor)), settings)
-            for name, one in found.items()}
+        seen = confirmed(_poles(bench, one, settings), _poles(bench, again[0], settings))
+        found[name] = _told(bench, Features(one.run, fundamental(seen), {}, {}), settings)
+    return found
 
 
 def _poles(bench, one, settings):
@@ -66,7 +67,8 @@ def _poles(bench, one, settings):
     count = before_saturation(samples, one.run.sample_rate, settings.saturation)
     told = poles(samples, one.run.sample_rate, settings.low, settings.high, count)
     power = np.array([_POWER[c.quantity] for c in seen])
-    return replace(told, shape=told.shape * told.root[:, None] ** power)
+    merged = _UNRESOLVED * 2 * np.pi * one.run.sample_rate / min(count, samples.shape[1])
+    return replace(told, shape=told.shape * told.root[:, None] ** power, std=np.hypot(told.std, merged))
 
 
 def _told(bench, one, settings):
@@ -125,8 +127,8 @@ def predicted(bench, one, channels):
     values = {}
     if one.seen is not None:
         root, shape = modes(bench, one.run)
-        for k, index in enumerate(assigned(one.seen, root, shape), 1):
-            values |= dict(zip(_named(k), (root[index].imag / (2 * np.pi), root[index].real), strict=True))
+        for k, near in enumerate(nearer(one.seen.root, root[assigned(one.seen, root, shape)]), 1):
+            values |= dict(zip(_named(k), (near.imag / (2 * np.pi), near.real), strict=True))
         told = motions(bench)
         for (first, second), (gain, delay) in _pairs(bench).items():
             values[gain] = np.log(abs(told[second].gain / told[first].gain))
@@ -146,6 +148,15 @@ def assigned(seen, root, shape):
                           "narrow bench.poles to the band of the model")
     apart = abs(np.subtract.outer(seen.root, root)) / (_NEAR * abs(seen.root))[:, None]
     return linear_sum_assignment(apart + 1 - likeness(seen.shape, shape))[1]
+
+
+def nearer(seen, root):
+    """Roots (p,) drawn towards those ``seen``: as they are where close, never farther than _REACH of one.
+
+    A peak that the model does not have is far from any root; how far says nothing.
+    """
+    apart = root - seen
+    return seen + apart / np.sqrt(1 + abs(apart / (_REACH * seen)) ** 2)
 
 
 def _pairs(bench):

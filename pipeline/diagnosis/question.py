@@ -3,6 +3,7 @@
 from collections.abc import Callable
 from dataclasses import dataclass
 
+from pipeline.inference import diagnose as course
 from pipeline.inference.decide import Rules
 from pipeline.inference.problem import Hypothesis, Problem
 
@@ -22,7 +23,8 @@ class Question:
     ``units`` {channel: SI unit}; ``axes(diagnosis)`` -> {axis: (Location, unit, edges)} tells where the mismatch lies,
     ``describe(diagnosis, axes)`` -> Description or None what force is missing there, whatever its physics;
     ``next_runs`` (Observed, whose samples do not count): what could be recorded next, named by what is changed, each
-    with its budget.
+    with its budget;
+    ``starts``: latent values of effects where fits begin, beside those of the screen.
     """
 
     problem: Problem
@@ -33,6 +35,7 @@ class Question:
     axes: Callable = _nowhere
     describe: Callable = _nothing
     next_runs: tuple = ()
+    starts: tuple = course.Settings.starts
 
 
 def parameter_name(effect, place, parameter):

@@ -46,4 +46,5 @@ def question(bench, recorded, settings, band):
     problem = Problem(told, Rooted(bench, seen), nominal(nominal_parameters(bench, settings)))
     brief = tuple(replace(seen[o.name].run, duration=_GLIMPSE, sample_rate=max(1 / bench.step, 2 / _GLIMPSE), inputs={},
                           drive=None) for o in problem.training)
-    return Question(problem, budget(problem), candidates(bench, brief, chosen(settings), settings.places), units, RULES)
+    return Question(problem, budget(problem), candidates(
+        bench, brief, chosen(settings), settings.places, priors=settings.priors), units, RULES, starts=())

@@ -10,14 +10,14 @@ import numpy as np
 
 from pipeline.contract.errors import ConfigError
 from pipeline.effects.effect import Effect
-from pipeline.inference.priors import HalfNormal, Parameter
+from pipeline.inference.priors import HalfNormal, LogNormal, Parameter
 from pipeline.physics.time_stepping import Penalty, Table
 
 
 def parameters(typical):
     size = 0.5 * typical.force / max(typical.stiffness * typical.length, typical.force) / typical.speed
     return (Parameter("loss", "s/m", size, HalfNormal(2 * size), null=0.0),
-            Parameter("length", "m", typical.length, HalfNormal(1.5 * typical.length)))
+            Parameter("length", "m", typical.length, LogNormal(typical.length, 0.1)))
 
 
 def apply(bench, place, values):

@@ -27,7 +27,7 @@ def apply(bench, place, values):
     def steeper(law):
         closure, pressure = _table(law, own, area, values["pressure"])
         speed = law.damping_speed if isinstance(law, Table) else np.inf
-        return Table(closure, pressure * (pressure / values["pressure"]) ** values["exponent"], speed, law.gap)
+        return Table(closure, pressure * (pressure / values["pressure"]) ** values["exponent"], speed, law.gap, True)
 
     return bench.with_law(place, steeper)
 

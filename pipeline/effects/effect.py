@@ -26,7 +26,8 @@ class Effect:
     ``parameters(typical)``: its Parameters, with priors of these sizes, whose supports are the bounds of sign and
     passivity; ``apply(bench, place, values)``: the equation; ``source``; ``valid``: "Valid while ..."; ``linear``:
     parameters that the forces are linear in; ``kind``: physics or sensor; ``conditions``: those that runs must tell;
-    ``micro``: whether it acts on a Rubbing too, where every effect whose place are the asperities acts alone.
+    ``micro``: whether it acts on a Rubbing too, where every effect whose place are the asperities acts alone;
+    ``small``: whether small motions about steady sliding see it, and complex modes with them.
     """
 
     name: str
@@ -41,6 +42,7 @@ class Effect:
     kind: str = "physics"
     conditions: tuple = ()
     micro: bool = False
+    small: bool = True
 
     def places(self, model):
         """Names of the places of a Bench or a Rubbing where the effect can be."""

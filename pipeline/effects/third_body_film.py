@@ -32,6 +32,6 @@ def apply(model, place, values):
 
 EFFECT = Effect(
     name="third_body_film", summary="a film of wear particles that adds to friction", place="contact", stage="friction",
-    parameters=parameters, apply=apply, linear=("gain",), micro=True,
+    parameters=parameters, apply=apply, small=False, linear=("gain",), micro=True,
     source="M. Godet, Wear 100 (1984) 437: the third body; its growth with load and way after J. F. Archard (1953)",
     valid="Valid while particles leave the contact as the film slides; roots take friction where a run begins.")

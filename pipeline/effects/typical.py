@@ -12,12 +12,13 @@ from pipeline.physics.time_stepping import Penalty, Table
 
 #: kinds of place that an effect can have; ``contact`` is a group of them, ``contacts`` all together, ``pressed
 #: contact`` a group that can open, which friction joints cannot, ``contact row`` one whose contacts lie one behind the
-#: other along the sliding
+#: other along the sliding, ``sideways contact`` one that can move across it
 JOINT, CONTACT, CONTACTS, POINT, CHANNEL = "joint", "contact", "contacts", "point", "channel"
 PRESSED, CONTACT_ROW, DOUBLET, INPUT = "pressed contact", "contact row", "doublet", "input"
+SIDEWAYS = "sideways contact"
 #: the one place of a Rubbing, and its kind
 ASPERITIES = "asperities"
-_CONTACTS, _SENSOR = (CONTACT, CONTACTS, PRESSED, CONTACT_ROW), "typical"
+_CONTACTS, _SENSOR = (CONTACT, CONTACTS, PRESSED, CONTACT_ROW, SIDEWAYS), "typical"
 
 
 @dataclass(frozen=True)
@@ -64,6 +65,7 @@ def places(kind, bench):
     pressed = tuple(g for g in contact if not model.contacts.fixed[bench.contacts(g)].all())
     return {JOINT: tuple(model.joints.name), CONTACT: contact, CONTACTS: contact[:1], PRESSED: pressed,
             CONTACT_ROW: tuple(g for g in pressed if np.ptp(sliding_angle(model.contacts, bench.contacts(g))) > 0),
+            SIDEWAYS: tuple(g for g in contact if model.contacts.lateral[bench.contacts(g)].any()),
             POINT: tuple(model.sensor_name), INPUT: tuple(model.input_name), DOUBLET: tuple(bench.doublets),
             CHANNEL: tuple(c.name for c in bench.channels)}[kind]
 

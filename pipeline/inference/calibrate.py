@@ -13,8 +13,8 @@ from pipeline.inference.effective import tempering
 from pipeline.inference.priors import LATENT_LIMIT
 
 ITERATIONS = 60
-#: forward-difference step in latent coordinates
-DIFFERENCE = 1e-4
+#: forward-difference step in latent coordinates, and the widest one, which looks beyond kinks of the forward model
+DIFFERENCE, _WIDEST = 1e-4, 1e-2
 #: the expected decrease of the objective at which a fit counts as converged, tempered as the evidence will be
 TOLERANCE = 1e-3
 #: longest step of a latent coordinate in one iteration
@@ -22,11 +22,22 @@ _LONGEST = 1.5
 #: where no step helps (rounding, kinks of the forward model) a fit counts as converged below this: half a posterior
 #: standard deviation from its linearised optimum
 _STALLED = 0.25
+#: share of the tolerance below which the gain of a step is none
+_LEAST = 0.1
 #: iterations from every start before only the best goes on
-_TRIAL = 8
-#: shares of the runs that are fitted first where the residual is beyond _FAR noise powers: over a short horizon the
+_TRIAL = 3
+#: so many times the decrease of the objective that its slope promises may a fit still come down
+_HOPE = 10.0
+#: iterations of an easier problem on the way
+_EASIER = 8
+#: shares of the runs that are fitted first where the residual is beyond FAR noise powers: over a short horizon the
 #: phase of a nonlinear motion cannot slip, so that the optimum is reached from far away
-_HORIZONS, _FAR, _FEWEST = (0.08, 0.3), 100.0, 32
+_HORIZONS, FAR, _FEWEST = (0.08, 0.3), 100.0, 32
+#: standard deviations, as multiples of the true ones, with which features are fitted first where they are that far off:
+#: then priors hold what few features tell, and each is paired with what it belongs to before it counts in full
+_LOOSE = (30.0, 6.0)
+#: share of the objective that is left after so many iterations where a fit crawls
+_CRAWLING, _PATIENCE = 0.7, 8
 #: share of the promised decrease below which an updated Jacobian is replaced by differences
 _TRUSTED = 0.25
 
@@ -78,6 +89,16 @@ class Fit:
         return {name: 0.5 * (high[name] - low[name]) for name in low}
 
 
+def of_features(noises):
+    """Whether what is fitted has no order in time."""
+    return not all(noise.ordered for noise in noises)
+
+
+def far(state):
+    """Whether a Fit leaves far more than noise."""
+    return bool(state.chi_square.sum() > FAR * state.counts.sum())
+
+
 def whitened(problem, noises, hypothesis, latent, runs):
     """Whitened residuals [(m_r,)] at ``latent``; None where the forward model cannot, with its error."""
     values, residuals = hypothesis.values(latent), []
@@ -95,14 +116,20 @@ def whitened(problem, noises, hypothesis, latent, runs):
     return residuals, None
 
 
-def linearised(problem, noises, hypothesis, latent, runs):
-    """Fit without iteration: residuals and Jacobians at ``latent``. Raises what the forward model raises."""
+def linearised(problem, noises, hypothesis, latent, runs, known=()):
+    """Fit without iteration: residuals and Jacobians at ``latent``. Raises what the forward model raises.
+
+    ``known`` [(m_r, i)]: the first columns of the Jacobians, taken as they are.
+    """
     latent = np.asarray(latent, float)
     residuals, error = whitened(problem, noises, hypothesis, latent, runs)
     if error:
         raise error
-    jacobians, count = _jacobians(problem, noises, hypothesis, latent, residuals, runs)
-    return Fit(hypothesis, tuple(runs), tuple(noises), latent, tuple(residuals), jacobians, False, 1 + count)
+    first = known[0].shape[1] if len(known) else 0
+    jacobians, count = _jacobians(problem, noises, hypothesis, latent, residuals, runs, first)
+    if first:
+        jacobians = tuple(np.hstack(both) for both in zip(known, jacobians, strict=True))
+    return Fit(hypothesis, tuple(runs), tuple(noises), latent, tuple(residuals), jacobians, False, 1 + count, not first)
 
 
 def fit(problem, noises, hypothesis, start, runs, iterations=ITERATIONS):
@@ -113,46 +140,78 @@ def fit(problem, noises, hypothesis, start, runs, iterations=ITERATIONS):
     return continued(problem, linearised(problem, noises, hypothesis, start, runs), iterations)
 
 
-def calibrate(problem, noises, hypothesis, starts, runs, settled=True, iterations=ITERATIONS):
+def calibrate(problem, noises, hypothesis, starts, runs, settled=True):
     """The best of several fits. Raises ConvergenceError where none converged, telling what stopped them.
 
     A few iterations are made from each start; then the best goes on, the next best only where it does not converge.
-    Without ``settled`` the best is returned even if ``iterations`` were not enough for it, and no other goes on.
+    Without ``settled`` the best is returned even if its iterations were not enough, and no other goes on.
     """
     reasons = []
-    near = _approached(problem, noises, hypothesis, starts, runs, reasons)
-    for state in _begun(problem, noises, hypothesis, near, runs, reasons):
-        found = state if state.converged else continued(problem, state, iterations)
+    for state in _begun(problem, noises, hypothesis, starts, runs, reasons):
+        found = state if state.converged else continued(problem, state, patient=settled)
         if found.converged or not settled:
             return found
         reasons.append(f"not converged after {found.evaluations} predictions")
-    raise ConvergenceError(f"calibration of {hypothesis.name}", "a fit that converges from one of its starts",
-                           "; ".join(dict.fromkeys(reasons)), "check the nominal values and priors")
+    raise _stopped(hypothesis, reasons)
 
 
-def _begun(problem, noises, hypothesis, starts, runs, reasons):
+def begun(problem, noises, hypothesis, starts, runs, known=()):
+    """The best Fit after a few iterations from each of ``starts``, to be ``continued``; ``known`` as ``linearised``.
+
+    Raises ConvergenceError where the forward model cannot begin from any.
+    """
+    reasons = []
+    states = _begun(problem, noises, hypothesis, starts, runs, reasons, known)
+    if not states:
+        raise _stopped(hypothesis, reasons)
+    return states[0]
+
+
+def _stopped(hypothesis, reasons):
+    return ConvergenceError(f"calibration of {hypothesis.name}", "a fit that converges from one of its starts",
+                            "; ".join(dict.fromkeys(reasons)), "check the nominal values and priors")
+
+
+def _begun(problem, noises, hypothesis, starts, runs, reasons, known=()):
     """[Fit] after a few iterations from each start, best first; ``reasons`` gets what stopped the others."""
-    begun = []
+    near = _approached(problem, noises, hypothesis, starts, runs, reasons)
+    return _tried(problem, noises, hypothesis, near, runs, reasons, known)
+
+
+def _tried(problem, noises, hypothesis, starts, runs, reasons, known=(), rough=False):
+    found = []
     for start in starts:
         try:
-            begun.append(fit(problem, noises, hypothesis, start, runs, _TRIAL))
+            state = linearised(problem, noises, hypothesis, start, runs, known)
+            found.append(_iterated(problem, state, _EASIER if rough else _TRIAL, patient=not rough, rough=rough))
         except BrakechainError as error:
             reasons.append(str(error))
-    return sorted(begun, key=lambda f: f.objective)
+    return sorted(found, key=lambda f: f.objective)
 
 
 def _approached(problem, noises, hypothesis, starts, runs, reasons):
-    """Where fits begin: ``starts``, or, where all are far off, the nearest and where fits over rising horizons end."""
+    """Where fits begin: ``starts``, or, where all are far off, the nearest and where fits to less end: over rising
+    horizons, or, of features, under falling standard deviations."""
     sizes = [_mean_square(whitened(problem, noises, hypothesis, start, runs)[0]) for start in starts]
-    if not all(noise.ordered for noise in noises) or min(sizes) < _FAR:
+    if min(sizes) < FAR:
         return starts
     ahead = starts
+    for noise, run in _easier(noises, runs):
+        found = _tried(problem, noise, hypothesis, ahead, run, reasons, rough=True)
+        ahead = [found[0].latent] if found else []
+    return [*ahead, starts[int(np.argmin(sizes))]]
+
+
+def _easier(noises, runs):
+    """(noises, runs) of problems on the way to this one."""
+    if of_features(noises):
+        for factor in _LOOSE:
+            yield [replace(noise, filter=noise.filter / factor) for noise in noises], runs
+        return
     for share in _HORIZONS:
         kept = [noise.horizon(share, _FEWEST) for noise in noises]
-        begun = _begun(problem, [noise.until(n) for noise, n in zip(noises, kept, strict=True)], hypothesis, ahead,
-                       [run.until(n) for run, n in zip(runs, kept, strict=True)], reasons)
-        ahead = [begun[0].latent] if begun else []
-    return [*ahead, starts[int(np.argmin(sizes))]]
+        yield ([noise.until(n) for noise, n in zip(noises, kept, strict=True)],
+               [run.until(n) for run, n in zip(runs, kept, strict=True)])
 
 
 def _mean_square(residuals):
@@ -188,11 +247,11 @@ def _scale(state):
     return 1 / max(tempering(state.noises, state.residuals).max(), 1e-12)
 
 
-def _jacobians(problem, noises, hypothesis, latent, residuals, runs):
-    """Forward differences (backward at the upper limit and where the forward model fails ahead)."""
+def _jacobians(problem, noises, hypothesis, latent, residuals, runs, first=0, width=DIFFERENCE):
+    """Forward differences (backward at the upper limit and where the forward model fails ahead) from ``first`` on."""
     columns = []
-    for k in range(len(latent)):
-        for step in (DIFFERENCE, -DIFFERENCE):
+    for k in range(first, len(latent)):
+        for step in (width, -width):
             if abs(latent[k] + step) > LATENT_LIMIT:
                 continue
             moved, error = whitened(problem, noises, hypothesis, latent + step * (np.arange(len(latent)) == k), runs)
@@ -201,41 +260,72 @@ def _jacobians(problem, noises, hypothesis, latent, residuals, runs):
         if moved is None:
             raise error
         columns.append([(before - after) / step for before, after in zip(residuals, moved, strict=True)])
-    jacobians = tuple(np.array([column[i] for column in columns]).reshape(len(latent), len(residual)).T
+    jacobians = tuple(np.array([column[i] for column in columns]).reshape(len(columns), len(residual)).T
                       for i, residual in enumerate(residuals))
-    return jacobians, len(latent)
+    return jacobians, len(columns)
 
 
-def continued(problem, state, iterations=ITERATIONS):
-    """The Fit after further iterations. Jacobians are updated by the secant (Broyden 1965) as long as that serves."""
-    damping, growth = 1e-3, 2.0
+def continued(problem, state, iterations=ITERATIONS, enough=np.inf, patient=True):
+    """The Fit after further iterations. Jacobians are updated by the secant (Broyden 1965) as long as that serves.
+
+    A fit is given up, as it is, where its slope promises nothing that would bring its objective down to ``enough``, and
+    without ``patient`` where features stay far off.
+    """
+    found = _iterated(problem, state, iterations, enough, patient)
+    return found if found.fresh or found.objective > enough else _refreshed(problem, found)
+
+
+def _iterated(problem, state, iterations, enough=np.inf, patient=True, rough=False):
+    """The Fit after ``iterations``; where no step helps, differences are taken over wider steps before it ends.
+
+    A ``rough`` one stops where updated Jacobians promise no more: its latent values are of use.
+    """
+    damping, growth, width, before = 1e-3, 2.0, DIFFERENCE, []
     for _ in range(iterations):
+        before.append(state.objective)
+        if not patient and _crawls(state, before):
+            break
         gradient, hessian = _slopes(state)
         expected, scale = gradient @ np.linalg.solve(hessian, gradient), _scale(state)
+        if state.objective - _HOPE * expected > enough:
+            break
         if expected < TOLERANCE * scale:
-            if state.fresh:
-                return replace(state, converged=True)
+            if rough or state.fresh:
+                return replace(state, converged=not rough)
             state = _refreshed(problem, state)
             continue
         moved, damping, growth = _step(problem, state, gradient, hessian, damping, growth)
-        if moved is None and not state.fresh:
-            state, damping, growth = _refreshed(problem, state), 1e-3, 2.0
-        elif moved is None:
-            return replace(state, converged=bool(expected < _STALLED * scale))
-        else:
+        if moved is not None and state.objective - moved.objective > _LEAST * TOLERANCE * scale:
             state = moved
-    return state if state.fresh else _refreshed(problem, state)
+            continue
+        if state.fresh and expected < _STALLED * scale:
+            return replace(state, converged=True)
+        if state.fresh and width >= _WIDEST:
+            break
+        width *= 10 if state.fresh else 1
+        state, damping, growth = _refreshed(problem, state, width), 1e-3, 2.0
+    return state
+
+
+def _crawls(state, before):
+    """Whether features that are far off have stayed so: their hypothesis has no use for more iterations."""
+    return (of_features(state.noises) and far(state) and len(before) > _PATIENCE
+            and before[-1] > _CRAWLING * before[-1 - _PATIENCE])
 
 
 def _slopes(state):
-    """Gradient (k,), 0 along bounds that hold, and Gauss-Newton's Hessian (k, k) of half the objective."""
+    """Gradient (k,) and Gauss-Newton's Hessian (k, k) of half the objective; bounds that hold do not take part."""
     gradient = sum(j.T @ r for j, r in zip(state.jacobians, state.residuals, strict=True)) - state.latent
-    gradient[(np.abs(state.latent) >= LATENT_LIMIT) & (gradient * state.latent > 0)] = 0.0
-    return gradient, _information(state.jacobians) + np.eye(len(state.latent))
+    hessian = _information(state.jacobians) + np.eye(len(state.latent))
+    held = (np.abs(state.latent) >= LATENT_LIMIT) & (gradient * state.latent > 0)
+    gradient[held] = hessian[held] = hessian[:, held] = 0.0
+    hessian[held, held] = 1.0
+    return gradient, hessian
 
 
-def _refreshed(problem, state):
-    jacobians, count = _jacobians(problem, state.noises, state.hypothesis, state.latent, state.residuals, state.runs)
+def _refreshed(problem, state, width=DIFFERENCE):
+    jacobians, count = _jacobians(problem, state.noises, state.hypothesis, state.latent, state.residuals, state.runs,
+                                  width=width)
     return replace(state, jacobians=jacobians, fresh=True, evaluations=state.evaluations + count)
 
 

@@ -121,13 +121,18 @@ def budget(problem, solver_error=None, above=None, order=ORDER):
 
 
 def normalised_error(run, residual):
-    """NRMSE of (c, n): root mean over channels of mean square residual over the channel's variance."""
-    return float(np.sqrt(np.mean(_masked_mean(residual**2, run.valid) / _variance(run))))
+    """NRMSE of (c, n): root mean over channels with samples of mean square residual over the channel's variance."""
+    return _normalised(run, _masked_mean(residual**2, run.valid))
 
 
 def floor(run, noise):
     """The NRMSE that the true model would reach: noise alone."""
-    return float(np.sqrt(np.mean(noise.std**2 / _variance(run))))
+    return _normalised(run, noise.std**2)
+
+
+def _normalised(run, power):
+    seen = run.valid.any(axis=1)
+    return float(np.sqrt(np.mean(power[seen] / _variance(run)[seen])))
 
 
 def _variance(run):

@@ -20,6 +20,8 @@ from pipeline.inference.calibrate import from_prior_mean, orthogonal, whitened
 STEPS = (0.02, 1.0)
 #: parameters that only shape an effect are tried at these shares of their priors
 SHAPES = (0.2, 0.8)
+#: and angles in every quarter of theirs: no wave is at right angles to all of them
+ANGLES = (0.125, 0.375, 0.625, 0.875)
 #: at most this many combinations of shapes per effect parameter
 _COMBINATIONS = 8
 DRAWS = 20000
@@ -118,7 +120,8 @@ def _trials(candidate):
     """(latent values, sign, step in prior scales) of every direction: one effect parameter moved, shapes varied."""
     parameters = candidate.parameters
     shapes = [k for k, p in enumerate(parameters) if p.null is None]
-    combinations = list(product(SHAPES, repeat=len(shapes)))[:_COMBINATIONS]
+    shares = [ANGLES if parameters[k].unit == "rad" else SHAPES for k in shapes]
+    combinations = list(product(*shares))[:_COMBINATIONS]
     for k, parameter in enumerate(parameters):
         if parameter.null is None:
             continue

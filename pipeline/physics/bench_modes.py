@@ -4,11 +4,12 @@ A contact that does not slide holds on: where the drive rests, its tangential st
 """
 
 from dataclasses import replace
+from functools import lru_cache
 
 import numpy as np
 
 from pipeline.contract.errors import ConfigError
-from pipeline.physics.bench import MOTIONS, at_begin, run_friction, run_inputs
+from pipeline.physics.bench import MOTIONS, at_begin, run_friction
 from pipeline.physics.bench_roots import small_motion
 from pipeline.physics.dry_friction import constant
 from pipeline.physics.sliding_model import Joints
@@ -25,7 +26,8 @@ def modes(bench, run):
     displacements count by their velocity. Raises what ``small_motion`` raises.
     """
     held = sticking(bench, run)
-    values, vectors = np.linalg.eig(small_motion(held, run).matrix())
+    matrix = small_motion(held, run).matrix()
+    values, vectors = _eigen(matrix.tobytes(), len(matrix))
     kept = np.flatnonzero(values.imag > 0)
     kept = kept[np.argsort(values[kept].imag)]
     root, place = values[kept], vectors[:held.model.size, kept].T
@@ -34,16 +36,28 @@ def modes(bench, run):
     return root, np.reshape(shown, (-1, len(root))).T
 
 
+@lru_cache(maxsize=16)
+def _eigen(matrix, size):
+    """Eigenvalues and vectors of the bytes of a matrix: runs that differ in what does not act share them."""
+    return np.linalg.eig(np.frombuffer(matrix).reshape(size, size))
+
+
 def motions(bench):
     """Channels of the bench that show a motion."""
     return tuple(c for c in bench.channels if c.quantity in MOTIONS)
 
 
 def sticking(bench, run):
-    """The bench as ``run`` finds it: with its contacts held along sliding where the drive rests, and as it is else."""
-    if at_begin(bench, run)[0] != 0 or not np.any(run_inputs(bench, run)[0]):
-        return bench
+    """The bench as ``run`` finds it: with its contacts held along sliding where the drive rests, and as it is else.
+
+    Where nothing presses either they are lifted, clear of the waves of the surface.
+    """
     friction, model = bench.friction, bench.model
+    speed, inputs = at_begin(bench, run)
+    if speed != 0:
+        return bench
+    if not np.any(inputs):
+        return replace(bench, model=replace(model, contacts=replace(model.contacts, waviness=())))
     stiffness = np.broadcast_to(np.asarray(friction.stiffness, float), len(model.contacts.area))
     if friction.description == "rigid" or not (stiffness > 0).all():
         raise ConfigError(f"run {run.name}", "contacts with a tangential stiffness, because the drive rests",

@@ -7,7 +7,7 @@ matrix pencil (Y. Hua, T. K. Sarkar, IEEE Trans. ASSP 38 (1990) 814) and refined
 amplitudes eliminated), whose Jacobian gives the standard deviations.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 from scipy.optimize import linear_sum_assignment
@@ -23,9 +23,11 @@ _KAISER = 14.0
 _ABOVE_NOISE = 4.0
 #: a pole counts where its standard deviation is below this share of its frequency
 _KNOWN = 2e-3
-#: the fastest growth or decay that counts, as a damping ratio
-_FASTEST = 0.1
+#: growth or decay over the length of the filter of a band beyond which little of a motion is left, in powers of e
+_FASTEST = 2.0
 _ITERATIONS = 12
+#: how close to the sum of two others a pole is a combination tone of them, as a share of its root
+_TONE = 1e-3
 #: longest window of the pencil in samples
 _LONGEST_PENCIL = 120
 
@@ -87,9 +89,9 @@ def matched(first, second, within, alike):
 
 
 def confirmed(first, second, within=0.008, alike=0.8):
-    """(mean, difference (p,) over its standard deviation) of the Poles seen in two records; others are dropped.
+    """Mean of the Poles seen in two records; others are dropped.
 
-    Differences count growth rate and frequency together: their mean square is 2 where the standard deviations hold.
+    Its standard deviation is that of the mean, or half the difference where the two differ by more than theirs.
     """
     pairs = matched(first, second, within, alike)
     one, other = first.of([i for i, _ in pairs]), second.of([j for _, j in pairs])
@@ -97,9 +99,18 @@ def confirmed(first, second, within=0.008, alike=0.8):
     total = weight[0] + weight[1]
     turned = np.sum(one.shape.conj() * other.shape, axis=1)     # shapes brought to one size and phase
     turned = turned / np.maximum(np.sum(abs(other.shape) ** 2, axis=1), 1e-300)
-    mean = Poles((weight[0] * one.root + weight[1] * other.root) / total, 1 / np.sqrt(total),
+    return Poles((weight[0] * one.root + weight[1] * other.root) / total,
+                 np.maximum(1 / np.sqrt(total), abs(one.root - other.root) / 2),
                  one.shape + turned.conj()[:, None] * other.shape)
-    return mean, abs(one.root - other.root) / np.hypot(one.std, other.std)
+
+
+def fundamental(found):
+    """The Poles without combination tones: sums p_i + p_j and p_i + p_j* with one that grows, amplitudes no longer
+    small; they grow as the sum of what they come from."""
+    growing = found.root[found.root.real > 0]
+    tones = np.add.outer(growing, np.concatenate((found.root, found.root.conj()))).ravel()
+    apart = abs(np.subtract.outer(found.root, np.where(tones.imag < 0, tones.conj(), tones)))
+    return found.of((apart > _TONE * abs(found.root)[:, None]).all(axis=1))
 
 
 def _band(samples, rate, low, high):
@@ -126,7 +137,7 @@ def _band(samples, rate, low, high):
     shape[:, seen] = amplitude * (scale[seen] / np.maximum(left, 1e-12))
     told = Poles(root + 1j * middle, std, shape)
     inside = abs(root.imag) <= 0.5 * 2 * np.pi * width
-    fast = abs(told.root.real) > _FASTEST * told.root.imag
+    fast = abs(told.root.real) * taps / rate > _FASTEST
     return told.of(inside & ~fast & (std < _KNOWN * told.root.imag))
 
 
@@ -176,8 +187,3 @@ def _fitted(signal, time, root):
     slope = slope - basis @ (basis.conj().T @ slope)
     jacobian = np.einsum("tp,pc->ctp", slope, amplitude).reshape(-1, len(root))
     return root, amplitude, float(np.sum(abs(residual) ** 2)), jacobian, residual.T.ravel()
-
-
-def pooled(poles_, factor):
-    """Poles with standard deviations times ``factor``."""
-    return replace(poles_, std=factor * poles_.std)

@@ -46,9 +46,29 @@ class FrictionLaw:
         friction, outside = _evaluate(flat, *self.table)
         return friction.reshape(states[0].shape), outside.reshape(states[0].shape)
 
+    def slope(self, name, pressure, speed, distance):
+        """dmu/d``name`` (an axis) at one state, continuous: slopes of intervals, straight between their middles.
+
+        Second order in the intervals, where those of ``friction_at`` are first order; 0 outside the axis.
+        """
+        axis, state = getattr(self, name), [pressure, speed, distance]
+        place = state[AXES.index(name)]
+        if not axis[0] < place < axis[-1]:
+            return 0.0
+        low = int(np.searchsorted(axis, place, side="right")) - 1
+        near = axis[max(low - 1, 0):low + 3]
+        state[AXES.index(name)] = near
+        return straight_slope(near, self.evaluate(*state)[0], place)
+
     def on(self, *axes):
         """The same law on other axes, exactly where they hold the values of its own."""
         return FrictionLaw(*axes, self.evaluate(*np.meshgrid(*axes, indexing="ij"))[0])
+
+
+def straight_slope(known, values, place):
+    """Slope (...) at ``place`` (...) of ``values`` (n,) over rising ``known`` (n,): straight between the middles of the
+    intervals, where it is theirs."""
+    return np.interp(place, (known[1:] + known[:-1]) / 2, np.diff(values) / np.diff(known))
 
 
 def refine(axes, values, subdivisions):

@@ -6,6 +6,7 @@ import numpy as np
 
 from pipeline.contract.errors import ConfigError
 from pipeline.physics.contact_groups import parts, read
+from pipeline.physics.friction_law import straight_slope
 from pipeline.physics.time_stepping_contact import HARD, LAGRANGE, PENALTY, TABLE, NormalKernel, table_force
 
 
@@ -32,12 +33,16 @@ class Penalty:
 
 @dataclass(frozen=True)
 class Table:
-    """N = A p(c) (1 + c' / damping_speed): ``closure`` (k,) m and ``pressure`` (k,) Pa, both rising from 0."""
+    """N = A p(c) (1 + c' / damping_speed): ``closure`` (k,) m and ``pressure`` (k,) Pa, both rising from 0.
+
+    ``smooth``: the rows sample a curve closely, so that the slope for small motions does not jump at them.
+    """
 
     closure: np.ndarray
     pressure: np.ndarray
     damping_speed: float = np.inf
     gap: np.ndarray | float = 0.0
+    smooth: bool = False
 
     def at(self, closure):
         """Pressure at closures of at least 0; beyond the last row the last slope goes on."""
@@ -146,13 +151,20 @@ def tangent(law, force, area):
         if isinstance(each, Penalty):
             stiffness[own], damping[own] = (np.broadcast_to(v, len(force))[own] for v in (each.stiffness, each.damping))
         elif isinstance(each, Table):
-            closure, pressure, k = _row(each, force[own] / area[own])
-            stiffness[own] = area[own] * ((pressure[k + 1] - pressure[k]) / (closure[k + 1] - closure[k]))
+            stiffness[own] = area[own] * _slope(each, force[own] / area[own])
             damping[own] = force[own] / each.damping_speed
         elif np.any(force[own] > 0):
             raise ConfigError("small motions about steady sliding", "contacts that yield", type(each).__name__,
                               "give them a stiffness")
     return tuple(np.where(force > 0, each, 0.0) for each in (stiffness, damping))
+
+
+def _slope(table, pressure):
+    """Pa/m at ``pressure`` (c,)."""
+    closure, known, k = _row(table, pressure)
+    if table.smooth:
+        return 1 / straight_slope(known, closure, pressure)
+    return (known[k + 1] - known[k]) / (closure[k + 1] - closure[k])
 
 
 def _row(table, pressure):

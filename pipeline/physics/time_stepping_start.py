@@ -94,11 +94,13 @@ def random_kick(system, sensor_rows, velocity, seed):
 def _solve(stiffness, load, normal, pushed, gap, give, closed):
     """(displacement, forces) with the contacts ``closed``; 0 N on the others."""
     size, active = len(load), np.flatnonzero(closed)
-    matrix = np.block([[stiffness, -pushed[active].T], [normal[active], np.diag(give[active])]])
+    matrix = np.zeros((size + len(active),) * 2)
+    matrix[:size, :size], matrix[:size, size:] = stiffness, -pushed[active].T
+    matrix[size:, :size], matrix[size:, size:] = normal[active], np.diag(give[active])
     scale = np.sqrt(abs(np.diag(stiffness)).max(initial=0.0)) or 1.0      # bodies and contacts of one size
     weight = np.r_[np.full(size, 1 / scale), np.full(len(active), scale)]
     scaled = weight[:, None] * matrix * weight
-    if np.linalg.cond(scaled) > 1 / np.finfo(float).eps:
+    if np.linalg.cond(scaled, 1) > 1 / np.finfo(float).eps:
         raise ConfigError("steady sliding", "joints and closed contacts that hold every body", "a body that is free",
                           "support it, press it on, or start at rest")
     found = weight * np.linalg.solve(scaled, weight * np.r_[load, -gap[active]])

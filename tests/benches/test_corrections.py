@@ -41,6 +41,15 @@ def test_frequency_and_damping_are_those_of_a_body_with_its_own_joints():
     np.testing.assert_allclose((joints.stiffness[0], joints.damping[0]), (1.21 * 400.0, 2 * 1.2), rtol=1e-12)
 
 
+@pytest.mark.exact
+def test_a_modal_mass_keeps_frequency_and_damping_ratio():
+    """m, c and k of block and mount times 1.3: the same free vibration, 1 / 1.3 of it under the same force."""
+    heavy = corrections.corrected(bench(), {"bodies.block.modal_mass": 1.3})
+    np.testing.assert_allclose((heavy.model.mass[0, 0], heavy.model.joints.stiffness[0], heavy.model.joints.damping[0]),
+                               1.3 * np.array([1.0, 400.0, 1.2]), rtol=1e-12)
+    np.testing.assert_allclose(respond(heavy, RUN)["x"], respond(bench(), RUN)["x"] / 1.3, rtol=1e-9, atol=1e-12)
+
+
 def test_an_offset_is_a_constant_force():
     """Static deflection under 5 N: 5 / 400 m."""
     still = Run("still", 30.0, RATE)

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from pipeline.contract import ConfigError
-from pipeline.diagnosis.poles import assigned, features, observed, predicted
+from pipeline.diagnosis.poles import assigned, features, nearer, observed, predicted
 from pipeline.physics.bench_modes import modes
 from tests.diagnosis.small_bench import bench, laid_out, recorded, run
 
@@ -51,6 +51,12 @@ def test_every_peak_is_explained_by_a_root_of_its_own(told):
     assert list(assigned(found["slow_10"].seen, root, shape)) == [0, 1]
     with pytest.raises(ConfigError, match="at most 1 peaks"):
         assigned(found["slow_10"].seen, root[:1], shape[:1])
+
+
+def test_far_roots_count_less_and_less():
+    seen = np.array([-5 + 2000j, -5 + 2000j])
+    near, far = nearer(seen, seen + np.array([0.2j, 1e6j]))
+    assert near - seen[0] == pytest.approx(0.2j, rel=1e-6) and abs(far - seen[1]) == pytest.approx(200.0, rel=1e-3)
 
 
 def test_records_that_cannot_be_used_are_refused():

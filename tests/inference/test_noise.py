@@ -139,3 +139,11 @@ def test_a_horizon_counts_usable_samples_from_the_begin():
     assert noise.until(noise.horizon(0.1, 8)).count == 30
     noise.usable[:] = False
     assert noise.horizon(0.1, 8) == 500
+
+
+def test_channels_without_samples_do_not_count_in_errors():
+    one = Observed("rung", {}, ("seen", "lost", "lost too"), np.array([[2.0], [0.0], [0.0]]), None,
+                   np.array([[True], [False], [False]]), noise_std=np.array([0.1, 1.0, 1.0]))
+    noise = budget(Problem((one,), predict, NOMINAL))["rung"]
+    assert normalised_error(one, np.array([[0.5], [0.0], [0.0]])) == pytest.approx(0.25)
+    assert floor(one, noise) == pytest.approx(0.05)

@@ -43,6 +43,11 @@ def test_sensors_at_one_point_differ_by_gain_and_delay():
     np.testing.assert_allclose(shape[:, 1], 1.2 * np.exp(-1e-4 * root) * shape[:, 0], rtol=1e-12)
 
 
+def test_a_lifted_pin_is_clear_of_the_waves_of_the_surface():
+    hidden = {"runout": {"contact": {"amplitude": "3 um", "order": 1, "phase": "0 rad"}}}
+    np.testing.assert_array_equal(modes(bench(hidden), run("lifted"))[0], modes(bench(), run("lifted"))[0])
+
+
 def test_a_contact_that_sticks_needs_a_stiffness():
     with pytest.raises(ConfigError, match="tangential stiffness"):
         sticking(bench(description="rigid", tangential_stiffness=None), run("rest"))

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from pipeline.contract.errors import ConfigError
-from pipeline.physics.free_decay import Poles, before_saturation, confirmed, likeness, matched, poles
+from pipeline.physics.free_decay import Poles, before_saturation, confirmed, fundamental, likeness, matched, poles
 
 RATE = 10240.0
 ROOT = np.array([-12 + 2j * np.pi * 310, -9 + 2j * np.pi * 611, -9 + 2j * np.pi * 617, 40 + 2j * np.pi * 1502.5])
@@ -40,9 +40,25 @@ def test_what_only_one_record_shows_does_not_count():
     alone = -20 + 2j * np.pi * 1100
     one = poles(record(1e-3, 1, root=np.append(ROOT, alone), shape=np.vstack((SHAPE, [0.5, 0.5]))), RATE, 200., 2000.)
     other = poles(record(1e-3, 2), RATE, 200.0, 2000.0)
-    both, apart = confirmed(one, other)
+    both = confirmed(one, other)
     assert abs(one.root - alone).min() < 1 and abs(both.root - alone).min() > 1000
-    assert len(both.root) == len(apart) == 4 and np.all(both.std < other.std.max())
+    assert len(both.root) == 4 and np.all(both.std < 2 * other.std.max())
+
+
+def test_records_that_differ_make_a_pole_less_certain():
+    one = Poles(ROOT, np.full(4, 0.1), SHAPE.astype(complex))
+    both = confirmed(one, Poles(ROOT + np.array([0, 0, 0, 3.0]), one.std, one.shape))
+    np.testing.assert_allclose(both.std, [*np.full(3, 0.1 / np.sqrt(2)), 1.5], rtol=1e-12)
+
+
+@pytest.mark.exact
+def test_sums_of_growing_poles_are_not_poles():
+    """(a + b, a + b*) of a growing a; sums of decaying ones may be modes of their own."""
+    grows, decays = np.array([8 + 2j * np.pi * 385, -20 + 2j * np.pi * 1134])
+    tones = np.array([grows + decays, 2 * grows, np.conj(grows + decays.conj())])
+    every = np.concatenate(([grows, decays, 2 * decays], tones))
+    left = fundamental(Poles(every, np.ones(6), np.ones((6, 2))))
+    np.testing.assert_array_equal(left.root, every[:3])
 
 
 def test_growth_is_free_until_a_share_of_its_largest():

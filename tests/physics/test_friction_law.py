@@ -28,6 +28,16 @@ def test_multilinear_function_and_its_slopes_are_exact(law):
 
 
 @pytest.mark.exact
+def test_slopes_of_a_sampled_curve_do_not_jump():
+    """Of v^2 on even samples: 2 v, exact between the middles of the first and the last interval; 0 outside."""
+    speed = np.linspace(0.0, 2.0, 11)
+    curve = FrictionLaw([1e6], speed, [0.0], (speed**2)[None, :, None])
+    for v in (0.1, 0.4, 0.63, 1.9):
+        assert curve.slope("speed", 1e6, v, 0.0) == pytest.approx(2 * v, rel=1e-12)
+    assert curve.slope("speed", 1e6, 3.0, 0.0) == curve.slope("pressure", 1e6, 1.0, 0.0) == 0.0
+
+
+@pytest.mark.exact
 def test_grid_points_are_reproduced(law):
     friction, outside = law.evaluate(law.pressure[:, None, None], law.speed[:, None], law.distance)
     np.testing.assert_allclose(friction, law.friction, rtol=1e-15)

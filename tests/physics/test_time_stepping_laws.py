@@ -82,6 +82,16 @@ def test_slopes_and_closures_are_those_of_the_force(closure):
     np.testing.assert_allclose(slope * force + rest, closure, rtol=1e-12)
 
 
+@pytest.mark.exact
+def test_a_sampled_curve_has_a_slope_that_does_not_jump():
+    """p = c^2 at even pressures: the compliance 1 / (2 c) of the curve, with the second-order error of its samples."""
+    pressure = np.linspace(0.0, 4e4, 201)
+    curve = Table(np.sqrt(pressure), pressure, smooth=True)
+    force = AREA * np.array([9998.0, 10002.0])      # on both sides of a row
+    stiffness, _ = tangent(curve, force, AREA)
+    np.testing.assert_allclose(stiffness, AREA * 2 * np.sqrt(force / AREA), rtol=1e-4)
+
+
 def test_contacts_that_do_not_yield():
     force = np.array([1.0, 0.0])
     np.testing.assert_array_equal(closing(Hard(), force, AREA), np.zeros((2, 2)))

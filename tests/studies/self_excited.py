@@ -7,8 +7,14 @@ that has its answer is not solved again.
 
 import argparse
 import json
+import os
+import time
 from dataclasses import dataclass
 from pathlib import Path
+
+from pipeline.environment import ONE_THREAD
+
+os.environ.update(ONE_THREAD)       # before numpy loads: threads of small matrices wait for each other
 
 from pipeline.contract import documents
 from pipeline.contract.errors import BrakechainError
@@ -84,11 +90,12 @@ def run(plan, folder, **asked):
     kept = folder / "answer.json"
     if not kept.exists():
         write(plan, folder)
+        begun = time.process_time()
         try:
             answer = solved(folder / "recordings.h5", **asked)
         except BrakechainError as error:
             answer = {"verdict": "refused", "effects": [], "reasons": [str(error)]}
-        kept.write_text(json.dumps(answer, indent=1) + "\n")
+        kept.write_text(json.dumps({**answer, "cpu_seconds": time.process_time() - begun}, indent=1) + "\n")
     return json.loads(kept.read_text())
 
 
@@ -117,7 +124,8 @@ def main():
     for plan in wanted[:chosen.most]:
         answer = run(plan, chosen.folder / "study_squeal" / f"{plan.seed}")
         named = ", ".join(f"{e['name']} at {e['place']}" for e in answer["effects"])
-        print(f"{plan.seed} {plan.hidden or 'control':<28} -> {answer['verdict']:<10} {named}", flush=True)
+        print(f"{plan.seed} {plan.hidden or 'control':<28} -> {answer['verdict']:<10} {named}"
+              f"   {answer['cpu_seconds']:.0f} s", flush=True)
         results.append((plan.hidden, answer))
     print("\n".join(table(results)))
 
