@@ -19,7 +19,7 @@ from scipy import fft, ndimage
 from pipeline.contract.errors import ConvergenceError
 
 #: what can be hidden, with the sizes it is given: low and high of a draw
-HIDDEN = {"third_body": {"gain": (0.3, 0.6), "distance": (1e-3, 3e-3), "pressure": (1.9e6, 2.1e6)},
+HIDDEN = {"third_body": {"gain": (0.2, 0.4), "distance": (1e-3, 3e-3), "pressure": (1.9e6, 2.1e6)},
           "transfer": {"share": (0.4, 0.9)}}
 #: what the drawings say of the pair; the truth is off by a normal logarithm of the spread
 NOMINAL = {"modulus": 0.235e9, "strength": 234e6, "pad_wear": 4e-12, "disc_wear": 4e-13, "rate": 0.015}

@@ -84,14 +84,14 @@ def mismatch_map(product):
             axes.set_xticks(np.arange(0, len(edges), 2) - 0.5, [f"{e:.3g}" for e in edges[::2]])
             axes.set_xlabel("frequency / Hz")
         else:
-            axes.set_xticks(range(len(edges)), edges, rotation=40)
+            axes.set_xticks(range(len(edges)), edges, rotation=0 if len(edges) < 4 else 40)
         return svg(figure)
 
 
 def points(product, most=6):
     """SVG: first channel of every run of few points, measured beside the models."""
     runs = list(product.runs.items())[:most]
-    with drawing(0.7 + 1.25 * ((len(runs) + 1) // 2), left=0.6, top=0.3) as figure:
+    with drawing(0.9 + 1.25 * ((len(runs) + 1) // 2), left=0.6, top=0.5) as figure:
         grid = figure.subplots((len(runs) + 1) // 2, 2, sharey=True, squeeze=False).ravel()
         for axes, (name, run) in zip(grid, runs, strict=False):
             kept = run.valid[0] > 0
@@ -104,7 +104,7 @@ def points(product, most=6):
             axes.set_visible(False)
         grid[0].set_ylabel(str(product.channel[0]))
         grid[len(runs) - 1].set_xlabel("point")
-        legend(grid[0])
+        figure.legend(*grid[0].get_legend_handles_labels(), loc="upper center", ncols=3)
         return svg(figure)
 
 

@@ -23,7 +23,7 @@ def channels(run, dpi):
 def friction(product):
     """SVG: measured coefficients of friction over the sliding distance, a curve each run; bars: standard error."""
     tables = [(name, table) for name, run in product.runs.items() for table in run.friction.values()]
-    with drawing() as figure:
+    with drawing(top=0.2 + 0.17 * -(-len(tables) // 3)) as figure:
         axes = figure.subplots()
         for k, (name, table) in enumerate(tables):
             way, place = np.unique(table.distance, return_inverse=True)
