@@ -32,6 +32,8 @@ _HORIZONS, FAR, _FEWEST = (0.08, 0.3), 100.0, 32
 _LOOSE = (30.0, 6.0)
 #: share of the objective that is left after as many iterations as a trial has where a fit crawls
 _CRAWLING = 0.7
+#: though a larger share of it than this is promised
+_PROMISE = 0.01
 #: share of the promised decrease below which an updated Jacobian is replaced by differences
 _TRUSTED = 0.25
 
@@ -120,24 +122,25 @@ def linearised(problem, noises, hypothesis, latent, runs):
     return Fit(hypothesis, tuple(runs), tuple(noises), latent, tuple(residuals), jacobians, False, 1 + count)
 
 
-def fit(problem, noises, hypothesis, start, runs, iterations=ITERATIONS):
-    """Levenberg-Marquardt from latent ``start``; the Fit says whether it ``converged``.
+def fit(problem, noises, hypothesis, start, runs, iterations=ITERATIONS, hasty=False):
+    """Levenberg-Marquardt from latent ``start``; the Fit says whether it ``converged``; ``hasty`` see ``continued``.
 
     ``noises`` [Noise] belong to ``runs``. Raises what the forward model raises at the start.
     """
-    return continued(problem, linearised(problem, noises, hypothesis, start, runs), iterations)
+    return continued(problem, linearised(problem, noises, hypothesis, start, runs), iterations, hasty=hasty)
 
 
 def calibrate(problem, noises, hypothesis, starts, runs, settled=True, iterations=ITERATIONS):
     """The best of several fits. Raises ConvergenceError where none converged, telling what stopped them.
 
     A few iterations are made from each start; then the best goes on, the next best only where it does not converge.
-    Without ``settled`` the best is returned even if ``iterations`` were not enough for it, and no other goes on.
+    Without ``settled`` the best is returned even if ``iterations`` were not enough for it or it is given up (``hasty``
+    in ``continued``), and no other goes on.
     """
     reasons = []
     near = _approached(problem, noises, hypothesis, starts, runs, reasons)
     for state in _begun(problem, noises, hypothesis, near, runs, reasons):
-        found = state if state.converged else continued(problem, state, iterations)
+        found = state if state.converged else continued(problem, state, iterations, hasty=not settled)
         if found.converged or not settled:
             return found
         reasons.append(f"not converged after {found.evaluations} predictions")
@@ -232,18 +235,19 @@ def _jacobians(problem, noises, hypothesis, latent, residuals, runs):
     return jacobians, len(latent)
 
 
-def continued(problem, state, iterations=ITERATIONS, rough=False):
+def continued(problem, state, iterations=ITERATIONS, rough=False, hasty=False):
     """The Fit after further iterations. Jacobians are updated by the secant (Broyden 1965) as long as that serves.
 
-    A ``rough`` one stops where updated Jacobians promise no more, and keeps them: its latent values are of use.
+    A ``rough`` one stops where updated Jacobians promise no more, and keeps them: its latent values are of use. A
+    ``hasty`` one gives up features that are far off and stay so.
     """
     damping, growth, reached = 1e-3, 2.0, []
     for _ in range(iterations):
         reached.append(state.objective)
-        if _crawls(state, reached):
-            break
         gradient, hessian = _slopes(state)
         expected, scale = gradient @ np.linalg.solve(hessian, gradient), _scale(state)
+        if hasty and expected > _PROMISE * state.objective and _crawls(state, reached):
+            break
         if expected < TOLERANCE * scale:
             if rough or state.fresh:
                 return replace(state, converged=not rough)
@@ -260,7 +264,7 @@ def continued(problem, state, iterations=ITERATIONS, rough=False):
 
 
 def _crawls(state, reached):
-    """Whether features that are far off have stayed so: their hypothesis has no use for more iterations."""
+    """Whether features that are far off stay so: their hypothesis has no use for more iterations."""
     return (of_features(state.noises) and far(state) and len(reached) > _TRIAL
             and reached[-1] > _CRAWLING * reached[-1 - _TRIAL])
 

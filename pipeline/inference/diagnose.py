@@ -162,7 +162,7 @@ def _within_reach(begun):
 
 def _finished(problem, null, state):
     """(Fit of a candidate, a better Fit of the null from its optimum or None, what went wrong)."""
-    best = state if state.converged else continued(problem, state)
+    best = state if state.converged else continued(problem, state, hasty=True)
     told = "" if best.converged else f"its fit had not converged after {best.evaluations} predictions"
     return best, _null_again(problem, null, best), told
 
@@ -172,12 +172,13 @@ def _null_again(problem, null, best):
     if best.objective > null.objective - 1:
         return None
     try:
-        again = fit(problem, null.noises, problem.nominal, best.latent[:len(null.latent)], null.runs, _GIVEN_UP)
+        again = fit(problem, null.noises, problem.nominal, best.latent[:len(null.latent)], null.runs, _GIVEN_UP,
+                    True)
     except BrakechainError:
         return None
     if again.objective >= null.objective:
         return None
-    return again if again.converged else continued(problem, again)
+    return again if again.converged else continued(problem, again, hasty=True)
 
 
 def _overlooked(null, found, results, settings):
