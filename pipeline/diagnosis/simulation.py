@@ -47,23 +47,32 @@ class Simulated:
     """Picklable prediction, of cut runs too: ``runs`` {name: Run}.
 
     ``change`` {name: (c, n)}: what half the step changes; ``altered`` {name: changes}: runs on another bench, see
-    ``next_run``.
+    ``next_run``; ``built`` holds the last bench.
     """
 
     bench: object
     runs: dict
     change: dict
     altered: dict = field(default_factory=dict)
+    built: dict = field(default_factory=dict, compare=False)
 
     def __call__(self, hypothesis, values, run):
         own, kept = self.runs[run.name], run.samples.shape[1]
         own = own.until(kept) if kept < own.samples else own
-        bench = altered(completed(self.bench, hypothesis, values), self.altered.get(run.name, {}))
+        bench = altered(self._completed(hypothesis, values), self.altered.get(run.name, {}))
         predicted = shown(bench, own, run.channels)
         refinement = values.get(parameter_name(STEP, SOLVER, REFINEMENT), 0.0)
         if not refinement or run.name not in self.change:       # runs that were not recorded have no change of theirs
             return predicted
         return predicted + refinement * self.change[run.name][:, :kept]
+
+    def _completed(self, hypothesis, values):
+        """The bench of a hypothesis, kept as long as run after run asks for the same values."""
+        key = (hypothesis.effects, tuple(values.items()))
+        if key not in self.built:
+            self.built.clear()
+            self.built[key] = completed(self.bench, hypothesis, values)
+        return self.built[key]
 
 
 def shown(bench, run, channels):

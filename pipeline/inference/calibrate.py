@@ -13,8 +13,8 @@ from pipeline.inference.effective import tempering
 from pipeline.inference.priors import LATENT_LIMIT
 
 ITERATIONS = 60
-#: forward-difference step in latent coordinates
-DIFFERENCE = 1e-4
+#: forward-difference step in latent coordinates, and the widest one, which looks beyond kinks of the forward model
+DIFFERENCE, _WIDEST = 1e-4, 1e-2
 #: the expected decrease of the objective at which a fit counts as converged, tempered as the evidence will be
 TOLERANCE = 1e-3
 #: longest step of a latent coordinate in one iteration
@@ -22,18 +22,22 @@ _LONGEST = 1.5
 #: where no step helps (rounding, kinks of the forward model) a fit counts as converged below this: half a posterior
 #: standard deviation from its linearised optimum
 _STALLED = 0.25
+#: share of the tolerance below which the gain of a step is none
+_LEAST = 0.1
 #: iterations from every start before only the best goes on
-_TRIAL = 8
+_TRIAL = 3
+#: so many times the decrease of the objective that its slope promises may a fit still come down
+_HOPE = 10.0
+#: iterations of an easier problem on the way
+_EASIER = 8
 #: shares of the runs that are fitted first where the residual is beyond FAR noise powers: over a short horizon the
 #: phase of a nonlinear motion cannot slip, so that the optimum is reached from far away
 _HORIZONS, FAR, _FEWEST = (0.08, 0.3), 100.0, 32
 #: standard deviations, as multiples of the true ones, with which features are fitted first where they are that far off:
 #: then priors hold what few features tell, and each is paired with what it belongs to before it counts in full
 _LOOSE = (30.0, 6.0)
-#: share of the objective that is left after as many iterations as a trial has where a fit crawls
-_CRAWLING = 0.7
-#: though a larger share of it than this is promised
-_PROMISE = 0.01
+#: share of the objective that is left after so many iterations where a fit crawls
+_CRAWLING, _PATIENCE = 0.7, 8
 #: share of the promised decrease below which an updated Jacobian is replaced by differences
 _TRUSTED = 0.25
 
@@ -112,51 +116,77 @@ def whitened(problem, noises, hypothesis, latent, runs):
     return residuals, None
 
 
-def linearised(problem, noises, hypothesis, latent, runs):
-    """Fit without iteration: residuals and Jacobians at ``latent``. Raises what the forward model raises."""
+def linearised(problem, noises, hypothesis, latent, runs, known=()):
+    """Fit without iteration: residuals and Jacobians at ``latent``. Raises what the forward model raises.
+
+    ``known`` [(m_r, i)]: the first columns of the Jacobians, taken as they are.
+    """
     latent = np.asarray(latent, float)
     residuals, error = whitened(problem, noises, hypothesis, latent, runs)
     if error:
         raise error
-    jacobians, count = _jacobians(problem, noises, hypothesis, latent, residuals, runs)
-    return Fit(hypothesis, tuple(runs), tuple(noises), latent, tuple(residuals), jacobians, False, 1 + count)
+    first = known[0].shape[1] if len(known) else 0
+    jacobians, count = _jacobians(problem, noises, hypothesis, latent, residuals, runs, first)
+    if first:
+        jacobians = tuple(np.hstack(both) for both in zip(known, jacobians, strict=True))
+    return Fit(hypothesis, tuple(runs), tuple(noises), latent, tuple(residuals), jacobians, False, 1 + count, not first)
 
 
-def fit(problem, noises, hypothesis, start, runs, iterations=ITERATIONS, hasty=False):
-    """Levenberg-Marquardt from latent ``start``; the Fit says whether it ``converged``; ``hasty`` see ``continued``.
+def fit(problem, noises, hypothesis, start, runs, iterations=ITERATIONS):
+    """Levenberg-Marquardt from latent ``start``; the Fit says whether it ``converged``.
 
     ``noises`` [Noise] belong to ``runs``. Raises what the forward model raises at the start.
     """
-    return continued(problem, linearised(problem, noises, hypothesis, start, runs), iterations, hasty=hasty)
+    return continued(problem, linearised(problem, noises, hypothesis, start, runs), iterations)
 
 
-def calibrate(problem, noises, hypothesis, starts, runs, settled=True, iterations=ITERATIONS):
+def calibrate(problem, noises, hypothesis, starts, runs, settled=True):
     """The best of several fits. Raises ConvergenceError where none converged, telling what stopped them.
 
     A few iterations are made from each start; then the best goes on, the next best only where it does not converge.
-    Without ``settled`` the best is returned even if ``iterations`` were not enough for it or it is given up (``hasty``
-    in ``continued``), and no other goes on.
+    Without ``settled`` the best is returned even if its iterations were not enough or it crawls, and no other goes on.
     """
     reasons = []
-    near = _approached(problem, noises, hypothesis, starts, runs, reasons)
-    for state in _begun(problem, noises, hypothesis, near, runs, reasons):
-        found = state if state.converged else continued(problem, state, iterations, hasty=not settled)
+    for state in _begun(problem, noises, hypothesis, starts, runs, reasons):
+        found = state if state.converged else continued(problem, state, hasty=not settled)
         if found.converged or not settled:
             return found
         reasons.append(f"not converged after {found.evaluations} predictions")
-    raise ConvergenceError(f"calibration of {hypothesis.name}", "a fit that converges from one of its starts",
-                           "; ".join(dict.fromkeys(reasons)), "check the nominal values and priors")
+    raise _stopped(hypothesis, reasons)
 
 
-def _begun(problem, noises, hypothesis, starts, runs, reasons, rough=False):
+def begun(problem, noises, hypothesis, starts, runs, known=()):
+    """The best Fit after a few iterations from each of ``starts``, to be ``continued``; ``known`` as ``linearised``.
+
+    Raises ConvergenceError where the forward model cannot begin from any.
+    """
+    reasons = []
+    states = _begun(problem, noises, hypothesis, starts, runs, reasons, known)
+    if not states:
+        raise _stopped(hypothesis, reasons)
+    return states[0]
+
+
+def _stopped(hypothesis, reasons):
+    return ConvergenceError(f"calibration of {hypothesis.name}", "a fit that converges from one of its starts",
+                            "; ".join(dict.fromkeys(reasons)), "check the nominal values and priors")
+
+
+def _begun(problem, noises, hypothesis, starts, runs, reasons, known=()):
     """[Fit] after a few iterations from each start, best first; ``reasons`` gets what stopped the others."""
-    begun = []
+    near = _approached(problem, noises, hypothesis, starts, runs, reasons)
+    return _tried(problem, noises, hypothesis, near, runs, reasons, known)
+
+
+def _tried(problem, noises, hypothesis, starts, runs, reasons, known=(), rough=False):
+    found = []
     for start in starts:
         try:
-            begun.append(continued(problem, linearised(problem, noises, hypothesis, start, runs), _TRIAL, rough))
+            state = linearised(problem, noises, hypothesis, start, runs, known)
+            found.append(_iterated(problem, state, _EASIER if rough else _TRIAL, rough=rough))
         except BrakechainError as error:
             reasons.append(str(error))
-    return sorted(begun, key=lambda f: f.objective)
+    return sorted(found, key=lambda f: f.objective)
 
 
 def _approached(problem, noises, hypothesis, starts, runs, reasons):
@@ -167,8 +197,8 @@ def _approached(problem, noises, hypothesis, starts, runs, reasons):
         return starts
     ahead = starts
     for noise, run in _easier(noises, runs):
-        begun = _begun(problem, noise, hypothesis, ahead, run, reasons, of_features(noises))
-        ahead = [begun[0].latent] if begun else []
+        found = _tried(problem, noise, hypothesis, ahead, run, reasons, rough=True)
+        ahead = [found[0].latent] if found else []
     return [*ahead, starts[int(np.argmin(sizes))]]
 
 
@@ -179,7 +209,7 @@ def _easier(noises, runs):
             yield [replace(noise, filter=noise.filter / factor) for noise in noises], runs
         return
     for share in _HORIZONS:
-        kept = [max(int(share * run.samples.shape[1]), _FEWEST) for run in runs]
+        kept = [noise.horizon(share, _FEWEST) for noise in noises]
         yield ([noise.until(n) for noise, n in zip(noises, kept, strict=True)],
                [run.until(n) for run, n in zip(runs, kept, strict=True)])
 
@@ -217,11 +247,11 @@ def _scale(state):
     return 1 / max(tempering(state.noises, state.residuals).max(), 1e-12)
 
 
-def _jacobians(problem, noises, hypothesis, latent, residuals, runs):
-    """Forward differences (backward at the upper limit and where the forward model fails ahead)."""
+def _jacobians(problem, noises, hypothesis, latent, residuals, runs, first=0, width=DIFFERENCE):
+    """Forward differences (backward at the upper limit and where the forward model fails ahead) from ``first`` on."""
     columns = []
-    for k in range(len(latent)):
-        for step in (DIFFERENCE, -DIFFERENCE):
+    for k in range(first, len(latent)):
+        for step in (width, -width):
             if abs(latent[k] + step) > LATENT_LIMIT:
                 continue
             moved, error = whitened(problem, noises, hypothesis, latent + step * (np.arange(len(latent)) == k), runs)
@@ -230,23 +260,34 @@ def _jacobians(problem, noises, hypothesis, latent, residuals, runs):
         if moved is None:
             raise error
         columns.append([(before - after) / step for before, after in zip(residuals, moved, strict=True)])
-    jacobians = tuple(np.array([column[i] for column in columns]).reshape(len(latent), len(residual)).T
+    jacobians = tuple(np.array([column[i] for column in columns]).reshape(len(columns), len(residual)).T
                       for i, residual in enumerate(residuals))
-    return jacobians, len(latent)
+    return jacobians, len(columns)
 
 
-def continued(problem, state, iterations=ITERATIONS, rough=False, hasty=False):
+def continued(problem, state, iterations=ITERATIONS, enough=np.inf, hasty=False):
     """The Fit after further iterations. Jacobians are updated by the secant (Broyden 1965) as long as that serves.
 
-    A ``rough`` one stops where updated Jacobians promise no more, and keeps them: its latent values are of use. A
-    ``hasty`` one gives up features that are far off and stay so.
+    A fit is given up, as it is, where its slope promises nothing that would bring its objective down to ``enough``; a
+    ``hasty`` one also where features are far off and stay so.
     """
-    damping, growth, reached = 1e-3, 2.0, []
+    found = _iterated(problem, state, iterations, enough, hasty=hasty)
+    return found if found.fresh or found.objective > enough else _refreshed(problem, found)
+
+
+def _iterated(problem, state, iterations, enough=np.inf, rough=False, hasty=False):
+    """The Fit after ``iterations``; where no step helps, differences are taken over wider steps before it ends.
+
+    A ``rough`` one stops where updated Jacobians promise no more: its latent values are of use.
+    """
+    damping, growth, width, before = 1e-3, 2.0, DIFFERENCE, []
     for _ in range(iterations):
-        reached.append(state.objective)
+        before.append(state.objective)
+        if hasty and _crawls(state, before):
+            break
         gradient, hessian = _slopes(state)
         expected, scale = gradient @ np.linalg.solve(hessian, gradient), _scale(state)
-        if hasty and expected > _PROMISE * state.objective and _crawls(state, reached):
+        if state.objective - _HOPE * expected > enough:
             break
         if expected < TOLERANCE * scale:
             if rough or state.fresh:
@@ -254,19 +295,22 @@ def continued(problem, state, iterations=ITERATIONS, rough=False, hasty=False):
             state = _refreshed(problem, state)
             continue
         moved, damping, growth = _step(problem, state, gradient, hessian, damping, growth)
-        if moved is None and not state.fresh:
-            state, damping, growth = _refreshed(problem, state), 1e-3, 2.0
-        elif moved is None:
-            return replace(state, converged=bool(expected < _STALLED * scale))
-        else:
+        if moved is not None and state.objective - moved.objective > _LEAST * TOLERANCE * scale:
             state = moved
-    return state if rough or state.fresh else _refreshed(problem, state)
+            continue
+        if state.fresh and expected < _STALLED * scale:
+            return replace(state, converged=True)
+        if state.fresh and width >= _WIDEST:
+            break
+        width *= 10 if state.fresh else 1
+        state, damping, growth = _refreshed(problem, state, width), 1e-3, 2.0
+    return state
 
 
-def _crawls(state, reached):
+def _crawls(state, before):
     """Whether features that are far off stay so: their hypothesis has no use for more iterations."""
-    return (of_features(state.noises) and far(state) and len(reached) > _TRIAL
-            and reached[-1] > _CRAWLING * reached[-1 - _TRIAL])
+    return (of_features(state.noises) and far(state) and len(before) > _PATIENCE
+            and before[-1] > _CRAWLING * before[-1 - _PATIENCE])
 
 
 def _slopes(state):
@@ -276,8 +320,9 @@ def _slopes(state):
     return gradient, _information(state.jacobians) + np.eye(len(state.latent))
 
 
-def _refreshed(problem, state):
-    jacobians, count = _jacobians(problem, state.noises, state.hypothesis, state.latent, state.residuals, state.runs)
+def _refreshed(problem, state, width=DIFFERENCE):
+    jacobians, count = _jacobians(problem, state.noises, state.hypothesis, state.latent, state.residuals, state.runs,
+                                  width=width)
     return replace(state, jacobians=jacobians, fresh=True, evaluations=state.evaluations + count)
 
 

@@ -11,7 +11,7 @@ import numpy as np
 
 from pipeline.contract.errors import BrakechainError, ConvergenceError
 from pipeline.inference import decide as rulebook
-from pipeline.inference.calibrate import calibrate, continued, far, fit, of_features
+from pipeline.inference.calibrate import begun, calibrate, continued, far, fit, of_features
 from pipeline.inference.drift import drift
 from pipeline.inference.effective import tempering
 from pipeline.inference.evidence import cautious_prior, evidence, posterior, reached, screened
@@ -20,9 +20,9 @@ from pipeline.inference.weigh import contender, held_out_gains, situation
 
 #: iterations of a nominal model from a candidate's optimum before it is given up where it is still worse than before
 _GIVEN_UP = 16
-#: mean square of whitened residuals at which a candidate reaches the noise; others are then given up that, after a few
-#: iterations, are so many times worse
-_REACHED, _HOPELESS = 1.5, 10.0
+#: mean square of whitened residuals at which a candidate reaches the noise; others are then given up that will not come
+#: within so many units of log evidence of it
+_REACHED, _NEAR = 1.5, 50.0
 #: where the linearisation of the null holds, scores that chance reaches more often than this are not looked into
 _LIKELY = 0.5
 
@@ -109,15 +109,20 @@ def _one_step(problem, budget, catalogue, settings, fan_out, start=None, base=No
     rough = screen(null, found, None, settings.draws, settings.seed)
     largest = _hopeful(null, settings.rules) if base is None else settings.rules.p_value
     kept = [i for i in rough.order()[:settings.kept] if np.isfinite(rough.score[i]) and rough.p_value[i] <= largest]
-    def refit(chosen):
-        begin = partial(_begun, problem, noises, null, settings.starts)
-        begun = dict(zip(chosen, fan_out(begin, [(catalogue[i], rough.start[i]) for i in chosen]), strict=True))
-        going = _within_reach({i: state for i, (state, _) in begun.items() if state is not None})
-        ended = dict(zip(going, fan_out(partial(_finished, problem, null), list(going.values())), strict=True))
-        return {i: ended.get(i, (state, None, told)) for i, (state, told) in begun.items()}
 
-    results = refit(kept)
-    results |= refit(_overlooked(null, found, results, settings))
+    def refit(chosen, before):
+        begin = partial(_begun, problem, noises, null, settings.starts)
+        first = dict(zip(chosen, fan_out(begin, [(catalogue[i], rough.start[i]) for i in chosen]), strict=True))
+        states = {i: state for i, (state, _) in first.items() if state is not None}
+        ended = {i: (None, None, told) for i, (state, told) in first.items() if state is None}
+        leader = min(states, key=lambda i: states[i].objective, default=None)
+        for group in ([i for i in states if i == leader], [i for i in states if i != leader]):
+            finish = partial(_finished, problem, null, _enough([*before, *ended.values()]))
+            ended |= zip(group, fan_out(finish, [states[i] for i in group]), strict=True)
+        return ended
+
+    results = refit(kept, ())
+    results |= refit(_overlooked(null, found, results, settings), results.values())
     better = min([null, *(r[1] for r in results.values() if r[1] is not None)], key=lambda f: f.objective)
     if better.objective < null.objective - 0.1:
         null = better
@@ -139,30 +144,33 @@ def _hopeful(null, rules):
 
 
 def _begun(problem, noises, null, offsets, item):
-    """(Fit of a candidate after a few iterations or None, what became of it if it does not go on)."""
+    """(Fit of a candidate after a few iterations or None, why there is none)."""
     candidate, screened_start = item
     begins = [screened_start] + [np.full(len(candidate.parameters), offset) for offset in offsets]
     misled = of_features(noises) and far(null)      # by pairing features with what they do not belong to
     base = problem.nominal.nominal if misled else null.latent
     starts = [np.concatenate((base, np.clip(begin, -2, 2))) for begin in begins]
+    known = () if misled else null.jacobians
     try:
-        state = calibrate(problem, noises, problem.nominal.joined(candidate), starts, null.runs, False, 0)
+        return begun(problem, noises, problem.nominal.joined(candidate), starts, null.runs, known), ""
     except BrakechainError as error:
         return None, str(error)
-    return state, "" if state.converged else "its fit was given up, far from what others reach"
 
 
-def _within_reach(begun):
-    """{index: Fit} of those begun ones that go on: all, or, where one reaches the noise, those not far above it."""
-    best = min(begun.values(), key=lambda f: f.objective, default=None)
+def _enough(results):
+    """The objective to which a candidate must be able to come down: near one that reached the noise, if one did."""
+    fits = [fit for fit, _, _ in results if fit is not None]
+    best = min(fits, key=lambda f: f.objective, default=None)
     if best is None or best.chi_square.sum() > _REACHED * best.counts.sum():
-        return begun
-    return {i: state for i, state in begun.items() if state.objective < _HOPELESS * best.objective}
+        return np.inf
+    return best.objective + _NEAR / tempering(best.noises, best.residuals).max()
 
 
-def _finished(problem, null, state):
+def _finished(problem, null, enough, state):
     """(Fit of a candidate, a better Fit of the null from its optimum or None, what went wrong)."""
-    best = state if state.converged else continued(problem, state, hasty=True)
+    best = state if state.converged else continued(problem, state, enough=enough, hasty=True)
+    if not best.converged and best.objective > enough:
+        return best, None, "its fit was given up, far from what others reach"
     told = "" if best.converged else f"its fit had not converged after {best.evaluations} predictions"
     return best, _null_again(problem, null, best), told
 
@@ -172,8 +180,7 @@ def _null_again(problem, null, best):
     if best.objective > null.objective - 1:
         return None
     try:
-        again = fit(problem, null.noises, problem.nominal, best.latent[:len(null.latent)], null.runs, _GIVEN_UP,
-                    True)
+        again = fit(problem, null.noises, problem.nominal, best.latent[:len(null.latent)], null.runs, _GIVEN_UP)
     except BrakechainError:
         return None
     if again.objective >= null.objective:

@@ -42,6 +42,13 @@ class Noise:
             white[..., lag:] += self.filter[:, lag, None] * residual[..., :-lag]
         return (white / self.weight)[..., self.usable]
 
+    def horizon(self, share, fewest):
+        """Number of samples from the begin of the run that hold this ``share`` of its usable ones, or ``fewest``."""
+        counted = np.flatnonzero(self.usable.any(axis=0))
+        if not len(counted):
+            return self.usable.shape[1]
+        return int(counted[min(max(int(share * len(counted)), fewest), len(counted)) - 1]) + 1
+
     def until(self, kept):
         """The noise of the run cut to its first ``kept`` samples."""
         return replace(self, weight=self.weight[:, :kept], usable=self.usable[:, :kept])

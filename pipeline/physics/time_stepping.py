@@ -123,8 +123,9 @@ def simulate(model, law, friction=None, *, step, duration, drive=None, inputs=No
     ``law``: Hard, Penalty, Table, Lagrange or Forward; ``friction``: Friction, none by default; either may be Grouped;
     ``drive``: speed of the drive in rad/s, a number or a History, by default that of the model; ``inputs``: forces (i,)
     N on the inputs, or their History; ``start``: Start, by default at rest in the origin; ``system``: the ModalSystem
-    of the model, where many runs share it; ``book=False`` leaves out the work of inputs and the loss of dampers. Raises
-    ConfigError for a step too long, ConvergenceError with time and contact where a step has no solution.
+    of the model, where many runs share it; ``book=False`` leaves out energy, the work of inputs and the loss of
+    dampers. Raises ConfigError for a step too long, ConvergenceError with time and contact where a step has no
+    solution.
     """
     steps = round(duration / step)
     if not step > 0 or steps < 1 or record_every < 1:

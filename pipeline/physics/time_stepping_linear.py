@@ -7,6 +7,7 @@ step is exact for forces that are linear in time (Nigam & Jennings 1969), in all
 """
 
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 from scipy.linalg import eigh, expm
@@ -19,6 +20,8 @@ _ROUNDING = 1e-12
 _COUPLING = 1e-9
 #: worst conditioning of the eigenvectors of coupled modes
 _CONDITION = 1e10
+#: modal systems that are kept: runs of one model follow one another
+_KEPT = 8
 
 
 @dataclass(frozen=True)
@@ -69,7 +72,13 @@ def modal_system(model, damping="full", highest=np.inf):
     ``damping`` is full, or diagonal to drop what couples the modes; ``highest`` (Hz) leaves out the modes above it.
     Raises ConfigError where the mass is not positive definite or coupled modes are critically damped.
     """
-    mass, drag, stiffness = model.supported()
+    parts = [np.ascontiguousarray(matrix, float).tobytes() for matrix in model.supported()]
+    return _modal_system(*parts, model.size, damping, highest)
+
+
+@lru_cache(_KEPT)
+def _modal_system(mass, drag, stiffness, size, damping, highest):
+    mass, drag, stiffness = (np.frombuffer(m).reshape(size, size) for m in (mass, drag, stiffness))
     try:
         squared, shape = eigh((stiffness + stiffness.T) / 2, mass)
     except np.linalg.LinAlgError:
@@ -86,12 +95,18 @@ def modal_system(model, damping="full", highest=np.inf):
 
 def step_matrices(system, step):
     """(E, first, last), each (m, 2, 2): exact step of the pairs, x -> E x + first B f + last B f next."""
-    count = len(system.squared)
+    return _step_matrices(np.ascontiguousarray(system.blocks, float).tobytes(), system.coupled, step)
+
+
+@lru_cache(_KEPT)
+def _step_matrices(blocks, coupled, step):
+    blocks = np.frombuffer(blocks).reshape(-1, 2, 2)
+    count = len(blocks)
     scale = np.ones((count, 2))
-    if not system.coupled:
+    if not coupled:
         scale[:, 1] = 1 / step      # (q, h q'): the entries of the exponent are of one size
     augmented = np.zeros((count, 6, 6))
-    augmented[:, :2, :2] = step * system.blocks * scale[:, None, :] / scale[:, :, None]
+    augmented[:, :2, :2] = step * blocks * scale[:, None, :] / scale[:, :, None]
     augmented[:, [0, 1, 2, 3], [2, 3, 4, 5]] = 1.0
     grown = expm(augmented)[:, :2] if count else augmented[:, :2]
     back = scale[:, :, None] / scale[:, None, :]

@@ -173,7 +173,7 @@ def march(linear, law, friction, elements, states, lever, drive, inputs, pairs, 
     """(code, step number, contact or element): fills ``record`` from what stands at time 0, ``pairs`` to ``value``.
 
     ``lever`` (c,), ``drive`` HistoryKernel of the drive speed, ``inputs`` of the input forces; ``age`` s passed before
-    time 0; ``book``: whether the work of inputs and dampers is summed.
+    time 0; ``book``: whether energy is kept and the work of inputs and dampers summed.
     """
     contacts, count = law.gap.size, linear.input_rows.shape[0]
     # functions of the loop take the arrays that they need: a whole tuple of arrays costs more than their work
@@ -223,7 +223,8 @@ def march(linear, law, friction, elements, states, lever, drive, inputs, pairs, 
         first_forces(elements, now, memory, drawn, instant)
         _keep_elements(record.elongation, record.element_force, 0, now, drawn)
     _see(sensors, pairs, watched)
-    _keep(watched, gap, stored_energy(energy, pull, pairs), record, 0, seen, force, sliding[1], status, 1, work)
+    stored = stored_energy(energy, pull, pairs) if book else 0.0
+    _keep(watched, gap, stored, record, 0, seen, force, sliding[1], status, 1, work)
     loss = _loss_rate(power, drag, pairs) if book else 0.0
     for number in range(1, steps + 1):
         _advance(one_step, steady, pairs, after)
@@ -316,8 +317,8 @@ def march(linear, law, friction, elements, states, lever, drive, inputs, pairs, 
             if not np.isfinite(np.sum(pairs)):
                 return DIVERGED, number, 0
             _see(sensors, pairs, watched)
-            _keep(watched, gap, stored_energy(energy, pull, pairs), record, number // every, seen, summed, sliding[1],
-                  status, every, work)
+            stored = stored_energy(energy, pull, pairs) if book else 0.0
+            _keep(watched, gap, stored, record, number // every, seen, summed, sliding[1], status, every, work)
             if special:
                 _keep_elements(record.elongation, record.element_force, number // every, now, drawn)
             summed[:] = 0.0

@@ -10,6 +10,7 @@ from pipeline.inference.calibrate import (
     _crawls,
     _easier,
     calibrate,
+    continued,
     far,
     fit,
     from_prior_mean,
@@ -170,3 +171,32 @@ def test_a_prediction_of_another_shape_is_refused():
     problem, noises = curve_problem(lambda v, x: x[1:], (Parameter("a", "1", 1.0, Normal(1.0, 1.0)),), lambda x: x, 0.1)
     with pytest.raises(ConfigError, match=r"prediction of run a: expected channels and samples \(1, 50\)"):
         linearised(problem, noises, problem.nominal, [0.0], problem.runs)
+
+
+def test_where_a_small_difference_hits_a_jump_a_wider_one_shows_the_way():
+    """Jumps against the slope, the start just before one of them."""
+    def jumping(a, grid):
+        return a * grid - 2e-4 * np.floor(a / 1e-3)
+    whole, noise = curve_problem(lambda values, grid: jumping(values["a"], grid),
+                                 (Parameter("a", "1", 1.0, Normal(1.0, 0.3)),), lambda grid: jumping(1.2, grid), 0.01)
+    found = fit(whole, noise, whole.nominal, np.array([-1e-5 / 0.3]), whole.training)
+    assert found.converged and found.values["a"] == pytest.approx(1.2, abs=0.01)
+
+
+def test_a_fit_that_cannot_come_near_enough_is_given_up():
+    whole, noise, catalogue, _ = linear.problem((2,), truth={"nominal_0": 0.7})
+    begin = linearised(whole, noises_of(whole, noise), whole.nominal, np.zeros(2), whole.training)
+    free = continued(whole, begin)
+    assert free.converged and continued(whole, begin, enough=2 * free.objective).converged
+    stopped = continued(whole, begin, enough=-10 * begin.objective)
+    assert not stopped.converged and stopped.evaluations == begin.evaluations
+
+
+def test_known_columns_are_taken_and_not_called_fresh():
+    whole, noise, _, _ = linear.problem((3,), truth={"nominal_0": 0.7})
+    full = linearised(whole, noises_of(whole, noise), whole.nominal, np.zeros(3), whole.training)
+    known = [j[:, :2] for j in full.jacobians]
+    found = linearised(whole, noises_of(whole, noise), whole.nominal, np.zeros(3), whole.training, known)
+    assert full.fresh and not found.fresh and (full.evaluations, found.evaluations) == (4, 2)
+    for one, other in zip(full.jacobians, found.jacobians, strict=True):
+        np.testing.assert_array_equal(one, other)

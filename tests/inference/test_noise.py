@@ -131,6 +131,16 @@ def test_noise_of_a_cut_run_whitens_its_first_samples_alike():
     np.testing.assert_allclose(noise.until(60).whiten(cut.samples), noise.whiten(whole.samples)[:58], rtol=1e-12)
 
 
+def test_a_horizon_counts_usable_samples_from_the_begin():
+    whole = run(coloured(3, 500))
+    noise = whitening(whole, [[1.0]])
+    noise.usable[:, :200] = False
+    assert noise.horizon(0.1, 8) == 230 and noise.horizon(0.1, 64) == 264 and noise.horizon(1.0, 8) == 500
+    assert noise.until(noise.horizon(0.1, 8)).count == 30
+    noise.usable[:] = False
+    assert noise.horizon(0.1, 8) == 500
+
+
 def test_channels_without_samples_do_not_count_in_errors():
     one = Observed("rung", {}, ("seen", "lost", "lost too"), np.array([[2.0], [0.0], [0.0]]), None,
                    np.array([[True], [False], [False]]), noise_std=np.array([0.1, 1.0, 1.0]))

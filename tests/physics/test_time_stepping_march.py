@@ -34,6 +34,7 @@ def test_books_can_be_left_out():
                            for book in (True, False))
     np.testing.assert_array_equal(with_books.displacement, without.displacement)
     assert with_books.damping_loss[-1] > 0 == without.damping_loss[-1]
+    assert with_books.stored.max() > 0 == without.stored.max()
 
 
 def test_the_same_run_gives_the_same_bits():

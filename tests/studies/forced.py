@@ -1,18 +1,21 @@
 """'make study_diagnosis': hidden physics on forced rigs, recorded by a generator of its own, diagnosed and scored.
 
-One folder a case; a case that has its answer is not solved again. Prints one line a case, then the table of rates. A
-case that the diagnosis refuses (``refused``) counts as not right.
+One folder a case; a case that has its answer is not solved again. Cases are shared out over processes. Prints one line
+a case, then the table of rates. A case that the diagnosis refuses (``refused``) counts as not right.
 """
 
 import argparse
 import json
 import math
+import os
 import time
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 
 from pipeline.contract import documents
 from pipeline.contract.errors import BrakechainError
+from pipeline.contract.executor import LocalProcesses
 from pipeline.contract.settings import fill
 from pipeline.diagnosis.document import as_json
 from pipeline.products import Recording
@@ -125,9 +128,22 @@ def run(plan, folder, **asked):
         try:
             answer = solved(folder, **asked)
         except BrakechainError as error:
-            answer = {"verdict": "refused", "effects": [], "reason": [str(error)]}
+            answer = {"verdict": "refused", "effects": [], "reasons": [str(error)]}
         kept.write_text(json.dumps({**answer, "cpu_seconds": time.process_time() - begun}, indent=1) + "\n")
     return truth, json.loads(kept.read_text())
+
+
+def solve(folder, kept, plan):
+    """(truth, answer) of one Plan in its folder, or None where its case cannot be made; prints its line."""
+    try:
+        truth, answer = run(plan, folder / f"{plan.seed}", kept=kept)
+    except BrakechainError as error:
+        print(f"{plan.seed} {plan.hidden}: not made: {error}", flush=True)
+        return None
+    named = ", ".join(f"{e['name']} at {e['place']}" for e in answer["effects"])
+    print(f"{plan.seed} {truth['class']:<8} {truth['effect']:<22} {truth['place']:<8} {truth['noise']:>4.0%}  ->"
+          f" {answer['verdict']:<10} {named}   {answer['cpu_seconds']:.0f} s", flush=True)
+    return truth, answer
 
 
 def main():
@@ -137,19 +153,15 @@ def main():
     parser.add_argument("--only", nargs="*", help="hidden physics; 'control' for none; default all")
     parser.add_argument("--every", type=int, default=1, help="one case in so many")
     parser.add_argument("--kept", type=int, default=4, help="candidates that are refitted")
-    chosen, results = parser.parse_args(), []
+    parser.add_argument("--workers", type=int, default=os.cpu_count(), help="processes; default all processors")
+    chosen = parser.parse_args()
     wanted = [p for p in plans() if not chosen.only or (p.hidden or "control") in chosen.only][::chosen.every]
-    for plan in wanted:
-        try:
-            truth, answer = run(plan, chosen.folder / f"{plan.seed}", kept=chosen.kept)
-        except BrakechainError as error:
-            print(f"{plan.seed} {plan.hidden}: not made: {error}", flush=True)
-            continue
-        named = ", ".join(f"{e['name']} at {e['place']}" for e in answer["effects"])
-        print(f"{plan.seed} {truth['class']:<8} {truth['effect']:<22} {truth['place']:<8} {truth['noise']:>4.0%}  ->"
-              f" {answer['verdict']:<10} {named}   {answer['cpu_seconds']:.0f} s", flush=True)
-        results.append((truth, answer))
-    print("\n".join(table(results)))
+    pool = LocalProcesses(chosen.workers)
+    try:
+        results = pool.map(partial(solve, chosen.folder, chosen.kept), wanted, lambda: None)
+    finally:
+        pool.close()
+    print("\n".join(table([r for r in results if r])))
 
 
 if __name__ == "__main__":
