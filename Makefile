@@ -3,14 +3,14 @@ CASE   ?= disc_brake
 PYTHON ?= python3
 ARGS   ?=
 TESTS  ?= tests
-STAGES := surface micro_friction friction_map structure reduced_model complex_modes multibody response squeal comparison report interface_law friction_descriptions pin_on_disc effects transient lock_in lumped rupture beam_on_beam motion_scatter beam_geometry recording bench diagnosis
+STAGES := surface effects micro_friction friction_map structure reduced_model complex_modes multibody response squeal comparison report interface_law friction_descriptions pin_on_disc transient lock_in lumped rupture beam_on_beam motion_scatter beam_geometry recording bench diagnosis
 
 CONFIG := configs/$(CASE).yaml
 READY  := .venv/.ready
 BIN    := .venv/bin
 
 .DEFAULT_GOAL := help
-.PHONY: help setup run test test-slow test-study bench study_diagnosis study_squeal pin_bench lint clean $(STAGES)
+.PHONY: help setup run test test-slow test-study bench study_diagnosis study_squeal pin_bench worn_bench lint clean $(STAGES)
 
 help:            ## show this list
 	@echo "usage: make TARGET [CASE=disc_brake] [ARGS=...]      cases: $(basename $(notdir $(wildcard configs/*.yaml)))"
@@ -50,6 +50,9 @@ study_squeal: $(READY)  ## hidden physics on the practice pin-on-disc bench; res
 
 pin_bench: $(READY)  ## write the practice recordings of configs/pin_on_disc_bench.yaml to data/runs/practice
 	$(BIN)/python -m tests.studies.self_excited --practice
+
+worn_bench: $(READY)  ## write the practice recordings of configs/worn_pad.yaml to data/runs/practice
+	$(BIN)/python -m tests.studies.worn
 
 lint: $(READY)   ## style of the code
 	$(BIN)/python -m ruff check .

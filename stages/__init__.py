@@ -6,13 +6,13 @@ from importlib import import_module
 from pathlib import Path
 
 CHAINS = {
-    "disc_brake": ("surface", "micro_friction", "friction_map", "structure", "reduced_model", "complex_modes",
-                   "multibody", "response", "squeal", "comparison", "report"),
+    "disc_brake": ("surface", "effects", "micro_friction", "friction_map", "structure", "reduced_model",
+                   "complex_modes", "multibody", "response", "squeal", "comparison", "report"),
     "pin_on_disc": ("surface", "interface_law", "friction_descriptions", "pin_on_disc", "reduced_model",
-                    "complex_modes", "effects", "transient", "lock_in", "squeal", "comparison", "report"),
-    "lumped": ("lumped", "reduced_model", "complex_modes", "effects", "transient", "comparison", "report"),
+                    "effects", "complex_modes", "transient", "lock_in", "squeal", "comparison", "report"),
+    "lumped": ("lumped", "reduced_model", "effects", "complex_modes", "transient", "comparison", "report"),
     "bimaterial_rupture": ("rupture", "comparison", "report"),
-    "beam_on_beam": ("beam_on_beam", "reduced_model", "complex_modes", "effects", "transient", "motion_scatter",
+    "beam_on_beam": ("beam_on_beam", "reduced_model", "effects", "complex_modes", "transient", "motion_scatter",
                      "squeal", "comparison", "report"),
     "beam_geometry": ("beam_geometry", "report"),
     "recording": ("recording", "report"),
@@ -20,6 +20,7 @@ CHAINS = {
     "disc_modes": ("surface", "micro_friction", "friction_map", "structure", "recording", "diagnosis", "report"),
     "disc_squeal": ("surface", "micro_friction", "friction_map", "structure", "reduced_model", "complex_modes",
                     "recording", "diagnosis", "report"),
+    "worn_pad": ("surface", "effects", "micro_friction", "friction_map", "recording", "diagnosis", "report"),
     "pin_squeal": ("surface", "interface_law", "pin_on_disc", "reduced_model", "complex_modes", "recording",
                    "diagnosis", "report"),
 }

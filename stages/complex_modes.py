@@ -7,30 +7,25 @@ motions keep them closed.
 A root s = sigma + i omega with sigma > 0 is a squeal candidate: it says which motion can grow, not how loud it ends up.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 
 import numpy as np
 from scipy.linalg import eigvalsh
 
+from pipeline.benches.effect_block import conditions, physics_terms
+from pipeline.benches.steady import Posed, Steady, branch_stiffness, posed, refuse_twice
 from pipeline.contract import ConfigError, Context, Quantities, Quantity, Section, option, stage
+from pipeline.physics.dry_friction import Friction, constant, falling
 from pipeline.physics.friction_corrections import FrictionBasis, friction_basis
 from pipeline.physics.friction_law import FrictionLaw
 from pipeline.physics.hard_contact import allowed_motions, hard_sliding, is_hard
 from pipeline.physics.quadratic_modes import follow_roots, quadratic_modes, quadratic_roots, upper_half
-from pipeline.physics.sliding_model import FrictionState, SlidingModel, sliding_model
-from pipeline.physics.sliding_state import (
-    ClosureResponse,
-    SlidingState,
-    closure_response,
-    falling_with_speed,
-    from_map,
-    given_state,
-    model_about,
-    steady_sliding,
-)
+from pipeline.physics.sliding_model import SlidingModel
+from pipeline.physics.sliding_state import ClosureResponse, closure_response, falling_with_speed, from_map
 from pipeline.physics.tangential_law import tangential_law
-from pipeline.products import ComplexModes, FrictionMap, ReducedModel
+from pipeline.physics.time_stepping import Table
+from pipeline.products import ComplexModes, Effects, FrictionMap, ReducedModel
 
 #: friction values of one task of the fan-out
 _CHUNK = 7
@@ -75,12 +70,17 @@ def _check(sections):
 
 @dataclass(frozen=True)
 class _State:
-    """One pressure: the model without friction, at the speed of the sweep, projected on its basis unless it is hard."""
+    """One pressure: the model without friction, at the speed of the sweep, projected on its basis unless it is hard.
+
+    ``still``: how it stands without friction; ``posed``: what its sliding states are found with.
+    """
 
     model: SlidingModel
     response: ClosureResponse | None
     input_force: np.ndarray
     basis: FrictionBasis
+    still: Steady
+    posed: Posed
 
 
 @dataclass(frozen=True)
@@ -88,7 +88,7 @@ class _Outcome:
     """One operating point: its sliding state, its roots, and the motion (n, g) of the growing ones."""
 
     speed: float
-    sliding: SlidingState
+    sliding: Steady
     root: np.ndarray
     growing: np.ndarray
     motion: np.ndarray
@@ -102,9 +102,11 @@ class _Outcome:
 
 
 @stage(check=_check)
-def complex_modes(model: ReducedModel, friction_map: FrictionMap | None, settings: Settings,
+def complex_modes(model: ReducedModel, friction_map: FrictionMap | None, effects: Effects | None, settings: Settings,
                   context: Context) -> ComplexModes:
     """Find the complex modes over friction and at the operating points.
+
+    Effects of the case are linearised about the sliding state; over friction they act on top of each coefficient.
 
     Method:
     All complex modes were computed at {friction_steps} friction coefficients from 0 to {friction_max} and at the
@@ -112,15 +114,16 @@ def complex_modes(model: ReducedModel, friction_map: FrictionMap | None, setting
     {frequency_max} and their friction corrections; a closing speed of {damping_speed} doubles the contact pressure
     (contact damping), and a mode counts as unstable when its growth rate exceeds {neutral} of its angular frequency.
     """
-    normal_law = model.law_closure, model.law_pressure
-    loads = model.pressure[:, None] * model.input_area
-    models = [(sliding_model(model, k, np.mean(settings.speeds)), load) for k, load in enumerate(loads)]
-    states = context.map(partial(_state, settings, normal_law), models, "real modes")
+    terms, loads = _told(physics_terms(effects), context), model.pressure[:, None] * model.input_area
+    models = [(posed(model, k, np.mean(settings.speeds), settings.damping_speed, terms, conditions(effects)), load)
+              for k, load in enumerate(loads)]
+    refuse_twice(models[0][0].bench, settings.friction_damping)
+    states = context.map(partial(_state, settings), models, "real modes")
     friction = np.linspace(0.0, settings.friction_max, settings.friction_steps)
-    roots = _sweep(states, normal_law, friction, settings, context)
+    roots = _sweep(states, friction, settings, context)
     law = _friction_law(friction_map, model, settings)
     points = [(m.at_speed(speed), load) for m, load in models for speed in settings.speeds]
-    outcomes = context.map(partial(_operate, settings, normal_law, law), points, "operating points")
+    outcomes = context.map(partial(_operate, settings, law), points, "operating points")
     branches = min(max(len(s.basis.frequency) for s in states), *(s.model.size for s in states))
     return ComplexModes(
         pressure=model.pressure, friction=friction, root=[r[:, :branches] for r in roots],
@@ -133,37 +136,44 @@ def complex_modes(model: ReducedModel, friction_map: FrictionMap | None, setting
         corrections=max([s.basis.corrections for s in states] + [o.corrections for o in outcomes]))
 
 
-def _state(settings, normal_law, task):
+def _told(terms, context):
+    """The terms, those told that leave complex modes alone."""
+    for term in terms:
+        if not term.effect.small:
+            context.log(f"{term.effect.name} at {term.place}: no small motion sees it; complex modes stay as they are")
+    return terms
+
+
+def _state(settings, task):
     """The model about its state without friction, on a basis that serves all states of the sweep."""
-    model, input_force = task
-    response = _response(model, normal_law, settings)
-    still = _sliding(model, response, input_force, normal_law, 0.0)
-    model = model_about(model, still.contact, settings.damping_speed)
-    basis = _basis(model, settings, contact_stiffness=still.contact.stiffness.max(initial=0.0))
-    return _State(model if is_hard(model) else model.projected(basis.shape), response, input_force, basis)
+    one, input_force = task
+    response, seeking = _response(one, settings), one.condensed() if one.moved else one
+    still = seeking.slide(response, input_force, constant(0.0), 0.0, settings)
+    about = still.about(one.bench.model)
+    basis = _basis(about, settings, contact_stiffness=still.contact.stiffness.max(initial=0.0))
+    bare = replace(one.bench.model, contacts=about.contacts)
+    bare = bare if is_hard(about) else bare.projected(basis.shape)
+    return _State(bare, response, input_force, basis, still, seeking if one.moved else one.within(bare))
 
 
-def _response(model, normal_law, settings):
-    """ClosureResponse where a normal law needs it, else None."""
-    return closure_response(model, settings.centrifugal) if normal_law[0].size else None
-
-
-def _sliding(model, response, input_force, normal_law, friction):
-    """Steady sliding: solved where the contacts have a normal law, else as the preload of the model says."""
-    if response is None:
-        return given_state(model, friction)
-    return steady_sliding(model, response, input_force, *normal_law, friction)
+def _response(one, settings):
+    """ClosureResponse where the law of the model is what a sliding state is found with, else None."""
+    tabled = isinstance(one.base.law, Table) and not one.moved
+    return closure_response(one.bench.model, settings.centrifugal) if tabled else None
 
 
 def _friction_law(friction_map, model, settings):
-    """Friction over pressure and speed: of the map; where there is none, of the settings or the model."""
+    """(Friction, the same over pressure and speed): of the map; without one, of the settings or the model."""
     if friction_map is not None:
         law = FrictionLaw(friction_map.pressure, friction_map.speed, friction_map.distance, friction_map.friction)
-        return partial(from_map, law, settings.sliding_distance)
+        return Friction(law, distance=settings.sliding_distance), partial(from_map, law, settings.sliding_distance)
     if settings.friction is None:
-        return partial(from_map, tangential_law(model).friction_law(), 0.0)
-    at_rest = settings.friction if settings.friction_at_rest is None else settings.friction_at_rest
-    return partial(falling_with_speed, settings.friction, at_rest, settings.decay_speed)
+        law = tangential_law(model).friction_law()
+        return Friction(law), partial(from_map, law, 0.0)
+    decay_speed, last = settings.decay_speed, settings.friction
+    at_rest = last if settings.friction_at_rest is None else settings.friction_at_rest
+    law = constant(last) if at_rest == last else falling(at_rest, last, decay_speed)
+    return law, partial(falling_with_speed, last, at_rest, decay_speed)
 
 
 def _basis(model, settings, contact_stiffness=0.0):
@@ -172,52 +182,55 @@ def _basis(model, settings, contact_stiffness=0.0):
         frequency = _frequencies(np.diag(hard_sliding(model, 0.0, shape, friction_damping=False).stiffness))
         return FrictionBasis(shape, frequency[frequency < settings.frequency_max], 0)
     return friction_basis(model, settings.frequency_max, settings.friction_damping, settings.smallest_correction,
-                          contact_stiffness, settings.centrifugal)
+                          contact_stiffness, settings.centrifugal, branch_stiffness(model))
 
 
-def _sweep(states, normal_law, friction, settings, context):
+def _sweep(states, friction, settings, context):
     """Roots (friction, n) of every state, followed over friction from the lowest without friction upwards."""
     chunks = np.array_split(friction, -(-len(friction) // _CHUNK))
-    results = context.map(partial(_roots_over_friction, settings, normal_law), [(s, c) for s in states for c in chunks],
+    results = context.map(partial(_roots_over_friction, settings), [(s, c) for s in states for c in chunks],
                           "friction sweep")
     roots = [np.vstack(results[k:k + len(chunks)]) for k in range(0, len(results), len(chunks))]
     return [follow_roots(r[:, np.argsort(abs(r[0]), kind="stable")]) for r in roots]
 
 
-def _roots_over_friction(settings, normal_law, task):
+def _roots_over_friction(settings, task):
     """One root of each conjugate pair at each friction coefficient, (friction, n), about its own sliding state."""
     state, friction = task
     roots = []
     for mu in friction:
-        sliding = _sliding(state.model, state.response, state.input_force, normal_law, mu)
-        about = model_about(state.model, sliding.contact, settings.damping_speed)
-        found = quadratic_roots(*_linearised(about, mu, state.basis, settings))
-        roots.append(found[upper_half(found)])
+        sliding = state.posed.slide(state.response, state.input_force, constant(mu), mu, settings)
+        matrices, beside = _linearised(sliding.about(state.model), sliding, state.basis, settings)
+        found = quadratic_roots(*matrices, beside)
+        roots.append(found[upper_half(found, len(matrices[0]))])
     return np.array(roots)
 
 
-def _operate(settings, normal_law, law, task):
+def _operate(settings, law, task):
     """Sliding state with friction of the law, and the modes about it on a basis of its own."""
-    model, input_force = task
-    response = _response(model, normal_law, settings)
-    sliding = _sliding(model, response, input_force, normal_law, law)
-    model = model_about(model, sliding.contact, settings.damping_speed)
+    one, input_force = task
+    response, seeking = _response(one, settings), one.condensed() if one.moved else one
+    sliding = seeking.slide(response, input_force, *law, settings)
+    model = sliding.about(one.bench.model)
     basis = _basis(model, settings)
-    friction = sliding.friction if settings.friction_slopes else FrictionState(sliding.friction.coefficient)
     about = model if is_hard(model) else model.projected(basis.shape)
-    modes = quadratic_modes(*_linearised(about, friction, basis, settings))
+    matrices, beside = _linearised(about, sliding, basis, settings, settings.friction_slopes)
+    modes = quadratic_modes(*matrices, beside=beside)
     root, limit = modes.value, 2 * np.pi * settings.frequency_max
     grows = (root.real > settings.neutral * abs(root)) & (root.imag >= 0) & (abs(root) < limit)
-    return _Outcome(model.speed, sliding, root, root[grows], basis.shape @ modes.right[:, grows], basis.corrections)
+    return _Outcome(model.speed, sliding, root[upper_half(root, len(matrices[0]))], root[grows],
+                    basis.shape @ modes.right[:, grows], basis.corrections)
 
 
-def _linearised(model, friction, basis, settings):
-    """(M, C, K) about steady sliding: of a model on its basis, or of the motions that hard contacts allow."""
+def _linearised(model, sliding, basis, settings, slopes=True):
+    """((M, C, K), Settling) about steady sliding: of a model on its basis, or of motions that hard contacts allow."""
+    friction, beside = sliding.acting(slopes), sliding.beside(model, slopes)
     if is_hard(model):
         allowed = hard_sliding(model, friction, basis.shape, settings.friction_damping)
-        return np.eye(len(allowed.stiffness)), allowed.damping, allowed.stiffness
+        beside = beside and beside.projected(allowed.left, allowed.basis)
+        return (np.eye(len(allowed.stiffness)), allowed.damping, allowed.stiffness), beside
     return model.linearised(friction, friction_damping=settings.friction_damping, gyroscopic=settings.gyroscopic,
-                            centrifugal=settings.centrifugal)
+                            centrifugal=settings.centrifugal), beside
 
 
 def _unstable(outcomes, recovery):
@@ -225,7 +238,7 @@ def _unstable(outcomes, recovery):
     found = [(number, root, motion) for number, outcome in enumerate(outcomes)
              for root, motion in zip(outcome.growing, outcome.motion.T, strict=True)]
     found.sort(key=lambda f: -f[1].real)
-    shapes = [_normalised(recovery @ q.astype(np.complex64)) for _, _, q in found]
+    shapes = [_normalised(recovery @ q[:recovery.shape[2]].astype(np.complex64)) for _, _, q in found]
     return {"unstable_operating": [f[0] for f in found], "unstable_root": [f[1] for f in found],
             "unstable_shape": np.array(shapes).reshape(len(found), *recovery.shape[:2])}
 
@@ -238,16 +251,15 @@ def _normalised(shape):
 
 
 def _lowest(roots, count):
-    """One of each conjugate pair, the ``count`` smallest."""
-    half = roots[upper_half(roots)]
-    return half[np.argsort(abs(half), kind="stable")[:count]]
+    """The ``count`` smallest."""
+    return roots[np.argsort(abs(roots), kind="stable")[:count]]
 
 
 def _lowest_frequencies(state, count, centrifugal):
     """The ``count`` lowest frequencies (Hz) of the closed system without friction, damping and gyroscopic terms."""
     if is_hard(state.model):
         return state.basis.frequency[:count]
-    mass, _, stiffness = state.model.frictionless(gyroscopic=False, centrifugal=centrifugal)
+    mass, _, stiffness = state.still.about(state.model).frictionless(gyroscopic=False, centrifugal=centrifugal)
     return _frequencies(eigvalsh(stiffness, mass)[:count])
 
 

@@ -1,17 +1,30 @@
 """Stage diagnosis: what differs between recordings and the model, where, and which physics is missing."""
 
+from functools import partial
+
 from pipeline.benches import bench as benches
 from pipeline.benches.effect_block import with_effects
 from pipeline.benches.equation import started
 from pipeline.benches.runs import recorded
 from pipeline.contract import ConfigError, Context, restored, stage
-from pipeline.diagnosis import equation, forced, self_excited
+from pipeline.diagnosis import equation, forced, rubbed, self_excited
 from pipeline.diagnosis.answer import answer
 from pipeline.diagnosis.document import companions
 from pipeline.diagnosis.published_lines import Models, published_diagnosis
 from pipeline.diagnosis.settings import Settings
 from pipeline.inference import diagnose as course
-from pipeline.products import Bench, ComplexModes, Diagnosis, Effects, Recording, ReducedModel, Structure
+from pipeline.products import (
+    Bench,
+    ComplexModes,
+    Diagnosis,
+    Effects,
+    FrictionMap,
+    MicroFriction,
+    Recording,
+    ReducedModel,
+    Structure,
+    Surface,
+)
 
 
 def _check(sections):
@@ -24,7 +37,8 @@ def _check(sections):
 
 @stage(companions=companions, check=_check)
 def diagnosis(model: ReducedModel | None, effects: Effects | None, recording: Recording, bench: Bench | None,
-              structure: Structure | None, modes: ComplexModes | None, settings: Settings,
+              structure: Structure | None, modes: ComplexModes | None, surface: Surface | None,
+              micro: MicroFriction | None, friction_map: FrictionMap | None, settings: Settings,
               context: Context) -> Diagnosis:
     """Compare recordings with the model, locate what differs and name what is missing.
 
@@ -35,19 +49,34 @@ def diagnosis(model: ReducedModel | None, effects: Effects | None, recording: Re
     """
     if settings.forward == "lines":
         told = published_diagnosis(recording, Models(model, structure, modes), settings, context)
+    elif settings.forward == "friction":
+        told = _answered(_of_friction(recording, surface, micro, friction_map, effects, settings, context), settings,
+                         context)
     else:
-        told = _of_runs(model, effects, recording, bench, settings, context)
+        told = _answered(_of_bench(model, effects, recording, bench, settings), settings, context)
     context.log(f"verdict: {told.verdict.item()}")
     return told
 
 
-def _of_runs(model, effects, recording, bench, settings, context):
-    """Product Diagnosis of recorded runs against the bench of the case."""
+def _of_friction(recording, surface, micro, friction_map, effects, settings, context):
+    """Question of measured friction against the rough pair of the case."""
+    if surface is None or micro is None:
+        raise ConfigError("diagnosis.forward", "another forward model, in a chain without micro_friction", "friction")
+    return rubbed.question(recording, surface, micro, friction_map, effects, settings,
+                           partial(context.map, label="spots of the rough pair"))
+
+
+def _of_bench(model, effects, recording, bench, settings):
+    """Question of recorded runs against the bench of the case."""
     if model is None or bench is None:
-        raise ConfigError("diagnosis.forward", "lines, in a chain without a bench", settings.forward)
+        raise ConfigError("diagnosis.forward", "lines or friction, in a chain without a bench", settings.forward)
     laid_out = restored(benches.Settings, bench.settings.item())
     whole = with_effects(benches.built(model, laid_out), effects)
-    asked = _question(whole, recorded(recording, laid_out), settings, laid_out)
+    return _question(whole, recorded(recording, laid_out), settings, laid_out)
+
+
+def _answered(asked, settings, context):
+    """Product Diagnosis of a Question."""
     context.log(f"{len(asked.candidates)} hypotheses over {len(asked.problem.training)} runs,"
                 f" {len(asked.problem.held_out)} held out")
     found = course.diagnose(asked.problem, asked.budget, asked.candidates, course.Settings(

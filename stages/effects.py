@@ -6,7 +6,7 @@ from pipeline.contract import Context, stage
 from pipeline.products import Effects
 
 
-@stage
+@stage(check=effect_block.check_places)
 def effects(settings: Settings, context: Context) -> Effects:
     """Add physics of the catalogue to the model.
 

@@ -21,7 +21,7 @@ from pipeline.physics.tangential_law import tangential_law
 from pipeline.physics.time_stepping import Penalty, simulate
 from pipeline.physics.time_stepping_linear import modal_system
 from pipeline.physics.time_stepping_start import steady_start
-from pipeline.products import LockIn, PinOnDisc, ReducedModel
+from pipeline.products import Effects, LockIn, PinOnDisc, ReducedModel
 from pipeline.systems.pin_on_disc import reshaped
 
 _GRAVITY = 9.81
@@ -96,11 +96,12 @@ def _check(sections):
 
 
 @stage(check=_check)
-def lock_in(pin_on_disc: PinOnDisc, model: ReducedModel, settings: Settings, context: Context) -> LockIn:
+def lock_in(pin_on_disc: PinOnDisc, model: ReducedModel, effects: Effects | None, settings: Settings,
+            context: Context) -> LockIn:
     """Map lock-in over pin length, load, speed and angle.
 
     The disc is reduced once; each point has a pin of its own. Points without a growing mode are not stepped: they have
-    no lock-in by themselves, though a strong blow might still lead to one.
+    no lock-in by themselves, though a strong blow might still lead to one. Effects of the case do not act here.
 
     Method:
     At {lengths} free lengths, and over load, speed and angle, the pin was reduced anew, the complex modes were found,
@@ -108,6 +109,9 @@ def lock_in(pin_on_disc: PinOnDisc, model: ReducedModel, settings: Settings, con
     about the weight; the spectrum of the last {window} was classified as classical, intermediate, multiple or dual-base
     lock-in.
     """
+    if effects is not None and len(effects.effect):
+        context.log(f"{', '.join(dict.fromkeys(map(str, effects.effect)))}: not part of this map, whose pins and loads"
+                    " are those of the model alone")
     points = _points(pin_on_disc, settings)
     found = context.map(partial(_visit, pin_on_disc, model, settings, context.solver), points, "points")
     fields = {name: [getattr(p, name) for p in points] for name in _Point.__dataclass_fields__}

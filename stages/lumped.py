@@ -46,6 +46,7 @@ class Contact(Section):
     gap: Quantity("m") = option("0 mm", "gap in the unloaded position, negative where parts are set to press")
     lever: Quantity("m") = option("1 m", "sliding speed per speed of the drive: a radius, 1 m on a belt")
     area: Quantity("m^2", gt=0) | None = option(None, "contact area, where friction depends on pressure")
+    angle: Quantity("rad") = option("0 deg", "where it sits about the axis of the drive, for what turns with the drive")
 
 
 class Gyro(Section):
@@ -238,6 +239,8 @@ def _contacts(contacts, place):
     return {"contact_name": list(contacts), **{f"contact_{k}": _rows(rows, place) for k, rows in parts.items()},
             "contact_body": [place.body[np.flatnonzero(row)[0]] for row in parts["tangent"]], "contact_area": area,
             "contact_lever": [c.lever for c in contacts.values()], "contact_gap": [c.gap for c in contacts.values()],
+            "contact_position": np.reshape([(abs(c.lever) * np.cos(c.angle), abs(c.lever) * np.sin(c.angle), 0.0)
+                                            for c in contacts.values()], (-1, 3)),
             "law_closure": closure, "law_pressure": pressure}
 
 

@@ -7,6 +7,8 @@ from typing import Literal
 
 import numpy as np
 
+from pipeline.benches.effect_block import conditions, physics_terms
+from pipeline.benches.pads import braked, kept, refuse_idle, with_terms
 from pipeline.contract import ConfigError, Context, Quantities, Quantity, Section, option, stage
 from pipeline.physics import multibody as exudyn_model
 from pipeline.physics import newmark
@@ -16,9 +18,8 @@ from pipeline.physics.oscillation import FEWEST_PERIODS, dominant_frequency, gro
 from pipeline.physics.pad_motion import gravity_rows, sliding_axes
 from pipeline.physics.pad_system import pad_system, static_start
 from pipeline.physics.preloaded_modes import preloaded_modes
-from pipeline.physics.sliding_model import sliding_model
 from pipeline.physics.stability_map import stability_map
-from pipeline.products import FrictionMap, Multibody, ReducedModel
+from pipeline.products import Effects, FrictionMap, Multibody, ReducedModel
 
 DISC = "disc"
 #: joints that carry the caliper and those that guide the pads, by a part of their names
@@ -57,6 +58,7 @@ class Settings(Section):
     caliper_factors: Quantities("1", gt=0) = option((0.25, 0.5, 1.0, 2.0, 4.0), "stability map: caliper stiffness")
     abutment_factors: Quantities("1", gt=0) = option((0.25, 0.5, 1.0, 2.0, 4.0), "stability map: abutment stiffness")
     stability_frequency: Quantity("Hz", gt=0) = option("10 kHz", "highest mode of the stability map")
+    without: tuple[str, ...] = option((), "effects of the case that this stage leaves out, as it cannot have them")
 
 
 @dataclass(frozen=True)
@@ -68,7 +70,8 @@ class _Run:
 
 
 @stage
-def multibody(model: ReducedModel, friction_map: FrictionMap, settings: Settings, context: Context) -> Multibody:
+def multibody(model: ReducedModel, friction_map: FrictionMap, effects: Effects | None, settings: Settings,
+              context: Context) -> Multibody:
     """Move the flexible pads on four rigid sub-discs with friction from the map.
 
     Coupling is one way, as in the paper: the disc is rigid here and the contact forces excite its
@@ -77,6 +80,10 @@ def multibody(model: ReducedModel, friction_map: FrictionMap, settings: Settings
     The trapezoidal rule lowers a frequency by a twelfth of the square of the angle per step (7.2 kHz:
     0.4 % at 5 us, 1.7 % at 10 us); a step in which 'highest_frequency' turns by more than 0.4 rad is
     refused. The opening of contacts needs 5 us on its own account.
+
+    Effects act on friction and laws of the patches, on the surface of the disc, on pads, caliper and
+    joints. Friction over distance counts the distance on the friction map. What remembers the motion,
+    wears or belongs to the flexible disc does not act here and is refused, unless 'without' names it.
 
     Method:
     Reduced pads and caliper on a rigid disc ({coupling} coupling) whose {sectors} sectors belong to four jointed
@@ -93,7 +100,11 @@ def multibody(model: ReducedModel, friction_map: FrictionMap, settings: Settings
         raise ConfigError("multibody: reduced model", f"a body called '{DISC}'", ", ".join(model.body_name))
     points = list(product(settings.pressures, settings.speeds))
     law = FrictionLaw(friction_map.pressure, friction_map.speed, friction_map.distance, friction_map.friction)
-    runs = context.map(partial(_operate, model=model, law=law, settings=settings), points, "operating points")
+    terms = kept(physics_terms(effects), settings.without)
+    posed = partial(_posed, model=model, law=law, told=conditions(effects), settings=settings)
+    refuse_idle(terms, lambda those: posed(points[0], terms=those)(1.0, 1.0))
+    runs = context.map(partial(_operate, posed=partial(posed, terms=terms), model=model, settings=settings), points,
+                       "operating points")
     fields = {name: np.array([run.fields[name] for run in runs]) for name in runs[0].fields}
     pressure, speed = np.array(points).T
     return Multibody(pressure=pressure, speed=speed, time=runs[0].time, pad_name=_pads(model)[1],
@@ -112,11 +123,16 @@ def _check_times(settings):
                           "shorten the step, or lower multibody.highest_frequency")
 
 
-def _operate(point, model, law, settings):
-    """Transient, oscillation and stability map of one operating point (pressure, speed)."""
-    sliding = sliding_model(model, 0, point[1]).held(DISC)
+def _posed(point, model, law, told, settings, terms):
+    """Function of the factors on caliper and abutment that gives the PadSystem of one operating point."""
+    sliding, dress = with_terms(braked(model, law, point[1], settings), terms, told)
     normal_law = model.law_closure, model.law_pressure
-    build = partial(_system, sliding, point[0] * model.input_area, normal_law, law, settings)
+    return partial(_system, sliding.held(DISC), dress, point[0] * model.input_area, normal_law, law, settings)
+
+
+def _operate(point, posed, model, settings):
+    """Transient, oscillation and stability map of one operating point (pressure, speed)."""
+    build = posed(point)
     system = build(1.0, 1.0)
     start = static_start(system, _where(point))
     modal, modes = preloaded_modes(system, start, settings.highest_frequency, settings.correction_damping)
@@ -126,7 +142,7 @@ def _operate(point, model, law, settings):
     pads, names = _pads(model)
     history = contact_history(modal.contact, np.searchsorted(pads, model.contact_body), len(names), time, displacement,
                               velocity)
-    rows = _motion_rows(model, pads)
+    rows = _motion_rows(model, pads, len(start))
     motion = (rows @ modes) @ displacement.T + (rows @ start)[:, :, None]
     stability, root = stability_map(build, settings.caliper_factors, settings.abutment_factors,
                                     settings.stability_frequency, settings.correction_damping)
@@ -138,10 +154,11 @@ def _operate(point, model, law, settings):
         "stability_root": root, **_oscillation(motion[:, 0], time, settings)})
 
 
-def _system(sliding, input_force, normal_law, friction_law, settings, caliper, abutment):
+def _system(sliding, dress, input_force, normal_law, friction_law, settings, caliper, abutment):
     scaled = _stiffer(_stiffer(sliding, CALIPER, caliper), ABUTMENT, abutment)
-    return pad_system(scaled, input_force, *normal_law, friction_law, settings.bedding, settings.bedding_share,
-                      settings.sectors, settings.ramp, settings.stick_speed, settings.damping_speed)
+    plain = pad_system(scaled, input_force, *normal_law, friction_law, settings.bedding, settings.bedding_share,
+                       settings.sectors, settings.ramp, settings.stick_speed, settings.damping_speed)
+    return dress(plain, scaled)
 
 
 def _stiffer(sliding, groups, factor):
@@ -160,8 +177,9 @@ def _pads(model):
     return bodies, [str(model.body_name[b]).removeprefix("pad_") for b in bodies]
 
 
-def _motion_rows(model, pads):
-    """(pad, 3, coordinate) rows of the centres of gravity in the coordinates of pads and caliper."""
+def _motion_rows(model, pads, size):
+    """(pad, 3, ``size``) rows of the centres of gravity in the coordinates of pads and caliper, and of what effects
+    add behind them."""
     kept = model.coordinate_body != list(model.body_name).index(DISC)
     rows = np.zeros((len(pads), 3, len(kept)))
     for row, pad in zip(rows, pads, strict=True):
@@ -169,7 +187,8 @@ def _motion_rows(model, pads):
         recovery = model.recovery[model.visible_body == pad][:, :, own]
         axes = sliding_axes(model.contact_position[model.contact_body == pad])
         row[:, own] = gravity_rows(model.mass[np.ix_(own, own)], recovery, axes)
-    return rows[:, :, kept]
+    added = size - np.count_nonzero(kept)
+    return np.pad(rows[:, :, kept], ((0, 0), (0, 0), (0, added))) if added else rows[:, :, kept]
 
 
 def _mean_friction(history, settled):

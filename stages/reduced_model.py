@@ -82,7 +82,7 @@ def _from_lumps(lumped, settings, context):
     size, sensors = len(lumped.mass), len(lumped.sensor_name)
     none, names = np.zeros((size, size)), {f.name for f in fields(ReducedModel)} & {f.name for f in fields(Lumped)}
     return ReducedModel(
-        damping=none, stiffness=none, centrifugal=none, contact_position=np.zeros((len(lumped.contact_name), 3)),
+        damping=none, stiffness=none, centrifugal=none,
         sensor_position=np.zeros((sensors, 3)), sensor_direction=np.tile([1.0, 0.0, 0.0], (sensors, 1)),
         visible_position=np.empty((0, 3)), visible_body=[], visible_face=np.empty((0, 4), int),
         recovery=np.empty((0, 3, size)), **NO_SHEAR, **{name: getattr(lumped, name) for name in sorted(names)})

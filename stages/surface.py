@@ -6,9 +6,11 @@ import numpy as np
 
 from pipeline.contract import ConfigError, Context, InputFile, Quantity, Section, option, stage
 from pipeline.physics.layered_solid import graded_depth
-from pipeline.physics.rough_surface import plateau_pad, turned_disc
+from pipeline.physics.rough_surface import band_limit, plateau_pad, resample, turned_disc
 from pipeline.physics.topography import isotropic_spectrum, level, read_scan, remove_outliers, statistics, to_grid
+from pipeline.physics.worn_depth import without_plane
 from pipeline.products import Surface
+from pipeline.recordings.neutral import read_neutral
 
 #: the two surfaces by their sections of the settings
 BODIES = ("disc", "pad")
@@ -24,6 +26,15 @@ class Scan(Section):
     longest_wavelength: Quantity("m", gt=0) = option("1 mm", "long cut-off: waviness above it is removed")
     rms_height: Quantity("m", gt=0) = option(..., "Sq to which the heights are scaled")
     reason: str = option(..., "why the heights are scaled", min_length=1)
+
+
+class Recorded(Section):
+    """A height map of a recording that shows the whole patch and nothing else."""
+
+    kind: Literal["recorded"] = "recorded"
+    file: InputFile = option(..., "plain HDF5 in the form that 'brakechain data format' prints")
+    run: str = option("new", "its run")
+    map: str = option(..., "its height map")
 
 
 class TurnedDisc(Section):
@@ -66,8 +77,8 @@ class Settings(Section):
     pad_thickness: Quantity("m", gt=0) = option("1 mm", "depth of the pad block under its surface")
     layer_growth: float = option(1.5, "thickness ratio of neighbouring FE layers; the first is a grid cube", ge=1)
     bodies: tuple[str, str] = option(BODIES, "names of the bodies in the report, that of 'pad' last")
-    disc: TurnedDisc | Scan = option(TurnedDisc(), "surface of the disc", discriminator="kind")
-    pad: PlateauPad | Scan = option(PlateauPad(), "surface of the pad", discriminator="kind")
+    disc: TurnedDisc | Scan | Recorded = option(TurnedDisc(), "surface of the disc", discriminator="kind")
+    pad: PlateauPad | Scan | Recorded = option(PlateauPad(), "surface of the pad", discriminator="kind")
 
 
 @stage
@@ -79,6 +90,7 @@ def surface(settings: Settings, context: Context) -> Surface:
     below {shortest_wavelength}. Scans lose outliers by a local median test, holes by harmonic filling and their
     quadratic form, fade periodically at the margins and are scaled to the declared rms height; generated surfaces are
     a turned disc (tool marks, roughness, grain outbreaks) and, against it, rough plateaus over a smoother matrix.
+    Recorded maps of the whole patch lose their plane and what is shorter than the shortest wavelength, nothing else.
     """
     spacing = settings.patch_length / settings.nodes
     if settings.shortest_wavelength < 2.0 * spacing:
@@ -106,6 +118,8 @@ def _make(body, choice, settings):
     """Height map of one body with its source and cleaning shares."""
     if choice.kind == "scan":
         return _measured(body, choice, settings)
+    if choice.kind == "recorded":
+        return _recorded(body, choice, settings)
     generate = turned_disc if body == "disc" else plateau_pad
     height = generate(settings.nodes, settings.patch_length, settings.shortest_wavelength,
                       **choice.model_dump(exclude={"kind"}))
@@ -121,3 +135,21 @@ def _measured(body, choice, settings):
     height = to_grid(levelled, spacing, settings.patch_length, settings.nodes, settings.shortest_wavelength,
                      choice.longest_wavelength, choice.rms_height, f"surface.{body}: {choice.file}")
     return {"height": height, "source": choice.file.name, "outliers": outliers, "filled": filled}
+
+
+def _recorded(body, choice, settings):
+    runs, where = read_neutral(choice.file), f"surface.{body}"
+    maps = runs[choice.run].topography if choice.run in runs else {}
+    if choice.map not in maps:
+        raise ConfigError(f"{where}.map", f"one of {', '.join(maps) or 'no map'} in run {choice.run} of"
+                          f" {', '.join(runs)}", choice.map)
+    told = maps[choice.map]
+    length = [2 * axis[-1] - axis[-2] for axis in (told.y, told.x)]
+    if not np.allclose(length, settings.patch_length, rtol=1e-6):
+        raise ConfigError(f"{where}.map", f"the whole patch, {settings.patch_length:g} m",
+                          f"{length[0]:g} by {length[1]:g} m", "set surface.patch_length, or use kind: scan")
+    levelled = without_plane(told.height)
+    height = resample(band_limit(levelled, (settings.patch_length,) * 2, settings.shortest_wavelength),
+                      (settings.nodes,) * 2)
+    return {"height": height, "source": f"{choice.file.name}: {choice.run}/{choice.map}", "outliers": 0.0,
+            "filled": 0.0}

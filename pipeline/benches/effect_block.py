@@ -2,12 +2,16 @@
 
     effects:
       falling_friction: {contact: {rise: 0.2, decay_speed: 100 mm/s}}         # effect: {place: {parameter: value}}
+      conditions: {humidity: 0.8}             # what some effects depend on, where no recorded run tells it
 """
+
+from dataclasses import replace
 
 from pipeline.contract import ConfigError, Quantity, option, section
 from pipeline.effects import CATALOGUE, named
 from pipeline.effects.effect import Term, compose
-from pipeline.effects.typical import Typical
+from pipeline.effects.typical import ASPERITIES, Typical
+from pipeline.physics.dry_friction import under
 from pipeline.products import Effects
 
 
@@ -28,42 +32,105 @@ def _values(effect):
     return section(f"{effect.name}_values", effect.summary, fields)
 
 
-#: the section: one key an effect, each a mapping from places to values
+#: conditions that effects depend on, each a number or not told
+Conditions = section("Conditions", "Conditions of a case, as runs have them.", {
+    name: (float | None, option(None, f"{name} [1]"))
+    for name in dict.fromkeys(name for effect in CATALOGUE for name in effect.conditions)})
+#: the section: one key an effect, each a mapping from places to values, and the conditions
 Settings = section("Settings", "Physics added to the model: effect, place, values.", {
-    effect.name: (dict[str, _values(effect)], option({}, f"{effect.summary}; at: {effect.place}"))
-    for effect in CATALOGUE})
+    **{effect.name: (dict[str, _values(effect)],
+                     option({}, f"{effect.summary}; at: {effect.place}{' or asperities' if effect.micro else ''}"))
+       for effect in CATALOGUE},
+    "conditions": (Conditions, option(Conditions(), "conditions of motions that no recorded run tells"))})
+
+_REMEDY = {True: "asperities are places of a rough pair, such as that of the disc brake",
+           False: f"on the scale of the roughness the place is {ASPERITIES}"}
+#: stages that put effects on their model: at the asperities of a rough pair, and at any other place
+_ACTING = {True: ("micro_friction",), False: ("complex_modes", "multibody", "transient", "bench")}
+
+
+def check_places(sections):
+    """Refuse effects at places that no stage among {stage: settings} has; ConfigError."""
+    for name, places in _blocks(sections["effects"]).items():
+        for place in places:
+            if not set(_ACTING[place == ASPERITIES]) & set(sections):
+                raise ConfigError(f"effects.{name}.{place}",
+                                  f"a chain with {' or '.join(_ACTING[place == ASPERITIES])}, where this place is",
+                                  "none", _REMEDY[place == ASPERITIES])
+
+
+def _blocks(settings):
+    """{effect: {place: values}} of a filled section."""
+    return {name: block for name, block in dict(settings).items() if name != "conditions"}
 
 
 def product(settings):
     """The product Effects of a filled section."""
-    rows = [(name, place, dict(values)) for name, places in dict(settings).items() for place, values in places.items()]
+    told = {name: value for name, value in dict(settings.conditions).items() if value is not None}
+    rows = [(name, place, dict(values)) for name, places in _blocks(settings).items()
+            for place, values in places.items()]
     units = {(e.name, p.name): p.unit for e in CATALOGUE for p in parameters(e)}
     flat = [(k, name, parameter, value) for k, (name, _, values) in enumerate(rows)
             for parameter, value in values.items()]
     return Effects(effect=[r[0] for r in rows], place=[r[1] for r in rows], term=[f[0] for f in flat],
                    parameter=[f[2] for f in flat], value=[f[3] for f in flat],
-                   unit=[units[f[1], f[2]] for f in flat])
+                   unit=[units[f[1], f[2]] for f in flat], condition=list(told), condition_value=list(told.values()))
 
 
 def terms(effects):
-    """Terms of a product Effects; none of None."""
+    """Terms of a product Effects; none of None, and none of an effect at its null."""
     if effects is None:
         return ()
     values = [{} for _ in effects.effect]
     for term, parameter, value in zip(effects.term, effects.parameter, effects.value, strict=True):
         values[term][str(parameter)] = float(value)
-    return tuple(Term(named(str(name)), str(place), given)
-                 for name, place, given in zip(effects.effect, effects.place, values, strict=True))
+    found = (Term(named(str(name)), str(place), given)
+             for name, place, given in zip(effects.effect, effects.place, values, strict=True))
+    return tuple(term for term in found if not _vanishes(term))
+
+
+def _vanishes(term):
+    return all(term.values[p.name] == p.null for p in parameters(term.effect) if p.null is not None)
+
+
+def conditions(effects):
+    """{name: value} of a product Effects; none of None."""
+    return {} if effects is None else dict(zip(map(str, effects.condition), map(float, effects.condition_value),
+                                               strict=True))
 
 
 def with_effects(bench, effects, channels=True):
-    """The bench with a product Effects (or None) on it.
+    """The bench with a product Effects (or None) on it; what acts at asperities is left to ``rubbing_with_effects``.
 
-    Without ``channels`` effects of sensors are refused, where nothing is compared with a recording.
+    Without ``channels``, where nothing is compared with a recording, effects of sensors are refused, and conditions are
+    those of the block.
     """
-    found = terms(effects)
+    if channels:
+        return compose(bench, _on_benches(effects))
+    found = physics_terms(effects)
+    whole = compose(bench, found)
+    return replace(whole, friction=under(whole.friction, conditions(effects), "effects")) if found else whole
+
+
+def physics_terms(effects):
+    """Terms of a product Effects (or None) on a bench where nothing is recorded; ConfigError for effects of sensors."""
+    found = _on_benches(effects)
     for term in found:
-        if not channels and term.effect.kind == "sensor":
+        if term.effect.kind == "sensor":
             raise ConfigError(f"effects.{term.effect.name}", "physics", "an effect of a sensor",
                               "sensors are part of a bench: use it in a case with recordings")
-    return compose(bench, found)
+    return found
+
+
+def _on_benches(effects):
+    return tuple(t for t in terms(effects) if t.place != ASPERITIES)
+
+
+def rubbing_with_effects(rubbing, effects):
+    """The Rubbing with what a product Effects (or None) says of its asperities."""
+    return compose(rubbing, at_asperities(effects))
+
+
+def at_asperities(effects):
+    """Terms of a product Effects (or None) that act on a rough pair."""
+    return tuple(t for t in terms(effects) if t.place == ASPERITIES)

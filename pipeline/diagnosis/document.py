@@ -56,13 +56,26 @@ def completed(product, case):
             corrections[str(name)] = value
         else:
             effects.setdefault(effect, {}).setdefault(place, {})[parameter] = value
-    bench = document.setdefault("bench", {})
-    bench["corrections"] = {**(bench.get("corrections") or {}), **corrections}
+    if (document.get("diagnosis") or {}).get("forward") == "friction":
+        _correct_rubbing(document, corrections)
+    else:
+        bench = document.setdefault("bench", {})
+        bench["corrections"] = {**(bench.get("corrections") or {}), **corrections}
     own = document["effects"] = document.get("effects") or {}
     for effect, places in effects.items():
         own[effect] = {**own.get(effect, {}), **places}
     document["title"] = f"{document.get('title', case.name)}, completed"
     return document
+
+
+def _correct_rubbing(document, corrections):
+    """Write {dotted name: value} into the section micro_friction of a document."""
+    for name, value in corrections.items():
+        section = document.setdefault("micro_friction", {})
+        *steps, last = name.split(".")
+        for step in steps:
+            section = section.setdefault(step, {})
+        section[last] = value
 
 
 def _written(product, k):

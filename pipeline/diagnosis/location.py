@@ -14,6 +14,7 @@ from pipeline.diagnosis.deconvolution import EXTRA, motion, moved
 from pipeline.diagnosis.simulation import STEP, completed, shown
 from pipeline.effects import CATALOGUE
 from pipeline.effects.effect import STAGES
+from pipeline.effects.typical import ASPERITIES
 from pipeline.inference import locate
 from pipeline.inference.calibrate import whitened
 from pipeline.inference.decide import Rules
@@ -22,6 +23,8 @@ from pipeline.physics.bench import run_drive, run_inputs
 
 #: octaves below the highest frequency of the records that are bands of their own
 OCTAVES = 8
+#: a stage of the chain as a hypothesis: that reading its map instead of computing at the points makes the difference
+INTERPOLATION, MAP = "interpolation", "friction_map"
 #: rows of a smaller angle are one place: no recording tells them apart
 _ALIKE = 1e-6
 #: share of the rest that a unit force of the place axis has: of the largest root mean square force of a run
@@ -71,15 +74,19 @@ def residuals(problem, budget, fit):
 
 
 def stage_of(effects):
-    """Stage of ((effect, place), ...) by the first; ``numerics`` for the solver, empty for none of the catalogue."""
-    stages = {STEP: "numerics", **{effect.name: effect.stage for effect in CATALOGUE}}
+    """Stage of ((effect, place), ...) by the first; ``numerics`` for the solver, empty for none of the catalogue.
+
+    What acts on asperities belongs to the stage of the chain that has them.
+    """
+    if effects and effects[0][1] == ASPERITIES:
+        return "micro_friction"
+    stages = {STEP: "numerics", INTERPOLATION: MAP, **{effect.name: effect.stage for effect in CATALOGUE}}
     return stages.get(effects[0][0], "") if effects else ""
 
 
-def stage_axis(found):
-    """Location over the stages of the catalogue from what was screened and refitted (see the head of this file)."""
+def stage_axis(found, names=(*STAGES, "numerics")):
+    """Location over the stages ``names`` from what was screened and refitted (see the head of this file)."""
     first = found.base or found
-    names = (*STAGES, "numerics")
     refitted = {w.candidate.name: w.contender.posterior for w in first.weighed}
     score, p_value, share = np.full(len(names), -np.inf), np.ones(len(names)), np.zeros(len(names))
     for k, candidate in enumerate(first.screen.candidates):

@@ -54,12 +54,24 @@ class Plan(Section):
     needed: float = option(4.0, "standard deviations that naming takes", gt=0)
 
 
+class SpotRuns(Section):
+    """Runs of the rough pair between which friction is interpolated."""
+
+    pressures: int = option(8, "nominal pressures, evenly in their logarithm", ge=4)
+    distances: int = option(10, "sliding distances", ge=4)
+    reach: float = option(1.6, "how far beyond the recorded pressures and distances the runs go, as a factor", ge=1)
+    model_error: float = option(0.02, "relative standard deviation of computed friction and wear by mesh and cycles;"
+                                      " the refinement of micro_friction tells it", gt=0)
+
+
 class Settings(Section):
     """What is asked."""
 
-    forward: Literal["simulation", "poles", "lines"] = option(
+    forward: Literal["simulation", "poles", "lines", "friction"] = option(
         "simulation", "simulation: samples as bench.forward predicts them; poles: poles of free vibrations by complex"
-        " eigenvalues, as bench.poles says; lines: published lines or modes are compared")
+        " eigenvalues, as bench.poles says; lines: published lines or modes are compared; friction: measured friction"
+        " and worn faces against micro_friction")
+    rubbing: SpotRuns = option(SpotRuns(), "forward friction: the runs of the rough pair")
     lines: ModeTable | Harmonics | SquealLines | None = option(None, "forward lines: which lists are compared, and how")
     parameters: dict[str, Prior] = option({}, "nominal values that may be wrong, by name as in bench.corrections")
     held_out: tuple[str, ...] = option((), "runs that are kept for verification and never fitted")

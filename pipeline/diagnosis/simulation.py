@@ -117,9 +117,9 @@ def candidates(bench, runs, catalogue, places=(), scale=1.0, priors=()):
         for place in effect.places(bench) if effect.told_by(runs) else ():
             if places and place not in places:
                 continue
-            kind = effect.place, place
+            kind = effect.kind_at(place), place
             if kind not in sizes:       # nominal runs are simulated once for all effects of a place
-                sizes[kind] = typical(effect.place, bench, place, runs).scaled(scale)
+                sizes[kind] = typical(kind[0], bench, place, runs).scaled(scale)
             parameters = tuple(_named(p, effect, place, dict(priors)) for p in effect.parameters(sizes[kind]))
             found.append(Hypothesis(label(((effect.name, place),)), ((effect.name, place),), parameters, effect.kind))
     return tuple(found)

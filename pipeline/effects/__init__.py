@@ -50,6 +50,9 @@ _FILES = (
     "taper_wear",
     "hot_spots",
     "thermal_coning",
+    "material_transfer",
+    "wear_law",
+    "shear_limit",
 )
 CATALOGUE = tuple(import_module(f"pipeline.effects.{name}").EFFECT for name in _FILES)
 

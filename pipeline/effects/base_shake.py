@@ -22,6 +22,6 @@ def apply(bench, place, values):
 
 EFFECT = Effect(
     name="base_shake", summary="a floor or drive that shakes the far end of a joint", place="joint",
-    stage="excitation", parameters=parameters, apply=apply, linear=("amplitude",),
+    stage="excitation", parameters=parameters, apply=apply, small=False, linear=("amplitude",),
     source="J. P. Den Hartog, Mechanical Vibrations (1934): motion of the support",
     valid="Valid while the shaking is one tone that the structure does not act back on.")

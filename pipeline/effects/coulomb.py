@@ -23,6 +23,6 @@ def apply(bench, place, values):
 
 EFFECT = Effect(
     name="coulomb", summary="dry friction of one size in both directions", place="joint", stage="friction",
-    parameters=parameters, apply=apply, linear=("force",),
+    parameters=parameters, apply=apply, small=False, linear=("force",),
     source="C.-A. Coulomb, Theorie des machines simples (1785)",
     valid="Valid while the normal force in the joint stays the same and the joint slides more than it sticks.")

@@ -22,7 +22,7 @@ def apply(bench, place, values):
 
 
 EFFECT = Effect(
-    name="friction_induced_damping", summary="friction that turns against sideways motion", place="contact",
+    name="friction_induced_damping", summary="friction that turns against sideways motion", place="sideways contact",
     stage="friction", parameters=parameters, apply=apply, linear=("share",),
     source="J. Kang, C. M. Krousgrill, F. Sadeghi, J. Sound Vib. 316 (2008) 164; equation (3) of the sliding model",
     valid="Valid while sideways motion is slow against sliding; simulation, roots and equation see it.")

@@ -25,6 +25,6 @@ def apply(bench, place, values):
 
 EFFECT = Effect(
     name="friction_scatter", summary="friction that varies around the disc", place="contact", stage="friction",
-    parameters=parameters, apply=apply, linear=("amplitude",),
+    parameters=parameters, apply=apply, small=False, linear=("amplitude",),
     source="H. Jacobsson, Proc. IMechE D 217 (2003) 419: order-locked excitation; here of the coefficient",
     valid="Valid while contacts are short against the variation; roots take its mean, which is none.")

@@ -25,7 +25,7 @@ def apply(bench, place, values):
 
 EFFECT = Effect(
     name="hot_spots", summary="a surface whose waves grow as it warms up", place="pressed contact", stage="excitation",
-    parameters=parameters, apply=apply,
+    parameters=parameters, apply=apply, small=False,
     source="J. R. Barber, Proc. R. Soc. Lond. A 312 (1969) 381; K. Lee, J. R. Barber, J. Tribol. 115 (1993) 607",
     valid="Valid below the critical speed, where spots do not grow by themselves; heating steady, every run starts"
           " cold.")

@@ -24,6 +24,6 @@ def apply(bench, place, values):
 
 EFFECT = Effect(
     name="hysteretic_joint", summary="micro-slip in a joint: loss and softening that grow with amplitude",
-    place="joint", stage="structure", parameters=parameters, apply=apply,
+    place="joint", stage="structure", parameters=parameters, apply=apply, small=False,
     source="W. D. Iwan, J. Appl. Mech. 33 (1966) 893; D. J. Segalman, J. Appl. Mech. 72 (2005) 752",
     valid="Valid while the preload of the joint stays the same and its share slips within the joint.")

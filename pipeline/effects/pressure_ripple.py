@@ -25,6 +25,6 @@ def apply(bench, place, values):
 
 EFFECT = Effect(
     name="pressure_ripple", summary="an input that ripples at a frequency of its own", place="input",
-    stage="excitation", parameters=parameters, apply=apply, linear=("force",),
+    stage="excitation", parameters=parameters, apply=apply, small=False, linear=("force",),
     source="K. A. Edge, D. N. Johnston, Proc. IMechE A 204 (1990) 33: pressure ripple of pumps",
     valid="Valid while the ripple is one tone that goes through the begin of each run with the same phase.")

@@ -17,6 +17,6 @@ def apply(bench, place, values):
 
 EFFECT = Effect(
     name="quadratic_damping", summary="a joint whose damping grows with speed", place="joint", stage="structure",
-    parameters=parameters, apply=apply, linear=("coefficient",),
+    parameters=parameters, apply=apply, small=False, linear=("coefficient",),
     source="J. R. Morison et al., Petroleum Trans. AIME 189 (1950) 149: the drag term",
     valid="Valid while the flow that resists is turbulent.")

@@ -2,7 +2,8 @@
 
     gap_i + a cos(n (theta - theta_i) - phase)
 
-theta_i is the angle at which contact i sits, n the order (1: a tilted disc).
+theta_i is the angle at which contact i sits, n the order (1: a tilted disc). Of a disc between two pads the far face
+has the opposite phase: one entry for each pad.
 """
 
 import numpy as np
@@ -24,6 +25,6 @@ def apply(bench, place, values):
 
 EFFECT = Effect(
     name="runout", summary="a surface that runs out: its motion follows the angle of the drive",
-    place="pressed contact", stage="excitation", parameters=parameters, apply=apply,
+    place="pressed contact", stage="excitation", parameters=parameters, apply=apply, small=False,
     source="H. Jacobsson, Proc. IMechE D 217 (2003) 419: side-face runout",
     valid="Valid while contacts are short against the wave, and waves small against radii.")

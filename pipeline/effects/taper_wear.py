@@ -27,6 +27,6 @@ def apply(bench, place, values):
 
 EFFECT = Effect(
     name="taper_wear", summary="contacts that wear more at one end", place="contact row", stage="contact",
-    parameters=parameters, apply=apply,
+    parameters=parameters, apply=apply, small=False,
     source="J. F. Archard, J. Appl. Phys. 24 (1953) 981, with a rate that is linear along the sliding",
     valid="Valid while the rate is linear along the sliding; every run starts unworn.")

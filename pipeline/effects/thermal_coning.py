@@ -25,6 +25,6 @@ def apply(bench, place, values):
 
 EFFECT = Effect(
     name="thermal_coning", summary="contacts that open or close as the disc warms up", place="pressed contact",
-    stage="excitation", parameters=parameters, apply=apply,
+    stage="excitation", parameters=parameters, apply=apply, small=False,
     source="R. Limpert, Brake Design and Safety, 2nd ed. (1999), chapter 3: coning of rotors",
     valid="Valid while heating is steady from the begin of each run, which starts cold; a belt shifts evenly.")

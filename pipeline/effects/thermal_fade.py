@@ -26,6 +26,6 @@ def apply(bench, place, values):
 
 EFFECT = Effect(
     name="thermal_fade", summary="friction that fades as the contact heats up", place="contact", stage="friction",
-    parameters=parameters, apply=apply,
+    parameters=parameters, apply=apply, small=False,
     source="T. P. Newcomb, R. T. Spurr, Braking of Road Vehicles (1967): fade; one lumped heat capacity",
     valid="Valid while one time constant holds and runs start cold; roots take friction where a run begins.")

@@ -18,6 +18,6 @@ def apply(bench, place, values):
 
 EFFECT = Effect(
     name="thermal_softening", summary="a joint that loses stiffness as it warms up", place="joint",
-    stage="structure", parameters=parameters, apply=apply, linear=("drop",),
+    stage="structure", parameters=parameters, apply=apply, small=False, linear=("drop",),
     source="one lumped heat capacity under constant power; modulus linear in temperature",
     valid="Valid while heating is steady from the begin of each run, which starts cold.")

@@ -25,6 +25,6 @@ def apply(bench, place, values):
 
 EFFECT = Effect(
     name="thickness_variation", summary="a squeezing force that follows the angle of the drive",
-    place="pressed contact", stage="excitation", parameters=parameters, apply=apply, linear=("force",),
+    place="pressed contact", stage="excitation", parameters=parameters, apply=apply, small=False, linear=("force",),
     source="H. Jacobsson, Proc. IMechE D 217 (2003) 419: disc thickness variation",
     valid="Valid while the support is stiff against the contacts.")

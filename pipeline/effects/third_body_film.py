@@ -2,10 +2,14 @@
 
     mu (1 + g x),    x' = (|v| / d) (p / p_0 - x)
 
-The film grows over the sliding way d to a thickness in proportion to the pressure; every run starts without it.
+The film grows over the sliding way d to a thickness in proportion to the pressure; every run starts without it. At
+asperities it is a factor on their shear limit.
 """
 
+from dataclasses import replace
+
 from pipeline.effects.effect import Effect
+from pipeline.effects.typical import ASPERITIES
 from pipeline.inference.priors import HalfNormal, LogNormal, Parameter
 from pipeline.physics.friction_states import Film
 
@@ -17,15 +21,17 @@ def parameters(typical):
             Parameter("pressure", "Pa", typical.pressure, LogNormal(typical.pressure, 0.1)))
 
 
-def apply(bench, place, values):
+def apply(model, place, values):
     if values["gain"] == 0:
-        return bench
+        return model
     state = Film(values["gain"], values["distance"], values["pressure"])
-    return bench.with_friction(place, lambda friction: friction.with_state(state))
+    if place == ASPERITIES:
+        return replace(model, shearing=replace(model.shearing, film=state))
+    return model.with_friction(place, lambda friction: friction.with_state(state))
 
 
 EFFECT = Effect(
     name="third_body_film", summary="a film of wear particles that adds to friction", place="contact", stage="friction",
-    parameters=parameters, apply=apply, linear=("gain",),
+    parameters=parameters, apply=apply, small=False, linear=("gain",), micro=True,
     source="M. Godet, Wear 100 (1984) 437: the third body; its growth with load and way after J. F. Archard (1953)",
     valid="Valid while particles leave the contact as the film slides; roots take friction where a run begins.")

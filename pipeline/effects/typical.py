@@ -12,10 +12,13 @@ from pipeline.physics.time_stepping import Penalty, Table
 
 #: kinds of place that an effect can have; ``contact`` is a group of them, ``contacts`` all together, ``pressed
 #: contact`` a group that can open, which friction joints cannot, ``contact row`` one whose contacts lie one behind the
-#: other along the sliding
+#: other along the sliding, ``sideways contact`` one that can move across it
 JOINT, CONTACT, CONTACTS, POINT, CHANNEL = "joint", "contact", "contacts", "point", "channel"
 PRESSED, CONTACT_ROW, DOUBLET, INPUT = "pressed contact", "contact row", "doublet", "input"
-_CONTACTS, _SENSOR = (CONTACT, CONTACTS, PRESSED, CONTACT_ROW), "typical"
+SIDEWAYS = "sideways contact"
+#: the one place of a Rubbing, and its kind
+ASPERITIES = "asperities"
+_CONTACTS, _SENSOR = (CONTACT, CONTACTS, PRESSED, CONTACT_ROW, SIDEWAYS), "typical"
 
 
 @dataclass(frozen=True)
@@ -62,14 +65,20 @@ def places(kind, bench):
     pressed = tuple(g for g in contact if not model.contacts.fixed[bench.contacts(g)].all())
     return {JOINT: tuple(model.joints.name), CONTACT: contact, CONTACTS: contact[:1], PRESSED: pressed,
             CONTACT_ROW: tuple(g for g in pressed if np.ptp(sliding_angle(model.contacts, bench.contacts(g))) > 0),
+            SIDEWAYS: tuple(g for g in contact if model.contacts.lateral[bench.contacts(g)].any()),
             POINT: tuple(model.sensor_name), INPUT: tuple(model.input_name), DOUBLET: tuple(bench.doublets),
             CHANNEL: tuple(c.name for c in bench.channels)}[kind]
 
 
 def typical(kind, bench, place, runs):
-    """Typical sizes at ``place``: largest values of the bench as it is, over ``runs``. ConfigError without runs."""
+    """Typical sizes at ``place``: largest values of the bench as it is, over ``runs`` (Drags of a Rubbing).
+
+    ConfigError without runs.
+    """
     if not runs:
         raise ConfigError("typical sizes", "one nominal run or more", "none")
+    if kind == ASPERITIES:
+        return _rubbed(bench, runs)
     drive = max(float(np.abs(run_drive(bench, run)).max()) for run in runs)
     common = {"time": max(r.duration for r in runs), "interval": 1 / max(r.sample_rate for r in runs), "drive": drive}
     if kind == CHANNEL:
@@ -92,6 +101,14 @@ def typical(kind, bench, place, runs):
         seen["force"] = max(seen["force"], *(float(np.abs(_input(bench, run, place)).max()) for run in runs))
     mass = 1 / (row @ np.linalg.solve(bench.model.mass, row)) if row.any() else 0.0
     return Typical(stiffness, damping, mass, **seen, **common)
+
+
+def _rubbed(rubbing, runs):
+    """Typical of the Drags of a Rubbing: mean pressure, mean speed, longest way; lengths of wear at the asperities."""
+    pressure, speed = (float(np.mean([np.mean(getattr(run, n)) for run in runs])) for n in ("pressure", "speed"))
+    way, wearing = max(float(run.distance.max()) for run in runs), rubbing.wearing
+    return Typical(length=(wearing.pad_coefficient + wearing.disc_coefficient) * pressure * way, speed=speed,
+                   pressure=pressure, time=way / speed)
 
 
 def _input(bench, run, place):

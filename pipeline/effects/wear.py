@@ -24,5 +24,5 @@ def apply(bench, place, values):
 
 EFFECT = Effect(
     name="wear", summary="contacts that recede with pressure and sliding way", place="pressed contact", stage="contact",
-    parameters=parameters, apply=apply, source="J. F. Archard, J. Appl. Phys. 24 (1953) 981",
+    parameters=parameters, apply=apply, small=False, source="J. F. Archard, J. Appl. Phys. 24 (1953) 981",
     valid="Valid while the rate stays the same; every run starts unworn.")

@@ -144,11 +144,11 @@ def calibrate(problem, noises, hypothesis, starts, runs, settled=True):
     """The best of several fits. Raises ConvergenceError where none converged, telling what stopped them.
 
     A few iterations are made from each start; then the best goes on, the next best only where it does not converge.
-    Without ``settled`` the best is returned even if its iterations were not enough or it crawls, and no other goes on.
+    Without ``settled`` the best is returned even if its iterations were not enough, and no other goes on.
     """
     reasons = []
     for state in _begun(problem, noises, hypothesis, starts, runs, reasons):
-        found = state if state.converged else continued(problem, state, hasty=not settled)
+        found = state if state.converged else continued(problem, state, patient=settled)
         if found.converged or not settled:
             return found
         reasons.append(f"not converged after {found.evaluations} predictions")
@@ -183,7 +183,7 @@ def _tried(problem, noises, hypothesis, starts, runs, reasons, known=(), rough=F
     for start in starts:
         try:
             state = linearised(problem, noises, hypothesis, start, runs, known)
-            found.append(_iterated(problem, state, _EASIER if rough else _TRIAL, rough=rough))
+            found.append(_iterated(problem, state, _EASIER if rough else _TRIAL, patient=not rough, rough=rough))
         except BrakechainError as error:
             reasons.append(str(error))
     return sorted(found, key=lambda f: f.objective)
@@ -265,17 +265,17 @@ def _jacobians(problem, noises, hypothesis, latent, residuals, runs, first=0, wi
     return jacobians, len(columns)
 
 
-def continued(problem, state, iterations=ITERATIONS, enough=np.inf, hasty=False):
+def continued(problem, state, iterations=ITERATIONS, enough=np.inf, patient=True):
     """The Fit after further iterations. Jacobians are updated by the secant (Broyden 1965) as long as that serves.
 
-    A fit is given up, as it is, where its slope promises nothing that would bring its objective down to ``enough``; a
-    ``hasty`` one also where features are far off and stay so.
+    A fit is given up, as it is, where its slope promises nothing that would bring its objective down to ``enough``, and
+    without ``patient`` where features stay far off.
     """
-    found = _iterated(problem, state, iterations, enough, hasty=hasty)
+    found = _iterated(problem, state, iterations, enough, patient)
     return found if found.fresh or found.objective > enough else _refreshed(problem, found)
 
 
-def _iterated(problem, state, iterations, enough=np.inf, rough=False, hasty=False):
+def _iterated(problem, state, iterations, enough=np.inf, patient=True, rough=False):
     """The Fit after ``iterations``; where no step helps, differences are taken over wider steps before it ends.
 
     A ``rough`` one stops where updated Jacobians promise no more: its latent values are of use.
@@ -283,7 +283,7 @@ def _iterated(problem, state, iterations, enough=np.inf, rough=False, hasty=Fals
     damping, growth, width, before = 1e-3, 2.0, DIFFERENCE, []
     for _ in range(iterations):
         before.append(state.objective)
-        if hasty and _crawls(state, before):
+        if not patient and _crawls(state, before):
             break
         gradient, hessian = _slopes(state)
         expected, scale = gradient @ np.linalg.solve(hessian, gradient), _scale(state)
@@ -308,16 +308,19 @@ def _iterated(problem, state, iterations, enough=np.inf, rough=False, hasty=Fals
 
 
 def _crawls(state, before):
-    """Whether features that are far off stay so: their hypothesis has no use for more iterations."""
+    """Whether features that are far off have stayed so: their hypothesis has no use for more iterations."""
     return (of_features(state.noises) and far(state) and len(before) > _PATIENCE
             and before[-1] > _CRAWLING * before[-1 - _PATIENCE])
 
 
 def _slopes(state):
-    """Gradient (k,), 0 along bounds that hold, and Gauss-Newton's Hessian (k, k) of half the objective."""
+    """Gradient (k,) and Gauss-Newton's Hessian (k, k) of half the objective; bounds that hold do not take part."""
     gradient = sum(j.T @ r for j, r in zip(state.jacobians, state.residuals, strict=True)) - state.latent
-    gradient[(np.abs(state.latent) >= LATENT_LIMIT) & (gradient * state.latent > 0)] = 0.0
-    return gradient, _information(state.jacobians) + np.eye(len(state.latent))
+    hessian = _information(state.jacobians) + np.eye(len(state.latent))
+    held = (np.abs(state.latent) >= LATENT_LIMIT) & (gradient * state.latent > 0)
+    gradient[held] = hessian[held] = hessian[:, held] = 0.0
+    hessian[held, held] = 1.0
+    return gradient, hessian
 
 
 def _refreshed(problem, state, width=DIFFERENCE):

@@ -14,7 +14,9 @@ class Rules:
     evidence_gain: float = 5.0          # ln Z over the refitted null
     gain_errors: float = 3.0            # held-out gain in standard errors
     gain_share: float = 0.05            # held-out gain as a share of the excess error
-    disagreement: float = 2.0           # of coefficients across operating points, standard deviations
+    # of coefficients across operating points, standard deviations; 2 would refuse a true effect of two coefficients in
+    # one case of ten
+    disagreement: float = 3.0
     tolerance: float = 0.05             # spread of coefficients that does not matter, relative
     from_null: float = 2.0              # distance of the coefficient from its null, standard deviations
     unexplained: float = 0.05           # share of the excess that the named effect may leave

@@ -168,7 +168,7 @@ def _enough(results):
 
 def _finished(problem, null, enough, state):
     """(Fit of a candidate, a better Fit of the null from its optimum or None, what went wrong)."""
-    best = state if state.converged else continued(problem, state, enough=enough, hasty=True)
+    best = state if state.converged else continued(problem, state, enough=enough, patient=False)
     if not best.converged and best.objective > enough:
         return best, None, "its fit was given up, far from what others reach"
     told = "" if best.converged else f"its fit had not converged after {best.evaluations} predictions"
@@ -185,7 +185,7 @@ def _null_again(problem, null, best):
         return None
     if again.objective >= null.objective:
         return None
-    return again if again.converged else continued(problem, again, hasty=True)
+    return again if again.converged else continued(problem, again, patient=False)
 
 
 def _overlooked(null, found, results, settings):

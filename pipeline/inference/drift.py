@@ -9,10 +9,13 @@ nothing to Q. The null of Q is drawn from the same linear model, prior included.
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.stats import chi2, norm
 
 from pipeline.inference.problem import operating_points
 
 DRAWS = 4000
+#: probability below which all are alike: 37 standard deviations
+_RAREST = 1e-300
 
 
 @dataclass(frozen=True)
@@ -55,12 +58,12 @@ def by_point(fit, weights=None):
 
 
 def agreement(fit, index, weights=None, tolerance=0.0):
-    """(excess in standard deviations, values (point,), std (point,)) of latent parameter ``index`` over the points.
+    """(disagreement in standard deviations, values (point,), std (point,)) of latent parameter ``index`` over points.
 
-    Each point estimates it with the other parameters free under their priors. The excess is that of
-    sum ((value - mean) / std)^2 over its expectation, in units of sqrt(2 dof): below 2 the points agree. Points that
-    hardly see the parameter (std above 1, its prior's) take no part; fewer than two: zero. ``tolerance``: latent spread
-    that does not matter, added to the variance of every point.
+    Each point estimates it with the other parameters free under their priors. The disagreement is the normal deviate
+    that is as rare as sum ((value - mean) / std)^2, chi^2 with one degree less than points. Points that hardly see the
+    parameter (std above 1, its prior's) take no part; fewer than two: zero. ``tolerance``: latent spread that does not
+    matter, added to the variance of every point.
     """
     information, score = by_point(fit, weights)
     information, score = _reduced(information, score, index)
@@ -71,8 +74,8 @@ def agreement(fit, index, weights=None, tolerance=0.0):
         return 0.0, value, std
     std = np.hypot(std, tolerance)
     mean = np.average(value[seen], weights=1 / std[seen] ** 2)
-    freedom = seen.sum() - 1
-    return float((np.sum(((value - mean)[seen] / std[seen]) ** 2) - freedom) / np.sqrt(2 * freedom)), value, std
+    chance = chi2.sf(np.sum(((value - mean)[seen] / std[seen]) ** 2), seen.sum() - 1)
+    return float(norm.isf(max(chance, _RAREST) / 2)), value, std
 
 
 def trend(drift, index, condition):

@@ -45,6 +45,16 @@ def read(law, name, count, default=None):
     return found
 
 
+def alike(one, other, count):
+    """Whether two laws of ``count`` contacts, Grouped or not, say the same of every contact."""
+    def each(law):
+        whole = {i: own for own, members in parts(law, count) for i in members}
+        return [whole[i] for i in range(count)]
+
+    return all(a is b or (type(a) is type(b) and all(map(np.array_equal, vars(a).values(), vars(b).values())))
+               for a, b in zip(each(one), each(other), strict=True))
+
+
 def changed(law, count, chosen, change):
     """The law with ``change(law)`` at the contacts ``chosen`` (indices), elsewhere as it is."""
     table, of = [], np.empty(count, int)

@@ -211,6 +211,17 @@ def alone(elements):
                           to_contacts=np.zeros((4, 0, count)), to_elements=np.zeros((2, count, 2, 0)))
 
 
+def bears(element):
+    """Whether an Element has a force at rest on some elongation, as where a motion starts; dry friction has none."""
+    kernel, force = alone((element,)), 0.0
+    if kernel.kind[0] == kinds.DRY:
+        return False
+    memory = np.zeros(int(kernel.first[-1]))
+    for elongation in (-1.0, 1.0):
+        force += abs(kinds.element_force(kernel, 0, elongation, 0.0, 0.0, memory, memory.copy(), (0.0, 0.0, 0.0))[0])
+    return force > 0
+
+
 def _check(name, law):
     wrong = {Power: lambda p: p.exponent < 1, Dry: lambda p: min(p.forward, p.backward) < 0 or p.stiffness < 0
              or p.decay_speed <= 0 or p.rise <= -1,

@@ -28,13 +28,15 @@ class FrictionBasis:
     corrections: int
 
 
-def friction_basis(model, below, friction_damping=True, smallest=1e-3, contact_stiffness=0.0, centrifugal=True):
+def friction_basis(model, below, friction_damping=True, smallest=1e-3, contact_stiffness=0.0, centrifugal=True,
+                   others=None):
     """Real modes of a SlidingModel below a frequency [Hz] and their corrections, largest first.
 
     The real modes are those of closed contacts without friction, damping and gyroscopic terms. Corrections with
     amplitudes up to ``smallest`` per unit of modal amplitude are left out; ``smallest`` = inf leaves out all. Where the
     basis shall serve states whose contacts are stiffer or softer, corrections for a change by ``contact_stiffness``
-    (() or (c,) N/m) join them. Raises ConfigError where no mode lies below the frequency.
+    (() or (c,) N/m) join them, and where ``others`` (n, n) N/m act, as Maxwell branches do at once, those for these.
+    Raises ConfigError where no mode lies below the frequency.
     """
     mass, damping, stiffness = model.frictionless(gyroscopic=False, centrifugal=centrifugal)
     square, modes = eigh(stiffness, mass)
@@ -45,9 +47,10 @@ def friction_basis(model, below, friction_damping=True, smallest=1e-3, contact_s
     real, high = modes[:, low], modes[:, ~low]
     drag, follower = model.friction_matrices(1.0, friction_damping)
     rows = model.contacts.normal
-    force = np.hstack((follower @ real, spread(rows, contact_stiffness, rows) @ real,
-                       (damping + drag) @ real * (2 * np.pi * frequency[low])))
-    response = (high.T @ force) / (square[~low, None] - np.tile(square[low], 3))
+    force = [follower @ real, spread(rows, contact_stiffness, rows) @ real,
+             (damping + drag) @ real * (2 * np.pi * frequency[low])]
+    force += [] if others is None else [others @ real]
+    response = (high.T @ np.hstack(force)) / (square[~low, None] - np.tile(square[low], len(force)))
     direction, size, _ = np.linalg.svd(response, full_matrices=False)
     corrections = high @ direction[:, size > smallest]
     return FrictionBasis(np.hstack((real, corrections)), frequency[low], corrections.shape[1])

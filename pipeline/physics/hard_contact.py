@@ -26,11 +26,13 @@ _NEUTRAL = 1e-6
 
 @dataclass(frozen=True)
 class HardSliding:
-    """``damping`` and ``stiffness`` (m, m) of the allowed motions r, whose mass is 1; q = ``basis`` r, (n, m)."""
+    """``damping`` and ``stiffness`` (m, m) of the allowed motions r, whose mass is 1; q = ``basis`` r, (n, m), and
+    equations tested by ``left`` Y^T (m, n)."""
 
     damping: np.ndarray
     stiffness: np.ndarray
     basis: np.ndarray
+    left: np.ndarray
 
 
 def is_hard(model):
@@ -78,7 +80,7 @@ def hard_sliding(model, friction, basis=None, friction_damping=True):
     mobility = through @ pushed
     _refuse_jamming(mobility, through @ contacts.normal.T)
     left = (basis - through.T @ solve(mobility.T, pushed.T @ basis)).T
-    return HardSliding(left @ damping @ basis, left @ stiffness @ basis, basis)
+    return HardSliding(left @ damping @ basis, left @ stiffness @ basis, basis, left)
 
 
 def _refuse_jamming(mobility, free):

@@ -7,6 +7,8 @@ from numba import njit
 from scipy.linalg import cho_factor, cho_solve
 
 from pipeline.contract.errors import ConfigError, ConvergenceError
+from pipeline.physics.element_forces import LawKernel, element_force
+from pipeline.physics.elements import alone
 from pipeline.physics.patch_contact import SUB_DISCS, PatchContact, contact_force, contact_tangent
 
 STATIC_ITERATIONS = 100
@@ -14,6 +16,21 @@ STATIC_TOLERANCE = 1e-12
 STATIC_HALVINGS = 20
 #: patches whose radii and heights differ by less than this share of the radius lie on one circle
 SAME_CIRCLE = 1e-6
+
+
+class PadElements(NamedTuple):
+    """e nonlinear elements without memory on the assembly."""
+
+    law: LawKernel
+    rows: np.ndarray        # (e, n) elongation
+    offset: np.ndarray      # (e,) m, elongation where all coordinates are zero
+
+
+def pad_elements(elements, size):
+    """PadElements of Elements (without memory) of ``size`` coordinates n."""
+    rows = np.array([e.row for e in elements], float).reshape(len(elements), size)
+    kernel = alone(elements)
+    return PadElements(LawKernel(*(getattr(kernel, name) for name in LawKernel._fields)), rows, np.zeros(len(rows)))
 
 
 class PadSystem(NamedTuple):
@@ -24,6 +41,7 @@ class PadSystem(NamedTuple):
     stiffness: np.ndarray   # (n, n) N/m, bodies and joints
     load: np.ndarray        # (n,) N, generalised force of the pistons
     contact: PatchContact
+    elements: PadElements = pad_elements((), 0)
 
 
 def pad_system(sliding, input_force, closure, pressure, friction, bedding, bedding_share, sectors, ramp, stick_speed,
@@ -37,18 +55,21 @@ def pad_system(sliding, input_force, closure, pressure, friction, bedding, beddi
     """
     _check(closure, pressure, bedding, sectors)
     contacts, (mass, damping, stiffness) = sliding.contacts, sliding.supported()
+    count = len(contacts.area)
     contact = PatchContact(
         rows=np.array([contacts.normal, contacts.tangent, contacts.lateral]),
-        opening=np.zeros(len(contacts.area)), area=contacts.area, radius=contacts.lever,
+        opening=np.zeros(count), area=contacts.area, radius=contacts.lever,
         angle=np.arctan2(contacts.position[:, 1], contacts.position[:, 0]),
         half_angle=half_angles(contacts.position, contacts.area), closure=closure, pressure=pressure,
+        law_first=np.zeros(count, int), friction_first=np.zeros(count, int),
         friction_pressure=friction.pressure, friction_speed=friction.speed, friction_distance=friction.distance,
         friction=friction.friction, bedding=np.array(bedding),
         bedding_speed=bedding_share * sliding.speed * np.mean(contacts.lever), disc_speed=float(sliding.speed),
         sectors=int(sectors), ramp=float(ramp), stick_speed=float(stick_speed),
-        damping_speed=float(damping_speed))
+        damping_speed=np.full(count, float(damping_speed)), waviness=np.empty((0, 6)), scatter=np.empty((0, 4)))
     arrays = {name: np.array(value) for name, value in contact._asdict().items() if isinstance(value, np.ndarray)}
-    return PadSystem(mass, damping, stiffness, input_force @ sliding.input_rows, contact._replace(**arrays))
+    return PadSystem(mass, damping, stiffness, input_force @ sliding.input_rows, contact._replace(**arrays),
+                     pad_elements((), sliding.size))
 
 
 def half_angles(position, area):
@@ -78,16 +99,34 @@ def _check(closure, pressure, bedding, sectors):
 
 @njit(cache=True)
 def force(system, time, displacement, velocity):
-    """M q'' (n,): load and contact force less elastic and damping forces."""
+    """M q'' (n,): load and contact force less elastic and damping forces, and those of elements."""
     inner = system.stiffness @ displacement + system.damping @ velocity
-    return system.load + contact_force(system.contact, time, displacement, velocity) - inner
+    found = system.load + contact_force(system.contact, time, displacement, velocity) - inner
+    for k in range(system.elements.offset.size):
+        found -= _drawn(system, k, time, displacement, velocity)[0] * system.elements.rows[k]
+    return found
 
 
 @njit(cache=True)
 def tangent(system, time, displacement, velocity):
     """(stiffness, damping), both (n, n): minus the exact derivatives of ``force``."""
     stiffness, damping = contact_tangent(system.contact, time, displacement, velocity)
-    return system.stiffness + stiffness, system.damping + damping
+    stiffness, damping = system.stiffness + stiffness, system.damping + damping
+    for k in range(system.elements.offset.size):
+        row = system.elements.rows[k]
+        _, slope, drag = _drawn(system, k, time, displacement, velocity)
+        stiffness += slope * np.outer(row, row)
+        damping += drag * np.outer(row, row)
+    return stiffness, damping
+
+
+@njit(cache=True)
+def _drawn(system, k, time, displacement, velocity):
+    """(F, dF/de, dF/dv) of element ``k``."""
+    elements, speed, nothing = system.elements, system.contact.disc_speed, np.zeros(0)
+    row = elements.rows[k]
+    elongation, instant = elements.offset[k] + row @ displacement, (time, speed * time, speed)
+    return element_force(elements.law, k, elongation, row @ velocity, 0.0, nothing, nothing, instant)
 
 
 def without_friction(system):
@@ -98,7 +137,9 @@ def without_friction(system):
 def static_start(system, where="static start"):
     """Displacement (n,) in equilibrium with the load before friction acts. Raises ConvergenceError."""
     frictionless, contact, normal = without_friction(system), system.contact, system.contact.rows[0]
-    slope = contact.area * (contact.pressure[1] - contact.pressure[0]) / (contact.closure[1] - contact.closure[0])
+    first = contact.law_first
+    rise = contact.pressure[first + 1] - contact.pressure[first]
+    slope = contact.area * rise / (contact.closure[1] - contact.closure[0])
     closed = system.stiffness + (normal.T * slope) @ normal
     guess = cho_solve(cho_factor(closed), system.load - normal.T @ (slope * contact.opening))
     return _equilibrium(frictionless, guess, where)

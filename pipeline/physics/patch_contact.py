@@ -9,6 +9,7 @@ At contact i, with the rows n_i (positive opens), t_i (along sliding) and l_i (l
     closure c = -(n_i q + opening),  N = A p(c) (1 + c' / damping_speed), never negative,
     slip of the disc against the pad v = (Omega r_i - t_i q', -l_i q'),
     friction on the pad F = ramp(t) N sum_d w_id(t) mu(p, |v|, s_d(t)) g(|v|) v / |v|.
+Waves of the disc's surface add to the opening, scatter of friction around it is a factor on mu; both turn with it.
 g = 1 except for |v| < stick_speed, where it is the cubic x (3 - x^2) / 2 of x = |v| / stick_speed: sticking is replaced
 by creep slower than that. The damping of the normal law follows Hunt & Crossley (J. Appl. Mech. 42 (1975) 440): it
 vanishes with the pressure, so that no force jumps where contact opens.
@@ -20,6 +21,7 @@ import numpy as np
 from numba import njit
 
 from pipeline.physics.friction_law import friction_at
+from pipeline.physics.time_stepping_elements import surface_shift
 
 SUB_DISCS = 4
 
@@ -33,19 +35,23 @@ class PatchContact(NamedTuple):
     radius: np.ndarray          # (c,) m, distance from the disc axis
     angle: np.ndarray           # (c,) rad, position on the disc face
     half_angle: np.ndarray      # (c,) rad, half of the angle that the patch spans
-    closure: np.ndarray         # (k,) m, from 0: axis of the normal law
-    pressure: np.ndarray        # (k,) Pa, from 0, rising
+    closure: np.ndarray         # (k,) m, from 0: axis of the normal laws
+    pressure: np.ndarray        # (g k,) Pa, each law from 0, rising
+    law_first: np.ndarray       # (c,) where the law of each contact begins
     friction_pressure: np.ndarray   # (P,) Pa, axes of the friction table
     friction_speed: np.ndarray      # (V,) m/s
     friction_distance: np.ndarray   # (S,) m
-    friction: np.ndarray        # (P, V, S) coefficient of friction
+    friction: np.ndarray        # (g P, V, S) coefficient of friction
+    friction_first: np.ndarray  # (c,) row where the table of each contact begins
     bedding: np.ndarray         # (4,) m, distance on the friction map of each sub-disc at time 0
     bedding_speed: float        # m/s, gain of that distance with time
     disc_speed: float           # rad/s
     sectors: int                # per revolution, a multiple of 4
     ramp: float                 # s, time in which friction rises from nothing
     stick_speed: float          # m/s, slip below which friction is regularised
-    damping_speed: float        # m/s, closing speed that doubles the contact pressure
+    damping_speed: np.ndarray   # (c,) m/s, closing speed that doubles the contact pressure
+    waviness: np.ndarray        # (w, 6) waves of the surface, as of ``wave_table``
+    scatter: np.ndarray         # (s, 4) contact, amplitude, order, phase (rad) of friction around the disc
 
 
 class ContactState(NamedTuple):
@@ -108,13 +114,16 @@ def friction_share(time, ramp):
 
 
 @njit(cache=True)
-def sub_disc_friction(pressure, slip, share, distance, pressures, speeds, distances, table):
-    """(mu, dmu/dpressure, dmu/dslip) of a patch with ``share`` (4,) on sub-discs that have slid ``distance`` (4,)."""
+def sub_disc_friction(pressure, slip, share, distance, pressures, speeds, distances, table, first):
+    """(mu, dmu/dpressure, dmu/dslip) of a patch with ``share`` (4,) on sub-discs that have slid ``distance`` (4,).
+
+    ``first`` is the row where its table begins.
+    """
     mu, over_pressure, over_slip = 0.0, 0.0, 0.0
     for d in range(SUB_DISCS):
         if share[d] > 0.0:
             value, pressure_slope, slip_slope, _ = friction_at(
-                pressure, slip, distance[d], pressures, speeds, distances, table)
+                pressure, slip, distance[d], pressures, speeds, distances, table, first)
             mu += share[d] * value
             over_pressure += share[d] * pressure_slope
             over_slip += share[d] * slip_slope
@@ -122,10 +131,30 @@ def sub_disc_friction(pressure, slip, share, distance, pressures, speeds, distan
 
 
 @njit(cache=True)
+def surface(contact, time):
+    """(2, c): what waves of the surface add to the opening of each contact, in m, and to its rate, in m/s."""
+    shift = np.zeros((2, contact.area.size))
+    if contact.waviness.shape[0] > 0:
+        surface_shift(contact.waviness, (time, contact.disc_speed * time, contact.disc_speed), shift)
+    return shift
+
+
+@njit(cache=True)
+def scattered(contact, time):
+    """(c,) factor on the friction of each contact after ``time`` s of turning."""
+    factor = np.ones(contact.area.size)
+    for k in range(contact.scatter.shape[0]):
+        i, amplitude, order, phase = contact.scatter[k]
+        factor[int(i)] *= 1.0 + amplitude * np.cos(order * contact.disc_speed * time - phase)
+    return factor
+
+
+@njit(cache=True)
 def contact_state(contact, time, displacement, velocity):
     """ContactState at generalised ``displacement`` (n,) and ``velocity`` (n,)."""
     size, n = contact.rows.shape[1:]
-    closure = -(contact.rows[0] @ displacement + contact.opening)
+    shift, factor = surface(contact, time), scattered(contact, time)
+    closure = -(contact.rows[0] @ displacement + contact.opening + shift[0])
     speed = (contact.rows.reshape(3 * size, n) @ velocity).reshape(3, size)
     shares = patch_shares(contact.angle, contact.half_angle, contact.disc_speed * time, contact.sectors)
     acting, distance = friction_share(time, contact.ramp), contact.bedding + contact.bedding_speed * time
@@ -134,16 +163,18 @@ def contact_state(contact, time, displacement, velocity):
     normal, stiffness, damping = np.zeros(size), np.zeros(size), np.zeros(size)
     friction, coupling, drag = np.zeros((size, 2)), np.zeros((size, 2)), np.zeros((size, 3))
     for i in range(size):
-        elastic, slope = normal_law(closure[i], contact.closure, contact.pressure)
-        growth = 1.0 - speed[0, i] / contact.damping_speed
+        own = contact.pressure[contact.law_first[i]:contact.law_first[i] + contact.closure.size]
+        elastic, slope = normal_law(closure[i], contact.closure, own)
+        growth = 1.0 - (speed[0, i] + shift[1, i]) / contact.damping_speed[i]
         if slope == 0.0 or growth <= 0.0:
             continue
-        pressure, damping[i] = elastic * growth, contact.area[i] * elastic / contact.damping_speed
+        pressure, damping[i] = elastic * growth, contact.area[i] * elastic / contact.damping_speed[i]
         normal[i], stiffness[i] = contact.area[i] * pressure, contact.area[i] * slope * growth
         slip_x, slip_y = contact.disc_speed * contact.radius[i] - speed[1, i], -speed[2, i]
         slip = np.hypot(slip_x, slip_y)
         mu, over_pressure, over_slip = sub_disc_friction(
-            pressure, slip, shares[i], distance, pressures, speeds, distances, table)
+            pressure, slip, shares[i], distance, pressures, speeds, distances, table, contact.friction_first[i])
+        mu, over_pressure, over_slip = factor[i] * mu, factor[i] * over_pressure, factor[i] * over_slip
         part, part_slope = sliding_part(slip, contact.stick_speed)
         x, y = (slip_x / slip, slip_y / slip) if slip > 0.0 else (1.0, 0.0)
         force, slide = acting * normal[i] * mu * part, acting * part * (mu + pressure * over_pressure)

@@ -35,7 +35,14 @@ def preloaded_modes(system, start, highest_frequency=np.inf, correction_damping=
     return PadSystem(
         mass=np.eye(basis.shape[1]), damping=basis.T @ system.damping @ basis + extra,
         stiffness=basis.T @ system.stiffness @ basis, load=basis.T @ (system.load - system.stiffness @ start),
-        contact=contact), basis
+        contact=contact, elements=_projected(system.elements, basis, start)), basis
+
+
+def _projected(elements, basis, start):
+    """PadElements in the coordinates of ``basis`` about ``start``."""
+    if not elements.offset.size:
+        return elements
+    return elements._replace(rows=elements.rows @ basis, offset=elements.offset + elements.rows @ start)
 
 
 def _corrections(system, stiffness, modes):

@@ -2,7 +2,8 @@
 
 C and K may be unsymmetric (gyroscopic and friction terms). The problem is scaled to unit masses by congruence and
 written as the companion matrix [[0, g I], [-K / g, -C]] with g = sqrt(|K|), so that both blocks are of one size
-(Fan, Lin & Van Dooren, SIAM J. Matrix Anal. Appl. 26 (2004) 252).
+(Fan, Lin & Van Dooren, SIAM J. Matrix Anal. Appl. 26 (2004) 252). What settles beside the motion, z' = P x + V x' - R z
+with the force B z (a Settling of ``small_motion``), joins it as further rows.
 """
 
 from dataclasses import dataclass
@@ -16,41 +17,43 @@ from pipeline.contract.errors import ConfigError
 
 @dataclass(frozen=True)
 class QuadraticModes:
-    """All 2 n roots (1/s) by rising imaginary part, right vectors (n, 2n) and, where asked for, left ones."""
+    """All roots (1/s) by rising imaginary part, 2 n and one for each of k states that settle beside the motion; right
+    vectors (n, 2n + k) and, where asked for, left ones."""
 
     value: np.ndarray
     right: np.ndarray
     left: np.ndarray | None = None
 
 
-def quadratic_roots(mass, damping, stiffness):
+def quadratic_roots(mass, damping, stiffness, beside=None):
     """All 2 n roots s (1/s) of det(s^2 M + s C + K) = 0, by rising imaginary part; arguments as ``quadratic_modes``."""
-    companion, _ = _companion(mass, damping, stiffness)
+    companion, _ = _companion(mass, damping, stiffness, beside)
     roots = eigvals(companion, overwrite_a=True, check_finite=False)
     return roots[_order(roots)]
 
 
-def quadratic_modes(mass, damping, stiffness, left=False):
+def quadratic_modes(mass, damping, stiffness, left=False, beside=None):
     """Roots and vectors of (s^2 M + s C + K) x = 0 and, if ``left``, y^H (s^2 M + s C + K) = 0.
 
     ``mass`` (n, n) kg is symmetric positive definite; ``damping`` (n, n) N s/m and ``stiffness`` (n, n) N/m are
-    general real matrices. Vectors have unit length in the mass norm, x^H M x = 1. Raises ConfigError for a mass
-    matrix that is not positive definite.
+    general real matrices; ``beside``: a Settling, or None. Vectors have unit length in the mass norm, x^H M x = 1.
+    Raises ConfigError for a mass matrix that is not positive definite.
     """
-    companion, factor = _companion(mass, damping, stiffness)
+    companion, factor = _companion(mass, damping, stiffness, beside)
     roots, *vectors = eig(companion, left=left, right=True, overwrite_a=True, check_finite=False)
     order, n = _order(roots), len(mass)
     right = _physical(vectors[-1][:n, order], factor)
-    return QuadraticModes(roots[order], right, _physical(vectors[0][n:, order], factor) if left else None)
+    return QuadraticModes(roots[order], right, _physical(vectors[0][n:2 * n, order], factor) if left else None)
 
 
-def upper_half(roots):
+def upper_half(roots, count=None):
     """Indices of one root of every conjugate pair, by rising imaginary part: n of the 2 n roots of a real system.
 
-    Of real roots, which come in an even number, the half that lies to the right is taken.
+    Of real roots, which come in an even number, the half that lies to the right is taken. ``count``: n where others
+    stand beside them, of states that settle.
     """
     roots = np.asarray(roots)
-    half = np.lexsort((roots.real, roots.imag))[len(roots) // 2:]
+    half = np.lexsort((roots.real, roots.imag))[len(roots) - (len(roots) // 2 if count is None else count):]
     return half[np.argsort(roots[half].imag, kind="stable")]
 
 
@@ -69,7 +72,7 @@ def follow_roots(roots):
     return followed
 
 
-def _companion(mass, damping, stiffness):
+def _companion(mass, damping, stiffness, beside):
     """(companion matrix, W): W^T M W = I takes unit-mass coordinates to physical ones."""
     n, balance = len(mass), np.sqrt(np.maximum(np.diag(mass), np.finfo(float).tiny))
     try:
@@ -85,11 +88,16 @@ def _companion(mass, damping, stiffness):
     companion = np.zeros((2 * n, 2 * n))
     companion[:n, n:] = pace * np.eye(n)
     companion[n:, :n], companion[n:, n:] = -unit_stiffness / pace, -unit_damping
-    return companion, to_physical
+    if beside is None or not beside.decay.size:
+        return companion, to_physical
+    mixed = beside.projected(to_physical.T, to_physical)
+    return np.block([[companion, np.vstack((0 * mixed.push, mixed.push / pace))],
+                     [np.hstack((mixed.by_place, pace * mixed.by_speed)), -np.diag(mixed.decay)]]), to_physical
 
 
 def _physical(vectors, to_physical):
-    return to_physical @ (vectors / np.linalg.norm(vectors, axis=0))
+    size = np.linalg.norm(vectors, axis=0)      # 0 where a state settles that moves nothing
+    return to_physical @ (vectors / np.where(size > 0, size, 1.0))
 
 
 def _order(roots):

@@ -4,14 +4,15 @@ One call of ``slide`` is one nominal pressure and one relative position of the t
 limit alone, so the contact is solved once for all speeds and the shear once for each.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from pipeline.physics.flash_temperature import ThermalSolid, spot_heating
+from pipeline.physics.friction_states import Film
 from pipeline.physics.layered_solid import SurfaceCompliance
 from pipeline.physics.rough_contact import contact_area, interface_stiffness, solve_normal_contact
-from pipeline.physics.shear_limit import full_slip_displacement, limit_at_speed, solve_shear_limit
+from pipeline.physics.shear_limit import film_factor, full_slip_displacement, limit_at_speed, solve_shear_limit
 from pipeline.physics.wear import run_in
 
 
@@ -27,18 +28,32 @@ class RoughPair:
 
 @dataclass(frozen=True)
 class Wearing:
-    """Cycles of ``distance`` m each, ``stroke`` in nodes, wear coefficients in m^2/N."""
+    """Cycles of ``distance`` m each, ``stroke`` in nodes, wear coefficients in m^2/N; below 0 a surface grows.
+
+    Both coefficients hold at ``reference_pressure`` (Pa) and go with the nominal pressure to the power ``exponent``.
+    """
 
     cycles: int
     distance: float
     stroke: int
     pad_coefficient: float
     disc_coefficient: float
+    exponent: float = 0.0
+    reference_pressure: float = 1e6
+
+    def under(self, mean_pressure):
+        """Arguments of ``run_in`` under a nominal pressure."""
+        factor = (mean_pressure / self.reference_pressure) ** self.exponent
+        return {"cycles": self.cycles, "distance": self.distance, "stroke": self.stroke,
+                "pad_coefficient": factor * self.pad_coefficient, "disc_coefficient": factor * self.disc_coefficient}
 
 
 @dataclass(frozen=True)
 class Shearing:
-    """Shear ``limit`` (Pa) at ``reference_speed`` (m/s), its rate and softening (1/K) coefficients, heat paths."""
+    """Shear ``limit`` (Pa) at ``reference_speed`` (m/s), its rate and softening (1/K) coefficients, heat paths.
+
+    The limit of a node rises by ``pressure_coefficient`` times its contact pressure, that of all by a ``film``.
+    """
 
     limit: float
     reference_speed: float
@@ -46,6 +61,15 @@ class Shearing:
     softening: float
     pad: ThermalSolid
     disc: ThermalSolid
+    pressure_coefficient: float = 0.0
+    film: Film | None = None
+
+    def after(self, mean_pressure, distance):
+        """The same with the film that ``distance`` m of sliding under a nominal pressure have left."""
+        if self.film is None:
+            return self
+        factor = film_factor(self.film, mean_pressure, distance)
+        return replace(self, limit=factor * self.limit, pressure_coefficient=factor * self.pressure_coefficient)
 
 
 @dataclass(frozen=True)
@@ -54,6 +78,25 @@ class Solving:
 
     tolerance: float
     max_iterations: int
+
+
+@dataclass(frozen=True)
+class Rubbing:
+    """A rough pair with its laws of wear and shear: what physics on the scale of the roughness changes."""
+
+    pair: RoughPair
+    wearing: Wearing
+    shearing: Shearing
+    solving: Solving
+
+
+@dataclass(frozen=True)
+class Drag:
+    """A run on a rubbing bench: one nominal ``pressure`` (Pa), speeds (n,) in m/s and ways (n,) in m of its points."""
+
+    pressure: float
+    speed: np.ndarray
+    distance: np.ndarray
 
 
 @dataclass(frozen=True)
@@ -82,14 +125,13 @@ RECORDED = ("friction", "real_area", "approach", "largest_wear", "normal_stiffne
 FAR = 100.0
 
 
-def slide(pair, mean_pressure, speeds, recorded, wearing, shearing, solving):
-    """SlidingRecord under ``mean_pressure`` (Pa) at ``speeds`` (m/s) after each of the ``recorded`` cycles (rising)."""
+def slide(rubbing, mean_pressure, speeds, recorded):
+    """SlidingRecord of a Rubbing under ``mean_pressure`` (Pa) at ``speeds`` (m/s) after the ``recorded`` cycles."""
     figures, pressures = [], []
-    states = run_in(pair.pad_height, pair.disc_height, pair.compliance.normal, mean_pressure, **vars(wearing),
-                    **vars(solving))
-    for cycle, worn in enumerate(states):
+    for cycle, worn in enumerate(states(rubbing, mean_pressure)):
         if cycle in recorded:
-            record, pressure = _measure(worn, pair, mean_pressure, speeds, wearing.stroke, shearing, solving)
+            shearing = rubbing.shearing.after(mean_pressure, cycle * rubbing.wearing.distance)
+            record, pressure = _measure(worn, replace(rubbing, shearing=shearing), mean_pressure, speeds)
             figures.append(record)
             pressures.append(pressure)
     table = {name: np.stack([record[name] for record in figures], axis=-1) for name in RECORDED}
@@ -97,15 +139,47 @@ def slide(pair, mean_pressure, speeds, recorded, wearing, shearing, solving):
                          pad_wear=worn.pad_wear, disc_wear=worn.disc_wear)
 
 
-def _measure(worn, pair, mean_pressure, speeds, stroke, shearing, solving):
+def states(rubbing, mean_pressure):
+    """WornPairs of a Rubbing under ``mean_pressure`` (Pa): at the start and after each cycle."""
+    pair = rubbing.pair
+    return run_in(pair.pad_height, pair.disc_height, pair.compliance.normal, mean_pressure,
+                  **rubbing.wearing.under(mean_pressure), **vars(rubbing.solving))
+
+
+def passed(rubbing, worn, mean_pressure):
+    """NormalContacts of a WornPair at every position of one pass of the slider."""
+    contacts, pressure = [], None
+    for position in range(rubbing.wearing.stroke + 1):
+        contact = solve_normal_contact(worn.gap(position), rubbing.pair.compliance.normal, mean_pressure, pressure,
+                                       **vars(rubbing.solving))
+        contacts.append(contact)
+        pressure = contact.pressure
+    return contacts
+
+
+def spots(pressure, pair, shearing, speeds):
+    """(real area share, corrected for its perimeter; counted share; heating of the spots (speeds,) in K/Pa)."""
+    touching = pressure > 0.0
+    counted, area = contact_area(touching)
+    heating = [spot_heating(touching, pair.spacing, shearing.pad, shearing.disc, speed) for speed in speeds]
+    return area, counted, area / counted * np.array(heating)
+
+
+def spot_limit(shearing, mean_pressure, area, speed, heating):
+    """Mean shear limit in Pa of spots that share ``mean_pressure`` (Pa) at ``speed`` (m/s); arrays are welcome."""
+    pressed = shearing.limit + shearing.pressure_coefficient * mean_pressure / area
+    return limit_at_speed(pressed, speed, shearing.reference_speed, shearing.rate, shearing.softening, heating)
+
+
+def _measure(worn, rubbing, mean_pressure, speeds):
     """Figures per speed of one state, mean over the slider's positions, and the contact pressure at the first.
 
     The interface stiffness is the mean over the first, the middle and the last position.
     """
-    contacts = _pass(worn, pair, mean_pressure, stroke, solving)
-    stiffness = np.mean([interface_stiffness(worn.gap(position), pair.compliance.normal, contacts[position],
-                                             **vars(solving)) for position in {0, stroke // 2, stroke}])
-    sheared = [[_shear(c.pressure, speed, pair, shearing, solving) for speed in speeds] for c in contacts]
+    contacts, stroke = passed(rubbing, worn, mean_pressure), rubbing.wearing.stroke
+    stiffness = np.mean([interface_stiffness(worn.gap(position), rubbing.pair.compliance.normal, contacts[position],
+                                             **vars(rubbing.solving)) for position in {0, stroke // 2, stroke}])
+    sheared = [_sheared(c.pressure, speeds, rubbing) for c in contacts]
     figures = {name: np.mean([[f[name] for f in row] for row in sheared], axis=0) for name in sheared[0][0]}
     same = {"approach": np.mean([c.approach for c in contacts]), "normal_stiffness": stiffness,
             "largest_wear": max(worn.pad_wear.max(), worn.disc_wear.max())}
@@ -113,30 +187,31 @@ def _measure(worn, pair, mean_pressure, speeds, stroke, shearing, solving):
     return figures, contacts[0].pressure
 
 
-def _pass(worn, pair, mean_pressure, stroke, solving):
-    """Contact of the worn surfaces at every position of one pass of the slider."""
-    contacts, pressure = [], None
-    for position in range(stroke + 1):
-        contact = solve_normal_contact(worn.gap(position), pair.compliance.normal, mean_pressure, pressure,
-                                       **vars(solving))
-        contacts.append(contact)
-        pressure = contact.pressure
-    return contacts
+def _sheared(pressure, speeds, rubbing):
+    """Friction, real area and heat of one contact at every speed.
 
-
-def _shear(pressure, speed, pair, shearing, solving):
-    """Friction, real area and heat of one contact at one speed.
-
-    The nodal limit carries the perimeter correction: limit * corrected area / counted area. The bases are displaced by
-    ``FAR`` times what full slip takes, so that all slip is along x; that no node sticks is the solution's finding.
+    The limit of the spots carries the perimeter correction: limit * corrected area / counted area; what the pressure
+    adds needs none, because its sum is that of the pressures. The bases are displaced by ``FAR`` times what full slip
+    takes, so that all slip is along x; that no node sticks is the solution's finding.
     """
-    touching = pressure > 0.0
-    counted, area = contact_area(touching)
-    heating = area / counted * spot_heating(touching, pair.spacing, shearing.pad, shearing.disc, speed)
-    limit = limit_at_speed(shearing.limit, speed, shearing.reference_speed, shearing.rate, shearing.softening, heating)
-    nodal = np.where(touching, limit * area / counted, 0.0)
-    slip = full_slip_displacement(nodal, pair.compliance)
-    imposed = FAR * (slip + pair.compliance.along[0, 0] * nodal.mean())
-    shear = solve_shear_limit(nodal, pair.compliance, imposed, **vars(solving))
-    return {"friction": shear.traction[0].sum() / pressure.sum(), "real_area": area,
-            "flash_temperature": heating * limit, "full_slip_distance": slip, "limit_at_speed": limit}
+    shearing, compliance = rubbing.shearing, rubbing.pair.compliance
+    area, counted, heating = spots(pressure, rubbing.pair, shearing, speeds)
+    figures = []
+    for speed, heat in zip(speeds, heating, strict=True):
+        limit = spot_limit(shearing, pressure.mean(), area, speed, heat)
+        nodal = np.where(pressure > 0.0, _nodal_share(pressure, shearing, area) * limit * area / counted, 0.0)
+        slip = full_slip_displacement(nodal, compliance)
+        imposed = FAR * (slip + compliance.along[0, 0] * nodal.mean())
+        shear = solve_shear_limit(nodal, compliance, imposed, **vars(rubbing.solving))
+        figures.append({"friction": shear.traction[0].sum() / pressure.sum(), "real_area": area,
+                        "flash_temperature": heat * limit, "full_slip_distance": slip, "limit_at_speed": limit})
+    return figures
+
+
+def _nodal_share(pressure, shearing, area):
+    """Limit of each node over the mean of the spots: pressed harder, it bears more (``pressure_coefficient``)."""
+    if shearing.pressure_coefficient == 0.0:
+        return 1.0
+    own = shearing.pressure_coefficient * pressure
+    counted = np.count_nonzero(pressure) / pressure.size
+    return (shearing.limit + own * counted / area) / (shearing.limit + own.mean() / area)

@@ -65,6 +65,14 @@ def limit_at_speed(limit, speed, reference_speed, rate, softening, heating):
     return fast / (1.0 + softening * heating * fast)
 
 
+def film_factor(film, pressure, distance):
+    """Factor of a Film (``friction_states``) on the shear limit: 1 + g p / p_0 (1 - exp(-s / d)), none before sliding.
+
+    The closed form of x' = (|v| / d) (p / p_0 - x), 1 + g x, under one pressure (Pa) over the ``distance`` s in m.
+    """
+    return 1.0 + film.gain * (pressure / film.pressure) * -np.expm1(-distance / film.length)
+
+
 def _apply(compliance, traction):
     along, across = fft.rfft2(traction)
     image = np.stack([compliance.along * along + compliance.cross * across,

@@ -3,10 +3,14 @@
 import numpy as np
 
 from pipeline.contract.errors import ConfigError
+from pipeline.physics.element_forces import WAVE
 from pipeline.physics.pad_system import linearised, sliding_state, static_start
 from pipeline.physics.patch_contact import SUB_DISCS
 from pipeline.physics.preloaded_modes import preloaded_modes
 from pipeline.physics.quadratic_modes import quadratic_roots, upper_half
+
+#: parameter of a wave that says how large it is
+AMPLITUDE = 2
 
 
 def sliding_roots(system, highest_frequency=np.inf, correction_damping=0.3):
@@ -26,10 +30,17 @@ def sliding_roots(system, highest_frequency=np.inf, correction_damping=0.3):
 
 
 def on_average(system):
-    """The same system where every patch spans one round of the four sub-discs: all have equal shares at all times."""
-    contact = system.contact
+    """The same system where every patch spans one round of the four sub-discs: all have equal shares at all times.
+
+    What turns with the disc or shakes the pads drops out.
+    """
+    contact, elements = system.contact, system.elements
     whole_round = np.full_like(contact.half_angle, SUB_DISCS * np.pi / contact.sectors)
-    return system._replace(contact=contact._replace(half_angle=whole_round))
+    parameter = elements.law.parameter.copy()
+    parameter[elements.law.kind == WAVE, AMPLITUDE] = 0.0
+    return system._replace(
+        contact=contact._replace(half_angle=whole_round, waviness=contact.waviness[:0], scatter=contact.scatter[:0]),
+        elements=elements._replace(law=elements.law._replace(parameter=parameter)))
 
 
 def stability_map(build, caliper_factors, abutment_factors, highest_frequency=np.inf, correction_damping=0.3):

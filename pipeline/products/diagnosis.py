@@ -3,7 +3,7 @@
 from pipeline.contract import Array, count, parts, product, quantity, text
 
 
-@product(version=1)
+@product(version=2)
 class Effects:
     """Physics that the case adds to its model: terms of the catalogue, each at a place."""
 
@@ -13,6 +13,8 @@ class Effects:
     parameter: Array = text("value", "parameter of the effect")
     value: Array = quantity("1", "value", "its value in the SI unit that `unit` names")
     unit: Array = text("value", "SI unit of the value")
+    condition: Array = text("condition", "condition of motions that no recorded run tells, such as humidity")
+    condition_value: Array = quantity("1", "condition", "its value")
 
 
 @product(version=1)

@@ -3,10 +3,11 @@
 from pipeline.contract import Array, count, product, quantity, text
 
 
-@product(version=2)
+@product(version=3)
 class MicroFriction:
     """Friction, real contact area and wear of the rough pair over pressure, speed and sliding distance."""
 
+    settings: Array = text("", "the section of the case that describes it, as JSON")
     pressure: Array = quantity("Pa", "pressure", "nominal contact pressure")
     speed: Array = quantity("m/s", "speed", "sliding speed")
     disc_speed: Array = quantity("rad/s", "speed", "speed of the disc that slides so at the effective radius")

@@ -3,7 +3,7 @@
 from pipeline.contract import Array, count, product, quantity, text
 
 
-@product(version=1)
+@product(version=2)
 class Lumped:
     """Masses on springs and dampers, their contacts, inputs and sensors: a sliding model without finite elements.
 
@@ -21,6 +21,7 @@ class Lumped:
     joint_damping: Array = quantity("N s/m", "joint", "damping")
     contact_name: Array = text("contact", "contacts and friction joints")
     contact_body: Array = count("contact", "mass that the friction force acts on")
+    contact_position: Array = quantity("m", "contact xyz", "place about the axis of the drive, z")
     contact_area: Array = quantity("m^2", "contact", "contact area")
     contact_lever: Array = quantity("m", "contact", "sliding speed per speed of the drive")
     contact_gap: Array = quantity("m", "contact", "gap where nothing is loaded, negative where parts are set to press")

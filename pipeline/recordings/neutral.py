@@ -48,7 +48,8 @@ def read_neutral(path):
 
 def write_neutral(path, runs):
     """Write {run: {description, repeat_of, conditions {name: (value, unit)}, channels {name: (samples, unit, quantity,
-    rate in Hz)}}} in this form."""
+    rate in Hz)}, topography* {name: (heights in m, pixel in m, body, state)}, friction* {name: {column: SI values}}}}
+    in this form."""
     with h5py.File(path, "w") as h5:
         for name, run in runs.items():
             group = h5.create_group(f"runs/{name}")
@@ -58,6 +59,12 @@ def write_neutral(path, runs):
             for key, (samples, unit, quantity, rate) in run["channels"].items():
                 node = group.create_dataset(f"channels/{key}", data=np.asarray(samples, np.float32), compression="gzip")
                 node.attrs.update(units=unit, quantity=quantity, sample_rate=float(rate))
+            for key, (heights, pixel, body, state) in run.get("topography", {}).items():
+                node = group.create_dataset(f"topography/{key}", data=heights, compression="gzip")
+                node.attrs.update(units="m", pixel_size=pixel, body=body, state=state)
+            for key, columns in run.get("friction", {}).items():
+                for column, values in columns.items():
+                    group.create_dataset(f"friction/{key}/{column}", data=values)
 
 
 def _run(group, where):

@@ -88,6 +88,26 @@ def mismatch_map(product):
         return svg(figure)
 
 
+def points(product, most=6):
+    """SVG: first channel of every run of few points, measured beside the models."""
+    runs = list(product.runs.items())[:most]
+    with drawing(0.7 + 1.25 * ((len(runs) + 1) // 2), left=0.6, top=0.3) as figure:
+        grid = figure.subplots((len(runs) + 1) // 2, 2, sharey=True, squeeze=False).ravel()
+        for axes, (name, run) in zip(grid, runs, strict=False):
+            kept = run.valid[0] > 0
+            at = np.arange(1, kept.sum() + 1)
+            axes.errorbar(at, run.measured[0, kept], run.noise[0], fmt="o", ms=2.5, color=INK, lw=0.8, label="measured")
+            for model, colour, line in MODELS[1:]:
+                axes.plot(at, getattr(run, model)[0, kept], line, color=colour, lw=1.2, label=model)
+            axes.set_title(_run_label(name, run).replace("\n", " "), loc="left", fontsize=8.5, pad=2)
+        for axes in grid[len(runs):]:
+            axes.set_visible(False)
+        grid[0].set_ylabel(str(product.channel[0]))
+        grid[len(runs) - 1].set_xlabel("point")
+        legend(grid[0])
+        return svg(figure)
+
+
 def stage_place(product):
     """SVG: probability of each stage of the chain at each place, all hypotheses of the catalogue summed."""
     rows = [k for k in range(len(product.hypothesis)) if product.stage[k]]

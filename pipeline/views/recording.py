@@ -3,7 +3,7 @@
 import numpy as np
 
 from pipeline.views.readable import scale
-from pipeline.views.style import COLOURS, FAINT, drawing, envelope, png
+from pipeline.views.style import COLOURS, FAINT, MARKERS, drawing, envelope, legend, png, svg
 
 #: channels that one picture shows
 MOST = 4
@@ -18,6 +18,23 @@ def channels(run, dpi):
             _channel(axes, name, channel, colour)
         grid[-1].set_xlabel("time / s")
         return png(figure, dpi)
+
+
+def friction(product):
+    """SVG: measured coefficients of friction over the sliding distance, a curve each run; bars: standard error."""
+    tables = [(name, table) for name, run in product.runs.items() for table in run.friction.values()]
+    with drawing() as figure:
+        axes = figure.subplots()
+        for k, (name, table) in enumerate(tables):
+            way, place = np.unique(table.distance, return_inverse=True)
+            count = np.bincount(place)
+            mean = np.bincount(place, table.friction) / count
+            error = np.sqrt(np.bincount(place, table.friction_std**2)) / count
+            axes.errorbar(1e3 * way, mean, error, color=COLOURS[k % len(COLOURS)], marker=MARKERS[k % len(MARKERS)],
+                          ms=3, lw=1, label=name)
+        axes.set(xlabel="sliding distance / mm", ylabel="coefficient of friction")
+        legend(axes)
+        return svg(figure)
 
 
 def _channel(axes, name, channel, colour):

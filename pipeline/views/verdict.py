@@ -159,7 +159,8 @@ def _facts(products):
 
 
 def _friction(product):
-    return "friction", f"{span(product.friction, '1', 2)}, ± {number(product.friction_std.max(), 2)}"
+    error = f", ± {number(product.friction_std.max(), 2)}" if product.friction_std.any() else ""
+    return "friction", f"{span(product.friction, '1', 2)}{error}"
 
 
 def _contact(product):

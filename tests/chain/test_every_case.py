@@ -9,12 +9,12 @@ import pytest
 from pipeline.contract import store
 from pipeline.products import Comparison, LockIn
 from tests.chain.conftest import ROOT, brakechain
-from tests.studies.self_excited import practice
+from tests.studies import self_excited, worn
 
 #: cases in full resolution; disc_brake_scanned needs recordings as well
 SLOW = {**dict.fromkeys(("disc_brake", "bimaterial_rupture", "bimaterial_rupture_fine", "pin_on_disc",
                          "pin_on_disc_paper_step", "beam_geometry"), [pytest.mark.slow]),
-        **dict.fromkeys(("pin_on_disc_bench", "disc_table1", "disc_brake_lines", "pin_on_disc_lines"),
+        **dict.fromkeys(("pin_on_disc_bench", "worn_pad", "disc_table1", "disc_brake_lines", "pin_on_disc_lines"),
                         [pytest.mark.slow, pytest.mark.study]),
         **dict.fromkeys(("emps", "silverbox", "tribometer"),
                         [pytest.mark.slow, pytest.mark.study, pytest.mark.measured]),
@@ -35,8 +35,9 @@ NOT_MET = {"beam_on_beam": {"largest normal contact force"},
 @pytest.mark.parametrize("case", CASES)
 def test_a_case_runs_to_its_report(case, tmp_path, monkeypatch):
     """Lumped systems meet every closed form, beams and pin what is printed; quick variants have tests of their own."""
-    if case.stem == "pin_on_disc_bench" and not (PRACTICE / "bench_0.h5").exists():
-        practice(PRACTICE)
+    for bench, first, study in (("pin_on_disc_bench", "bench_0.h5", self_excited), ("worn_pad", "worn_0.h5", worn)):
+        if case.stem == bench and not (PRACTICE / first).exists():
+            study.practice(PRACTICE)
     if case.stem in MEASURED:
         if not DATA.is_dir():
             pytest.skip(f"no public recordings at {DATA}; set BRAKECHAIN_DATA")

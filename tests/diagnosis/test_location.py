@@ -71,6 +71,9 @@ def test_places_of_one_row_are_one():
 def test_the_stage_is_that_of_the_leading_hypotheses():
     effects = [(("coulomb", "a"),), (("cubic_stiffness", "a"),), (("time_step", "solver"),)]
     assert [stage_of(e) for e in effects] == ["friction", "structure", "numerics"] and stage_of(()) == ""
+    assert stage_of((("third_body_film", "asperities"),)) == "micro_friction"
+    assert stage_of((("third_body_film", "contact"),)) == "friction"
+    assert stage_of((("interpolation", "friction_map"),)) == "friction_map"
     tried = [SimpleNamespace(name=str(k), effects=e) for k, e in enumerate(effects)]
     weighed = SimpleNamespace(candidate=tried[1], contender=SimpleNamespace(posterior=0.97))
     screen = SimpleNamespace(candidates=tried, score=np.array([4.0, 9.0, 1.0]), p_value=np.array([0.02, 0.001, 0.9]))

@@ -200,3 +200,14 @@ def test_known_columns_are_taken_and_not_called_fresh():
     assert full.fresh and not found.fresh and (full.evaluations, found.evaluations) == (4, 2)
     for one, other in zip(full.jacobians, found.jacobians, strict=True):
         np.testing.assert_array_equal(one, other)
+
+
+def test_at_a_bound_the_other_parameters_still_find_their_optimum():
+    """Two parameters that act almost alike, one of them wanted far beyond its bound."""
+    parameters = tuple(Parameter(name, "1", 0.0, Normal(0.0, width)) for name, width in (("a", 1e-3), ("b", 10.0)))
+    whole, noise = curve_problem(lambda v, x: v["a"] * (1 + 0.3 * x) + v["b"], parameters, lambda x: 3.0 + x, 1e-3)
+    found = fit(whole, noise, whole.nominal, np.zeros(2), whole.training)
+    bound = 8e-3
+    assert found.converged and found.values["a"] == pytest.approx(bound, rel=1e-9)
+    mean = np.mean(3.0 + np.linspace(0, 1, 50) - bound * (1 + 0.3 * np.linspace(0, 1, 50)))
+    assert found.values["b"] == pytest.approx(mean, rel=1e-5)

@@ -41,7 +41,7 @@ def test_values_that_priors_exclude_are_told_where_nothing_is_named():
     ({"forbidden": "its friction is negative"}, "its friction is negative"),
     ({"doubts": ("its fit did not converge",)}, "its fit did not converge"),
     ({"from_null": 1.9}, "1.9 standard deviations from none"),
-    ({"disagreement": 2.1}, "differs between operating points"),
+    ({"disagreement": 3.1}, "differs between operating points"),
     ({"left_out_gain": -0.1}, "left-out operating points no better"),
     ({"held_out_errors": 2.9}, "gain on held-out runs is 2.9 standard errors"),
     ({"held_out_share": 0.04}, "4.0% of the excess error"),

@@ -8,7 +8,7 @@ from pipeline.physics.patch_contact import PatchContact
 FAR = 1e-2
 
 
-def contacts(normal, tangent, lateral=None, friction=0.4, speed=10.0, stiffness=1e8, **more):
+def contacts(normal, tangent, lateral=None, friction=0.4, speed=10.0, stiffness=1e8, damping_speed=np.inf, **more):
     """PatchContact with a linear law of ``stiffness`` per contact of 1 cm^2; ``friction``: a number or a table."""
     count, area = len(normal), 1e-4
     lateral = np.zeros_like(tangent) if lateral is None else lateral
@@ -20,7 +20,9 @@ def contacts(normal, tangent, lateral=None, friction=0.4, speed=10.0, stiffness=
         closure=closure, pressure=stiffness / area * closure, friction_pressure=np.array([0.0, 1e9]),
         friction_speed=np.array([0.0, 100.0]), friction_distance=np.array([0.0, 1.0]),
         friction=friction, bedding=np.full(4, 0.5), bedding_speed=0.0, disc_speed=speed,
-        sectors=16, ramp=0.0, stick_speed=1e-3, damping_speed=np.inf)
+        sectors=16, ramp=0.0, stick_speed=1e-3, damping_speed=np.full(count, damping_speed),
+        law_first=np.zeros(count, int), friction_first=np.zeros(count, int), waviness=np.empty((0, 6)),
+        scatter=np.empty((0, 4)))
     return contact._replace(**more)
 
 

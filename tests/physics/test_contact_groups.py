@@ -8,7 +8,7 @@ import pytest
 from pipeline.contract.errors import ConfigError
 from pipeline.physics.bench import Bench, Channel, Run, respond
 from pipeline.physics.bench_roots import roots
-from pipeline.physics.contact_groups import Grouped, changed, parts, read, with_field
+from pipeline.physics.contact_groups import Grouped, alike, changed, parts, read, with_field
 from pipeline.physics.dry_friction import constant, falling, tabulated
 from pipeline.physics.equation_residual import equation_residual
 from pipeline.physics.time_stepping import Hard, Penalty, Table
@@ -99,3 +99,11 @@ def test_mixtures_that_cannot_be_are_refused(law, friction, said):
 def test_a_law_that_nothing_obeys_is_refused():
     with pytest.raises(ConfigError, match="every one of 2"):
         Grouped((constant(0.1), tabulated([0.0], [0.2])), (0, 0))
+
+
+def test_laws_are_alike_where_they_say_the_same_of_every_contact():
+    penalty, table = LAWS
+    assert alike(penalty, Grouped((Penalty(1e4, 3.0), Penalty(1e4, 3.0)), (0, 1)), 2)
+    assert not alike(penalty, with_field(penalty, gap=np.array([0.0, 1e-6])), 2)
+    assert not alike(penalty, Grouped((penalty, table), (0, 1)), 2)
+    assert alike(table, Table(*(np.array(v) for v in (table.closure, table.pressure)), table.damping_speed), 2)

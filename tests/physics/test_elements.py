@@ -20,6 +20,7 @@ from pipeline.physics.elements import (
     Softening,
     Wave,
     Waviness,
+    bears,
     iwan,
 )
 from pipeline.physics.time_stepping import Hard, History, Penalty, Start, simulate
@@ -300,3 +301,11 @@ def test_steady_sliding_on_a_wavy_surface_starts_on_it():
     model = replace(model, contacts=replace(model.contacts, waviness=(Waviness(0, 1e-4, 2.0, 0.5),)))
     start = steady_start(model, Hard(), constant(0.3), [0.0, -10.0])
     assert start.displacement[1] == pytest.approx(-1e-4 * np.cos(0.5))
+
+
+@pytest.mark.parametrize("law, bearing", [
+    (Polynomial(cubic=1.0), True), (Polynomial(), False), (Power(3.0), False), (Dry(1e3, 2.0, 2.0), False),
+    (Gap(inner=-50.0, lower=1e-3, upper=1e-3), True), (Gap(inner=-50.0, lower=0.0, upper=0.0), False),
+    (Maxwell([5.0], [1.0]), False), (Maxwell([5.0], [1.0], -2.0), True), (Softening(5.0, 1.0), False)])
+def test_elements_that_bear_load_at_rest(law, bearing):
+    assert bears(Element("one", np.ones(1), law)) is bearing

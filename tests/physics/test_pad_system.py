@@ -4,15 +4,20 @@ import numpy as np
 import pytest
 
 from pipeline.contract.errors import ConfigError, ConvergenceError
+from pipeline.physics.elements import Element, Polynomial, Power, Wave
 from pipeline.physics.friction_law import FrictionLaw
 from pipeline.physics.pad_system import (
+    force,
     half_angles,
     linearised,
+    pad_elements,
     pad_system,
     sliding_state,
     static_start,
+    tangent,
 )
 from pipeline.physics.patch_contact import contact_state, patch_shares
+from pipeline.physics.preloaded_modes import preloaded_modes
 from tests.physics.small_pads import block_on_belt, flutter, random_assembly
 
 
@@ -94,3 +99,23 @@ def test_wrong_patches_and_laws_are_refused(change, expected):
     with pytest.raises(ConfigError, match=expected):
         pad_system(None, None, friction=flat, bedding_share=1.0, ramp=0.0, stick_speed=1.0, damping_speed=1.0,
                    **{**given, **change})
+
+
+@pytest.mark.exact
+def test_elements_draw_and_the_tangent_is_their_slope():
+    """A cubic spring, quadratic damping and a shaking force on one coordinate, also about a static start."""
+    row = np.array([1.0, 0.0])
+    laws = (Polynomial(cubic=4e12), Power(30.0), Wave(1.0, amplitude=5.0, order=3.0))
+    system = block_on_belt()._replace(elements=pad_elements([Element(f"e {k}", row, law)
+                                                             for k, law in enumerate(laws)], 2))
+    place, rate, time = np.array([2e-5, -1e-6]), np.array([0.3, 0.0]), 0.01
+    more = force(block_on_belt(), time, place, rate) - force(system, time, place, rate)
+    wave = 5.0 * np.cos(3.0 * system.contact.disc_speed * time)
+    np.testing.assert_allclose(more, [4e12 * place[0] ** 3 + 30 * 0.3**2 - wave, 0.0], rtol=1e-9)
+    stiffness, damping = tangent(system, time, place, rate)
+    plain = tangent(block_on_belt(), time, place, rate)
+    np.testing.assert_allclose(stiffness - plain[0], np.diag([3 * 4e12 * place[0] ** 2, 0.0]), rtol=1e-9)
+    np.testing.assert_allclose(damping - plain[1], np.diag([2 * 30 * 0.3, 0.0]), rtol=1e-9)
+    modal, basis = preloaded_modes(system, place)
+    np.testing.assert_allclose(force(modal, time, np.zeros(2), np.zeros(2)),
+                               basis.T @ force(system, time, place, np.zeros(2)), rtol=1e-9)

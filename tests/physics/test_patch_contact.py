@@ -14,7 +14,7 @@ from pipeline.physics.patch_contact import (
     patch_shares,
     sliding_part,
 )
-from tests.physics.small_pads import block_on_belt, random_assembly
+from tests.physics.small_pads import block_on_belt, contacts, random_assembly
 
 TURNS = np.linspace(-0.3, 2 * np.pi + 0.3, 4001)
 
@@ -120,3 +120,31 @@ def test_friction_opposes_the_slip_whatever_its_direction():
 def test_open_contacts_bear_nothing():
     state = contact_state(random_assembly().contact._replace(opening=np.full(8, 1e-6)), 0.1, np.zeros(12), np.ones(12))
     assert not state.normal.any() and not state.friction.any() and not state.drag.any()
+
+
+@pytest.mark.exact
+def test_waves_and_scatter_turn_with_the_disc():
+    """The opening grows by a cos(n W t - phase), its rate by the derivative; friction is multiplied."""
+    row, speed, time, stiffness = np.array([[0.0, 1.0]]), 10.0, 0.03, 1e8
+    plain = contacts(row, np.array([[1.0, 0.0]]), speed=speed, stiffness=stiffness, damping_speed=2.0)
+    waves = plain._replace(waviness=np.array([[0.0, 1e-6, 3.0, 0.0, 0.4, 0.0]]),
+                           scatter=np.array([[0.0, 0.2, 2.0, 0.1]]))
+    place, rest = np.array([0.0, -5e-6]), np.zeros(2)
+    angle = 3 * speed * time - 0.4
+    closure, opening = 5e-6 - 1e-6 * np.cos(angle), -1e-6 * 3 * speed * np.sin(angle)
+    state, before = contact_state(waves, time, place, rest), contact_state(plain, time, place, rest)
+    assert state.normal[0] == pytest.approx(stiffness * closure * (1 - opening / 2.0))
+    factor = 1 + 0.2 * np.cos(2 * speed * time - 0.1)
+    assert state.friction[0, 0] / state.normal[0] == pytest.approx(factor * before.friction[0, 0] / before.normal[0])
+
+
+@pytest.mark.exact
+def test_contacts_may_have_laws_and_friction_of_their_own():
+    rows, aside = np.array([[0.0, 1.0], [0.0, 1.0]]), np.array([[1.0, 0.0], [1.0, 0.0]])
+    plain = contacts(rows, aside)
+    both = plain._replace(pressure=np.append(plain.pressure, 3 * plain.pressure), law_first=np.array([0, 3]),
+                          friction=np.concatenate((plain.friction, plain.friction / 2)),
+                          friction_first=np.array([0, 2]), damping_speed=np.array([np.inf, 1.0]))
+    state = contact_state(both, 0.0, np.array([0.0, -1e-6]), np.array([0.0, -0.1]))
+    assert state.normal[1] == pytest.approx(3 * 1.1 * state.normal[0])
+    assert state.friction[1, 0] / state.normal[1] == pytest.approx(state.friction[0, 0] / state.normal[0] / 2)

@@ -6,6 +6,7 @@ import pytest
 from pipeline.contract.errors import ConfigError
 from pipeline.physics.closed_form.two_mode_flutter import onset_friction, roots_over_friction
 from pipeline.physics.quadratic_modes import follow_roots, quadratic_modes, quadratic_roots, upper_half
+from pipeline.physics.small_motion import Settling
 
 
 def random_system(n, seed=0):
@@ -95,3 +96,17 @@ def test_followed_roots_cross_without_swapping():
 def test_massless_coordinate_is_refused():
     with pytest.raises(ConfigError, match="positive definite"):
         quadratic_roots(np.diag([1.0, 0.0]), np.zeros((2, 2)), np.eye(2))
+
+
+@pytest.mark.exact
+def test_what_settles_beside_the_motion_adds_its_roots():
+    """A mass on a spring and a Maxwell branch: (m s^2 + k) (s + 1 / tau) + g s = 0, with its vector."""
+    m, k, g, tau = 2.0, 800.0, 300.0, 0.03
+    one = np.ones((1, 1))
+    branch = Settling(-one, 0 * one, g * one, np.array([1 / tau]))
+    exact = np.roots([m, m / tau, k + g, k / tau])
+    found = quadratic_modes(m * one, 0 * one, k * one, beside=branch)
+    for roots in (found.value, quadratic_roots(m * one, 0 * one, k * one, branch)):
+        assert abs(roots[:, None] - exact).min(axis=1).max() < 1e-9 * abs(exact).max()
+    assert len(found.value) == 3 and list(upper_half(found.value, 1)) == [np.argmax(found.value.imag)]
+    np.testing.assert_allclose(abs(found.right), 1 / np.sqrt(m))

@@ -7,7 +7,7 @@ import pytest
 
 from pipeline.physics.flash_temperature import ThermalSolid
 from pipeline.physics.layered_solid import graded_depth, layered_compliance
-from pipeline.physics.rough_friction import RoughPair, Shearing, Solving, Wearing, slide
+from pipeline.physics.rough_friction import RoughPair, Rubbing, Shearing, Solving, Wearing, slide
 from pipeline.physics.rough_surface import self_affine
 
 NODES, LENGTH = 32, 1e-3
@@ -25,9 +25,13 @@ def pair(rms=3e-6):
     return RoughPair(pad, disc, SPACING, solids[0] + solids[1])
 
 
+def rubbing(rms=3e-6, wearing=WEARING, shearing=SHEARING):
+    return Rubbing(pair(rms), wearing, shearing, SOLVING)
+
+
 @pytest.fixture(scope="module")
 def record():
-    return slide(pair(), 1e6, SPEEDS, [0, 2, 4], WEARING, SHEARING, SOLVING)
+    return slide(rubbing(), 1e6, SPEEDS, [0, 2, 4])
 
 
 @pytest.mark.exact
@@ -38,7 +42,7 @@ def test_friction_is_limit_times_real_area_over_pressure(record):
 @pytest.mark.exact
 def test_friction_without_speed_effects_is_exact():
     plain = replace(SHEARING, rate=0.0, softening=0.0)
-    record = slide(pair(), 1e6, SPEEDS, [0], replace(WEARING, cycles=0), plain, SOLVING)
+    record = slide(rubbing(wearing=replace(WEARING, cycles=0), shearing=plain), 1e6, SPEEDS, [0])
     np.testing.assert_allclose(record.friction, 13.5e6 * record.real_area / 1e6, rtol=1e-7)
 
 
@@ -55,7 +59,7 @@ def test_speed_has_a_small_real_influence(record):
 
 
 def test_rougher_surfaces_touch_less(record):
-    rougher = slide(pair(4e-6), 1e6, SPEEDS, [0], replace(WEARING, cycles=0), SHEARING, SOLVING)
+    rougher = slide(rubbing(4e-6, replace(WEARING, cycles=0)), 1e6, SPEEDS, [0])
     assert np.all(rougher.friction[:, 0] < 0.9 * record.friction[:, 0])
 
 

@@ -75,3 +75,16 @@ def test_what_is_written_is_read_in_si(tmp_path):
     np.testing.assert_allclose(laser.samples, [1e-3, 2e-3, 4e-3])
     assert (str(laser.unit), str(laser.measures), float(laser.rate)) == ("m/s", "velocity", 100.0)
     assert runs["one"].conditions["load"].value[0] == 1500.0 and str(runs["again"].repeat_of) == "one"
+
+
+def test_friction_and_faces_survive_writing(tmp_path):
+    heights = np.arange(6.0).reshape(2, 3) * 1e-6
+    write_neutral(tmp_path / "c.h5", {"drag": {
+        "description": "", "repeat_of": "", "conditions": {}, "channels": {},
+        "topography": {"worn": (heights, 2e-6, "pad", "worn")},
+        "friction": {"cell": {"friction": [0.4, 0.5], "friction_std": [0.01, 0.01], "pressure": 1e6,
+                              "speed": [1.0, 2.0], "distance": [0.0, 1e-3]}}}})
+    run = read_neutral(tmp_path / "c.h5")["drag"]
+    np.testing.assert_array_equal(run.topography["worn"].height, heights)
+    assert str(run.topography["worn"].body) == "pad" and run.topography["worn"].x.tolist() == [0, 2e-6, 4e-6]
+    assert run.friction["cell"].pressure.tolist() == [1e6, 1e6] and run.friction["cell"].distance[1] == 1e-3

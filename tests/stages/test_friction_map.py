@@ -17,10 +17,10 @@ def computed():
     table = dict.fromkeys(("real_area", "wear_depth", "largest_wear", "flash_temperature", "full_slip_distance",
                            "limit_at_speed"), np.zeros_like(friction))
     maps = dict.fromkeys(("contact_pressure_new", "contact_pressure_worn", "pad_wear", "disc_wear"), np.zeros((2, 2)))
-    return MicroFriction(pressure=pressure, speed=speed, disc_speed=speed / 0.128, distance=distance, friction=friction,
-                         friction_std=friction / 20, normal_stiffness=1e12 * friction, shear_limit=13.5e6,
-                         block_compliance=3.5e-12, x=np.arange(2.0), y=np.arange(2.0), refinement=[8.0],
-                         refinement_area=[0.03], **table, **maps)
+    return MicroFriction(settings="", pressure=pressure, speed=speed, disc_speed=speed / 0.128, distance=distance,
+                         friction=friction, friction_std=friction / 20, normal_stiffness=1e12 * friction,
+                         shear_limit=13.5e6, block_compliance=3.5e-12, x=np.arange(2.0), y=np.arange(2.0),
+                         refinement=[8.0], refinement_area=[0.03], **table, **maps)
 
 
 def test_computed_points_stay_and_nothing_overshoots(computed):

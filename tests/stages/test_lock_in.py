@@ -14,7 +14,7 @@ ONE = {"cases": [{"length": "151.5 mm"}], "lengths": 1, "shortest": "130 mm", "l
 
 @pytest.fixture(scope="module")
 def found():
-    return lock_in(*small_system(), Settings(**ONE), context=CONTEXT)
+    return lock_in(*small_system(), None, Settings(**ONE), context=CONTEXT)
 
 
 def test_every_scan_has_its_points(found):
@@ -40,7 +40,7 @@ def test_the_same_point_twice_gives_the_same_bits(found):
 
 @pytest.mark.exact
 def test_nothing_grows_without_friction():
-    still = lock_in(*small_system(), Settings(**{**ONE, "friction": 0.0}), context=CONTEXT)
+    still = lock_in(*small_system(), None, Settings(**{**ONE, "friction": 0.0}), context=CONTEXT)
     assert not still.root.any() and set(still.kind) == {"none"} and not still.base.any()
 
 
@@ -51,4 +51,4 @@ def test_bad_input():
     with pytest.raises(ConfigError, match="duration"):
         check({"lock_in": Settings(window="1 s")})
     with pytest.raises(ConfigError, match="hard"):
-        lock_in(small_pin(contact={"hard": True}), small_system()[1], Settings(**ONE), context=CONTEXT)
+        lock_in(small_pin(contact={"hard": True}), small_system()[1], None, Settings(**ONE), context=CONTEXT)

@@ -3,7 +3,9 @@
 import numpy as np
 import pytest
 
+from pipeline.benches import effect_block
 from pipeline.contract import ConfigError, ConvergenceError
+from pipeline.contract.settings import fill, restored
 from stages.micro_friction import Settings, micro_friction
 from stages.surface import Settings as SurfaceSettings
 from stages.surface import surface
@@ -77,6 +79,34 @@ def test_same_seed_same_bits(result):
 def test_axes_that_do_not_rise_are_refused(wrong):
     with pytest.raises(ConfigError, match=rf"micro_friction\.{next(iter(wrong))}"):
         micro_friction(rough(), settings=Settings(**{**TINY, **wrong}))
+
+
+def stated(**given):
+    return effect_block.product(fill(effect_block.Settings, given, "effects"))
+
+
+@pytest.mark.exact
+def test_effects_of_the_block_act_at_the_asperities(result):
+    """Half the shear limit is half the friction (no heat); half of what the pad loses sticks to the disc."""
+    settings = Settings(**TINY, softening="0 1/K")
+    block = stated(shear_limit={"asperities": {"factor": 0.5, "pressure_coefficient": 0}},
+                   material_transfer={"asperities": {"share": 0.5}})
+    found = micro_friction(rough(), block, settings=settings)
+    assert found.shear_limit == pytest.approx(0.5 * result.shear_limit, rel=1e-14)
+    plain = micro_friction(rough(), settings=settings)
+    np.testing.assert_allclose(found.friction[:, :, 0], 0.5 * plain.friction[:, :, 0],
+                               rtol=1e-4)
+    lost = settings.disc.wear_coefficient - 0.5 * settings.pad.wear_coefficient
+    assert found.disc_wear.mean() == pytest.approx(lost * 3e6 * 10e-3, rel=1e-9)
+
+
+def test_an_empty_block_changes_no_bit(result):
+    np.testing.assert_array_equal(micro_friction(rough(), stated(), settings=Settings(**TINY)).friction,
+                                  result.friction)
+
+
+def test_the_product_tells_its_section(result):
+    assert restored(Settings, result.settings.item()) == Settings(**TINY)
 
 
 def test_non_convergence_raises():

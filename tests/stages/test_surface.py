@@ -5,7 +5,9 @@ import pytest
 
 from pipeline.contract import ConfigError
 from pipeline.contract.settings import fill
-from pipeline.physics.rough_surface import self_affine
+from pipeline.physics.rough_surface import band_limit, resample, self_affine
+from pipeline.physics.worn_depth import without_plane
+from pipeline.recordings.neutral import write_neutral
 from stages.surface import Settings, surface
 
 SMALL = {"nodes": 32, "shortest_wavelength": "125 um"}
@@ -39,6 +41,29 @@ def test_a_scan_replaces_a_generator(tmp_path):
     assert made.outlier_share[1] >= 1 / 6400 and made.filled_share[1] >= 1 / 6400
     turned = surface(settings=fill(Settings, {**SMALL, "pad": {**scan, "transposed": True}}, "case: surface"))
     np.testing.assert_allclose(turned.pad_height, made.pad_height.T, atol=1e-8)
+
+
+def recorded(path, nodes=40):
+    """A recorded map of the whole patch, with offset and tilt; returns it without."""
+    heights = 3e-6 * self_affine(np.random.default_rng(3), nodes, 1e-3, 125e-6, 300e-6, 0.8)
+    seen = heights + 1e-6 + 1e-6 * np.arange(nodes) / nodes
+    write_neutral(path, {"new": {"description": "", "repeat_of": "", "conditions": {}, "channels": {}, "topography": {
+        "pad_new": (seen, 1e-3 / nodes, "pad", "new")}}})
+    return heights
+
+
+def test_a_recorded_map_of_the_whole_patch_is_taken_as_it_is(tmp_path):
+    heights = recorded(tmp_path / "a.h5")
+    given = {"kind": "recorded", "file": str(tmp_path / "a.h5"), "map": "pad_new"}
+    made = surface(settings=fill(Settings, {**SMALL, "pad": given}, "case: surface"))
+    assert made.source[1] == "a.h5: new/pad_new" and made.outlier_share[1] == 0
+    exact = resample(band_limit(without_plane(heights), (1e-3, 1e-3), 125e-6), (32, 32))
+    np.testing.assert_allclose(made.pad_height, exact, atol=1e-15)
+    with pytest.raises(ConfigError, match=r"surface.pad.map: expected one of pad_new in run new.*found disc"):
+        surface(settings=fill(Settings, {**SMALL, "pad": {**given, "map": "disc"}}, "case: surface"))
+    with pytest.raises(ConfigError, match="surface.pad.map: expected the whole patch, 0.002 m"):
+        surface(settings=fill(Settings, {**SMALL, "patch_length": "2 mm", "shortest_wavelength": "250 um",
+                                         "pad": given}, "case: surface"))
 
 
 def test_a_scan_needs_its_height_and_reason(tmp_path):

@@ -96,3 +96,16 @@ def test_the_bench_shows_prediction_beside_measurement():
     made = bench_chapter.chapter(bench(), Look())
     assert "by 0\u202f% to 20\u202f%" in made.conclude and len(made.figures) == 2
     assert made.tables[0].rows[1] == ("second", "position", "20\u202f%", "140\u202fmm")
+
+
+def test_friction_is_drawn_point_by_point():
+    whole = diagnosis()
+    few = {name: changed(run, **{part: getattr(run, part)[..., :12] for part in
+                                 ("time", "measured", "valid", "nominal", "recalibrated", "completed")})
+           for name, run in whole.runs.items()}
+    rubbed = changed(whole, channel=["friction"], channel_unit=["1"], runs=few)
+    shown = [f for f in chapter(rubbed, Look()).figures if f.caption.startswith("Friction of every run")]
+    assert len(shown) == 1 and shown[0].image == pictures.points(rubbed)
+    assert pictures.points(changed(rubbed, runs={"bang": few["bang"]})) != shown[0].image
+    assert not any(f.caption.startswith("Friction of every run") for f in chapter(whole, Look()).figures)
+    assert "in each channel" in chapter(rubbed, Look()).figures[0].caption

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from pipeline.products import Recording, Run
+from pipeline.products import MeasuredFriction, Recording, Run
 from pipeline.recordings.samples import channel
 from pipeline.views import recording
 from pipeline.views.chapter import Look
@@ -31,3 +31,19 @@ def test_the_picture_shows_samples_and_gaps():
     first = recording.channels(run(whole), 60)
     assert recording.channels(run(whole), 60) == first != recording.channels(run(gap), 60)
     assert recording.channels(run(2 * whole), 60) != first
+
+
+def rubbed(scale=1.0):
+    told = MeasuredFriction(friction=scale * np.array([0.4, 0.42, 0.5, 0.52]), friction_std=np.full(4, 0.01),
+                            pressure=np.full(4, 1e6), speed=[1.0, 2.0, 1.0, 2.0], distance=[0.0, 0.0, 0.01, 0.01],
+                            temperature=np.full(4, 293.15))
+    empty = {k: {} for k in (*KINDS, "channels") if k != "friction"}
+    return Recording(source=["pad.h5 0123"], runs={"drag": Run(description="", repeat_of="", friction={"cell": told},
+                                                               **empty)})
+
+
+def test_measured_friction_is_drawn_and_no_empty_table_of_channels_shown():
+    made = chapter(rubbed(), Look())
+    assert "mean over speeds; runs drag" in made.figures[0].caption and not made.conclude
+    assert [t.title for t in made.tables] == ["Other measurements"]
+    assert recording.friction(rubbed()) == made.figures[0].image != recording.friction(rubbed(1.2))

@@ -46,8 +46,9 @@ def chapter(product, look):
 
 def key_figure(product):
     """The mismatch map, for the first screen."""
+    parts = "octave" if all(map(pictures.sampled, product.runs.values())) else "channel"
     return Figure(pictures.mismatch_map(product),
-                  "Mismatch map: what is left of each run in each octave, over its noise; 1 (dark) is noise alone.")
+                  f"Mismatch map: what is left of each run in each {parts}, over its noise; 1 (dark) is noise alone.")
 
 
 def _named(product):
@@ -194,6 +195,10 @@ def _figures(product):
     name, held_out = _shown_run(product)
     if pictures.sampled(product.runs[name]):
         yield from _signals(product, name, held_out)
+    elif str(product.channel[0]) == "friction":
+        yield Figure(pictures.points(product), "Friction of every run, point by point in the order of sliding: measured"
+                     " (with its noise and the error of the model), with the best values of the nominal model, and"
+                     " completed.")
     if len(product.parameter):
         yield Figure(pictures.parameters(product), "What the recordings say of the fitted values (orange: nominal"
                      " values, blue: of what was added); dashed: the value given, 0 for what was added.")

@@ -13,13 +13,23 @@ MOST = 6
 def chapter(product, look):
     """Chapter of the product Recording."""
     drawn = [(name, run) for name, run in product.runs.items() if run.channels][:MOST]
-    figures = tuple(Figure(pictures.channels(run, look.dpi), _caption(name, run)) for name, run in drawn)
+    figures = [Figure(pictures.channels(run, look.dpi), _caption(name, run)) for name, run in drawn]
+    rubbed = [name for name, run in product.runs.items() if run.friction]
+    if rubbed:
+        figures.append(Figure(pictures.friction(product), "Measured friction over the sliding distance, mean over"
+                              f" speeds; runs {', '.join(rubbed)}."))
     files = ", ".join(str(line).split(" ")[0] for line in product.source)
+    return Chapter("recording", "What the bench recorded", f"{plural(len(product.runs), 'run')} from {files}.",
+                   _noise(product) if drawn else "",
+                   tuple(figures), (*_channels(product), *_others(product)))
+
+
+def _noise(product):
     repeats = sum(bool(str(run.repeat_of)) for run in product.runs.values())
-    noise = (f"{plural(repeats, 'run')} {'repeats' if repeats == 1 else 'repeat'} another: their difference is the"
-             " noise." if repeats else "No run repeats another: the noise must come from the signals themselves.")
-    return Chapter("recording", "What the bench recorded", f"{plural(len(product.runs), 'run')} from {files}.", noise,
-                   figures, (_channels(product), *_others(product)))
+    if not repeats:
+        return "No run repeats another: the noise must come from the signals themselves."
+    return (f"{plural(repeats, 'run')} {'repeats' if repeats == 1 else 'repeat'} another: their difference is the"
+            " noise.")
 
 
 def _caption(name, run):
@@ -35,6 +45,7 @@ def _condition(condition):
 
 
 def _channels(product):
+    """The table of sampled signals, where there is any."""
     rows = []
     for name, run in product.runs.items():
         for key, channel in run.channels.items():
@@ -44,7 +55,7 @@ def _channels(product):
                          quantity(channel.rate, "Hz", 4), quantity(count / float(channel.rate), "s", 3),
                          percent(lost / count, 2)))
     head = ("run", "channel", "measures", "role", "largest", "sampling rate", "length", "missing")
-    return Table(head, tuple(rows), "Channels", numeric=(4, 5, 6, 7), folded=len(rows) > 12)
+    return (Table(head, tuple(rows), "Channels", numeric=(4, 5, 6, 7), folded=len(rows) > 12),) if rows else ()
 
 
 def _others(product):
@@ -53,4 +64,4 @@ def _others(product):
              "friction": "friction"}
     rows = tuple((name, key, told) for name, run in product.runs.items() for kind, told in kinds.items()
                  for key in getattr(run, kind))
-    return (Table(("run", "name", "what"), rows, "Other measurements"),) if rows else ()
+    return (Table(("run", "name", "what"), rows, "Other measurements", folded=len(rows) > 12),) if rows else ()

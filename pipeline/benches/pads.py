@@ -1,0 +1,95 @@
+"""Effects on the pads of a disc brake: from a bench to the PadSystem of the multibody model."""
+
+from difflib import get_close_matches
+
+import numpy as np
+
+from pipeline.benches.bench import groups
+from pipeline.contract import ConfigError
+from pipeline.effects import CATALOGUE
+from pipeline.effects.effect import compose
+from pipeline.physics.bench import Bench
+from pipeline.physics.contact_groups import parts
+from pipeline.physics.doublets import doublets
+from pipeline.physics.dry_friction import FIRST, Friction, kernel, under
+from pipeline.physics.elements import Gap, Polynomial, Power, Softening, Wave, wave_table
+from pipeline.physics.friction_states import Scatter
+from pipeline.physics.pad_system import pad_elements
+from pipeline.physics.sliding_model import sliding_model
+from pipeline.physics.time_stepping import Table
+from pipeline.physics.time_stepping_laws import normal_kernel
+
+#: laws of elements without memory
+_WITHOUT_MEMORY = (Polynomial, Power, Gap, Softening, Wave)
+
+
+def braked(model, friction, speed, settings):
+    """Bench of a product ReducedModel at a disc speed (rad/s), with a FrictionLaw, under the section ``multibody``."""
+    sliding = sliding_model(model, 0, speed)
+    law = Table(model.law_closure, model.law_pressure, settings.damping_speed, model.contact_gap)
+    return Bench(sliding, law, Friction(friction), settings.step, (), groups(model), doublets=doublets(sliding))
+
+
+def with_terms(bench, terms, conditions):
+    """(SlidingModel, dress): the model of a Bench with Terms on it, and what puts their laws, friction, surfaces and
+    elements on a PadSystem; ``conditions`` {name: value} are those that friction depends on."""
+    whole = compose(bench, terms)
+    friction = under(whole.friction, conditions, "effects")
+    return whole.model, lambda system, model: _dressed(system, model, whole.law, friction) if terms else system
+
+
+def _dressed(system, model, law, friction):
+    """A PadSystem with the laws of contact and friction, and the surfaces and elements of its SlidingModel."""
+    count = len(model.contacts.area)
+    normal, dry = normal_kernel(law, model.contacts), kernel(friction, count)
+    contact = system.contact._replace(
+        opening=normal.gap, closure=normal.closure, pressure=normal.pressure, law_first=normal.first,
+        damping_speed=normal.damping_speed, friction_pressure=dry.pressure, friction_speed=dry.speed,
+        friction_distance=dry.distance, friction=dry.table, friction_first=dry.contact[:, FIRST].astype(np.int64),
+        waviness=wave_table(model.contacts.waviness), scatter=_scatter(friction, count))
+    _refuse_memory(model.elements)
+    return system._replace(contact=contact, elements=pad_elements(model.elements, model.size))
+
+
+def _scatter(friction, count):
+    rows = [(i, state.amplitude, state.order, np.broadcast_to(state.phase, count)[i])
+            for law, own in parts(friction, count) for state in law.states if isinstance(state, Scatter) for i in own]
+    return np.array(rows, float).reshape(-1, 4)
+
+
+def _refuse_memory(elements):
+    for element in elements:
+        if not isinstance(element.law, _WITHOUT_MEMORY):
+            raise refused(element.name.split()[0], "has a memory there, or turns friction that turns anyway")
+
+
+def kept(terms, without):
+    """The Terms whose effects are not named in ``without``; ConfigError for names that no effect has."""
+    names = [effect.name for effect in CATALOGUE]
+    for name in without:
+        if name not in names:
+            near = get_close_matches(name, names, 1)
+            raise ConfigError("multibody.without", "names of effects", repr(name),
+                              f"did you mean '{near[0]}'?" if near else None)
+    return tuple(term for term in terms if term.effect.name not in without)
+
+
+def refused(name, why):
+    """ConfigError for an effect that does not act in the stage multibody."""
+    return ConfigError(f"effects.{name}", "an effect that acts in the stage multibody", f"one that {why}",
+                       f"leave it out there, by multibody.without: [{name}]")
+
+
+def refuse_idle(terms, build):
+    """Refuse Terms that leave the PadSystem of ``build(terms)`` as it is: no stage ignores an effect silently."""
+    plain = build(())
+    for term in terms:
+        if _alike(build((term,)), plain):
+            raise refused(term.effect.name, f"changes nothing at {term.place}: pads, caliper and their contacts on a"
+                                            " rigid disc have no such physics here")
+
+
+def _alike(one, other):
+    if isinstance(one, tuple):
+        return all(map(_alike, one, other))
+    return np.array_equal(one, other)

@@ -1,0 +1,108 @@
+"""The rough pair of a case: its section of the YAML, and from a product Surface to the physics of rubbing."""
+
+from dataclasses import replace
+
+import numpy as np
+
+from pipeline.contract import Quantities, Quantity, Section, option
+from pipeline.physics.flash_temperature import ThermalSolid
+from pipeline.physics.layered_solid import layered_compliance
+from pipeline.physics.rough_friction import RoughPair, Rubbing, Shearing, Solving, Wearing
+from pipeline.physics.rough_surface import resample
+
+
+class Iron(Section):
+    """Cast iron of the disc."""
+
+    youngs_modulus: Quantity("Pa", gt=0) = option("110 GPa", "Young's modulus")
+    poisson_ratio: float = option(0.26, "Poisson ratio", ge=0, lt=0.5)
+    conductivity: Quantity("W/m/K", gt=0) = option("50 W/m/K", "thermal conductivity")
+    density: Quantity("kg/m^3", gt=0) = option("7200 kg/m^3", "density")
+    heat_capacity: Quantity("J/K/kg", gt=0) = option("500 J/K/kg", "heat capacity")
+    wear_coefficient: Quantity("m^2/N", ge=0) = option("4e-7 mm^2/N", "Archard wear depth per pressure and distance")
+
+
+class Lining(Section):
+    """Pad on the scale of its roughness; modulus and wear are tuned to the published contact area and approach."""
+
+    youngs_modulus: Quantity("Pa", gt=0) = option("0.235 GPa", "effective Young's modulus of the asperities, tuned to"
+                                                  " the real contact area; the bulk of the lining has its own")
+    poisson_ratio: float = option(0.25, "Poisson ratio", ge=0, lt=0.5)
+    conductivity: Quantity("W/m/K", gt=0) = option("1 W/m/K", "thermal conductivity")
+    density: Quantity("kg/m^3", gt=0) = option("2200 kg/m^3", "density")
+    heat_capacity: Quantity("J/K/kg", gt=0) = option("1000 J/K/kg", "heat capacity")
+    wear_coefficient: Quantity("m^2/N", ge=0) = option("4e-6 mm^2/N", "Archard wear depth per pressure and distance")
+
+
+class Settings(Section):
+    """Operating points, solids, shear limit and wear of the rough pair."""
+
+    pressures: Quantities("Pa", gt=0) = option(
+        ("0.5 MPa", "1 MPa", "2 MPa", "3 MPa", "6 MPa"),
+        "nominal contact pressures, rising; they span the range that the contact patches reach")
+    disc_speeds: Quantities("rad/s", gt=0) = option(
+        ("6.5 rad/s", "8.5 rad/s", "10.25 rad/s", "12 rad/s", "14.5 rad/s"),
+        "disc speeds, rising; they span the range that the slip of the contact patches reaches")
+    effective_radius: Quantity("m", gt=0) = option("128 mm", "radius at which the disc speed is the sliding speed")
+    disc: Iron = option(Iron(), "cast iron of the disc")
+    pad: Lining = option(Lining(), "pad on the scale of its roughness")
+    disc_strength: Quantity("Pa", gt=0) = option("234 MPa", "sigma_e of the disc in tau_max = factor sigma_e / sqrt(3)")
+    third_body_factor: float = option(0.1, "shear strength of the third body over that of the disc", gt=0, le=1)
+    rate_coefficient: float = option(0.015, "relative rise of the shear limit per unit of ln(speed)", ge=0)
+    reference_speed: Quantity("rad/s", gt=0) = option("10.25 rad/s", "disc speed at which the shear limit is declared")
+    softening: Quantity("1/K", ge=0) = option("5e-4 1/K", "relative loss of the shear limit per kelvin of flash rise")
+    cycles: int = option(200, "wear cycles up to the last recorded distance", ge=1)
+    stroke: Quantity("m", ge=0) = option("50 um", "pass of the slider before it returns to its start")
+    recorded_distances: Quantities("m", ge=0) = option(
+        ("0 mm", "0.3 mm", "1 mm", "2.5 mm", "5 mm", "7.5 mm", "10 mm"), "distances of the table, rising from 0")
+    realisations: int = option(3, "relative positions of the two patches, averaged; the first is that of the maps,"
+                              " 1 where these lie as they were mounted", ge=1)
+    seed: int = option(7, "seed of the relative positions", ge=0)
+    refinement: Quantities("1", gt=0) = option((0.5, 1.0, 2.0), "grid factors of the convergence study of the area")
+    tolerance: float = option(1e-4, "gap error over rms gap, shear error over shear limit", gt=0, lt=0.1)
+    max_iterations: int = option(2000, "iterations after which a solve is refused", ge=1)
+
+
+def cycle_distance(settings):
+    """Sliding in m that one wear cycle stands for."""
+    return settings.recorded_distances[-1] / settings.cycles
+
+
+def rough_pair(surface, settings, factor=1.0):
+    """RoughPair on a grid ``factor`` times as fine as that of the product Surface; finer grids split the layers too."""
+    nodes = round(surface.x.size * factor)
+    spacing = (surface.x[1] - surface.x[0]) * surface.x.size / nodes
+    pad, disc = (layered_compliance((nodes, nodes), (spacing, spacing), _split(depth, max(round(factor), 1)),
+                                    solid.youngs_modulus, solid.poisson_ratio)
+                 for depth, solid in ((surface.pad_depth, settings.pad), (surface.disc_depth, settings.disc)))
+    heights = [resample(h, (nodes, nodes)) if factor != 1.0 else h for h in (surface.pad_height, surface.disc_height)]
+    return RoughPair(*heights, (spacing, spacing), pad + disc)
+
+
+def rubbing(surface, settings):
+    """Rubbing of a product Surface under the section ``micro_friction``."""
+    pair = rough_pair(surface, settings)
+    wearing = Wearing(settings.cycles, cycle_distance(settings), round(settings.stroke / pair.spacing[1]),
+                      settings.pad.wear_coefficient, settings.disc.wear_coefficient)
+    pad, disc = (ThermalSolid(s.conductivity, s.density, s.heat_capacity) for s in (settings.pad, settings.disc))
+    limit = settings.third_body_factor * settings.disc_strength / np.sqrt(3.0)
+    shearing = Shearing(limit, settings.reference_speed * settings.effective_radius,
+                        settings.rate_coefficient, settings.softening, pad, disc)
+    return Rubbing(pair, wearing, shearing, Solving(settings.tolerance, settings.max_iterations))
+
+
+def offsets(surface, settings):
+    """Relative positions (realisations, 2) of the two patches in nodes; the first is none."""
+    found = np.random.default_rng(settings.seed).integers(0, surface.x.size, (settings.realisations, 2))
+    found[0] = 0
+    return found
+
+
+def shifted(rubbing, offset):
+    """The Rubbing with its pad shifted by ``offset`` (y, x) in nodes."""
+    pair = rubbing.pair
+    return replace(rubbing, pair=replace(pair, pad_height=np.roll(pair.pad_height, offset, (0, 1))))
+
+
+def _split(depth, parts):
+    return np.interp(np.arange((depth.size - 1) * parts + 1) / parts, np.arange(depth.size), depth)

@@ -1,0 +1,185 @@
+"""A case about steady sliding: its model with the effects that small motions see, and where it comes to slide."""
+
+from dataclasses import dataclass, field, replace
+from functools import cached_property, partial
+
+import numpy as np
+
+from pipeline.benches.bench import groups
+from pipeline.contract import ConfigError
+from pipeline.effects.effect import compose
+from pipeline.physics.bench import Bench
+from pipeline.physics.contact_groups import alike, read
+from pipeline.physics.doublets import doublets
+from pipeline.physics.dry_friction import constant, under
+from pipeline.physics.elements import Turning, bears
+from pipeline.physics.sliding_model import FrictionState, sliding_model, spread
+from pipeline.physics.sliding_state import given_state, steady_sliding
+from pipeline.physics.small_motion import element_slopes, friction_about, maxwell_branches, present, settling
+from pipeline.physics.static_contact import Preload
+from pipeline.physics.time_stepping import Hard, Penalty, Start, Table
+from pipeline.physics.time_stepping_laws import tangent
+from pipeline.physics.time_stepping_start import steady_start
+
+#: step of a bench that is not stepped: dry friction of joints, which alone asks for it, is left out
+_STEP = 1e-6
+
+
+@dataclass(frozen=True)
+class Steady:
+    """Steady sliding: contacts, their damping (c,) N s/m, friction with its states, and slopes (2, e) of elements."""
+
+    contact: Preload
+    damping: np.ndarray
+    friction: FrictionState
+    states: tuple | None = None
+    slopes: np.ndarray | None = None
+
+    def about(self, model):
+        """A SlidingModel linearised about it: contacts, and elements, whose slopes join the matrices of the bodies."""
+        contacts = replace(model.contacts, preload=self.contact.force, stiffness=self.contact.stiffness,
+                           damping=self.damping)
+        if not model.elements:
+            return replace(model, contacts=contacts)
+        rows = np.array([e.row for e in model.elements])
+        return replace(model, contacts=contacts, stiffness=model.stiffness + spread(rows, self.slopes[0], rows),
+                       damping=model.damping + spread(rows, self.slopes[1], rows))
+
+    def acting(self, slopes=True):
+        """FrictionState that acts at once; without ``slopes`` that of a constant coefficient."""
+        whole = self._friction(slopes)
+        return whole if self.states is None else present(whole, self.states)
+
+    def beside(self, model, slopes=True):
+        """Settling of a model linearised ``about`` this state, in its coordinates; None where nothing settles."""
+        return None if self.states is None else settling(model, self._friction(slopes), self.states)
+
+    def _friction(self, slopes):
+        return self.friction if slopes else FrictionState(self.friction.coefficient)
+
+
+@dataclass(frozen=True)
+class Posed:
+    """One state of a case at one speed: the bench of its model alone (``base``), and with the effects ``terms``."""
+
+    base: Bench
+    bench: Bench
+    terms: tuple = ()
+    conditions: dict = field(default_factory=dict)
+
+    @cached_property
+    def moved(self):
+        """Whether effects put the contacts elsewhere: by laws of their own, or elements that bear load at rest."""
+        count = len(self.base.model.contacts.area)
+        return any(map(bears, self.bench.model.elements)) or not alike(self.base.law, self.bench.law, count)
+
+    def at_speed(self, speed):
+        """The same at another speed of the drive."""
+        return replace(self, **{name: replace(bench, model=bench.model.at_speed(speed))
+                                for name, bench in (("base", self.base), ("bench", self.bench))})
+
+    def within(self, model):
+        """The same in other coordinates: those of ``model``, a projection of that of the bench."""
+        return replace(self, base=replace(self.base, model=model), bench=replace(self.bench, model=model))
+
+    def condensed(self):
+        """The same in the static answers to the forces of contacts, elements and inputs, which hold all that rests;
+        contacts without a table keep their coordinates."""
+        model = self.bench.model
+        if not isinstance(self.base.law, Table):
+            return self
+        rows = [model.contacts.normal, model.contacts.tangent, model.input_rows, *(e.row[None] for e in model.elements)]
+        answers = np.linalg.solve(model.frictionless()[2], np.vstack(rows).T)
+        sizes = np.linalg.norm(answers, axis=0)
+        return self.within(model.projected(np.linalg.qr(answers[:, sizes > 0] / sizes[sizes > 0])[0]))
+
+    def friction(self, given):
+        """The Friction ``given`` with the effects on it; itself where they leave it alone."""
+        own = tuple(t for t in self.terms if t.effect.stage == "friction")
+        return under(compose(replace(self.base, friction=given), own).friction, self.conditions, "effects")
+
+    def slide(self, response, input_force, given, plain, settings):
+        """Steady of this state under ``input_force`` (i,) N.
+
+        ``response``: ClosureResponse of the model, or None where its contacts have no law. ``given``: Friction before
+        effects, ``plain`` the same as ``steady_sliding`` asks for it; ``settings``: the section ``complex_modes``.
+        """
+        if not self.terms:
+            return self._found(self._as_given(response, input_force, plain), settings)
+        friction, model = self.friction(given), self.bench.model
+        state = plain if friction is given else partial(_state, friction, model)
+        if not self.moved:
+            found = self._found(self._as_given(response, input_force, state), settings)
+            drawn = model.direction() * found.friction.coefficient * found.contact.force
+            start = Start(np.zeros(model.size), np.zeros(model.size), found.contact.force, drawn)
+        else:
+            found, start = self._anew(friction, input_force, settings)
+        states = friction_about(friction, model.sliding_speed, found.contact.force, model.contacts.area)[1]
+        slopes = element_slopes(model, start, model.sliding_speed)[1:]
+        return replace(found, states=states, slopes=np.array(slopes))
+
+    def _as_given(self, response, input_force, state):
+        if response is None:
+            return given_state(self.bench.model, state)
+        law = self.base.law
+        return steady_sliding(self.bench.model, response, input_force, law.closure, law.pressure, state)
+
+    def _found(self, sliding, settings):
+        force = sliding.contact.force
+        return Steady(sliding.contact, force / settings.damping_speed, sliding.friction)
+
+    def _anew(self, friction, input_force, settings):
+        """(Steady, Start) with the laws and elements of the effects."""
+        model, law = self.bench.model, self.bench.law
+        if not settings.centrifugal:
+            model = replace(model, centrifugal=0 * model.centrifugal)
+        start, area = steady_start(model, law, friction, input_force), model.contacts.area
+        pressed = np.where(model.contacts.fixed, 0.0, start.normal)
+        stiffness, damping = (0 * pressed, 0 * pressed) if isinstance(law, Hard) else tangent(law, pressed, area)
+        closure = -(model.contacts.normal @ start.displacement + read(law, "gap", len(area)))
+        state = friction_about(friction, model.sliding_speed, start.normal, area)[0]
+        return Steady(Preload(start.normal, stiffness, closure), damping, state), start
+
+
+def posed(model, state, speed, damping_speed, terms=(), conditions=None):
+    """Posed of a product ReducedModel at one row of its preload table, with those of the Terms that small motions see.
+
+    ConfigError for places that are not there, whichever the effect.
+    """
+    sliding = sliding_model(model, state, speed)
+    base = Bench(sliding, _law(model, sliding.contacts, damping_speed), constant(0.0), _STEP, (), groups(model),
+                 doublets=doublets(sliding) if terms else {})
+    compose(base, terms)
+    seen = tuple(t for t in terms if t.effect.small)
+    return Posed(base, compose(base, seen), seen, conditions or {})
+
+
+def refuse_twice(bench, friction_damping):
+    """Refuse friction that turns with the slip by an effect and by the setting of complex modes as well."""
+    turning = [e.name for e in bench.model.elements if isinstance(e.law, Turning) and e.law.share > 0]
+    if turning and friction_damping:
+        raise ConfigError("effects.friction_induced_damping", "complex_modes.friction_damping: false beside it",
+                          "true, which is the same physics", "set it to false, or leave the effect out")
+
+
+def branch_stiffness(model):
+    """(n, n) N/m of the Maxwell branches of a SlidingModel as they answer at once; None without any."""
+    rows, springs, _ = maxwell_branches(model)
+    return spread(rows, springs, rows) if len(springs) else None
+
+
+def _state(friction, model, pressure, speed):
+    """FrictionState of a Friction at pressures (c,) Pa, sliding as the model does."""
+    area = model.contacts.area
+    return friction_about(friction, model.sliding_speed, pressure * area, area)[0]
+
+
+def _law(model, contacts, damping_speed):
+    """Law of the contacts of a product ReducedModel: its table, the stiffness of its preload, or none that yields."""
+    if len(model.law_closure):
+        return Table(model.law_closure, model.law_pressure, damping_speed, model.contact_gap)
+    stiffness = contacts.stiffness
+    if not stiffness.any():
+        return Hard(0.0, model.contact_gap)
+    return Penalty(np.where(stiffness > 0, stiffness, stiffness.max()), contacts.preload / damping_speed,
+                   model.contact_gap)

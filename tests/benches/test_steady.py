@@ -1,0 +1,80 @@
+"""A case about steady sliding: what moves it, and where it comes to rest with laws and elements of effects."""
+
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from pipeline.benches.effect_block import terms
+from pipeline.benches.steady import branch_stiffness, posed, refuse_twice
+from pipeline.contract import ConfigError
+from pipeline.physics.dry_friction import constant
+from pipeline.physics.sliding_state import closure_response
+from tests.diagnosis.small_rig import effects
+from tests.effects.systems import rig
+
+LOAD, SPEED = np.array([40.0]), 20.0
+SETTINGS = SimpleNamespace(damping_speed=10.0, centrifugal=True)
+CURVED = {"cubic_stiffness": {"tie": {"coefficient": "1e7 N/m^3"}}}
+STIFFER = {"contact_stiffness_law": {"contact": {"exponent": 0.5, "pressure": "20 kPa"}}}
+
+
+def case(block=None):
+    return posed(rig(), 0, SPEED, SETTINGS.damping_speed, terms(effects(block or {})))
+
+
+def sliding(one, friction=0.3):
+    return one.slide(closure_response(one.bench.model), LOAD, constant(friction), friction, SETTINGS)
+
+
+@pytest.mark.parametrize("block, moved", [
+    ({}, False), ({"joint_damping": {"tie": {"damping": "3 N s/m"}}}, False), (CURVED, True), (STIFFER, True),
+    ({"viscoelastic_pad": {"tie": {"share": 0.3, "time": "10 ms"}}}, False),
+    ({"clearance": {"contact": {"gap": "10 um"}}}, True), ({"coulomb": {"tie": {"force": "3 N"}}}, False)])
+def test_laws_and_elements_that_bear_load_move_the_state(block, moved):
+    assert case(block).moved is moved
+
+
+@pytest.mark.exact
+def test_both_ways_to_the_sliding_state_agree():
+    """An element so soft that it only asks for the other solver."""
+    hair = {"cubic_stiffness": {"tie": {"coefficient": "1e-9 N/m^3"}}}
+    given, anew = sliding(case()), sliding(case(hair))
+    for name in ("force", "stiffness", "closure"):
+        np.testing.assert_allclose(getattr(anew.contact, name), getattr(given.contact, name), rtol=1e-8)
+    np.testing.assert_allclose(anew.damping, given.damping, rtol=1e-8)
+
+
+@pytest.mark.exact
+@pytest.mark.parametrize("block", [CURVED, STIFFER, CURVED | STIFFER])
+def test_static_answers_hold_all_that_rests(block):
+    """The state found among static answers is that of all coordinates."""
+    whole, condensed = sliding(case(block)), sliding(case(block).condensed())
+    assert case(block).condensed().bench.model.size <= case(block).bench.model.size
+    np.testing.assert_allclose(condensed.contact.force, whole.contact.force, rtol=1e-9)
+    np.testing.assert_allclose(condensed.slopes, whole.slopes, rtol=1e-8)
+
+
+@pytest.mark.exact
+def test_friction_with_effects_comes_on_top_of_the_given():
+    falling = case({"falling_friction": {"contact": {"rise": 0.5, "decay_speed": "2 m/s"}}})
+    found = falling.friction(constant(0.3)).at_speed(2.0)
+    assert found == pytest.approx(0.3 * (1 + 0.5 * np.exp(-1)), rel=1e-4)
+    kept = constant(0.3)
+    assert case(CURVED).friction(kept) is kept
+
+
+def test_branches_and_turning_friction():
+    pad = case({"viscoelastic_pad": {"tie": {"share": 0.3, "time": "10 ms"}}}).bench.model
+    row = pad.joints.rows[pad.joints.name.index("tie")]
+    np.testing.assert_allclose(branch_stiffness(pad), 0.3 * 4e3 * np.outer(row, row))
+    assert branch_stiffness(case().bench.model) is None
+    turning = case({"friction_induced_damping": {"contact": {"share": 1.0}}}).bench
+    refuse_twice(turning, False)
+    with pytest.raises(ConfigError, match="friction_damping: false"):
+        refuse_twice(turning, True)
+
+
+def test_places_of_all_effects_are_checked():
+    with pytest.raises(ConfigError, match="effect wear: place"):
+        case({"wear": {"nowhere": {"rate": "1e-12 m^2/N"}}})
