@@ -125,8 +125,8 @@ def _held_body(bench, own_coordinates, factors):
     alone = joints.rows[:, own_coordinates].any(axis=1) & ~joints.rows[:, ~own_coordinates].any(axis=1)
     held = {what: getattr(joints, what) * np.where(alone, factor, 1.0) for what, factor in factors.items()
             if what != "mass"}
-    own = {what: getattr(model, what) * np.outer(root, root) for what, root in (
-        (what, np.where(own_coordinates, np.sqrt(factor), 1.0)) for what, factor in factors.items())}
+    root = {what: np.where(own_coordinates, np.sqrt(factor), 1.0) for what, factor in factors.items()}
+    own = {what: getattr(model, what) * np.outer(each, each) for what, each in root.items()}
     return _with_model(bench, joints=replace(joints, **held), **own)
 
 

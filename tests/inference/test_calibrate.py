@@ -4,7 +4,19 @@ import numpy as np
 import pytest
 
 from pipeline.contract.errors import ConfigError, ConvergenceError
-from pipeline.inference.calibrate import TOLERANCE, calibrate, continued, fit, from_prior_mean, linearised, orthogonal
+from pipeline.inference.calibrate import (
+    TOLERANCE,
+    _approached,
+    _crawls,
+    _easier,
+    calibrate,
+    continued,
+    far,
+    fit,
+    from_prior_mean,
+    linearised,
+    orthogonal,
+)
 from pipeline.inference.noise import budget
 from pipeline.inference.priors import HalfNormal, LogNormal, Normal, Parameter
 from pipeline.inference.problem import Hypothesis, Observed, Problem
@@ -96,6 +108,35 @@ def test_several_starts_find_the_better_of_two_minima():
     alone = fit(problem, noises, problem.nominal, np.array([-0.5]), problem.runs)
     best = calibrate(problem, noises, problem.nominal, [np.array([-0.5]), np.array([1.0])], problem.runs)
     assert best.values["pace"] == pytest.approx(32.0, abs=0.05) and best.objective < 0.1 * alone.objective
+
+
+def features(seen, std):
+    """Two features that show x and x^2, x ~ N(0, 1)."""
+    run = Observed("a", {}, ("one", "two"), np.array([[seen], [seen**2]]), None, noise_std=np.full(2, std))
+    whole = Problem((run,), lambda hypothesis, values, run: np.array([[values["x"]], [values["x"] ** 2]]),
+                    Hypothesis("nominal", (), (Parameter("x", "1", 0.0, Normal(0.0, 1.0)),)))
+    return whole, (budget(whole)["a"],)
+
+
+@pytest.mark.exact
+def test_features_far_off_are_fitted_loosely_first():
+    """A prior of 1 against standard deviations of 30 and 6 times 0.05; near ones are fitted at once."""
+    whole, noises = features(1.4, 0.05)
+    loose = [float(np.mean(noise[0].whiten(np.ones((2, 1))))) for noise, _ in _easier(noises, whole.runs)]
+    np.testing.assert_allclose(loose, [1 / 1.5, 1 / 0.3], rtol=1e-12)
+    starts = _approached(whole, noises, whole.nominal, [np.zeros(1)], whole.runs, [])
+    assert len(starts) == 2 and starts[0] == pytest.approx(1.4, abs=0.05) and starts[1] == 0
+    assert len(_approached(whole, noises, whole.nominal, [np.array([1.3])], whole.runs, [])) == 1
+
+
+def test_features_that_stay_far_off_crawl():
+    whole, noises = features(1.4, 0.001)
+    state = linearised(whole, noises, whole.nominal, np.zeros(1), whole.runs)
+    assert far(state) and _crawls(state, [state.objective] * 9)
+    assert not _crawls(state, [state.objective] * 8), "a trial is not judged"
+    assert not _crawls(state, list(state.objective * np.geomspace(2, 1, 9)))
+    near = linearised(whole, noises, whole.nominal, np.array([1.4]), whole.runs)
+    assert not _crawls(near, [near.objective] * 9)
 
 
 def test_a_start_where_the_model_fails_is_passed_over_and_told_where_all_fail():

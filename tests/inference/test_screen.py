@@ -7,7 +7,7 @@ from scipy import stats
 from pipeline.inference.calibrate import fit
 from pipeline.inference.priors import HalfNormal, Parameter, Uniform
 from pipeline.inference.problem import Hypothesis
-from pipeline.inference.screen import directions, family_p, largest_scores, screen
+from pipeline.inference.screen import _trials, directions, family_p, largest_scores, screen
 from tests.inference import linear
 
 
@@ -93,3 +93,13 @@ def test_a_candidate_that_cannot_be_computed_says_why():
     found = directions(broken, null, catalogue[0])
     assert found.failure == "model: expected a solution, found none" and len(found.vectors) == 0
     assert screen(null, [found]).score[0] == -np.inf
+
+
+@pytest.mark.exact
+def test_angles_are_tried_in_every_quarter():
+    """No phase is farther than pi / 4 from one that is tried."""
+    phase = Parameter("phase", "rad", 0.0, Uniform(-np.pi, np.pi))
+    wave = Hypothesis("wave", (), (Parameter("height", "m", 0.0, HalfNormal(1.0), 0.0), phase))
+    tried = np.array([phase.prior.value(latent[1]) for latent, _, _ in _trials(wave)])
+    away = np.subtract.outer(np.linspace(-np.pi, np.pi, 50), tried)
+    assert np.cos(away).max(axis=1).min() >= np.cos(np.pi / 4) - 1e-6
