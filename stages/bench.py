@@ -30,7 +30,7 @@ def bench(model: ReducedModel, effects: Effects | None, recording: Recording, se
     Every recorded run was predicted with the model, its laws of contact (contact: {contact}) and friction, the stated
     effects and corrected values (forward: {forward}; simulation: by steps of at most {step}, sensors showing what the
     case says; equation: measured displacements give the force that they need, against the one applied); the error is
-    the root mean square of recorded less predicted samples. Where poles are compared ({poles}), the runs are free
+    the root mean square of recorded less predicted samples. Where poles are compared, the runs are free
     vibrations, and poles come from complex eigenvalues about steady sliding.
     """
     whole, runs = with_effects(built(model, settings), effects), recorded(recording, settings)
