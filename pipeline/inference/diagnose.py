@@ -16,7 +16,7 @@ from pipeline.inference.drift import drift
 from pipeline.inference.effective import tempering
 from pipeline.inference.evidence import cautious_prior, evidence, posterior, reached, screened
 from pipeline.inference.screen import directions, screen
-from pipeline.inference.weigh import contender, held_out_gains, situation
+from pipeline.inference.weigh import EXCLUDED, contender, held_out_gains, situation
 
 #: iterations of a nominal model from a candidate's optimum before it is given up where it is still worse than before
 _GIVEN_UP = 16
@@ -147,14 +147,18 @@ def _begun(problem, noises, null, offsets, item):
     """(Fit of a candidate after a few iterations or None, why there is none)."""
     candidate, screened_start = item
     begins = [screened_start] + [np.full(len(candidate.parameters), offset) for offset in offsets]
-    misled = of_features(noises) and far(null)      # by pairing features with what they do not belong to
-    base = problem.nominal.nominal if misled else null.latent
+    base = problem.nominal.nominal if (misled := _misled(null)) else null.latent
     starts = [np.concatenate((base, np.clip(begin, -2, 2))) for begin in begins]
     known = () if misled else null.jacobians
     try:
         return begun(problem, noises, problem.nominal.joined(candidate), starts, null.runs, known), ""
     except BrakechainError as error:
         return None, str(error)
+
+
+def _misled(null):
+    """Whether nothing near the null's optimum helps: values at odds with their priors, features paired wrongly."""
+    return bool(np.abs(null.latent).max(initial=0.0) > EXCLUDED or (of_features(null.noises) and far(null)))
 
 
 def _enough(results):
