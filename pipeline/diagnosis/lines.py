@@ -16,8 +16,8 @@ from scipy.stats import chi2, norm
 
 from pipeline.contract import ConfigError
 from pipeline.diagnosis.question import Question, label, nominal, parameter_name
-from pipeline.inference.calibrate import whitened
 from pipeline.inference.diagnose import diagnose
+from pipeline.inference.least_squares import whitened
 from pipeline.inference.locate import Location, holm
 from pipeline.inference.noise import budget
 from pipeline.inference.priors import HalfNormal, Parameter

@@ -16,9 +16,9 @@ from pipeline.effects import CATALOGUE
 from pipeline.effects.effect import STAGES
 from pipeline.effects.typical import ASPERITIES
 from pipeline.inference import locate
-from pipeline.inference.calibrate import whitened
 from pipeline.inference.decide import Rules
 from pipeline.inference.effective import effective_share
+from pipeline.inference.least_squares import whitened
 from pipeline.physics.bench import run_drive, run_inputs
 
 #: octaves below the highest frequency of the records that are bands of their own

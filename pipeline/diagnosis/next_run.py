@@ -15,7 +15,7 @@ import numpy as np
 from pipeline.benches import corrections
 from pipeline.contract import ConfigError
 from pipeline.contract.units import to_si
-from pipeline.inference.calibrate import linearised
+from pipeline.inference.least_squares import linearised
 from pipeline.inference.next_experiment import choose, predicted
 from pipeline.inference.problem import Observed
 from pipeline.physics.bench import Run, run_drive, run_inputs

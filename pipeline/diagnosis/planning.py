@@ -18,7 +18,7 @@ from pipeline.diagnosis.forced import check_names, chosen, nominal_parameters
 from pipeline.diagnosis.question import nominal
 from pipeline.diagnosis.simulation import Simulated, candidates
 from pipeline.inference import plan as mathematics
-from pipeline.inference.calibrate import linearised, whitened
+from pipeline.inference.least_squares import linearised, whitened
 from pipeline.inference.noise import budget
 from pipeline.inference.problem import Observed, Problem
 from pipeline.physics.bench import Run

@@ -11,10 +11,11 @@ import numpy as np
 
 from pipeline.contract.errors import BrakechainError, ConvergenceError
 from pipeline.inference import decide as rulebook
-from pipeline.inference.calibrate import begun, calibrate, continued, far, fit, of_features
+from pipeline.inference.calibrate import begun, calibrate
 from pipeline.inference.drift import drift
 from pipeline.inference.effective import tempering
 from pipeline.inference.evidence import cautious_prior, evidence, posterior, reached, screened
+from pipeline.inference.least_squares import continued, far, fit, of_features
 from pipeline.inference.screen import directions, screen
 from pipeline.inference.weigh import EXCLUDED, contender, held_out_gains, situation
 

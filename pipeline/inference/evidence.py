@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.special import ndtri
 
-from pipeline.inference.calibrate import from_prior_mean, whitened
+from pipeline.inference.least_squares import from_prior_mean, whitened
 from pipeline.inference.problem import operating_points
 
 

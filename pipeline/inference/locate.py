@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from pipeline.contract.errors import ConfigError
-from pipeline.inference.calibrate import orthogonal
+from pipeline.inference.least_squares import orthogonal
 from pipeline.inference.screen import family_p
 
 DRAWS = 4000

@@ -7,7 +7,7 @@ the nominal parameters hide within their priors, C = I + J J'. Its square adds o
 import numpy as np
 
 from pipeline.contract.errors import ConfigError
-from pipeline.inference.calibrate import orthogonal
+from pipeline.inference.least_squares import orthogonal
 
 
 def power(direction, jacobian):

@@ -14,7 +14,7 @@ from itertools import product
 
 import numpy as np
 
-from pipeline.inference.calibrate import from_prior_mean, orthogonal, whitened
+from pipeline.inference.least_squares import from_prior_mean, orthogonal, whitened
 
 #: steps away from the null, in scales of the parameter's prior: its derivative, and a change one would notice
 STEPS = (0.02, 1.0)

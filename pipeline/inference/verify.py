@@ -4,8 +4,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from pipeline.inference.calibrate import whitened
 from pipeline.inference.effective import tempering
+from pipeline.inference.least_squares import whitened
 from pipeline.inference.noise import floor, normalised_error
 
 

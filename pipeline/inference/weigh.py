@@ -4,10 +4,10 @@ import numpy as np
 from scipy.stats import chi2
 
 from pipeline.contract.errors import BrakechainError
-from pipeline.inference.calibrate import linearised
 from pipeline.inference.decide import Contender, Situation
 from pipeline.inference.drift import agreement
 from pipeline.inference.effective import coherent_energy, effective_share
+from pipeline.inference.least_squares import linearised
 from pipeline.inference.priors import LATENT_LIMIT
 from pipeline.inference.verify import gain, held_out_residuals
 

@@ -11,7 +11,7 @@ from pipeline.contract.settings import fill
 from pipeline.diagnosis.forced import question
 from pipeline.diagnosis.location import band_axis, place_axis, places, run_axis, stage_axis, stage_of
 from pipeline.diagnosis.settings import Settings
-from pipeline.inference.calibrate import linearised
+from pipeline.inference.least_squares import linearised
 from pipeline.inference.noise import budget
 from pipeline.inference.priors import LogNormal, Parameter
 from pipeline.inference.problem import Hypothesis, Observed, Problem

@@ -9,8 +9,9 @@ from functools import cache
 
 import numpy as np
 
-from pipeline.inference.calibrate import calibrate, fit, whitened
+from pipeline.inference.calibrate import calibrate
 from pipeline.inference.diagnose import diagnose
+from pipeline.inference.least_squares import fit, whitened
 from pipeline.inference.noise import budget
 from pipeline.inference.priors import HalfNormal, LogNormal, Normal, Parameter
 from pipeline.inference.problem import Hypothesis, Observed, Problem

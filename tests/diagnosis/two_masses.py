@@ -7,7 +7,7 @@ from pipeline.benches.effect_block import with_effects
 from pipeline.benches.runs import recorded
 from pipeline.contract.settings import fill
 from pipeline.diagnosis.simulation import Simulated, observed
-from pipeline.inference.calibrate import linearised
+from pipeline.inference.least_squares import linearised
 from pipeline.inference.noise import budget
 from pipeline.inference.priors import LogNormal, Parameter
 from pipeline.inference.problem import Hypothesis, Problem

@@ -1,105 +1,13 @@
-"""Calibration: closed forms of linear problems, a nonlinear one, bounds, several starts, refusals."""
+"""Calibration: several starts, easier problems on the way, what stops it."""
 
 import numpy as np
 import pytest
 
-from pipeline.contract.errors import ConfigError, ConvergenceError
-from pipeline.inference.calibrate import (
-    TOLERANCE,
-    _approached,
-    _crawls,
-    _easier,
-    calibrate,
-    continued,
-    far,
-    fit,
-    from_prior_mean,
-    linearised,
-    orthogonal,
-)
-from pipeline.inference.noise import budget
-from pipeline.inference.priors import HalfNormal, LogNormal, Normal, Parameter
-from pipeline.inference.problem import Hypothesis, Observed, Problem
-from tests.inference import linear, oscillator
-
-
-def noises_of(problem, noise):
-    return tuple(noise[run.name] for run in problem.training)
-
-
-def curve_problem(function, parameters, samples, std):
-    """One run that shows ``function(values, grid)``; grid of 50 points in [0, 1]."""
-    grid = np.linspace(0, 1, 50)
-    whole = Problem((Observed("a", {}, ("y",), samples(grid)[None], None, noise_std=np.array([std])),),
-                    lambda hypothesis, values, run: function(values, grid)[None], Hypothesis("nominal", (), parameters))
-    return whole, (budget(whole)["a"],)
-
-
-@pytest.mark.exact
-def test_a_linear_problem_has_the_closed_form_of_its_posterior():
-    whole, noise, _, tables = linear.problem((3,), truth={"nominal_0": 0.7, "nominal_2": -1.2}, prior=2.0)
-    found = fit(whole, noises_of(whole, noise), whole.nominal, np.zeros(3), whole.training)
-    data, design = linear.dense(whole, whole.nominal, tables)
-    covariance = np.linalg.inv(design.T @ design + np.eye(3) / 4)
-    np.testing.assert_allclose(list(found.values.values()), covariance @ design.T @ data, rtol=1e-4, atol=1e-4)
-    np.testing.assert_allclose(4 * found.covariance(), covariance, rtol=1e-6, atol=1e-9)
-    np.testing.assert_allclose(list(found.spread().values()), np.sqrt(np.diag(covariance)), rtol=1e-6)
-    assert found.converged and found.counts.sum() == len(data)
-
-
-@pytest.mark.exact
-def test_weights_of_runs_scale_their_information():
-    whole, noise, _, tables = linear.problem((2,))
-    found = fit(whole, noises_of(whole, noise), whole.nominal, np.zeros(2), whole.training)
-    design = [linear.dense(Problem((run,), whole.predict, whole.nominal), whole.nominal, tables)[1]
-              for run in whole.training]
-    expected = np.linalg.inv(np.eye(2) + sum(w * d.T @ d for w, d in zip((1.0, 0.5, 0.1), design, strict=True)))
-    np.testing.assert_allclose(found.covariance((1.0, 0.5, 0.1)), expected, rtol=1e-6)
-
-
-@pytest.mark.exact
-def test_the_orthogonal_residual_is_that_of_generalised_least_squares():
-    generator = np.random.default_rng(0)
-    jacobian, residual, root = (generator.standard_normal(s) for s in ((40, 3), 40, (3, 3)))
-    prior = root @ root.T + np.eye(3)
-    expected = np.linalg.solve(np.eye(40) + jacobian @ prior @ jacobian.T, residual)
-    np.testing.assert_allclose(orthogonal(residual, jacobian, np.linalg.inv(prior)), expected, atol=1e-12)
-
-
-@pytest.mark.exact
-def test_at_the_optimum_the_residual_is_the_orthogonal_one_of_the_prior_mean():
-    whole, noise, _, _ = linear.problem((3,), truth={"nominal_0": 0.7})
-    found = fit(whole, noises_of(whole, noise), whole.nominal, np.zeros(3), whole.training)
-    start = np.concatenate(from_prior_mean(found))
-    gap = orthogonal(start, np.concatenate(found.jacobians)) - np.concatenate(found.residuals)
-    assert gap @ gap < TOLERANCE, "the change that the last, omitted step would make"
-
-
-def test_a_nonlinear_problem_is_solved_from_afar():
-    problem = oscillator.bench(0, stiffness=520.0, damping=0.8)
-    noise = budget(problem)
-    found = fit(problem, noises_of(problem, noise), problem.nominal, np.zeros(2), problem.training)
-    spread = found.spread()
-    assert abs(found.values["stiffness"] - 520.0) < 4 * spread["stiffness"] and spread["stiffness"] < 0.25
-    assert abs(found.values["damping"] - 0.8) < 4 * spread["damping"] < 0.05
-    assert found.chi_square.sum() == pytest.approx(found.counts.sum(), abs=4 * np.sqrt(2 * found.counts.sum()))
-
-
-def test_bounds_hold_and_the_posterior_covers_its_truth():
-    parameters = (Parameter("slope", "1", 1.0, HalfNormal(1.0)), Parameter("level", "1", 1.0, LogNormal(1.0, 0.5)))
-    inside = []
-    for seed in range(60):
-        noise = 0.3 * np.random.default_rng(seed).standard_normal(50)
-        problem, noises = curve_problem(lambda v, x: v["slope"] * x + v["level"], parameters,
-                                        lambda x, noise=noise: 0.8 * x + 1.3 + noise, 0.3)
-        found = fit(problem, noises, problem.nominal, np.zeros(2), problem.runs)
-        inside.append(abs(found.values["level"] - 1.3) < 1.96 * found.spread()["level"])
-        assert found.converged and found.values["slope"] > 0
-    assert np.mean(inside) >= 0.85
-    problem, noises = curve_problem(lambda v, x: v["slope"] * x + v["level"], parameters,
-                                    lambda x: 1.0 - 0.5 * x, 0.01)
-    found = fit(problem, noises, problem.nominal, np.zeros(2), problem.runs)
-    assert found.converged and 0 <= found.values["slope"] < 0.05
+from pipeline.contract.errors import ConvergenceError
+from pipeline.inference.calibrate import _approached, _easier, calibrate
+from pipeline.inference.least_squares import fit
+from pipeline.inference.priors import Normal, Parameter
+from tests.inference.curves import curve_problem, features
 
 
 def test_several_starts_find_the_better_of_two_minima():
@@ -108,14 +16,6 @@ def test_several_starts_find_the_better_of_two_minima():
     alone = fit(problem, noises, problem.nominal, np.array([-0.5]), problem.runs)
     best = calibrate(problem, noises, problem.nominal, [np.array([-0.5]), np.array([1.0])], problem.runs)
     assert best.values["pace"] == pytest.approx(32.0, abs=0.05) and best.objective < 0.1 * alone.objective
-
-
-def features(seen, std):
-    """Two features that show x and x^2, x ~ N(0, 1)."""
-    run = Observed("a", {}, ("one", "two"), np.array([[seen], [seen**2]]), None, noise_std=np.full(2, std))
-    whole = Problem((run,), lambda hypothesis, values, run: np.array([[values["x"]], [values["x"] ** 2]]),
-                    Hypothesis("nominal", (), (Parameter("x", "1", 0.0, Normal(0.0, 1.0)),)))
-    return whole, (budget(whole)["a"],)
 
 
 @pytest.mark.exact
@@ -127,16 +27,6 @@ def test_features_far_off_are_fitted_loosely_first():
     starts = _approached(whole, noises, whole.nominal, [np.zeros(1)], whole.runs, [])
     assert len(starts) == 2 and starts[0] == pytest.approx(1.4, abs=0.05) and starts[1] == 0
     assert len(_approached(whole, noises, whole.nominal, [np.array([1.3])], whole.runs, [])) == 1
-
-
-def test_features_that_stay_far_off_crawl():
-    whole, noises = features(1.4, 0.001)
-    state = linearised(whole, noises, whole.nominal, np.zeros(1), whole.runs)
-    assert far(state) and _crawls(state, [state.objective] * 9)
-    assert not _crawls(state, [state.objective] * 8), "a trial is not judged"
-    assert not _crawls(state, list(state.objective * np.geomspace(2, 1, 9)))
-    near = linearised(whole, noises, whole.nominal, np.array([1.4]), whole.runs)
-    assert not _crawls(near, [near.objective] * 9)
 
 
 def test_a_start_where_the_model_fails_is_passed_over_and_told_where_all_fail():
@@ -153,61 +43,8 @@ def test_a_start_where_the_model_fails_is_passed_over_and_told_where_all_fail():
         calibrate(problem, noises, problem.nominal, [bad], problem.runs)
 
 
-def test_numbers_that_are_not_finite_are_refused():
-    problem, noises = curve_problem(lambda v, x: np.full(50, np.nan), (Parameter("a", "1", 1.0, Normal(1.0, 1.0)),),
-                                    lambda x: x, 0.1)
-    with pytest.raises(ConvergenceError, match="prediction of run a: expected finite numbers"):
-        linearised(problem, noises, problem.nominal, [0.0], problem.runs)
-
-
 def test_a_model_that_cannot_settle_is_not_called_converged():
     problem, noises = curve_problem(lambda v, x: v["a"] * x + 1e3 * (v["a"] != 1.0),
                                     (Parameter("a", "1", 1.0, Normal(1.0, 1.0)),), lambda x: 9 * x, 0.01)
     with pytest.raises(ConvergenceError, match="not converged after"):
         calibrate(problem, noises, problem.nominal, [np.zeros(1)], problem.runs)
-
-
-def test_a_prediction_of_another_shape_is_refused():
-    problem, noises = curve_problem(lambda v, x: x[1:], (Parameter("a", "1", 1.0, Normal(1.0, 1.0)),), lambda x: x, 0.1)
-    with pytest.raises(ConfigError, match=r"prediction of run a: expected channels and samples \(1, 50\)"):
-        linearised(problem, noises, problem.nominal, [0.0], problem.runs)
-
-
-def test_where_a_small_difference_hits_a_jump_a_wider_one_shows_the_way():
-    """Jumps against the slope, the start just before one of them."""
-    def jumping(a, grid):
-        return a * grid - 2e-4 * np.floor(a / 1e-3)
-    whole, noise = curve_problem(lambda values, grid: jumping(values["a"], grid),
-                                 (Parameter("a", "1", 1.0, Normal(1.0, 0.3)),), lambda grid: jumping(1.2, grid), 0.01)
-    found = fit(whole, noise, whole.nominal, np.array([-1e-5 / 0.3]), whole.training)
-    assert found.converged and found.values["a"] == pytest.approx(1.2, abs=0.01)
-
-
-def test_a_fit_that_cannot_come_near_enough_is_given_up():
-    whole, noise, catalogue, _ = linear.problem((2,), truth={"nominal_0": 0.7})
-    begin = linearised(whole, noises_of(whole, noise), whole.nominal, np.zeros(2), whole.training)
-    free = continued(whole, begin)
-    assert free.converged and continued(whole, begin, enough=2 * free.objective).converged
-    stopped = continued(whole, begin, enough=-10 * begin.objective)
-    assert not stopped.converged and stopped.evaluations == begin.evaluations
-
-
-def test_known_columns_are_taken_and_not_called_fresh():
-    whole, noise, _, _ = linear.problem((3,), truth={"nominal_0": 0.7})
-    full = linearised(whole, noises_of(whole, noise), whole.nominal, np.zeros(3), whole.training)
-    known = [j[:, :2] for j in full.jacobians]
-    found = linearised(whole, noises_of(whole, noise), whole.nominal, np.zeros(3), whole.training, known)
-    assert full.fresh and not found.fresh and (full.evaluations, found.evaluations) == (4, 2)
-    for one, other in zip(full.jacobians, found.jacobians, strict=True):
-        np.testing.assert_array_equal(one, other)
-
-
-def test_at_a_bound_the_other_parameters_still_find_their_optimum():
-    """Two parameters that act almost alike, one of them wanted far beyond its bound."""
-    parameters = tuple(Parameter(name, "1", 0.0, Normal(0.0, width)) for name, width in (("a", 1e-3), ("b", 10.0)))
-    whole, noise = curve_problem(lambda v, x: v["a"] * (1 + 0.3 * x) + v["b"], parameters, lambda x: 3.0 + x, 1e-3)
-    found = fit(whole, noise, whole.nominal, np.zeros(2), whole.training)
-    bound = 8e-3
-    assert found.converged and found.values["a"] == pytest.approx(bound, rel=1e-9)
-    mean = np.mean(3.0 + np.linspace(0, 1, 50) - bound * (1 + 0.3 * np.linspace(0, 1, 50)))
-    assert found.values["b"] == pytest.approx(mean, rel=1e-5)

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from scipy import stats
 
-from pipeline.inference.calibrate import fit
 from pipeline.inference.drift import agreement, drift, trend
+from pipeline.inference.least_squares import fit
 from tests.inference import linear
 
 

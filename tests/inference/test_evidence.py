@@ -7,8 +7,8 @@ import pytest
 from scipy import stats
 from scipy.integrate import quad
 
-from pipeline.inference.calibrate import fit, linearised
 from pipeline.inference.evidence import cautious_prior, evidence, nested, posterior, reached, screened
+from pipeline.inference.least_squares import fit, linearised
 from pipeline.inference.noise import budget
 from pipeline.inference.priors import HalfNormal, Parameter
 from pipeline.inference.problem import Hypothesis, Observed, Problem

@@ -5,7 +5,7 @@ import pytest
 from scipy import stats
 
 from pipeline.contract.errors import ConfigError
-from pipeline.inference.calibrate import fit
+from pipeline.inference.least_squares import fit
 from pipeline.inference.locate import against_null, bands, credible_set, holm, places, regimes, stages
 from tests.inference import linear
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy import stats
 
-from pipeline.inference.calibrate import fit
+from pipeline.inference.least_squares import fit
 from pipeline.inference.priors import HalfNormal, Parameter, Uniform
 from pipeline.inference.problem import Hypothesis
 from pipeline.inference.screen import _trials, directions, family_p, largest_scores, screen

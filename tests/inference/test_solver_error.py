@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 
 from pipeline.contract.errors import ConfigError
-from pipeline.inference.calibrate import fit
 from pipeline.inference.diagnose import diagnose
 from pipeline.inference.evidence import evidence
+from pipeline.inference.least_squares import fit
 from pipeline.inference.noise import budget
 from pipeline.inference.solver_error import NAME, allow
 from tests.inference import linear

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from pipeline.contract.errors import ConvergenceError
-from pipeline.inference.calibrate import fit
+from pipeline.inference.least_squares import fit
 from pipeline.inference.noise import budget, whitening
 from pipeline.inference.verify import errors, gain, held_out_residuals
 from tests.inference import oscillator

@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 from scipy import stats
 
-from pipeline.inference.calibrate import fit
 from pipeline.inference.decide import Rules
 from pipeline.inference.drift import drift
 from pipeline.inference.evidence import evidence
+from pipeline.inference.least_squares import fit
 from pipeline.inference.weigh import contender, held_out_gains, situation, unexplained
 from tests.inference import linear
 
@@ -62,7 +62,7 @@ def test_half_of_an_effect_leaves_a_quarter_of_the_excess():
 
 
 def fit_at(whole, found, latent):
-    from pipeline.inference.calibrate import linearised
+    from pipeline.inference.least_squares import linearised
 
     return linearised(whole, found.noises, found.hypothesis, latent, found.runs)
 
