@@ -243,7 +243,7 @@ _PIECES = (
     Hidden("compliant_arm", "link", _arm, exact="stiffness"),
     Hidden("moving_base", "wall link", _base),
     Hidden("attached_mass", "mass", _carried, exact="mass"),
-    Hidden("added_stiffness", "mass", _held),
+    Hidden("added_stiffness", "mass", _held, exact="stiffness"),     # beside a wall link it is that link's stiffness
     Hidden("pressure_ripple", "shaker", _at_shaker(_ripple)),
     Hidden("hydraulic_compliance", "shaker", _at_shaker(
         lambda s, size: lambda t, e, v, z: z[0], 1, lambda s, size: lambda t, e, v, z: np.array(
