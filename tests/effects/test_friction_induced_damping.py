@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from pipeline.contract.errors import ConfigError
 from pipeline.effects import named
 from pipeline.physics.bench import Bench, Channel, respond
 from pipeline.physics.bench_roots import roots
@@ -56,5 +57,7 @@ def test_the_force_never_exceeds_friction_and_takes_energy_out():
     assert np.all(found["f"] * found["v"] >= 0)
 
 
-def test_contacts_that_never_move_sideways_stay_as_they_are():
-    assert named("friction_induced_damping").on(slider(), "contact", {"share": 1.0}).model.elements == ()
+def test_contacts_that_never_move_sideways_are_no_place_of_it():
+    assert named("friction_induced_damping").places(slider()) == ()
+    with pytest.raises(ConfigError, match="friction_induced_damping: place: expected one of none here"):
+        named("friction_induced_damping").on(slider(), "contact", {"share": 1.0})

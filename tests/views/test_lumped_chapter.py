@@ -28,9 +28,9 @@ def test_every_part_is_told():
 
 def test_a_system_without_contacts_says_so():
     none = np.empty((0, 3))
-    bare = changed(small.lumped(), contact_name=[], contact_body=[], contact_area=[], contact_lever=[], contact_gap=[],
-                   contact_normal=none, contact_tangent=none, contact_lateral=none, preload=np.empty((1, 0)),
-                   contact_stiffness=np.empty((1, 0)), drive_history=[0.0, 1.0])
+    bare = changed(small.lumped(), contact_name=[], contact_body=[], contact_position=none, contact_area=[],
+                   contact_lever=[], contact_gap=[], contact_normal=none, contact_tangent=none, contact_lateral=none,
+                   preload=np.empty((1, 0)), contact_stiffness=np.empty((1, 0)), drive_history=[0.0, 1.0])
     found = chapter(bare, None, Look())
     assert "Nothing touches" in found.conclude and "varies over time" in found.see and len(found.tables) == 3
 
