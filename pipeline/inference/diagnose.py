@@ -21,9 +21,8 @@ from pipeline.inference.weigh import EXCLUDED, contender, held_out_gains, situat
 
 #: iterations of a nominal model from a candidate's optimum before it is given up where it is still worse than before
 _GIVEN_UP = 16
-#: mean square of whitened residuals at which a candidate reaches the noise; others are then given up that will not come
-#: within so many units of log evidence of it
-_REACHED, _NEAR = 1.5, 50.0
+#: units of log evidence of the best candidate within which others must be able to come, else they are given up
+_NEAR = 50.0
 #: where the linearisation of the null holds, scores that chance reaches more often than this are not looked into
 _LIKELY = 0.5
 
@@ -163,10 +162,10 @@ def _misled(null):
 
 
 def _enough(results):
-    """The objective to which a candidate must be able to come down: near one that reached the noise, if one did."""
+    """The objective to which a candidate must be able to come down: near the best so far, as evidence is tempered."""
     fits = [fit for fit, _, _ in results if fit is not None]
     best = min(fits, key=lambda f: f.objective, default=None)
-    if best is None or best.chi_square.sum() > _REACHED * best.counts.sum():
+    if best is None:
         return np.inf
     return best.objective + _NEAR / tempering(best.noises, best.residuals).max()
 
