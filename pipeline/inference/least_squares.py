@@ -19,9 +19,9 @@ DIFFERENCE, _WIDEST = 1e-4, 1e-2
 TOLERANCE = 1e-3
 #: longest step of a latent coordinate in one iteration
 _LONGEST = 1.5
-#: where no step helps (rounding, kinks of the forward model) a fit counts as converged below this: half a posterior
-#: standard deviation from its linearised optimum
-_STALLED = 0.25
+#: where no step helps (rounding, kinks of the forward model) a fit counts as converged below this: a posterior standard
+#: deviation from its linearised optimum
+_STALLED = 1.0
 #: share of the tolerance below which the gain of a step is none
 _LEAST = 0.1
 #: so many times the decrease of the objective that its slope promises may a fit still come down
