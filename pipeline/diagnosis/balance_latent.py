@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from pipeline.diagnosis.latent import Description, LatentRun, dependences, regimes, sentence
-from pipeline.diagnosis.location import Axes, channel_axis, fitted, residuals
+from pipeline.diagnosis.location import Axes, channel_axis, fitted, leading_place, residuals
 
 #: what channels of balanced forces are called before the name of their body
 PREFIX = "force on "
@@ -41,16 +41,15 @@ class DescribeBalance:
     seed: int = 0
 
     def __call__(self, found, axes):
-        place = axes["place"][0]
-        leader = int(np.argmax(place.score))
-        if place.p_value[leader] > 0.05:
+        leader = leading_place(axes)
+        if leader is None:
             return None
         bench = fitted(self.bench, (found.base or found).null)
         runs = {run.name: self._run(bench, run.name, leader) for run in self.problem.runs}
         learned = [runs[run.name] for run in self.problem.training]
-        follows = dependences(learned, self.seed)
-        return Description(place.items[leader], runs, follows, regimes(learned, self.draws, self.seed),
-                           sentence(place.items[leader], learned, follows))
+        place, follows = axes["place"][0].items[leader], dependences(learned, self.seed)
+        return Description(place, runs, follows, regimes(learned, self.draws, self.seed),
+                           sentence(place, learned, follows))
 
     def _run(self, bench, name, coordinate):
         force, place, speed = (values[coordinate] for values in self.balances[name].left(bench))

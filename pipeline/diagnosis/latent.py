@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from pipeline.diagnosis.deconvolution import FADE, deconvolved
-from pipeline.diagnosis.location import drive_angle, fitted, places
+from pipeline.diagnosis.location import drive_angle, fitted, leading_place, places
 from pipeline.inference import locate, unknown
 
 #: samples from which the covariance of the force is estimated
@@ -53,15 +53,12 @@ class Describe:
     seed: int = 0
 
     def __call__(self, found, axes):
-        if "place" not in axes:
-            return None
-        place = axes["place"][0]
-        leader = int(np.argmax(place.score))
-        if place.p_value[leader] > 0.05:
+        leader = leading_place(axes)
+        if leader is None:
             return None
         runs = {r.name: (self.runs[r.name], r, self.budget[r.name]) for r in self.problem.runs}
         return describe(fitted(self.bench, (found.base or found).null), runs, [r.name for r in self.problem.held_out],
-                        place.items[leader], self.draws, self.seed)
+                        axes["place"][0].items[leader], self.draws, self.seed)
 
 
 def describe(bench, runs, held_out, place, draws=2000, seed=0):

@@ -25,6 +25,8 @@ from pipeline.physics.bench import run_drive, run_inputs
 OCTAVES = 8
 #: a stage of the chain as a hypothesis: that reading its map instead of computing at the points makes the difference
 INTERPOLATION, MAP = "interpolation", "friction_map"
+#: stages of a bench, and the solver
+_STAGES = (*STAGES, "numerics")
 #: rows of a smaller angle are one place: no recording tells them apart
 _ALIKE = 1e-6
 #: share of the rest that a unit force of the place axis has: of the largest root mean square force of a run
@@ -37,7 +39,8 @@ _ORDERS = 3
 class Axes:
     """Axes of a Question that its residuals alone tell: called with the inference's Diagnosis.
 
-    Returns {axis: (Location, unit of its bins or "", edges (n, 2) or None)}.
+    Returns {axis: (Location, unit of its bins or "", edges (n, 2) or None)}; ``stages``: those that the mismatch can
+    lie in.
     """
 
     problem: object
@@ -45,12 +48,13 @@ class Axes:
     level: float = 1 + Rules.noise_uncertainty
     draws: int = 2000
     seed: int = 0
+    stages: tuple = _STAGES
 
     def __call__(self, found):
         own = {"draws": self.draws, "seed": self.seed}
         whites = residuals(self.problem, self.budget, (found.base or found).null)
-        axes = {"stage": (stage_axis(found), "", None), "run": (run_axis(whites, self.budget, self.level, **own), "",
-                                                                None)}
+        axes = {"stage": (stage_axis(found, self.stages), "", None),
+                "run": (run_axis(whites, self.budget, self.level, **own), "", None)}
         if band := band_axis(self.problem.runs, whites, self.budget, self.level, **own):
             axes["band"] = band
         return axes
@@ -70,6 +74,15 @@ class ForcedAxes:
         if place := place_axis(fitted(self.bench, first.null), self.runs, first.null, first.weights, **own):
             axes["place"] = (place, "", None)
         return axes
+
+
+def leading_place(axes, level=0.05):
+    """Index of the leading item of the axis place among axes of location, or None where none is significant."""
+    if "place" not in axes:
+        return None
+    place = axes["place"][0]
+    leader = int(np.argmax(place.score))
+    return leader if place.p_value[leader] <= level else None
 
 
 def fitted(bench, fit):
@@ -96,7 +109,7 @@ def stage_of(effects):
     return stages.get(effects[0][0], "") if effects else ""
 
 
-def stage_axis(found, names=(*STAGES, "numerics")):
+def stage_axis(found, names=_STAGES):
     """Location over the stages ``names`` from what was screened and refitted (see the head of this file)."""
     first = found.base or found
     refitted = {w.candidate.name: w.contender.posterior for w in first.weighed}

@@ -7,7 +7,6 @@ is a hypothesis of its own, of the stage friction_map.
 """
 
 from dataclasses import dataclass, field, replace
-from functools import partial
 
 import numpy as np
 
@@ -16,13 +15,13 @@ from pipeline.benches.rubbing import Settings, offsets, rubbing, shifted
 from pipeline.contract import ConfigError, restored
 from pipeline.contract.units import to_si
 from pipeline.diagnosis.forced import check_names, chosen
-from pipeline.diagnosis.location import INTERPOLATION, MAP, residuals, run_axis, stage_axis
-from pipeline.diagnosis.question import Question, label, nominal, parameter_name, split_name
+from pipeline.diagnosis.location import INTERPOLATION, MAP, Axes
+from pipeline.diagnosis.question import Question, label, nominal, parameter_name
 from pipeline.diagnosis.settings import parameter
-from pipeline.diagnosis.simulation import candidates
+from pipeline.diagnosis.simulation import candidates, terms
 from pipeline.diagnosis.worn_faces import FRICTION, UNITS, WEAR, observed, rubbed, shown
-from pipeline.effects import CATALOGUE, named
-from pipeline.effects.effect import Term, compose
+from pipeline.effects import CATALOGUE
+from pipeline.effects.effect import compose
 from pipeline.inference.decide import Rules
 from pipeline.inference.noise import budget
 from pipeline.inference.priors import Normal, Parameter
@@ -76,16 +75,6 @@ def corrected(rubbing, numbers, given):
                          softening=numbers["softening"]))
 
 
-def terms(hypothesis, values):
-    """Terms of a Hypothesis, with what ``values`` says of their parameters; the reading of the map is none."""
-    found = {pair: {} for pair in hypothesis.effects if pair[0] != INTERPOLATION}
-    for name, value in values.items():
-        effect, place, own = split_name(name)
-        if (effect, place) in found:
-            found[effect, place][own] = value
-    return tuple(Term(named(effect), place, given) for (effect, place), given in found.items())
-
-
 def question(recording, surface, micro, friction_map, effects, settings, fan_out):
     """Question of a product Recording against the products of the chain; ``effects`` are those of the case, or None.
 
@@ -115,14 +104,7 @@ def question(recording, surface, micro, friction_map, effects, settings, fan_out
     channels = [c for one in seen for c in one.channels]
     noises = budget(problem)
     return Question(problem, noises, (*found, *_map_candidate(forward)), {c: UNITS[c] for c in dict.fromkeys(channels)},
-                    RULES, partial(_axes, problem, noises, settings.seed))
-
-
-def _axes(problem, noises, seed, found):
-    """Axes stage and run of the Location."""
-    whites = residuals(problem, noises, (found.base or found).null)
-    return {"stage": (stage_axis(found, _CHAIN), "", None),
-            "run": (run_axis(whites, noises, 1 + Rules.noise_uncertainty, seed=seed), "", None)}
+                    RULES, Axes(problem, noises, seed=settings.seed, stages=_CHAIN))
 
 
 def _given(section):

@@ -9,7 +9,7 @@ from pipeline.benches.bench import only
 from pipeline.diagnosis.next_run import altered
 from pipeline.diagnosis.question import label, parameter_name, split_name
 from pipeline.diagnosis.settings import parameter
-from pipeline.effects import named
+from pipeline.effects import CATALOGUE, named
 from pipeline.effects.effect import Term, compose
 from pipeline.effects.typical import typical
 from pipeline.inference.priors import Normal, Parameter
@@ -18,6 +18,7 @@ from pipeline.physics.bench import MOTIONS, respond
 
 #: the solver as a hypothesis: its place, and its parameter: 0 as it is, 1 with half its step (4/3: none, at order 2)
 STEP, SOLVER, REFINEMENT = "time_step", "solver", "refinement"
+_NAMES = frozenset(effect.name for effect in CATALOGUE)
 
 
 def observed(recorded, noise_std=None, held_out=False):
@@ -30,16 +31,18 @@ def observed(recorded, noise_std=None, held_out=False):
 
 def completed(bench, hypothesis, values):
     """The bench with the values of a hypothesis: corrected numbers first, then its effects."""
-    effects = {pair: {} for pair in hypothesis.effects if pair[0] != STEP}
-    numbers = {}
-    for name in (p.name for p in hypothesis.parameters):
-        effect, place, parameter = split_name(name)
-        if not parameter:
-            numbers[name] = values[name]
-        elif effect != STEP:
-            effects[effect, place][parameter] = values[name]
-    terms = [Term(named(effect), place, given) for (effect, place), given in effects.items()]
-    return compose(corrections.corrected(bench, numbers), terms)
+    numbers = {p.name: values[p.name] for p in hypothesis.parameters if not split_name(p.name)[0]}
+    return compose(corrections.corrected(bench, numbers), terms(hypothesis, values))
+
+
+def terms(hypothesis, values):
+    """Terms of a Hypothesis with its ``values``; what is no effect of the catalogue, as the solver, is none."""
+    found = {pair: {} for pair in hypothesis.effects if pair[0] in _NAMES}
+    for name, value in values.items():
+        effect, place, own = split_name(name)
+        if (effect, place) in found:
+            found[effect, place][own] = value
+    return tuple(Term(named(effect), place, given) for (effect, place), given in found.items())
 
 
 @dataclass(frozen=True)

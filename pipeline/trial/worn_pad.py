@@ -159,18 +159,21 @@ def _disc(random, nodes):
 
 def _texture(random, nodes, knee=8, fall=1.8):
     """Gaussian roughness of unit root mean square, flat up to ``knee`` waves a patch, then as their power."""
-    waves = np.hypot(fft.fftfreq(nodes, 1 / nodes)[:, None], fft.rfftfreq(nodes, 1 / nodes))
-    field = fft.irfft2(np.maximum(waves, knee) ** -fall * fft.rfft2(random.standard_normal((nodes, nodes))),
+    field = fft.irfft2(np.maximum(_waves(nodes), knee) ** -fall * fft.rfft2(random.standard_normal((nodes, nodes))),
                        s=(nodes, nodes))
     return field / field.std()
 
 
 def _scaled(height, size):
     """Without waves shorter than SHORTEST, zero mean, root mean square ``size``."""
-    nodes = len(height)
-    waves = np.hypot(fft.fftfreq(nodes, 1 / nodes)[:, None], fft.rfftfreq(nodes, 1 / nodes))
+    waves = _waves(len(height))
     kept = fft.irfft2((waves <= PATCH / SHORTEST) * (waves > 0) * fft.rfft2(height), s=height.shape)
     return size * kept / kept.std()
+
+
+def _waves(nodes):
+    """Waves a patch of every entry of a half spectrum."""
+    return np.hypot(fft.fftfreq(nodes, 1 / nodes)[:, None], fft.rfftfreq(nodes, 1 / nodes))
 
 
 def _maps(random, pad, disc, state):

@@ -13,6 +13,8 @@ from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 
+from threadpoolctl import threadpool_limits
+
 from pipeline.contract import documents
 from pipeline.contract.errors import BrakechainError
 from pipeline.contract.executor import LocalProcesses
@@ -62,11 +64,14 @@ def solved(folder, **asked):
     return by_stages(documents.read_yaml(folder / "nominal.yaml"), folder / "recordings.h5", **asked)
 
 
+def filled(document, stage, **more):
+    """The settings of a stage in a case's ``document``, with ``more``."""
+    return fill(stage.settings, {**document.get(stage.name, {}), **more}, stage.name)
+
+
 def by_stages(document, path, **asked):
     """diagnosis.json of a case's ``document`` with the recordings at ``path``, by the stages themselves."""
-    def section(stage, **more):
-        return fill(stage.settings, {**document.get(stage.name, {}), **more}, stage.name)
-
+    section = partial(filled, document)
     model = reduced_model(lumped(settings=section(lumped)), settings=section(reduced_model))
     recording = Recording(source=[path.name], runs=read_neutral(path))
     shown = bench(model, None, recording, settings=section(bench))
@@ -122,15 +127,21 @@ def run(plan, folder, **asked):
     """(truth, answer) of one Plan, from its files where they are there."""
     if not (folder / "truth.json").exists():
         write(made(plan.seed, plan.hidden, plan.place, plan.level, plan.masses, plan.colour), folder)
-    truth, kept = json.loads((folder / "truth.json").read_text()), folder / "answer.json"
+    return json.loads((folder / "truth.json").read_text()), answered(folder, partial(solved, folder, **asked))
+
+
+def answered(folder, solve):
+    """The answer kept in a case's folder, else that of ``solve()``, with its CPU seconds; a refusal is one, too."""
+    kept = folder / "answer.json"
     if not kept.exists():
         begun = time.process_time()
         try:
-            answer = solved(folder, **asked)
+            with threadpool_limits(1):      # threads of small matrices wait for each other
+                answer = solve()
         except BrakechainError as error:
             answer = {"verdict": "refused", "effects": [], "reasons": [str(error)]}
         kept.write_text(json.dumps({**answer, "cpu_seconds": time.process_time() - begun}, indent=1) + "\n")
-    return truth, json.loads(kept.read_text())
+    return json.loads(kept.read_text())
 
 
 def solve(folder, kept, plan):

@@ -7,20 +7,14 @@ that has its answer is not solved again.
 
 import argparse
 import json
-import os
-import time
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 
-from pipeline.environment import ONE_THREAD
-
-os.environ.update(ONE_THREAD)       # before numpy loads: threads of small matrices wait for each other
-
 from pipeline.contract import documents
-from pipeline.contract.errors import BrakechainError
 from pipeline.recordings.neutral import write_neutral
 from pipeline.trial.pin_bench import DECOYS, HIDDEN, make, record
-from tests.studies.forced import by_stages, wilson
+from tests.studies.forced import answered, by_stages, wilson
 
 ROOT = Path(__file__).parents[2]
 CONFIG = ROOT / "configs" / "pin_on_disc_bench.yaml"
@@ -87,16 +81,9 @@ def _line(name, hits):
 
 def run(plan, folder, **asked):
     """Answer of one Plan, from its files where they are there."""
-    kept = folder / "answer.json"
-    if not kept.exists():
+    if not (folder / "answer.json").exists():
         write(plan, folder)
-        begun = time.process_time()
-        try:
-            answer = solved(folder / "recordings.h5", **asked)
-        except BrakechainError as error:
-            answer = {"verdict": "refused", "effects": [], "reasons": [str(error)]}
-        kept.write_text(json.dumps({**answer, "cpu_seconds": time.process_time() - begun}, indent=1) + "\n")
-    return json.loads(kept.read_text())
+    return answered(folder, partial(solved, folder / "recordings.h5", **asked))
 
 
 def practice(folder):

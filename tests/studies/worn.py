@@ -1,10 +1,11 @@
 """'make worn_bench': practice recordings of configs/worn_pad.yaml, each with its truth; and how they are diagnosed."""
 
 import json
+from functools import partial
 from pathlib import Path
 
 from pipeline.contract import documents
-from pipeline.contract.settings import fill, without_origins
+from pipeline.contract.settings import without_origins
 from pipeline.diagnosis.document import as_json
 from pipeline.products import Recording
 from pipeline.recordings.neutral import read_neutral, write_neutral
@@ -13,6 +14,7 @@ from stages.diagnosis import diagnosis
 from stages.friction_map import friction_map
 from stages.micro_friction import micro_friction
 from stages.surface import surface
+from tests.studies.forced import filled
 
 ROOT = Path(__file__).parents[2]
 CONFIG = ROOT / "configs" / "worn_pad.yaml"
@@ -39,10 +41,7 @@ def solved(path, context=None, **micro):
     """diagnosis.json of a file of recordings under the case worn_pad, with other values of micro_friction."""
     document = without_origins(documents.read_yaml(CONFIG), CONFIG.stem)
 
-    def section(stage, **more):
-        return fill(stage.settings, {**document.get(stage.name, {}), **more}, stage.name)
-
-    more = {} if context is None else {"context": context}
+    section, more = partial(filled, document), {} if context is None else {"context": context}
     faces = {body: {"kind": "recorded", "file": str(path), "map": f"{body}_new"} for body in ("disc", "pad")}
     rough = surface(settings=section(surface, **faces))
     rubbed = micro_friction(rough, settings=section(micro_friction, **micro), **more)

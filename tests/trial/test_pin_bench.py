@@ -1,31 +1,18 @@
 """The practice bench: its beam against a closed form, its motion against known roots, and what it may use."""
 
-import ast
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
 
 from pipeline.recordings.neutral import read_neutral, write_neutral
 from pipeline.trial import pin_bench
+from tests.trial.imported import imported
 
 
 def test_it_uses_nothing_of_this_project():
     """Neither itself nor anything that it imports: no effect, no diagnosis, no engine."""
-    root, seen, left = Path(__file__).parents[2], set(), ["pipeline.trial.pin_bench"]
-    while left:
-        name = left.pop()
-        path = root / (name.replace(".", "/") + ".py")
-        if name in seen or not path.exists():
-            continue
-        seen.add(name)
-        for node in ast.walk(ast.parse(path.read_text())):
-            if isinstance(node, ast.ImportFrom):
-                left += [node.module, *(f"{node.module}.{a.name}" for a in node.names)]
-            elif isinstance(node, ast.Import):
-                left += [a.name for a in node.names]
-    assert seen == {"pipeline.trial.pin_bench"}
+    assert imported("pipeline.trial.pin_bench") == {"pipeline.trial.pin_bench"}
 
 
 @pytest.mark.exact

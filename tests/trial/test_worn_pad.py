@@ -1,8 +1,6 @@
 """The practice bench of worn pads: its contact and its laws against closed forms, and what it may use."""
 
-import ast
 from dataclasses import replace
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -10,23 +8,12 @@ import pytest
 from pipeline.contract.errors import ConvergenceError
 from pipeline.recordings.neutral import read_neutral, write_neutral
 from pipeline.trial import worn_pad
+from tests.trial.imported import imported
 
 
 def test_it_uses_nothing_of_the_diagnosis():
     """Neither itself nor anything that it imports: no effect, no diagnosis, no solver of the chain."""
-    root, seen, left = Path(__file__).parents[2], set(), ["pipeline.trial.worn_pad"]
-    while left:
-        name = left.pop()
-        path = root / (name.replace(".", "/") + ".py")
-        if name in seen or not path.exists():
-            continue
-        seen.add(name)
-        for node in ast.walk(ast.parse(path.read_text())):
-            if isinstance(node, ast.ImportFrom):
-                left += [node.module, *(f"{node.module}.{a.name}" for a in node.names)]
-            elif isinstance(node, ast.Import):
-                left += [a.name for a in node.names]
-    assert seen == {"pipeline.trial.worn_pad", "pipeline.contract.errors"}
+    assert imported("pipeline.trial.worn_pad") == {"pipeline.trial.worn_pad", "pipeline.contract.errors"}
 
 
 def small(hidden="", **changes):
