@@ -43,7 +43,8 @@ def question(bench, recorded, settings, equation):
     # begun as measured, so that nominal runs have the sizes of the measured ones
     trained = [begun(bench, recorded[o.name]) for o in problem.training]
     found = candidates(bench, tuple(one.run for one in trained), chosen(settings), settings.places,
-                       reach(bench, trained))
+                       reach(bench, trained), settings.priors)
     noises = budget(problem, above=settings.noise.above)
-    return Question(problem, noises, found, units, axes=BalanceAxes(channel_names(bench), Axes(problem, noises)),
-                    describe=DescribeBalance(bench, balances, problem, noises))
+    axes = BalanceAxes(channel_names(bench), Axes(problem, noises, seed=settings.seed))
+    return Question(problem, noises, found, units, axes=axes,
+                    describe=DescribeBalance(bench, balances, problem, noises, seed=settings.seed))

@@ -9,7 +9,15 @@ from pipeline.diagnosis.location import Axes, ForcedAxes
 from pipeline.diagnosis.next_run import feasible
 from pipeline.diagnosis.question import Question, nominal
 from pipeline.diagnosis.settings import parameter
-from pipeline.diagnosis.simulation import Simulated, candidates, halved, observed, reach, solver_candidate
+from pipeline.diagnosis.simulation import (
+    Simulated,
+    candidates,
+    halved,
+    largest,
+    observed,
+    reach,
+    solver_candidate,
+)
 from pipeline.effects import CATALOGUE
 from pipeline.inference.noise import budget
 from pipeline.inference.problem import Problem
@@ -34,7 +42,7 @@ def question(bench, recorded, settings):
         forward(problem.nominal, problem.nominal.values(problem.nominal.nominal), one.observed)
     check_names("priors", settings.priors, [f"{e.name}.{p.name}" for e in CATALOGUE for p in parameters(e)])
     found = candidates(bench, tuple(one.run for one in trained), chosen(settings), settings.places,
-                       reach(bench, trained), settings.priors)
+                       reach(bench, trained), settings.priors, largest(trained))
     noises = budget(problem, above=settings.noise.above)
     return Question(problem, noises | {f.run.name: noises[trained[0].run.name] for f in after},
                     (*found, *([solver_candidate()] if settings.solver else [])), shown,

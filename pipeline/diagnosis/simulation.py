@@ -11,7 +11,7 @@ from pipeline.diagnosis.question import label, parameter_name, split_name
 from pipeline.diagnosis.settings import parameter
 from pipeline.effects import CATALOGUE, named
 from pipeline.effects.effect import Term, compose
-from pipeline.effects.typical import typical
+from pipeline.effects.typical import CHANNEL, typical
 from pipeline.inference.priors import Normal, Parameter
 from pipeline.inference.problem import Hypothesis, Observed
 from pipeline.physics.bench import MOTIONS, respond
@@ -109,11 +109,20 @@ def reach(bench, recorded):
     return float(np.exp(np.mean(np.log(ratios)))) if ratios and min(ratios) > 0 else 1.0
 
 
-def candidates(bench, runs, catalogue, places=(), scale=1.0, priors=()):
+def largest(recorded):
+    """{channel: largest recorded size of a sample} over [Recorded]."""
+    found = {}
+    for one in recorded:
+        for channel, samples, valid in zip(one.channels, one.samples, one.valid, strict=True):
+            found[channel] = max(found.get(channel, 0.0), float(np.abs(samples[valid]).max(initial=0.0)))
+    return found
+
+
+def candidates(bench, runs, catalogue, places=(), scale=1.0, priors=(), peaks=()):
     """Hypotheses of every effect at each of its places (of ``places`` where given), with priors of nominal sizes.
 
-    ``scale``: recorded over nominal motion (see ``reach``); ``priors`` {effect.parameter: section Prior} that are
-    known otherwise.
+    ``scale``: recorded over nominal motion (see ``reach``); ``peaks``: what channels showed at most (see ``largest``);
+    ``priors`` {effect.parameter: section Prior} that are known otherwise.
     """
     found, sizes = [], {}
     for effect in catalogue:
@@ -122,7 +131,9 @@ def candidates(bench, runs, catalogue, places=(), scale=1.0, priors=()):
                 continue
             kind = effect.kind_at(place), place
             if kind not in sizes:       # nominal runs are simulated once for all effects of a place
-                sizes[kind] = typical(kind[0], bench, place, runs).scaled(scale)
+                own = typical(kind[0], bench, place, runs).scaled(scale)
+                peak = kind[0] == CHANNEL and dict(peaks).get(place)
+                sizes[kind] = replace(own, shown=peak) if peak else own
             parameters = tuple(_named(p, effect, place, dict(priors)) for p in effect.parameters(sizes[kind]))
             found.append(Hypothesis(label(((effect.name, place),)), ((effect.name, place),), parameters, effect.kind))
     return tuple(found)

@@ -9,8 +9,8 @@ from pipeline.inference.priors import HalfNormal, Parameter
 
 
 def parameters(typical):
-    size = 1.2 / typical.shown
-    return (Parameter("inverse_limit", "1 per unit of the channel", size, HalfNormal(2 * size), null=0.0),)
+    size = 1 / typical.shown        # a limit shows as the largest sample
+    return (Parameter("inverse_limit", "1 per unit of the channel", size, HalfNormal(size), null=0.0),)
 
 
 def apply(bench, place, values):

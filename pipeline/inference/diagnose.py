@@ -1,5 +1,7 @@
 """The course of a diagnosis: recalibrate, screen, refit, weigh, verify, decide; pairs by greedy addition.
 
+Where the nominal model is pulled to values at odds with their priors, its linearisation ranks nothing: there every
+candidate begins its fit, and the best few go on.
 A null hypothesis that has not converged lets every candidate win: it is refitted from each candidate's optimum. A model
 that lacks physics may have no smooth optimum at all: then a candidate counts only where it goes far below the null.
 """
@@ -108,20 +110,20 @@ def _one_step(problem, budget, catalogue, settings, fan_out, start=None, base=No
     found = list(fan_out(partial(directions, problem, null), catalogue))
     rough = screen(null, found, None, settings.draws, settings.seed)
     largest = _hopeful(null, settings.rules) if base is None else settings.rules.p_value
-    kept = [i for i in rough.order()[:settings.kept] if np.isfinite(rough.score[i]) and rough.p_value[i] <= largest]
+    hopeful = [i for i in rough.order() if np.isfinite(rough.score[i]) and rough.p_value[i] <= largest]
 
     def refit(chosen, before):
         begin = partial(_begun, problem, noises, null, settings.starts)
         first = dict(zip(chosen, fan_out(begin, [(catalogue[i], rough.start[i]) for i in chosen]), strict=True))
-        states = {i: state for i, (state, _) in first.items() if state is not None}
         ended = {i: (None, None, told) for i, (state, told) in first.items() if state is None}
-        leader = min(states, key=lambda i: states[i].objective, default=None)
-        for group in ([i for i in states if i == leader], [i for i in states if i != leader]):
+        states = {i: state for i, (state, _) in first.items() if state is not None}
+        best = sorted(states, key=lambda i: states[i].objective)[:settings.kept]
+        for group in (best[:1], best[1:]):
             finish = partial(_finished, problem, null, _enough([*before, *ended.values()]))
             ended |= zip(group, fan_out(finish, [states[i] for i in group]), strict=True)
         return ended
 
-    results = refit(kept, ())
+    results = refit(hopeful if _misled(null) else hopeful[:settings.kept], ())
     results |= refit(_overlooked(null, found, results, settings), results.values())
     better = min([null, *(r[1] for r in results.values() if r[1] is not None)], key=lambda f: f.objective)
     if better.objective < null.objective - 0.1:

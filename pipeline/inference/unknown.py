@@ -46,10 +46,7 @@ def latent_force(residual, rate, valid=None):
 
     def loss(log):
         size, length, noise = np.exp(log)
-        try:
-            return -_smoothed(residual, valid, 1 / rate, size, length, noise)[2]
-        except np.linalg.LinAlgError:     # a force so smooth that its two states are one number
-            return np.inf
+        return -_filtered(residual, valid, 1 / rate, size, length, noise)[-1]
 
     starts = [np.log([spread, samples / rate, 0.3 * spread]) for samples in (3, 30, 300)]
     options = {"xatol": 1e-3, "fatol": 1e-3, "maxiter": 600}
@@ -160,29 +157,48 @@ def _p_value(share):
 
 
 @njit(cache=True)
-def _smoothed(residual, valid, step, size, length, noise):
-    """Posterior mean and variance (n,) of the force, and the log likelihood of the record."""
+def _filtered(residual, valid, step, size, length, noise):
+    """Before and after each sample (n, 5): force, rate, covariance (p, q), (q, r); the transition, log likelihood."""
     n, decay = len(residual), 1 / length
     factor = np.exp(-decay * step)
     move = factor * np.array([[1 + decay * step, step], [-(decay**2) * step, 1 - decay * step]])
-    stationary = np.array([[size**2, 0.0], [0.0, (size * decay) ** 2]])
-    drive = stationary - move @ stationary @ move.T
-    means, covariances = np.zeros((n, 2)), np.zeros((n, 2, 2))
-    ahead_means, ahead = np.zeros((n, 2)), np.zeros((n, 2, 2))
-    mean, covariance, log = np.zeros(2), stationary.copy(), 0.0
-    for i in range(n):
+    (a, b), (c, d) = move
+    before, after = np.zeros((n, 5)), np.zeros((n, 5))
+    top, bottom = size**2, (size * decay) ** 2      # of the stationary covariance, which is diagonal
+    drive_0 = top - (a * a * top + b * b * bottom)
+    drive_01 = -(a * c * top + b * d * bottom)
+    drive_1 = bottom - (c * c * top + d * d * bottom)
+    force, rate, p, q, r, log = 0.0, 0.0, top, 0.0, bottom, 0.0
+    for i in range(n):      # written out: small arrays cost more than their numbers
         if i > 0:
-            mean, covariance = move @ mean, move @ covariance @ move.T + drive
-        ahead_means[i], ahead[i] = mean, covariance
+            force, rate = a * force + b * rate, c * force + d * rate
+            p, q, r = (a * a * p + 2 * a * b * q + b * b * r + drive_0, a * c * p + (a * d + b * c) * q + b * d * r
+                       + drive_01, c * c * p + 2 * c * d * q + d * d * r + drive_1)
+        before[i] = force, rate, p, q, r
         if valid[i]:
-            variance = covariance[0, 0] + noise**2
-            gap, gain = residual[i] - mean[0], covariance[:, 0] / variance
+            variance = p + noise**2
+            gap = residual[i] - force
             log -= 0.5 * (np.log(2 * np.pi * variance) + gap**2 / variance)
-            mean = mean + gain * gap
-            covariance = covariance - np.outer(gain, gain) * variance
-        means[i], covariances[i] = mean, covariance
-    for i in range(n - 2, -1, -1):
-        back = covariances[i] @ move.T @ np.linalg.inv(ahead[i + 1])
-        means[i] = means[i] + back @ (means[i + 1] - ahead_means[i + 1])
-        covariances[i] = covariances[i] + back @ (covariances[i + 1] - ahead[i + 1]) @ back.T
-    return means[:, 0].copy(), covariances[:, 0, 0].copy(), log
+            force, rate = force + p / variance * gap, rate + q / variance * gap
+            p, q, r = p - p * p / variance, q - p * q / variance, r - q * q / variance
+        after[i] = force, rate, p, q, r
+    return before, after, move, log
+
+
+@njit(cache=True)
+def _smoothed(residual, valid, step, size, length, noise):
+    """Posterior mean and variance (n,) of the force, and the log likelihood of the record."""
+    before, after, move, log = _filtered(residual, valid, step, size, length, noise)
+    mean, covariance = after[-1, :2].copy(), _covariance(after[-1])
+    means, variances = after[:, 0].copy(), after[:, 2].copy()
+    for i in range(len(residual) - 2, -1, -1):
+        back = _covariance(after[i]) @ move.T @ np.linalg.inv(_covariance(before[i + 1]))
+        mean = after[i, :2] + back @ (mean - before[i + 1, :2])
+        covariance = _covariance(after[i]) + back @ (covariance - _covariance(before[i + 1])) @ back.T
+        means[i], variances[i] = mean[0], covariance[0, 0]
+    return means, variances, log
+
+
+@njit(cache=True)
+def _covariance(row):
+    return np.array([[row[2], row[3]], [row[3], row[4]]])

@@ -41,6 +41,12 @@ def test_stated_priors_of_effects_take_the_place_of_typical_ones():
     assert parameter.prior == HalfNormal(3e-3) and parameter.null == 0.0
 
 
+def test_the_limit_of_a_channel_is_looked_for_where_its_largest_samples_lie():
+    limit, = asked(effects=["clipping"], solver=False).candidates[0].parameters
+    largest = max(abs(recording().runs[f"level_{k}"].channels["x"].samples).max() for k in (1, 2, 3))
+    assert 1 / limit.prior.scale == pytest.approx(largest, rel=1e-12)
+
+
 def test_runs_that_could_be_next_come_with_their_noise():
     found = asked(next={"shaker": [2.0]}, effects=["coulomb"])
     run, = found.next_runs
