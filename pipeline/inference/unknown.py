@@ -15,6 +15,8 @@ from scipy.optimize import minimize
 from pipeline.contract.errors import ConvergenceError
 
 DRAWS = 999
+#: smallest and largest size of a force and of its noise, in standard deviations of the residual
+_SPREADS = 1e-4, 1e2
 
 
 @dataclass(frozen=True)
@@ -37,7 +39,10 @@ def smooth(residual, rate, size, length, noise, valid=None):
 
 
 def latent_force(residual, rate, valid=None):
-    """LatentForce with the hyperparameters of the largest likelihood. Raises ConvergenceError where none is found."""
+    """LatentForce with the hyperparameters of the largest likelihood. Raises ConvergenceError where none is found.
+
+    No length beyond that of the record is tried: such a force is constant or straight over it.
+    """
     residual = np.asarray(residual, float)
     valid = np.ones(len(residual), bool) if valid is None else valid
     spread = residual[valid].std()
@@ -49,8 +54,11 @@ def latent_force(residual, rate, valid=None):
         return -_filtered(residual, valid, 1 / rate, size, length, noise)[-1]
 
     starts = [np.log([spread, samples / rate, 0.3 * spread]) for samples in (3, 30, 300)]
+    bounds = np.log([(_SPREADS[0] * spread, _SPREADS[1] * spread), (0.3 / rate, max(len(residual), 1000) / rate),
+                     (_SPREADS[0] * spread, _SPREADS[1] * spread)])
     options = {"xatol": 1e-3, "fatol": 1e-3, "maxiter": 600}
-    found = min((minimize(loss, s, method="Nelder-Mead", options=options) for s in starts), key=lambda r: r.fun)
+    found = min((minimize(loss, s, method="Nelder-Mead", bounds=bounds, options=options) for s in starts),
+                key=lambda r: r.fun)
     if not found.success:
         raise ConvergenceError("latent force: hyperparameters", "convergence in 600 steps", found.message)
     return smooth(residual, rate, *(float(x) for x in np.exp(found.x)), valid)
