@@ -80,7 +80,8 @@ def _immaterial(fit, index, rules):
     """The latent change of an effect parameter that changes its distance from null by the rules' tolerance."""
     parameter, latent = fit.hypothesis.parameters[index], fit.latent[index]
     slope = (parameter.prior.value(latent + 1e-4) - parameter.prior.value(latent - 1e-4)) / 2e-4
-    return rules.tolerance * abs(parameter.prior.value(latent) - parameter.null) / max(slope, 1e-300)
+    change = rules.tolerance * abs(parameter.prior.value(latent) - parameter.null)
+    return change / slope if slope * LATENT_LIMIT > change else LATENT_LIMIT
 
 
 def unexplained(null, fit, rules):

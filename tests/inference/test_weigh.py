@@ -10,7 +10,8 @@ from pipeline.inference.decide import Rules
 from pipeline.inference.drift import drift
 from pipeline.inference.evidence import evidence
 from pipeline.inference.least_squares import fit
-from pipeline.inference.weigh import contender, held_out_gains, situation, unexplained
+from pipeline.inference.priors import LATENT_LIMIT, Uniform
+from pipeline.inference.weigh import _immaterial, contender, held_out_gains, situation, unexplained
 from tests.inference import linear
 
 
@@ -106,3 +107,11 @@ def test_another_name_for_nearly_the_same_force_is_no_decoy():
             for k, c in enumerate(catalogue)}
     gains = held_out_gains(whole, noise, null, fits, np.array([0.99, 0.01]))
     assert gains[0][1] is None and gains[0][0].errors > 3
+
+
+def test_no_change_of_a_value_at_the_end_of_its_prior_is_more_than_its_whole_range():
+    whole, _, catalogue, found = fits({"effect_1_0": 0.5})
+    own = replace(catalogue[0], parameters=(replace(catalogue[0].parameters[0], prior=Uniform(0.0, 1.0)),))
+    ended = fit_at(whole, replace(found[1], hypothesis=whole.nominal.joined(own)),
+                   np.append(found[1].latent[:-1], LATENT_LIMIT))
+    assert _immaterial(ended, len(ended.latent) - 1, Rules()) == LATENT_LIMIT
