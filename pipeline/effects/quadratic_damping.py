@@ -8,7 +8,7 @@ from pipeline.physics.elements import Power
 
 def parameters(typical):
     size = 0.1 * typical.force / typical.speed**2
-    return (Parameter("coefficient", "N s^2/m^2", size, HalfNormal(2 * size), null=0.0),)
+    return (Parameter("coefficient", "N s^2/m^2", size, HalfNormal(10 * size), null=0.0),)
 
 
 def apply(bench, place, values):

@@ -149,8 +149,11 @@ def _begun(problem, noises, null, offsets, item):
     """(Fit of a candidate after a few iterations or None, why there is none)."""
     candidate, screened_start = item
     begins = [screened_start] + [np.full(len(candidate.parameters), offset) for offset in offsets]
-    base = problem.nominal.nominal if (misled := _misled(null)) else null.latent
-    starts = [np.concatenate((base, np.clip(begin, -2, 2))) for begin in begins]
+    bases = [null.latent] * len(begins)
+    if misled := _misled(null):
+        bases = [*[problem.nominal.nominal] * len(begins), null.latent]
+        begins.append(screened_start)
+    starts = [np.concatenate((base, np.clip(begin, -2, 2))) for base, begin in zip(bases, begins, strict=True)]
     known = () if misled else null.jacobians
     try:
         return begun(problem, noises, problem.nominal.joined(candidate), starts, null.runs, known), ""

@@ -19,13 +19,13 @@ DIFFERENCE, _WIDEST = 1e-4, 1e-2
 TOLERANCE = 1e-3
 #: longest step of a latent coordinate in one iteration
 _LONGEST = 1.5
-#: where no step helps (rounding, kinks of the forward model) a fit counts as converged below this: a posterior standard
-#: deviation from its linearised optimum
+#: where no step helps (rounding, kinks of the forward model) or iterations are used up, a fit counts as converged below
+#: this: a posterior standard deviation from its linearised optimum
 _STALLED = 1.0
 #: share of the tolerance below which the gain of a step is none
 _LEAST = 0.1
 #: so many times the decrease of the objective that its slope promises may a fit still come down
-_HOPE = 10.0
+HOPE = 10.0
 #: noise powers beyond which a residual is far off
 FAR = 100.0
 #: share of the objective that is left after so many iterations where a fit crawls
@@ -139,7 +139,10 @@ def continued(problem, state, iterations=ITERATIONS, enough=np.inf, patient=True
     without ``patient`` where features stay far off.
     """
     found = iterated(problem, state, iterations, enough, patient)
-    return found if found.fresh or found.objective > enough else _refreshed(problem, found)
+    if found.converged or found.objective > enough:
+        return found
+    found = found if found.fresh else _refreshed(problem, found)
+    return replace(found, converged=promised(found) < _STALLED * _scale(found))
 
 
 def iterated(problem, state, iterations, enough=np.inf, patient=True, rough=False):
@@ -154,7 +157,7 @@ def iterated(problem, state, iterations, enough=np.inf, patient=True, rough=Fals
             break
         gradient, hessian = _slopes(state)
         expected, scale = gradient @ np.linalg.solve(hessian, gradient), _scale(state)
-        if state.objective - _HOPE * expected > enough:
+        if state.objective - HOPE * expected > enough:
             break
         if expected < TOLERANCE * scale:
             if rough or state.fresh:
@@ -172,6 +175,12 @@ def iterated(problem, state, iterations, enough=np.inf, patient=True, rough=Fals
         width *= 10 if state.fresh else 1
         state, damping, growth = _refreshed(problem, state, width), 1e-3, 2.0
     return state
+
+
+def promised(fit):
+    """Decrease of the objective that the slopes of a Fit still promise."""
+    gradient, hessian = _slopes(fit)
+    return float(gradient @ np.linalg.solve(hessian, gradient))
 
 
 def _crawls(state, before):

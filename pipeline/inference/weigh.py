@@ -7,7 +7,7 @@ from pipeline.contract.errors import BrakechainError
 from pipeline.inference.decide import Contender, Situation
 from pipeline.inference.drift import agreement
 from pipeline.inference.effective import coherent_energy, effective_share
-from pipeline.inference.least_squares import linearised
+from pipeline.inference.least_squares import HOPE, linearised, promised
 from pipeline.inference.priors import LATENT_LIMIT
 from pipeline.inference.verify import gain, held_out_residuals
 
@@ -15,6 +15,9 @@ from pipeline.inference.verify import gain, held_out_residuals
 EXCLUDED = 5.0
 #: squared error of a recalibration that did not converge over that of a candidate, beyond which its end cannot matter
 _FAR_BELOW = 30.0
+#: share of what a fit explains below which what its slopes still promise cannot matter (forces with kinks have no
+#: smooth optimum)
+_NOTHING_MORE = 1e-3
 
 
 def held_out_gains(problem, budget, null, fits, share):
@@ -63,8 +66,11 @@ def contender(null, null_evidence, candidate, fit, own, share, p_value, held_out
 
 def _doubts(fit, null):
     """Why a Fit cannot be relied on beside that of the nominal model, in words."""
-    told = () if fit.converged else ("its fit did not converge",)
-    if not null.converged and null.chi_square.sum() < _FAR_BELOW * fit.chi_square.sum():
+    explained = null.chi_square.sum() - fit.chi_square.sum()
+    ended = fit.converged or promised(fit) <= _NOTHING_MORE * explained
+    told = () if ended else ("its fit did not converge",)
+    near = null.chi_square.sum() < _FAR_BELOW * fit.chi_square.sum()
+    if not null.converged and near and HOPE * promised(null) > explained:
         told += ("the recalibration of the nominal model did not converge, so that nothing lies far below it",)
     return told + excluded(fit, LATENT_LIMIT - 1e-6)
 

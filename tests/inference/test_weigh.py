@@ -90,11 +90,19 @@ def misfit(truth, seed):
 def test_what_has_no_optimum_is_compared_only_by_far():
     """The recalibration did not converge: a candidate a little below it is doubted, one far below it is not."""
     whole, _, catalogue, found = fits()
-    null = replace(found[0], converged=False)
+    null = replace(fit_at(whole, found[0], found[0].latent + 0.1), converged=False)
     doubted = seen(whole, catalogue, [null, *found[1:]], 1)
     assert any("recalibration" in told for told in doubted.doubts) and not seen(whole, catalogue, found, 1).doubts
     far = replace(null, residuals=tuple(10 * r for r in null.residuals))
     assert not seen(whole, catalogue, [far, *found[1:]], 1).doubts
+
+
+def test_a_fit_or_a_recalibration_that_ended_where_its_slopes_promise_nothing_is_not_doubted():
+    whole, _, catalogue, found = fits({"effect_1_0": 4.0})
+    ended = replace(found[1], converged=False)
+    assert not seen(whole, catalogue, [replace(found[0], converged=False), ended, found[2]], 1).doubts
+    away = fit_at(whole, ended, found[1].latent * [1, 1, 0.5])
+    assert any("did not converge" in told for told in seen(whole, catalogue, [found[0], away, found[2]], 1).doubts)
 
 
 def test_another_name_for_nearly_the_same_force_is_no_decoy():
