@@ -15,7 +15,7 @@ from pipeline.inference.calibrate import begun, calibrate
 from pipeline.inference.drift import drift
 from pipeline.inference.effective import tempering
 from pipeline.inference.evidence import cautious_prior, evidence, posterior, reached, screened
-from pipeline.inference.least_squares import continued, far, fit, of_features
+from pipeline.inference.least_squares import continued, far, linearised, of_features
 from pipeline.inference.screen import directions, screen
 from pipeline.inference.weigh import EXCLUDED, contender, held_out_gains, situation
 
@@ -103,8 +103,8 @@ def diagnose(problem, budget, catalogue, settings=None, fan_out=map):
 def _one_step(problem, budget, catalogue, settings, fan_out, start=None, base=None):
     runs, hypothesis = problem.training, problem.nominal
     noises = tuple(budget[run.name] for run in runs)
-    first = start.latent if start else hypothesis.nominal
-    null = calibrate(problem, noises, hypothesis, [first], runs, settled=False)
+    null = start if start and start.converged else calibrate(
+        problem, noises, hypothesis, [start.latent if start else hypothesis.nominal], runs, settled=False)
     found = list(fan_out(partial(directions, problem, null), catalogue))
     rough = screen(null, found, None, settings.draws, settings.seed)
     largest = _hopeful(null, settings.rules) if base is None else settings.rules.p_value
@@ -183,8 +183,11 @@ def _null_again(problem, null, best):
     """A better Fit of the nominal model, found from the optimum of a candidate that fits better than it, or None."""
     if best.objective > null.objective - 1:
         return None
+    size = len(null.latent)
     try:
-        again = fit(problem, null.noises, problem.nominal, best.latent[:len(null.latent)], null.runs, _GIVEN_UP)
+        again = linearised(problem, null.noises, problem.nominal, best.latent[:size], null.runs,
+                           [j[:, :size] for j in best.jacobians])
+        again = continued(problem, again, _GIVEN_UP, null.objective, patient=False)
     except BrakechainError:
         return None
     if again.objective >= null.objective:
