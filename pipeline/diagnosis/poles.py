@@ -19,6 +19,8 @@ from pipeline.physics.free_decay import Poles, before_saturation, confirmed, fun
 ORDERS = (1, 2, 3)
 #: how far a predicted root may lie from a seen one, as a share of it, before it costs as much as another shape
 _NEAR = 0.03
+#: so many times that, and distance counts less and less: one peak that is no mode does not move all others by one
+_FAR = 3.0
 #: how far a root may be from a peak, as a share of it, before the distance counts less and less
 _REACH = 0.1
 #: poles closer than this share of 1 / length of a record show as one that lies anywhere between
@@ -147,7 +149,7 @@ def assigned(seen, root, shape):
         raise ConfigError("poles", f"at most {len(root)} peaks, the modes of the model", f"{len(seen.root)}",
                           "narrow bench.poles to the band of the model")
     apart = abs(np.subtract.outer(seen.root, root)) / (_NEAR * abs(seen.root))[:, None]
-    return linear_sum_assignment(apart + 1 - likeness(seen.shape, shape))[1]
+    return linear_sum_assignment(apart / np.sqrt(1 + (apart / _FAR) ** 2) + 1 - likeness(seen.shape, shape))[1]
 
 
 def nearer(seen, root):

@@ -53,7 +53,12 @@ def _stopped(hypothesis, reasons):
 
 def _begun(problem, noises, hypothesis, starts, runs, reasons, known=()):
     """[Fit] after a few iterations from each start, best first; ``reasons`` gets what stopped the others."""
-    near = _approached(problem, noises, hypothesis, starts, runs, reasons)
+    sizes = [_mean_square(problem, noises, hypothesis, start, runs) for start in starts]
+    if min(sizes) < FAR:
+        return _tried(problem, noises, hypothesis, starts, runs, reasons, known)
+    if of_features(noises):
+        return _tightened(problem, noises, hypothesis, starts, runs, reasons)
+    near = [*_over_horizons(problem, noises, hypothesis, starts, runs, reasons), starts[int(np.argmin(sizes))]]
     return _tried(problem, noises, hypothesis, near, runs, reasons, known)
 
 
@@ -68,30 +73,49 @@ def _tried(problem, noises, hypothesis, starts, runs, reasons, known=(), rough=F
     return sorted(found, key=lambda f: f.objective)
 
 
-def _approached(problem, noises, hypothesis, starts, runs, reasons):
-    """Where fits begin: ``starts``, or, where all are far off, the nearest and where fits to less end: over rising
-    horizons, or, of features, under falling standard deviations."""
-    sizes = [_mean_square(whitened(problem, noises, hypothesis, start, runs)[0]) for start in starts]
-    if min(sizes) < FAR:
-        return starts
+def _over_horizons(problem, noises, hypothesis, starts, runs, reasons):
+    """[latent] where fits over rising horizons end, the best start of each the begin of the next; [] where none can."""
     ahead = starts
-    for noise, run in _easier(noises, runs):
-        found = _tried(problem, noise, hypothesis, ahead, run, reasons, rough=True)
-        ahead = [found[0].latent] if found else []
-    return [*ahead, starts[int(np.argmin(sizes))]]
-
-
-def _easier(noises, runs):
-    """(noises, runs) of problems on the way to this one."""
-    if of_features(noises):
-        for factor in _LOOSE:
-            yield [replace(noise, filter=noise.filter / factor) for noise in noises], runs
-        return
     for share in _HORIZONS:
         kept = [noise.horizon(share, _FEWEST) for noise in noises]
-        yield ([noise.until(n) for noise, n in zip(noises, kept, strict=True)],
-               [run.until(n) for run, n in zip(runs, kept, strict=True)])
+        found = _tried(problem, [noise.until(n) for noise, n in zip(noises, kept, strict=True)], hypothesis, ahead,
+                       [run.until(n) for run, n in zip(runs, kept, strict=True)], reasons, rough=True)
+        ahead = [found[0].latent] if found else []
+    return ahead
 
 
-def _mean_square(residuals):
-    return np.inf if residuals is None else np.mean(np.concatenate(residuals) ** 2)
+def _tightened(problem, noises, hypothesis, starts, runs, reasons):
+    """[Fit] of features after a few iterations under falling standard deviations, from the start that does best under
+    the largest; [] where none can."""
+    found, known = [], ()
+    for start in starts:
+        try:
+            state = linearised(problem, noises, hypothesis, start, runs, known)
+            known = [j[:, :len(problem.nominal.parameters)] for j in state.jacobians]
+            found.append(_roughly(problem, state, noises, _LOOSE[0]))
+        except BrakechainError as error:
+            reasons.append(str(error))
+    if not found:
+        return []
+    state = min(found, key=lambda f: f.objective)
+    for factor in _LOOSE[1:]:
+        state = _roughly(problem, state, noises, factor)
+    return _tried(problem, noises, hypothesis, [state.latent], runs, reasons)
+
+
+def _roughly(problem, state, noises, factor):
+    return iterated(problem, _under(state, noises, factor), _EASIER, patient=False, rough=True)
+
+
+def _under(state, noises, factor):
+    """A Fit of features under standard deviations ``factor`` times those of ``noises``."""
+    looser = tuple(replace(noise, filter=noise.filter / factor) for noise in noises)
+    scale = [float(new.filter[0, 0] / old.filter[0, 0]) for new, old in zip(looser, state.noises, strict=True)]
+    return replace(state, noises=looser, residuals=tuple(k * r for k, r in zip(scale, state.residuals, strict=True)),
+                   jacobians=tuple(k * j for k, j in zip(scale, state.jacobians, strict=True)), converged=False)
+
+
+def _mean_square(problem, noises, hypothesis, start, runs):
+    """Mean square of whitened residuals, infinite where the forward model cannot."""
+    residuals = whitened(problem, noises, hypothesis, start, runs)[0]
+    return np.inf if residuals is None else float(np.mean(np.concatenate(residuals) ** 2))

@@ -17,7 +17,7 @@ from pipeline.inference.calibrate import begun, calibrate
 from pipeline.inference.drift import drift
 from pipeline.inference.effective import tempering
 from pipeline.inference.evidence import cautious_prior, evidence, posterior, reached, screened
-from pipeline.inference.least_squares import continued, far, fit, of_features
+from pipeline.inference.least_squares import continued, far, linearised, of_features
 from pipeline.inference.screen import directions, screen
 from pipeline.inference.weigh import EXCLUDED, contender, held_out_gains, situation
 
@@ -105,8 +105,8 @@ def diagnose(problem, budget, catalogue, settings=None, fan_out=map):
 def _one_step(problem, budget, catalogue, settings, fan_out, start=None, base=None):
     runs, hypothesis = problem.training, problem.nominal
     noises = tuple(budget[run.name] for run in runs)
-    first = start.latent if start else hypothesis.nominal
-    null = calibrate(problem, noises, hypothesis, [first], runs, settled=False)
+    null = start if start and start.converged else calibrate(
+        problem, noises, hypothesis, [start.latent if start else hypothesis.nominal], runs, settled=False)
     found = list(fan_out(partial(directions, problem, null), catalogue))
     rough = screen(null, found, None, settings.draws, settings.seed)
     largest = _hopeful(null, settings.rules) if base is None else settings.rules.p_value
@@ -123,7 +123,7 @@ def _one_step(problem, budget, catalogue, settings, fan_out, start=None, base=No
             ended |= zip(group, fan_out(finish, [states[i] for i in group]), strict=True)
         return ended
 
-    results = refit(hopeful if _misled(null) else hopeful[:settings.kept], ())
+    results = refit(hopeful if _at_odds(null) else hopeful[:settings.kept], ())
     results |= refit(_overlooked(null, found, results, settings), results.values())
     better = min([null, *(r[1] for r in results.values() if r[1] is not None)], key=lambda f: f.objective)
     if better.objective < null.objective - 0.1:
@@ -151,7 +151,9 @@ def _begun(problem, noises, null, offsets, item):
     begins = [screened_start] + [np.full(len(candidate.parameters), offset) for offset in offsets]
     bases = [null.latent] * len(begins)
     if misled := _misled(null):
-        bases = [*[problem.nominal.nominal] * len(begins), null.latent]
+        bases = [problem.nominal.nominal] * len(begins)
+    if _at_odds(null):
+        bases.append(null.latent)
         begins.append(screened_start)
     starts = [np.concatenate((base, np.clip(begin, -2, 2))) for base, begin in zip(bases, begins, strict=True)]
     known = () if misled else null.jacobians
@@ -163,7 +165,16 @@ def _begun(problem, noises, null, offsets, item):
 
 def _misled(null):
     """Whether nothing near the null's optimum helps: values at odds with their priors, features paired wrongly."""
-    return bool(np.abs(null.latent).max(initial=0.0) > EXCLUDED or (of_features(null.noises) and far(null)))
+    return _excluding(null) or (of_features(null.noises) and far(null))
+
+
+def _at_odds(null):
+    """Whether samples pull the null to values at odds with their priors: then its linearisation ranks nothing."""
+    return _excluding(null) and not of_features(null.noises)
+
+
+def _excluding(null):
+    return bool(np.abs(null.latent).max(initial=0.0) > EXCLUDED)
 
 
 def _enough(results):
@@ -188,8 +199,11 @@ def _null_again(problem, null, best):
     """A better Fit of the nominal model, found from the optimum of a candidate that fits better than it, or None."""
     if best.objective > null.objective - 1:
         return None
+    size = len(null.latent)
     try:
-        again = fit(problem, null.noises, problem.nominal, best.latent[:len(null.latent)], null.runs, _GIVEN_UP)
+        again = linearised(problem, null.noises, problem.nominal, best.latent[:size], null.runs,
+                           [j[:, :size] for j in best.jacobians])
+        again = continued(problem, again, _GIVEN_UP, null.objective, patient=False)
     except BrakechainError:
         return None
     if again.objective >= null.objective:

@@ -17,6 +17,8 @@ ITERATIONS = 60
 DIFFERENCE, _WIDEST = 1e-4, 1e-2
 #: the expected decrease of the objective at which a fit counts as converged, tempered as the evidence will be
 TOLERANCE = 1e-3
+#: the same of features, as a share of the objective: far off, a small change of it says nothing
+_SHARE = 1e-4
 #: longest step of a latent coordinate in one iteration
 _LONGEST = 1.5
 #: where no step helps (rounding, kinks of the forward model) or iterations are used up, a fit counts as converged below
@@ -28,8 +30,10 @@ _LEAST = 0.1
 HOPE = 10.0
 #: noise powers beyond which a residual is far off
 FAR = 100.0
-#: share of the objective that is left after so many iterations where a fit crawls
-_CRAWLING, _PATIENCE = 0.7, 8
+#: iterations, and the share of the objective that is left after them where a fit crawls
+_CRAWLING = ((5, 0.97), (8, 0.7))
+#: share of the objective that a step of a rough fit must gain for another to follow
+_ROUGHLY = 0.01
 #: share of the promised decrease below which an updated Jacobian is replaced by differences
 _TRUSTED = 0.25
 
@@ -153,13 +157,13 @@ def iterated(problem, state, iterations, enough=np.inf, patient=True, rough=Fals
     damping, growth, width, before = 1e-3, 2.0, DIFFERENCE, []
     for _ in range(iterations):
         before.append(state.objective)
-        if not patient and _crawls(state, before):
+        if (not patient and _crawls(state, before)) or (rough and _settles(state, before)):
             break
         gradient, hessian = _slopes(state)
         expected, scale = gradient @ np.linalg.solve(hessian, gradient), _scale(state)
         if state.objective - HOPE * expected > enough:
             break
-        if expected < TOLERANCE * scale:
+        if expected < _tolerance(state, scale, patient):
             if rough or state.fresh:
                 return replace(state, converged=not rough)
             state = _refreshed(problem, state)
@@ -183,10 +187,19 @@ def promised(fit):
     return float(gradient @ np.linalg.solve(hessian, gradient))
 
 
+def _tolerance(state, scale, patient):
+    return max(TOLERANCE * scale, 0.0 if patient or not of_features(state.noises) else _SHARE * state.objective)
+
+
 def _crawls(state, before):
     """Whether features that are far off have stayed so: their hypothesis has no use for more iterations."""
-    return (of_features(state.noises) and far(state) and len(before) > _PATIENCE
-            and before[-1] > _CRAWLING * before[-1 - _PATIENCE])
+    return (of_features(state.noises) and far(state)
+            and any(len(before) > n and before[-1] > share * before[-1 - n] for n, share in _CRAWLING))
+
+
+def _settles(state, before):
+    """Whether the last step gained so little that a rough fit may end."""
+    return not state.fresh and len(before) > 1 and before[-1] > (1 - _ROUGHLY) * before[-2]
 
 
 def orthogonal(residual, jacobian, prior_precision=None):

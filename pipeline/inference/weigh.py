@@ -7,7 +7,7 @@ from pipeline.contract.errors import BrakechainError
 from pipeline.inference.decide import Contender, Situation
 from pipeline.inference.drift import agreement
 from pipeline.inference.effective import coherent_energy, effective_share
-from pipeline.inference.least_squares import HOPE, linearised, promised
+from pipeline.inference.least_squares import HOPE, promised, whitened
 from pipeline.inference.priors import LATENT_LIMIT
 from pipeline.inference.verify import gain, held_out_residuals
 
@@ -116,8 +116,8 @@ def _moved_p(problem, null, weights):
     """p-value of the given values: their squared error over the refitted ones', chi^2 with one degree per parameter."""
     if not len(null.latent):
         return 1.0
-    try:
-        given = linearised(problem, null.noises, null.hypothesis, null.hypothesis.nominal, null.runs)
-    except BrakechainError:
+    given, error = whitened(problem, null.noises, null.hypothesis, null.hypothesis.nominal, null.runs)
+    if error:
         return 0.0
-    return float(chi2.sf(weights @ (given.chi_square - null.chi_square), len(null.latent)))
+    square = np.array([r @ r for r in given])
+    return float(chi2.sf(weights @ (square - null.chi_square), len(null.latent)))

@@ -4,7 +4,8 @@
 
 A record is shifted to 0 Hz band by band, filtered and thinned; every band is a sum of few exponentials, found by the
 matrix pencil (Y. Hua, T. K. Sarkar, IEEE Trans. ASSP 38 (1990) 814) and refined by least squares (Gauss-Newton, the
-amplitudes eliminated), whose Jacobian gives the standard deviations.
+amplitudes eliminated), whose Jacobian gives the standard deviations. Where a record grows it is divided by its growth
+first, so that its end, where saturation begins, counts no more than its begin.
 """
 
 from dataclasses import dataclass
@@ -23,11 +24,14 @@ _KAISER = 14.0
 _ABOVE_NOISE = 4.0
 #: a pole counts where its standard deviation is below this share of its frequency
 _KNOWN = 2e-3
-#: growth or decay over the length of the filter of a band beyond which little of a motion is left, in powers of e
+#: growth or decay over the length of the filter of a band, beside what grows, beyond which little of a motion is left,
+#: in powers of e
 _FASTEST = 2.0
 _ITERATIONS = 12
 #: how close to the sum of two others a pole is a combination tone of them, as a share of its root
 _TONE = 1e-3
+#: poles that begin fainter than this share of the loudest in every channel are distortion that grew from nothing
+_FAINT = 5e-3
 #: longest window of the pencil in samples
 _LONGEST_PENCIL = 120
 
@@ -57,7 +61,14 @@ def poles(samples, rate, low, high, count=None):
     edges = np.linspace(low, high, bands + 1)
     found = [_band(samples[:, :count], rate, *edges[k:k + 2]) for k in range(bands)]
     whole = Poles(*(np.concatenate(parts) for parts in zip(*((f.root, f.std, f.shape) for f in found), strict=True)))
-    return whole.of(np.argsort(whole.root.imag))
+    whole = whole.of(np.argsort(whole.root.imag))
+    return whole.of(_loudness(whole.shape) > _FAINT)
+
+
+def _loudness(shape):
+    """Largest share (p,) of the loudest pole of a channel that each pole of amplitudes (p, c) begins with."""
+    size = abs(shape)
+    return np.max(size / np.maximum(size.max(axis=0, initial=0.0), 1e-300), axis=1, initial=0.0)
 
 
 def before_saturation(samples, rate, share=0.12, interval=2e-3):
@@ -126,19 +137,29 @@ def _band(samples, rate, low, high):
     if signal.shape[1] < 12:
         raise ConfigError("poles", f"records of at least {(taps + 12 * thin) / rate:.3g} s", f"{time[-1]:.3g} s",
                           "tap more gently, or record longer")
+    interval = thin / rate
+    growth = _growth(signal, interval)          # what saturates is in proportion to the level: it must not outweigh
+    signal = signal * np.exp(-growth * interval * np.arange(signal.shape[1]))
     scale = np.sqrt(np.mean(abs(signal) ** 2, axis=1))
     seen = scale > 0
-    interval = thin / rate
     root = _pencil(signal[seen] / scale[seen, None], interval)
     for _ in range(2):                          # once more, weighted with the noise that the first round left
         root, amplitude, left, std = _refined(signal[seen] / scale[seen, None], interval, root)
         scale[seen] *= np.maximum(left, 1e-12)
     shape = np.zeros((len(root), len(samples)), complex)
     shape[:, seen] = amplitude * (scale[seen] / np.maximum(left, 1e-12))
-    told = Poles(root + 1j * middle, std, shape)
+    told = Poles(root + growth + 1j * middle, std, shape)
     inside = abs(root.imag) <= 0.5 * 2 * np.pi * width
-    fast = abs(told.root.real) * taps / rate > _FASTEST
+    fast = abs(root.real) * taps / rate > _FASTEST
     return told.of(inside & ~fast & (std < _KNOWN * told.root.imag))
+
+
+def _growth(signal, interval):
+    """Rate [1/s] at which complex signals (c, n) outgrow their first tenth, 0 where they do not."""
+    power = np.mean(abs(signal) ** 2 / np.maximum(np.mean(abs(signal) ** 2, axis=1, keepdims=True), 1e-300), axis=0)
+    size = max(1, len(power) // 10)
+    first, last = power[:size].mean(), power[-size:].mean()
+    return 0.5 * float(np.log(last / first)) / (interval * (len(power) - size)) if last > first > 0 else 0.0
 
 
 def _pencil(signal, interval):

@@ -8,6 +8,7 @@ import pytest
 from pipeline.contract import ConfigError
 from pipeline.diagnosis.poles import assigned, features, nearer, observed, predicted
 from pipeline.physics.bench_modes import modes
+from pipeline.physics.free_decay import Poles
 from tests.diagnosis.small_bench import bench, laid_out, recorded, run
 
 BAND = laid_out().poles
@@ -51,6 +52,13 @@ def test_every_peak_is_explained_by_a_root_of_its_own(told):
     assert list(assigned(found["slow_10"].seen, root, shape)) == [0, 1]
     with pytest.raises(ConfigError, match="at most 1 peaks"):
         assigned(found["slow_10"].seen, root[:1], shape[:1])
+
+
+def test_a_peak_that_is_no_mode_does_not_move_the_others_by_one():
+    """Of one shape all: by distance alone five steps of one cost what one step of five does."""
+    root = 2j * np.pi * np.array([600.0, 700, 800, 900, 1000, 1100])
+    one = Poles(np.sort_complex(np.append(root[:5], 500j * 2 * np.pi)), np.ones(6), np.ones((6, 2), complex))
+    assert list(assigned(one, root, np.ones((6, 2)))) == [5, 0, 1, 2, 3, 4]
 
 
 def test_far_roots_count_less_and_less():

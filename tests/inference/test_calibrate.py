@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from pipeline.contract.errors import ConvergenceError
-from pipeline.inference.calibrate import _approached, _easier, calibrate
-from pipeline.inference.least_squares import fit
+from pipeline.inference.calibrate import _under, begun, calibrate
+from pipeline.inference.least_squares import fit, linearised
 from pipeline.inference.priors import Normal, Parameter
 from tests.inference.curves import curve_problem, features
 
@@ -19,14 +19,24 @@ def test_several_starts_find_the_better_of_two_minima():
 
 
 @pytest.mark.exact
-def test_features_far_off_are_fitted_loosely_first():
-    """A prior of 1 against standard deviations of 30 and 6 times 0.05; near ones are fitted at once."""
+def test_features_under_other_standard_deviations():
+    """The Fit of features under larger ones is the one that they would have given, residuals and Jacobians."""
     whole, noises = features(1.4, 0.05)
-    loose = [float(np.mean(noise[0].whiten(np.ones((2, 1))))) for noise, _ in _easier(noises, whole.runs)]
-    np.testing.assert_allclose(loose, [1 / 1.5, 1 / 0.3], rtol=1e-12)
-    starts = _approached(whole, noises, whole.nominal, [np.zeros(1)], whole.runs, [])
-    assert len(starts) == 2 and starts[0] == pytest.approx(1.4, abs=0.05) and starts[1] == 0
-    assert len(_approached(whole, noises, whole.nominal, [np.array([1.3])], whole.runs, [])) == 1
+    looser = features(1.4, 0.3)[1]
+    near = linearised(whole, noises, whole.nominal, np.array([0.3]), whole.runs)
+    given = linearised(whole, looser, whole.nominal, np.array([0.3]), whole.runs)
+    for state in (_under(near, noises, 6.0), _under(_under(near, noises, 30.0), noises, 6.0)):
+        np.testing.assert_allclose(np.concatenate(state.residuals), np.concatenate(given.residuals), rtol=1e-12)
+        np.testing.assert_allclose(np.vstack(state.jacobians), np.vstack(given.jacobians), rtol=1e-6)
+
+
+def test_features_far_off_are_fitted_from_the_start_that_is_best_loosely():
+    """Of x and x^2: from -1 x^2 alone is met, at -1.4."""
+    whole, noises = features(1.4, 0.05)
+    for starts in ([-1.0, 0.1], [0.1, -1.0]):
+        found = begun(whole, noises, whole.nominal, [np.array([x]) for x in starts], whole.runs)
+        assert found.latent == pytest.approx(1.4, abs=0.05)
+    assert begun(whole, noises, whole.nominal, [np.array([1.3])], whole.runs).latent == pytest.approx(1.4, abs=0.05)
 
 
 def test_a_start_where_the_model_fails_is_passed_over_and_told_where_all_fail():

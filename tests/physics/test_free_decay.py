@@ -11,8 +11,8 @@ ROOT = np.array([-12 + 2j * np.pi * 310, -9 + 2j * np.pi * 611, -9 + 2j * np.pi 
 SHAPE = np.array([[1, 0.3j], [0.8, -0.5], [0.7, 0.9], [0.02, 0.05j]])
 
 
-def record(noise, seed=0, seconds=0.25, root=ROOT, shape=SHAPE):
-    time = np.arange(round(seconds * RATE)) / RATE
+def record(noise, seed=0, seconds=0.25, root=ROOT, shape=SHAPE, rate=RATE):
+    time = np.arange(round(seconds * rate)) / rate
     clean = (shape.T @ np.exp(np.outer(root, time))).real
     return clean + noise * np.random.default_rng(seed).standard_normal(clean.shape)
 
@@ -72,6 +72,28 @@ def test_growth_is_free_until_a_share_of_its_largest():
 def test_a_flow_of_two_shapes():
     np.testing.assert_allclose(likeness(np.array([[1, 1j]]), np.array([[1j, -1], [1, -1j], [0, 0]])), [[1, 0, 0]],
                                atol=1e-12)
+
+
+@pytest.mark.parametrize("turn", [0.0, 1.0, 2.0, 3.0])
+def test_what_saturates_at_the_end_of_a_growth_does_not_move_what_decays(turn):
+    """A third of saturation at the end: by its squares alone the record would put the decay 1 to 1.4 Hz too low."""
+    root = 2j * np.pi * np.array([2257.8, 2268.7, 2269.2]) + np.array([-22.7, -217.0, 162.0])
+    size = np.array([1.4e-5, -5e-5 * np.exp(1j * turn), 1e-4])
+    shape = size[:, None] * np.array([[1, 0.2], [0.05, 1], [0.05, 1]])
+    free = record(0.0, rate=25600.0, seconds=0.032, root=root, shape=shape)
+    seen = 0.05 * np.tanh(free / 0.05) + 5e-7 * np.random.default_rng(0).standard_normal(free.shape)
+    found = poles(seen, 25600.0, 250.0, 4600.0).root
+    assert abs(found.imag / (2 * np.pi) - 2257.8).min() < 0.7
+    assert abs(found.imag / (2 * np.pi) - 2269.2).min() < 0.3
+
+
+def test_distortion_that_begins_faint_is_no_pole():
+    """The third power of a growing motion has a pole at its frequency and thrice its growth, and one at the triple."""
+    time = np.arange(round(0.25 * RATE)) / RATE
+    x = 1e-4 * np.exp((20 + 2j * np.pi * 400) * time).real
+    clean = np.array([[1.0], [0.7]]) * (x - 300 * x**3)
+    found = poles(clean, RATE, 200.0, 2000.0)
+    assert len(found.root) == 1 and abs(found.root[0] - (20 + 2j * np.pi * 400)) < 0.1
 
 
 @pytest.mark.parametrize("samples, low, high", [(4096, 200.0, 6000.0), (4096, 500.0, 200.0), (64, 200.0, 900.0)])

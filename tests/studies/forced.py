@@ -157,6 +157,15 @@ def solve(folder, kept, plan):
     return truth, answer
 
 
+def shared_out(solve, plans, workers):
+    """[solve(plan)] in the order of ``plans``, over so many processes."""
+    pool = LocalProcesses(workers)
+    try:
+        return pool.map(solve, plans, lambda: None)
+    finally:
+        pool.close()
+
+
 def main():
     """Solve what is chosen, print the table."""
     parser = argparse.ArgumentParser(prog="make study_diagnosis", description=__doc__)
@@ -167,11 +176,7 @@ def main():
     parser.add_argument("--workers", type=int, default=os.cpu_count(), help="processes; default all processors")
     chosen = parser.parse_args()
     wanted = [p for p in plans() if not chosen.only or (p.hidden or "control") in chosen.only][::chosen.every]
-    pool = LocalProcesses(chosen.workers)
-    try:
-        results = pool.map(partial(solve, chosen.folder, chosen.kept), wanted, lambda: None)
-    finally:
-        pool.close()
+    results = shared_out(partial(solve, chosen.folder, chosen.kept), wanted, chosen.workers)
     print("\n".join(table([r for r in results if r])))
 
 

@@ -1,12 +1,13 @@
 """'make study_squeal': hidden physics on the practice pin-on-disc bench, diagnosed and scored.
 
 Each of nine effects is hidden in four draws, beside controls with other values only; thresholds were set on other draws
-(seeds below 100). 'make pin_bench' writes practice files. One folder a case; a case
-that has its answer is not solved again.
+(seeds below 100). 'make pin_bench' writes practice files. One folder a case; a case that has its answer is not solved
+again. Cases are shared out over processes.
 """
 
 import argparse
 import json
+import os
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
@@ -14,7 +15,7 @@ from pathlib import Path
 from pipeline.contract import documents
 from pipeline.recordings.neutral import write_neutral
 from pipeline.trial.pin_bench import DECOYS, HIDDEN, make, record
-from tests.studies.forced import answered, by_stages, wilson
+from tests.studies.forced import answered, by_stages, shared_out, wilson
 
 ROOT = Path(__file__).parents[2]
 CONFIG = ROOT / "configs" / "pin_on_disc_bench.yaml"
@@ -86,6 +87,15 @@ def run(plan, folder, **asked):
     return answered(folder, partial(solved, folder / "recordings.h5", **asked))
 
 
+def solve(folder, plan):
+    """(what it hides, answer) of one Plan in its folder; prints its line."""
+    answer = run(plan, folder / f"{plan.seed}")
+    named = ", ".join(f"{e['name']} at {e['place']}" for e in answer["effects"])
+    print(f"{plan.seed} {plan.hidden or 'control':<28} -> {answer['verdict']:<10} {named}"
+          f"   {answer['cpu_seconds']:.0f} s", flush=True)
+    return plan.hidden, answer
+
+
 def practice(folder):
     """bench_0.h5 ... of PRACTICE, each with its truth beside it."""
     folder.mkdir(parents=True, exist_ok=True)
@@ -103,17 +113,14 @@ def main():
     parser.add_argument("--only", nargs="*", help="hidden physics; 'control' for none; default all")
     parser.add_argument("--most", type=int, default=None, help="so many cases at most")
     parser.add_argument("--first", type=int, default=1000, help="seed of the first draw")
-    chosen, results = parser.parse_args(), []
+    parser.add_argument("--workers", type=int, default=os.cpu_count(), help="processes; default all processors")
+    chosen = parser.parse_args()
     if chosen.practice:
         practice(chosen.folder / "practice")
         return
     wanted = [p for p in plans(chosen.first) if not chosen.only or (p.hidden or "control") in chosen.only]
-    for plan in wanted[:chosen.most]:
-        answer = run(plan, chosen.folder / "study_squeal" / f"{plan.seed}")
-        named = ", ".join(f"{e['name']} at {e['place']}" for e in answer["effects"])
-        print(f"{plan.seed} {plan.hidden or 'control':<28} -> {answer['verdict']:<10} {named}"
-              f"   {answer['cpu_seconds']:.0f} s", flush=True)
-        results.append((plan.hidden, answer))
+    folder = chosen.folder / "study_squeal"
+    results = shared_out(partial(solve, folder), wanted[:chosen.most], chosen.workers)
     print("\n".join(table(results)))
 
 
