@@ -23,7 +23,8 @@ _EXACT = {"damping": "damping_{}", "stiffness": "stiffness_{}", "mass": "mass_{}
 @dataclass(frozen=True)
 class Case:
     """``hidden`` and ``place`` ('' where nothing is); ``runs`` [(force (n,), shown (sensor, n))], ``noise`` (sensor,)
-    of each sensor in m, ``colour`` of the noise; ``truth`` and ``belief`` are Rigs, ``exact`` names of known values.
+    of each sensor in m, ``colour`` of the noise; ``truth`` and ``belief`` are Rigs, ``exact`` names of known values;
+    ``change``: of what the sensors show in the first run, relative.
     """
 
     seed: int
@@ -36,31 +37,34 @@ class Case:
     runs: tuple
     noise: np.ndarray
     colour: float
-    size: float
+    change: float
 
 
-def made(seed, hidden="", place=0, level=0.01, masses=2, colour=0.0):
+def made(seed, hidden="", place=0, level=0.01, masses=2, colour=0.0, change=None):
     """The Case of a seed: ``hidden`` physics (a name of HIDDEN, '' for none) at the place of this index.
 
-    ``level`` of noise relative to the motion of each sensor. Raises ConfigError, ConvergenceError.
+    ``level`` of noise relative to the motion of each sensor; ``change`` that is wanted, drawn from CHANGE where it is
+    None. Raises ConfigError, ConvergenceError.
     """
     random = np.random.default_rng(seed)
     truth = rig.drawn(random, masses)
     forces = [level_n * excitation.force(str(random.choice(excitation.KINDS)), random, SAMPLES, 1 / RATE, BAND)
               for level_n in LEVELS]
     gains = 1 + GAIN_ERROR * random.standard_normal(masses)
-    shape, wanted = tuple(random.uniform(size=3)), float(random.uniform(*CHANGE))
+    shape, drawn = tuple(random.uniform(size=3)), float(random.uniform(*CHANGE))
     bare = [moved(World(truth), f, 1 / RATE, CORNER) for f in forces]
-    size, name, exact = 0.0, "", ()
+    reached, name, exact = 0.0, "", ()
     shown = _seen(bare, gains, {})
     if hidden:
         spot, name = _spot(truth, HIDDEN[hidden], place, bare, forces, shape)
-        size, shown = _sized(HIDDEN[hidden], spot, forces, bare, gains, wanted)
+        wanted = drawn if change is None else change
+        reached, shown = _sized(HIDDEN[hidden], spot, forces, bare, gains, wanted)
         told = HIDDEN[hidden].exact
         exact = (_EXACT[told].format(spot.index),) if told else ()
     noise = level * np.sqrt(np.mean([s**2 for s in shown], axis=(0, 2)))
     runs = tuple((f, _recorded(random, s, noise, colour)) for f, s in zip(forces, shown, strict=True))
-    return Case(seed, hidden, name, level, truth, rig.believed(random, truth, exact), exact, runs, noise, colour, size)
+    return Case(seed, hidden, name, level, truth, rig.believed(random, truth, exact), exact, runs, noise, colour,
+                reached)
 
 
 def places(piece, masses):
@@ -99,7 +103,7 @@ def _seen(motion, gains, chains):
 
 
 def _sized(piece, spot, forces, bare, gains, wanted):
-    """(size, [(sensor, n)]) at which the hidden physics changes what sensors show in one run by the share ``wanted``.
+    """(change, [(sensor, n)]) of hidden physics of the size that changes what sensors show in one run by ``wanted``.
 
     The change is taken as a power of the size, between the nearest sizes on both sides once they are known.
     """
@@ -111,7 +115,7 @@ def _sized(piece, spot, forces, bare, gains, wanted):
         except ConvergenceError:
             change = np.inf
         if abs(np.log(max(change, 1e-12) / wanted)) < _NEAR:
-            return size, _with(piece, spot, size, forces, bare, gains)
+            return change, _with(piece, spot, size, forces, bare, gains)
         low, high = (size, high) if change < wanted else (low, size)
         guess = size * np.clip(wanted / max(change, 1e-12), 0.1, 5.0)
         size = float(guess if low < guess < high else np.sqrt(low * high))

@@ -1,6 +1,5 @@
-"""Files of a case as others would write them: nominal.yaml, recordings.h5, and truth.json apart."""
+"""Files of a case as others would write them: nominal.yaml and recordings.h5; and the truth, which stays apart."""
 
-import json
 from pathlib import Path
 
 import h5py
@@ -14,11 +13,10 @@ SPREAD = 0.25
 
 
 def write(case, folder):
-    """Write the files of a Case into a folder that is made where it is missing."""
+    """Write nominal.yaml and recordings.h5 of a Case into a folder that is made where it is missing."""
     folder = Path(folder)
     folder.mkdir(parents=True, exist_ok=True)
     (folder / "nominal.yaml").write_text(yaml.safe_dump(nominal(case), sort_keys=False), encoding="utf-8")
-    (folder / "truth.json").write_text(json.dumps(truth(case), indent=1) + "\n", encoding="utf-8")
     with h5py.File(folder / "recordings.h5", "w") as h5:
         for number, (force, shown) in enumerate(case.runs):
             run = h5.create_group(f"runs/run_{number}")
@@ -31,13 +29,26 @@ def write(case, folder):
 
 
 def truth(case):
-    """What is opened only for the score."""
-    known = not case.hidden or HIDDEN[case.hidden].known
-    kind = "control" if not case.hidden else "sensor" if HIDDEN[case.hidden].place == "channel" else "effect"
-    return {"seed": case.seed, "class": kind if known else "foreign", "effect": case.hidden, "place": case.place,
-            "noise": case.level, "colour": case.colour, "size": case.size, "mass": list(case.truth.mass),
-            "stiffness": [link.stiffness for link in case.truth.links],
-            "damping": [link.damping for link in case.truth.links]}
+    """What is opened only for the score: see ``pipeline.trial.systems``."""
+    effects = [{"name": case.hidden, "place": case.place, "parameters": {}}] if case.hidden else []
+    return {"class": kind_of(case.hidden), "effects": effects, "system": "forced_rig", "size": case.change,
+            "noise": case.level, "parameters": _values(case.truth), "seed": case.seed, "colour": case.colour}
+
+
+def kind_of(hidden):
+    """Class of a case that hides this piece of HIDDEN; '' for nothing."""
+    if not hidden:
+        return "control"
+    if not HIDDEN[hidden].known:
+        return "foreign"
+    return "sensor" if HIDDEN[hidden].place == "channel" else "effect"
+
+
+def _values(rig):
+    """{name in the case: value} of masses (kg), stiffnesses (N/m) and dampings (N s/m) of a Rig."""
+    links = {f"joints.link_{k}.{what}": getattr(link, what) for k, link in enumerate(rig.links)
+             for what in ("stiffness", "damping")}
+    return {**{f"masses.mass_{k}": m for k, m in enumerate(rig.mass)}, **links}
 
 
 def nominal(case):
