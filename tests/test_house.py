@@ -51,9 +51,10 @@ MAY_IMPORT = {
     "pipeline.cli_options": set(),
     "pipeline.cli_trial": {"pipeline.cli_options", "pipeline.concealed", "pipeline.contract",
                            "pipeline.trial.systems.SYSTEMS", "pipeline.views.trial"},
-    "pipeline.cli": {"pipeline.cli_options", "pipeline.cli_trial", "pipeline.contract", "pipeline.console", "pipeline.inspection", "pipeline.measured",
-                     "pipeline.physics.linear_solver", "pipeline.recordings.neutral", "pipeline.schema", "stages",
-                     "pipeline.benches", "pipeline.diagnosis.planning"},
+    "pipeline.cli": {"pipeline.cli_options", "pipeline.cli_trial", "pipeline.contract", "pipeline.console",
+                     "pipeline.inspection", "pipeline.measured", "pipeline.physics.linear_solver",
+                     "pipeline.recordings.neutral", "pipeline.schema", "stages", "pipeline.benches",
+                     "pipeline.diagnosis.planning"},
     "pipeline.__main__": {"pipeline.cli", "pipeline.environment"},
 }
 #: third-party package -> its doors
@@ -61,7 +62,8 @@ DOORS = {
     "h5py": {"pipeline.contract.store", "pipeline.inspection", "pipeline.recordings.columns",
              "pipeline.recordings.neutral", "pipeline.trial.files"},
     "pyuff": {"pipeline.recordings.uff"}, "yaml": {"pipeline.contract.documents", "pipeline.trial.files"},
-    "click": {"pipeline.cli", "pipeline.cli_options", "pipeline.cli_trial"}, "cryptography": {"pipeline.concealed.sealing"}, "rich": {"pipeline.console"}, "pint": {"pipeline.contract.units"},
+    "click": {"pipeline.cli", "pipeline.cli_options", "pipeline.cli_trial"}, "rich": {"pipeline.console"},
+    "cryptography": {"pipeline.concealed.sealing"}, "pint": {"pipeline.contract.units"},
     "pydantic": {"pipeline.contract.settings", "pipeline.published", "pipeline.measured"},
     "pooch": {"pipeline.measured"}, "distributed": {"pipeline.contract.executor"},
     "skfem": {"pipeline.physics.elasticity", "pipeline.physics.faces", "pipeline.physics.layer_element"},

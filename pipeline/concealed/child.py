@@ -68,16 +68,15 @@ def refused(reason):
 
 def _run(arguments, folder, variables, limit):
     """None where the process ends well, else why not."""
-    process = subprocess.Popen(arguments, cwd=folder, env=variables, start_new_session=True,
-                               stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
-    try:
-        _, told = process.communicate(timeout=limit)
-    except subprocess.TimeoutExpired:
-        return f"no answer within {limit:g} s"
-    finally:
-        with contextlib.suppress(ProcessLookupError):
-            os.killpg(process.pid, signal.SIGKILL)
-        process.wait()
+    with subprocess.Popen(arguments, cwd=folder, env=variables, start_new_session=True, stdin=subprocess.DEVNULL,
+                          stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True) as process:
+        try:
+            _, told = process.communicate(timeout=limit)
+        except subprocess.TimeoutExpired:
+            return f"no answer within {limit:g} s"
+        finally:
+            with contextlib.suppress(ProcessLookupError):
+                os.killpg(process.pid, signal.SIGKILL)
     if -process.returncode in _ENDED:
         raise BrakechainError("a solver process", "to run until its end", f"signal {-process.returncode}",
                               "run the same command to go on")

@@ -10,7 +10,7 @@ import numpy as np
 
 from pipeline.concealed import code, sealing
 from pipeline.concealed.plan import drawn
-from pipeline.concealed.sets import FORMAT, TrialSet, read_json
+from pipeline.concealed.sets import FORMAT, TrialSet, canonical, read_json
 from pipeline.contract.errors import BrakechainError, ConfigError
 from pipeline.contract.runner import locked
 from pipeline.contract.store import write_companion
@@ -37,7 +37,8 @@ class Store:
 
     def write(self, name, values):
         self.folder.mkdir(parents=True, exist_ok=True)
-        write_companion(self.path(name), sealing.canonical(values) if not self.key else sealing.locked(values, self.key))
+        content = sealing.locked(values, self.key) if self.key else canonical(values)
+        write_companion(self.path(name), content)
 
 
 def make(folder, count, systems, work, seed=None, key=None, tell=lambda done, total: None):
@@ -120,7 +121,8 @@ def _drawn(draw, folder):
             told.append(str(error))
             continue
         return {**truth, "motion": SYSTEMS[draw.system].motion, "draw": asdict(again)}
-    raise ConfigError(f"{draw.system}: {draw.kind} {' + '.join(draw.hidden)}", f"a case within {_TRIES} seeds", told[-1])
+    hidden = " + ".join(draw.hidden)
+    raise ConfigError(f"{draw.system}: {draw.kind} {hidden}", f"a case within {_TRIES} seeds", told[-1])
 
 
 def _finish(made, truth, key):

@@ -42,7 +42,7 @@ def _numbers(truth, answers, found):
     cases = [(truth[n], answers[n], found[n]) for n in sorted(truth)]
     return {"rates": rates(cases), "confusion": confusion(cases), "names": names(cases),
             "detection": detection(cases), "calibration": calibration(claims(cases)),
-            "parameters": parameters(cases), "cost": cost(cases)}
+            "systems": systems(cases), "parameters": parameters(cases), "cost": cost(cases)}
 
 
 def rates(cases):
@@ -71,7 +71,7 @@ def rates(cases):
         "stated with about 90 %: right": rate([right for p, right in claims(cases) if 0.85 <= p < 0.95]),
         "refused": rate([a["verdict"] == "refused" for _, a, _ in cases]),
     }
-    return {name: {**one, "goal": GOALS.get(name)} for name, one in told.items() if one["count"]}
+    return {name: {**one, "goal": list(GOALS.get(name, ()))} for name, one in told.items() if one["count"]}
 
 
 def _near_noise(cases):
@@ -115,6 +115,18 @@ def detection(cases):
             own = [j["named"] for t, _, j in hidden if t["noise"] == noise and low <= t["size"] < high]
             if own:
                 found.append({"noise": noise, "low": low, "high": min(high, 1.0), "right": rate(own)})
+    return found
+
+
+def systems(cases):
+    """{system: {named, false_alarm, unknown: rate; cpu: median seconds}}; rates only of what the system has."""
+    found = {}
+    for system in sorted({t.get("system", "") for t, _, _ in cases}):
+        own = [(t, a, j) for t, a, j in cases if t.get("system", "") == system]
+        told = {what: rate([j[key] for t, _, j in own if t["class"] in kinds]) for what, key, kinds in (
+            ("named", "right", ("effect",)), ("false_alarm", "false_alarm", EMPTY), ("unknown", "right", ("foreign",)))}
+        found[system] = {**{what: one for what, one in told.items() if one["count"]},
+                         "cpu": float(np.median([a.get("cpu_seconds", 0.0) for _, a, _ in own]))}
     return found
 
 

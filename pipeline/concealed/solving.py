@@ -71,7 +71,11 @@ def _solve(folder, digest, limit, item):
     found = TrialSet(folder)
     if not found.cases.get(number):
         raise ConfigError(folder, f"the case {number}", "none", "every worker must see the folder of the set")
-    found.write(f"answers/{method}/{number}.json", {**answered(found.cases[number], method, limit), "code": digest})
+    answer = answered(found.cases[number], method, limit)
+    if code.of_answers(code.files()) != digest:
+        raise ConfigError(f"case {number}", "the same code from begin to end", "code that changed meanwhile",
+                          "run again")
+    found.write(f"answers/{method}/{number}.json", {**answer, "code": digest})
 
 
 def _close(found, methods):

@@ -2,7 +2,7 @@
 
 from pipeline.concealed.rates import line
 
-#: rows of the first screen: those with a goal, and what they rest on
+#: method whose rates name the rows
 _FIRST = "diagnosis"
 
 
@@ -22,7 +22,11 @@ def as_markdown(result):
     head = ["", "goal", *(method.replace("_", " ") for method in methods)]
     rows = [[name, _goal(one).strip(), *(_cell(numbers["rates"].get(name)) for numbers in methods.values())]
             for name, one in methods[_FIRST]["rates"].items() if one["goal"]]
-    return "\n".join(f"| {' | '.join(row)} |" for row in [head, ["---"] * len(head), *rows])
+    return "\n".join([_row(head), "|" + "---|" * len(head), *map(_row, rows)])
+
+
+def _row(cells):
+    return "|" + "|".join(f" {cell} " if cell else " " for cell in cells) + "|"
 
 
 def _goal(one):
