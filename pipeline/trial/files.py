@@ -1,24 +1,19 @@
-"""Files of a case as others would write them: nominal.yaml, recordings.h5, and truth.json apart."""
+"""Files of a case as others would write them: nominal.yaml and recordings.h5; and the truth, which stays apart."""
 
-import json
 from pathlib import Path
 
 import h5py
 import yaml
 
-from pipeline.trial.case import CORNER, DELAY, GAIN_ERROR, LEVELS, RATE
-from pipeline.trial.hidden import HIDDEN
-
-#: believed values are off by 10 to 30 %: what the workshop says of them
-SPREAD = 0.25
+from pipeline.trial.case import CORNER, DELAY, GAIN_ERROR, LEVELS, RATE, SPREAD
+from pipeline.trial.told import parameters
 
 
 def write(case, folder):
-    """Write the files of a Case into a folder that is made where it is missing."""
+    """Write nominal.yaml and recordings.h5 of a Case into a folder that is made where it is missing."""
     folder = Path(folder)
     folder.mkdir(parents=True, exist_ok=True)
     (folder / "nominal.yaml").write_text(yaml.safe_dump(nominal(case), sort_keys=False), encoding="utf-8")
-    (folder / "truth.json").write_text(json.dumps(truth(case), indent=1) + "\n", encoding="utf-8")
     with h5py.File(folder / "recordings.h5", "w") as h5:
         for number, (force, shown) in enumerate(case.runs):
             run = h5.create_group(f"runs/run_{number}")
@@ -31,24 +26,31 @@ def write(case, folder):
 
 
 def truth(case):
-    """What is opened only for the score."""
-    known = not case.hidden or HIDDEN[case.hidden].known
-    kind = "control" if not case.hidden else "sensor" if HIDDEN[case.hidden].place == "channel" else "effect"
-    return {"seed": case.seed, "class": kind if known else "foreign", "effect": case.hidden, "place": case.place,
-            "noise": case.level, "colour": case.colour, "size": case.size, "mass": list(case.truth.mass),
-            "stiffness": [link.stiffness for link in case.truth.links],
-            "damping": [link.damping for link in case.truth.links]}
+    """What is opened only for the score: see ``pipeline.trial.systems``; ``left`` is d of ``pipeline.trial.detectable``
+    (of the weaker of a pair)."""
+    effects = [{"name": p.piece.name, "place": p.place, "parameters": parameters(p.piece, p.spot, p.size), "left": left}
+               for p, left in zip(case.planted, case.left, strict=True)]
+    return {"class": case.kind, "effects": effects, "system": "forced_rig", "size": case.change,
+            "noise": case.level, "parameters": _values(case.truth), "seed": case.seed, "colour": case.colour,
+            "left": min(case.left, default=0.0), "wrong": case.far}
+
+
+def _values(rig):
+    """{name in the case: value} of masses (kg), stiffnesses (N/m) and dampings (N s/m) of a Rig."""
+    links = {f"joints.link_{k}.{what}": getattr(link, what) for k, link in enumerate(rig.links)
+             for what in ("stiffness", "damping")}
+    return {**{f"masses.mass_{k}": m for k, m in enumerate(rig.mass)}, **links}
 
 
 def nominal(case):
     """The case file of the workshop: its beliefs, its sensors, and what of it may be wrong."""
     rig = case.belief
     names = range(len(rig.mass))
-    parameters = {f"masses.mass_{k}": {"spread": SPREAD} for k in names if f"mass_{k}" not in case.exact}
+    beliefs = {f"masses.mass_{k}": {"spread": SPREAD} for k in names if f"mass_{k}" not in case.exact}
     for k in range(len(rig.links)):
-        parameters |= {f"joints.link_{k}.{what}": {"spread": SPREAD} for what in ("stiffness", "damping")
+        beliefs |= {f"joints.link_{k}.{what}": {"spread": SPREAD} for what in ("stiffness", "damping")
                        if f"{what}_{k}" not in case.exact}
-    parameters |= {f"channels.x_{k}.gain": {"spread": GAIN_ERROR} for k in names}
+    beliefs |= {f"channels.x_{k}.gain": {"spread": GAIN_ERROR} for k in names}
     return {
         "chain": "lumped_bench", "title": "Rig", "description": "Masses between walls, pushed by a shaker.",
         "lumped": {
@@ -58,10 +60,10 @@ def nominal(case):
             "sensors": {f"mass_{k}": {"along": {f"mass_{k}.x": 1}, "quantity": "displacement", "unit": "m"}
                         for k in names}},
         "recording": {"files": [{"kind": "hdf5", "file": "recordings.h5"}]},
-        "bench": {"step": f"{0.25 / RATE:g} s", "inputs": {"shaker": {"channel": "force"}},
+        "bench": {"step": f"{case.step:g} s", "inputs": {"shaker": {"channel": "force"}},
                   "channels": {f"x_{k}": {"quantity": "displacement", "source": f"mass_{k}", "corner": f"{CORNER:g} Hz",
                                           "delay": f"{DELAY:g} s"} for k in names}},
-        "diagnosis": {"parameters": parameters, "held_out": [f"run_{len(case.runs) - 1}"],
+        "diagnosis": {"parameters": beliefs, "held_out": [f"run_{len(case.runs) - 1}"],
                       "noise": {"std": {f"x_{k}": f"{s:.6g} m" for k, s in enumerate(case.noise)}}}}
 
 
