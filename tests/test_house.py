@@ -36,6 +36,7 @@ MAY_IMPORT = {
     "pipeline.diagnosis": {"pipeline.diagnosis", "pipeline.benches", "pipeline.products", "pipeline.effects",
                            "pipeline.inference", "pipeline.physics", "pipeline.contract"},
     "pipeline.trial": {"pipeline.trial", "pipeline.contract.errors"},
+    "pipeline.concealed": {"pipeline.concealed", "pipeline.trial.systems", "pipeline.contract"},
     "pipeline.views": {"pipeline.views", "pipeline.products", "pipeline.contract"},
     "stages": {"pipeline.contract", "pipeline.products", "pipeline.physics", "pipeline.systems", "pipeline.assembled",
                "pipeline.published", "pipeline.computed", "pipeline.views", "pipeline.recordings", "pipeline.benches",
@@ -124,7 +125,7 @@ def test_a_file_says_what_it_is(path):
 
 @pytest.mark.parametrize("folder", ["stages", "pipeline/physics", "pipeline/systems", "pipeline/recordings",
                                     "pipeline/inference", "pipeline/effects", "pipeline/benches", "pipeline/diagnosis",
-                                    "pipeline/trial"])
+                                    "pipeline/trial", "pipeline/concealed"])
 def test_every_file_has_its_test(folder):
     for path in ROOT.glob(f"{folder}/*.py"):
         if path.stem != "__init__":

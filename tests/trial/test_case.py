@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from pipeline.trial.case import BELOW, CHANGE, FAR, LEVELS, LONG_STEP, SAMPLES, STEP, made
+from pipeline.trial.case import BELOW, CHANGE, FAR, LEVELS, LONG_STEP, SAMPLES, STEP, kind_of, made
 from pipeline.trial.rig import drawn
 
 
@@ -61,3 +61,8 @@ def test_a_decoy_of_the_solver_is_a_control_but_for_the_step():
     decoy, control = made(3, masses=1, kind="solver"), made(3, masses=1)
     assert (decoy.step, control.step) == (LONG_STEP, STEP) and decoy.kind == "solver"
     assert all(np.array_equal(a, b) for (_, a), (_, b) in zip(decoy.runs, control.runs, strict=True))
+
+
+def test_a_case_is_of_the_class_of_what_it_hides():
+    assert [kind_of(h) for h in ((), ("coulomb",), ("clipping",), ("impact",), ("coulomb", "backlash"))] == [
+        "control", "effect", "sensor", "foreign", "pair"]
