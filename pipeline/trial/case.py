@@ -4,8 +4,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from pipeline.contract.errors import ConfigError
 from pipeline.trial import excitation, rig, sensors
-from pipeline.trial.detectable import Explained
+from pipeline.trial.detectable import coarse, of_rig
 from pipeline.trial.hidden import HIDDEN, Spot
 from pipeline.trial.motion import PARTS, World
 from pipeline.trial.planted import Planted, Recorder, change_of, shown, sized
@@ -19,10 +20,12 @@ SPREAD = 0.25
 GAIN_ERROR, CHANGE = 0.005, (0.25, 0.45)
 #: what of a change below the threshold is left beside other values of the rig, in standard deviations of the noise
 BELOW = (0.5, 1.5)
+#: the same of the error of a step that is too long, at least
+VISIBLE = 8.0
 #: how far off one value of a case with a wrong one is, as a factor either way
 FAR = (1.4, 1.7)
-#: longest step that is stated of the model, s, and one that is too long
-STEP, LONG_STEP = 0.25 / RATE, 1 / RATE
+#: longest step that is stated of the model, and one that is too long, in samples; then the rate is low as well, Hz
+STEP, LONG_STEP, LOW_RATE = 0.25, 1.0, 50.0
 #: classes of a case that are more than what it hides
 KINDS = ("below", "wrong_value", "solver")
 #: stated values that count as exact where the law would else be a wrong value of them
@@ -32,11 +35,11 @@ _EXACT = {"damping": "damping_{}", "stiffness": "stiffness_{}", "mass": "mass_{}
 @dataclass(frozen=True)
 class Case:
     """``kind``: its class; ``planted``: hidden physics (Planted, ...), ``left``: standard deviations of the noise that
-    other values leave of the change by each.
+    other values leave of the change by each, or by a step that is too long.
 
-    ``runs`` [(force (n,), shown (sensor, n))], ``noise`` (sensor,) of each sensor in m, ``colour`` of the noise;
-    ``truth`` and ``belief`` are Rigs, ``exact`` names of known values, ``far`` that of the wrong one; ``change``: of
-    what the sensors show in the first run, relative; ``step`` s of the workshop's model.
+    ``runs`` [(force (n,), shown (sensor, n))] at ``rate`` Hz, ``noise`` (sensor,) of each sensor in m, ``colour`` of
+    the noise; ``truth`` and ``belief`` are Rigs, ``exact`` names of known values, ``far`` that of the wrong one;
+    ``change``: of what the sensors show in the first run, relative.
     """
 
     seed: int
@@ -49,10 +52,15 @@ class Case:
     exact: tuple
     far: str
     runs: tuple
+    rate: float
     noise: np.ndarray
     colour: float
     change: float
-    step: float = STEP
+
+    @property
+    def step(self):
+        """Longest step of the workshop's model, s."""
+        return (LONG_STEP if self.kind == "solver" else STEP) / self.rate
 
 
 def made(seed, hidden="", place=0, level=0.01, masses=2, colour=0.0, change=None, kind=""):
@@ -63,13 +71,13 @@ def made(seed, hidden="", place=0, level=0.01, masses=2, colour=0.0, change=None
     """
     names, indices = ((hidden,) if hidden else (), (place,)) if isinstance(hidden, str) else (hidden, place)
     random = np.random.default_rng(seed)
-    truth = rig.drawn(random, masses)
-    forces = tuple(level_n * excitation.force(str(random.choice(excitation.KINDS)), random, SAMPLES, 1 / RATE, BAND)
+    truth, rate = rig.drawn(random, masses), LOW_RATE if kind == "solver" else RATE
+    forces = tuple(level_n * excitation.force(str(random.choice(excitation.KINDS)), random, SAMPLES, 1 / rate, BAND)
                    for level_n in LEVELS)
-    recorder = Recorder(forces, RATE, 1 + GAIN_ERROR * random.standard_normal(masses), DELAY, CORNER)
+    recorder = Recorder(forces, rate, 1 + GAIN_ERROR * random.standard_normal(masses), DELAY, CORNER)
     draws = [(tuple(random.uniform(size=3)), float(random.uniform(*CHANGE))) for _ in names or (None,)]
     bare = recorder.motion(World(truth))
-    explained = Explained(recorder, truth, len(forces) - 1, SPREAD, GAIN_ERROR)
+    explained = of_rig(recorder, truth, len(forces) - 1, SPREAD, GAIN_ERROR)
     hiding = _Hiding(recorder, truth, bare, explained, level, colour)
     planted = tuple(hiding.planted(name, at, shape, change or drawn, kind == "below")
                     for name, at, (shape, drawn) in zip(names, indices, draws, strict=False))
@@ -77,14 +85,16 @@ def made(seed, hidden="", place=0, level=0.01, masses=2, colour=0.0, change=None
     noise = _noise(seen, level)
     left = tuple(explained.left(_difference(seen, shown(recorder, truth, _without(planted, one), bare))[:-1], noise,
                                 colour) for one in planted)
+    if kind == "solver":
+        left = (_of_solver(recorder, truth, seen, explained, noise, colour),)
     exact = tuple(_EXACT[p.piece.exact].format(p.spot.index) for p in planted if p.piece.exact)
     belief = rig.believed(random, truth, exact)
     far = ""
     if kind == "wrong_value":
         belief, far = rig.far_off(random, truth, belief, FAR)
     runs = tuple((f, _recorded(random, s, noise, colour)) for f, s in zip(forces, seen, strict=True))
-    return Case(seed, kind or kind_of(names), planted, left, level, truth, belief, exact, far, runs, noise, colour,
-                change_of(seen[:1], recorder.seen(bare[:1])), LONG_STEP if kind == "solver" else STEP)
+    return Case(seed, kind or kind_of(names), planted, left, level, truth, belief, exact, far, runs, rate, noise,
+                colour, change_of(seen[:1], recorder.seen(bare[:1])))
 
 
 def kind_of(names):
@@ -112,7 +122,7 @@ class _Hiding:
     recorder: Recorder
     truth: object
     bare: list
-    explained: Explained
+    explained: object
     level: float
     colour: float
 
@@ -140,10 +150,20 @@ class _Hiding:
         row = self.truth.rows[index] if "link" in piece.place else np.eye(len(self.truth.mass))[index]
         way = np.array([row @ x for x in self.bare])
         length = float(np.sqrt(np.mean(way**2)))
-        speed = float(np.sqrt(np.mean(np.gradient(way, 1 / (RATE * PARTS), axis=1) ** 2)))
+        speed = float(np.sqrt(np.mean(np.gradient(way, 1 / (self.recorder.rate * PARTS), axis=1) ** 2)))
         force = float(np.sqrt(np.mean(np.square(self.recorder.runs)))) if piece.place == "shaker" else self.truth.links[
             min(index, len(self.truth.links) - 1)].stiffness * length
-        return Spot(self.truth, index, length, speed, force, SAMPLES / RATE, shape)
+        return Spot(self.truth, index, length, speed, force, SAMPLES / self.recorder.rate, shape)
+
+
+def _of_solver(recorder, truth, seen, explained, noise, colour):
+    """What values leave of the error of a step of one sample; ConfigError where that is too little to be seen."""
+    found = recorder.seen([coarse(truth, f, 1 / recorder.rate, CORNER) for f in recorder.runs])
+    left = explained.left(_difference(found, seen)[:-1], noise, colour)
+    if left < VISIBLE:
+        raise ConfigError("trial: solver", f"an error of {VISIBLE:g} standard deviations", f"{left:.2g}",
+                          "draw another seed")
+    return left
 
 
 def _without(planted, one):

@@ -12,6 +12,7 @@ from dataclasses import replace
 
 import numpy as np
 from scipy.linalg import expm
+from scipy.signal import lfilter
 
 from pipeline.trial.motion import PARTS
 
@@ -21,6 +22,24 @@ _STEP = 1e-4
 
 def linear(rig, force, interval, corner):
     """Filtered displacements (sensor, instant) of a rig alone, as ``motion.moved``, by its exponential over a step."""
+    return _states(rig, force, interval, corner)[:, 2 * len(rig.mass):].T
+
+
+def coarse(rig, force, interval, corner):
+    """The same where displacements count as straight between samples: what a model of so long a step shows."""
+    states, reach = _states(rig, force, interval, corner), np.array([[-2 * np.pi * corner]])
+    instants = np.arange(len(states)) / PARTS
+    kept, now, ramp = _held(reach, -reach[0], interval / PARTS)
+    found = []
+    for place in states[:, :len(rig.mass)].T:
+        straight = np.interp(instants, instants[::PARTS], place[::PARTS])
+        driven = now * straight[:-1] + ramp * np.diff(straight)
+        found.append(lfilter([1.0], [1.0, -kept.item()], np.append(0.0, driven)))
+    return np.array(found)
+
+
+def _states(rig, force, interval, corner):
+    """(instant, displacements, velocities and filtered displacements) of a rig alone."""
     size, rows, reach = len(rig.mass), rig.rows, 2 * np.pi * corner
     inverse = np.diag(1 / np.array(rig.mass))
     stiffness, damping = (rows.T @ np.diag([getattr(link, what) for link in rig.links]) @ rows
@@ -36,7 +55,7 @@ def linear(rig, force, interval, corner):
     driven = np.outer(fine[:-1], now) + np.outer(np.diff(fine), ramp)
     for k, gained in enumerate(driven):
         states[k + 1] = kept @ states[k] + gained
-    return states[:, 2 * size:].T
+    return states
 
 
 def _held(rates, push, step):
@@ -49,21 +68,10 @@ def _held(rates, push, step):
 
 
 class Explained:
-    """What other values of a ``rig`` explain in the first ``runs`` of a Recorder."""
+    """What other values explain: ``directions`` (value, run, sensor, n), a standard deviation of each value."""
 
-    def __init__(self, recorder, rig, runs, spread, gain_spread):
-        """``spread``: standard deviation of the logarithm of each value; ``gain_spread``: of each gain."""
-        def seen(changed):
-            return np.array(recorder.seen([linear(changed, f, 1 / recorder.rate, recorder.corner)
-                                           for f in recorder.runs[:runs]]))
-
-        base = seen(rig)
-        found = [spread * (seen(changed) - base) / _STEP for changed in _nudged(rig)]
-        for k in range(base.shape[1]):
-            gain = np.zeros_like(base)
-            gain[:, k] = gain_spread * base[:, k]
-            found.append(gain)
-        self.directions = np.array(found)               # (value, run, sensor, n)
+    def __init__(self, directions):
+        self.directions = np.asarray(directions)
 
     def left(self, change, noise, colour=0.0):
         """d of a ``change`` [(sensor, n)] under noise of standard deviation (sensor,) and colour."""
@@ -73,6 +81,28 @@ class Explained:
         return float(np.sqrt(max(r @ r - (rows @ r) @ u, 0.0)))
 
 
+def explained(seen, values, spread, gain_spread, step=_STEP):
+    """Explained by all ``values``, the first as it is, then with one after the other larger by a relative ``step``.
+
+    ``seen(values)`` -> [(sensor, n)] is what sensors show; ``spread``: standard deviation of the logarithm of each
+    value, ``gain_spread`` of the gain of each sensor.
+    """
+    base, *others = (np.array(seen(one)) for one in values)
+    found = [spread * (other - base) / step for other in others]
+    for k in range(base.shape[1]):
+        found.append(np.zeros_like(base))
+        found[-1][:, k] = gain_spread * base[:, k]
+    return Explained(found)
+
+
+def of_rig(recorder, rig, runs, spread, gain_spread):
+    """Explained by other values of a ``rig`` alone, in the first ``runs`` of a Recorder."""
+    def seen(one):
+        return recorder.seen([linear(one, f, 1 / recorder.rate, recorder.corner) for f in recorder.runs[:runs]])
+
+    return explained(seen, nudged(rig), spread, gain_spread)
+
+
 def whitened(samples, noise, colour):
     """Samples (..., sensor, n) over first-order autoregressive noise of standard deviation (sensor,)."""
     own = samples / np.asarray(noise)[:, None]
@@ -80,11 +110,12 @@ def whitened(samples, noise, colour):
     return np.concatenate((own[..., :1], later), axis=-1)
 
 
-def _nudged(rig):
-    """Rigs with one value after the other larger by a relative _STEP."""
+def nudged(rig, step=_STEP):
+    """The rig, then rigs with one value after the other larger by a relative ``step``."""
+    yield rig
     for k in range(len(rig.mass)):
-        yield replace(rig, mass=tuple(m * (1 + _STEP * (k == i)) for i, m in enumerate(rig.mass)))
+        yield replace(rig, mass=tuple(m * (1 + step * (k == i)) for i, m in enumerate(rig.mass)))
     for k, link in enumerate(rig.links):
         for what in ("stiffness", "damping"):
-            nudged = replace(link, **{what: getattr(link, what) * (1 + _STEP)})
-            yield replace(rig, links=(*rig.links[:k], nudged, *rig.links[k + 1:]))
+            larger = replace(link, **{what: getattr(link, what) * (1 + step)})
+            yield replace(rig, links=(*rig.links[:k], larger, *rig.links[k + 1:]))

@@ -5,7 +5,7 @@ from pathlib import Path
 import h5py
 import yaml
 
-from pipeline.trial.case import CORNER, DELAY, GAIN_ERROR, LEVELS, RATE, SPREAD
+from pipeline.trial.case import CORNER, DELAY, GAIN_ERROR, LEVELS, SPREAD
 from pipeline.trial.told import parameters
 
 
@@ -19,17 +19,17 @@ def write(case, folder):
             run = h5.create_group(f"runs/run_{number}")
             _attributes(run.create_dataset("conditions/level", data=LEVELS[number]), units="N")
             _attributes(run.create_dataset("channels/force", data=force), units="N", quantity="force",
-                        sample_rate=RATE, role="excitation")
+                        sample_rate=case.rate, role="excitation")
             for k, samples in enumerate(shown):
                 _attributes(run.create_dataset(f"channels/x_{k}", data=samples), units="m", quantity="displacement",
-                            sample_rate=RATE, role="response")
+                            sample_rate=case.rate, role="response")
 
 
 def truth(case):
     """What is opened only for the score: see ``pipeline.trial.systems``; ``left`` is d of ``pipeline.trial.detectable``
     (of the weaker of a pair)."""
     effects = [{"name": p.piece.name, "place": p.place, "parameters": parameters(p.piece, p.spot, p.size), "left": left}
-               for p, left in zip(case.planted, case.left, strict=True)]
+               for p, left in zip(case.planted, case.left, strict=False)]
     return {"class": case.kind, "effects": effects, "system": "forced_rig", "size": case.change,
             "noise": case.level, "parameters": _values(case.truth), "seed": case.seed, "colour": case.colour,
             "left": min(case.left, default=0.0), "wrong": case.far}

@@ -68,18 +68,23 @@ _PAIRED = ("coulomb", "cubic_stiffness", "quadratic_stiffness", "quadratic_dampi
 def _forced(draw, folder):
     """A row of masses that a shaker pushes."""
     random = np.random.default_rng([draw.seed, 1])
-    kinds = [HIDDEN[name].place for name in draw.hidden]
-    masses = 3 if "wall link" in kinds else int(random.choice(_MASSES[len(kinds) > 1:]))
-    free = [[at for at, _ in places(HIDDEN[name], masses)] for name in draw.hidden]
-    chosen = [int(random.choice(at)) for at in free]
-    if len(chosen) > 1 and chosen[0] == chosen[1] and "link" in kinds[0] and "link" in kinds[1]:
-        chosen[1] = int(random.choice([at for at in free[1] if at != chosen[0]]))
-    at = tuple(index.index(one) for index, one in zip(free, chosen, strict=True))
+    masses, at = _apart(random, [HIDDEN[name] for name in draw.hidden])
     colour = float(random.choice(_COLOURS))
     kind = draw.kind if draw.kind in KINDS else ""
     case = made(draw.seed, draw.hidden, at, draw.noise, masses, colour, draw.size, kind)
     files.write(case, folder)
     return {**files.truth(case), "system": draw.system}
+
+
+def _apart(random, pieces):
+    """(masses, (number of a place of each piece, ...)): a rig with room for all, two of them at two links."""
+    kinds = [piece.place for piece in pieces]
+    masses = 3 if "wall link" in kinds else int(random.choice(_MASSES[len(kinds) > 1:]))
+    free = [[at for at, _ in places(piece, masses)] for piece in pieces]
+    chosen = [int(random.choice(at)) for at in free]
+    if len(chosen) > 1 and chosen[0] == chosen[1] and "link" in kinds[0] and "link" in kinds[1]:
+        chosen[1] = int(random.choice([at for at in free[1] if at != chosen[0]]))
+    return masses, tuple(index.index(one) for index, one in zip(free, chosen, strict=True))
 
 
 def _classes(pieces):
