@@ -5,11 +5,8 @@ from pathlib import Path
 import h5py
 import yaml
 
-from pipeline.trial.case import CORNER, DELAY, GAIN_ERROR, LEVELS, RATE
-from pipeline.trial.hidden import HIDDEN
-
-#: believed values are off by 10 to 30 %: what the workshop says of them
-SPREAD = 0.25
+from pipeline.trial.case import CORNER, DELAY, GAIN_ERROR, LEVELS, SPREAD
+from pipeline.trial.told import parameters
 
 
 def write(case, folder):
@@ -22,26 +19,20 @@ def write(case, folder):
             run = h5.create_group(f"runs/run_{number}")
             _attributes(run.create_dataset("conditions/level", data=LEVELS[number]), units="N")
             _attributes(run.create_dataset("channels/force", data=force), units="N", quantity="force",
-                        sample_rate=RATE, role="excitation")
+                        sample_rate=case.rate, role="excitation")
             for k, samples in enumerate(shown):
                 _attributes(run.create_dataset(f"channels/x_{k}", data=samples), units="m", quantity="displacement",
-                            sample_rate=RATE, role="response")
+                            sample_rate=case.rate, role="response")
 
 
 def truth(case):
-    """What is opened only for the score: see ``pipeline.trial.systems``."""
-    effects = [{"name": case.hidden, "place": case.place, "parameters": {}}] if case.hidden else []
-    return {"class": kind_of(case.hidden), "effects": effects, "system": "forced_rig", "size": case.change,
-            "noise": case.level, "parameters": _values(case.truth), "seed": case.seed, "colour": case.colour}
-
-
-def kind_of(hidden):
-    """Class of a case that hides this piece of HIDDEN; '' for nothing."""
-    if not hidden:
-        return "control"
-    if not HIDDEN[hidden].known:
-        return "foreign"
-    return "sensor" if HIDDEN[hidden].place == "channel" else "effect"
+    """What is opened only for the score: see ``pipeline.trial.systems``; ``left`` is d of ``pipeline.trial.detectable``
+    (of the weaker of a pair)."""
+    effects = [{"name": p.piece.name, "place": p.place, "parameters": parameters(p.piece, p.spot, p.size), "left": left}
+               for p, left in zip(case.planted, case.left, strict=False)]
+    return {"class": case.kind, "effects": effects, "system": "forced_rig", "size": case.change,
+            "noise": case.level, "parameters": _values(case.truth), "seed": case.seed, "colour": case.colour,
+            "left": min(case.left, default=0.0), "wrong": case.far}
 
 
 def _values(rig):
@@ -55,11 +46,11 @@ def nominal(case):
     """The case file of the workshop: its beliefs, its sensors, and what of it may be wrong."""
     rig = case.belief
     names = range(len(rig.mass))
-    parameters = {f"masses.mass_{k}": {"spread": SPREAD} for k in names if f"mass_{k}" not in case.exact}
+    beliefs = {f"masses.mass_{k}": {"spread": SPREAD} for k in names if f"mass_{k}" not in case.exact}
     for k in range(len(rig.links)):
-        parameters |= {f"joints.link_{k}.{what}": {"spread": SPREAD} for what in ("stiffness", "damping")
+        beliefs |= {f"joints.link_{k}.{what}": {"spread": SPREAD} for what in ("stiffness", "damping")
                        if f"{what}_{k}" not in case.exact}
-    parameters |= {f"channels.x_{k}.gain": {"spread": GAIN_ERROR} for k in names}
+    beliefs |= {f"channels.x_{k}.gain": {"spread": GAIN_ERROR} for k in names}
     return {
         "chain": "lumped_bench", "title": "Rig", "description": "Masses between walls, pushed by a shaker.",
         "lumped": {
@@ -69,10 +60,10 @@ def nominal(case):
             "sensors": {f"mass_{k}": {"along": {f"mass_{k}.x": 1}, "quantity": "displacement", "unit": "m"}
                         for k in names}},
         "recording": {"files": [{"kind": "hdf5", "file": "recordings.h5"}]},
-        "bench": {"step": f"{0.25 / RATE:g} s", "inputs": {"shaker": {"channel": "force"}},
+        "bench": {"step": f"{case.step:g} s", "inputs": {"shaker": {"channel": "force"}},
                   "channels": {f"x_{k}": {"quantity": "displacement", "source": f"mass_{k}", "corner": f"{CORNER:g} Hz",
                                           "delay": f"{DELAY:g} s"} for k in names}},
-        "diagnosis": {"parameters": parameters, "held_out": [f"run_{len(case.runs) - 1}"],
+        "diagnosis": {"parameters": beliefs, "held_out": [f"run_{len(case.runs) - 1}"],
                       "noise": {"std": {f"x_{k}": f"{s:.6g} m" for k, s in enumerate(case.noise)}}}}
 
 

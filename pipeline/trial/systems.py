@@ -14,11 +14,12 @@ cannot be made: another seed is tried. SYSTEMS holds them all; to add one is to 
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from itertools import combinations
 
 import numpy as np
 
 from pipeline.trial import files
-from pipeline.trial.case import made, places
+from pipeline.trial.case import KINDS, kind_of, made, places
 from pipeline.trial.hidden import HIDDEN
 
 CLASSES = ("effect", "pair", "control", "wrong_value", "sensor", "solver", "foreign", "below")
@@ -59,30 +60,44 @@ class System:
 
 #: masses of a rig; correlation of its noise over a sample
 _MASSES, _COLOURS = (1, 2, 2, 2, 3, 4), (0.0, 0.0, 0.0, 0.2)
+#: physics of which two act at once: one of each kind that moves a rig in a way of its own
+_PAIRED = ("coulomb", "cubic_stiffness", "quadratic_stiffness", "quadratic_damping", "hysteretic_joint", "backlash",
+           "viscoelastic_pad", "thermal_softening", "base_shake", "moving_base", "attached_mass", "pressure_ripple")
 
 
 def _forced(draw, folder):
     """A row of masses that a shaker pushes."""
     random = np.random.default_rng([draw.seed, 1])
-    name = draw.hidden[0] if draw.hidden else ""
-    wall = bool(name) and HIDDEN[name].place == "wall link"
-    masses = 3 if wall else int(random.choice(_MASSES))
-    place = int(random.integers(len(places(HIDDEN[name], masses)))) if name else 0
+    masses, at = _apart(random, [HIDDEN[name] for name in draw.hidden])
     colour = float(random.choice(_COLOURS))
-    case = made(draw.seed, name, place, draw.noise, masses, colour, change=draw.size)
+    kind = draw.kind if draw.kind in KINDS else ""
+    case = made(draw.seed, draw.hidden, at, draw.noise, masses, colour, draw.size, kind)
     files.write(case, folder)
-    return {**files.truth(case), "class": draw.kind}
+    return {**files.truth(case), "system": draw.system}
+
+
+def _apart(random, pieces):
+    """(masses, (number of a place of each piece, ...)): a rig with room for all, two of them at two links."""
+    kinds = [piece.place for piece in pieces]
+    masses = 3 if "wall link" in kinds else int(random.choice(_MASSES[len(kinds) > 1:]))
+    free = [[at for at, _ in places(piece, masses)] for piece in pieces]
+    chosen = [int(random.choice(at)) for at in free]
+    if len(chosen) > 1 and chosen[0] == chosen[1] and "link" in kinds[0] and "link" in kinds[1]:
+        chosen[1] = int(random.choice([at for at in free[1] if at != chosen[0]]))
+    return masses, tuple(index.index(one) for index, one in zip(free, chosen, strict=True))
 
 
 def _classes(pieces):
-    """{class: ((name,), ...)} of the pieces of HIDDEN, and of nothing hidden."""
-    found = {"control": ((),)}
+    """{class: ((name, ...), ...)} of the pieces of HIDDEN, and of nothing hidden."""
+    found = {"control": ((),), "wrong_value": ((),), "pair": tuple(combinations(_PAIRED, 2))}
     for piece in pieces:
-        kind = files.kind_of(piece.name)
+        kind = kind_of((piece.name,))
         found[kind] = (*found.get(kind, ()), (piece.name,))
+    found["below"] = found["effect"]
     return found
 
 
 SYSTEMS = {system.name: system for system in (
-    System("forced_rig", _forced, _classes(HIDDEN.values()), sizes=(0.15, 0.3, 0.45), noises=(0.01, 0.03, 0.1)),
+    System("forced_rig", _forced, _classes(HIDDEN.values()), sizes=(0.03, 0.1, 0.3), noises=(0.01, 0.03, 0.1)),
+    System("coarse_rig", _forced, {"solver": ((),)}, sizes=(0.0,), noises=(0.003, 0.01)),
 )}

@@ -4,7 +4,9 @@ import numpy as np
 import pytest
 
 from pipeline.recordings.neutral import read_neutral
-from pipeline.trial.systems import CLASSES, SYSTEMS, Draw
+from pipeline.trial.case import places
+from pipeline.trial.hidden import HIDDEN
+from pipeline.trial.systems import CLASSES, SYSTEMS, Draw, _apart
 from tests.trial.imported import imported
 
 
@@ -23,7 +25,8 @@ def test_no_generator_is_made_of_the_models_of_the_diagnosis():
         "pipeline.systems", "stages"))]
 
 
-@pytest.mark.parametrize("kind, hidden", [("control", ()), ("effect", ("coulomb",)), ("sensor", ("clipping",))])
+@pytest.mark.parametrize("kind, hidden", [("control", ()), ("effect", ("coulomb",)), ("sensor", ("clipping",)),
+                                          ("pair", ("coulomb", "attached_mass"))])
 def test_a_forced_rig_leaves_two_files_and_tells_its_truth(tmp_path, kind, hidden):
     draw = Draw(3, "forced_rig", kind, hidden, 0.3, 0.01)
     truth = SYSTEMS["forced_rig"].write(draw, tmp_path / "case")
@@ -37,3 +40,18 @@ def test_a_forced_rig_leaves_two_files_and_tells_its_truth(tmp_path, kind, hidde
     first = read_neutral(tmp_path / "case" / "recordings.h5")["run_0"].channels["x_0"].samples
     other = SYSTEMS["forced_rig"].write(Draw(4, "forced_rig", kind, hidden, 0.3, 0.01), tmp_path / "other")
     assert other != truth and np.std(first) > 0
+
+
+def test_a_pair_sits_at_two_links():
+    pieces = HIDDEN["quadratic_damping"], HIDDEN["moving_base"]
+    for seed in range(30):
+        masses, at = _apart(np.random.default_rng(seed), pieces)
+        first, second = (places(piece, masses)[number][1] for piece, number in zip(pieces, at, strict=True))
+        assert first != second and second in ("link_0", "link_3")
+
+
+def test_below_the_threshold_little_is_left_and_a_coarse_model_hides_nothing(tmp_path):
+    below = SYSTEMS["forced_rig"].write(Draw(1, "forced_rig", "below", ("coulomb",), 0.3, 0.1), tmp_path / "below")
+    coarse = SYSTEMS["coarse_rig"].write(Draw(1, "coarse_rig", "solver", (), 0.0, 0.01), tmp_path / "coarse")
+    assert below["class"] == "below" and 0 < below["left"] < 2.2
+    assert (coarse["class"], coarse["effects"], coarse["system"]) == ("solver", [], "coarse_rig")
