@@ -107,12 +107,12 @@ def verify(folder):
 
 @trial.command()
 @_SET
-@click.option("--markdown", is_flag=True, help="print the table as Markdown instead")
+@click.option("--markdown", is_flag=True, help="print the table of the rates as Markdown instead")
 @options("debug")
 def show(folder, markdown):
-    """Write the page of a scored SET, trial.html, and print its table."""
+    """Write the page of a scored SET, trial.html, and tell where it is."""
     from pipeline.concealed.sets import TrialSet
-    from pipeline.concealed.summary import as_markdown, lines
+    from pipeline.concealed.summary import as_markdown
     from pipeline.contract.store import write_companion
     from pipeline.views.trial import page
 
@@ -121,7 +121,6 @@ def show(folder, markdown):
         click.echo(as_markdown(found))
         return
     write_companion(folder / "trial.html", page(found))
-    click.echo("\n".join(lines(found)))
     click.echo(f"page: {folder / 'trial.html'}")
 
 

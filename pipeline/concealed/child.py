@@ -16,16 +16,16 @@ import sys
 import tempfile
 from pathlib import Path
 
-import pipeline
 from pipeline.concealed.sets import FILES
 from pipeline.contract.errors import BrakechainError
-from pipeline.environment import CACHE, ONE_THREAD
+from pipeline.environment import CACHE, ONE_THREAD, own_compiled_code
 
 #: method -> arguments of python; baselines have a door of their own
 DIAGNOSIS = ("-m", "pipeline", "run", "nominal.yaml", "--run", "products", "--until", "diagnosis", "--workers", "1")
 #: how a process ends that somebody else ended
 _ENDED = (signal.SIGKILL, signal.SIGTERM, signal.SIGINT, signal.SIGHUP)
 _LONGEST = 500
+_ROOT = Path(__file__).parents[2]
 
 
 def command(method):
@@ -35,9 +35,10 @@ def command(method):
 
 def environment(home):
     """All variables of the process: compiled code is shared, everything else lies in ``home``."""
+    own_compiled_code()
     kept = {name: os.environ[name] for name in ("PATH", "LANG", CACHE) if name in os.environ}
     return {**kept, **ONE_THREAD, "HOME": str(home), "TMPDIR": str(home),
-            "PYTHONPATH": str(Path(pipeline.__file__).parents[1]), "PYTHONDONTWRITEBYTECODE": "1"}
+            "PYTHONPATH": str(_ROOT), "PYTHONDONTWRITEBYTECODE": "1"}
 
 
 def answered(case, method, limit):

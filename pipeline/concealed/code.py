@@ -5,13 +5,12 @@ from dataclasses import asdict
 from importlib import metadata
 from pathlib import Path
 
-import pipeline
-from pipeline import effects
+from pipeline import __version__, effects
 from pipeline.concealed.sets import canonical, sha256
 from pipeline.contract.runner import git_commit
 from pipeline.inference.decide import Rules
 
-_ROOT = Path(pipeline.__file__).parents[1]
+_ROOT = Path(__file__).parents[2]
 #: what only makes truths, or shows what was found
 _APART = ("pipeline/trial/", "pipeline/views/", "pipeline/cli", "pipeline/console", "pipeline/inspection",
           "pipeline/schema")
@@ -39,5 +38,5 @@ def changed(before, now):
 
 def described():
     """What a set records with its commitment, beside the digests of ``files()``."""
-    return {"version": pipeline.__version__, "commit": git_commit(), "catalogue": [e.name for e in effects.CATALOGUE],
+    return {"version": __version__, "commit": git_commit(), "catalogue": [e.name for e in effects.CATALOGUE],
             "thresholds": asdict(Rules()), "packages": {name: metadata.version(name) for name in _PACKAGES}}
