@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from pipeline.concealed.judging import EMPTY, judged
+from pipeline.concealed.judging import EMPTY, class_of, judged
 from pipeline.concealed.rates import calibration, rate
 from pipeline.concealed.reasons import why
 
@@ -48,7 +48,7 @@ def _numbers(truth, answers, found):
 def rates(cases):
     """{name: rate, with its goal} of [(truth, answer, judged)]."""
     def of(what, *kinds, only=lambda t, a: True):
-        return rate([j[what] for t, a, j in cases if t["class"] in kinds and only(t, a)])
+        return rate([j[what] for t, a, j in cases if class_of(t) in kinds and only(t, a)])
 
     def moved(motion):
         return lambda t, a: t.get("motion", "forced") == motion
@@ -87,9 +87,9 @@ def confusion(cases):
     found = {}
     for truth, answer, one in cases:
         verdict = answer["verdict"]
-        if verdict in ("missing", "sensor") and truth["class"] in (*_NAMED, "below"):
+        if verdict in ("missing", "sensor") and class_of(truth) in (*_NAMED, "below"):
             verdict += ", right" if one["right"] else ", other place" if one.get("type") else ", wrong"
-        row = found.setdefault(truth["class"], {})
+        row = found.setdefault(class_of(truth), {})
         row[verdict] = row.get(verdict, 0) + 1
     return found
 
@@ -123,7 +123,7 @@ def systems(cases):
     found = {}
     for system in sorted({t.get("system", "") for t, _, _ in cases}):
         own = [(t, a, j) for t, a, j in cases if t.get("system", "") == system]
-        told = {what: rate([j[key] for t, _, j in own if t["class"] in kinds]) for what, key, kinds in (
+        told = {what: rate([j[key] for t, _, j in own if class_of(t) in kinds]) for what, key, kinds in (
             ("named", "right", ("effect",)), ("false_alarm", "false_alarm", EMPTY), ("unknown", "right", ("foreign",)))}
         found[system] = {**{what: one for what, one in told.items() if one["count"]},
                          "cpu": float(np.median([a.get("cpu_seconds", 0.0) for _, a, _ in own]))}
