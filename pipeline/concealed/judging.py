@@ -14,6 +14,7 @@ def judged(truth, answer):
 
     right       the verdict of the class; with exactly what is hidden, at its place, where something is
     false_alarm something named where nothing is missing
+    named       exactly what is hidden, at its place, under its verdict
     type        exactly what is hidden, at whatever place; called: the verdict of the class, whatever it names
     among_tied, top      the truth among several told, or among the first three hypotheses
     """
@@ -27,7 +28,8 @@ def judged(truth, answer):
     named, wanted = answer["effects"], truth["effects"]
     called = verdict == NAMED_BY[kind]
     alone = called and len(named) == len(wanted)
-    found = {"right": alone and _all_in(wanted, named), "called": called,
+    exactly = alone and _all_in(wanted, named)
+    found = {"right": exactly, "named": exactly, "called": called,
              "type": alone and sorted(e["name"] for e in named) == sorted(e["name"] for e in wanted),
              "among_tied": verdict in ("tie", "sensor") and len(named) > len(wanted) and _all_in(wanted, named),
              "top": _all_in(wanted, [*named, *answer.get("alternatives", ())][:max(_TOP, len(wanted))])}

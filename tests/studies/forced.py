@@ -15,7 +15,7 @@ from pathlib import Path
 from threadpoolctl import threadpool_limits
 
 from pipeline.concealed.judging import judged
-from pipeline.concealed.rates import line
+from pipeline.concealed.rates import line, rate
 from pipeline.contract import documents
 from pipeline.contract.errors import BrakechainError
 from pipeline.contract.executor import LocalProcesses
@@ -92,7 +92,7 @@ def table(results):
     rows.append(("controls told right", [s["right"] for s in controls]))
     foreign = [judged(t, a) for t, a in results if t["class"] == "foreign"]
     rows.append(("out of the catalogue: unknown", [s["right"] for s in foreign]))
-    return [line(name, hits) for name, hits in rows if hits]
+    return [line(name, rate(hits)) for name, hits in rows if hits]
 
 
 def run(plan, folder, **asked):

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 
-from pipeline.concealed.rates import line
+from pipeline.concealed.rates import line, rate
 from pipeline.contract import documents
 from pipeline.recordings.neutral import write_neutral
 from pipeline.trial.pin_bench import DECOYS, HIDDEN, make, record
@@ -72,7 +72,7 @@ def table(results):
             for name in dict.fromkeys(h for h, _ in results)]
     rows += [("all effects", [scored(h, a)["right"] for h, a in results if h]),
              ("false alarms on controls", [scored(h, a)["false_alarm"] for h, a in results if not h])]
-    return [line(name, hits) for name, hits in rows if hits]
+    return [line(name, rate(hits)) for name, hits in rows if hits]
 
 
 def run(plan, folder, **asked):
