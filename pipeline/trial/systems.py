@@ -14,13 +14,14 @@ cannot be made: another seed is tried. SYSTEMS holds them all; to add one is to 
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from itertools import combinations
+from itertools import combinations, product
 
 import numpy as np
 
-from pipeline.trial import files
+from pipeline.trial import belt, belt_files, files
 from pipeline.trial.case import KINDS, kind_of, made, places
 from pipeline.trial.hidden import HIDDEN
+from pipeline.trial.rubbing import FRICTION
 
 CLASSES = ("effect", "pair", "control", "wrong_value", "sensor", "solver", "foreign", "below")
 
@@ -76,6 +77,14 @@ def _forced(draw, folder):
     return {**files.truth(case), "system": draw.system}
 
 
+def _belt(draw, folder):
+    """A mass on a belt, alone or before another one, pushed by a shaker."""
+    masses = int(np.random.default_rng([draw.seed, 1]).choice((1, 1, 2)))
+    case = belt.made(draw.seed, draw.hidden, draw.noise, masses, draw.size, draw.kind if draw.kind in KINDS else "")
+    belt_files.write(case, folder)
+    return belt_files.truth(case)
+
+
 def _apart(random, pieces):
     """(masses, (number of a place of each piece, ...)): a rig with room for all, two of them at two links."""
     kinds = [piece.place for piece in pieces]
@@ -97,7 +106,19 @@ def _classes(pieces):
     return found
 
 
+def _on_belts():
+    """{class: ((name, ...), ...)} of what a belt hides; a pair is one of its contact and one of the rig."""
+    found = {"control": ((),), "wrong_value": ((),), "effect": tuple((name,) for name in belt.IN_RIG), "foreign": ()}
+    for piece in FRICTION.values():
+        kind = belt.kind_of((piece.name,))
+        found[kind] = (*found[kind], (piece.name,))
+    found["below"] = found["effect"]
+    contact = [name for name, in found["effect"] if name in FRICTION]
+    return {**found, "pair": tuple(product(contact, belt.IN_RIG))}
+
+
 SYSTEMS = {system.name: system for system in (
     System("forced_rig", _forced, _classes(HIDDEN.values()), sizes=(0.03, 0.1, 0.3), noises=(0.01, 0.03, 0.1)),
+    System("belt_rig", _belt, _on_belts(), sizes=(0.03, 0.1, 0.2), noises=(0.01, 0.03)),
     System("coarse_rig", _forced, {"solver": ((),)}, sizes=(0.0,), noises=(0.003, 0.01)),
 )}
