@@ -11,8 +11,12 @@ FORMAT = "brakechain-trial-result/1"
 _NEAR_NOISE = 1.2
 #: edges of the bins of effect size, relative change of what sensors show
 SIZES = (0.0, 0.05, 0.1, 0.2, 0.4, np.inf)
+#: edges of the bins of what the change leaves beside the nominal values, standard deviations of the noise
+LEFT = (0.0, 2.0, 4.0, 8.0, 16.0, 32.0, np.inf)
 #: classes whose hidden effect is to be named
 _NAMED = ("effect", "pair", "sensor")
+#: classes in which one thing is hidden that has a name
+_ALONE = ("effect", "sensor", "below")
 #: what is to be reached: at least, at most, or an interval that contains it
 GOALS = {
     "type and place, one effect": ("at least", 0.85), "type and place, one effect, forced": ("at least", 0.95),
@@ -32,7 +36,7 @@ def result(about, truth, answers):
              for method, told in answers.items()}
     return {"format": FORMAT, "set": about,
             "methods": {method: _numbers(truth, answers[method], found[method]) for method in answers},
-            "cases": {number: {"truth": truth[number], "answers": {
+            "cases": {number: {"class": class_of(truth[number]), "truth": truth[number], "answers": {
                 method: {**_brief(answers[method][number]), "judged": found[method][number],
                          **why(truth[number], answers[method][number], found[method][number])}
                 for method in answers}} for number in sorted(truth)}}
@@ -41,7 +45,7 @@ def result(about, truth, answers):
 def _numbers(truth, answers, found):
     cases = [(truth[n], answers[n], found[n]) for n in sorted(truth)]
     return {"rates": rates(cases), "confusion": confusion(cases), "names": names(cases),
-            "detection": detection(cases), "calibration": calibration(claims(cases)),
+            "detection": detection(cases), "visible": visible(cases), "calibration": calibration(claims(cases)),
             "systems": systems(cases), "parameters": parameters(cases), "cost": cost(cases)}
 
 
@@ -108,14 +112,21 @@ def names(cases):
 
 def detection(cases):
     """[{noise, low, high, right: rate}] over sizes, of what is to be named, right type and place."""
-    hidden = [(t, a, j) for t, a, j in cases if t["class"] in ("effect", "sensor", "below") and t.get("size")]
-    found = []
-    for noise in sorted({t["noise"] for t, _, _ in hidden}):
-        for low, high in zip(SIZES[:-1], SIZES[1:], strict=True):
-            own = [j["named"] for t, _, j in hidden if t["noise"] == noise and low <= t["size"] < high]
-            if own:
-                found.append({"noise": noise, "low": low, "high": min(high, 1.0), "right": rate(own)})
-    return found
+    hidden = [(t, j) for t, _, j in cases if t["class"] in _ALONE and t.get("size")]
+    return [{"noise": noise, **one} for noise in sorted({t["noise"] for t, _ in hidden})
+            for one in _binned([(t["size"], j["named"]) for t, j in hidden if t["noise"] == noise], SIZES, 1.0)]
+
+
+def visible(cases):
+    """[{low, high, right: rate}] over what hidden effects leave beside the nominal values, where the truth tells it."""
+    return _binned([(t["left"], j["named"]) for t, _, j in cases if t["class"] in _ALONE and "left" in t], LEFT, 64.0)
+
+
+def _binned(pairs, edges, last):
+    """[{low, high, right: rate}] of [(value, hit)] in bins; the last ends at ``last`` for who draws it."""
+    bins = ((low, high, [hit for value, hit in pairs if low <= value < high])
+            for low, high in zip(edges[:-1], edges[1:], strict=True))
+    return [{"low": low, "high": min(high, last), "right": rate(own)} for low, high, own in bins if own]
 
 
 def systems(cases):

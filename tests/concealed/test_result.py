@@ -4,7 +4,7 @@ import json
 
 import pytest
 
-from pipeline.concealed.result import claims, confusion, detection, result
+from pipeline.concealed.result import claims, confusion, detection, result, visible
 from tests.concealed.small_set import TOLD, TRUTH
 
 
@@ -66,3 +66,9 @@ def test_an_effect_named_at_another_place_and_abstaining_below_the_threshold():
     below = case("below", "parameters", size=0.02, right=True)
     below[2]["named"] = False
     assert detection([below])[0]["right"]["hits"] == 0, "to abstain is right, and is no detection"
+
+
+def test_what_is_visible_is_counted_in_bins_of_what_is_left():
+    clear, faint, old = (case("effect", "missing", right=True, **left) for left in ({"left": 40.0}, {"left": 3.0}, {}))
+    faint[2]["named"] = False
+    assert [(b["low"], b["high"], b["right"]["hits"]) for b in visible([clear, faint, old])] == [(2, 4, 0), (32, 64, 1)]
