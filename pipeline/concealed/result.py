@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from pipeline.concealed.judging import EMPTY, class_of, judged
+from pipeline.concealed.judging import EMPTY, class_of, judged, same
 from pipeline.concealed.rates import calibration, rate
 from pipeline.concealed.reasons import why
 
@@ -154,19 +154,29 @@ def claims(cases):
 
 
 def parameters(cases):
-    """How near nominal values are found where the verdict is right: relative errors and coverage of the intervals."""
-    errors, distances = [], []
-    for truth, answer, one in cases:
-        for name, value in truth.get("parameters", {}).items():
-            told = answer.get("parameters", {}).get(name)
-            if one["right"] and told and value and told["std"] > 0:
-                errors.append(told["value"] / value - 1)
-                distances.append((told["value"] - value) / told["std"])
-    if not errors:
+    """{nominal, effects: how near fitted values are} where the verdict is right: relative errors and coverage."""
+    right = [(t, a) for t, a, j in cases if j["right"]]
+    return {"nominal": _compared([pair for t, a in right for pair in _pairs(
+                t.get("parameters", {}), a.get("parameters", {}))]),
+            "effects": _compared([pair for t, a in right for true in t["effects"] for told in a["effects"]
+                                  if same(true, told) for pair in _pairs(true.get("parameters", {}),
+                                                                         told.get("parameters", {}))])}
+
+
+def _pairs(true, told):
+    """[(true value, {value, std})] of the names that both have."""
+    return [(value, told[name]) for name, value in true.items() if value and name in told and told[name]["std"] > 0]
+
+
+def _compared(pairs):
+    """{count, median_error, within_68, within_95, distances} of [(true value, {value, std})]; distances over std."""
+    if not pairs:
         return {"count": 0}
-    apart = np.abs(distances)
-    return {"count": len(errors), "median_error": float(np.median(np.abs(errors))),
-            "within_68": rate(list(apart <= 1.0)), "within_95": rate(list(apart <= 1.96)),
+    errors = [abs(told["value"] / value - 1) for value, told in pairs]
+    distances = [(told["value"] - value) / told["std"] for value, told in pairs]
+    return {"count": len(pairs), "median_error": float(np.median(errors)),
+            "within_68": rate([abs(d) <= 1.0 for d in distances]),
+            "within_95": rate([abs(d) <= 1.96 for d in distances]),
             "distances": [round(float(d), 3) for d in np.clip(distances, -8, 8)]}
 
 

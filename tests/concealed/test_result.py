@@ -4,7 +4,7 @@ import json
 
 import pytest
 
-from pipeline.concealed.result import claims, confusion, detection, result, visible
+from pipeline.concealed.result import claims, confusion, detection, parameters, result, visible
 from tests.concealed.small_set import TOLD, TRUTH
 
 
@@ -38,9 +38,18 @@ def test_confusion_detection_systems_and_cost(found):
 
 
 def test_fitted_values_are_compared_with_the_truth_where_the_verdict_is_right(found):
-    values = found["methods"]["diagnosis"]["parameters"]
+    values = found["methods"]["diagnosis"]["parameters"]["nominal"]
     assert values["count"] == 1 and values["median_error"] == pytest.approx(0.05)
     assert values["distances"] == [1.25] and values["within_68"]["hits"] == 0 and values["within_95"]["hits"] == 1
+    assert found["methods"]["diagnosis"]["parameters"]["effects"] == {"count": 0}
+
+
+def test_values_of_named_effects_are_compared_too():
+    truth, answer, right = case("effect", "missing", ("coulomb", "a", 1.0), right=True)
+    truth["effects"][0]["parameters"] = {"force": 2.0, "speed": 0.1}
+    answer["effects"][0]["parameters"] = {"force": {"value": 2.2, "std": 0.05}}
+    told = parameters([(truth, answer, right)])["effects"]
+    assert (told["count"], told["distances"]) == (1, [4.0]) and told["within_95"]["hits"] == 0
 
 
 def test_only_a_case_that_is_not_right_says_why(found):

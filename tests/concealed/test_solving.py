@@ -46,6 +46,14 @@ def test_what_was_stopped_goes_on_and_what_is_answered_stays(tmp_path, monkeypat
     assert solved(folder, monkeypatch, methods=("diagnosis",)) == 0
 
 
+def test_a_method_that_answered_some_cases_alone_is_left_out(tmp_path, monkeypatch):
+    folder = small_set(tmp_path / "set")
+    monkeypatch.setattr(solving, "METHODS", ("diagnosis", "other"))
+    TrialSet(folder).write("answers/other/001.json", {"verdict": "unknown"})
+    solved(folder, monkeypatch, methods=("diagnosis",))
+    assert list(TrialSet(folder).read("answers.json")["answers"]) == ["diagnosis"]
+
+
 def test_cases_are_shared_out_over_processes(tmp_path):
     folder, work = small_set(tmp_path / "set", {n: TRUTH[n] for n in ("001", "002")}), LocalProcesses(2)
     try:
