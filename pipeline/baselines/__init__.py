@@ -7,7 +7,8 @@ ranks more. A BrakechainError is a refusal. BASELINES names the module of each.
 
 from importlib import import_module
 
-BASELINES = {}
+BASELINES = {name: f"pipeline.baselines.{name}" for name in (
+    "largest_residual", "bic_library", "stlsq", "best_held_out")}
 
 
 def load(name):

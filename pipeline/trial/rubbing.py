@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 
 #: speed at which smoothed friction has 3/4 of its size, as a share of the typical slip
-_SMOOTH = 3e-3
+_SMOOTH = 3e-4
 
 
 @dataclass(frozen=True)

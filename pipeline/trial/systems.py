@@ -119,6 +119,6 @@ def _on_belts():
 
 SYSTEMS = {system.name: system for system in (
     System("forced_rig", _forced, _classes(HIDDEN.values()), sizes=(0.03, 0.1, 0.3), noises=(0.01, 0.03, 0.1)),
-    System("belt_rig", _belt, _on_belts(), sizes=(0.03, 0.1, 0.2), noises=(0.01, 0.03)),
+    System("belt_rig", _belt, _on_belts(), sizes=(0.03, 0.1, 0.2), noises=(0.03, 0.1), weight=0.25),
     System("coarse_rig", _forced, {"solver": ((),)}, sizes=(0.0,), noises=(0.003, 0.01)),
 )}
