@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from pipeline.concealed.judging import EMPTY, judged
+from pipeline.concealed.judging import EMPTY, class_of, judged, same
 from pipeline.concealed.rates import calibration, rate
 from pipeline.concealed.reasons import why
 
@@ -11,8 +11,12 @@ FORMAT = "brakechain-trial-result/1"
 _NEAR_NOISE = 1.2
 #: edges of the bins of effect size, relative change of what sensors show
 SIZES = (0.0, 0.05, 0.1, 0.2, 0.4, np.inf)
+#: edges of the bins of what the change leaves beside the nominal values, standard deviations of the noise
+LEFT = (0.0, 2.0, 4.0, 8.0, 16.0, 32.0, np.inf)
 #: classes whose hidden effect is to be named
 _NAMED = ("effect", "pair", "sensor")
+#: classes in which one thing is hidden that has a name
+_ALONE = ("effect", "sensor", "below")
 #: what is to be reached: at least, at most, or an interval that contains it
 GOALS = {
     "type and place, one effect": ("at least", 0.85), "type and place, one effect, forced": ("at least", 0.95),
@@ -32,7 +36,7 @@ def result(about, truth, answers):
              for method, told in answers.items()}
     return {"format": FORMAT, "set": about,
             "methods": {method: _numbers(truth, answers[method], found[method]) for method in answers},
-            "cases": {number: {"truth": truth[number], "answers": {
+            "cases": {number: {"class": class_of(truth[number]), "truth": truth[number], "answers": {
                 method: {**_brief(answers[method][number]), "judged": found[method][number],
                          **why(truth[number], answers[method][number], found[method][number])}
                 for method in answers}} for number in sorted(truth)}}
@@ -41,14 +45,14 @@ def result(about, truth, answers):
 def _numbers(truth, answers, found):
     cases = [(truth[n], answers[n], found[n]) for n in sorted(truth)]
     return {"rates": rates(cases), "confusion": confusion(cases), "names": names(cases),
-            "detection": detection(cases), "calibration": calibration(claims(cases)),
+            "detection": detection(cases), "visible": visible(cases), "calibration": calibration(claims(cases)),
             "systems": systems(cases), "parameters": parameters(cases), "cost": cost(cases)}
 
 
 def rates(cases):
     """{name: rate, with its goal} of [(truth, answer, judged)]."""
     def of(what, *kinds, only=lambda t, a: True):
-        return rate([j[what] for t, a, j in cases if t["class"] in kinds and only(t, a)])
+        return rate([j[what] for t, a, j in cases if class_of(t) in kinds and only(t, a)])
 
     def moved(motion):
         return lambda t, a: t.get("motion", "forced") == motion
@@ -87,9 +91,9 @@ def confusion(cases):
     found = {}
     for truth, answer, one in cases:
         verdict = answer["verdict"]
-        if verdict in ("missing", "sensor") and truth["class"] in (*_NAMED, "below"):
+        if verdict in ("missing", "sensor") and class_of(truth) in (*_NAMED, "below"):
             verdict += ", right" if one["right"] else ", other place" if one.get("type") else ", wrong"
-        row = found.setdefault(truth["class"], {})
+        row = found.setdefault(class_of(truth), {})
         row[verdict] = row.get(verdict, 0) + 1
     return found
 
@@ -108,14 +112,21 @@ def names(cases):
 
 def detection(cases):
     """[{noise, low, high, right: rate}] over sizes, of what is to be named, right type and place."""
-    hidden = [(t, a, j) for t, a, j in cases if t["class"] in ("effect", "sensor", "below") and t.get("size")]
-    found = []
-    for noise in sorted({t["noise"] for t, _, _ in hidden}):
-        for low, high in zip(SIZES[:-1], SIZES[1:], strict=True):
-            own = [j["named"] for t, _, j in hidden if t["noise"] == noise and low <= t["size"] < high]
-            if own:
-                found.append({"noise": noise, "low": low, "high": min(high, 1.0), "right": rate(own)})
-    return found
+    hidden = [(t, j) for t, _, j in cases if t["class"] in _ALONE and t.get("size")]
+    return [{"noise": noise, **one} for noise in sorted({t["noise"] for t, _ in hidden})
+            for one in _binned([(t["size"], j["named"]) for t, j in hidden if t["noise"] == noise], SIZES, 1.0)]
+
+
+def visible(cases):
+    """[{low, high, right: rate}] over what hidden effects leave beside the nominal values, where the truth tells it."""
+    return _binned([(t["left"], j["named"]) for t, _, j in cases if t["class"] in _ALONE and "left" in t], LEFT, 64.0)
+
+
+def _binned(pairs, edges, last):
+    """[{low, high, right: rate}] of [(value, hit)] in bins; the last ends at ``last`` for who draws it."""
+    bins = ((low, high, [hit for value, hit in pairs if low <= value < high])
+            for low, high in zip(edges[:-1], edges[1:], strict=True))
+    return [{"low": low, "high": min(high, last), "right": rate(own)} for low, high, own in bins if own]
 
 
 def systems(cases):
@@ -123,7 +134,7 @@ def systems(cases):
     found = {}
     for system in sorted({t.get("system", "") for t, _, _ in cases}):
         own = [(t, a, j) for t, a, j in cases if t.get("system", "") == system]
-        told = {what: rate([j[key] for t, _, j in own if t["class"] in kinds]) for what, key, kinds in (
+        told = {what: rate([j[key] for t, _, j in own if class_of(t) in kinds]) for what, key, kinds in (
             ("named", "right", ("effect",)), ("false_alarm", "false_alarm", EMPTY), ("unknown", "right", ("foreign",)))}
         found[system] = {**{what: one for what, one in told.items() if one["count"]},
                          "cpu": float(np.median([a.get("cpu_seconds", 0.0) for _, a, _ in own]))}
@@ -143,19 +154,29 @@ def claims(cases):
 
 
 def parameters(cases):
-    """How near nominal values are found where the verdict is right: relative errors and coverage of the intervals."""
-    errors, distances = [], []
-    for truth, answer, one in cases:
-        for name, value in truth.get("parameters", {}).items():
-            told = answer.get("parameters", {}).get(name)
-            if one["right"] and told and value and told["std"] > 0:
-                errors.append(told["value"] / value - 1)
-                distances.append((told["value"] - value) / told["std"])
-    if not errors:
+    """{nominal, effects: how near fitted values are} where the verdict is right: relative errors and coverage."""
+    right = [(t, a) for t, a, j in cases if j["right"]]
+    return {"nominal": _compared([pair for t, a in right for pair in _pairs(
+                t.get("parameters", {}), a.get("parameters", {}))]),
+            "effects": _compared([pair for t, a in right for true in t["effects"] for told in a["effects"]
+                                  if same(true, told) for pair in _pairs(true.get("parameters", {}),
+                                                                         told.get("parameters", {}))])}
+
+
+def _pairs(true, told):
+    """[(true value, {value, std})] of the names that both have."""
+    return [(value, told[name]) for name, value in true.items() if value and name in told and told[name]["std"] > 0]
+
+
+def _compared(pairs):
+    """{count, median_error, within_68, within_95, distances} of [(true value, {value, std})]; distances over std."""
+    if not pairs:
         return {"count": 0}
-    apart = np.abs(distances)
-    return {"count": len(errors), "median_error": float(np.median(np.abs(errors))),
-            "within_68": rate(list(apart <= 1.0)), "within_95": rate(list(apart <= 1.96)),
+    errors = [abs(told["value"] / value - 1) for value, told in pairs]
+    distances = [(told["value"] - value) / told["std"] for value, told in pairs]
+    return {"count": len(pairs), "median_error": float(np.median(errors)),
+            "within_68": rate([abs(d) <= 1.0 for d in distances]),
+            "within_95": rate([abs(d) <= 1.96 for d in distances]),
             "distances": [round(float(d), 3) for d in np.clip(distances, -8, 8)]}
 
 

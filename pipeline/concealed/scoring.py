@@ -33,10 +33,13 @@ def _answers(found):
     """{method: {case: answer}}, complete and as they were when the last was found."""
     if not found.has("answers.json"):
         raise ConfigError(found.folder, "answers of all cases", f"{_solved(found)} of {len(found.cases)}",
-                          "run: brakechain trial solve SET")
+                          f"run: brakechain trial solve {found.folder}")
     kept = found.read("answers.json")
     if sha256(canonical(kept["answers"])) != kept["digest"]:
         raise ConfigError(found.path("answers.json"), "answers as they were solved", "answers that were changed")
+    if METHODS[0] not in kept["answers"]:
+        raise ConfigError(found.path("answers.json"), f"answers of the {METHODS[0]}", ", ".join(kept["answers"]),
+                          f"run: brakechain trial solve {found.folder}")
     return kept["answers"]
 
 
@@ -74,4 +77,4 @@ def _check_current(answers):
     apart = sum(answer["code"] != now for found in answers.values() for answer in found.values())
     if apart:
         raise ConfigError("answers.json", "answers of this code", f"{apart} of other code",
-                          "run again: brakechain trial solve SET")
+                          "run again: brakechain trial solve")

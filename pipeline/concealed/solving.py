@@ -79,9 +79,9 @@ def _solve(folder, digest, limit, item):
 
 
 def _close(found, methods):
-    """Write answers.json, all answers of all methods, and its digest, once every case has the first of them."""
-    told = {method: {number: found.read(f"answers/{method}/{number}.json") for number in found.cases
-                     if found.has(f"answers/{method}/{number}.json")} for method in METHODS}
-    told = {method: answers for method, answers in told.items() if answers}
-    if all(len(told.get(method, ())) == len(found.cases) for method in methods):
+    """Write answers.json, the answers of all methods that answered every case, once those asked for have."""
+    cases = list(found.cases)
+    whole = [method for method in METHODS if all(found.has(f"answers/{method}/{number}.json") for number in cases)]
+    if set(methods) <= set(whole):
+        told = {method: {number: found.read(f"answers/{method}/{number}.json") for number in cases} for method in whole}
         found.write("answers.json", {"digest": sha256(canonical(told)), "answers": told})

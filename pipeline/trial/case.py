@@ -88,6 +88,8 @@ def made(seed, hidden="", place=0, level=0.01, masses=2, colour=0.0, change=None
     if kind == "solver":
         left = (_of_solver(recorder, truth, seen, explained, noise, colour),)
     exact = tuple(_EXACT[p.piece.exact].format(p.spot.index) for p in planted if p.piece.exact)
+    if not exact and kind != "wrong_value":
+        exact = known(seed, truth)
     belief = rig.believed(random, truth, exact)
     far = ""
     if kind == "wrong_value":
@@ -95,6 +97,14 @@ def made(seed, hidden="", place=0, level=0.01, masses=2, colour=0.0, change=None
     runs = tuple((f, _recorded(random, s, noise, colour)) for f, s in zip(forces, seen, strict=True))
     return Case(seed, kind or kind_of(names), planted, left, level, truth, belief, exact, far, runs, rate, noise,
                 colour, change_of(seen[:1], recorder.seen(bare[:1])))
+
+
+def known(seed, truth):
+    """Name of a value that the workshop happens to know exactly, in one case of three: such values betray nothing."""
+    random = np.random.default_rng([seed, 5])
+    names = [f"mass_{k}" for k in range(len(truth.mass))]
+    names += [f"{what}_{k}" for k in range(len(truth.links)) for what in ("stiffness", "damping")]
+    return (str(random.choice(names)),) if random.uniform() < 1 / 3 else ()
 
 
 def kind_of(names):

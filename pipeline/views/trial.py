@@ -22,7 +22,8 @@ def page(result):
     case = Case(about["name"], f"Concealed trial {about['name']}",
                 "Cases with hidden physics, solved without their truth and scored once")
     return template().render(case=case, chapters=chapters.all_of(result), verdict=_verdict(result), key_figure=figure,
-                             key_tables=(), stages=(), methods=(), limits=())
+                             key_tables=(), stages=(), methods=(), limits=chapters.not_proven(result),
+                             limits_name="not proven")
 
 
 def _verdict(result):

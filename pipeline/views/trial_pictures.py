@@ -44,7 +44,7 @@ def table(counted, row_label, column_label):
         row.get(c, 0) for row in counted.values()), c))
     grid = np.array([[row.get(c, 0) for c in columns] for row in counted.values()], float)
     share = grid / grid.sum(axis=1, keepdims=True)
-    below = 0.55 + 0.065 * max(map(len, columns))
+    below = 0.5 + 0.06 * max(map(len, columns))
     with drawing(0.1 + below + 0.25 * len(counted), left=1.75, top=0.1) as figure:
         figure.subplots_adjust(bottom=below / figure.get_figheight())
         axes = figure.subplots()
@@ -66,18 +66,34 @@ def detection(points):
     with drawing(right=0.3) as figure:
         axes = figure.subplots()
         for k, noise in enumerate(sorted({p["noise"] for p in points})):
-            own = [p for p in points if p["noise"] == noise]
-            x = np.sqrt([max(p["low"], 0.02) * p["high"] for p in own]) * 1.04**k
-            found = [p["right"] for p in own]
-            share = np.array([f["hits"] / f["count"] for f in found])
-            bars = [np.maximum(share - [f["low"] for f in found], 0), np.maximum([f["high"] for f in found] - share, 0)]
-            axes.errorbar(x, share, yerr=bars, fmt=MARKERS[k % 6], ls=LINES[k % 6], color=COLOURS[k % 6], lw=1.2,
-                          capsize=2, label=f"noise {percent(noise, 2)}")
-        axes.set(xscale="log", ylim=(-0.03, 1.03), xlabel="change of what sensors show", ylabel="named at its place")
+            _curve(axes, [p for p in points if p["noise"] == noise], 0.02, k, f"noise {percent(noise, 2)}")
         axes.set_xticks([0.02, 0.05, 0.1, 0.2, 0.4, 1], ["2 %", "5 %", "10 %", "20 %", "40 %", "100 %"])
-        axes.minorticks_off()
+        axes.set(xlabel="change of what sensors show", ylabel="named at its place")
         legend(axes)
         return svg(figure)
+
+
+def visible(points):
+    """Rate of what is named at its place over what it leaves beside the nominal values."""
+    with drawing() as figure:
+        axes = figure.subplots()
+        _curve(axes, points, 1.0, 0, None)
+        axes.axvline(4, color=FAINT, lw=1)
+        axes.set_xticks([1, 2, 4, 8, 16, 32, 64], ["0", "2", "4", "8", "16", "32", ""])
+        axes.set(xlabel="left beside the nominal values, standard deviations", ylabel="named at its place")
+        return svg(figure)
+
+
+def _curve(axes, points, first, k, label):
+    """Rates with 95 % intervals over bins in the logarithm; the lowest bin begins at ``first``."""
+    x = np.sqrt([max(p["low"], first) * p["high"] for p in points]) * 1.04**k
+    found = [p["right"] for p in points]
+    share = np.array([f["hits"] / f["count"] for f in found])
+    bars = [np.maximum(share - [f["low"] for f in found], 0), np.maximum([f["high"] for f in found] - share, 0)]
+    axes.errorbar(x, share, yerr=bars, fmt=MARKERS[k % 6], ls=LINES[k % 6], color=COLOURS[k % 6], lw=1.2, capsize=2,
+                  label=label)
+    axes.set(xscale="log", ylim=(-0.03, 1.03))
+    axes.minorticks_off()
 
 
 def reliability(bins):

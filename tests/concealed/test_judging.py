@@ -2,7 +2,7 @@
 
 import pytest
 
-from pipeline.concealed.judging import judged, same
+from pipeline.concealed.judging import class_of, judged, same
 
 COULOMB, CUBIC, SHIFTED = ("coulomb", "link_1"), ("cubic_stiffness", "link_0"), ("coulomb", "link_0")
 
@@ -39,6 +39,17 @@ def test_what_counts_as_right(known, answer, right):
 def test_a_tie_that_names_on_a_control_is_a_false_alarm_and_abstaining_is_none():
     assert judged(truth("control"), told("tie", COULOMB, CUBIC))["false_alarm"]
     assert not judged(truth("control"), told("unknown"))["false_alarm"]
+
+
+def test_what_leaves_less_than_four_standard_deviations_is_below_the_threshold():
+    for kind in ("effect", "sensor", "foreign"):
+        faint, clear = ({**truth(kind, COULOMB), "left": left} for left in (3.9, 4.1))
+        assert class_of(faint) == "below" and class_of(clear) == kind
+        assert judged(faint, told("parameters"))["right"] and not judged(clear, told("parameters"))["right"]
+        assert not judged(faint, told("missing", CUBIC))["right"]
+    assert judged({**truth("sensor", COULOMB), "left": 1.0}, told("sensor", COULOMB))["named"]
+    assert class_of({**truth("pair", COULOMB, CUBIC), "left": 1.0}) == "pair"
+    assert class_of(truth("control")) == "control"
 
 
 def test_type_place_and_rank_are_told_apart():

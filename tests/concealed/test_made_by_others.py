@@ -56,7 +56,7 @@ def test_a_set_made_by_others_is_sealed_solved_scored_shown_and_verified(theirs,
     assert re.search(r"false alarms +0 of 2", told) and re.search(r"nothing missing told so +1 of 2", told)
     result = json.loads((theirs / "result.json").read_text())
     assert "lumpt: unknown section; did you mean 'lumped'?" in result["cases"]["003"]["answers"]["diagnosis"]["why"][1]
-    found = result["methods"]["diagnosis"]["parameters"]
+    found = result["methods"]["diagnosis"]["parameters"]["nominal"]
     assert found["count"] == 6 and found["median_error"] < 0.01
     assert "result.json is the score of 3 cases" in brakechain("verify", theirs)
     assert "trial.html" in brakechain("show", theirs) and "Case 003" in (theirs / "trial.html").read_text()

@@ -4,7 +4,7 @@ import json
 
 import pytest
 
-from pipeline.concealed.result import claims, confusion, detection, result
+from pipeline.concealed.result import claims, confusion, detection, parameters, result, visible
 from tests.concealed.small_set import TOLD, TRUTH
 
 
@@ -38,9 +38,18 @@ def test_confusion_detection_systems_and_cost(found):
 
 
 def test_fitted_values_are_compared_with_the_truth_where_the_verdict_is_right(found):
-    values = found["methods"]["diagnosis"]["parameters"]
+    values = found["methods"]["diagnosis"]["parameters"]["nominal"]
     assert values["count"] == 1 and values["median_error"] == pytest.approx(0.05)
     assert values["distances"] == [1.25] and values["within_68"]["hits"] == 0 and values["within_95"]["hits"] == 1
+    assert found["methods"]["diagnosis"]["parameters"]["effects"] == {"count": 0}
+
+
+def test_values_of_named_effects_are_compared_too():
+    truth, answer, right = case("effect", "missing", ("coulomb", "a", 1.0), right=True)
+    truth["effects"][0]["parameters"] = {"force": 2.0, "speed": 0.1}
+    answer["effects"][0]["parameters"] = {"force": {"value": 2.2, "std": 0.05}}
+    told = parameters([(truth, answer, right)])["effects"]
+    assert (told["count"], told["distances"]) == (1, [4.0]) and told["within_95"]["hits"] == 0
 
 
 def test_only_a_case_that_is_not_right_says_why(found):
@@ -66,3 +75,9 @@ def test_an_effect_named_at_another_place_and_abstaining_below_the_threshold():
     below = case("below", "parameters", size=0.02, right=True)
     below[2]["named"] = False
     assert detection([below])[0]["right"]["hits"] == 0, "to abstain is right, and is no detection"
+
+
+def test_what_is_visible_is_counted_in_bins_of_what_is_left():
+    clear, faint, old = (case("effect", "missing", right=True, **left) for left in ({"left": 40.0}, {"left": 3.0}, {}))
+    faint[2]["named"] = False
+    assert [(b["low"], b["high"], b["right"]["hits"]) for b in visible([clear, faint, old])] == [(2, 4, 0), (32, 64, 1)]

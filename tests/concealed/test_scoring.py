@@ -99,6 +99,13 @@ def test_a_set_that_is_not_solved_is_not_scored(tmp_path, key):
     assert not (tmp_path / "set" / "truth.json").exists()
 
 
+def test_answers_of_baselines_alone_are_not_scored(tmp_path, monkeypatch):
+    folder = small_set(tmp_path / "set")
+    solved(folder, monkeypatch, methods=("stlsq",))
+    with pytest.raises(BrakechainError, match="answers of the diagnosis, found stlsq"):
+        score(folder)
+
+
 def test_an_open_set_is_scored_from_its_truth_wherever_it_lies_and_again(tmp_path, monkeypatch):
     folder = small_set(tmp_path / "set")
     solved(folder, monkeypatch)

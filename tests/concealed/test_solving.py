@@ -7,8 +7,8 @@ import pytest
 from pipeline.concealed import code, making, sealing, solving
 from pipeline.concealed.sets import TrialSet
 from pipeline.contract.errors import BrakechainError
-from pipeline.contract.executor import InProcess
-from tests.concealed.small_set import TOLD, refusing, small_set, solved
+from pipeline.contract.executor import InProcess, LocalProcesses
+from tests.concealed.small_set import TOLD, TRUTH, refusing, small_set, solved
 
 KEY = sealing.Fernet.generate_key()
 
@@ -44,6 +44,25 @@ def test_what_was_stopped_goes_on_and_what_is_answered_stays(tmp_path, monkeypat
     kept = TrialSet(folder).read("answers.json")["answers"]["diagnosis"]
     assert [kept[n]["verdict"] for n in sorted(kept)] == ["refused", "missing", "missing"]
     assert solved(folder, monkeypatch, methods=("diagnosis",)) == 0
+
+
+def test_a_method_that_answered_some_cases_alone_is_left_out(tmp_path, monkeypatch):
+    folder = small_set(tmp_path / "set")
+    monkeypatch.setattr(solving, "METHODS", ("diagnosis", "other"))
+    TrialSet(folder).write("answers/other/001.json", {"verdict": "unknown"})
+    solved(folder, monkeypatch, methods=("diagnosis",))
+    assert list(TrialSet(folder).read("answers.json")["answers"]) == ["diagnosis"]
+
+
+def test_cases_are_shared_out_over_processes(tmp_path):
+    folder, work = small_set(tmp_path / "set", {n: TRUTH[n] for n in ("001", "002")}), LocalProcesses(2)
+    try:
+        assert solving.solve(folder, work, ("diagnosis",)) == 2
+    finally:
+        work.close()
+    kept = TrialSet(folder).read("answers.json")["answers"]["diagnosis"]
+    assert [one["verdict"] for one in kept.values()] == ["refused"] * 2
+    assert all("chain: expected one of disc_brake" in one["reasons"][0] for one in kept.values())
 
 
 def test_answers_of_other_code_are_renewed_in_an_open_set_alone(tmp_path, monkeypatch):

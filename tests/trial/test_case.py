@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from pipeline.trial.case import BELOW, CHANGE, FAR, LEVELS, SAMPLES, VISIBLE, kind_of, made
+from pipeline.trial.case import BELOW, CHANGE, FAR, LEVELS, SAMPLES, VISIBLE, kind_of, known, made
 from pipeline.trial.rig import drawn
 
 
@@ -31,6 +31,14 @@ def test_a_law_that_would_be_a_wrong_value_has_that_value_exact():
     found = made(9, "joint_damping", masses=1)
     assert found.exact == ("damping_0",) and found.belief.links[0].damping == found.truth.links[0].damping
     assert found.belief.links[0].stiffness != found.truth.links[0].stiffness
+
+
+def test_values_known_exactly_stand_in_controls_as_well_and_betray_nothing():
+    told = [known(seed, drawn(np.random.default_rng(seed), 1)) for seed in range(300)]
+    assert 75 < sum(map(len, told)) < 125
+    assert set(told) == {(), ("mass_0",), ("stiffness_0",), ("damping_0",)}
+    first = next(seed for seed, names in enumerate(told) if names)
+    assert made(first, masses=1, level=0.1).exact == told[first]
 
 
 def test_a_pair_hides_both():

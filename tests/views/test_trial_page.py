@@ -54,8 +54,8 @@ def test_the_same_result_gives_the_same_page(result, html):
 def test_a_set_with_little_in_it_and_nothing_sealed_still_has_a_page():
     few = drawn(about={"name": "few", "kind": "open"})
     few["methods"] = {"diagnosis": {**few["methods"]["diagnosis"], "rates": {
-        "refused": few["methods"]["diagnosis"]["rates"]["refused"]}, "detection": [], "names": {},
-        "calibration": {"count": 0}, "parameters": {"count": 0}}}
+        "refused": few["methods"]["diagnosis"]["rates"]["refused"]}, "detection": [], "visible": [], "names": {},
+        "calibration": {"count": 0}, "parameters": {"nominal": {"count": 0}, "effects": {"count": 0}}}}
     few["cases"] = {n: {**one, "answers": {"diagnosis": {"verdict": "parameters", "effects": [], "judged": {}}}}
                     for n, one in few["cases"].items()}
     told = text_of(page(few))

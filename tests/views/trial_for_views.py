@@ -29,7 +29,8 @@ def _truth(kind, chance):
     motion = chance.choice(("forced", "forced", "self_excited"))
     return {"class": kind, "effects": [{"name": n, "place": chance.choice(PLACES)} for n in names],
             "system": f"{motion}_rig", "motion": motion, "noise": chance.choice((0.01, 0.1)),
-            "size": chance.uniform(0.03, 0.6) if count else 0.0, "parameters": {"masses.a": 2.0}}
+            "size": chance.uniform(0.03, 0.6) if count else 0.0, "left": chance.lognormvariate(3, 1),
+            "parameters": {"masses.a": 2.0}}
 
 
 def _answer(truth, chance, skill):
