@@ -5,15 +5,18 @@ from pathlib import Path
 import h5py
 import yaml
 
+from pipeline.contract.errors import ConfigError
 from pipeline.trial.case import CORNER, DELAY, GAIN_ERROR, LEVELS, SPREAD
 from pipeline.trial.told import parameters
+
+_CONFIGS = Path(__file__).parents[2] / "configs"
 
 
 def leave(folder, document, runs):
     """Write nominal.yaml and recordings.h5 into a folder that is made where it is missing.
 
     ``runs`` {run: {"conditions": {name: (value, unit)}, "channels": {name: (samples, unit, quantity, rate Hz, role)},
-    "repeat_of"*: run}}.
+    "repeat_of"*: run, "topography"* {name: (heights m, pixel m, body, state)}, "friction"* {name: {column: values}}}}.
     """
     folder = Path(folder)
     folder.mkdir(parents=True, exist_ok=True)
@@ -25,8 +28,24 @@ def leave(folder, document, runs):
             for key, (value, unit) in run["conditions"].items():
                 _attributes(group.create_dataset(f"conditions/{key}", data=value), units=unit)
             for key, (samples, unit, quantity, rate, role) in run["channels"].items():
-                _attributes(group.create_dataset(f"channels/{key}", data=samples), units=unit, quantity=quantity,
-                            sample_rate=rate, role=role)
+                _attributes(group.create_dataset(f"channels/{key}", data=samples, compression="gzip"), units=unit,
+                            quantity=quantity, sample_rate=rate, role=role)
+            for key, (heights, pixel, body, state) in run.get("topography", {}).items():
+                _attributes(group.create_dataset(f"topography/{key}", data=heights, compression="gzip"), units="m",
+                            pixel_size=pixel, body=body, state=state)
+            for key, columns in run.get("friction", {}).items():
+                for column, values_of in columns.items():
+                    group.create_dataset(f"friction/{key}/{column}", data=values_of)
+
+
+def stated(name):
+    """A case of ``configs``, with its recording beside it: what the drawings of a practice bench say."""
+    path = _CONFIGS / name
+    if not path.exists():
+        raise ConfigError("trial", f"the case {path}", "none", "make such trials in a checkout of the project")
+    document = yaml.safe_load(path.read_text(encoding="utf-8"))
+    document["recording"]["files"][0]["file"] = "recordings.h5"
+    return document
 
 
 def write(case, folder):

@@ -18,7 +18,7 @@ from itertools import combinations, product
 
 import numpy as np
 
-from pipeline.trial import belt, belt_files, files
+from pipeline.trial import belt, belt_files, benches, files, flutter, pin_bench
 from pipeline.trial.case import KINDS, kind_of, made, places
 from pipeline.trial.hidden import HIDDEN
 from pipeline.trial.rubbing import FRICTION
@@ -120,5 +120,10 @@ def _on_belts():
 SYSTEMS = {system.name: system for system in (
     System("forced_rig", _forced, _classes(HIDDEN.values()), sizes=(0.03, 0.1, 0.3), noises=(0.01, 0.03, 0.1)),
     System("belt_rig", _belt, _on_belts(), sizes=(0.03, 0.1, 0.2), noises=(0.03, 0.1), weight=0.25),
+    System("pin_on_disc", benches.pin_on_disc, benches.hides(pin_bench.HIDDEN, pin_bench.DECOYS), (0.0,), (0.0,),
+           "self_excited", weight=0.15),
+    System("shoe_on_drum", benches.shoe_on_drum, benches.hides(flutter.HIDDEN, flutter.DECOYS), (0.0,), (0.0,),
+           "self_excited", weight=0.15),
+    System("worn_pads", benches.worn_pads, benches.hides(benches.worn_names()), (0.0,), (0.0,), "micro", weight=0.02),
     System("coarse_rig", _forced, {"solver": ((),)}, sizes=(0.0,), noises=(0.003, 0.01)),
 )}
