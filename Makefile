@@ -3,6 +3,8 @@ CASE   ?= disc_brake
 PYTHON ?= python3
 ARGS   ?=
 TESTS  ?= tests
+PRACTICE ?= data/runs/trial_practice
+SEALED ?= data/trial/sealed_1
 STAGES := surface effects micro_friction friction_map structure reduced_model complex_modes multibody response squeal comparison report interface_law friction_descriptions pin_on_disc transient lock_in lumped rupture beam_on_beam motion_scatter beam_geometry recording bench diagnosis
 
 CONFIG := configs/$(CASE).yaml
@@ -12,7 +14,7 @@ BIN    := .venv/bin
 SINGLE := OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1
 
 .DEFAULT_GOAL := help
-.PHONY: help setup run test test-slow test-study bench study_diagnosis study_squeal pin_bench worn_bench lint clean $(STAGES)
+.PHONY: help setup run test test-slow test-study bench trial trial_sealed study_diagnosis study_squeal pin_bench worn_bench lint clean $(STAGES)
 
 help:            ## show this list
 	@echo "usage: make TARGET [CASE=disc_brake] [ARGS=...]      cases: $(basename $(notdir $(wildcard configs/*.yaml)))"
@@ -43,6 +45,20 @@ test-study: $(READY)  ## the long diagnoses: every case of its kind, samples of 
 
 bench: $(READY)  ## benchmarks: seconds and memory of every stage and kernel
 	$(BIN)/python -m tests.benchmarks $(ARGS)
+
+trial: $(READY)  ## the open practice trial: made, solved and scored in at most half an hour on two cores; resumes
+	@test -e $(PRACTICE)/set.yaml || $(BIN)/brakechain trial make $(PRACTICE) --cases 48 --seed 1 --systems forced_rig,coarse_rig
+	$(BIN)/brakechain trial solve $(PRACTICE) $(ARGS)
+	$(BIN)/brakechain trial score $(PRACTICE)
+	$(BIN)/brakechain trial show $(PRACTICE)
+
+trial_sealed: $(READY)  ## the sealed trial SEALED: made and sealed; once its commitment is committed, solved and scored
+	@test -e $(SEALED)/set.yaml || $(BIN)/brakechain trial make $(SEALED) --cases 320 --sealed
+	@git ls-files --error-unmatch $(SEALED)/set.yaml >/dev/null 2>&1 || { \
+		echo "commit $(SEALED)/{set.yaml,code.json,truth.sealed} before anything is solved; then run this again"; exit 2; }
+	@test -e $(SEALED)/result.json || { $(BIN)/brakechain trial solve $(SEALED) $(ARGS) && $(BIN)/brakechain trial score $(SEALED); }
+	$(BIN)/brakechain trial show $(SEALED)
+	$(BIN)/brakechain trial verify $(SEALED)
 
 study_diagnosis: $(READY)  ## hidden physics on forced rigs: rates of right answers; resumes case by case
 	$(BIN)/python -m tests.studies.forced $(ARGS)

@@ -10,6 +10,8 @@ import click
 
 import stages
 from pipeline import __version__
+from pipeline.cli_options import options
+from pipeline.cli_trial import trial
 from pipeline.contract.errors import BrakechainError
 
 RUNS = Path("data/runs")
@@ -36,41 +38,13 @@ def cli():
     """
 
 
-def _options(*which):
-    """Options that several commands share, by name."""
-    table = {
-        "run": click.option("--run", "folder", metavar="DIR", type=click.Path(path_type=Path),
-                            help="folder of the products  [default: data/runs/<case>]"),
-        "set": click.option("--set", "overrides", multiple=True, metavar="A.B=V",
-                            help="override one setting, e.g. multibody.duration=\"0.1 s\"; may be repeated"),
-        "from": click.option("--from", "first", metavar="STAGE",
-                             help="begin here; earlier products are taken as they are"),
-        "until": click.option("--until", "last", metavar="STAGE", help="end after this stage"),
-        "force": click.option("--force", multiple=True, metavar="STAGE", help="compute this stage even if up to date"),
-        "again": click.option("--force", "again", is_flag=True, help="compute even if up to date"),
-        "dry": click.option("--dry-run", is_flag=True, help="say what would be computed and why; compute nothing"),
-        "workers": click.option("--workers", type=click.IntRange(1), metavar="N",
-                                help="processes for independent tasks  [default: one per core]"),
-        "scheduler": click.option("--scheduler", metavar="ADDRESS",
-                                  help="use the Dask cluster at this address instead"),
-        "debug": click.option("--debug", is_flag=True, expose_value=False, help="show the traceback of an error"),
-    }
-
-    def decorate(function):
-        for name in reversed(which):
-            function = table[name](function)
-        return function
-
-    return decorate
-
-
 _CONFIG = click.argument("config", type=click.Path(path_type=Path))
 _FAN_OUT = ("dry", "workers", "scheduler", "debug")
 
 
 @cli.command()
 @_CONFIG
-@_options("run", "set", "from", "until", "force", *_FAN_OUT)
+@options("run", "set", "from", "until", "force", *_FAN_OUT)
 def run(config, folder, overrides, first, last, force, dry_run, workers, scheduler):
     """Run the chain of CONFIG; what is up to date is not computed again."""
     _run(config, folder, overrides, first, last, force, dry_run, workers, scheduler)
@@ -81,7 +55,7 @@ def _stage_command(name):
 
     @click.command(name.replace("_", "-"), help=stages.summary(name), short_help=stages.summary(name))
     @_CONFIG
-    @_options("run", "set", "again", *_FAN_OUT)
+    @options("run", "set", "again", *_FAN_OUT)
     def command(config, folder, overrides, again, dry_run, workers, scheduler):
         _run(config, folder, overrides, name, name, (name,) if again else (), dry_run, workers, scheduler)
 
@@ -153,7 +127,7 @@ def _show_plan(states):
 
 @cli.command()
 @_CONFIG
-@_options("run", "set", "debug")
+@options("run", "set", "debug")
 @click.option("--dot", is_flag=True, help="print the graph in the language of Graphviz")
 def chain(config, folder, overrides, dot):
     """List the stages of CONFIG, their state, and why each would run again."""
@@ -174,7 +148,7 @@ def chain(config, folder, overrides, dot):
 
 @cli.command()
 @click.argument("file", type=click.Path(path_type=Path))
-@_options("debug")
+@options("debug")
 def inspect(file):
     """Show what is in a product FILE: tree, dimensions, units, ranges, provenance."""
     from pipeline.inspection import describe
@@ -185,7 +159,7 @@ def inspect(file):
 
 @cli.command()
 @click.argument("name", required=False)
-@_options("debug")
+@options("debug")
 def schema(name):
     """Print the JSON schema of the YAML of chain NAME, for editors  [default: all chains]."""
     from pipeline.schema import case_schema
@@ -199,7 +173,7 @@ def schema(name):
 
 @cli.command()
 @_CONFIG
-@_options("set", "debug")
+@options("set", "debug")
 @click.option("--csv", "file", metavar="FILE", type=click.Path(path_type=Path), help="write the table there too")
 def plan(config, overrides, file):
     """Before the bench: say which planned run of CONFIG can name which effect, and the cheapest set that names all."""
@@ -228,7 +202,7 @@ def data():
 
 
 @data.command("list")
-@_options("debug")
+@options("debug")
 def list_data():
     """List the registered files: name, licence, what they hold and what they do not say."""
     from pipeline import measured
@@ -239,7 +213,7 @@ def list_data():
 
 @data.command("path")
 @click.argument("name")
-@_options("debug")
+@options("debug")
 def data_path(name):
     """Print where the registered file NAME lies; it is downloaded where BRAKECHAIN_DATA names no folder."""
     from pipeline import measured
@@ -248,7 +222,7 @@ def data_path(name):
 
 
 @data.command("format")
-@_options("debug")
+@options("debug")
 def data_format():
     """Print the form of plain HDF5 recordings that any program can write."""
     import inspect as source
@@ -258,8 +232,11 @@ def data_format():
     click.echo(source.cleandoc(read_neutral.__doc__))
 
 
+cli.add_command(trial)
+
+
 @cli.command()
-@_options("debug")
+@options("debug")
 def completion():
     """Say how to switch on completion of commands in your shell."""
     for shell, file in (("bash", "~/.bashrc"), ("zsh", "~/.zshrc")):

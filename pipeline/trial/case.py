@@ -4,63 +4,117 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from pipeline.contract.errors import ConfigError, ConvergenceError
+from pipeline.contract.errors import ConfigError
 from pipeline.trial import excitation, rig, sensors
+from pipeline.trial.detectable import coarse, of_rig
 from pipeline.trial.hidden import HIDDEN, Spot
-from pipeline.trial.motion import PARTS, World, moved
+from pipeline.trial.motion import PARTS, World
+from pipeline.trial.planted import Planted, Recorder, change_of, shown, sized
 
 #: sampling, sensors, and the size of the shaker: root mean squares of its force in the runs, N; the last is held out
 RATE, SAMPLES, CORNER, DELAY = 100.0, 500, 40.0, 2.5e-3
 LEVELS, BAND = (2.0, 1.0, 4.0, 3.0), (0.8, 5.0)
+#: spread of the logarithm of values that a workshop states: they are off by 10 to 30 %
+SPREAD = 0.25
 #: error of gains that a calibration leaves, and the change of motion that hidden physics makes, both relative
 GAIN_ERROR, CHANGE = 0.005, (0.25, 0.45)
-#: trials of a size, and how near its change must come, in the logarithm
-_TRIALS, _NEAR = 16, 0.3
+#: what of a change below the threshold is left beside other values of the rig, in standard deviations of the noise
+BELOW = (0.5, 1.5)
+#: the same of the error of a step that is too long, at least
+VISIBLE = 8.0
+#: how far off one value of a case with a wrong one is, as a factor either way
+FAR = (1.4, 1.7)
+#: longest step that is stated of the model, and one that is too long, in samples; then the rate is low as well, Hz
+STEP, LONG_STEP, LOW_RATE = 0.25, 1.0, 50.0
+#: classes of a case that are more than what it hides
+KINDS = ("below", "wrong_value", "solver")
 #: stated values that count as exact where the law would else be a wrong value of them
 _EXACT = {"damping": "damping_{}", "stiffness": "stiffness_{}", "mass": "mass_{}"}
 
 
 @dataclass(frozen=True)
 class Case:
-    """``hidden`` and ``place`` ('' where nothing is); ``runs`` [(force (n,), shown (sensor, n))], ``noise`` (sensor,)
-    of each sensor in m, ``colour`` of the noise; ``truth`` and ``belief`` are Rigs, ``exact`` names of known values.
+    """``kind``: its class; ``planted``: hidden physics (Planted, ...), ``left``: standard deviations of the noise that
+    other values leave of the change by each, or by a step that is too long.
+
+    ``runs`` [(force (n,), shown (sensor, n))] at ``rate`` Hz, ``noise`` (sensor,) of each sensor in m, ``colour`` of
+    the noise; ``truth`` and ``belief`` are Rigs, ``exact`` names of known values, ``far`` that of the wrong one;
+    ``change``: of what the sensors show in the first run, relative.
     """
 
     seed: int
-    hidden: str
-    place: str
+    kind: str
+    planted: tuple
+    left: tuple
     level: float
     truth: object
     belief: object
     exact: tuple
+    far: str
     runs: tuple
+    rate: float
     noise: np.ndarray
     colour: float
-    size: float
+    change: float
+
+    @property
+    def step(self):
+        """Longest step of the workshop's model, s."""
+        return (LONG_STEP if self.kind == "solver" else STEP) / self.rate
 
 
-def made(seed, hidden="", place=0, level=0.01, masses=2, colour=0.0):
-    """The Case of a seed: ``hidden`` physics (a name of HIDDEN, '' for none) at the place of this index.
+def made(seed, hidden="", place=0, level=0.01, masses=2, colour=0.0, change=None, kind=""):
+    """The Case of a seed: ``hidden`` physics (names of HIDDEN, '' or () for none) at places of these indices.
 
-    ``level`` of noise relative to the motion of each sensor. Raises ConfigError, ConvergenceError.
+    ``level`` of noise relative to the motion of each sensor; ``change`` that each piece alone makes, drawn from CHANGE
+    where it is None; ``kind``: one of KINDS, '' for what is hidden. Raises ConfigError, ConvergenceError.
     """
+    names, indices = ((hidden,) if hidden else (), (place,)) if isinstance(hidden, str) else (hidden, place)
     random = np.random.default_rng(seed)
-    truth = rig.drawn(random, masses)
-    forces = [level_n * excitation.force(str(random.choice(excitation.KINDS)), random, SAMPLES, 1 / RATE, BAND)
-              for level_n in LEVELS]
-    gains = 1 + GAIN_ERROR * random.standard_normal(masses)
-    shape, wanted = tuple(random.uniform(size=3)), float(random.uniform(*CHANGE))
-    bare = [moved(World(truth), f, 1 / RATE, CORNER) for f in forces]
-    size, name, exact = 0.0, "", ()
-    shown = _seen(bare, gains, {})
-    if hidden:
-        spot, name = _spot(truth, HIDDEN[hidden], place, bare, forces, shape)
-        size, shown = _sized(HIDDEN[hidden], spot, forces, bare, gains, wanted)
-        told = HIDDEN[hidden].exact
-        exact = (_EXACT[told].format(spot.index),) if told else ()
-    noise = level * np.sqrt(np.mean([s**2 for s in shown], axis=(0, 2)))
-    runs = tuple((f, _recorded(random, s, noise, colour)) for f, s in zip(forces, shown, strict=True))
-    return Case(seed, hidden, name, level, truth, rig.believed(random, truth, exact), exact, runs, noise, colour, size)
+    truth, rate = rig.drawn(random, masses), LOW_RATE if kind == "solver" else RATE
+    forces = tuple(level_n * excitation.force(str(random.choice(excitation.KINDS)), random, SAMPLES, 1 / rate, BAND)
+                   for level_n in LEVELS)
+    recorder = Recorder(forces, rate, 1 + GAIN_ERROR * random.standard_normal(masses), DELAY, CORNER)
+    draws = [(tuple(random.uniform(size=3)), float(random.uniform(*CHANGE))) for _ in names or (None,)]
+    bare = recorder.motion(World(truth))
+    explained = of_rig(recorder, truth, len(forces) - 1, SPREAD, GAIN_ERROR)
+    hiding = _Hiding(recorder, truth, bare, explained, level, colour)
+    planted = tuple(hiding.planted(name, at, shape, change or drawn, kind == "below")
+                    for name, at, (shape, drawn) in zip(names, indices, draws, strict=False))
+    seen = shown(recorder, truth, planted, bare)
+    noise = _noise(seen, level)
+    left = tuple(explained.left(_difference(seen, shown(recorder, truth, _without(planted, one), bare))[:-1], noise,
+                                colour) for one in planted)
+    if kind == "solver":
+        left = (_of_solver(recorder, truth, seen, explained, noise, colour),)
+    exact = tuple(_EXACT[p.piece.exact].format(p.spot.index) for p in planted if p.piece.exact)
+    if not exact and kind != "wrong_value":
+        exact = known(seed, truth)
+    belief = rig.believed(random, truth, exact)
+    far = ""
+    if kind == "wrong_value":
+        belief, far = rig.far_off(random, truth, belief, FAR)
+    runs = tuple((f, _recorded(random, s, noise, colour)) for f, s in zip(forces, seen, strict=True))
+    return Case(seed, kind or kind_of(names), planted, left, level, truth, belief, exact, far, runs, rate, noise,
+                colour, change_of(seen[:1], recorder.seen(bare[:1])))
+
+
+def known(seed, truth):
+    """Name of a value that the workshop happens to know exactly, in one case of three: such values betray nothing."""
+    random = np.random.default_rng([seed, 9])
+    if random.uniform() > 1 / 3:
+        return ()
+    names = [f"mass_{k}" for k in range(len(truth.mass))]
+    names += [f"{what}_{k}" for k in range(len(truth.links)) for what in ("stiffness", "damping")]
+    return (str(random.choice(names)),)
+
+
+def kind_of(names):
+    """Class of a case that hides these pieces of HIDDEN."""
+    if len(names) != 1:
+        return "pair" if names else "control"
+    piece = HIDDEN[names[0]]
+    return ("sensor" if piece.place == "channel" else "effect") if piece.known else "foreign"
 
 
 def places(piece, masses):
@@ -73,65 +127,69 @@ def places(piece, masses):
     return [(int(name.partition("_")[2] or 0), name) for name in names]
 
 
-def _spot(truth, piece, place, bare, forces, shape):
-    index, name = places(piece, len(truth.mass))[place % len(places(piece, len(truth.mass)))]
-    row = truth.rows[index] if "link" in piece.place else np.eye(len(truth.mass))[index]
-    way = np.array([row @ x for x in bare])
-    length = float(np.sqrt(np.mean(way**2)))
-    speed = float(np.sqrt(np.mean(np.gradient(way, 1 / (RATE * PARTS), axis=1) ** 2)))
-    force = float(np.sqrt(np.mean(np.square(forces)))) if piece.place == "shaker" else truth.links[
-        min(index, len(truth.links) - 1)].stiffness * length
-    return Spot(truth, index, length, speed, force, SAMPLES / RATE, shape), name
+@dataclass(frozen=True)
+class _Hiding:
+    """Where and how large physics is hidden in a rig whose ``bare`` motion is known."""
+
+    recorder: Recorder
+    truth: object
+    bare: list
+    explained: object
+    level: float
+    colour: float
+
+    def planted(self, name, place, shape, wanted, below):
+        """The Planted of a piece of HIDDEN at the place of this index."""
+        piece = HIDDEN[name]
+        index, where = places(piece, len(self.truth.mass))[place % len(places(piece, len(self.truth.mass)))]
+        start = Planted(piece, where, self._spot(piece, index, shape))
+        if not below:
+            return sized(start, self._change, wanted)
+        low, high = BELOW
+        return sized(start, self._left, low * (high / low) ** shape[2])
+
+    def _change(self, one):
+        seen = shown(self.recorder, self.truth, (one,), self.bare, slice(1))
+        return change_of(seen, self.recorder.seen(self.bare[:1]))
+
+    def _left(self, one):
+        trained = slice(len(self.recorder.runs) - 1)
+        without = self.recorder.seen(self.bare[trained])
+        seen = shown(self.recorder, self.truth, (one,), self.bare, trained)
+        return self.explained.left(_difference(seen, without), _noise(without, self.level), self.colour)
+
+    def _spot(self, piece, index, shape):
+        row = self.truth.rows[index] if "link" in piece.place else np.eye(len(self.truth.mass))[index]
+        way = np.array([row @ x for x in self.bare])
+        length = float(np.sqrt(np.mean(way**2)))
+        speed = float(np.sqrt(np.mean(np.gradient(way, 1 / (self.recorder.rate * PARTS), axis=1) ** 2)))
+        force = float(np.sqrt(np.mean(np.square(self.recorder.runs)))) if piece.place == "shaker" else self.truth.links[
+            min(index, len(self.truth.links) - 1)].stiffness * length
+        return Spot(self.truth, index, length, speed, force, SAMPLES / self.recorder.rate, shape)
 
 
-def _seen(motion, gains, chains):
-    """[(sensor, n)] of [(sensor, instant)]: every sensor by its chain, or one with its delay and gain alone."""
-    time, fine = np.arange(SAMPLES) / RATE, np.arange(PARTS * (SAMPLES - 1) + 1) / (RATE * PARTS)
-    found = []
-    for one in motion:
-        rows = []
-        for k, gain in enumerate(gains):
-            own = chains.get(k, sensors.Chain())
-            chain = sensors.Chain(DELAY + own.delay, gain * own.gain, own.offset, own.drift, own.limit)
-            rows.append(chain.shown(time, fine, one[k]))
-        found.append(np.array(rows))
-    return found
+def _of_solver(recorder, truth, seen, explained, noise, colour):
+    """What values leave of the error of a step of one sample; ConfigError where that is too little to be seen."""
+    found = recorder.seen([coarse(truth, f, 1 / recorder.rate, CORNER) for f in recorder.runs])
+    left = explained.left(_difference(found, seen)[:-1], noise, colour)
+    if left < VISIBLE:
+        raise ConfigError("trial: solver", f"an error of {VISIBLE:g} standard deviations", f"{left:.2g}",
+                          "draw another seed")
+    return left
 
 
-def _sized(piece, spot, forces, bare, gains, wanted):
-    """(size, [(sensor, n)]) at which the hidden physics changes what sensors show in one run by the share ``wanted``.
-
-    The change is taken as a power of the size, between the nearest sizes on both sides once they are known.
-    """
-    reference = _seen(bare[:1], gains, {})
-    size, low, high = 0.1, 1e-5, 30.0
-    for _ in range(_TRIALS):
-        try:
-            change = _change(_with(piece, spot, size, forces[:1], bare[:1], gains), reference)
-        except ConvergenceError:
-            change = np.inf
-        if abs(np.log(max(change, 1e-12) / wanted)) < _NEAR:
-            return size, _with(piece, spot, size, forces, bare, gains)
-        low, high = (size, high) if change < wanted else (low, size)
-        guess = size * np.clip(wanted / max(change, 1e-12), 0.1, 5.0)
-        size = float(guess if low < guess < high else np.sqrt(low * high))
-    raise ConfigError(f"trial: {piece.name}", f"a size that changes the motion by {wanted:.0%}",
-                      f"{change:.1%} at last", "draw another seed")
+def _without(planted, one):
+    return tuple(p for p in planted if p is not one)
 
 
-def _with(piece, spot, size, forces, bare, gains):
-    built = piece.build(spot, size)
-    if isinstance(built, World):
-        return _seen([moved(built, f, 1 / RATE, CORNER) for f in forces], gains, {})
-    return _seen(bare, gains, {spot.index: built})
+def _difference(shown_now, before):
+    return np.array(shown_now) - np.array(before)
 
 
-def _change(shown, reference):
-    """Root mean square change relative to the reference, of the sensor that changes most."""
-    left = np.mean([(a - b) ** 2 for a, b in zip(shown, reference, strict=True)], axis=(0, 2))
-    return float(np.sqrt((left / np.mean([b**2 for b in reference], axis=(0, 2))).max()))
+def _noise(seen, level):
+    return level * np.sqrt(np.mean([s**2 for s in seen], axis=(0, 2)))
 
 
-def _recorded(random, shown, noise, colour):
-    noisy = shown + noise[:, None] * np.array([sensors.noise(random, SAMPLES, colour) for _ in shown])
+def _recorded(random, seen, noise, colour):
+    noisy = seen + noise[:, None] * np.array([sensors.noise(random, SAMPLES, colour) for _ in seen])
     return np.array([sensors.converted(row, 1.2 * abs(row).max()) for row in noisy])

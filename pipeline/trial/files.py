@@ -1,68 +1,127 @@
-"""Files of a case as others would write them: nominal.yaml, recordings.h5, and truth.json apart."""
+"""Files of a case as others would write them: nominal.yaml and recordings.h5; and the truth, which stays apart."""
 
-import json
 from pathlib import Path
 
 import h5py
 import yaml
 
-from pipeline.trial.case import CORNER, DELAY, GAIN_ERROR, LEVELS, RATE
-from pipeline.trial.hidden import HIDDEN
+from pipeline.contract.errors import ConfigError
+from pipeline.trial.case import CORNER, DELAY, GAIN_ERROR, LEVELS, SPREAD
+from pipeline.trial.told import parameters
 
-#: believed values are off by 10 to 30 %: what the workshop says of them
-SPREAD = 0.25
+_CONFIGS = Path(__file__).parents[2] / "configs"
+
+
+def leave(folder, document, runs):
+    """Write nominal.yaml and recordings.h5 into a folder that is made where it is missing.
+
+    ``runs`` {run: {"conditions": {name: (value, unit)}, "channels": {name: (samples, unit, quantity, rate Hz, role)},
+    "repeat_of"*: run, "topography"* {name: (heights m, pixel m, body, state)}, "friction"* {name: {column: values}}}}.
+    """
+    folder = Path(folder)
+    folder.mkdir(parents=True, exist_ok=True)
+    (folder / "nominal.yaml").write_text(yaml.safe_dump(document, sort_keys=False), encoding="utf-8")
+    with h5py.File(folder / "recordings.h5", "w") as h5:
+        for name, run in runs.items():
+            group = h5.create_group(f"runs/{name}")
+            group.attrs["repeat_of"] = run.get("repeat_of", "")
+            for key, (value, unit) in run["conditions"].items():
+                _attributes(group.create_dataset(f"conditions/{key}", data=value), units=unit)
+            for key, (samples, unit, quantity, rate, role) in run["channels"].items():
+                _attributes(group.create_dataset(f"channels/{key}", data=samples, compression="gzip"), units=unit,
+                            quantity=quantity, sample_rate=rate, role=role)
+            for key, (heights, pixel, body, state) in run.get("topography", {}).items():
+                _attributes(group.create_dataset(f"topography/{key}", data=heights, compression="gzip"), units="m",
+                            pixel_size=pixel, body=body, state=state)
+            for key, columns in run.get("friction", {}).items():
+                for column, values_of in columns.items():
+                    group.create_dataset(f"friction/{key}/{column}", data=values_of)
+
+
+def stated(name):
+    """A case of ``configs``, with its recording beside it: what the drawings of a practice bench say."""
+    path = _CONFIGS / name
+    if not path.exists():
+        raise ConfigError("trial", f"the case {path}", "none", "make such trials in a checkout of the project")
+    document = yaml.safe_load(path.read_text(encoding="utf-8"))
+    document["recording"]["files"][0]["file"] = "recordings.h5"
+    return document
 
 
 def write(case, folder):
-    """Write the files of a Case into a folder that is made where it is missing."""
-    folder = Path(folder)
-    folder.mkdir(parents=True, exist_ok=True)
-    (folder / "nominal.yaml").write_text(yaml.safe_dump(nominal(case), sort_keys=False), encoding="utf-8")
-    (folder / "truth.json").write_text(json.dumps(truth(case), indent=1) + "\n", encoding="utf-8")
-    with h5py.File(folder / "recordings.h5", "w") as h5:
-        for number, (force, shown) in enumerate(case.runs):
-            run = h5.create_group(f"runs/run_{number}")
-            _attributes(run.create_dataset("conditions/level", data=LEVELS[number]), units="N")
-            _attributes(run.create_dataset("channels/force", data=force), units="N", quantity="force",
-                        sample_rate=RATE, role="excitation")
-            for k, samples in enumerate(shown):
-                _attributes(run.create_dataset(f"channels/x_{k}", data=samples), units="m", quantity="displacement",
-                            sample_rate=RATE, role="response")
+    """Write nominal.yaml and recordings.h5 of a Case into a folder."""
+    leave(folder, nominal(case), {f"run_{k}": {"conditions": {"level": (LEVELS[k], "N")},
+                                               "channels": channels(force, shown, case.rate)}
+                                  for k, (force, shown) in enumerate(case.runs)})
+
+
+def channels(force, shown, rate):
+    """Channels of a run: the force of the shaker (n,) N and displacements (sensor, n) m."""
+    return {"force": (force, "N", "force", rate, "excitation"),
+            **{f"x_{k}": (samples, "m", "displacement", rate, "response") for k, samples in enumerate(shown)}}
 
 
 def truth(case):
-    """What is opened only for the score."""
-    known = not case.hidden or HIDDEN[case.hidden].known
-    kind = "control" if not case.hidden else "sensor" if HIDDEN[case.hidden].place == "channel" else "effect"
-    return {"seed": case.seed, "class": kind if known else "foreign", "effect": case.hidden, "place": case.place,
-            "noise": case.level, "colour": case.colour, "size": case.size, "mass": list(case.truth.mass),
-            "stiffness": [link.stiffness for link in case.truth.links],
-            "damping": [link.damping for link in case.truth.links]}
+    """What is opened only for the score: see ``pipeline.trial.systems``; ``left`` is d of ``pipeline.trial.detectable``
+    (of the weaker of a pair)."""
+    return {"class": case.kind, "effects": effects(case, parameters), "system": "forced_rig", "size": case.change,
+            "noise": case.level, "parameters": values(case.truth), "seed": case.seed, "colour": case.colour,
+            "left": min(case.left, default=0.0), "wrong": case.far}
+
+
+def effects(case, told):
+    """[{name, place, parameters, left}] of what is planted; ``told(piece, spot, size)`` -> {parameter: SI value}."""
+    return [{"name": p.piece.name, "place": p.place, "parameters": told(p.piece, p.spot, p.size), "left": left}
+            for p, left in zip(case.planted, case.left, strict=False)]
+
+
+def values(rig):
+    """{name in the case: value} of masses (kg), stiffnesses (N/m) and dampings (N s/m) of a Rig."""
+    links = {f"joints.link_{k}.{what}": getattr(link, what) for k, link in enumerate(rig.links)
+             for what in ("stiffness", "damping")}
+    return {**{f"masses.mass_{k}": m for k, m in enumerate(rig.mass)}, **links}
+
+
+def beliefs(rig, exact):
+    """{name in the case: how far it may be off} of all values of a Rig but those ``exact``, and of the gains."""
+    own = {f"masses.mass_{k}": f"mass_{k}" for k in range(len(rig.mass))}
+    for k in range(len(rig.links)):
+        own |= {f"joints.link_{k}.{what}": f"{what}_{k}" for what in ("stiffness", "damping")}
+    return {**{name: {"spread": SPREAD} for name, short in own.items() if short not in exact},
+            **{f"channels.x_{k}.gain": {"spread": GAIN_ERROR} for k in range(len(rig.mass))}}
+
+
+def parts(rig):
+    """Section ``lumped`` of a Rig: masses, springs, shaker and sensors."""
+    names = range(len(rig.mass))
+    return {"masses": {f"mass_{k}": {"mass": f"{m:.6g} kg", "moves": ["x"]} for k, m in enumerate(rig.mass)},
+            "springs": {f"link_{k}": _spring(link) for k, link in enumerate(rig.links)},
+            "inputs": {"shaker": {"along": {f"mass_{rig.pushed}.x": 1}, "force": "1 N"}},
+            "sensors": {f"mass_{k}": {"along": {f"mass_{k}.x": 1}, "quantity": "displacement", "unit": "m"}
+                        for k in names}}
+
+
+def sensors(rig):
+    """Channels of the section ``bench`` of a Rig."""
+    return {f"x_{k}": {"quantity": "displacement", "source": f"mass_{k}", "corner": f"{CORNER:g} Hz",
+                       "delay": f"{DELAY:g} s"} for k in range(len(rig.mass))}
+
+
+def asked(case, beliefs_of):
+    """Section ``diagnosis`` of a case: what may be off, the last run held out, the noise of the sensors."""
+    return {"parameters": beliefs_of, "held_out": [f"run_{len(case.runs) - 1}"],
+            "noise": {"std": {f"x_{k}": f"{s:.6g} m" for k, s in enumerate(case.noise)}}}
 
 
 def nominal(case):
     """The case file of the workshop: its beliefs, its sensors, and what of it may be wrong."""
-    rig = case.belief
-    names = range(len(rig.mass))
-    parameters = {f"masses.mass_{k}": {"spread": SPREAD} for k in names if f"mass_{k}" not in case.exact}
-    for k in range(len(rig.links)):
-        parameters |= {f"joints.link_{k}.{what}": {"spread": SPREAD} for what in ("stiffness", "damping")
-                       if f"{what}_{k}" not in case.exact}
-    parameters |= {f"channels.x_{k}.gain": {"spread": GAIN_ERROR} for k in names}
     return {
         "chain": "lumped_bench", "title": "Rig", "description": "Masses between walls, pushed by a shaker.",
-        "lumped": {
-            "masses": {f"mass_{k}": {"mass": f"{m:.6g} kg", "moves": ["x"]} for k, m in enumerate(rig.mass)},
-            "springs": {f"link_{k}": _spring(link) for k, link in enumerate(rig.links)},
-            "inputs": {"shaker": {"along": {f"mass_{rig.pushed}.x": 1}, "force": "1 N"}},
-            "sensors": {f"mass_{k}": {"along": {f"mass_{k}.x": 1}, "quantity": "displacement", "unit": "m"}
-                        for k in names}},
+        "lumped": parts(case.belief),
         "recording": {"files": [{"kind": "hdf5", "file": "recordings.h5"}]},
-        "bench": {"step": f"{0.25 / RATE:g} s", "inputs": {"shaker": {"channel": "force"}},
-                  "channels": {f"x_{k}": {"quantity": "displacement", "source": f"mass_{k}", "corner": f"{CORNER:g} Hz",
-                                          "delay": f"{DELAY:g} s"} for k in names}},
-        "diagnosis": {"parameters": parameters, "held_out": [f"run_{len(case.runs) - 1}"],
-                      "noise": {"std": {f"x_{k}": f"{s:.6g} m" for k, s in enumerate(case.noise)}}}}
+        "bench": {"step": f"{case.step:g} s", "inputs": {"shaker": {"channel": "force"}},
+                  "channels": sensors(case.belief)},
+        "diagnosis": asked(case, beliefs(case.belief, case.exact))}
 
 
 def _spring(link):

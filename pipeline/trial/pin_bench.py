@@ -39,7 +39,7 @@ DURATIONS = (0.35, 0.25)
 _DISC = {"rocking": 600.0, "two": 1020.0, "three": 2247.0, "four": 3890.0, "five": 5900.0, "six": 8200.0}
 _PIN = ("first", "second", "third", "fourth")
 _DISC_LOSS, _PIN_LOSS = 0.0015, 0.004
-_THICKNESS, _RADIUS, _OUTER, _DENSITY, _YOUNG = 0.025, 0.159, 0.179, 2700.0, 70e9
+_THICKNESS, RADIUS, _OUTER, _DENSITY, _YOUNG = 0.025, 0.159, 0.179, 2700.0, 70e9
 _SIDE, _LENGTH, _TILT, _OFFSET, _HEIGHT = 0.01, 0.1515, np.radians(4.0), -0.0045, 0.05
 _LASER_ANGLE, _HIT_ANGLE = np.radians(160.0), np.radians(40.0)
 _CARRIAGE, _ARM, _ARM_DAMPING = 0.1, 2e6, 20.0
@@ -91,7 +91,7 @@ def make(seed, hidden=(), decoys=()):
     bench = replace(bench, contact=_CONTACT * off("contact.stiffness", "stiffness"),
                     shear=_SHEAR * off("contact.tangential_stiffness", "stiffness"),
                     friction=_FRICTION * off("friction", "friction"), hidden=values)
-    return _with_structure(bench, values), {"factors": factors, "hidden": values}
+    return with_structure(bench, values), {"factors": factors, "hidden": values}
 
 
 class _Coordinate(NamedTuple):
@@ -121,10 +121,10 @@ def _bodies(off):
 def _disc(off):
     """Doublets with w = (r / radius of the contact)^n cos n theta, sin n theta on a plate; faces turn with slopes."""
     for n, (name, frequency) in enumerate(_DISC.items(), 1):
-        mass = _DENSITY * _THICKNESS * np.pi * _OUTER**2 * (_OUTER / _RADIUS) ** (2 * n) / (2 * n + 2)
+        mass = _DENSITY * _THICKNESS * np.pi * _OUTER**2 * (_OUTER / RADIUS) ** (2 * n) / (2 * n + 2)
         own = (mass * off(f"{name}.mass", "mass"), frequency * off(f"{name}.frequency", "frequency"),
                _DISC_LOSS * off(f"{name}.damping", "damping"))
-        for wave, normal, tangent in ((np.cos, -1.0, 0.0), (np.sin, 0.0, n * _THICKNESS / (2 * _RADIUS))):
+        for wave, normal, tangent in ((np.cos, -1.0, 0.0), (np.sin, 0.0, n * _THICKNESS / (2 * RADIUS))):
             yield _Coordinate(*own, normal, tangent, (wave(n * _LASER_ANGLE), 0, 0), (0, wave(n * _HIT_ANGLE)))
 
 
@@ -168,7 +168,7 @@ def beam_modes(length=_LENGTH, count=4, elements=30):
     return modal, np.sqrt(squared) / (2 * np.pi), shape[-1], np.array(seen)
 
 
-def _with_structure(bench, hidden):
+def with_structure(bench, hidden):
     """Split doublets, a base that moves and a damper at the arm, where they are hidden."""
     if split := hidden.get("doublet_split"):
         first = 2 * (split["order"] - 1)
@@ -199,8 +199,10 @@ def _with_base(bench, stiffness, frequency):
                    arm=np.append(bench.arm, -arm))
 
 
-def record(bench, seed):
+def record(bench, seed, taps=(1e-4, 1e-5)):
     """{run: dict} of a whole campaign, each as ``recordings.neutral.write_neutral`` takes it.
+
+    ``taps`` N s: size of a blow at rest and in sliding.
 
     Taps on the lifted pin and disc, at rest under three loads, and in sliding under three loads and speeds, each
     twice; and one turn by hand under the load cell.
@@ -211,7 +213,7 @@ def record(bench, seed):
              for load, speed in [*((load, _SPEEDS[1]) for load in _LOADS), *((_LOADS[1], s) for s in _SPEEDS[::2])]]
     for name, load, speed in plan:
         for again in (1, 2):
-            blow = (1e-5 if speed else 1e-4) * random.uniform(0.5, 1.5, 2) * (0.1, 10)
+            blow = taps[speed > 0] * random.uniform(0.5, 1.5, 2) * (0.1, 10)
             samples = _recorded(bench, _motion(bench, load, speed, blow, DURATIONS[speed > 0]), random)
             runs[f"{name}_{again}"] = {
                 "description": "tap on pin and disc", "repeat_of": f"{name}_1" if again == 2 else "",
@@ -227,7 +229,7 @@ def _motion(bench, load, speed, blow, duration):
     runout = hidden["runout"]
     start = _steady(bench, load, speed, hidden, runout["amplitude"] * np.cos(runout["phase"]))
     held = bench.friction * max(-bench.contact * (bench.normal @ start), 0.0)        # of a linear contact
-    law = (bench.contact, bench.shear, bench.friction, speed * _RADIUS, load,
+    law = (bench.contact, bench.shear, bench.friction, speed * RADIUS, load,
            hidden["contact_stiffness_law"]["exponent"], hidden["contact_damping"]["damping"],
            *hidden["falling_friction"].values(), hidden["contact_memory"]["length"],
            hidden["pressure_dependent_friction"]["exponent"], *hidden["runout"].values(), speed)
@@ -258,7 +260,7 @@ def _steady(bench, load, speed, hidden, gap=0.0):
         return np.zeros(len(bench.mass))
     force, place = load, None
     for _ in range(400):
-        friction = 0.0 if speed == 0 else _mu(bench.friction, force, speed * _RADIUS, hidden)
+        friction = 0.0 if speed == 0 else _mu(bench.friction, force, speed * RADIUS, hidden)
         drive = bench.normal + friction * bench.tangent
         approach = _approach(bench.contact, force, hidden["contact_stiffness_law"]["exponent"])
         secant = force / approach                           # N = secant a about the present guess

@@ -69,3 +69,16 @@ def believed(random, rig, exact=()):
     links = tuple(replace(link, **{what: off(f"{what}_{k}", getattr(link, what)) for what in ("stiffness", "damping")})
                   for k, link in enumerate(rig.links))
     return replace(rig, mass=tuple(off(f"mass_{k}", m) for k, m in enumerate(rig.mass)), links=links)
+
+
+def far_off(random, rig, belief, ends):
+    """(belief with one value drawn, off by a factor between ``ends`` either way, and the name of that value)."""
+    names = [f"mass_{k}" for k in range(len(rig.mass))] + [
+        f"{what}_{k}" for k in range(len(rig.links)) for what in ("stiffness", "damping")]
+    name = str(random.choice(names))
+    factor = np.exp(random.choice((-1, 1)) * random.uniform(*np.log(ends)))
+    what, k = name.split("_")[0], int(name.split("_")[1])
+    if what == "mass":
+        return replace(belief, mass=(*belief.mass[:k], rig.mass[k] * factor, *belief.mass[k + 1:])), name
+    wrong = replace(belief.links[k], **{what: getattr(rig.links[k], what) * factor})
+    return replace(belief, links=(*belief.links[:k], wrong, *belief.links[k + 1:])), name

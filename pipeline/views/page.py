@@ -51,7 +51,7 @@ def plan(products, look):
 def page(chapters, products, case, look):
     """HTML text of the report; the same arguments give the same bytes."""
     found = products.get("comparison")
-    return _template().render(
+    return template().render(
         case=case, chapters=chapters, verdict=verdict(products, case_view.tuned(case)),
         key_figure=_key_figure(products, look), key_tables=comparison.tables(found) if found is not None else (),
         stages=case_view.stages(case), methods=case_view.methods(case), limits=limits(products))
@@ -70,7 +70,8 @@ def _key_figure(products, look):
     return Figure(sound_pictures.occurrence(squeal, look.dpi), sound.occurrence_caption(squeal))
 
 
-def _template():
+def template():
+    """The template of every page."""
     from jinja2 import Environment, PackageLoader, StrictUndefined
 
     environment = Environment(loader=PackageLoader("pipeline.views"), autoescape=True, undefined=StrictUndefined,

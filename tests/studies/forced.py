@@ -6,7 +6,6 @@ a case, then the table of rates. A case that the diagnosis refuses (``refused``)
 
 import argparse
 import json
-import math
 import os
 import time
 from dataclasses import dataclass
@@ -15,6 +14,8 @@ from pathlib import Path
 
 from threadpoolctl import threadpool_limits
 
+from pipeline.concealed.judging import judged
+from pipeline.concealed.rates import line, rate
 from pipeline.contract import documents
 from pipeline.contract.errors import BrakechainError
 from pipeline.contract.executor import LocalProcesses
@@ -22,8 +23,8 @@ from pipeline.contract.settings import fill
 from pipeline.diagnosis.document import as_json
 from pipeline.products import Recording
 from pipeline.recordings.neutral import read_neutral
+from pipeline.trial import files
 from pipeline.trial.case import made, places
-from pipeline.trial.files import write
 from pipeline.trial.hidden import HIDDEN
 from stages.bench import bench
 from stages.diagnosis import diagnosis
@@ -78,55 +79,28 @@ def by_stages(document, path, **asked):
     return as_json(diagnosis(model, None, recording, shown, settings=section(diagnosis, **asked)))
 
 
-def scored(truth, answer):
-    """{name: bool} of one case: what is right, and whether a control was told to lack something."""
-    verdict, kind = answer["verdict"], truth["class"]
-    named = [(e["name"], e["place"]) for e in answer["effects"]]
-    if kind == "control":
-        return {"right": verdict in ("consistent", "parameters"),
-                "false_alarm": verdict in ("missing", "tie", "sensor", "numerics")}
-    if kind == "foreign":
-        return {"right": verdict == "unknown"}
-    alone = verdict == ("sensor" if kind == "sensor" else "missing") and len(named) == 1
-    true = (truth["effect"], truth["place"])
-    return {"right": alone and named == [true], "type": alone and named[0][0] == truth["effect"],
-            "among_tied": verdict in ("tie", "sensor") and len(named) > 1 and true in named}
-
-
-def wilson(hits, count, z=1.96):
-    """(low, high) of a rate: E. B. Wilson, J. Am. Stat. Assoc. 22 (1927) 209."""
-    if not count:
-        return 0.0, 1.0
-    rate, spread = hits / count, z**2 / count
-    centre, half = rate + spread / 2, z * math.sqrt(rate * (1 - rate) / count + spread / (4 * count))
-    return max(0.0, (centre - half) / (1 + spread)), min(1.0, (centre + half) / (1 + spread))
-
-
 def table(results):
     """Lines of rates with their intervals from [(truth, answer)]."""
     rows = []
     for level in LEVELS:
-        own = [scored(t, a) for t, a in results if t["noise"] == level and t["class"] in ("effect", "sensor")]
+        own = [judged(t, a) for t, a in results if t["noise"] == level and t["class"] in ("effect", "sensor")]
         rows.append((f"type and place at {level:.0%} noise", [s["right"] for s in own]))
         rows.append((f"type alone at {level:.0%} noise", [s["type"] for s in own]))
         rows.append((f"truth among the tied at {level:.0%} noise", [s["among_tied"] for s in own]))
-    controls = [scored(t, a) for t, a in results if t["class"] == "control"]
+    controls = [judged(t, a) for t, a in results if t["class"] == "control"]
     rows.append(("false alarms on controls", [s["false_alarm"] for s in controls]))
     rows.append(("controls told right", [s["right"] for s in controls]))
-    foreign = [scored(t, a) for t, a in results if t["class"] == "foreign"]
+    foreign = [judged(t, a) for t, a in results if t["class"] == "foreign"]
     rows.append(("out of the catalogue: unknown", [s["right"] for s in foreign]))
-    return [_line(name, hits) for name, hits in rows if hits]
-
-
-def _line(name, hits):
-    low, high = wilson(sum(hits), len(hits))
-    return f"{name:<38} {sum(hits):>4} of {len(hits):<4} {sum(hits) / len(hits):>6.1%}   95 %: {low:.1%} to {high:.1%}"
+    return [line(name, rate(hits)) for name, hits in rows if hits]
 
 
 def run(plan, folder, **asked):
     """(truth, answer) of one Plan, from its files where they are there."""
     if not (folder / "truth.json").exists():
-        write(made(plan.seed, plan.hidden, plan.place, plan.level, plan.masses, plan.colour), folder)
+        case = made(plan.seed, plan.hidden, plan.place, plan.level, plan.masses, plan.colour)
+        files.write(case, folder)
+        (folder / "truth.json").write_text(json.dumps(files.truth(case), indent=1) + "\n")
     return json.loads((folder / "truth.json").read_text()), answered(folder, partial(solved, folder, **asked))
 
 
@@ -152,7 +126,8 @@ def solve(folder, kept, plan):
         print(f"{plan.seed} {plan.hidden}: not made: {error}", flush=True)
         return None
     named = ", ".join(f"{e['name']} at {e['place']}" for e in answer["effects"])
-    print(f"{plan.seed} {truth['class']:<8} {truth['effect']:<22} {truth['place']:<8} {truth['noise']:>4.0%}  ->"
+    hidden = ", ".join(f"{e['name']} at {e['place']}" for e in truth["effects"])
+    print(f"{plan.seed} {truth['class']:<8} {hidden:<31} {truth['noise']:>4.0%}  ->"
           f" {answer['verdict']:<10} {named}   {answer['cpu_seconds']:.0f} s", flush=True)
     return truth, answer
 

@@ -12,10 +12,11 @@ from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 
+from pipeline.concealed.rates import line, rate
 from pipeline.contract import documents
 from pipeline.recordings.neutral import write_neutral
 from pipeline.trial.pin_bench import DECOYS, HIDDEN, make, record
-from tests.studies.forced import answered, by_stages, shared_out, wilson
+from tests.studies.forced import answered, by_stages, shared_out
 
 ROOT = Path(__file__).parents[2]
 CONFIG = ROOT / "configs" / "pin_on_disc_bench.yaml"
@@ -72,12 +73,7 @@ def table(results):
             for name in dict.fromkeys(h for h, _ in results)]
     rows += [("all effects", [scored(h, a)["right"] for h, a in results if h]),
              ("false alarms on controls", [scored(h, a)["false_alarm"] for h, a in results if not h])]
-    return [_line(name, hits) for name, hits in rows if hits]
-
-
-def _line(name, hits):
-    low, high = wilson(sum(hits), len(hits))
-    return f"{name:<30} {sum(hits):>3} of {len(hits):<3}   95 %: {low:.0%} to {high:.0%}"
+    return [line(name, rate(hits)) for name, hits in rows if hits]
 
 
 def run(plan, folder, **asked):

@@ -1,12 +1,10 @@
 """Files of a case: neutral, readable by the tool, without a trace of the truth."""
 
-import json
-
 import numpy as np
 
 from pipeline.recordings.neutral import read_neutral
 from pipeline.trial.case import LEVELS, made
-from pipeline.trial.files import write
+from pipeline.trial.files import truth, write
 
 
 def test_files_hold_the_case_and_only_the_truth_tells_what_is_hidden(tmp_path):
@@ -16,7 +14,9 @@ def test_files_hold_the_case_and_only_the_truth_tells_what_is_hidden(tmp_path):
     assert list(runs) == [f"run_{k}" for k in range(len(LEVELS))]
     np.testing.assert_array_equal(runs["run_1"].channels["x_1"].samples, case.runs[1][1][1])
     np.testing.assert_array_equal(runs["run_1"].channels["force"].samples, case.runs[1][0])
-    told = json.loads((tmp_path / "truth.json").read_text())
-    assert (told["class"], told["effect"], told["place"]) == ("effect", "coulomb", "link_1")
+    assert sorted(p.name for p in tmp_path.iterdir()) == ["nominal.yaml", "recordings.h5"]
+    told = truth(case)
+    assert told["parameters"]["joints.link_1.stiffness"] == case.truth.links[1].stiffness
+    assert told["class"] == "effect" and [(e["name"], e["place"]) for e in told["effects"]] == [("coulomb", "link_1")]
     text = (tmp_path / "nominal.yaml").read_text()
     assert "coulomb" not in text and not any(f"{m:.6g}" in text for m in case.truth.mass)

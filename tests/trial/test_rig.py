@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from pipeline.contract.errors import ConfigError
-from pipeline.trial.rig import Link, Rig, believed, drawn
+from pipeline.trial.rig import Link, Rig, believed, drawn, far_off
 
 
 @pytest.mark.parametrize("masses", [1, 2, 3, 4])
@@ -30,3 +30,13 @@ def test_every_belief_is_off_by_10_to_30_percent_but_what_is_exact():
 def test_a_rig_that_cannot_be_is_refused(mass, links):
     with pytest.raises(ConfigError, match="rig"):
         Rig(mass, links)
+
+
+def test_one_value_far_off():
+    rig = drawn(np.random.default_rng(0), 3)
+    for seed in range(12):
+        belief, name = far_off(np.random.default_rng(seed), rig, rig, (1.4, 1.7))
+        what, k = name.split("_")
+        true, wrong = ((r.mass[int(k)] if what == "mass" else getattr(r.links[int(k)], what)) for r in (rig, belief))
+        assert 1.4 <= max(wrong / true, true / wrong) <= 1.7
+        assert sum(a != b for a, b in zip((*rig.mass, *rig.links), (*belief.mass, *belief.links), strict=True)) == 1

@@ -9,8 +9,10 @@ from urllib.parse import urlsplit
 import pytest
 
 from pipeline.contract import Context
+from pipeline.views.trial import page
 from stages.report import Settings, report
 from tests.views import products_for_views as small
+from tests.views.trial_for_views import drawn
 
 CHROMIUM = shutil.which("chromium")
 FLAGS = ("--headless", "--hide-scrollbars", "--no-sandbox", "--disable-gpu", "--no-first-run",
@@ -69,11 +71,19 @@ def test_every_picture_loads_and_nothing_is_wider_than_the_screen(html, width, t
 
 @pytest.mark.parametrize("width", [PHONE, DESKTOP], ids=["phone", "desktop"])
 def test_the_page_of_a_rupture_is_no_wider_than_the_screen(width, tmp_path):
-    page = report({"rupture": small.rupture()}, settings=Settings(dots_per_inch=50), context=Context(case=small.case()))
-    document, console, requests = opened(tmp_path, SCREEN.format(width=width, page=escape(page.html.item())))
+    made = report({"rupture": small.rupture()}, settings=Settings(dots_per_inch=50), context=Context(case=small.case()))
+    document, console, requests = opened(tmp_path, SCREEN.format(width=width, page=escape(made.html.item())))
     found = json.loads(unescape(document.partition("<title>")[2].partition("</title>")[0]))
     assert found["text"] == "The left front stops, the right one runs on" and found["wide"] == width
     assert found["images"] > 3 and found["broken"] == 0 and not console and not requests
+
+
+@pytest.mark.parametrize("width", [PHONE, DESKTOP], ids=["phone", "desktop"])
+def test_the_page_of_a_trial_opens_quietly_and_is_no_wider_than_the_screen(width, tmp_path):
+    document, console, requests = opened(tmp_path, SCREEN.format(width=width, page=escape(page(drawn()))))
+    found = json.loads(unescape(document.partition("<title>")[2].partition("</title>")[0]))
+    assert "hidden effects named at their place" in found["text"] and found["wide"] == width
+    assert found["images"] == 8 and found["broken"] == 0 and not console and not requests
 
 
 def test_a_page_that_speaks_or_asks_is_caught(tmp_path):

@@ -1,0 +1,150 @@
+"""The commands of a concealed trial: make, seal, solve, score, verify, show."""
+
+import os
+from pathlib import Path
+
+import click
+
+from pipeline.cli_options import options
+
+_SET = click.argument("folder", metavar="SET", type=click.Path(path_type=Path))
+_KEY = click.option("--key", "key_file", metavar="FILE", type=click.Path(path_type=Path),
+                    help="the key, outside the set  [default: in the user's data folder, by the name of the set]")
+
+
+@click.group()
+def trial():
+    """The concealed trial: cases with hidden physics, solved without their truth and scored once.
+
+    A set is a folder of cases/NNN/{nominal.yaml, recordings.h5}; docs/trial_sets.md tells how to make one yourself.
+    """
+
+
+@trial.command()
+@_SET
+@click.option("--cases", type=click.IntRange(1), default=40, show_default=True, help="number of cases")
+@click.option("--systems", metavar="A,B", help="systems that are drawn from  [default: all]")
+@click.option("--seed", type=click.IntRange(0), help="seed of an open set  [default: 0]")
+@click.option("--sealed", is_flag=True, help="seal the truth; seeds are then drawn from the operating system")
+@_KEY
+@options("workers", "scheduler", "debug")
+def make(folder, cases, systems, seed, sealed, key_file, workers, scheduler):
+    """Make SET: an open one whose truth lies beside it, or a sealed one. Goes on where it was stopped."""
+    from pipeline.concealed import making, sealing
+    from pipeline.trial.systems import SYSTEMS
+
+    if sealed and seed is not None:
+        raise click.UsageError("--seed belongs to open sets: seeds of a sealed one are secret")
+    if key_file and not sealed:
+        raise click.UsageError("--key belongs to sealed sets: add --sealed")
+    names = tuple(systems.split(",")) if systems else tuple(SYSTEMS)
+    path = sealing.key_path(folder, key_file) if sealed else None
+
+    def key(begun):
+        return sealing.read_key(path) if begun else sealing.new_key(path)
+
+    with _working(workers, scheduler) as work:
+        making.make(folder, cases, names, work, None if sealed else seed or 0, key if sealed else None,
+                    _telling("made"))
+    _tell_of(folder, path)
+
+
+@trial.command()
+@_SET
+@_KEY
+@options("debug")
+def seal(folder, key_file):
+    """Seal an open SET that nobody has solved: encrypt its truth.json and commit to it."""
+    from pipeline.concealed import making, sealing
+
+    path = sealing.key_path(folder, key_file)
+    making.seal(folder, lambda: sealing.new_key(path))
+    _tell_of(folder, path)
+
+
+@trial.command()
+@_SET
+@click.option("--methods", metavar="A,B", help="the diagnosis and baselines by name  [default: all]")
+@click.option("--limit", type=click.FloatRange(min=0, min_open=True), default=3600.0, show_default=True,
+              metavar="SECONDS", help="a case that takes longer is not answered")
+@options("workers", "scheduler", "debug")
+def solve(folder, methods, limit, workers, scheduler):
+    """Solve SET, each case in a process that sees nothing but its two files. Goes on where it was stopped."""
+    from pipeline.concealed import solving
+
+    names = tuple(methods.split(",")) if methods else solving.METHODS
+    with _working(workers, scheduler) as work:
+        count = solving.solve(folder, work, names, limit, _telling("solved"))
+    click.echo(f"{count} answers are new; next: brakechain trial score {folder}")
+
+
+@trial.command()
+@_SET
+@_KEY
+@click.option("--truth", "truth_file", metavar="FILE", type=click.Path(path_type=Path),
+              help="truth of an open set that lies elsewhere  [default: SET/truth.json]")
+@options("debug")
+def score(folder, key_file, truth_file):
+    """Score a solved SET: open its truth, once, and publish it with the key and the result."""
+    from pipeline.concealed import scoring, sealing
+    from pipeline.concealed.sets import TrialSet
+    from pipeline.concealed.summary import lines
+
+    key = sealing.key_path(folder, key_file) if TrialSet(folder).sealed else None
+    click.echo("\n".join(lines(scoring.score(folder, key, truth_file))))
+
+
+@trial.command()
+@_SET
+@options("debug")
+def verify(folder):
+    """Verify a published SET: truth, key, commitment, answers and result belong together."""
+    from pipeline.concealed.verifying import verify as checked
+
+    for sentence in checked(folder):
+        click.echo(sentence)
+
+
+@trial.command()
+@_SET
+@click.option("--markdown", is_flag=True, help="print the table of the rates as Markdown instead")
+@options("debug")
+def show(folder, markdown):
+    """Write the page of a scored SET, trial.html, and tell where it is."""
+    from pipeline.concealed.sets import TrialSet
+    from pipeline.concealed.summary import as_markdown
+    from pipeline.contract.store import write_companion
+    from pipeline.views.trial import page
+
+    found = TrialSet(folder).read("result.json")
+    if markdown:
+        click.echo(as_markdown(found))
+        return
+    write_companion(folder / "trial.html", page(found))
+    click.echo(f"page: {folder / 'trial.html'}")
+
+
+def _working(workers, scheduler):
+    from contextlib import closing
+
+    from pipeline.contract import executor
+
+    return closing(executor.choose(workers or os.cpu_count() or 1, scheduler))
+
+
+def _telling(what):
+    def tell(done, total):
+        click.echo(f"{done} of {total} {what}")
+
+    return tell
+
+
+def _tell_of(folder, key_file):
+    from pipeline.concealed.sets import TrialSet
+
+    found = TrialSet(folder)
+    classes = ", ".join(f"{count} {name}" for name, count in found.about["classes"].items())
+    click.echo(f"{found.about['cases']} cases: {classes}")
+    if found.sealed:
+        click.echo(f"commitment {found.about['commitment']}\nkey: {key_file} (keep it out of sight until the score)")
+    click.echo(f"next: brakechain trial solve {folder}")

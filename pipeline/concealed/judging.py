@@ -1,0 +1,55 @@
+"""What of an answer is right, case by case. Truth as ``pipeline.trial.systems`` writes it, answer as diagnosis.json."""
+
+#: verdicts by what they say: nothing is missing, or this is
+NOTHING, NAMING = ("consistent", "parameters"), ("missing", "tie", "sensor", "numerics")
+#: classes in which nothing is missing; class -> verdict that names what it hides
+EMPTY = ("control", "wrong_value")
+NAMED_BY = {"effect": "missing", "pair": "missing", "below": "missing", "foreign": "missing", "sensor": "sensor"}
+#: standard deviations of the noise that an effect must leave beside the nominal values to be named
+VISIBLE = 4.0
+#: hypotheses among which the truth counts as near
+_TOP = 3
+
+
+def judged(truth, answer):
+    """{what: bool} of one case; which of them depends on its class (``class_of``):
+
+    right       the verdict of the class; with exactly what is hidden, at its place, where something is
+    false_alarm something named where nothing is missing
+    named       exactly what is hidden, at its place, under its verdict
+    type        exactly what is hidden, at whatever place; called: the verdict of the class, whatever it names
+    among_tied, top      the truth among several told, or among the first three hypotheses
+    """
+    verdict, kind = answer["verdict"], class_of(truth)
+    if kind in EMPTY:
+        return {"right": verdict in NOTHING, "false_alarm": verdict in NAMING}
+    if kind == "foreign":
+        return {"right": verdict == "unknown"}
+    if kind == "solver":
+        return {"right": verdict == "numerics", "called": verdict == "numerics"}
+    named, wanted = answer["effects"], truth["effects"]
+    called = verdict == NAMED_BY[truth["class"]]
+    alone = called and len(named) == len(wanted)
+    exactly = alone and _all_in(wanted, named)
+    found = {"right": exactly, "named": exactly, "called": called,
+             "type": alone and sorted(e["name"] for e in named) == sorted(e["name"] for e in wanted),
+             "among_tied": verdict in ("tie", "sensor") and len(named) > len(wanted) and _all_in(wanted, named),
+             "top": _all_in(wanted, [*named, *answer.get("alternatives", ())][:max(_TOP, len(wanted))])}
+    if kind == "below":     # to abstain is right, to name something else is not
+        found["right"] = found["right"] or verdict in (*NOTHING, "unknown") or found["among_tied"]
+    return found
+
+
+def class_of(truth):
+    """The class as which a case is scored: what leaves less than VISIBLE standard deviations is below the threshold."""
+    faint = truth.get("left", VISIBLE) < VISIBLE and truth["class"] in ("effect", "sensor", "foreign")
+    return "below" if faint else truth["class"]
+
+
+def _all_in(wanted, named):
+    return all(any(same(one, other) for other in named) for one in wanted)
+
+
+def same(true, told):
+    """Whether an effect that was told is the true one; a truth without a place asks for none."""
+    return true["name"] == told["name"] and true["place"] in ("", told["place"])

@@ -1,0 +1,43 @@
+"""Rates of a trial with their intervals, and how far stated probabilities hold."""
+
+import math
+
+#: edges of the bins of stated probabilities
+EDGES = (0.0, 0.5, 0.85, 0.95, 0.99, 1.0)
+
+
+def wilson(hits, count, z=1.96):
+    """(low, high) of a rate: E. B. Wilson, J. Am. Stat. Assoc. 22 (1927) 209."""
+    if not count:
+        return 0.0, 1.0
+    share, spread = hits / count, z**2 / count
+    centre, half = share + spread / 2, z * math.sqrt(share * (1 - share) / count + spread / (4 * count))
+    return max(0.0, (centre - half) / (1 + spread)), min(1.0, (centre + half) / (1 + spread))
+
+
+def rate(hits):
+    """{hits, count, low, high} of [bool], with its 95 % interval."""
+    low, high = wilson(sum(map(bool, hits)), len(hits))
+    return {"hits": sum(map(bool, hits)), "count": len(hits), "low": low, "high": high}
+
+
+def line(name, found):
+    """One line of a table of a ``rate``."""
+    return (f"{name:<42} {found['hits']:>4} of {found['count']:<4} {found['hits'] / found['count']:>6.1%}"
+            f"   95 %: {found['low']:.1%} to {found['high']:.1%}")
+
+
+def calibration(claims):
+    """{brier, bins} of [(stated probability, whether it is so)]; bins with their mean probability and their rate.
+
+    Brier score: mean (p - outcome)^2, G. W. Brier, Mon. Weather Rev. 78 (1950) 1.
+    """
+    if not claims:
+        return {"count": 0}
+    bins = []
+    for low, high in zip(EDGES[:-1], EDGES[1:], strict=True):
+        own = [(p, so) for p, so in claims if low <= p < high or p == high == EDGES[-1]]
+        if own:
+            bins.append({"low": low, "high": high, "stated": sum(p for p, _ in own) / len(own),
+                         "so": rate([so for _, so in own])})
+    return {"count": len(claims), "brier": sum((p - so) ** 2 for p, so in claims) / len(claims), "bins": bins}

@@ -1,0 +1,80 @@
+"""Scoring: the truth is opened once, beside answers that are complete and were made by the code of the commitment."""
+
+from datetime import UTC, datetime
+
+from pipeline.concealed import code, sealing
+from pipeline.concealed.making import check_truth
+from pipeline.concealed.result import result
+from pipeline.concealed.sets import TrialSet, canonical, read_json, sha256
+from pipeline.concealed.solving import METHODS, check_cases, check_code
+from pipeline.contract.errors import ConfigError
+
+
+def score(folder, key_file=None, truth_file=None):
+    """Result of a solved set, written with the opened truth and its key; of an open set from its truth alone.
+
+    Refused: a set that is not solved, no key, a truth that does not match its commitment, changed code, answers or
+    cases, and a sealed set that was scored before.
+    """
+    found = TrialSet(folder)
+    answers = _answers(found)
+    if found.sealed:
+        truth = _opened(found, key_file)
+    else:
+        truth = read_json(truth_file or found.path("truth.json"))
+        check_truth(found, truth)
+        _check_current(answers)
+    scored = result(found.about or {"name": found.name, "kind": "open", "cases": len(truth)}, truth, answers)
+    found.write("result.json", scored)
+    return scored
+
+
+def _answers(found):
+    """{method: {case: answer}}, complete and as they were when the last was found."""
+    if not found.has("answers.json"):
+        raise ConfigError(found.folder, "answers of all cases", f"{_solved(found)} of {len(found.cases)}",
+                          f"run: brakechain trial solve {found.folder}")
+    kept = found.read("answers.json")
+    if sha256(canonical(kept["answers"])) != kept["digest"]:
+        raise ConfigError(found.path("answers.json"), "answers as they were solved", "answers that were changed")
+    if METHODS[0] not in kept["answers"]:
+        raise ConfigError(found.path("answers.json"), f"answers of the {METHODS[0]}", ", ".join(kept["answers"]),
+                          f"run: brakechain trial solve {found.folder}")
+    return kept["answers"]
+
+
+def _solved(found):
+    return len(list(found.path(f"answers/{METHODS[0]}").glob("*.json")))
+
+
+def _opened(found, key_file):
+    """Truth of a sealed set, opened for the first time."""
+    if found.has("result.json"):
+        raise ConfigError(found.folder, "a sealed set that was not scored", "its result",
+                          "check it with: brakechain trial verify SET")
+    key = sealing.read_key(key_file)
+    check_code(found, code.files(), "before it was scored")
+    check_cases(found)
+    opened = sealing.unlocked(found.path("truth.sealed").read_bytes(), key, found.path("truth.sealed"))
+    check_commitment(found, opened["salt"], opened["truth"])
+    check_truth(found, opened["truth"])
+    found.write("truth.json", opened["truth"])
+    found.write("opened.yaml", {"key": key.decode(), "salt": opened["salt"],
+                                "scored": datetime.now(UTC).isoformat(timespec="seconds")})
+    return opened["truth"]
+
+
+def check_commitment(found, salt, truth):
+    """Refuse a truth other than the one that was committed."""
+    if sealing.commitment(salt, truth) != found.about.get("commitment"):
+        raise ConfigError(found.folder / "set.yaml", f"commitment {sealing.commitment(salt, truth)}",
+                          found.about.get("commitment"), "truth or commitment was changed after the set was made")
+
+
+def _check_current(answers):
+    """Refuse to score answers of an open set that other code gave."""
+    now = code.of_answers(code.files())
+    apart = sum(answer["code"] != now for found in answers.values() for answer in found.values())
+    if apart:
+        raise ConfigError("answers.json", "answers of this code", f"{apart} of other code",
+                          "run again: brakechain trial solve")

@@ -1,0 +1,129 @@
+"""Systems of a trial: each draws a case from a seed and writes it down as a workshop would, without its truth.
+
+A generator is ``write(draw, folder)`` -> truth: it leaves ``nominal.yaml`` and ``recordings.h5`` in the folder, nothing
+else, and returns what ``score`` opens:
+
+    class       effect | pair | control | wrong_value | sensor | solver | foreign | below
+    effects     [{name, place, parameters {name: SI value, where it is known}}]; empty where nothing is hidden
+    system, size, noise     name of the system; change of what sensors show, and noise, both relative
+    parameters  {nominal value by its name in the case: true SI value}, where they are known
+
+and whatever else describes the case. The same draw gives the same files. ConfigError or ConvergenceError where a draw
+cannot be made: another seed is tried. SYSTEMS holds them all; to add one is to add its entry.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from itertools import combinations, product
+
+import numpy as np
+
+from pipeline.trial import belt, belt_files, benches, files, flutter, pin_bench
+from pipeline.trial.case import KINDS, kind_of, made, places
+from pipeline.trial.hidden import HIDDEN
+from pipeline.trial.rubbing import FRICTION
+
+CLASSES = ("effect", "pair", "control", "wrong_value", "sensor", "solver", "foreign", "below")
+
+
+@dataclass(frozen=True)
+class Draw:
+    """What a case is to be: ``kind`` is its class, ``hidden`` names what is hidden, '' for nothing.
+
+    ``size``: wanted change of what sensors show, ``noise``: standard deviation of the noise, both relative.
+    """
+
+    seed: int
+    system: str
+    kind: str
+    hidden: tuple
+    size: float
+    noise: float
+
+
+@dataclass(frozen=True)
+class System:
+    """A generator and what it can hide.
+
+    ``hides`` {class: (names hidden together, ...)}, e.g. {"control": ((),), "effect": (("coulomb",), ...)}; ``sizes``
+    and ``noises`` that its cases have; ``motion``: forced, self_excited, disc_brake, micro or recorded; ``weight``: how
+    often it is drawn among the systems that can make a class.
+    """
+
+    name: str
+    write: Callable
+    hides: dict
+    sizes: tuple
+    noises: tuple
+    motion: str = "forced"
+    weight: float = 1.0
+
+
+#: masses of a rig; correlation of its noise over a sample
+_MASSES, _COLOURS = (1, 2, 2, 2, 3, 4), (0.0, 0.0, 0.0, 0.2)
+#: physics of which two act at once: one of each kind that moves a rig in a way of its own
+_PAIRED = ("coulomb", "cubic_stiffness", "quadratic_stiffness", "quadratic_damping", "hysteretic_joint", "backlash",
+           "viscoelastic_pad", "thermal_softening", "base_shake", "moving_base", "attached_mass", "pressure_ripple")
+
+
+def _forced(draw, folder):
+    """A row of masses that a shaker pushes."""
+    random = np.random.default_rng([draw.seed, 1])
+    masses, at = _apart(random, [HIDDEN[name] for name in draw.hidden])
+    colour = float(random.choice(_COLOURS))
+    kind = draw.kind if draw.kind in KINDS else ""
+    case = made(draw.seed, draw.hidden, at, draw.noise, masses, colour, draw.size, kind)
+    files.write(case, folder)
+    return {**files.truth(case), "system": draw.system}
+
+
+def _belt(draw, folder):
+    """A mass on a belt, alone or before another one, pushed by a shaker."""
+    masses = int(np.random.default_rng([draw.seed, 1]).choice((1, 1, 2)))
+    case = belt.made(draw.seed, draw.hidden, draw.noise, masses, draw.size, draw.kind if draw.kind in KINDS else "")
+    belt_files.write(case, folder)
+    return belt_files.truth(case)
+
+
+def _apart(random, pieces):
+    """(masses, (number of a place of each piece, ...)): a rig with room for all, two of them at two links."""
+    kinds = [piece.place for piece in pieces]
+    masses = 3 if "wall link" in kinds else int(random.choice(_MASSES[len(kinds) > 1:]))
+    free = [[at for at, _ in places(piece, masses)] for piece in pieces]
+    chosen = [int(random.choice(at)) for at in free]
+    if len(chosen) > 1 and chosen[0] == chosen[1] and "link" in kinds[0] and "link" in kinds[1]:
+        chosen[1] = int(random.choice([at for at in free[1] if at != chosen[0]]))
+    return masses, tuple(index.index(one) for index, one in zip(free, chosen, strict=True))
+
+
+def _classes(pieces):
+    """{class: ((name, ...), ...)} of the pieces of HIDDEN, and of nothing hidden."""
+    found = {"control": ((),), "wrong_value": ((),), "pair": tuple(combinations(_PAIRED, 2))}
+    for piece in pieces:
+        kind = kind_of((piece.name,))
+        found[kind] = (*found.get(kind, ()), (piece.name,))
+    found["below"] = found["effect"]
+    return found
+
+
+def _on_belts():
+    """{class: ((name, ...), ...)} of what a belt hides; a pair is one of its contact and one of the rig."""
+    found = {"control": ((),), "wrong_value": ((),), "effect": tuple((name,) for name in belt.IN_RIG), "foreign": ()}
+    for piece in FRICTION.values():
+        kind = belt.kind_of((piece.name,))
+        found[kind] = (*found[kind], (piece.name,))
+    found["below"] = found["effect"]
+    contact = [name for name, in found["effect"] if name in FRICTION]
+    return {**found, "pair": tuple(product(contact, belt.IN_RIG))}
+
+
+SYSTEMS = {system.name: system for system in (
+    System("forced_rig", _forced, _classes(HIDDEN.values()), sizes=(0.03, 0.1, 0.3), noises=(0.01, 0.03, 0.1)),
+    System("belt_rig", _belt, _on_belts(), sizes=(0.03, 0.1, 0.2), noises=(0.03, 0.1), weight=0.25),
+    System("pin_on_disc", benches.pin_on_disc, benches.hides(pin_bench.HIDDEN, pin_bench.DECOYS), (0.0,), (0.0,),
+           "self_excited", weight=0.15),
+    System("shoe_on_drum", benches.shoe_on_drum, benches.hides(flutter.HIDDEN, flutter.DECOYS), (0.0,), (0.0,),
+           "self_excited", weight=0.15),
+    System("worn_pads", benches.worn_pads, benches.hides(benches.worn_names()), (0.0,), (0.0,), "micro", weight=0.02),
+    System("coarse_rig", _forced, {"solver": ((),)}, sizes=(0.0,), noises=(0.003, 0.01)),
+)}

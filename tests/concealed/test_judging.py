@@ -1,0 +1,64 @@
+"""What counts as right, class by class."""
+
+import pytest
+
+from pipeline.concealed.judging import class_of, judged, same
+
+COULOMB, CUBIC, SHIFTED = ("coulomb", "link_1"), ("cubic_stiffness", "link_0"), ("coulomb", "link_0")
+
+
+def truth(kind, *hidden):
+    return {"class": kind, "effects": [{"name": n, "place": p} for n, p in hidden]}
+
+
+def told(verdict, *named, others=()):
+    effects, more = ([{"name": n, "place": p} for n, p in each] for each in (named, others))
+    return {"verdict": verdict, "effects": effects, "alternatives": more}
+
+
+@pytest.mark.parametrize("known, answer, right", [
+    (truth("effect", COULOMB), told("missing", COULOMB), True),
+    (truth("effect", COULOMB), told("missing", SHIFTED), False),
+    (truth("effect", COULOMB), told("missing", COULOMB, CUBIC), False),
+    (truth("effect", COULOMB), told("unknown"), False), (truth("effect", COULOMB), told("sensor", COULOMB), False),
+    (truth("pair", COULOMB, CUBIC), told("missing", CUBIC, COULOMB), True),
+    (truth("pair", COULOMB, CUBIC), told("missing", CUBIC), False),
+    (truth("sensor", COULOMB), told("missing", COULOMB), False),
+    (truth("sensor", COULOMB), told("sensor", COULOMB), True),
+    (truth("solver"), told("numerics", ("solver", "")), True), (truth("solver"), told("missing", COULOMB), False),
+    (truth("control"), told("parameters"), True), (truth("control"), told("unknown"), False),
+    (truth("wrong_value"), told("consistent"), True),
+    (truth("foreign", CUBIC), told("unknown"), True), (truth("foreign", CUBIC), told("missing", CUBIC), False),
+    (truth("below", COULOMB), told("parameters"), True), (truth("below", COULOMB), told("missing", COULOMB), True),
+    (truth("below", COULOMB), told("missing", CUBIC), False),
+    (truth("effect", COULOMB), told("refused"), False), (truth("control"), told("refused"), False)])
+def test_what_counts_as_right(known, answer, right):
+    assert judged(known, answer)["right"] is right
+
+
+def test_a_tie_that_names_on_a_control_is_a_false_alarm_and_abstaining_is_none():
+    assert judged(truth("control"), told("tie", COULOMB, CUBIC))["false_alarm"]
+    assert not judged(truth("control"), told("unknown"))["false_alarm"]
+
+
+def test_what_leaves_less_than_four_standard_deviations_is_below_the_threshold():
+    for kind in ("effect", "sensor", "foreign"):
+        faint, clear = ({**truth(kind, COULOMB), "left": left} for left in (3.9, 4.1))
+        assert class_of(faint) == "below" and class_of(clear) == kind
+        assert judged(faint, told("parameters"))["right"] and not judged(clear, told("parameters"))["right"]
+        assert not judged(faint, told("missing", CUBIC))["right"]
+    assert judged({**truth("sensor", COULOMB), "left": 1.0}, told("sensor", COULOMB))["named"]
+    assert class_of({**truth("pair", COULOMB, CUBIC), "left": 1.0}) == "pair"
+    assert class_of(truth("control")) == "control"
+
+
+def test_type_place_and_rank_are_told_apart():
+    near = judged(truth("effect", COULOMB), told("missing", SHIFTED, others=[CUBIC, COULOMB]))
+    assert near["type"] and near["top"] and not near["right"] and not near["among_tied"]
+    assert not judged(truth("effect", COULOMB), told("missing", SHIFTED, others=[CUBIC, SHIFTED, COULOMB]))["top"]
+    assert judged(truth("effect", COULOMB), told("tie", COULOMB, CUBIC))["among_tied"]
+
+
+def test_a_truth_without_a_place_asks_for_none():
+    assert same({"name": "runout", "place": ""}, {"name": "runout", "place": "contact"})
+    assert not same({"name": "runout", "place": "tip"}, {"name": "runout", "place": "contact"})

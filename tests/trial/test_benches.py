@@ -1,0 +1,50 @@
+"""Cases on practice benches: two files, neutral, and a truth in the words of the catalogue."""
+
+import pytest
+
+from pipeline.effects import CATALOGUE
+from pipeline.effects.typical import Typical
+from pipeline.recordings.neutral import read_neutral
+from pipeline.trial import benches, pin_bench, worn_pad
+from pipeline.trial.systems import Draw
+
+
+@pytest.fixture
+def short(monkeypatch):
+    monkeypatch.setattr(pin_bench, "DURATIONS", (0.004, 0.004))
+    monkeypatch.setattr(worn_pad, "PRESSURES", (1e6,))
+    monkeypatch.setattr(worn_pad, "WAYS", (0.0, 1e-3))
+
+
+@pytest.mark.parametrize("system, hidden, place", [
+    ("pin_on_disc", ("doublet_split",), ("two 1", "three 1")), ("pin_on_disc", ("sensor_delay",), (
+        "laser_pin", "accelerometer")), ("shoe_on_drum", ("moving_base",), ("onto",)),
+    ("shoe_on_drum", ("sensor_gain",), ("laser_block", "accelerometer")), ("shoe_on_drum", (), ())])
+def test_a_bench_leaves_two_files_and_tells_its_truth(tmp_path, short, system, hidden, place):
+    kind = "control" if not hidden else "sensor" if hidden[0] in pin_bench.DECOYS else "effect"
+    truth = getattr(benches, system)(Draw(4, system, kind, hidden, 0.0, 0.0), tmp_path)
+    assert sorted(p.name for p in tmp_path.iterdir()) == ["nominal.yaml", "recordings.h5"]
+    assert truth["class"] == kind and [e["name"] for e in truth["effects"]] == list(hidden)
+    assert all(e["place"] in place for e in truth["effects"])
+    runs = read_neutral(tmp_path / "recordings.h5")
+    assert str(runs["lifted_2"].repeat_of) == "lifted_1" and "turned_15N" in runs
+    text = (tmp_path / "nominal.yaml").read_text()
+    assert "file: recordings.h5" in text and "practice/bench" not in text
+
+
+@pytest.mark.parametrize("hidden", ["", "third_body_film", "material_transfer"])
+def test_worn_pads_leave_friction_and_faces(tmp_path, short, hidden):
+    truth = benches.worn_pads(Draw(4, "worn_pads", "effect", (hidden,) if hidden else (), 0.0, 0.0), tmp_path)
+    runs = read_neutral(tmp_path / "recordings.h5")
+    assert set(runs) == {"new", "drag_1MPa"} and "pad_worn" in runs["drag_1MPa"].topography
+    assert [(e["name"], e["place"]) for e in truth["effects"]] == ([(hidden, "asperities")] if hidden else [])
+    assert "data/runs" not in (tmp_path / "nominal.yaml").read_text()
+
+
+@pytest.mark.parametrize("name", [*pin_bench.HIDDEN, *pin_bench.DECOYS])
+def test_told_values_are_those_of_the_catalogue(name):
+    values = dict.fromkeys({**pin_bench.HIDDEN, **pin_bench.DECOYS}[name], 0.1)
+    more = {"order": 2} if name == "doublet_split" else {"channel": "laser_pin"} if name in pin_bench.DECOYS else {}
+    effect = next(e for e in CATALOGUE if e.name == name)
+    known = {p.name for p in effect.parameters(Typical())}
+    assert set(benches._told(name, {**values, **more}, "pin_on_disc")["parameters"]) <= known
