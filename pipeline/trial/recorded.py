@@ -22,8 +22,8 @@ _COMPLETE = {
     "tribometer": ("tribometer.yaml", {"micro_slip": ("contact", {"compliance": "21.7 um/N"})}),
 }
 NAMES = tuple(_COMPLETE)
-#: system -> joint whose damping may be removed
-_DAMPED = {"carriage": "guide", "circuit": "mount"}
+#: system -> joint whose damping may be removed; a joint that is left without any force has no typical one
+_DAMPED = {"circuit": "mount"}
 #: SI unit of a recorded one
 _SI = {"m": ("m", 1.0), "mm": ("m", 1e-3), "N": ("N", 1.0), "uN": ("N", 1e-6), "V": ("V", 1.0)}
 

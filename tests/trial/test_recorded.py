@@ -12,7 +12,7 @@ from pipeline.trial.systems import RECORDED, Draw
 
 @pytest.mark.measured
 @pytest.mark.parametrize("system, hidden, place", [
-    ("carriage", (), ""), ("carriage", ("coulomb",), "guide"), ("carriage", ("joint_damping",), "guide"),
+    ("carriage", (), ""), ("carriage", ("coulomb",), "guide"), ("circuit", ("joint_damping",), "mount"),
     ("circuit", ("cubic_stiffness",), "mount"), ("tribometer", ("micro_slip",), "contact")])
 def test_what_is_removed_is_missing_and_the_rest_is_there(tmp_path, system, hidden, place):
     truth = write(Draw(1, system, "effect" if hidden else "control", hidden, 0.0, 0.0), tmp_path)
@@ -20,8 +20,8 @@ def test_what_is_removed_is_missing_and_the_rest_is_there(tmp_path, system, hidd
     case = yaml.safe_load((tmp_path / "nominal.yaml").read_text())
     there = {name for (name,) in removable(system)["effect"]} - {"joint_damping"}
     assert there & set(case.get("effects", {})) == there - set(hidden)
-    if system == "carriage":
-        assert ("damping" in case["lumped"]["springs"]["guide"]) == (hidden != ("joint_damping",))
+    if system == "circuit":
+        assert ("damping" in case["lumped"]["springs"]["mount"]) == (hidden != ("joint_damping",))
     runs = read_neutral(tmp_path / "recordings.h5")
     assert set(case["diagnosis"]["held_out"]) < set(runs) and "measured:" not in str(case)
 
