@@ -11,7 +11,8 @@ def verify(folder):
     """Sentences of what was checked; ConfigError at the first thing that does not hold."""
     found = TrialSet(folder)
     if not found.has("result.json"):
-        raise ConfigError(found.folder, "a set that was scored", "no result.json", f"run: brakechain trial score {found.folder}")
+        raise ConfigError(found.folder, "a set that was scored", "no result.json",
+                          f"run: brakechain trial score {found.folder}")
     truth, kept = found.read("truth.json"), found.read("answers.json")
     told = [*_sealing(found, truth)] if found.sealed else ["open set: nothing was sealed"]
     _check(sha256(canonical(kept["answers"])) == kept["digest"], found, "answers.json is not what was solved")
