@@ -9,6 +9,7 @@ from pipeline.trial import files, flutter, pin_bench, worn_pad
 
 #: which joint carries the arm of each bench
 _ARM = {"pin_on_disc": "arm", "shoe_on_drum": "onto"}
+_BESIDE = {"kind": "hdf5", "file": "recordings.h5"}
 #: names of the catalogue for what a worn pad hides
 _WORN = {"third_body": "third_body_film", "transfer": "material_transfer"}
 
@@ -33,6 +34,7 @@ def worn_pads(draw, folder):
     document = files.stated("worn_pad.yaml")
     for body in ("disc", "pad"):
         document["surface"][body]["file"] = "recordings.h5"
+    document["recording"]["files"] = [_BESIDE]
     files.leave(folder, document, _neutral(worn_pad.record(bench, draw.seed)))
     known = {name: told["hidden"]["third_body"][name] for name in ("gain", "distance")} if (
         hidden == "third_body_film") else told["hidden"].get("transfer", {})
@@ -58,6 +60,7 @@ def _split(draw, decoys):
 
 
 def _self_excited(draw, folder, document, runs, hidden, factors):
+    document["recording"]["files"] = [_BESIDE]
     files.leave(folder, document, _neutral(runs))
     found = [_told(name, values, draw.system) for name, values in hidden.items()]
     return {"class": draw.kind, "system": draw.system, "seed": draw.seed, "parameters": {}, "effects": found,

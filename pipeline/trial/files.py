@@ -39,13 +39,11 @@ def leave(folder, document, runs):
 
 
 def stated(name):
-    """A case of ``configs``, with its recording beside it: what the drawings of a practice bench say."""
+    """A case of ``configs``: what the drawings of a bench say."""
     path = _CONFIGS / name
     if not path.exists():
         raise ConfigError("trial", f"the case {path}", "none", "make such trials in a checkout of the project")
-    document = yaml.safe_load(path.read_text(encoding="utf-8"))
-    document["recording"]["files"][0]["file"] = "recordings.h5"
-    return document
+    return yaml.safe_load(path.read_text(encoding="utf-8"))
 
 
 def write(case, folder):

@@ -18,7 +18,7 @@ from itertools import combinations, product
 
 import numpy as np
 
-from pipeline.trial import belt, belt_files, benches, files, flutter, pin_bench
+from pipeline.trial import belt, belt_files, benches, files, flutter, pin_bench, recorded
 from pipeline.trial.case import KINDS, kind_of, made, places
 from pipeline.trial.hidden import HIDDEN
 from pipeline.trial.rubbing import FRICTION
@@ -127,3 +127,6 @@ SYSTEMS = {system.name: system for system in (
     System("worn_pads", benches.worn_pads, benches.hides(benches.worn_names()), (0.0,), (0.0,), "micro", weight=0.02),
     System("coarse_rig", _forced, {"solver": ((),)}, sizes=(0.0,), noises=(0.003, 0.01)),
 )}
+#: the same of real recordings, for those who have them: see ``pipeline.trial.recorded``
+RECORDED = {name: System(name, recorded.write, recorded.removable(name), (0.0,), (0.0,), "recorded")
+            for name in recorded.NAMES}
