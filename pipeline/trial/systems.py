@@ -125,7 +125,7 @@ SYSTEMS = {system.name: system for system in (
     System("worn_pads", benches.worn_pads, benches.hides(benches.worn_names()), (0.0,), (0.0,), "micro", weight=0.02),
     System("coarse_rig", _forced, {"solver": ((),)}, sizes=(0.0,), noises=(0.003, 0.01)),
 )}
-#: a system whose records hold too few sure poles as yet to be part of sets: effects of its draws stay below the threshold
+#: a system whose records hold too few sure poles as yet to be part of sets: a falling friction in it was not seen
 OPEN = {"shoe_on_drum": System("shoe_on_drum", benches.shoe_on_drum, benches.hides(flutter.HIDDEN, flutter.DECOYS),
                                (0.0,), (0.0,), "self_excited")}
 #: the same of real recordings, for those who have them: see ``pipeline.trial.recorded``
