@@ -34,6 +34,8 @@ from stages.reduced_model import reduced_model
 LEVELS, PLACES, CONTROLS = (0.01, 0.1), 2, 130
 #: share of the cases whose noise is coloured, by its correlation over a sample
 COLOURS = (0.0, 0.0, 0.0, 0.2)
+#: seeds that a draw is tried with, and how far apart they lie
+_TRIES, _APART = 12, 100_000
 ROOT = Path(__file__).parents[2]
 
 
@@ -95,10 +97,20 @@ def table(results):
     return [line(name, rate(hits)) for name, hits in rows if hits]
 
 
+def drawn(plan):
+    """Case of a Plan, of a seed further on where none can be made of its own."""
+    for attempt in range(_TRIES):
+        try:
+            return made(plan.seed + attempt * _APART, plan.hidden, plan.place, plan.level, plan.masses, plan.colour)
+        except BrakechainError as error:
+            told = error
+    raise told
+
+
 def run(plan, folder, **asked):
     """(truth, answer) of one Plan, from its files where they are there."""
     if not (folder / "truth.json").exists():
-        case = made(plan.seed, plan.hidden, plan.place, plan.level, plan.masses, plan.colour)
+        case = drawn(plan)
         files.write(case, folder)
         (folder / "truth.json").write_text(json.dumps(files.truth(case), indent=1) + "\n")
     return json.loads((folder / "truth.json").read_text()), answered(folder, partial(solved, folder, **asked))
