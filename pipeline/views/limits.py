@@ -25,9 +25,9 @@ def _grid(micro):
 
 #: (products that must be there, sentence or the function of these products that writes it)
 LIMITS = (
-    (("micro_friction",), "Third body: one shear limit stands for the film between pad and disc. Its growth and transfer"
-     " of material between the bodies are there only as effects (third_body_film, material_transfer) that the case"
-     " states; wear debris is left out."),
+    (("micro_friction",), "Third body: one shear limit stands for the film between pad and disc. Its growth and"
+     " transfer of material between the bodies are there only as effects (third_body_film, material_transfer) that the"
+     " case states; wear debris is left out."),
     (("micro_friction",), "Plastic flow of the asperities, adhesion, and stiff particles inside the pad: both solids"
      " are elastic and homogeneous beneath their rough surface."),
     (("micro_friction",), "Heat: the flash temperature of the spots may lower the shear limit, but disc and pad do not"
