@@ -10,8 +10,6 @@ STAGES := surface effects micro_friction friction_map structure reduced_model co
 CONFIG := configs/$(CASE).yaml
 READY  := .venv/.ready
 BIN    := .venv/bin
-# one process per core: threads of linear algebra inside them would only wait for each other
-SINGLE := OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1
 
 .DEFAULT_GOAL := help
 .PHONY: help setup run test test-slow test-study bench trial trial_sealed study_diagnosis study_squeal pin_bench worn_bench lint clean $(STAGES)
@@ -35,13 +33,13 @@ run: $(READY)    ## run the chain of CASE; what is up to date is kept
 	$(BIN)/brakechain run $(CONFIG) $(ARGS)
 
 test: $(READY)   ## all tests but the slow studies
-	$(SINGLE) $(BIN)/python -m pytest -q -m "not slow" -n auto --dist loadfile $(ARGS) $(TESTS)
+	$(BIN)/python -m pytest -q -m "not slow" -n auto --dist loadfile $(ARGS) $(TESTS)
 
 test-slow: $(READY)  ## the slow studies: full cases, kill-and-resume in every stage
 	$(BIN)/python -m pytest -q -m "slow and not study" $(ARGS) $(TESTS)
 
 test-study: $(READY)  ## the long diagnoses: every case of its kind, samples of the studies
-	$(SINGLE) $(BIN)/python -m pytest -q -m study $(ARGS) $(TESTS)
+	$(BIN)/python -m pytest -q -m study $(ARGS) $(TESTS)
 
 bench: $(READY)  ## benchmarks: seconds and memory of every stage and kernel
 	$(BIN)/python -m tests.benchmarks $(ARGS)

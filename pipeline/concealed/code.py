@@ -1,12 +1,12 @@
 """What decides the answers and the score of a trial: code, catalogue, thresholds, packages."""
 
-import hashlib
 from dataclasses import asdict
 from importlib import metadata
 from pathlib import Path
 
 from pipeline import __version__, effects
 from pipeline.concealed.sets import canonical, sha256
+from pipeline.contract.fingerprint import digest
 from pipeline.contract.runner import git_commit
 from pipeline.inference.decide import Rules
 
@@ -23,7 +23,7 @@ def files():
     """{file: SHA-256} of what decides answers and scores."""
     found = sorted(path for name in ("pipeline", "stages") for path in (_ROOT / name).rglob("*.py"))
     named = ((path.relative_to(_ROOT).as_posix(), path) for path in found)
-    return {name: hashlib.sha256(path.read_bytes()).hexdigest() for name, path in named if not name.startswith(_APART)}
+    return {name: digest(path) for name, path in named if not name.startswith(_APART)}
 
 
 def of_answers(code):

@@ -40,7 +40,6 @@ def question(bench, recorded, settings):
     problem = Problem(seen, forward, nominal(nominal_parameters(bench, settings)))
     for one in after:       # what the model cannot do is refused before anything is fitted
         forward(problem.nominal, problem.nominal.values(problem.nominal.nominal), one.observed)
-    check_names("priors", settings.priors, [f"{e.name}.{p.name}" for e in CATALOGUE for p in parameters(e)])
     found = candidates(bench, tuple(one.run for one in trained), chosen(settings), settings.places,
                        reach(bench, trained), settings.priors, largest(trained))
     noises = budget(problem, above=settings.noise.above)
@@ -60,8 +59,9 @@ def nominal_parameters(bench, settings):
 
 
 def chosen(settings):
-    """Effects that are weighed."""
+    """Effects that are weighed. ConfigError for names of effects, and of priors of their parameters, that none has."""
     names = [e.name for e in CATALOGUE]
+    check_names("priors", settings.priors, [f"{e.name}.{p.name}" for e in CATALOGUE for p in parameters(e)])
     check_names("effects", settings.effects, names)
     check_names("without", settings.without, names)
     return tuple(e for e in CATALOGUE if (not settings.effects or e.name in settings.effects)

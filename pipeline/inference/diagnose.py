@@ -19,7 +19,7 @@ from pipeline.inference.effective import tempering
 from pipeline.inference.evidence import cautious_prior, evidence, posterior, reached, screened
 from pipeline.inference.least_squares import continued, far, linearised, of_features
 from pipeline.inference.screen import directions, screen
-from pipeline.inference.weigh import EXCLUDED, contender, held_out_gains, situation
+from pipeline.inference.weigh import EXCLUDED, contender, excluded, held_out_gains, situation
 
 #: iterations of a nominal model from a candidate's optimum before it is given up where it is still worse than before
 _GIVEN_UP = 16
@@ -165,16 +165,12 @@ def _begun(problem, noises, null, offsets, item):
 
 def _misled(null):
     """Whether nothing near the null's optimum helps: values at odds with their priors, features paired wrongly."""
-    return _excluding(null) or (of_features(null.noises) and far(null))
+    return bool(excluded(null, EXCLUDED)) or (of_features(null.noises) and far(null))
 
 
 def _at_odds(null):
     """Whether samples pull the null to values at odds with their priors: then its linearisation ranks nothing."""
-    return _excluding(null) and not of_features(null.noises)
-
-
-def _excluding(null):
-    return bool(np.abs(null.latent).max(initial=0.0) > EXCLUDED)
+    return bool(excluded(null, EXCLUDED)) and not of_features(null.noises)
 
 
 def _enough(results):

@@ -41,7 +41,7 @@ def smooth(residual, rate, size, length, noise, valid=None):
 def latent_force(residual, rate, valid=None):
     """LatentForce with the hyperparameters of the largest likelihood. Raises ConvergenceError where none is found.
 
-    No length beyond that of the record is tried: such a force is constant or straight over it.
+    No length far beyond that of the record is tried: such a force is constant or straight over it.
     """
     residual = np.asarray(residual, float)
     valid = np.ones(len(residual), bool) if valid is None else valid
@@ -54,8 +54,8 @@ def latent_force(residual, rate, valid=None):
         return -_filtered(residual, valid, 1 / rate, size, length, noise)[-1]
 
     starts = [np.log([spread, samples / rate, 0.3 * spread]) for samples in (3, 30, 300)]
-    bounds = np.log([(_SPREADS[0] * spread, _SPREADS[1] * spread), (0.3 / rate, max(len(residual), 1000) / rate),
-                     (_SPREADS[0] * spread, _SPREADS[1] * spread)])
+    sizes = [share * spread for share in _SPREADS]
+    bounds = np.log([sizes, [0.3 / rate, max(len(residual), 1000) / rate], sizes])
     options = {"xatol": 1e-3, "fatol": 1e-3, "maxiter": 600}
     found = min((minimize(loss, s, method="Nelder-Mead", bounds=bounds, options=options) for s in starts),
                 key=lambda r: r.fun)

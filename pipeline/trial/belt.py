@@ -9,15 +9,14 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from pipeline.contract.errors import ConfigError
-from pipeline.trial import excitation, rig, sensors
-from pipeline.trial.case import BAND, BELOW, CORNER, DELAY, FAR, GAIN_ERROR, SPREAD, places
+from pipeline.trial import case, rig, sensors
+from pipeline.trial.case import BELOW, CORNER, FAR, GAIN_ERROR, RATE, SAMPLES, SPREAD, noise_of, places, recorder_of
 from pipeline.trial.detectable import explained, nudged
 from pipeline.trial.hidden import HIDDEN, Spot
 from pipeline.trial.motion import PARTS, Law, World, moved
 from pipeline.trial.planted import Planted, Recorder, built, change_of, sized
 from pipeline.trial.rubbing import FRICTION, Contact, Drag, Rubbed, plain
 
-RATE, SAMPLES = 100.0, 500
 #: loads N of the runs, the last held out, and the typical one; root mean squares of the shaker, N
 LOADS, LOAD, LEVELS = (4.0, 8.0, 12.0, 6.0), 8.0, (2.5, 2.0, 4.0, 3.0)
 HUMIDITIES, FRICTIONS = (0.3, 0.7, 0.45, 0.6), (0.15, 0.4)
@@ -68,7 +67,7 @@ def made(seed, hidden=(), level=0.01, masses=1, change=0.1, kind=""):
     bare = _seen(own)
     trained = range(len(LOADS) - 1)
     known = explained(lambda one: _seen(one, runs=trained), _nudged(own), SPREAD, GAIN_ERROR, _STEP)
-    noise = level * np.sqrt(np.mean([s**2 for s in bare], axis=(0, 2)))
+    noise = noise_of(bare, level)
     planted = tuple(_planted(random, own, bare, name, known, noise, change, kind == "below") for name in hidden)
     seen = _seen(own, planted) if planted else bare
     left = tuple(known.left(np.array(seen)[trained] - _seen(own, tuple(p for p in planted if p is not one), trained),
@@ -83,16 +82,12 @@ def made(seed, hidden=(), level=0.01, masses=1, change=0.1, kind=""):
 
 def kind_of(hidden):
     """Class of a case that hides these."""
-    if len(hidden) != 1:
-        return "pair" if hidden else "control"
-    return "effect" if {**HIDDEN, **FRICTION}[hidden[0]].known else "foreign"
+    return case.kind_of(hidden, {**HIDDEN, **FRICTION})
 
 
 def _drawn(random, masses):
     truth = rig.drawn(random, masses)
-    forces = tuple(n * excitation.force(str(random.choice(excitation.KINDS)), random, SAMPLES, 1 / RATE, BAND)
-                   for n in LEVELS)
-    recorder = Recorder(forces, RATE, 1 + GAIN_ERROR * random.standard_normal(masses), DELAY, CORNER)
+    recorder = recorder_of(random, masses, LEVELS)
     alone = np.concatenate([np.gradient(x[0], 1 / (RATE * PARTS)) for x in recorder.motion(World(truth))])
     speed = float(np.sqrt(np.mean(alone**2)))
     belts = tuple(speed * _way(random, k % 2) for k in range(len(LEVELS)))
@@ -162,8 +157,7 @@ def _planted(random, belt, bare, name, known, noise, wanted, below):
     def left(one):
         return known.left(np.array(_seen(belt, (one,), trained)) - np.array(bare[:len(trained)]), noise)
 
-    low, high = BELOW
-    return sized(start, left, low * (high / low) ** shape[2]) if below else sized(start, change, wanted)
+    return sized(start, left, start.spot.between(2, *BELOW)) if below else sized(start, change, wanted)
 
 
 def _spot(belt, bare, piece, index, shape):

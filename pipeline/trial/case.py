@@ -72,17 +72,15 @@ def made(seed, hidden="", place=0, level=0.01, masses=2, colour=0.0, change=None
     names, indices = ((hidden,) if hidden else (), (place,)) if isinstance(hidden, str) else (hidden, place)
     random = np.random.default_rng(seed)
     truth, rate = rig.drawn(random, masses), LOW_RATE if kind == "solver" else RATE
-    forces = tuple(level_n * excitation.force(str(random.choice(excitation.KINDS)), random, SAMPLES, 1 / rate, BAND)
-                   for level_n in LEVELS)
-    recorder = Recorder(forces, rate, 1 + GAIN_ERROR * random.standard_normal(masses), DELAY, CORNER)
+    recorder = recorder_of(random, masses, rate=rate)
     draws = [(tuple(random.uniform(size=3)), float(random.uniform(*CHANGE))) for _ in names or (None,)]
     bare = recorder.motion(World(truth))
-    explained = of_rig(recorder, truth, len(forces) - 1, SPREAD, GAIN_ERROR)
+    explained = of_rig(recorder, truth, len(recorder.runs) - 1, SPREAD, GAIN_ERROR)
     hiding = _Hiding(recorder, truth, bare, explained, level, colour)
     planted = tuple(hiding.planted(name, at, shape, change or drawn, kind == "below")
                     for name, at, (shape, drawn) in zip(names, indices, draws, strict=False))
     seen = shown(recorder, truth, planted, bare)
-    noise = _noise(seen, level)
+    noise = noise_of(seen, level)
     left = tuple(explained.left(_difference(seen, shown(recorder, truth, _without(planted, one), bare))[:-1], noise,
                                 colour) for one in planted)
     if kind == "solver":
@@ -94,7 +92,7 @@ def made(seed, hidden="", place=0, level=0.01, masses=2, colour=0.0, change=None
     far = ""
     if kind == "wrong_value":
         belief, far = rig.far_off(random, truth, belief, FAR)
-    runs = tuple((f, _recorded(random, s, noise, colour)) for f, s in zip(forces, seen, strict=True))
+    runs = tuple((f, _recorded(random, s, noise, colour)) for f, s in zip(recorder.runs, seen, strict=True))
     return Case(seed, kind or kind_of(names), planted, left, level, truth, belief, exact, far, runs, rate, noise,
                 colour, change_of(seen[:1], recorder.seen(bare[:1])))
 
@@ -104,16 +102,21 @@ def known(seed, truth):
     random = np.random.default_rng([seed, 9])
     if random.uniform() > 1 / 3:
         return ()
-    names = [f"mass_{k}" for k in range(len(truth.mass))]
-    names += [f"{what}_{k}" for k in range(len(truth.links)) for what in ("stiffness", "damping")]
-    return (str(random.choice(names)),)
+    return (str(random.choice(rig.value_names(truth))),)
 
 
-def kind_of(names):
-    """Class of a case that hides these pieces of HIDDEN."""
+def recorder_of(random, masses, levels=LEVELS, rate=RATE):
+    """Recorder of runs under forces of these root mean squares in N, its sensors with gains that are a little off."""
+    forces = tuple(level * excitation.force(str(random.choice(excitation.KINDS)), random, SAMPLES, 1 / rate, BAND)
+                   for level in levels)
+    return Recorder(forces, rate, 1 + GAIN_ERROR * random.standard_normal(masses), DELAY, CORNER)
+
+
+def kind_of(names, pieces=HIDDEN):
+    """Class of a case that hides these of the ``pieces`` {name: Hidden}."""
     if len(names) != 1:
         return "pair" if names else "control"
-    piece = HIDDEN[names[0]]
+    piece = pieces[names[0]]
     return ("sensor" if piece.place == "channel" else "effect") if piece.known else "foreign"
 
 
@@ -143,10 +146,9 @@ class _Hiding:
         piece = HIDDEN[name]
         index, where = places(piece, len(self.truth.mass))[place % len(places(piece, len(self.truth.mass)))]
         start = Planted(piece, where, self._spot(piece, index, shape))
-        if not below:
-            return sized(start, self._change, wanted)
-        low, high = BELOW
-        return sized(start, self._left, low * (high / low) ** shape[2])
+        if below:
+            return sized(start, self._left, start.spot.between(2, *BELOW))
+        return sized(start, self._change, wanted)
 
     def _change(self, one):
         seen = shown(self.recorder, self.truth, (one,), self.bare, slice(1))
@@ -156,7 +158,7 @@ class _Hiding:
         trained = slice(len(self.recorder.runs) - 1)
         without = self.recorder.seen(self.bare[trained])
         seen = shown(self.recorder, self.truth, (one,), self.bare, trained)
-        return self.explained.left(_difference(seen, without), _noise(without, self.level), self.colour)
+        return self.explained.left(_difference(seen, without), noise_of(without, self.level), self.colour)
 
     def _spot(self, piece, index, shape):
         row = self.truth.rows[index] if "link" in piece.place else np.eye(len(self.truth.mass))[index]
@@ -186,7 +188,8 @@ def _difference(shown_now, before):
     return np.array(shown_now) - np.array(before)
 
 
-def _noise(seen, level):
+def noise_of(seen, level):
+    """Standard deviation (sensor,) of noise of this ``level`` relative to what the sensors show in all runs."""
     return level * np.sqrt(np.mean([s**2 for s in seen], axis=(0, 2)))
 
 

@@ -17,8 +17,16 @@ from pipeline.trial.sensors import Chain
 _SMOOTH = 3e-3
 
 
+class Drawn:
+    """What has a drawn ``shape`` (3,), each number between 0 and 1."""
+
+    def between(self, part, low, high):
+        """The drawn shape ``part`` between ``low`` and ``high``, evenly in the logarithm."""
+        return float(low * (high / low) ** self.shape[part])
+
+
 @dataclass(frozen=True)
-class Spot:
+class Spot(Drawn):
     """Where physics is hidden: link, mass or channel ``index`` of a rig, typical sizes there, a drawn ``shape`` (3,).
 
     ``length`` m, ``speed`` m/s, ``force`` N (root mean squares without the hidden physics), ``time`` s of a run.
@@ -44,10 +52,6 @@ class Spot:
     def angular(self):
         """Typical angular frequency, rad/s."""
         return self.speed / self.length
-
-    def between(self, part, low, high):
-        """The drawn shape ``part`` between ``low`` and ``high``, evenly in the logarithm."""
-        return float(low * (high / low) ** self.shape[part])
 
 
 @dataclass(frozen=True)

@@ -71,11 +71,15 @@ def believed(random, rig, exact=()):
     return replace(rig, mass=tuple(off(f"mass_{k}", m) for k, m in enumerate(rig.mass)), links=links)
 
 
+def value_names(rig):
+    """Names of all values of a rig, as ``exact`` of ``believed`` has them."""
+    return [f"mass_{k}" for k in range(len(rig.mass))] + [
+        f"{what}_{k}" for k in range(len(rig.links)) for what in ("stiffness", "damping")]
+
+
 def far_off(random, rig, belief, ends):
     """(belief with one value drawn, off by a factor between ``ends`` either way, and the name of that value)."""
-    names = [f"mass_{k}" for k in range(len(rig.mass))] + [
-        f"{what}_{k}" for k in range(len(rig.links)) for what in ("stiffness", "damping")]
-    name = str(random.choice(names))
+    name = str(random.choice(value_names(rig)))
     factor = np.exp(random.choice((-1, 1)) * random.uniform(*np.log(ends)))
     what, k = name.split("_")[0], int(name.split("_")[1])
     if what == "mass":

@@ -12,6 +12,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from pipeline.trial.hidden import Drawn
+
 #: speed at which smoothed friction has 3/4 of its size, as a share of the typical slip
 _SMOOTH = 3e-4
 
@@ -26,7 +28,7 @@ class Rubbed:
 
 
 @dataclass(frozen=True)
-class Contact:
+class Contact(Drawn):
     """Where friction is hidden: typical slip ``speed`` m/s, ``length`` m of the motion, ``load`` N, ``time`` s of a
     run, a drawn ``shape`` (3,)."""
 
@@ -36,10 +38,6 @@ class Contact:
     time: float
     shape: tuple
     index: int = 0
-
-    def between(self, part, low, high):
-        """The drawn shape ``part`` between ``low`` and ``high``, evenly in the logarithm."""
-        return float(low * (high / low) ** self.shape[part])
 
     def sign(self, slip):
         """Smoothed sign of a slip."""

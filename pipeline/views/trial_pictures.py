@@ -31,11 +31,14 @@ def rates(methods, names):
 
 def _with_intervals(axes, rows, colour, marker, label):
     """Dots at (rate, y) with their intervals along x."""
-    y, found = [r[0] for r in rows], [r[1] for r in rows]
-    share = np.array([f["hits"] / f["count"] for f in found])
-    low, high = np.array([f["low"] for f in found]), np.array([f["high"] for f in found])
-    axes.errorbar(share, y, xerr=[np.maximum(share - low, 0), np.maximum(high - share, 0)], fmt=marker, color=colour,
-                  lw=1.2, capsize=2, label=label)
+    share, bars = _shares([found for _, found in rows])
+    axes.errorbar(share, [y for y, _ in rows], xerr=bars, fmt=marker, color=colour, lw=1.2, capsize=2, label=label)
+
+
+def _shares(found):
+    """Shares (n,) of rates, and how far their intervals reach below and above (2, n)."""
+    share, low, high = np.array([[f["hits"] / f["count"], f["low"], f["high"]] for f in found]).reshape(-1, 3).T
+    return share, np.maximum([share - low, high - share], 0)
 
 
 def table(counted, row_label, column_label):
@@ -87,9 +90,7 @@ def visible(points):
 def _curve(axes, points, first, k, label):
     """Rates with 95 % intervals over bins in the logarithm; the lowest bin begins at ``first``."""
     x = np.sqrt([max(p["low"], first) * p["high"] for p in points]) * 1.04**k
-    found = [p["right"] for p in points]
-    share = np.array([f["hits"] / f["count"] for f in found])
-    bars = [np.maximum(share - [f["low"] for f in found], 0), np.maximum([f["high"] for f in found] - share, 0)]
+    share, bars = _shares([p["right"] for p in points])
     axes.errorbar(x, share, yerr=bars, fmt=MARKERS[k % 6], ls=LINES[k % 6], color=COLOURS[k % 6], lw=1.2, capsize=2,
                   label=label)
     axes.set(xscale="log", ylim=(-0.03, 1.03))
@@ -101,11 +102,8 @@ def reliability(bins):
     with drawing() as figure:
         axes = figure.subplots()
         axes.plot([0, 1], [0, 1], color=FAINT, lw=1)
-        for b in bins:
-            so = b["so"]
-            share = so["hits"] / so["count"]
-            axes.errorbar(b["stated"], share, yerr=[[max(share - so["low"], 0)], [max(so["high"] - share, 0)]], fmt="o",
-                          color=BLUE, capsize=2)
+        share, bars = _shares([b["so"] for b in bins])
+        axes.errorbar([b["stated"] for b in bins], share, yerr=bars, fmt="o", color=BLUE, capsize=2)
         axes.set(xlim=(-0.03, 1.03), ylim=(-0.03, 1.03), xlabel="stated probability", ylabel="share that is so")
         return svg(figure)
 

@@ -160,7 +160,7 @@ def test_linearised_p_values_agree_with_full_refits_under_the_null(monkeypatch):
 
 def test_where_the_nominal_model_is_misled_every_candidate_begins_and_the_best_goes_on(monkeypatch):
     problem, seen, begun = bench(5, 0.01, stiffness=380.0, extra=cubic), [], course._begun
-    monkeypatch.setattr(course, "_excluding", lambda null: True)
+    monkeypatch.setattr(course, "excluded", lambda null, beyond: ("a value",))
     monkeypatch.setattr(course, "_begun", lambda *given: seen.append(given[-1][0].name) or begun(*given))
     told = diagnose(problem, budget(problem), CATALOGUE, Settings(kept=1))
     assert sorted(seen[:len(CATALOGUE)]) == sorted(c.name for c in CATALOGUE)

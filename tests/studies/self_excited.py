@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 
+from pipeline.concealed.judging import judged
 from pipeline.concealed.rates import line, rate
 from pipeline.contract import documents
 from pipeline.recordings.neutral import write_neutral
@@ -59,12 +60,9 @@ def solved(path, **asked):
 
 def scored(hidden, answer):
     """{right, false_alarm} of one case; a decoy is right where the verdict is that of a sensor."""
-    named = [e["name"] for e in answer["effects"]]
-    if not hidden:
-        return {"right": answer["verdict"] in ("parameters", "consistent"),
-                "false_alarm": answer["verdict"] in ("missing", "tie", "sensor", "numerics")}
-    wanted = "sensor" if hidden in DECOYS else "missing"
-    return {"right": answer["verdict"] == wanted and (wanted == "sensor" or named == [hidden]), "false_alarm": False}
+    kind = "sensor" if hidden in DECOYS else "effect" if hidden else "control"
+    found = judged({"class": kind, "effects": [{"name": hidden, "place": ""}] if hidden else []}, answer)
+    return {"right": found["called" if kind == "sensor" else "right"], "false_alarm": found.get("false_alarm", False)}
 
 
 def table(results):
