@@ -27,6 +27,8 @@ _REACH = 0.1
 _UNRESOLVED = 0.05
 #: standard deviations that no sensor beats: of a logarithmic gain, and of a delay in s
 _GAIN, _DELAY = 0.005, 1e-6
+#: sensors of one point are compared by poles that move both by more than this share of what their loudest pole does
+_HEARD = 0.02
 #: powers of the root that turn a quantity into a velocity
 _POWER = {"displacement": 1, "velocity": 0, "acceleration": -1}
 
@@ -82,15 +84,23 @@ def _told(bench, one, settings):
         floor = settings.resolution * root.imag
         std |= {frequency: np.hypot(spread, floor) / (2 * np.pi), growth: np.hypot(spread, floor)}
     for (first, second), (gain, delay) in _pairs(bench).items():
-        ratio = one.seen.shape[:, second] / one.seen.shape[:, first]
-        trusted = 1 / (one.seen.std / abs(one.seen.root) + 1e-3) ** 2
-        late = -np.angle(ratio) / one.seen.root.imag
+        heard = one.seen.of(_heard(one.seen.shape[:, [first, second]]))
+        ratio = heard.shape[:, second] / heard.shape[:, first]
+        trusted = 1 / (heard.std / abs(heard.root) + 1e-3) ** 2
+        late = -np.angle(ratio) / heard.root.imag
         for name, each, floor in ((gain, np.log(abs(ratio)), _GAIN), (delay, late, _DELAY)):
             middle = np.median(each)
             kept = abs(each - middle) <= 3 * np.median(abs(each - middle)) + floor
             values[name] = float(np.average(each[kept], weights=trusted[kept]))
             std[name] = float(np.hypot(np.std(each[kept]) / np.sqrt(kept.sum()), floor))
     return Features(one.run, one.seen, values, std)
+
+
+def _heard(shape):
+    """Indices of the poles of amplitudes (p, 2) that both sensors hear; all where there is none."""
+    size = abs(shape)
+    loud = (size > _HEARD * size.max(axis=0, initial=0.0)).all(axis=1)
+    return np.flatnonzero(loud | ~loud.any())
 
 
 def _turned(bench, one):

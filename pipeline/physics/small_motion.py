@@ -57,11 +57,12 @@ def present(state, states):
 def _read(friction, speed, pressure, factor):
     found = np.empty((3, len(speed)))
     for law, own in parts(friction, len(speed)):
-        for i in own:
-            turned = law.backward if speed[i] < 0 else 1.0
-            state = pressure[i], abs(speed[i]), law.distance
-            found[:, i] = turned * np.array([law.law.evaluate(*state)[0], *(law.law.slope(axis, *state)
-                                                                            for axis in ("pressure", "speed"))])
+        turned, there, slip = np.where(speed[own] < 0, law.backward, 1.0), pressure[own], abs(speed[own])
+        found[0, own] = turned * law.law.evaluate(there, slip, law.distance)[0]
+        for row, axis in enumerate(("pressure", "speed"), 1):
+            varies = getattr(law.law, axis).size > 1
+            found[row, own] = turned * [law.law.slope(axis, p, v, law.distance) if varies else 0.0
+                                        for p, v in zip(there, slip, strict=True)]
     return FrictionState(*(factor * found))
 
 

@@ -18,7 +18,7 @@ from itertools import combinations, product
 
 import numpy as np
 
-from pipeline.trial import belt, belt_files, benches, files, flutter, pin_bench, recorded
+from pipeline.trial import belt, belt_files, benches, brake_files, files, flutter, pin_bench, recorded
 from pipeline.trial.case import KINDS, kind_of, made, places
 from pipeline.trial.hidden import HIDDEN
 from pipeline.trial.rubbing import FRICTION
@@ -123,6 +123,7 @@ SYSTEMS = {system.name: system for system in (
     System("pin_on_disc", benches.pin_on_disc, benches.hides(pin_bench.HIDDEN, pin_bench.DECOYS), (0.0,), (0.0,),
            "self_excited", weight=0.15),
     System("worn_pads", benches.worn_pads, benches.hides(benches.worn_names()), (0.0,), (0.0,), "micro", weight=0.02),
+    System("disc_brake", brake_files.write, brake_files.hides(), (0.0,), (0.0,), "disc_brake", weight=0.12),
     System("coarse_rig", _forced, {"solver": ((),)}, sizes=(0.0,), noises=(0.003, 0.01)),
 )}
 #: a system whose records hold too few sure poles as yet to be part of sets: a falling friction in it was not seen
