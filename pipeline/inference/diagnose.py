@@ -109,13 +109,9 @@ def _one_step(problem, budget, catalogue, settings, fan_out, start=None, base=No
     rough = screen(null, found, None, settings.draws, settings.seed)
     largest = _hopeful(null, settings.rules) if base is None else settings.rules.p_value
     hopeful = [i for i in rough.order() if np.isfinite(rough.score[i]) and rough.p_value[i] <= largest]
-
     refits = Refits(problem, null, tuple(catalogue), settings, fan_out)
-    results = refits.of(hopeful[:settings.kept], rough.start)
-    if base is None:
-        results = refits.from_best(results)
-    if at_odds(null) and not any(reaches_noise(r.fit, settings.rules) for r in results.values() if r.fit):
-        results = refits.from_best(refits.of(hopeful[settings.kept:], rough.start, results))
+    results = _first_refits(refits, hopeful, rough.start) if base is None else refits.of(
+        hopeful[:settings.kept], rough.start)
     results = refits.of(_overlooked(null, found, results, settings), rough.start, results)
     better = min([null, *(r.null for r in results.values() if r.null is not None)], key=lambda f: f.objective)
     if better.objective < null.objective - 0.1:
@@ -125,6 +121,15 @@ def _one_step(problem, budget, catalogue, settings, fan_out, start=None, base=No
     failures = {catalogue[i].name: r.told for i, r in results.items() if r.told}
     failures |= {f.candidate.name: f.failure for f in found if f.failure}
     return _weighed(problem, budget, null, found, fits, failures, settings, base)
+
+
+def _first_refits(refits, hopeful, starts):
+    """{index: Refitted} of a first effect: the best few of the screen and their rivals, else all of them."""
+    kept, rules = refits.settings.kept, refits.settings.rules
+    results = refits.from_best(refits.of(hopeful[:kept], starts))
+    if not at_odds(refits.null) or any(reaches_noise(r.fit, rules) for r in results.values() if r.fit):
+        return results
+    return refits.from_best(refits.of(hopeful[kept:], starts, results))
 
 
 def _hopeful(null, rules):
