@@ -24,7 +24,7 @@ from pipeline.inference.screen import directions, screen
 from pipeline.inference.weigh import contender, held_out_gains, situation
 
 #: where the linearisation of the null holds, scores that chance reaches more often than this are not looked into
-_LIKELY = 0.5
+_LIKELY = 0.1
 
 
 @dataclass(frozen=True)
