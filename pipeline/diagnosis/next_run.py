@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from pipeline.benches import corrections
-from pipeline.contract import ConfigError
+from pipeline.contract import BrakechainError, ConfigError
 from pipeline.contract.units import to_si
 from pipeline.inference.least_squares import linearised
 from pipeline.inference.next_experiment import choose, predicted
@@ -45,11 +45,16 @@ def feasible(bench, given, like, where="diagnosis.next"):
     found = []
     for name, values in given.items():
         for value in values:
-            run, altered = _changed(bench, like.run, name, value, f"{where}.{name}")
-            told = f"{name} = {value}" if isinstance(value, str) else f"{name} x {value:g}"
+            run, altered = changed(bench, like.run, name, value, f"{where}.{name}")
+            told = words(name, value)
             blank = Observed(told, run.conditions, like.channels, np.zeros(like.samples.shape), run.sample_rate)
             found.append(Feasible(blank, replace(run, name=told), altered))
     return tuple(found)
+
+
+def words(name, value):
+    """What is changed, as it is told: 'load = 5 N', 'stiffness x 5'."""
+    return f"{name} = {value}" if isinstance(value, str) else f"{name} x {value:g}"
 
 
 def altered(bench, changes):
@@ -61,17 +66,27 @@ def altered(bench, changes):
 def next_experiment(question, found):
     """Fields next_condition, next_separates and next_value of the product Diagnosis; empty where nothing is tied.
 
-    Predictions are tempered as the evidence was: by the mean weight of the fitted runs.
+    Predictions are tempered as the evidence was: by the mean weight of the fitted runs. Runs that one of the tied
+    hypotheses cannot predict are left out.
     """
     rivals = found.named
-    if len(rivals) < 2 or not question.next_runs:
+    told = [(run, _predictions(question, found, run)) for run in question.next_runs] if len(rivals) > 1 else []
+    told = [(run, predictions) for run, predictions in told if predictions]
+    if not told:
         return {"next_condition": [], "next_separates": [], "next_value": 0.0}
     share = np.array([w.contender.posterior for w in rivals])
-    choice = choose(share / share.sum(), [[_prediction(question, found, w.fit, run) for w in rivals]
-                                          for run in question.next_runs])
-    return {"next_condition": [question.next_runs[choice.index].name],
+    choice = choose(share / share.sum(), [predictions for _, predictions in told])
+    return {"next_condition": [told[choice.index][0].name],
             "next_separates": [rivals[k].candidate.name for k in choice.separates],
             "next_value": float(choice.value[choice.index])}
+
+
+def _predictions(question, found, run):
+    """Predictions of one run by every tied hypothesis, or none."""
+    try:
+        return [_prediction(question, found, w.fit, run) for w in found.named]
+    except BrakechainError:
+        return []
 
 
 def _prediction(question, found, fit, run):
@@ -80,8 +95,8 @@ def _prediction(question, found, fit, run):
     return predicted(-weight * there.residuals[0], weight * there.jacobians[0], fit.covariance(found.weights))
 
 
-def _changed(bench, run, name, value, where):
-    """(Run, altered) with one thing changed."""
+def changed(bench, run, name, value, where):
+    """(Run, altered) with one thing changed: a value with a unit or a factor. ConfigError where it cannot be."""
     factor = not isinstance(value, str)
     numbers = corrections.known(bench)
     if name in numbers:
@@ -92,11 +107,11 @@ def _changed(bench, run, name, value, where):
     if name == DRIVE:
         return replace(run, drive=value * np.asarray(run_drive(bench, run), float)), {}
     unit = "rad/s" if name == "speed" else "N"
-    changed = value * np.asarray(own[name], float) if factor else to_si(value, unit, where)
+    there = value * np.asarray(own[name], float) if factor else to_si(value, unit, where)
     if name in bench.model.input_name:
-        return replace(run, inputs={**run.inputs, name: changed}), {}
+        return replace(run, inputs={**run.inputs, name: there}), {}
     drive = None if name == "speed" else run.drive
-    return replace(run, drive=drive, conditions={**run.conditions, name: float(changed)}), {}
+    return replace(run, drive=drive, conditions={**run.conditions, name: float(there)}), {}
 
 
 def _conditions(bench, run):

@@ -82,7 +82,9 @@ class Settings(Section):
                                           " others priors of the sizes that nominal runs have")
     next: dict[str, tuple[str | float, ...]] = option({}, "what could be recorded next, by the condition (normal_load,"
                                                           " speed, drive, an input) or number of the bench that would"
-                                                          " change: values with a unit, or factors")
+                                                          " change: values with a unit, or factors; forward equation:"
+                                                          " also motion (size) and pace, none = within the recorded"
+                                                          " ones")
     noise: NoiseOf = option(NoiseOf(), "noise of the recordings")
     solver: bool = option(True, "weigh the solver too, by halving its step")
     plan: Plan = option(Plan(), "runs that could be recorded, for 'brakechain plan'")
