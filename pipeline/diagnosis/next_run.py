@@ -66,25 +66,44 @@ def altered(bench, changes):
 def next_experiment(question, found):
     """Fields next_condition, next_separates and next_value of the product Diagnosis; empty where nothing is tied.
 
-    Predictions are tempered as the evidence was: by the mean weight of the fitted runs. Runs that one of the tied
-    hypotheses cannot predict are left out.
+    Predictions are tempered as the evidence was: by the mean weight of the fitted runs. Runs that one of the rivals
+    cannot predict are left out.
     """
-    rivals = found.named
-    told = [(run, _predictions(question, found, run)) for run in question.next_runs] if len(rivals) > 1 else []
+    rivals = rivals_of(found)
+    told = [(run, _predictions(question, found, rivals, run)) for run in question.next_runs] if rivals else []
     told = [(run, predictions) for run, predictions in told if predictions]
     if not told:
         return {"next_condition": [], "next_separates": [], "next_value": 0.0}
-    share = np.array([w.contender.posterior for w in rivals])
+    share = np.array([rival.share for rival in rivals])
     choice = choose(share / share.sum(), [predictions for _, predictions in told])
-    return {"next_condition": [told[choice.index][0].name],
-            "next_separates": [rivals[k].candidate.name for k in choice.separates],
+    return {"next_condition": [told[choice.index][0].name], "next_separates": [rivals[k].name for k in choice.separates],
             "next_value": float(choice.value[choice.index])}
 
 
-def _predictions(question, found, run):
-    """Predictions of one run by every tied hypothesis, or none."""
+@dataclass(frozen=True)
+class Rival:
+    """A hypothesis that the next run should tell from others: its ``share`` of probability and its Fit."""
+
+    name: str
+    share: float
+    fit: object
+
+
+def rivals_of(found):
+    """Rivals in a tie, none elsewhere. One that is named alone has the nominal model and the runner-up beside it."""
+    if found.decision.verdict != "tie" or not found.named:
+        return []
+    named = {w.candidate.name for w in found.named}
+    every = [Rival(w.candidate.name, w.contender.posterior, w.fit) for w in found.weighed]
+    own, others = [r for r in every if r.name in named], [r for r in every if r.name not in named]
+    nothing = Rival(found.nominal.name if found.nominal.effects else "nothing missing", found.posterior[0], found.null)
+    return own if len(own) > 1 else [*own, nothing, *others[:1]]
+
+
+def _predictions(question, found, rivals, run):
+    """Predictions of one run by every rival, or none."""
     try:
-        return [_prediction(question, found, w.fit, run) for w in found.named]
+        return [_prediction(question, found, rival.fit, run) for rival in rivals]
     except BrakechainError:
         return []
 

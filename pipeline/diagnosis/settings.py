@@ -84,7 +84,7 @@ class Settings(Section):
                                                           " speed, drive, an input) or number of the bench that would"
                                                           " change: values with a unit, or factors; forward equation:"
                                                           " also motion (size) and pace, none = within the recorded"
-                                                          " ones")
+                                                          " ones; forward poles: none = recorded loads and speeds")
     noise: NoiseOf = option(NoiseOf(), "noise of the recordings")
     solver: bool = option(True, "weigh the solver too, by halving its step")
     plan: Plan = option(Plan(), "runs that could be recorded, for 'brakechain plan'")
