@@ -76,7 +76,8 @@ def next_experiment(question, found):
         return {"next_condition": [], "next_separates": [], "next_value": 0.0}
     share = np.array([rival.share for rival in rivals])
     choice = choose(share / share.sum(), [predictions for _, predictions in told])
-    return {"next_condition": [told[choice.index][0].name], "next_separates": [rivals[k].name for k in choice.separates],
+    return {"next_condition": [told[choice.index][0].name],
+            "next_separates": [rivals[k].name for k in choice.separates],
             "next_value": float(choice.value[choice.index])}
 
 
