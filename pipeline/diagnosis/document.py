@@ -3,7 +3,10 @@
 import copy
 import json
 
+import numpy as np
+
 from pipeline.contract import documents as yaml
+from pipeline.diagnosis.latent_law import LABEL
 from pipeline.diagnosis.question import split_name
 
 SCHEMA = "brakechain-diagnosis/1"
@@ -139,4 +142,14 @@ def _item(found, k):
 def _fit(product, row, held_out):
     before, recalibrated, after, noise = (float(v) for v in product.fit[row])
     runs = [name for name, run in product.runs.items() if int(run.held_out) == held_out]
-    return {"before": before, "recalibrated": recalibrated, "after": after, "noise_floor": noise, "runs": runs}
+    told = {"before": before, "recalibrated": recalibrated, "after": after, "noise_floor": noise, "runs": runs}
+    return told | ({"with_latent_force": _with_force(product)} if held_out and product.latent_predicted else {})
+
+
+def _with_force(product):
+    """What the recalibrated nominal model leaves of the held-out runs with the latent force."""
+    by_run = {name: float(one.error) for name, one in product.latent_predicted.items()}
+    return {"label": LABEL, "value": float(np.sqrt(np.mean(np.square(list(by_run.values()))))), "by_run": by_run,
+            "place": product.latent_place.item(),
+            "force": [{"term": str(term), "value": float(value), "unit": str(unit)} for term, value, unit in zip(
+                product.latent_term, product.latent_coefficient, product.latent_unit, strict=True)]}

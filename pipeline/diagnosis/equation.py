@@ -55,7 +55,8 @@ def question(bench, recorded, settings, equation):
     found = candidates(bench, tuple(one.run for one in trained), chosen(settings), settings.places,
                        reach(bench, trained), settings.priors)
     noises = budget(problem, above=settings.noise.above)
+    describe = DescribeBalance(bench, balances, problem, noises, seed=settings.seed)
+    asked = {"use": describe.use} if settings.latent_force.predict else {}
     axes = BalanceAxes(channel_names(bench), Axes(problem, noises, seed=settings.seed))
     return Question(problem, noises | {p.name: noises[p.like] for p in after}, found, units, axes=axes,
-                    describe=DescribeBalance(bench, balances, problem, noises, seed=settings.seed),
-                    next_runs=tuple(observed(p.balance.seen) for p in after))
+                    describe=describe, next_runs=tuple(observed(p.balance.seen) for p in after), **asked)

@@ -64,6 +64,13 @@ class SpotRuns(Section):
                                       " the refinement of micro_friction tells it", gt=0)
 
 
+class LatentForce(Section):
+    """What the force is used for that stands for physics which the catalogue does not hold."""
+
+    predict: bool = option(False, "at verdict unknown, predict the held-out runs by the nominal model with the latent"
+                                  " force, as a function of what it follows: description, not identified physics")
+
+
 class Settings(Section):
     """What is asked."""
 
@@ -87,6 +94,7 @@ class Settings(Section):
                                                           " ones; forward poles: none = recorded loads and speeds")
     noise: NoiseOf = option(NoiseOf(), "noise of the recordings")
     solver: bool = option(True, "weigh the solver too, by halving its step")
+    latent_force: LatentForce = option(LatentForce(), "use of the latent force")
     plan: Plan = option(Plan(), "runs that could be recorded, for 'brakechain plan'")
     kept: int = option(8, "candidates that are refitted in the full model", ge=1)
     draws: int = option(20000, "draws of the null of the screen", ge=100)

@@ -16,6 +16,7 @@ from pipeline.products.diagnosis import (
     Effects,
     Follows,
     LatentForce,
+    LatentPrediction,
     Located,
 )
 from pipeline.products.friction import FrictionDescriptions, FrictionMap, InterfaceLaw, MicroFriction
@@ -42,7 +43,7 @@ from pipeline.products.surfaces import Surface
 
 __all__ = ["BeamGeometry", "BeamOnBeam", "Bench", "BenchRun", "Body", "Channel", "Comparison", "ComplexModes",
            "Condition", "DiagnosedRun", "Diagnosis", "Effects", "Follows", "FrequencyResponse", "FrictionDescriptions",
-           "FrictionMap", "Incidence", "InterfaceLaw", "LatentForce", "Lines", "Located", "LockIn", "Lumped",
+           "FrictionMap", "Incidence", "InterfaceLaw", "LatentForce", "LatentPrediction", "Lines", "Located", "LockIn", "Lumped",
            "MeasuredFriction", "MeasuredModes", "MicroFriction", "MotionScatter", "Multibody", "PinOnDisc", "Recording",
            "ReducedModel", "Report", "Response", "Run", "Rupture", "Squeal", "Structure", "Surface", "Topography",
            "Transient"]

@@ -89,7 +89,15 @@ class Follows:
     curve: Array = quantity("N", "bin", "mean force in each bin; over time its root mean square")
 
 
-@product(version=2)
+@product(version=1)
+class LatentPrediction:
+    """A held-out run by the recalibrated nominal model with the latent force: description, not identified physics."""
+
+    predicted: Array = quantity("1", "channel sample", "prediction, each channel in its SI unit")
+    error: Array = quantity("1", "", "error over standard deviation")
+
+
+@product(version=3)
 class Diagnosis:
     """The verdict on recordings: what differs, where, what is missing, how sure, and what to measure next."""
 
@@ -126,6 +134,11 @@ class Diagnosis:
     latent_sentence: Array = text("", "what the latent force is and follows")
     latent: dict[str, LatentForce] = parts("the latent force by run: description, not identified physics")
     follows: dict[str, Follows] = parts("quantities that the latent force may follow, by name")
+    latent_use: Array = text("", "how the latent force predicts held-out runs, or why not; empty unless asked")
+    latent_term: Array = text("term", "terms of the latent force as a function: x m, v m/s, angle of the drive")
+    latent_coefficient: Array = quantity("1", "term", "their coefficients in the SI unit that `latent_unit` names")
+    latent_unit: Array = text("term", "SI units of the coefficients")
+    latent_predicted: dict[str, LatentPrediction] = parts("held-out runs predicted with it; none unless asked")
     next_condition: Array = text("next", "conditions of the next experiment, as name = value unit")
     next_separates: Array = text("separated", "hypotheses that it separates best")
     next_value: Array = quantity("1", "", "what it is expected to tell, in nats; 0 without one")
