@@ -33,6 +33,9 @@ def _check(sections):
     both = set(settings.effects) & set(settings.without)
     if both:
         raise ConfigError("diagnosis.without", "effects that are not in diagnosis.effects", ", ".join(sorted(both)))
+    if settings.saturated_squeal and settings.forward != "poles":
+        raise ConfigError("diagnosis.saturated_squeal", "none, where no poles are compared",
+                          f"forward {settings.forward}")
     if settings.latent_force.predict and not (settings.forward == "simulation" and settings.held_out):
         raise ConfigError("diagnosis.latent_force.predict", "runs over time that are held out",
                           f"forward {settings.forward}, held out: {', '.join(settings.held_out) or 'none'}")

@@ -8,7 +8,7 @@ from pipeline.diagnosis.question import label, split_name
 from pipeline.inference.noise import normalised_error
 from pipeline.inference.verify import errors
 from pipeline.inference.weigh import unexplained
-from pipeline.products import DiagnosedRun, Diagnosis, Follows, LatentForce, LatentPrediction, Located
+from pipeline.products import DiagnosedRun, Diagnosis, Follows, LatentForce, LatentPrediction, Located, SquealCheck
 
 #: models that are compared, in the order of the tables
 MODELS = ("nominal", "recalibrated", "completed", "noise")
@@ -34,7 +34,8 @@ def answer(question, found):
         fit=[_part(told) for told in fits],
         unexplained_share=unexplained(first.null, best, question.rules),
         drift_p_value=found.drift.p_value, location={name: located(*axis) for name, axis in axes.items()},
-        **_latent(latent), **_used(use, problem), **next_experiment(question, found), runs=runs)
+        **_latent(latent), **_used(use, problem), **next_experiment(question, found), runs=runs,
+        squeal={name: squeal_check(one) for name, one in (question.squeal(first.null, best) or {}).items()})
 
 
 def located(location, unit="", edges=None):
@@ -42,6 +43,23 @@ def located(location, unit="", edges=None):
     edges = np.zeros((len(location.items), 2)) if edges is None else np.asarray(edges, float)
     return Located(item=[str(i) for i in location.items], low=edges[:, 0], high=edges[:, 1], unit=unit,
                    score=location.score, p_value=location.p_value, member=location.members.astype(int))
+
+
+def squeal_check(compared):
+    """Product SquealCheck of a Compared."""
+    who, heard = list(compared.heard), list(compared.heard.values())
+    unit = {feature: own for one in heard for feature, own in one.unit.items()}
+
+    def table(number):
+        return np.array([[number(name, one, f) if f in one.values else 0 for f in unit]
+                         for name, one in compared.heard.items()]).reshape(len(who), len(unit))
+
+    return SquealCheck(
+        sentence=compared.sentence, who=who, records=[len(one.states) for one in heard],
+        squealing=[one.squealing for one in heard], feature=list(unit), unit=list(unit.values()),
+        known=table(lambda name, one, f: 1), mean=table(lambda name, one, f: one.values[f].mean()),
+        spread=table(lambda name, one, f: one.values[f].std()),
+        agrees=table(lambda name, one, f: int(compared.agrees.get(name, {}).get(f, False))))
 
 
 def _latent(description):

@@ -95,7 +95,7 @@ def as_json(product):
     """The verdict for machines; the schema is that of SCHEMA."""
     told = set(_completing(product)) | set(product.named)
     ordered = sorted(range(len(product.hypothesis)), key=lambda k: -product.posterior[k])
-    return {
+    told = {
         "schema": SCHEMA, "verdict": product.verdict.item(), "reasons": [str(r) for r in product.reason],
         "effects": [_effect(product, k) for k in (*product.known, *product.named)],
         "alternatives": [_effect(product, k, False) for k in ordered if k not in told][:ALTERNATIVES],
@@ -110,6 +110,17 @@ def as_json(product):
         "next_experiment": {"conditions": [str(c) for c in product.next_condition],
                             "separates": [str(s) for s in product.next_separates], "value": float(product.next_value)},
     }
+    if product.squeal:
+        told["saturated_squeal"] = {name: _squeal(one) for name, one in product.squeal.items()}
+    return told
+
+
+def _squeal(one):
+    """Saturated squeal of one run, recorded and simulated; for verification only."""
+    return {str(who): {"records": int(one.records[i]), "saturated": int(one.squealing[i]), "features": {
+        str(name): {"unit": str(one.unit[k]), "mean": float(one.mean[i, k]), "spread": float(one.spread[i, k])}
+        | ({"agrees": bool(one.agrees[i, k])} if i and one.known[0, k] else {})
+        for k, name in enumerate(one.feature) if one.known[i, k]}} for i, who in enumerate(one.who)}
 
 
 def _effect(product, k, with_parameters=True):

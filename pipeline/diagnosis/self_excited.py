@@ -8,6 +8,7 @@ from pipeline.diagnosis.next_features import planned_records
 from pipeline.diagnosis.next_run import altered
 from pipeline.diagnosis.poles import features, observed, predicted
 from pipeline.diagnosis.question import Question, nominal
+from pipeline.diagnosis.saturated_squeal import Squeals
 from pipeline.diagnosis.simulation import candidates, completed
 from pipeline.inference.decide import Rules
 from pipeline.inference.noise import budget
@@ -62,7 +63,9 @@ def question(bench, recorded, settings, band):
     blank = {p.name: replace(recorded_as[p.like], name=p.name, conditions=p.features.run.conditions) for p in after}
     return Question(problem, noises | {p.name: noises[p.like] for p in after},
                     candidates(bench, brief, chosen(settings), settings.places, priors=settings.priors), units, RULES,
-                    starts=_STARTS, next_runs=_predictable(problem, blank.values(), must=bool(settings.next)))
+                    starts=_STARTS, next_runs=_predictable(problem, blank.values(), must=bool(settings.next)),
+                    **({"squeal": Squeals(bench, recorded, settings.saturated_squeal, settings.seed)}
+                       if settings.saturated_squeal else {}))
 
 
 def _predictable(problem, runs, must):

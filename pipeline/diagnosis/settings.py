@@ -71,6 +71,18 @@ class LatentForce(Section):
                                   " force, as a function of what it follows: description, not identified physics")
 
 
+class SaturatedSqueal(Section):
+    """Simulated repeats of recorded squeals."""
+
+    repeats: int = option(3, "simulated repeats of each model, each from another small start", ge=3)
+    runs: tuple[str, ...] = option((), "recorded runs; none = all that slide")
+    duration: Quantity("s", gt=0) = option("0.5 s", "length of every simulated motion")
+    stretch: Quantity("s", gt=0) = option("25 ms", "stretches into which motions are cut")
+    kick: Quantity("m/s", gt=0) = option("1 mm/s", "effective value of the start velocities at the sensors")
+    lowest: Quantity("Hz", gt=0) = option("200 Hz", "frequencies are sought above it")
+    tolerance: float = option(2.0, "standard deviations of both spreads together within which means agree", gt=0)
+
+
 class Settings(Section):
     """What is asked."""
 
@@ -95,6 +107,7 @@ class Settings(Section):
     noise: NoiseOf = option(NoiseOf(), "noise of the recordings")
     solver: bool = option(True, "weigh the solver too, by halving its step")
     latent_force: LatentForce = option(LatentForce(), "use of the latent force")
+    saturated_squeal: SaturatedSqueal | None = option(None, "forward poles: verify by simulated squeals; none = not")
     plan: Plan = option(Plan(), "runs that could be recorded, for 'brakechain plan'")
     kept: int = option(8, "candidates that are refitted in the full model", ge=1)
     draws: int = option(20000, "draws of the null of the screen", ge=100)

@@ -97,6 +97,22 @@ class LatentPrediction:
     error: Array = quantity("1", "", "error over standard deviation")
 
 
+@product(version=1)
+class SquealCheck:
+    """Features of one recorded squeal and of simulated repeats of it: for verification only, never by waveform."""
+
+    sentence: Array = text("", "who squeals, and in which of recording and model alone")
+    who: Array = text("who", "recorded, recalibrated, completed; models that could not be simulated are left out")
+    records: Array = count("who", "records, or simulated repeats")
+    squealing: Array = count("who", "of these, those that reached saturation")
+    feature: Array = text("feature", "features of the saturated stretches")
+    unit: Array = text("feature", "their units")
+    known: Array = count("who feature", "1 where the feature is known")
+    mean: Array = quantity("1", "who feature", "mean over stretches and repeats; 0 where not known")
+    spread: Array = quantity("1", "who feature", "standard deviation over them")
+    agrees: Array = count("who feature", "1 where the mean lies within the spread of both from that recorded")
+
+
 @product(version=3)
 class Diagnosis:
     """The verdict on recordings: what differs, where, what is missing, how sure, and what to measure next."""
@@ -139,6 +155,7 @@ class Diagnosis:
     latent_coefficient: Array = quantity("1", "term", "their coefficients in the SI unit that `latent_unit` names")
     latent_unit: Array = text("term", "SI units of the coefficients")
     latent_predicted: dict[str, LatentPrediction] = parts("held-out runs predicted with it; none unless asked")
+    squeal: dict[str, SquealCheck] = parts("recorded squeals by run beside simulated ones; none unless asked")
     next_condition: Array = text("next", "conditions of the next experiment, as name = value unit")
     next_separates: Array = text("separated", "hypotheses that it separates best")
     next_value: Array = quantity("1", "", "what it is expected to tell, in nats; 0 without one")

@@ -57,6 +57,11 @@ def test_a_latent_force_predicts_runs_over_time_that_are_held_out(asked):
         diagnosis.check({"diagnosis": fill(Settings, {"latent_force": {"predict": True}, **asked}, "d")})
 
 
+def test_squeals_are_simulated_where_poles_are_compared():
+    with pytest.raises(ConfigError, match="diagnosis.saturated_squeal"):
+        diagnosis.check({"diagnosis": fill(Settings, {"saturated_squeal": {"repeats": 3}}, "d")})
+
+
 @pytest.mark.parametrize("hidden, found", [({"clipping": {"x": {"inverse_limit": 200.0}}}, "clipping"),
                                            ({"sensor_delay": {"x": {"delay": "4 ms"}}}, "sensor_delay")])
 def test_a_fault_of_the_measurement_is_told_from_physics(hidden, found):

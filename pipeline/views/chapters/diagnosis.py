@@ -6,6 +6,7 @@ from pipeline.views import diagnosis as pictures
 from pipeline.views import latent_force
 from pipeline.views.chapter import Chapter, Figure, Table
 from pipeline.views.readable import number, percent, quantity, scale
+from pipeline.views.squeal_check import squeal_tables
 
 #: axes of the location that are bins of what moves, and all in the order of reading
 REGIMES = ("amplitude", "velocity", "time")
@@ -42,7 +43,8 @@ def chapter(product, look):
         "diagnosis", "What the recordings say is missing", f"{told['What differs']} {told['Where']}",
         " ".join(filter(None, (told["What is missing"], told["What it changes"], told["Measure next"]))),
         tuple(_figures(product)), tuple(filter(None, (
-            _errors(product), _with_force(product), _parameters(product), _hypotheses(product), _location(product)))),
+            _errors(product), _with_force(product), *squeal_tables(product), _parameters(product),
+            _hypotheses(product), _location(product)))),
         tuple(_notes(product)))
 
 
