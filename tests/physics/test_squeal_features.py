@@ -17,8 +17,8 @@ def motion(growth, begin=1e-3, size=1.0):
 
 
 @pytest.mark.exact
-@pytest.mark.parametrize("growth, wanted", [(-20, QUIET), (0, QUIET), (1, QUIET), (3, GROWING), (20, GROWING), (60, SATURATED),
-                                            (500, SATURATED)])
+@pytest.mark.parametrize("growth, wanted", [(-20, QUIET), (0, QUIET), (1, QUIET), (3, GROWING), (20, GROWING),
+                                            (60, SATURATED), (500, SATURATED)])
 def test_a_motion_is_saturated_where_it_outgrew_its_start_and_grows_no_more(growth, wanted):
     """From 1e-3 a rate of 28 1/s reaches saturation after 0.25 s, one of 500 1/s within the first stretch."""
     assert state(motion(growth), SIZE) == wanted
