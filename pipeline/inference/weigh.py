@@ -57,10 +57,12 @@ def contender(null, null_evidence, candidate, fit, own, share, p_value, held_out
              if p.null is not None]
     differing = [agreement(fit, size + k, weights, _immaterial(fit, size + k, rules))[0]
                  for k, p in enumerate(candidate.parameters) if p.null is not None]
+    left_out = own.left_out - null_evidence.left_out
+    unfitted = gained and (gained.errors_with(left_out) if len(left_out) > 1 else gained.errors)
     return Contender(
         candidate.name, candidate.kind, float(share), own.log_evidence - null_evidence.log_evidence, float(p_value),
-        float(own.left_out.sum() - null_evidence.left_out.sum()), gained and gained.errors, gained and gained.share,
-        held_out[1], max(differing, default=0.0), max(moved, default=0.0), unexplained(null, fit, rules),
+        float(left_out.sum()), unfitted, gained and gained.errors, gained and gained.share_at_most, held_out[1],
+        max(differing, default=0.0), max(moved, default=0.0), unexplained(null, fit, rules),
         candidate.forbidden(fit.values) if candidate.forbidden else "", _doubts(fit, null))
 
 
