@@ -145,7 +145,7 @@ class Diagnosis:
                           " nominal, recalibrated, completed, noise alone")
     unexplained_share: Array = quantity("1", "", "share of the excess error that the completed model leaves")
     drift_p_value: Array = quantity("1", "", "p-value that fitted values are alike over operating points; 1 untested")
-    location: dict[str, Located] = parts("axes by name: stage, place, run, band, amplitude, velocity, time")
+    location: dict[str, Located] = parts("axes by name: stage, substitution, place, run, band, amplitude, velocity, time")
     latent_place: Array = text("", "place of the latent force; empty where none was found")
     latent_sentence: Array = text("", "what the latent force is and follows")
     latent: dict[str, LatentForce] = parts("the latent force by run: description, not identified physics")

@@ -10,7 +10,7 @@ from pipeline.views.squeal_check import squeal_tables
 
 #: axes of the location that are bins of what moves, and all in the order of reading
 REGIMES = ("amplitude", "velocity", "time")
-AXES = ("stage", "place", "run", "band", *REGIMES)
+AXES = ("stage", "substitution", "place", "run", "band", *REGIMES)
 #: rows of the table of hypotheses that are shown unfolded
 ROWS = 12
 
@@ -89,7 +89,8 @@ def _differs(product):
 
 def _where(product):
     parts = []
-    for axis, say in (("stage", "stage {}"), ("place", "at {}"), ("run", "most in run {}"), ("band", "in {}"),
+    for axis, say in (("stage", "stage {}"), ("substitution", "stage {}, by what was measured in its place"),
+                      ("place", "at {}"), ("run", "most in run {}"), ("band", "in {}"),
                       ("amplitude", "amplitudes {}"), ("velocity", "velocities {}"), ("time", "times {}")):
         found = product.location.get(axis)
         if found is not None and (found.p_value[found.member > 0] <= 0.05).any():
