@@ -1,7 +1,7 @@
 """The course of a diagnosis: recalibrate, screen, refit, weigh, verify, decide; pairs by greedy addition.
 
 Where the nominal model is pulled to values at odds with their priors, its linearisation ranks nothing: there every
-candidate begins its fit unless one of the first few reaches the noise, and the best few go on. What else could move as
+candidate begins its fit unless one of the first few explains enough, and the best few go on. What else could move as
 the best one does is looked for at the nominal values that the best one asks for.
 A null hypothesis that has not converged lets every candidate win: it is refitted from each candidate's optimum. A model
 that lacks physics may have no smooth optimum at all: then a candidate counts only where it goes far below the null.
@@ -21,10 +21,10 @@ from pipeline.inference.evidence import cautious_prior, evidence, posterior, rea
 from pipeline.inference.least_squares import of_features
 from pipeline.inference.refit import Refits, at_odds, reaches_noise
 from pipeline.inference.screen import directions, screen
-from pipeline.inference.weigh import contender, held_out_gains, situation
+from pipeline.inference.weigh import contender, held_out_gains, situation, unexplained
 
 #: where the linearisation of the null holds, scores that chance reaches more often than this are not looked into
-_LIKELY = 0.5
+_LIKELY = 0.1
 
 
 @dataclass(frozen=True)
@@ -127,7 +127,8 @@ def _first_refits(refits, hopeful, starts):
     """{index: Refitted} of a first effect: the best few of the screen and their rivals, else all of them."""
     kept, rules = refits.settings.kept, refits.settings.rules
     results = refits.from_best(refits.of(hopeful[:kept], starts))
-    if not at_odds(refits.null) or any(reaches_noise(r.fit, rules) for r in results.values() if r.fit):
+    fits = [r.fit for r in results.values() if r.fit]
+    if not at_odds(refits.null) or any(unexplained(refits.null, fit, rules) <= rules.unexplained for fit in fits):
         return results
     return refits.from_best(refits.of(hopeful[kept:], starts, results))
 

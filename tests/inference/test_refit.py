@@ -39,7 +39,7 @@ def begins(monkeypatch, name="_begun"):
 
 
 @pytest.mark.parametrize("extra, all_begin", [(cubic, False), (odd, True)])
-def test_where_the_nominal_model_is_misled_all_begin_unless_one_of_the_first_reaches_the_noise(monkeypatch, extra,
+def test_where_the_nominal_model_is_misled_all_begin_unless_one_of_the_first_explains_enough(monkeypatch, extra,
                                                                                               all_begin):
     problem, seen = bench(5, 0.01, stiffness=380.0, extra=extra), begins(monkeypatch)
     for module in (course, refit):
