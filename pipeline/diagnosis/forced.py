@@ -38,11 +38,12 @@ def question(bench, recorded, settings):
     found = candidates(bench, tuple(one.run for one in trained), chosen(settings), settings.places,
                        reach(bench, trained), settings.priors, largest(trained))
     noises = budget(problem, above=settings.noise.above)
+    describe = Describe(bench, runs, problem, noises, seed=settings.seed)
+    asked = {"use": describe.use} if settings.latent_force.predict else {}
     return Question(problem, noises | {f.run.name: noises[trained[0].run.name] for f in after},
                     (*found, *([solver_candidate()] if settings.solver else [])), shown,
                     axes=ForcedAxes(bench, runs, Axes(problem, noises, seed=settings.seed)),
-                    describe=Describe(bench, runs, problem, noises, seed=settings.seed),
-                    next_runs=tuple(f.observed for f in after))
+                    describe=describe, next_runs=tuple(f.observed for f in after), **asked)
 
 
 def nominal_parameters(bench, settings):
