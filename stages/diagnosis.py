@@ -12,6 +12,7 @@ from pipeline.diagnosis.answer import answer
 from pipeline.diagnosis.document import companions
 from pipeline.diagnosis.published_lines import Models, published_diagnosis
 from pipeline.diagnosis.settings import Settings
+from pipeline.diagnosis.substitution import substituted
 from pipeline.inference import diagnose as course
 from pipeline.products import (
     Bench,
@@ -33,6 +34,12 @@ def _check(sections):
     both = set(settings.effects) & set(settings.without)
     if both:
         raise ConfigError("diagnosis.without", "effects that are not in diagnosis.effects", ", ".join(sorted(both)))
+    if settings.saturated_squeal and settings.forward != "poles":
+        raise ConfigError("diagnosis.saturated_squeal", "none, where no poles are compared",
+                          f"forward {settings.forward}")
+    if settings.latent_force.predict and not (settings.forward == "simulation" and settings.held_out):
+        raise ConfigError("diagnosis.latent_force.predict", "runs over time that are held out",
+                          f"forward {settings.forward}, held out: {', '.join(settings.held_out) or 'none'}")
 
 
 @stage(companions=companions, check=_check)
@@ -72,7 +79,7 @@ def _of_bench(model, effects, recording, bench, settings):
         raise ConfigError("diagnosis.forward", "lines or friction, in a chain without a bench", settings.forward)
     laid_out = restored(benches.Settings, bench.settings.item())
     whole = with_effects(benches.built(model, laid_out), effects)
-    return _question(whole, recorded(recording, laid_out), settings, laid_out)
+    return substituted(_question(whole, recorded(recording, laid_out), settings, laid_out), recording, settings)
 
 
 def _answered(asked, settings, context):

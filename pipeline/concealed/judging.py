@@ -16,7 +16,7 @@ def judged(truth, answer):
 
     right       the verdict of the class; with exactly what is hidden, at its place, where something is
     false_alarm something named where nothing is missing
-    named       exactly what is hidden, at its place, under its verdict
+    named       exactly what is hidden, at its place, under its verdict; a tie with laws of the same force counts
     type        exactly what is hidden, at whatever place; called: the verdict of the class, whatever it names
     among_tied, top      the truth among several told, or among the first three hypotheses
     """
@@ -30,14 +30,25 @@ def judged(truth, answer):
     named, wanted = answer["effects"], truth["effects"]
     called = verdict == NAMED_BY[truth["class"]]
     alone = called and len(named) == len(wanted)
-    exactly = alone and _all_in(wanted, named)
+    exactly = (alone and _all_in(wanted, named)) or _same_forces(verdict, wanted, named)
     found = {"right": exactly, "named": exactly, "called": called,
              "type": alone and sorted(e["name"] for e in named) == sorted(e["name"] for e in wanted),
              "among_tied": verdict in ("tie", "sensor") and len(named) > len(wanted) and _all_in(wanted, named),
              "top": _all_in(wanted, [*named, *answer.get("alternatives", ())][:max(_TOP, len(wanted))])}
-    if kind == "below":     # to abstain is right, to name something else is not
-        found["right"] = found["right"] or verdict in (*NOTHING, "unknown") or found["among_tied"]
+    if kind == "below":     # to abstain is right, or to name what comes nearest; to name something else is not
+        near = verdict == "missing" and len(named) == len(wanted) and all(_like(w, named) for w in wanted)
+        found["right"] = found["right"] or verdict in (*NOTHING, "unknown") or found["among_tied"] or near
     return found
+
+
+def _same_forces(verdict, wanted, named):
+    """Whether a tie holds the one effect that is hidden, and beside it only laws of the same force."""
+    return (verdict == "tie" and len(wanted) == 1 and _all_in(wanted, named)
+            and all(_like(wanted[0], [one]) for one in named))
+
+
+def _like(true, told):
+    return any(same(one, other) for one in (true, *true.get("alike", ())) for other in told)
 
 
 def class_of(truth):

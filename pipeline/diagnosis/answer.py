@@ -5,9 +5,10 @@ import numpy as np
 from pipeline.diagnosis.location import stage_of
 from pipeline.diagnosis.next_run import next_experiment
 from pipeline.diagnosis.question import label, split_name
+from pipeline.inference.noise import normalised_error
 from pipeline.inference.verify import errors
 from pipeline.inference.weigh import unexplained
-from pipeline.products import DiagnosedRun, Diagnosis, Follows, LatentForce, Located
+from pipeline.products import DiagnosedRun, Diagnosis, Follows, LatentForce, LatentPrediction, Located, SquealCheck
 
 #: models that are compared, in the order of the tables
 MODELS = ("nominal", "recalibrated", "completed", "noise")
@@ -26,13 +27,15 @@ def answer(question, found):
     axes = question.axes(found)
     latent = question.describe(found, axes)
     axes |= latent.regimes if latent else {}
+    use = question.use(found, latent) if latent and found.decision.verdict == "unknown" else None
     return Diagnosis(
         verdict=found.decision.verdict, reason=list(found.decision.reasons), channel=channels,
         channel_unit=[question.units[c] for c in channels], **table, **_parameters(question, found, best, table),
         fit=[_part(told) for told in fits],
         unexplained_share=unexplained(first.null, best, question.rules),
         drift_p_value=found.drift.p_value, location={name: located(*axis) for name, axis in axes.items()},
-        **_latent(latent), **next_experiment(question, found), runs=runs)
+        **_latent(latent), **_used(use, problem), **next_experiment(question, found), runs=runs,
+        squeal={name: squeal_check(one) for name, one in (question.squeal(first.null, best) or {}).items()})
 
 
 def located(location, unit="", edges=None):
@@ -40,6 +43,23 @@ def located(location, unit="", edges=None):
     edges = np.zeros((len(location.items), 2)) if edges is None else np.asarray(edges, float)
     return Located(item=[str(i) for i in location.items], low=edges[:, 0], high=edges[:, 1], unit=unit,
                    score=location.score, p_value=location.p_value, member=location.members.astype(int))
+
+
+def squeal_check(compared):
+    """Product SquealCheck of a Compared."""
+    who, heard = list(compared.heard), list(compared.heard.values())
+    unit = {feature: own for one in heard for feature, own in one.unit.items()}
+
+    def table(number):
+        return np.array([[number(name, one, f) if f in one.values else 0 for f in unit]
+                         for name, one in compared.heard.items()]).reshape(len(who), len(unit))
+
+    return SquealCheck(
+        sentence=compared.sentence, who=who, records=[len(one.states) for one in heard],
+        squealing=[one.squealing for one in heard], feature=list(unit), unit=list(unit.values()),
+        known=table(lambda name, one, f: 1), mean=table(lambda name, one, f: one.values[f].mean()),
+        spread=table(lambda name, one, f: one.values[f].std()),
+        agrees=table(lambda name, one, f: int(compared.agrees.get(name, {}).get(f, False))))
 
 
 def _latent(description):
@@ -51,6 +71,19 @@ def _latent(description):
                                          velocity=one.velocity) for name, one in description.runs.items()},
             "follows": {f.name.replace(" ", "_"): Follows(share=f.share, p_value=f.p_value, unit=unit, centre=f.centre,
                                                           curve=f.curve) for f, unit in description.follows}}
+
+
+def _used(use, problem):
+    """Fields of the LatentUse of a force or None."""
+    if use is None:
+        return {"latent_use": "", "latent_term": [], "latent_coefficient": [], "latent_unit": [],
+                "latent_predicted": {}}
+    terms = list(use.law.coefficient) if use.law else []
+    held_out = {run.name: run for run in problem.held_out}
+    return {"latent_use": use.sentence, "latent_term": terms, "latent_unit": [use.law.unit(term) for term in terms],
+            "latent_coefficient": [use.law.coefficient[term] for term in terms],
+            "latent_predicted": {name: LatentPrediction(predicted=p, error=normalised_error(
+                held_out[name], held_out[name].samples - p)) for name, p in use.runs.items()}}
 
 
 def _best(found):

@@ -7,7 +7,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from pipeline.benches.equation import channel_names
 from pipeline.diagnosis.latent import Description, LatentRun, dependences, regimes, sentence
+from pipeline.diagnosis.latent_law import used
 from pipeline.diagnosis.location import Axes, channel_axis, fitted, leading_place, residuals
 
 #: what channels of balanced forces are called before the name of their body
@@ -50,6 +52,13 @@ class DescribeBalance:
         place, follows = axes["place"][0].items[leader], dependences(learned, self.seed)
         return Description(place, runs, follows, regimes(learned, self.draws, self.seed),
                            sentence(place, learned, follows))
+
+    def use(self, found, description):
+        """LatentUse of a Description on the held-out runs: forces that their motions need."""
+        names = [name.removeprefix(PREFIX) for name in channel_names(self.bench)]
+        return used(self.bench, np.eye(self.bench.model.size)[names.index(description.place)], description,
+                    self.problem, self.budget, (found.base or found).null,
+                    lambda whole, run: self.balances[run.name].predicted(whole))
 
     def _run(self, bench, name, coordinate):
         force, place, speed = (values[coordinate] for values in self.balances[name].left(bench))

@@ -3,7 +3,10 @@
 import copy
 import json
 
+import numpy as np
+
 from pipeline.contract import documents as yaml
+from pipeline.diagnosis.latent_law import LABEL
 from pipeline.diagnosis.question import split_name
 
 SCHEMA = "brakechain-diagnosis/1"
@@ -92,7 +95,7 @@ def as_json(product):
     """The verdict for machines; the schema is that of SCHEMA."""
     told = set(_completing(product)) | set(product.named)
     ordered = sorted(range(len(product.hypothesis)), key=lambda k: -product.posterior[k])
-    return {
+    told = {
         "schema": SCHEMA, "verdict": product.verdict.item(), "reasons": [str(r) for r in product.reason],
         "effects": [_effect(product, k) for k in (*product.known, *product.named)],
         "alternatives": [_effect(product, k, False) for k in ordered if k not in told][:ALTERNATIVES],
@@ -107,6 +110,17 @@ def as_json(product):
         "next_experiment": {"conditions": [str(c) for c in product.next_condition],
                             "separates": [str(s) for s in product.next_separates], "value": float(product.next_value)},
     }
+    if product.squeal:
+        told["saturated_squeal"] = {name: _squeal(one) for name, one in product.squeal.items()}
+    return told
+
+
+def _squeal(one):
+    """Saturated squeal of one run, recorded and simulated; for verification only."""
+    return {str(who): {"records": int(one.records[i]), "saturated": int(one.squealing[i]), "features": {
+        str(name): {"unit": str(one.unit[k]), "mean": float(one.mean[i, k]), "spread": float(one.spread[i, k])}
+        | ({"agrees": bool(one.agrees[i, k])} if i and one.known[0, k] else {})
+        for k, name in enumerate(one.feature) if one.known[i, k]}} for i, who in enumerate(one.who)}
 
 
 def _effect(product, k, with_parameters=True):
@@ -139,4 +153,14 @@ def _item(found, k):
 def _fit(product, row, held_out):
     before, recalibrated, after, noise = (float(v) for v in product.fit[row])
     runs = [name for name, run in product.runs.items() if int(run.held_out) == held_out]
-    return {"before": before, "recalibrated": recalibrated, "after": after, "noise_floor": noise, "runs": runs}
+    told = {"before": before, "recalibrated": recalibrated, "after": after, "noise_floor": noise, "runs": runs}
+    return told | ({"with_latent_force": _with_force(product)} if held_out and product.latent_predicted else {})
+
+
+def _with_force(product):
+    """What the recalibrated nominal model leaves of the held-out runs with the latent force."""
+    by_run = {name: float(one.error) for name, one in product.latent_predicted.items()}
+    return {"label": LABEL, "value": float(np.sqrt(np.mean(np.square(list(by_run.values()))))), "by_run": by_run,
+            "place": product.latent_place.item(),
+            "force": [{"term": str(term), "value": float(value), "unit": str(unit)} for term, value, unit in zip(
+                product.latent_term, product.latent_coefficient, product.latent_unit, strict=True)]}

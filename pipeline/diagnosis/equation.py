@@ -4,13 +4,15 @@ Nothing is simulated, so that no solver can be wrong and no start state is neede
 every coordinate.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from pipeline.benches.equation import balance, begun, channel_names
 from pipeline.contract.units import to_si
 from pipeline.diagnosis.balance_latent import BalanceAxes, DescribeBalance
 from pipeline.diagnosis.forced import check_names, chosen, nominal_parameters
 from pipeline.diagnosis.location import Axes
+from pipeline.diagnosis.next_motion import planned_motions
+from pipeline.diagnosis.next_run import altered
 from pipeline.diagnosis.question import Question, nominal
 from pipeline.diagnosis.simulation import candidates, completed, observed, reach
 from pipeline.inference.noise import budget
@@ -19,13 +21,18 @@ from pipeline.inference.problem import Problem
 
 @dataclass(frozen=True)
 class Balanced:
-    """Picklable prediction: the forces that measured motions need; ``balances`` {name: Balance}."""
+    """Picklable prediction: the forces that measured motions need; ``balances`` {name: Balance}.
+
+    ``altered`` {name: changes}: motions on another bench, see ``next_run``.
+    """
 
     bench: object
     balances: dict
+    altered: dict = field(default_factory=dict)
 
     def __call__(self, hypothesis, values, run):
-        return self.balances[run.name].predicted(completed(self.bench, hypothesis, values))
+        bench = altered(completed(self.bench, hypothesis, values), self.altered.get(run.name, {}))
+        return self.balances[run.name].predicted(bench)
 
 
 def question(bench, recorded, settings, equation):
@@ -38,13 +45,18 @@ def question(bench, recorded, settings, equation):
     units = {c: u for one in balances.values() for c, u in zip(one.seen.channels, one.seen.unit, strict=True)}
     check_names("noise.std", settings.noise.std, units)
     noise = {c: to_si(v, units[c], f"diagnosis.noise.std.{c}") for c, v in settings.noise.std.items()}
-    problem = Problem(tuple(observed(one.seen, noise, name in settings.held_out) for name, one in balances.items()),
-                      Balanced(bench, balances), nominal(nominal_parameters(bench, settings)))
+    seen = tuple(observed(one.seen, noise, name in settings.held_out) for name, one in balances.items())
+    after = planned_motions(bench, {o.name: recorded[o.name] for o in seen if not (o.held_out or o.repeat_of)},
+                            equation, settings.next)
+    forward = Balanced(bench, balances | {p.name: p.balance for p in after}, {p.name: p.altered for p in after})
+    problem = Problem(seen, forward, nominal(nominal_parameters(bench, settings)))
     # begun as measured, so that nominal runs have the sizes of the measured ones
     trained = [begun(bench, recorded[o.name]) for o in problem.training]
     found = candidates(bench, tuple(one.run for one in trained), chosen(settings), settings.places,
                        reach(bench, trained), settings.priors)
     noises = budget(problem, above=settings.noise.above)
+    describe = DescribeBalance(bench, balances, problem, noises, seed=settings.seed)
+    asked = {"use": describe.use} if settings.latent_force.predict else {}
     axes = BalanceAxes(channel_names(bench), Axes(problem, noises, seed=settings.seed))
-    return Question(problem, noises, found, units, axes=axes,
-                    describe=DescribeBalance(bench, balances, problem, noises, seed=settings.seed))
+    return Question(problem, noises | {p.name: noises[p.like] for p in after}, found, units, axes=axes,
+                    describe=describe, next_runs=tuple(observed(p.balance.seen) for p in after), **asked)

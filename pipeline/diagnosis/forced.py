@@ -12,7 +12,6 @@ from pipeline.diagnosis.settings import parameter
 from pipeline.diagnosis.simulation import (
     Simulated,
     candidates,
-    halved,
     largest,
     observed,
     reach,
@@ -28,26 +27,23 @@ def question(bench, recorded, settings):
     check_names("held_out", settings.held_out, recorded)
     runs = {name: one.run for name, one in recorded.items()}
     shown = {c: u for one in recorded.values() for c, u in zip(one.channels, one.unit, strict=True)}
-    change = {}
-    if settings.solver:
-        change = halved(bench, runs, {name: one.channels for name, one in recorded.items()})
     given = {c: to_si(v, shown[c], f"diagnosis.noise.std.{c}") for c, v in settings.noise.std.items()}
     seen = tuple(observed(one, given, name in settings.held_out) for name, one in recorded.items())
     trained = [recorded[o.name] for o in seen if not o.held_out]
     after = feasible(bench, settings.next, trained[0]) if trained else ()
-    forward = Simulated(bench, runs | {f.run.name: f.run for f in after}, change,
-                        {f.run.name: f.altered for f in after})
+    forward = Simulated(bench, runs | {f.run.name: f.run for f in after}, {f.run.name: f.altered for f in after})
     problem = Problem(seen, forward, nominal(nominal_parameters(bench, settings)))
     for one in after:       # what the model cannot do is refused before anything is fitted
         forward(problem.nominal, problem.nominal.values(problem.nominal.nominal), one.observed)
     found = candidates(bench, tuple(one.run for one in trained), chosen(settings), settings.places,
                        reach(bench, trained), settings.priors, largest(trained))
     noises = budget(problem, above=settings.noise.above)
+    describe = Describe(bench, runs, problem, noises, seed=settings.seed)
+    asked = {"use": describe.use} if settings.latent_force.predict else {}
     return Question(problem, noises | {f.run.name: noises[trained[0].run.name] for f in after},
                     (*found, *([solver_candidate()] if settings.solver else [])), shown,
                     axes=ForcedAxes(bench, runs, Axes(problem, noises, seed=settings.seed)),
-                    describe=Describe(bench, runs, problem, noises, seed=settings.seed),
-                    next_runs=tuple(f.observed for f in after))
+                    describe=describe, next_runs=tuple(f.observed for f in after), **asked)
 
 
 def nominal_parameters(bench, settings):

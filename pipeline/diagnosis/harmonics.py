@@ -7,7 +7,7 @@ equations scale, so that either mechanism alone gives an amplitude in proportion
 the load, stick and reversal to the speed.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from typing import Literal
 
@@ -16,7 +16,7 @@ from scipy.special import ndtr
 
 from pipeline.benches.bench import about
 from pipeline.benches.laws import Laws
-from pipeline.contract import ConfigError, Quantity, Section, option
+from pipeline.contract import BrakechainError, ConfigError, Quantity, Section, option
 from pipeline.diagnosis.lines import Alternative, Features, lines_of, question
 from pipeline.effects import named
 from pipeline.effects.effect import Term, compose
@@ -34,6 +34,8 @@ _STD, _SOFT = 0.25, 10.0
 _FALLING = (0.2, 1.0)
 #: steps between samples that are kept
 _EVERY = 5
+#: standard deviations of what another record would show: levels in dB, share of time, logarithm of amplitudes (1 dB)
+_LEVEL_STD, _SHARE_STD, _RATIO_STD = 3.0, 0.05, 0.115
 
 
 class Spectrum(Section):
@@ -77,22 +79,31 @@ class Harmonics(Laws):
 
 @dataclass(frozen=True)
 class Variant:
-    """A motion: may the contact open, may the slip reverse, does friction fall; ``as_published`` in step and window."""
+    """A motion: may the contact open, may the slip reverse, does friction fall; ``as_published`` in step and window.
+
+    ``load`` and ``speed`` are factors on those of the record.
+    """
 
     name: str
     opens: bool = True
     reverses: bool = True
     falls: bool = False
     as_published: bool = False
+    load: float = 1.0
+    speed: float = 1.0
 
 
 @dataclass(frozen=True)
 class Shown:
-    """What a motion shows: ``base`` Hz, ``levels`` {sensor: (k,) dB re its base}, shares of steps open and sticking."""
+    """What a motion shows: ``base`` Hz, ``levels`` {sensor: (k,) dB re its base}, shares of steps open and sticking.
+
+    ``amplitude`` {sensor: m/s} of the base.
+    """
 
     variant: Variant
     base: float
     levels: dict
+    amplitude: dict
     open_share: float
     stick_share: float
 
@@ -100,6 +111,9 @@ class Shown:
 #: each mechanism, both, and a friction that falls with the slip speed where the contact cannot open
 MECHANISMS = (Variant("loss_of_contact", reverses=False), Variant("stick", opens=False),
               Variant("loss_of_contact_and_stick"), Variant("falling_friction", opens=False, falls=True))
+
+#: mechanisms whose amplitudes are in proportion to the load or the speed, and independent of the other
+_SCALING = {"loss_of_contact": "load", "stick": "speed"}
 
 
 def shown(model, told, fan_out=map):
@@ -122,8 +136,8 @@ def _move(model, told, variant):
         rise, share = _FALLING
         decay = share * told.speed * float(np.mean(model.contact_lever))
         bench = compose(bench, [Term(named("falling_friction"), "contact", {"rise": rise, "decay_speed": decay})])
-    drive = told.speed * (1.0 if variant.reverses else told.one_way_speed)
-    inputs = model.pressure[0] * model.input_area * (1.0 if variant.opens else told.closing_load)
+    drive = told.speed * variant.speed * (1.0 if variant.reverses else told.one_way_speed)
+    inputs = model.pressure[0] * model.input_area * variant.load * (1.0 if variant.opens else told.closing_load)
     system = modal_system(bench.model, "diagonal" if variant.as_published else "full", told.highest_frequency)
     start = steady_start(bench.model, bench.law, constant(0.0) if variant.as_published else bench.friction, inputs)
     kick = random_kick(system, bench.model.sensor_rows, 0.0 if variant.as_published else told.kick, told.seed)
@@ -137,14 +151,15 @@ def _shown(model, told, variant, motion, interval):
     window = told.published.window if variant.as_published else told.window
     signals = {name: motion.velocity[names.index(name)] for name in told.spectra}
     base = np.mean([cycle(s, interval, window, 1.0, told.lowest_frequency).frequency for s in signals.values()])
-    levels = {}
+    levels, strength = {}, {}
     for name, signal in signals.items():
         amplitude = harmonic_levels(signal[-round(window / interval):], 1 / interval, base, told.lines)
+        strength[name] = float(amplitude[0])
         if told.spectra[name].quantity == "acceleration":
             amplitude = amplitude * np.arange(1, told.lines + 1)
         levels[name] = 20 * np.log10(np.maximum(amplitude / amplitude[0], 1e-15))
     share = np.mean(np.reshape(motion.status_share, (-1, 3)), axis=0)
-    return Shown(variant, float(base), levels, float(share[0]), float(share[1]))
+    return Shown(variant, float(base), levels, strength, float(share[0]), float(share[1]))
 
 
 def growing(modes):
@@ -182,6 +197,41 @@ def _stands(lines, base, count):
 def _features(motion, told):
     found = {name: ndtr((level + told.spectra[name].range) / _SOFT) for name, level in motion.levels.items()}
     return {**found, BASE: np.array([motion.base])}
+
+
+def outcomes(model, told, motions, effects, fan_out=map):
+    """{condition: {effect: (m,), over their standard deviation}} of other records of the ``effects`` of MECHANISMS.
+
+    Amplitudes at twice the load and at twice the speed over those of the record are computed by further motions, but
+    where the equations scale; a condition under which one of them cannot be computed is left out.
+    """
+    found = {"measured = levels of all lines, with the range of the analyser":
+             {e: np.concatenate([np.maximum(level, -told.spectra[name].range) / _LEVEL_STD
+                                 for name, level in motions[e].levels.items()]) for e in effects},
+             "measured = share of the time that the contact is open, by its resistance":
+             {e: np.array([motions[e].open_share / _SHARE_STD]) for e in effects}}
+    for name, condition, factors in (("load", "normal_load = twice that of the record", {"load": 2.0}),
+                                     ("speed", f"speed = {2 * told.speed:.4g} rad/s", {"speed": 2.0})):
+        again = {m.name: replace(m, **factors) for m in MECHANISMS if m.name in effects and m.name not in _SCALING}
+        moved = dict(zip(again, fan_out(partial(_tried, model, told), again.values()), strict=True))
+        if None not in moved.values():
+            found[condition] = {e: _ratio(e, name, motions, moved) / _RATIO_STD for e in effects}
+    return found
+
+
+def _tried(model, told, variant):
+    try:
+        return _move(model, told, variant)
+    except BrakechainError:
+        return None
+
+
+def _ratio(effect, name, motions, moved):
+    """Logarithms (sensors,) of amplitudes at twice the load or speed over those of the record."""
+    before = motions[effect].amplitude
+    if effect in _SCALING:
+        return np.full(len(before), np.log(2.0) if _SCALING[effect] == name else 0.0)
+    return np.array([np.log(moved[effect].amplitude[sensor] / a) for sensor, a in before.items()])
 
 
 def harmonics_reasons(recording, told, motions, modes):

@@ -9,7 +9,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from pipeline.diagnosis.deconvolution import FADE, deconvolved
+from pipeline.diagnosis.latent_law import LABEL, used
 from pipeline.diagnosis.location import drive_angle, fitted, leading_place, places
+from pipeline.diagnosis.simulation import shown
 from pipeline.inference import locate, unknown
 
 #: samples from which the covariance of the force is estimated
@@ -59,6 +61,12 @@ class Describe:
         runs = {r.name: (self.runs[r.name], r, self.budget[r.name]) for r in self.problem.runs}
         return describe(fitted(self.bench, (found.base or found).null), runs, [r.name for r in self.problem.held_out],
                         axes["place"][0].items[leader], self.draws, self.seed)
+
+    def use(self, found, description):
+        """LatentUse of a Description on the held-out runs."""
+        return used(self.bench, places(self.bench)[description.place][0], description, self.problem, self.budget,
+                    (found.base or found).null, lambda whole, run: shown(whole, self.runs[run.name].until(
+                        run.samples.shape[1]), run.channels))
 
 
 def describe(bench, runs, held_out, place, draws=2000, seed=0):
@@ -137,5 +145,5 @@ def sentence(place, runs, follows):
     return (f"At {place} a force of {np.sqrt(np.mean(force**2)):.3g} N root mean square is missing; it"
             f" {f'follows {told}' if told else 'follows neither displacement nor velocity nor time clearly'} and"
             f" {'takes' if power < 0 else 'puts'} {abs(power):.3g} W {'out' if power < 0 else 'in'} on average:"
-            " description, not identified physics.")
+            f" {LABEL}.")
 

@@ -8,6 +8,7 @@ import numpy as np
 from pipeline.contract import ConfigError, Section, option
 from pipeline.diagnosis.line_match import assigned, chance, covered
 from pipeline.diagnosis.lines import FACTOR, Alternative, Features, lines_of, question
+from pipeline.diagnosis.next_lines import Check
 from pipeline.inference.priors import LogNormal, Parameter
 from pipeline.physics.disc_modes import describe
 
@@ -19,6 +20,13 @@ _CHANGE = 0.1
 _ANYWHERE = 2.0
 #: modes further apart than this factor are not the same mode
 _FARTHEST = 1.25
+
+#: what undoes an alternative: {record: Check}
+CHECKS = {"measured = shapes of the lines that differ, counted in nodal diameters and circles":
+          Check(("mis_paired", "unlisted_partner"), tells_which=True),
+          "computed = all modes up to the highest line, on two meshes": Check(("rise_with_frequency",)),
+          "measured = thickness of the disc and modulus of its material": Check(("axisymmetric_stiffness",)),
+          "measured = lines of the disc held as it is computed": Check(("support",))}
 
 
 class ModeTable(Section):

@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from pipeline.benches import corrections
-from pipeline.contract import ConfigError
+from pipeline.contract import BrakechainError, ConfigError
 from pipeline.contract.units import to_si
 from pipeline.inference.least_squares import linearised
 from pipeline.inference.next_experiment import choose, predicted
@@ -45,11 +45,16 @@ def feasible(bench, given, like, where="diagnosis.next"):
     found = []
     for name, values in given.items():
         for value in values:
-            run, altered = _changed(bench, like.run, name, value, f"{where}.{name}")
-            told = f"{name} = {value}" if isinstance(value, str) else f"{name} x {value:g}"
+            run, altered = changed(bench, like.run, name, value, f"{where}.{name}")
+            told = words(name, value)
             blank = Observed(told, run.conditions, like.channels, np.zeros(like.samples.shape), run.sample_rate)
             found.append(Feasible(blank, replace(run, name=told), altered))
     return tuple(found)
+
+
+def words(name, value):
+    """What is changed, as it is told: 'load = 5 N', 'stiffness x 5'."""
+    return f"{name} = {value}" if isinstance(value, str) else f"{name} x {value:g}"
 
 
 def altered(bench, changes):
@@ -61,17 +66,47 @@ def altered(bench, changes):
 def next_experiment(question, found):
     """Fields next_condition, next_separates and next_value of the product Diagnosis; empty where nothing is tied.
 
-    Predictions are tempered as the evidence was: by the mean weight of the fitted runs.
+    Predictions are tempered as the evidence was: by the mean weight of the fitted runs. Runs that one of the rivals
+    cannot predict are left out.
     """
-    rivals = found.named
-    if len(rivals) < 2 or not question.next_runs:
+    rivals = rivals_of(found)
+    told = [(run, _predictions(question, found, rivals, run)) for run in question.next_runs] if rivals else []
+    told = [(run, predictions) for run, predictions in told if predictions]
+    if not told:
         return {"next_condition": [], "next_separates": [], "next_value": 0.0}
-    share = np.array([w.contender.posterior for w in rivals])
-    choice = choose(share / share.sum(), [[_prediction(question, found, w.fit, run) for w in rivals]
-                                          for run in question.next_runs])
-    return {"next_condition": [question.next_runs[choice.index].name],
-            "next_separates": [rivals[k].candidate.name for k in choice.separates],
+    share = np.array([rival.share for rival in rivals])
+    choice = choose(share / share.sum(), [predictions for _, predictions in told])
+    return {"next_condition": [told[choice.index][0].name],
+            "next_separates": [rivals[k].name for k in choice.separates],
             "next_value": float(choice.value[choice.index])}
+
+
+@dataclass(frozen=True)
+class Rival:
+    """A hypothesis that the next run should tell from others: its ``share`` of probability and its Fit."""
+
+    name: str
+    share: float
+    fit: object
+
+
+def rivals_of(found):
+    """Rivals in a tie, none elsewhere. One that is named alone has the nominal model and the runner-up beside it."""
+    if found.decision.verdict != "tie" or not found.named:
+        return []
+    named = {w.candidate.name for w in found.named}
+    every = [Rival(w.candidate.name, w.contender.posterior, w.fit) for w in found.weighed]
+    own, others = [r for r in every if r.name in named], [r for r in every if r.name not in named]
+    nothing = Rival(found.nominal.name if found.nominal.effects else "nothing missing", found.posterior[0], found.null)
+    return own if len(own) > 1 else [*own, nothing, *others[:1]]
+
+
+def _predictions(question, found, rivals, run):
+    """Predictions of one run by every rival, or none."""
+    try:
+        return [_prediction(question, found, rival.fit, run) for rival in rivals]
+    except BrakechainError:
+        return []
 
 
 def _prediction(question, found, fit, run):
@@ -80,8 +115,8 @@ def _prediction(question, found, fit, run):
     return predicted(-weight * there.residuals[0], weight * there.jacobians[0], fit.covariance(found.weights))
 
 
-def _changed(bench, run, name, value, where):
-    """(Run, altered) with one thing changed."""
+def changed(bench, run, name, value, where):
+    """(Run, altered) with one thing changed: a value with a unit or a factor. ConfigError where it cannot be."""
     factor = not isinstance(value, str)
     numbers = corrections.known(bench)
     if name in numbers:
@@ -92,11 +127,11 @@ def _changed(bench, run, name, value, where):
     if name == DRIVE:
         return replace(run, drive=value * np.asarray(run_drive(bench, run), float)), {}
     unit = "rad/s" if name == "speed" else "N"
-    changed = value * np.asarray(own[name], float) if factor else to_si(value, unit, where)
+    there = value * np.asarray(own[name], float) if factor else to_si(value, unit, where)
     if name in bench.model.input_name:
-        return replace(run, inputs={**run.inputs, name: changed}), {}
+        return replace(run, inputs={**run.inputs, name: there}), {}
     drive = None if name == "speed" else run.drive
-    return replace(run, drive=drive, conditions={**run.conditions, name: float(changed)}), {}
+    return replace(run, drive=drive, conditions={**run.conditions, name: float(there)}), {}
 
 
 def _conditions(bench, run):

@@ -113,7 +113,7 @@ def _seen(bench, runs, units, settings, found):
     std = np.array([to_si(settings.noise.std[n], units[n], f"diagnosis.noise.std.{n}") for n in names])
     blank = tuple(Observed(n, {}, names, np.zeros((len(names), run.samples)), run.sample_rate, noise_std=std)
                   for n, run in runs.items())
-    problem = Problem(blank, Simulated(only(bench, names), runs, {}), nominal(nominal_parameters(bench, settings)))
+    problem = Problem(blank, Simulated(only(bench, names), runs), nominal(nominal_parameters(bench, settings)))
     noises, directions, jacobians = budget(problem), [], []
     for run in blank:
         null = linearised(problem, [noises[run.name]], problem.nominal, problem.nominal.nominal, [run])

@@ -1,5 +1,6 @@
 """The diagnosis of published lines: mode tables, harmonics, squeal frequencies, each to the product Diagnosis."""
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -8,6 +9,8 @@ from pipeline.contract import ConfigError
 from pipeline.diagnosis import harmonics, mode_table, squeal_lines
 from pipeline.diagnosis.answer import answer
 from pipeline.diagnosis.lines import diagnosed
+from pipeline.diagnosis.next_lines import best_check, best_outcome
+from pipeline.diagnosis.next_run import Rival
 from pipeline.diagnosis.question import label
 from pipeline.inference import diagnose as course
 
@@ -41,31 +44,48 @@ def published_diagnosis(recording, models, settings, context):
     context.log(f"{len(asked.candidates)} alternatives over {len(asked.problem.runs)} lists")
     found = diagnosed(asked, course.Settings(kept=len(asked.candidates), draws=settings.draws, seed=settings.seed,
                                              rules=asked.rules), context.map)
-    told = answer(asked, found)
-    if isinstance(following, _Undecided):
-        told, following = following.tied(told), following.conditions
+    told = following.tied(answer(asked, found))
     told = _capped(told)
     told = replace(told, reason=np.array([*told.reason, *_before(found), *reasons(found)], dtype=object))
-    if not len(told.named):
-        return told
-    rivals = _rivals(told)
-    return replace(told, next_condition=np.array(following, dtype=object), next_value=np.array(_entropy(told, rivals)),
-                   next_separates=np.array([told.hypothesis[k] for k in rivals], dtype=object))
+    return replace(told, **_next(told, found, following)) if len(told.named) else told
+
+
+def _next(told, found, following):
+    """Fields of the next experiment: the record that is expected to separate best; where none is computed, what would
+    decide in words, and as its value what a decision would tell."""
+    rows = _rivals(told)
+    conditions, separates, value = following.conditions, [told.hypothesis[k] for k in rows], _entropy(told, rows)
+    fits = {w.candidate.name: w.fit for w in found.weighed}
+    rivals = [Rival(str(told.hypothesis[k]), told.posterior[k], fits.get(told.hypothesis[k])) for k in rows]
+    best = following.best(rivals) if len(rivals) > 1 else None
+    if best is not None:
+        conditions, separates, value = [best.condition], best.separates, best.value
+    return {"next_condition": np.array(conditions, dtype=object), "next_separates": np.array(separates, dtype=object),
+            "next_value": np.array(value)}
+
+
+def _nothing_computed(rivals):
+    return None
 
 
 @dataclass(frozen=True)
-class _Undecided:
-    """Hypotheses ``names`` that meet all lines as lines at random would too; ``conditions`` of a better recording."""
+class _Following:
+    """What decides next: ``best(rivals)`` -> Expected or None, and ``conditions`` in words where nothing is computed.
 
-    names: tuple
+    ``undecided``: hypotheses that meet all lines as lines at random would too; ``conditions`` of a better recording.
+    """
+
     conditions: tuple
+    best: Callable = _nothing_computed
+    undecided: tuple = ()
 
     def tied(self, told):
-        if told.verdict.item() != "unknown" or not self.names:
+        """The product; a tie of the undecided hypotheses where nothing else is known."""
+        if told.verdict.item() != "unknown" or not self.undecided:
             return told
-        rows = [k for k, name in enumerate(told.hypothesis) if str(name) in self.names]
-        reason = (f"{', '.join(self.names)} would each sound at the recorded frequencies, as almost any list of modes"
-                  " would: these lines cannot tell them apart")
+        rows = [k for k, name in enumerate(told.hypothesis) if str(name) in self.undecided]
+        reason = (f"{', '.join(self.undecided)} would each sound at the recorded frequencies, as almost any list of"
+                  " modes would: these lines cannot tell them apart")
         return replace(told, verdict=np.array("tie", dtype=object), named=np.array(rows),
                        reason=np.array([reason, *told.reason[1:]], dtype=object))
 
@@ -105,19 +125,34 @@ def _entropy(told, rows):
 def _modes(recording, models, told, context):
     rows = mode_table.table(recording, told)
     asked = mode_table.mode_question(rows, models.structure, told)
-    return asked, lambda found: mode_table.mode_reasons(rows, found), (
-        "measured = shapes of the lines that differ, counted in nodal diameters and circles",
-        "computed = all modes up to the highest line, with their shapes, on two meshes")
+    known = {c.effects[0][0] for c in asked.candidates}
+    checks = {name: check for name, check in mode_table.CHECKS.items() if known & set(check.effects)}
+
+    def best(rivals):
+        return best_check(asked, rivals, checks) if all(r.fit for r in rivals) else None
+
+    return asked, lambda found: mode_table.mode_reasons(rows, found), _Following(tuple(checks), best)
 
 
 def _harmonics(recording, models, told, context):
-    modes = models.needed("modes", "complex_modes")
-    motions = harmonics.shown(models.needed("model", "reduced_model"), told,
-                              lambda f, items: context.map(f, items, "mechanisms"))
+    def fan_out(f, items):
+        return context.map(f, items, "mechanisms")
+
+    def best(rivals):
+        if any(r.fit and len(r.fit.hypothesis.effects) > 1 for r in rivals):
+            return None         # no motion of two mechanisms beside one another was computed
+        effects = {c.name: c.effects[0][0] for c in asked.candidates}
+        computed = harmonics.outcomes(model, told, motions, [effects[r.name] for r in rivals], fan_out)
+        return best_outcome(rivals, {condition: {r.name: one[effects[r.name]] for r in rivals}
+                                     for condition, one in computed.items()})
+
+    modes, model = models.needed("modes", "complex_modes"), models.needed("model", "reduced_model")
+    motions = harmonics.shown(model, told, fan_out)
     asked = harmonics.harmonics_question(recording, told, motions, modes)
-    return asked, lambda found: harmonics.harmonics_reasons(recording, told, motions, modes), (
+    return asked, lambda found: harmonics.harmonics_reasons(recording, told, motions, modes), _Following((
         "normal_load = twice that of the record", f"speed = {2 * told.speed:.4g} rad/s",
-        "measured = levels of all lines with the range of the analyser, and the contact resistance (open or closed)")
+        "measured = levels of all lines with the range of the analyser, and the contact resistance (open or closed)"),
+        best)
 
 
 def _squeal(recording, models, told, context):
@@ -130,8 +165,8 @@ def _squeal(recording, models, told, context):
         "growth phases = at three loads and one speed, and at a constant and a changing one",
         "measured = shapes in squeal over the whole ring, counted in nodal diameters, with their sense of rotation")
     return asked, lambda _: squeal_lines.squeal_reasons(
-        recording, told, found, models.modes, models.structure), _Undecided(names, conditions)
+        recording, told, found, models.modes, models.structure), _Following(conditions, undecided=names)
 
 
-#: kind of list -> (Question, reasons(found), conditions of the next recording)
+#: kind of list -> (Question, reasons(found), what to record next)
 _KINDS = {"modes": _modes, "harmonics": _harmonics, "squeal": _squeal}

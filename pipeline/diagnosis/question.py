@@ -16,12 +16,18 @@ def _nothing(diagnosis, axes):
     return None
 
 
+def _not_asked(first, second):
+    return None
+
+
 @dataclass(frozen=True)
 class Question:
     """A Problem with {run: Noise} ``budget`` and ``candidates`` (Hypotheses of effects alone).
 
     ``units`` {channel: SI unit}; ``axes(diagnosis)`` -> {axis: (Location, unit, edges)} tells where the mismatch lies,
     ``describe(diagnosis, axes)`` -> Description or None what force is missing there, whatever its physics;
+    ``use(diagnosis, description)`` -> LatentUse or None predicts held-out runs with that force, where this is asked;
+    ``squeal(recalibrated, completed)`` of their Fits -> {run: Compared} or None verifies by saturated squeal;
     ``next_runs`` (Observed, whose samples do not count): what could be recorded next, named by what is changed, each
     with its budget;
     ``starts``: latent values of effects where fits begin, beside those of the screen.
@@ -34,6 +40,8 @@ class Question:
     rules: Rules = Rules()
     axes: Callable = _nowhere
     describe: Callable = _nothing
+    use: Callable = _not_asked
+    squeal: Callable = _not_asked
     next_runs: tuple = ()
     starts: tuple = course.Settings.starts
 

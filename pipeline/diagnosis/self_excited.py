@@ -2,10 +2,13 @@
 
 from dataclasses import dataclass, field, replace
 
-from pipeline.contract import ConfigError
+from pipeline.contract import BrakechainError, ConfigError
 from pipeline.diagnosis.forced import check_names, chosen, nominal_parameters
+from pipeline.diagnosis.next_features import planned_records
+from pipeline.diagnosis.next_run import altered
 from pipeline.diagnosis.poles import features, observed, predicted
 from pipeline.diagnosis.question import Question, nominal
+from pipeline.diagnosis.saturated_squeal import Squeals
 from pipeline.diagnosis.simulation import candidates, completed
 from pipeline.inference.decide import Rules
 from pipeline.inference.noise import budget
@@ -22,10 +25,14 @@ _GLIMPSE = 5e-3
 
 @dataclass(frozen=True)
 class Rooted:
-    """Picklable prediction of the features ``seen`` {run: Features}; ``last`` keeps the bench that all runs share."""
+    """Picklable prediction of the features ``seen`` {run: Features}; ``last`` keeps the bench that all runs share.
+
+    ``altered`` {name: changes}: records on another bench, see ``next_run``.
+    """
 
     bench: object
     seen: dict
+    altered: dict = field(default_factory=dict)
     last: dict = field(default_factory=dict, compare=False)
 
     def __call__(self, hypothesis, values, run):
@@ -33,7 +40,8 @@ class Rooted:
         if key not in self.last:
             self.last.clear()
             self.last[key] = completed(self.bench, hypothesis, values)
-        return predicted(self.last[key], self.seen[run.name], run.channels)
+        bench = altered(self.last[key], self.altered.get(run.name, {}))
+        return predicted(bench, self.seen[run.name], run.channels)
 
 
 def question(bench, recorded, settings, band):
@@ -46,8 +54,28 @@ def question(bench, recorded, settings, band):
     told, units = observed(seen, settings.held_out)
     if not units:
         raise ConfigError("diagnosis", "poles that two records show", "none", "widen bench.poles, or tap harder")
-    problem = Problem(told, Rooted(bench, seen), nominal(nominal_parameters(bench, settings)))
+    after = planned_records(bench, {o.name: seen[o.name] for o in told if not o.held_out}, settings.next)
+    forward = Rooted(bench, seen | {p.name: p.features for p in after}, {p.name: p.altered for p in after})
+    problem = Problem(told, forward, nominal(nominal_parameters(bench, settings)))
     brief = tuple(replace(seen[o.name].run, duration=_GLIMPSE, sample_rate=max(1 / bench.step, 2 / _GLIMPSE), inputs={},
                           drive=None) for o in problem.training)
-    return Question(problem, budget(problem), candidates(
-        bench, brief, chosen(settings), settings.places, priors=settings.priors), units, RULES, starts=_STARTS)
+    noises, recorded_as = budget(problem), {o.name: o for o in told}
+    blank = {p.name: replace(recorded_as[p.like], name=p.name, conditions=p.features.run.conditions) for p in after}
+    return Question(problem, noises | {p.name: noises[p.like] for p in after},
+                    candidates(bench, brief, chosen(settings), settings.places, priors=settings.priors), units, RULES,
+                    starts=_STARTS, next_runs=_predictable(problem, blank.values(), must=bool(settings.next)),
+                    **({"squeal": Squeals(bench, recorded, settings.saturated_squeal, settings.seed)}
+                       if settings.saturated_squeal else {}))
+
+
+def _predictable(problem, runs, must):
+    """Those ``runs`` (Observed) that the nominal model predicts; where all ``must`` be, its error is raised."""
+    found = []
+    for run in runs:
+        try:
+            problem.predict(problem.nominal, problem.nominal.values(problem.nominal.nominal), run)
+            found.append(run)
+        except BrakechainError:
+            if must:
+                raise
+    return tuple(found)

@@ -64,6 +64,25 @@ class SpotRuns(Section):
                                       " the refinement of micro_friction tells it", gt=0)
 
 
+class LatentForce(Section):
+    """What the force is used for that stands for physics which the catalogue does not hold."""
+
+    predict: bool = option(False, "at verdict unknown, predict the held-out runs by the nominal model with the latent"
+                                  " force, as a function of what it follows: description, not identified physics")
+
+
+class SaturatedSqueal(Section):
+    """Simulated repeats of recorded squeals."""
+
+    repeats: int = option(3, "simulated repeats of each model, each from another small start", ge=3)
+    runs: tuple[str, ...] = option((), "recorded runs; none = all that slide")
+    duration: Quantity("s", gt=0) = option("0.5 s", "length of every simulated motion")
+    stretch: Quantity("s", gt=0) = option("25 ms", "stretches into which motions are cut")
+    kick: Quantity("m/s", gt=0) = option("1 mm/s", "effective value of the start velocities at the sensors")
+    lowest: Quantity("Hz", gt=0) = option("200 Hz", "frequencies are sought above it")
+    tolerance: float = option(2.0, "standard deviations of both spreads together within which means agree", gt=0)
+
+
 class Settings(Section):
     """What is asked."""
 
@@ -82,9 +101,13 @@ class Settings(Section):
                                           " others priors of the sizes that nominal runs have")
     next: dict[str, tuple[str | float, ...]] = option({}, "what could be recorded next, by the condition (normal_load,"
                                                           " speed, drive, an input) or number of the bench that would"
-                                                          " change: values with a unit, or factors")
+                                                          " change: values with a unit, or factors; forward equation:"
+                                                          " also motion (size) and pace, none = within the recorded"
+                                                          " ones; forward poles: none = recorded loads and speeds")
     noise: NoiseOf = option(NoiseOf(), "noise of the recordings")
     solver: bool = option(True, "weigh the solver too, by halving its step")
+    latent_force: LatentForce = option(LatentForce(), "use of the latent force")
+    saturated_squeal: SaturatedSqueal | None = option(None, "forward poles: verify by simulated squeals; none = not")
     plan: Plan = option(Plan(), "runs that could be recorded, for 'brakechain plan'")
     kept: int = option(8, "candidates that are refitted in the full model", ge=1)
     draws: int = option(20000, "draws of the null of the screen", ge=100)

@@ -49,13 +49,11 @@ def terms(hypothesis, values):
 class Simulated:
     """Picklable prediction, of cut runs too: ``runs`` {name: Run}.
 
-    ``change`` {name: (c, n)}: what half the step changes; ``altered`` {name: changes}: runs on another bench, see
-    ``next_run``; ``built`` holds the last bench.
+    ``altered`` {name: changes}: runs on another bench, see ``next_run``; ``built`` holds the last bench.
     """
 
     bench: object
     runs: dict
-    change: dict
     altered: dict = field(default_factory=dict)
     built: dict = field(default_factory=dict, compare=False)
 
@@ -65,9 +63,7 @@ class Simulated:
         bench = altered(self._completed(hypothesis, values), self.altered.get(run.name, {}))
         predicted = shown(bench, own, run.channels)
         refinement = values.get(parameter_name(STEP, SOLVER, REFINEMENT), 0.0)
-        if not refinement or run.name not in self.change:       # runs that were not recorded have no change of theirs
-            return predicted
-        return predicted + refinement * self.change[run.name][:, :kept]
+        return predicted + refinement * halved(bench, own, run.channels, predicted) if refinement else predicted
 
     def _completed(self, hypothesis, values):
         """The bench of a hypothesis, kept as long as run after run asks for the same values."""
@@ -88,10 +84,9 @@ def shown(bench, run, channels):
     return np.array([answer[c] for c in channels])
 
 
-def halved(bench, runs, channels):
-    """{run name: (c, n)} what half the step changes in the prediction of the bench; ``channels`` {run name: names}."""
-    finer = replace(bench, step=bench.step / 2)
-    return {name: shown(finer, run, channels[name]) - shown(bench, run, channels[name]) for name, run in runs.items()}
+def halved(bench, run, channels, predicted):
+    """(c, n) what half the step changes in what is ``predicted`` (c, n) of one run."""
+    return shown(replace(bench, step=bench.step / 2), run, channels) - predicted
 
 
 def reach(bench, recorded):

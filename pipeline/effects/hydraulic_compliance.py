@@ -3,7 +3,7 @@
     F = F_in - z,    z' = k v - z / tau
 
 k is the stiffness of the enclosed fluid and its hoses along the input, v the speed along it. An ideal line has k = 0;
-tau is long where the line is narrow or closed.
+tau is long where the line is narrow or closed: it may lie anywhere between a radian of the motion and a whole run.
 """
 
 import numpy as np
@@ -14,9 +14,10 @@ from pipeline.physics.elements import Element, Maxwell
 
 
 def parameters(typical):
-    size = 0.1 * (typical.stiffness or typical.force / typical.length)
+    size, shortest = 0.1 * (typical.stiffness or typical.force / typical.length), min(typical.period, typical.time)
+    middle, spread = np.sqrt(shortest * typical.time), max(0.25 * np.log(typical.time / shortest), 0.5)
     return (Parameter("stiffness", "N/m", size, HalfNormal(2 * size), null=0.0),
-            Parameter("time", "s", 0.2 * typical.time, LogNormal(0.2 * typical.time, 1.0)))
+            Parameter("time", "s", middle, LogNormal(middle, spread)))
 
 
 def apply(bench, place, values):

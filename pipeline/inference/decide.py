@@ -12,8 +12,9 @@ class Rules:
     posterior: float = 0.9              # of the named set among all that survive
     p_value: float = 0.01               # family-wise, over the whole catalogue
     evidence_gain: float = 5.0          # ln Z over the refitted null
-    gain_errors: float = 3.0            # held-out gain in standard errors
+    gain_errors: float = 3.0            # gain on runs that were not fitted, in standard errors
     gain_share: float = 0.05            # held-out gain as a share of the excess error
+    loss_errors: float = 1.0            # loss on held-out runs that chance explains, in standard errors
     # of coefficients across operating points, standard deviations; 2 would refuse a true effect of two coefficients in
     # one case of ten
     disagreement: float = 3.0
@@ -30,7 +31,9 @@ class Rules:
 class Contender:
     """A refitted candidate, in numbers. ``held_out_*`` are of runs never fitted, or None where there are none.
 
-    ``left_out_gain``: log predictive density of left-out operating points over the null's. ``from_null``: largest
+    ``left_out_gain``: log predictive density of left-out operating points over the null's; ``unfitted_errors``: gain on
+    left-out points and held-out runs together, in standard errors (None as those). ``held_out_share``: what its gain
+    may be of the excess error, a standard error allowed for. ``from_null``: largest
     distance of an effect parameter from its null, in standard deviations. ``forbidden``: why its values cannot be
     (sign, passivity), or empty; ``doubts``: why its fit cannot be relied on, in words.
     """
@@ -41,6 +44,7 @@ class Contender:
     evidence_gain: float
     p_value: float
     left_out_gain: float
+    unfitted_errors: float | None
     held_out_errors: float | None
     held_out_share: float | None
     beats_decoy: bool | None
@@ -104,10 +108,12 @@ def objections(contender, situation, rules):
     if situation.points >= 2 and contender.left_out_gain <= 0:
         told.append("it predicts left-out operating points no better than the recalibrated nominal model")
     if contender.held_out_errors is not None:
-        if contender.held_out_errors < rules.gain_errors:
-            told.append(f"its gain on held-out runs is {contender.held_out_errors:.1f} standard errors")
+        if contender.unfitted_errors < rules.gain_errors:
+            told.append(f"its gain on runs that were not fitted is {contender.unfitted_errors:.1f} standard errors")
+        if contender.held_out_errors < -rules.loss_errors:
+            told.append(f"it predicts held-out runs worse, by {-contender.held_out_errors:.1f} standard errors")
         elif contender.held_out_share < rules.gain_share:
-            told.append(f"it takes {contender.held_out_share:.1%} of the excess error on held-out runs")
+            told.append(f"it takes {contender.held_out_share:.1%} of the excess error on held-out runs at most")
         if contender.beats_decoy is False:
             told.append("it predicts held-out runs no better than a decoy of equal size")
     return told

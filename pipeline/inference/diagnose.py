@@ -1,7 +1,8 @@
 """The course of a diagnosis: recalibrate, screen, refit, weigh, verify, decide; pairs by greedy addition.
 
 Where the nominal model is pulled to values at odds with their priors, its linearisation ranks nothing: there every
-candidate begins its fit, and the best few go on.
+candidate begins its fit unless one of the first few explains enough, and the best few go on. What else could move as
+the best one does is looked for at the nominal values that the best one asks for.
 A null hypothesis that has not converged lets every candidate win: it is refitted from each candidate's optimum. A model
 that lacks physics may have no smooth optimum at all: then a candidate counts only where it goes far below the null.
 """
@@ -11,22 +12,19 @@ from functools import partial
 
 import numpy as np
 
-from pipeline.contract.errors import BrakechainError, ConvergenceError
+from pipeline.contract.errors import ConvergenceError
 from pipeline.inference import decide as rulebook
-from pipeline.inference.calibrate import begun, calibrate
+from pipeline.inference.calibrate import calibrate
 from pipeline.inference.drift import drift
 from pipeline.inference.effective import tempering
 from pipeline.inference.evidence import cautious_prior, evidence, posterior, reached, screened
-from pipeline.inference.least_squares import continued, far, linearised, of_features
+from pipeline.inference.least_squares import of_features
+from pipeline.inference.refit import Refits, at_odds, reaches_noise
 from pipeline.inference.screen import directions, screen
-from pipeline.inference.weigh import EXCLUDED, contender, excluded, held_out_gains, situation
+from pipeline.inference.weigh import contender, held_out_gains, situation, unexplained
 
-#: iterations of a nominal model from a candidate's optimum before it is given up where it is still worse than before
-_GIVEN_UP = 16
-#: units of log evidence of the best candidate within which others must be able to come, else they are given up
-_NEAR = 50.0
 #: where the linearisation of the null holds, scores that chance reaches more often than this are not looked into
-_LIKELY = 0.5
+_LIKELY = 0.1
 
 
 @dataclass(frozen=True)
@@ -111,28 +109,28 @@ def _one_step(problem, budget, catalogue, settings, fan_out, start=None, base=No
     rough = screen(null, found, None, settings.draws, settings.seed)
     largest = _hopeful(null, settings.rules) if base is None else settings.rules.p_value
     hopeful = [i for i in rough.order() if np.isfinite(rough.score[i]) and rough.p_value[i] <= largest]
-
-    def refit(chosen, before):
-        begin = partial(_begun, problem, noises, null, settings.starts)
-        first = dict(zip(chosen, fan_out(begin, [(catalogue[i], rough.start[i]) for i in chosen]), strict=True))
-        ended = {i: (None, None, told) for i, (state, told) in first.items() if state is None}
-        states = {i: state for i, (state, _) in first.items() if state is not None}
-        best = sorted(states, key=lambda i: states[i].objective)[:settings.kept]
-        for group in (best[:1], best[1:]):
-            finish = partial(_finished, problem, null, _enough([*before, *ended.values()]))
-            ended |= zip(group, fan_out(finish, [states[i] for i in group]), strict=True)
-        return ended
-
-    results = refit(hopeful if _at_odds(null) else hopeful[:settings.kept], ())
-    results |= refit(_overlooked(null, found, results, settings), results.values())
-    better = min([null, *(r[1] for r in results.values() if r[1] is not None)], key=lambda f: f.objective)
+    refits = Refits(problem, null, tuple(catalogue), settings, fan_out)
+    results = _first_refits(refits, hopeful, rough.start) if base is None else refits.of(
+        hopeful[:settings.kept], rough.start)
+    results = refits.of(_overlooked(null, found, results, settings), rough.start, results)
+    better = min([null, *(r.null for r in results.values() if r.null is not None)], key=lambda f: f.objective)
     if better.objective < null.objective - 0.1:
         null = better
         found = list(fan_out(partial(directions, problem, null), catalogue))
-    fits = {i: r[0] for i, r in results.items() if r[0] is not None}
-    failures = {catalogue[i].name: r[2] for i, r in results.items() if r[2]}
+    fits = {i: r.fit for i, r in results.items() if r.fit is not None}
+    failures = {catalogue[i].name: r.told for i, r in results.items() if r.told}
     failures |= {f.candidate.name: f.failure for f in found if f.failure}
     return _weighed(problem, budget, null, found, fits, failures, settings, base)
+
+
+def _first_refits(refits, hopeful, starts):
+    """{index: Refitted} of a first effect: the best few of the screen and their rivals, else all of them."""
+    kept, rules = refits.settings.kept, refits.settings.rules
+    results = refits.from_best(refits.of(hopeful[:kept], starts))
+    fits = [r.fit for r in results.values() if r.fit]
+    if not at_odds(refits.null) or any(unexplained(refits.null, fit, rules) <= rules.unexplained for fit in fits):
+        return results
+    return refits.from_best(refits.of(hopeful[kept:], starts, results))
 
 
 def _hopeful(null, rules):
@@ -141,75 +139,12 @@ def _hopeful(null, rules):
     It holds where the null reaches the noise; of features, which are few and far from linear only where they are
     paired anew, wherever the null has an optimum.
     """
-    reached = null.chi_square.sum() <= (1 + rules.noise_uncertainty) * null.counts.sum()
-    return _LIKELY if reached or (of_features(null.noises) and null.converged) else 1.0
-
-
-def _begun(problem, noises, null, offsets, item):
-    """(Fit of a candidate after a few iterations or None, why there is none)."""
-    candidate, screened_start = item
-    begins = [screened_start] + [np.full(len(candidate.parameters), offset) for offset in offsets]
-    bases = [null.latent] * len(begins)
-    if misled := _misled(null):
-        bases = [problem.nominal.nominal] * len(begins)
-    if _at_odds(null):
-        bases.append(null.latent)
-        begins.append(screened_start)
-    starts = [np.concatenate((base, np.clip(begin, -2, 2))) for base, begin in zip(bases, begins, strict=True)]
-    known = () if misled else null.jacobians
-    try:
-        return begun(problem, noises, problem.nominal.joined(candidate), starts, null.runs, known), ""
-    except BrakechainError as error:
-        return None, str(error)
-
-
-def _misled(null):
-    """Whether nothing near the null's optimum helps: values at odds with their priors, features paired wrongly."""
-    return bool(excluded(null, EXCLUDED)) or (of_features(null.noises) and far(null))
-
-
-def _at_odds(null):
-    """Whether samples pull the null to values at odds with their priors: then its linearisation ranks nothing."""
-    return bool(excluded(null, EXCLUDED)) and not of_features(null.noises)
-
-
-def _enough(results):
-    """The objective to which a candidate must be able to come down: near the best so far, as evidence is tempered."""
-    fits = [fit for fit, _, _ in results if fit is not None]
-    best = min(fits, key=lambda f: f.objective, default=None)
-    if best is None:
-        return np.inf
-    return best.objective + _NEAR / tempering(best.noises, best.residuals).max()
-
-
-def _finished(problem, null, enough, state):
-    """(Fit of a candidate, a better Fit of the null from its optimum or None, what went wrong)."""
-    best = state if state.converged else continued(problem, state, enough=enough, patient=False)
-    if not best.converged and best.objective > enough:
-        return best, None, "its fit was given up, far from what others reach"
-    told = "" if best.converged else f"its fit had not converged after {best.evaluations} predictions"
-    return best, _null_again(problem, null, best), told
-
-
-def _null_again(problem, null, best):
-    """A better Fit of the nominal model, found from the optimum of a candidate that fits better than it, or None."""
-    if best.objective > null.objective - 1:
-        return None
-    size = len(null.latent)
-    try:
-        again = linearised(problem, null.noises, problem.nominal, best.latent[:size], null.runs,
-                           [j[:, :size] for j in best.jacobians])
-        again = continued(problem, again, _GIVEN_UP, null.objective, patient=False)
-    except BrakechainError:
-        return None
-    if again.objective >= null.objective:
-        return None
-    return again if again.converged else continued(problem, again, patient=False)
+    return _LIKELY if reaches_noise(null, rules) or (of_features(null.noises) and null.converged) else 1.0
 
 
 def _overlooked(null, found, results, settings):
     """Indices of candidates that were not refitted, but promise about as much as the best of the others reached."""
-    fits = {i: r[0] for i, r in results.items() if r[0] is not None}
+    fits = {i: r.fit for i, r in results.items() if r.fit is not None}
     if not fits:
         return []
     logs, evidences, final, _ = _evidences(null, found, fits, settings)

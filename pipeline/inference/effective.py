@@ -3,25 +3,28 @@
 import numpy as np
 
 
-def effective_share(noise, white):
+def effective_share(noise, white, power=2):
     """N_eff / N of a whitened residual (m,), for sums of its squares.
 
     N_eff = N / (1 + 2 sum_k (1 - k/N) rho_k^2), from var(sum r^2) of a correlated Gaussian series (Bartlett, J. R.
     Stat. Soc. B 8 (1946) 27); correlations below the universal threshold sqrt(2 ln N / N), widened by
     the same factor (their own spread), count as none. Channels add.
+
+    ``power`` 1, with |rho_k|: for sums of the residual along a motion, whatever its frequency; the density of noise is
+    1 + 2 sum_k rho_k cos(k w) times that of white noise.
     """
     if not noise.ordered:
         return 1.0
     parts = [part for part in noise.by_channel(white) if len(part)]
-    return sum(_effective_count(part) for part in parts) / sum(len(part) for part in parts)
+    return sum(_effective_count(part, power) for part in parts) / sum(len(part) for part in parts)
 
 
 def tempering(noises, whites):
-    """Weights (runs,) of the runs' log-likelihoods: N_eff/N, less where the residual exceeds its noise.
+    """Weights (runs,) of the runs' log-likelihoods: N_eff/N along a motion, less where the residual exceeds its noise.
 
     ``whites`` are the residuals of the best model at hand; what it leaves counts as noise of unknown origin.
     """
-    return np.array([effective_share(noise, white) / max(1.0, np.mean(white**2))
+    return np.array([effective_share(noise, white, 1) / max(1.0, np.mean(white**2))
                      for noise, white in zip(noises, whites, strict=True)])
 
 
@@ -42,14 +45,14 @@ def coherent_energy(noise, white, level=1.0, chance=1e-3):
     return float(found.sum() * (2 if noise.ordered else 1))
 
 
-def _effective_count(series):
+def _effective_count(series, power):
     length = len(series)
     spectrum = np.abs(np.fft.rfft(series, 2 * length)) ** 2
     covariance = np.fft.irfft(spectrum)[:length]
     if not covariance[0] > 0:
         return length
-    square, spread = (covariance[1:] / covariance[0]) ** 2, 1.0
+    size, spread, fade = np.abs(covariance[1:] / covariance[0]), 1.0, 1 - np.arange(1, length) / length
     for _ in range(2):
-        kept = np.where(square < spread * 2 * np.log(length) / length, 0.0, square)
-        spread = 1 + 2 * np.sum((1 - np.arange(1, length) / length) * kept)
-    return length / spread
+        kept = np.where(size**2 < spread * 2 * np.log(length) / length, 0.0, size)
+        spread = 1 + 2 * np.sum(fade * kept**2)
+    return length / (1 + 2 * np.sum(fade * kept**power))

@@ -62,11 +62,14 @@ class Screen:
         return np.argsort(-self.score, kind="stable")
 
 
-def directions(problem, null, candidate):
-    """Directions of one candidate (Hypothesis of its effects alone) at the Fit ``null`` of the nominal hypothesis."""
+def directions(problem, null, candidate, like=None):
+    """Directions of one candidate (Hypothesis of its effects alone) at the Fit ``null`` of the nominal hypothesis.
+
+    ``like`` {name without place: value}: shapes that are tried too, where the candidate has parameters of these names.
+    """
     hypothesis, vectors, signs, tried = problem.nominal.joined(candidate), [], [], []
     base, failure = np.concatenate(null.residuals), ""
-    for latent, sign, share in _trials(candidate):
+    for latent, sign, share in _trials(candidate, like or {}):
         full = np.concatenate((null.latent, latent))
         moved, error = whitened(problem, null.noises, hypothesis, full, null.runs)
         if moved is None:
@@ -116,20 +119,29 @@ def _one_sided(score, sign):
     return np.where(sign == 0, np.abs(score), sign * score)
 
 
-def _trials(candidate):
+def own_name(parameter):
+    """Name of a parameter without the effect and the place it belongs to."""
+    return parameter.name.rpartition(".")[2]
+
+
+def _trials(candidate, like):
     """(latent values, sign, step in prior scales) of every direction: one effect parameter moved, shapes varied."""
     parameters = candidate.parameters
     shapes = [k for k, p in enumerate(parameters) if p.null is None]
     shares = [ANGLES if parameters[k].unit == "rad" else SHAPES for k in shapes]
-    combinations = list(product(*shares))[:_COMBINATIONS]
+    combinations = [[_latent_of(parameters[i], share) for i, share in zip(shapes, each, strict=True)]
+                    for each in list(product(*shares))[:_COMBINATIONS]]
+    if shapes and all(own_name(parameters[i]) in like for i in shapes):
+        combinations.append([float(np.clip(parameters[i].prior.latent(like[own_name(parameters[i])]), -2, 2))
+                             for i in shapes])
     for k, parameter in enumerate(parameters):
         if parameter.null is None:
             continue
-        for step, shares in product(STEPS, combinations):
+        for step, shape in product(STEPS, combinations):
             values = [p.nominal if p.null is None else p.null for p in parameters]
             values[k] = _away(parameter, step)
             latent = np.array([p.prior.latent(v) for p, v in zip(parameters, values, strict=True)])
-            latent[shapes] = [_latent_of(parameters[i], share) for i, share in zip(shapes, shares, strict=True)]
+            latent[shapes] = shape
             yield latent, int(parameter.sign != 0), step
 
 

@@ -28,7 +28,23 @@ class Gain:
     @property
     def share(self):
         """The gain as a share of the excess error (1 where there is no excess but a gain)."""
-        return self.value / max(self.excess, self.value) if self.value > 0 else 0.0
+        return self._share(self.value)
+
+    @property
+    def share_at_most(self):
+        """The share of the excess error that the gain may be, a standard error allowed for."""
+        return self._share(self.value + self.std)
+
+    def _share(self, value):
+        return value / max(self.excess, value) if value > 0 else 0.0
+
+    def errors_with(self, left_out):
+        """The gain in standard errors together with gains in log predictive density (point,) of left-out points.
+
+        A gain g in log density is one of 2 g in squared error, which varies by sqrt(8 g) as the other gains do.
+        """
+        variance = self.std**2 + 8 * np.abs(left_out).sum()
+        return float((self.value + 2 * np.sum(left_out)) / np.sqrt(variance)) if variance > 0 else 0.0
 
 
 @dataclass(frozen=True)

@@ -16,8 +16,8 @@ EXCLUDED = 5.0
 #: squared error of a recalibration that did not converge over that of a candidate, beyond which its end cannot matter
 _FAR_BELOW = 30.0
 #: share of what a fit explains below which what its slopes still promise cannot matter (forces with kinks have no
-#: smooth optimum)
-_NOTHING_MORE = 1e-3
+#: smooth optimum); the same of one that reaches the noise already
+_NOTHING_MORE, _AT_NOISE = 1e-3, 1e-2
 
 
 def held_out_gains(problem, budget, null, fits, share):
@@ -57,17 +57,20 @@ def contender(null, null_evidence, candidate, fit, own, share, p_value, held_out
              if p.null is not None]
     differing = [agreement(fit, size + k, weights, _immaterial(fit, size + k, rules))[0]
                  for k, p in enumerate(candidate.parameters) if p.null is not None]
+    left_out = own.left_out - null_evidence.left_out
+    unfitted = gained and (gained.errors_with(left_out) if len(left_out) > 1 else gained.errors)
     return Contender(
         candidate.name, candidate.kind, float(share), own.log_evidence - null_evidence.log_evidence, float(p_value),
-        float(own.left_out.sum() - null_evidence.left_out.sum()), gained and gained.errors, gained and gained.share,
-        held_out[1], max(differing, default=0.0), max(moved, default=0.0), unexplained(null, fit, rules),
+        float(left_out.sum()), unfitted, gained and gained.errors, gained and gained.share_at_most, held_out[1],
+        max(differing, default=0.0), max(moved, default=0.0), unexplained(null, fit, rules),
         candidate.forbidden(fit.values) if candidate.forbidden else "", _doubts(fit, null))
 
 
 def _doubts(fit, null):
     """Why a Fit cannot be relied on beside that of the nominal model, in words."""
     explained = null.chi_square.sum() - fit.chi_square.sum()
-    ended = fit.converged or promised(fit) <= _NOTHING_MORE * explained
+    share = _AT_NOISE if fit.chi_square.sum() <= fit.counts.sum() else _NOTHING_MORE
+    ended = fit.converged or promised(fit) <= share * explained
     told = () if ended else ("its fit did not converge",)
     near = null.chi_square.sum() < _FAR_BELOW * fit.chi_square.sum()
     if not null.converged and near and HOPE * promised(null) > explained:

@@ -16,7 +16,9 @@ from pipeline.products.diagnosis import (
     Effects,
     Follows,
     LatentForce,
+    LatentPrediction,
     Located,
+    SquealCheck,
 )
 from pipeline.products.friction import FrictionDescriptions, FrictionMap, InterfaceLaw, MicroFriction
 from pipeline.products.lumped import Lumped
@@ -42,7 +44,7 @@ from pipeline.products.surfaces import Surface
 
 __all__ = ["BeamGeometry", "BeamOnBeam", "Bench", "BenchRun", "Body", "Channel", "Comparison", "ComplexModes",
            "Condition", "DiagnosedRun", "Diagnosis", "Effects", "Follows", "FrequencyResponse", "FrictionDescriptions",
-           "FrictionMap", "Incidence", "InterfaceLaw", "LatentForce", "Lines", "Located", "LockIn", "Lumped",
-           "MeasuredFriction", "MeasuredModes", "MicroFriction", "MotionScatter", "Multibody", "PinOnDisc", "Recording",
-           "ReducedModel", "Report", "Response", "Run", "Rupture", "Squeal", "Structure", "Surface", "Topography",
+           "FrictionMap", "Incidence", "InterfaceLaw", "LatentForce", "LatentPrediction", "Lines", "Located", "LockIn",
+           "Lumped", "MeasuredFriction", "MeasuredModes", "MicroFriction", "MotionScatter", "Multibody", "PinOnDisc", "Recording",
+           "ReducedModel", "Report", "Response", "Run", "Rupture", "Squeal", "SquealCheck", "Structure", "Surface", "Topography",
            "Transient"]

@@ -89,7 +89,31 @@ class Follows:
     curve: Array = quantity("N", "bin", "mean force in each bin; over time its root mean square")
 
 
-@product(version=2)
+@product(version=1)
+class LatentPrediction:
+    """A held-out run by the recalibrated nominal model with the latent force: description, not identified physics."""
+
+    predicted: Array = quantity("1", "channel sample", "prediction, each channel in its SI unit")
+    error: Array = quantity("1", "", "error over standard deviation")
+
+
+@product(version=1)
+class SquealCheck:
+    """Features of one recorded squeal and of simulated repeats of it: for verification only, never by waveform."""
+
+    sentence: Array = text("", "who squeals, and in which of recording and model alone")
+    who: Array = text("who", "recorded, recalibrated, completed; models that could not be simulated are left out")
+    records: Array = count("who", "records, or simulated repeats")
+    squealing: Array = count("who", "of these, those that reached saturation")
+    feature: Array = text("feature", "features of the saturated stretches")
+    unit: Array = text("feature", "their units")
+    known: Array = count("who feature", "1 where the feature is known")
+    mean: Array = quantity("1", "who feature", "mean over stretches and repeats; 0 where not known")
+    spread: Array = quantity("1", "who feature", "standard deviation over them")
+    agrees: Array = count("who feature", "1 where the mean lies within the spread of both from that recorded")
+
+
+@product(version=3)
 class Diagnosis:
     """The verdict on recordings: what differs, where, what is missing, how sure, and what to measure next."""
 
@@ -121,11 +145,17 @@ class Diagnosis:
                           " nominal, recalibrated, completed, noise alone")
     unexplained_share: Array = quantity("1", "", "share of the excess error that the completed model leaves")
     drift_p_value: Array = quantity("1", "", "p-value that fitted values are alike over operating points; 1 untested")
-    location: dict[str, Located] = parts("axes by name: stage, place, run, band, amplitude, velocity, time")
+    location: dict[str, Located] = parts("axes by name: stage, substitution, place, run, band, amplitude, velocity, time")
     latent_place: Array = text("", "place of the latent force; empty where none was found")
     latent_sentence: Array = text("", "what the latent force is and follows")
     latent: dict[str, LatentForce] = parts("the latent force by run: description, not identified physics")
     follows: dict[str, Follows] = parts("quantities that the latent force may follow, by name")
+    latent_use: Array = text("", "how the latent force predicts held-out runs, or why not; empty unless asked")
+    latent_term: Array = text("term", "terms of the latent force as a function: x m, v m/s, angle of the drive")
+    latent_coefficient: Array = quantity("1", "term", "their coefficients in the SI unit that `latent_unit` names")
+    latent_unit: Array = text("term", "SI units of the coefficients")
+    latent_predicted: dict[str, LatentPrediction] = parts("held-out runs predicted with it; none unless asked")
+    squeal: dict[str, SquealCheck] = parts("recorded squeals by run beside simulated ones; none unless asked")
     next_condition: Array = text("next", "conditions of the next experiment, as name = value unit")
     next_separates: Array = text("separated", "hypotheses that it separates best")
     next_value: Array = quantity("1", "", "what it is expected to tell, in nats; 0 without one")

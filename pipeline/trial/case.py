@@ -1,6 +1,6 @@
 """A case of a trial: a rig with hidden physics or none, recorded in runs, and what a workshop believes of it."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -75,19 +75,18 @@ def made(seed, hidden="", place=0, level=0.01, masses=2, colour=0.0, change=None
     recorder = recorder_of(random, masses, rate=rate)
     draws = [(tuple(random.uniform(size=3)), float(random.uniform(*CHANGE))) for _ in names or (None,)]
     bare = recorder.motion(World(truth))
-    explained = of_rig(recorder, truth, len(recorder.runs) - 1, SPREAD, GAIN_ERROR)
+    exact = _exact(names, indices, masses)
+    if not exact and kind != "wrong_value":
+        exact = known(seed, truth)
+    explained = of_rig(recorder, truth, len(recorder.runs) - 1, SPREAD, GAIN_ERROR, exact)
     hiding = _Hiding(recorder, truth, bare, explained, level, colour)
     planted = tuple(hiding.planted(name, at, shape, change or drawn, kind == "below")
                     for name, at, (shape, drawn) in zip(names, indices, draws, strict=False))
     seen = shown(recorder, truth, planted, bare)
     noise = noise_of(seen, level)
-    left = tuple(explained.left(_difference(seen, shown(recorder, truth, _without(planted, one), bare))[:-1], noise,
-                                colour) for one in planted)
+    left = tuple(hiding.left(one, planted, seen, noise) for one in planted)
     if kind == "solver":
-        left = (_of_solver(recorder, truth, seen, explained, noise, colour),)
-    exact = tuple(_EXACT[p.piece.exact].format(p.spot.index) for p in planted if p.piece.exact)
-    if not exact and kind != "wrong_value":
-        exact = known(seed, truth)
+        left = (_of_solver(hiding, seen, noise),)
     belief = rig.believed(random, truth, exact)
     far = ""
     if kind == "wrong_value":
@@ -95,6 +94,12 @@ def made(seed, hidden="", place=0, level=0.01, masses=2, colour=0.0, change=None
     runs = tuple((f, _recorded(random, s, noise, colour)) for f, s in zip(recorder.runs, seen, strict=True))
     return Case(seed, kind or kind_of(names), planted, left, level, truth, belief, exact, far, runs, rate, noise,
                 colour, change_of(seen[:1], recorder.seen(bare[:1])))
+
+
+def _exact(names, indices, masses):
+    """Names of values that are stated exactly, as what is hidden would else be a wrong value of them."""
+    found = [(HIDDEN[name], place) for name, place in zip(names, indices, strict=False)]
+    return tuple(_EXACT[piece.exact].format(_place(piece, at, masses)[0]) for piece, at in found if piece.exact)
 
 
 def known(seed, truth):
@@ -130,6 +135,12 @@ def places(piece, masses):
     return [(int(name.partition("_")[2] or 0), name) for name in names]
 
 
+def _place(piece, number, masses):
+    """(index, name) of the place of this number, counted on from the first after the last."""
+    there = places(piece, masses)
+    return there[number % len(there)]
+
+
 @dataclass(frozen=True)
 class _Hiding:
     """Where and how large physics is hidden in a rig whose ``bare`` motion is known."""
@@ -144,21 +155,39 @@ class _Hiding:
     def planted(self, name, place, shape, wanted, below):
         """The Planted of a piece of HIDDEN at the place of this index."""
         piece = HIDDEN[name]
-        index, where = places(piece, len(self.truth.mass))[place % len(places(piece, len(self.truth.mass)))]
+        index, where = _place(piece, place, len(self.truth.mass))
         start = Planted(piece, where, self._spot(piece, index, shape))
         if below:
             return sized(start, self._left, start.spot.between(2, *BELOW))
         return sized(start, self._change, wanted)
 
+    def left(self, one, planted, seen, noise):
+        """Standard deviations of ``noise`` that values leave of the change by ``one`` of what is planted and ``seen``.
+
+        Others that are planted, and what of the known physics is nearest to a piece that is not, may take part.
+        """
+        others = tuple(p for p in planted if p is not one)
+        change = _difference(seen, shown(self.recorder, self.truth, others, self.bare))[:-1]
+        beside = [self._alone(p) for p in (*others, *self._kin(one, change_of(seen[:1], self._without(1))))]
+        return self.explained.left(change, noise, self.colour, beside)
+
+    def _kin(self, one, change):
+        """Known physics nearest to a piece at its spot, about as large."""
+        return [sized(replace(one, piece=HIDDEN[name]), self._change, change) for name in one.piece.kin]
+
+    def _alone(self, one):
+        trained = slice(len(self.recorder.runs) - 1)
+        return _difference(shown(self.recorder, self.truth, (one,), self.bare, trained), self._without(trained.stop))
+
+    def _without(self, runs):
+        return self.recorder.seen(self.bare[:runs])
+
     def _change(self, one):
-        seen = shown(self.recorder, self.truth, (one,), self.bare, slice(1))
-        return change_of(seen, self.recorder.seen(self.bare[:1]))
+        return change_of(shown(self.recorder, self.truth, (one,), self.bare, slice(1)), self._without(1))
 
     def _left(self, one):
-        trained = slice(len(self.recorder.runs) - 1)
-        without = self.recorder.seen(self.bare[trained])
-        seen = shown(self.recorder, self.truth, (one,), self.bare, trained)
-        return self.explained.left(_difference(seen, without), noise_of(without, self.level), self.colour)
+        noise = noise_of(self._without(len(self.recorder.runs) - 1), self.level)
+        return self.explained.left(self._alone(one), noise, self.colour)
 
     def _spot(self, piece, index, shape):
         row = self.truth.rows[index] if "link" in piece.place else np.eye(len(self.truth.mass))[index]
@@ -170,18 +199,15 @@ class _Hiding:
         return Spot(self.truth, index, length, speed, force, SAMPLES / self.recorder.rate, shape)
 
 
-def _of_solver(recorder, truth, seen, explained, noise, colour):
+def _of_solver(hiding, seen, noise):
     """What values leave of the error of a step of one sample; ConfigError where that is too little to be seen."""
-    found = recorder.seen([coarse(truth, f, 1 / recorder.rate, CORNER) for f in recorder.runs])
-    left = explained.left(_difference(found, seen)[:-1], noise, colour)
+    recorder = hiding.recorder
+    found = recorder.seen([coarse(hiding.truth, f, 1 / recorder.rate, CORNER) for f in recorder.runs])
+    left = hiding.explained.left(_difference(found, seen)[:-1], noise, hiding.colour)
     if left < VISIBLE:
         raise ConfigError("trial: solver", f"an error of {VISIBLE:g} standard deviations", f"{left:.2g}",
                           "draw another seed")
     return left
-
-
-def _without(planted, one):
-    return tuple(p for p in planted if p is not one)
 
 
 def _difference(shown_now, before):

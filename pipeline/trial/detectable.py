@@ -1,11 +1,11 @@
 """How much of a change the values of a rig cannot explain: what a diagnosis has to go by.
 
-With r the change over its noise, J the change of what sensors show by each value over its standard deviation,
+With r the change over its noise, y(u) what sensors show with values off by u standard deviations, over its noise too,
 
-    d^2 = min |r - J u|^2 + |u|^2 = r' (1 + J J')^-1 r,
+    d^2 = min |r - y(u) + y(0)|^2 + |u|^2:
 
-J by differences of the linear rig, whose motion is exact for forces that are linear between samples. About 4 is needed
-to name what is missing; below 2 it cannot be told from noise.
+what is left of the change, and how odd the values are that explain the rest. The linear rig is exact for forces that
+are linear between samples. About 4 is needed to name what is missing; below 2 it cannot be told from noise.
 """
 
 from dataclasses import replace
@@ -15,9 +15,13 @@ from scipy.linalg import expm
 from scipy.signal import lfilter
 
 from pipeline.trial.motion import PARTS
+from pipeline.trial.rig import Rig, value_names
 
-#: relative step of the differences
+#: step of the differences: relative of values, or in standard deviations
 _STEP = 1e-4
+#: iterations of a refit, its longest step of a value in standard deviations, shares of a step that are tried, and the
+#: gain of the objective below which it has settled
+_ITERATIONS, _LONGEST, _SHARES, _SETTLED = 30, 1.5, (1.0, 0.5, 0.25, 0.1, 0.03, 0.01), 0.01
 
 
 def linear(rig, force, interval, corner):
@@ -51,11 +55,11 @@ def _states(rig, force, interval, corner):
     step = interval / PARTS
     kept, now, ramp = _held(rates, push, step)
     fine = np.interp(np.arange(PARTS * (len(force) - 1) + 1) / PARTS, np.arange(len(force)), force)
-    states = np.zeros((len(fine), 3 * size))
     driven = np.outer(fine[:-1], now) + np.outer(np.diff(fine), ramp)
-    for k, gained in enumerate(driven):
-        states[k + 1] = kept @ states[k] + gained
-    return states
+    factors, shapes = np.linalg.eig(kept)
+    own = np.vstack((np.zeros(3 * size), driven @ np.linalg.inv(shapes).T))
+    return np.real(np.array([lfilter([1.0], [1.0, -factor], g) for factor, g in zip(factors, own.T, strict=True)]).T
+                   @ shapes.T)
 
 
 def _held(rates, push, step):
@@ -68,17 +72,60 @@ def _held(rates, push, step):
 
 
 class Explained:
-    """What other values explain: ``directions`` (value, run, sensor, n), a standard deviation of each value."""
+    """What other values explain, linearly: ``directions`` (value, run, sensor, n), a standard deviation of each."""
 
     def __init__(self, directions):
         self.directions = np.asarray(directions)
 
-    def left(self, change, noise, colour=0.0):
-        """d of a ``change`` [(sensor, n)] under noise of standard deviation (sensor,) and colour."""
+    def left(self, change, noise, colour=0.0, beside=()):
+        """d of a ``change`` [(sensor, n)] under noise of standard deviation (sensor,) and colour.
+
+        ``beside`` [change]: what of other physics may take part, in any amount of about one.
+        """
         r = whitened(np.array(change), noise, colour).ravel()
-        rows = whitened(self.directions, noise, colour).reshape(len(self.directions), -1)
+        rows = self._rows([*self.directions, *beside], noise, colour)
         u = np.linalg.solve(np.eye(len(rows)) + rows @ rows.T, rows @ r)
-        return float(np.sqrt(max(r @ r - (rows @ r) @ u, 0.0)))
+        return float(np.hypot(np.linalg.norm(r - u @ rows), np.linalg.norm(u)))
+
+    def _rows(self, changes, noise, colour):
+        return whitened(np.array(changes), noise, colour).reshape(len(changes), -1)
+
+
+class Refitted(Explained):
+    """What ``size`` other values explain however large their change: ``model(u)`` -> (run, sensor, n)."""
+
+    def __init__(self, model, size):
+        self.model, self.at_rest, self.size = model, np.array(model(np.zeros(size))), size
+        super().__init__(self._slopes(np.zeros(size), self.at_rest))
+
+    def left(self, change, noise, colour=0.0, beside=()):
+        """As ``Explained.left``, by Gauss's iteration with steps that are halved until they help."""
+        others = self._rows(beside, noise, colour) if len(beside) else np.zeros((0, np.size(change)))
+        directions, u = self.directions, np.zeros(self.size + len(others))
+        r, seen = self._residual(u, change, noise, colour, others)
+        for _ in range(_ITERATIONS):
+            rows = np.vstack((self._rows(directions, noise, colour), others))
+            step = np.linalg.solve(np.eye(len(u)) + rows @ rows.T, rows @ r - u)
+            step *= min(1.0, _LONGEST / max(abs(step).max(), 1e-300))
+            before = r @ r + u @ u
+            for share in _SHARES:
+                nearer, now = self._residual(u + share * step, change, noise, colour, others)
+                if nearer @ nearer + (u + share * step) @ (u + share * step) < before:
+                    break
+            else:
+                break
+            u, r, seen = u + share * step, nearer, now
+            if before - r @ r - u @ u < _SETTLED:
+                break
+            directions = self._slopes(u[:self.size], seen)
+        return float(np.hypot(np.linalg.norm(r), np.linalg.norm(u)))
+
+    def _residual(self, u, change, noise, colour, others):
+        seen = np.array(self.model(u[:self.size]))
+        return whitened(np.array(change) - seen + self.at_rest, noise, colour).ravel() - u[self.size:] @ others, seen
+
+    def _slopes(self, u, seen):
+        return np.array([(self.model(u + _STEP * one) - seen) / _STEP for one in np.eye(self.size)])
 
 
 def explained(seen, values, spread, gain_spread, step=_STEP):
@@ -95,12 +142,25 @@ def explained(seen, values, spread, gain_spread, step=_STEP):
     return Explained(found)
 
 
-def of_rig(recorder, rig, runs, spread, gain_spread):
-    """Explained by other values of a ``rig`` alone, in the first ``runs`` of a Recorder."""
-    def seen(one):
-        return recorder.seen([linear(one, f, 1 / recorder.rate, recorder.corner) for f in recorder.runs[:runs]])
+def of_rig(recorder, rig, runs, spread, gain_spread, exact=()):
+    """Refitted by other values of a ``rig`` alone, in the first ``runs`` of a Recorder; arguments as ``explained``.
 
-    return explained(seen, nudged(rig), spread, gain_spread)
+    ``exact``: names of values that are known (see ``rig.value_names``).
+    """
+    masses, links = len(rig.mass), len(rig.links)
+    free = np.array([name not in exact for name in value_names(rig)] + [True] * masses)
+
+    def model(u):
+        whole = np.zeros(len(free))
+        whole[free] = u
+        own = np.exp(spread * whole[:masses + 2 * links])
+        other = Rig(tuple(rig.mass * own[:masses]), tuple(
+            replace(link, stiffness=link.stiffness * k, damping=link.damping * c) for link, (k, c) in zip(
+                rig.links, own[masses:].reshape(links, 2), strict=True)), rig.pushed)
+        seen = recorder.seen([linear(other, f, 1 / recorder.rate, recorder.corner) for f in recorder.runs[:runs]])
+        return np.array(seen) * (1 + gain_spread * whole[masses + 2 * links:])[:, None]
+
+    return Refitted(model, int(free.sum()))
 
 
 def whitened(samples, noise, colour):

@@ -7,7 +7,7 @@ import yaml
 
 from pipeline.contract.errors import ConfigError
 from pipeline.trial.case import CORNER, DELAY, GAIN_ERROR, LEVELS, SPREAD
-from pipeline.trial.told import parameters
+from pipeline.trial.told import alike, parameters
 
 _CONFIGS = Path(__file__).parents[2] / "configs"
 
@@ -62,7 +62,9 @@ def channels(force, shown, rate):
 def truth(case):
     """What is opened only for the score: see ``pipeline.trial.systems``; ``left`` is d of ``pipeline.trial.detectable``
     (of the weaker of a pair)."""
-    return {"class": case.kind, "effects": effects(case, parameters), "system": "forced_rig", "size": case.change,
+    own = effects(case, parameters)
+    told = [{**one, "alike": alike(p, case.truth)} for one, p in zip(own, case.planted, strict=True)]
+    return {"class": case.kind, "effects": told, "system": "forced_rig", "size": case.change,
             "noise": case.level, "parameters": values(case.truth), "seed": case.seed, "colour": case.colour,
             "left": min(case.left, default=0.0), "wrong": case.far}
 

@@ -47,10 +47,13 @@ class Rig:
 
 
 def drawn(random, masses):
-    """A Rig of so many masses: wall, mass, mass, ...; the last of three or more is held by the other wall too."""
+    """A Rig of so many masses: wall, mass, mass, ...; the last of three or more is held by the other wall too.
+
+    The shaker pushes the second mass: at one that a wall holds its force could be that of the wall's link.
+    """
     mass = tuple(float(m) for m in np.exp(random.uniform(*np.log(_MASS), masses)))
     ends = [(k, k - 1) for k in range(masses)] + [(masses - 1, -1)] * (masses > 2)
-    return Rig(mass, tuple(_link(random, near, far, mass[near]) for near, far in ends))
+    return Rig(mass, tuple(_link(random, near, far, mass[near]) for near, far in ends), min(1, masses - 1))
 
 
 def _link(random, near, far, mass):

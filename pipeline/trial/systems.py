@@ -4,7 +4,8 @@ A generator is ``write(draw, folder)`` -> truth: it leaves ``nominal.yaml`` and 
 else, and returns what ``score`` opens:
 
     class       effect | pair | control | wrong_value | sensor | solver | foreign | below
-    effects     [{name, place, parameters {name: SI value, where it is known}}]; empty where nothing is hidden
+    effects     [{name, place, parameters {name: SI value, where it is known}, alike* [{name, place}]}]; empty where
+                nothing is hidden; alike: laws of the same force, or those nearest to one that no catalogue holds
     system, size, noise     name of the system; change of what sensors show, and noise, both relative
     parameters  {nominal value by its name in the case: true SI value}, where they are known
 

@@ -14,6 +14,19 @@ def parameters(piece, spot, size):
     return {} if tell is None else {name: float(value) for name, value in tell(spot, size).items()}
 
 
+#: forces of a shaker that are those of the wall's link of the mass it pushes
+_OF_WALL = {"pressure_ripple": "base_shake", "hydraulic_compliance": "viscoelastic_pad"}
+
+
+def alike(planted, rig):
+    """[{name, place}] of known laws whose force at these places is that of a Planted, or comes nearest to it."""
+    walls = [f"link_{k}" for k, link in enumerate(rig.links) if (link.near, link.far) == (rig.pushed, -1)]
+    same = [(_OF_WALL[name], wall) for name in (planted.piece.name,) if name in _OF_WALL for wall in walls]
+    same += [(name, "shaker") for name, other in _OF_WALL.items() if (other, planted.place) in
+             [(planted.piece.name, wall) for wall in walls]]
+    return [{"name": name, "place": place} for name, place in (*same, *((k, planted.place) for k in planted.piece.kin))]
+
+
 def _wave(spot, low, high):
     """Frequency and phase of what turns at an angular frequency drawn between these shares of the typical one."""
     phase = 6 * spot.shape[1]

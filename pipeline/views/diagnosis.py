@@ -10,7 +10,6 @@ from pipeline.views.style import (
     GREEN,
     INK,
     ORANGE,
-    RED,
     SEQUENTIAL,
     colour_bar,
     drawing,
@@ -213,24 +212,6 @@ def regimes(product, names):
                      edgecolor="white", lw=0.6)
             axes.axhline(0.0, color=INK, lw=0.6)
             axes.set(xlabel=f"{name} / {unit}", ylabel="score")
-        return svg(figure)
-
-
-def latent_force(product, name):
-    """SVG: the missing force of one run over displacement and over velocity at the place, with mean curves."""
-    force = product.latent[name]
-    unit, size = scale(np.abs(force.force).max(), "N")
-    with drawing(2.9, left=0.72) as figure:
-        panes = figure.subplots(1, 2, sharey=True)
-        figure.subplots_adjust(wspace=0.12)
-        for axes, (what, short) in zip(panes, (("displacement", "m"), ("velocity", "m/s")), strict=True):
-            values, follows = getattr(force, what), product.follows[what]
-            name_of, across = scale(np.abs(values).max(), short)
-            axes.plot(values / across, force.force / size, ".", ms=2, color=FAINT, alpha=0.6, rasterized=False)
-            axes.plot(follows.centre / across, follows.curve / size, color=RED, marker="o", ms=3.5)
-            axes.set(xlabel=f"{what} / {name_of}")
-            axes.set_title(f"explains {100 * float(follows.share):.0f} %", loc="left", pad=3)
-        panes[0].set_ylabel(f"missing force / {unit}")
         return svg(figure)
 
 

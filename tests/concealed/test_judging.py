@@ -52,6 +52,17 @@ def test_what_leaves_less_than_four_standard_deviations_is_below_the_threshold()
     assert class_of(truth("control")) == "control"
 
 
+def test_a_tie_of_laws_of_one_force_names_it_and_a_fainter_rest_is_named_by_its_kin():
+    known = truth("effect", COULOMB)
+    known["effects"][0]["alike"] = [{"name": CUBIC[0], "place": CUBIC[1]}]
+    assert judged(known, told("tie", COULOMB, CUBIC))["right"] and not judged(known, told("missing", CUBIC))["right"]
+    assert not judged(known, told("tie", COULOMB, SHIFTED))["right"]
+    assert not judged(known, told("tie", CUBIC))["right"]
+    faint = {**known, "class": "foreign", "left": 3.0}
+    assert judged(faint, told("missing", CUBIC))["right"] and not judged(faint, told("missing", SHIFTED))["right"]
+    assert not judged({**faint, "left": 5.0}, told("missing", CUBIC))["right"]
+
+
 def test_type_place_and_rank_are_told_apart():
     near = judged(truth("effect", COULOMB), told("missing", SHIFTED, others=[CUBIC, COULOMB]))
     assert near["type"] and near["top"] and not near["right"] and not near["among_tied"]

@@ -1,6 +1,7 @@
 """diagnosis.json and the completed case."""
 
 import json
+from dataclasses import replace
 
 import pytest
 import yaml
@@ -16,6 +17,7 @@ from pipeline.diagnosis.simulation import shown
 from pipeline.inference.noise import normalised_error
 from tests.diagnosis.small_rig import BENCH, HIDDEN, laid_out, model, recording
 from tests.diagnosis.test_answer import told
+from tests.views.test_squeal_check import CHECK
 
 CASE = CaseText("rig", {"chain": "lumped_bench", "title": "Rig", "bench": BENCH})
 
@@ -45,6 +47,14 @@ def test_the_latent_force_is_written_as_numbers():
     lines = companions(told(), CASE)["latent_force.csv"].splitlines()
     assert lines[0].endswith("description, not identified physics.") and lines[1].startswith("run,time_s,force_N")
     assert len(lines) == 2 + sum(len(one.time) for one in told().latent.values())
+
+
+def test_saturated_squeal_is_written_with_what_agrees():
+    written = as_json(replace(told(), squeal={"slide": CHECK}))["saturated_squeal"]["slide"]
+    assert written["recorded"]["features"]["frequency of laser"] == {"unit": "Hz", "mean": 2200.0, "spread": 2.0}
+    assert written["completed"]["features"]["frequency of laser"]["agrees"] and written["completed"]["saturated"] == 3
+    assert "agrees" not in written["completed"]["features"]["share of time open"], "no sensor shows it"
+    assert written["recalibrated"]["features"] == {} and "saturated_squeal" not in as_json(told())
 
 
 def test_nothing_is_written_where_nothing_is_missing():

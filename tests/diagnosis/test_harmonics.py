@@ -10,6 +10,7 @@ from pipeline.diagnosis.harmonics import (
     growing,
     harmonics_question,
     harmonics_reasons,
+    outcomes,
     shown,
     stepped,
     unstepped,
@@ -87,6 +88,19 @@ def test_what_step_window_and_band_hide_is_told(motions):
     assert f"the mode behind it lies at {unstepped(150.0, 1e-4):.0f} Hz" in said
     assert "lines of 30 ms are 33 Hz apart" in said
     assert f"spectra to 0.4 kHz hold {int(400 // motions['loss_of_contact_and_stick'].base)} of 4 lines" in said
+
+
+@pytest.mark.exact
+def test_amplitudes_scale_with_what_switches_a_mechanism(motions):
+    """Loss of contact alone: the load, stick alone: the speed; a whole motion of its own shows it."""
+    found = outcomes(pair(), told(), motions, ["loss_of_contact", "stick", "loss_of_contact_and_stick"])
+    load, speed = (next(v for k, v in found.items() if k.startswith(name)) for name in ("normal_load", "speed"))
+    assert load["loss_of_contact"] * 0.115 == pytest.approx([np.log(2)]) and load["stick"] == [0]
+    assert speed["stick"] * 0.115 == pytest.approx([np.log(2)]) and speed["loss_of_contact"] == [0]
+    slow = shown(pair(), told(speed="40 mrad/s"))["stick"]
+    assert slow.amplitude["x"] / motions["stick"].amplitude["x"] == pytest.approx(2, rel=0.02)
+    whole = sum(one["loss_of_contact_and_stick"][0] * 0.115 for one in (load, speed))
+    assert whole == pytest.approx(np.log(2), rel=0.05), "twice both is twice the amplitude"
 
 
 def test_sensors_that_the_model_lacks_are_refused():

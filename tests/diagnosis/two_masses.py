@@ -62,7 +62,7 @@ def fitted(hidden):
                        for name, value in (("mount", 900.0), ("coupling", 500.0)))
     runs = {name: one.run for name, one in found.items()}
     problem = Problem(tuple(observed(one, dict.fromkeys(("left", "right"), NOISE)) for one in found.values()),
-                      Simulated(bench, runs, {}), Hypothesis("nominal", (), parameters))
+                      Simulated(bench, runs), Hypothesis("nominal", (), parameters))
     noise = budget(problem)
     return bench, runs, linearised(problem, [noise[r.name] for r in problem.runs], problem.nominal,
                                    problem.nominal.nominal, problem.runs)

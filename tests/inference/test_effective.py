@@ -22,6 +22,14 @@ def test_the_effective_number_of_an_autoregression(coefficient):
     assert share == pytest.approx(expected, rel=0.05)
 
 
+@pytest.mark.exact
+@pytest.mark.parametrize("coefficient", [0.3, 0.9])
+def test_the_effective_number_along_a_slow_motion(coefficient):
+    """1 + 2 sum_k a^k = (1 + a) / (1 - a): what var(sum r cos(w t)) tends to for slow motion."""
+    share = np.mean([effective_share(unit_noise(), coloured(k, SIZE, coefficient), 1) for k in range(8)])
+    assert share == pytest.approx((1 - coefficient) / (1 + coefficient), rel=0.15)
+
+
 def test_it_predicts_how_much_a_sum_of_squares_varies():
     series = np.array([coloured(k, 2000, 0.8, 1.0) for k in range(400)])
     sums = (series**2).sum(axis=1)

@@ -5,7 +5,7 @@ import pytest
 from scipy import stats
 
 from pipeline.inference.least_squares import fit
-from pipeline.inference.priors import HalfNormal, Parameter, Uniform
+from pipeline.inference.priors import HalfNormal, LogNormal, Parameter, Uniform
 from pipeline.inference.problem import Hypothesis
 from pipeline.inference.screen import _trials, directions, family_p, largest_scores, screen
 from tests.inference import linear
@@ -96,10 +96,20 @@ def test_a_candidate_that_cannot_be_computed_says_why():
 
 
 @pytest.mark.exact
+def test_shapes_of_the_same_name_are_tried_as_another_candidate_has_them():
+    speed = Parameter("wave@pad.speed", "m/s", 1.0, LogNormal(1.0, 0.5))
+    wave = Hypothesis("wave", (), (Parameter("wave@pad.height", "m", 0.0, HalfNormal(1.0), 0.0), speed))
+    tried = [speed.prior.value(latent[1]) for latent, _, _ in _trials(wave, {"speed": 1.7, "height": 3.0})]
+    assert min(abs(v - 1.7) for v in tried) < 1e-12
+    other = [latent[1] for latent, _, _ in _trials(wave, {"height": 3.0})]
+    assert len(other) == len(tried) - 2 and min(abs(speed.prior.value(v) - 1.7) for v in other) > 0.1
+
+
+@pytest.mark.exact
 def test_angles_are_tried_in_every_quarter():
     """No phase is farther than pi / 4 from one that is tried."""
     phase = Parameter("phase", "rad", 0.0, Uniform(-np.pi, np.pi))
     wave = Hypothesis("wave", (), (Parameter("height", "m", 0.0, HalfNormal(1.0), 0.0), phase))
-    tried = np.array([phase.prior.value(latent[1]) for latent, _, _ in _trials(wave)])
+    tried = np.array([phase.prior.value(latent[1]) for latent, _, _ in _trials(wave, {})])
     away = np.subtract.outer(np.linspace(-np.pi, np.pi, 50), tried)
     assert np.cos(away).max(axis=1).min() >= np.cos(np.pi / 4) - 1e-6

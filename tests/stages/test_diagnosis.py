@@ -51,6 +51,17 @@ def test_an_effect_both_weighed_and_not_is_refused():
         diagnosis.check({"diagnosis": fill(Settings, {"effects": ["coulomb"], "without": ["coulomb"]}, "d")})
 
 
+@pytest.mark.parametrize("asked", [{"held_out": []}, {"held_out": ["level_4"], "forward": "poles"}])
+def test_a_latent_force_predicts_runs_over_time_that_are_held_out(asked):
+    with pytest.raises(ConfigError, match="diagnosis.latent_force.predict"):
+        diagnosis.check({"diagnosis": fill(Settings, {"latent_force": {"predict": True}, **asked}, "d")})
+
+
+def test_squeals_are_simulated_where_poles_are_compared():
+    with pytest.raises(ConfigError, match="diagnosis.saturated_squeal"):
+        diagnosis.check({"diagnosis": fill(Settings, {"saturated_squeal": {"repeats": 3}}, "d")})
+
+
 @pytest.mark.parametrize("hidden, found", [({"clipping": {"x": {"inverse_limit": 200.0}}}, "clipping"),
                                            ({"sensor_delay": {"x": {"delay": "4 ms"}}}, "sensor_delay")])
 def test_a_fault_of_the_measurement_is_told_from_physics(hidden, found):

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 
-from pipeline.concealed.judging import judged
+from pipeline.concealed.judging import class_of, judged
 from pipeline.concealed.rates import line, rate
 from pipeline.contract import documents
 from pipeline.contract.errors import BrakechainError
@@ -80,18 +80,20 @@ def by_stages(document, path, **asked):
 
 
 def table(results):
-    """Lines of rates with their intervals from [(truth, answer)]."""
+    """Lines of rates with their intervals from [(truth, answer)]; what leaves too little to be told counts apart."""
     rows = []
     for level in LEVELS:
-        own = [judged(t, a) for t, a in results if t["noise"] == level and t["class"] in ("effect", "sensor")]
+        own = [judged(t, a) for t, a in results if t["noise"] == level and class_of(t) in ("effect", "sensor")]
         rows.append((f"type and place at {level:.0%} noise", [s["right"] for s in own]))
         rows.append((f"type alone at {level:.0%} noise", [s["type"] for s in own]))
         rows.append((f"truth among the tied at {level:.0%} noise", [s["among_tied"] for s in own]))
     controls = [judged(t, a) for t, a in results if t["class"] == "control"]
     rows.append(("false alarms on controls", [s["false_alarm"] for s in controls]))
     rows.append(("controls told right", [s["right"] for s in controls]))
-    foreign = [judged(t, a) for t, a in results if t["class"] == "foreign"]
+    foreign = [judged(t, a) for t, a in results if class_of(t) == "foreign"]
     rows.append(("out of the catalogue: unknown", [s["right"] for s in foreign]))
+    faint = [judged(t, a) for t, a in results if class_of(t) == "below"]
+    rows.append(("below the threshold: nothing wrong named", [s["right"] for s in faint]))
     return [line(name, rate(hits)) for name, hits in rows if hits]
 
 

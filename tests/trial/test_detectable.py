@@ -1,5 +1,7 @@
 """What values cannot explain: the linear rig against its integration, d against closed forms."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -61,6 +63,32 @@ def test_another_stiffness_is_explained_and_another_motion_is_not():
     assert own.left(stiffer, NOISE) < 0.11
     odd = np.random.default_rng(3).standard_normal(stiffer.shape) * np.sqrt(np.mean(stiffer**2))
     assert own.left(odd, NOISE) > 0.9 * np.sqrt(np.sum((odd / NOISE[:, None]) ** 2))
+
+
+def test_a_rig_of_quite_other_values_is_explained_once_it_is_refitted():
+    """What is left is how odd the other value is: ln 1.4 over its spread of 0.25."""
+    own, rig, recorder = explained()
+    links = (replace(rig.links[0], stiffness=1.4 * rig.links[0].stiffness), *rig.links[1:])
+    other = np.array(recorder.seen([linear(replace(rig, links=links), f, 0.01, 40.0) for f in recorder.runs]))
+    noise = 0.01 * np.sqrt(np.mean(other**2, axis=(0, 2)))
+    assert own.left(other - own.at_rest, noise) == pytest.approx(np.log(1.4) / 0.25, rel=0.01)
+    assert Explained(own.directions).left(other - own.at_rest, noise) > 20
+
+
+def test_a_value_that_is_known_explains_nothing():
+    own, rig, recorder = explained()
+    known = of_rig(recorder, rig, 2, 0.25, 0.005, ("stiffness_0",))
+    stiffer = own.directions[2] * 0.1
+    assert known.size == own.size - 1 and known.left(stiffer, NOISE) > 3 * own.left(stiffer, NOISE)
+
+
+@pytest.mark.parametrize("linearly", [True, False])
+def test_what_takes_part_beside_the_values_is_taken_off(linearly):
+    own, _, _ = explained()
+    own = Explained(own.directions) if linearly else own
+    odd = np.random.default_rng(3).standard_normal((2, 2, 150)) * NOISE[:, None]
+    assert own.left(0.7 * odd, NOISE, beside=[odd]) == pytest.approx(0.7, rel=0.01)
+    assert own.left(0.7 * odd, NOISE) > 15
 
 
 @pytest.mark.exact

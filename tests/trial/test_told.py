@@ -1,13 +1,16 @@
 """Values of hidden physics: they give the force of the law when put into the equation that others use."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from pipeline.effects import CATALOGUE
 from pipeline.effects.typical import Typical
 from pipeline.trial.hidden import HIDDEN, Spot
+from pipeline.trial.planted import Planted
 from pipeline.trial.rig import drawn
-from pipeline.trial.told import parameters
+from pipeline.trial.told import alike, parameters
 
 SPOT = Spot(drawn(np.random.default_rng(2), 3), 1, 0.01, 0.2, 3.0, 5.0, (0.3, 0.6, 0.9))
 E, V, T = 0.004, 0.15, 1.7
@@ -48,3 +51,24 @@ def test_names_are_those_of_the_catalogue_or_none(name):
 
 def test_other_laws_have_no_values():
     assert parameters(HIDDEN["film_drag"], SPOT, 0.4) == parameters(HIDDEN["hysteretic_joint"], SPOT, 0.4) == {}
+
+
+@pytest.mark.parametrize("name, place, masses, wanted", [
+    ("pressure_ripple", "shaker", 1, [("base_shake", "link_0")]),
+    ("base_shake", "link_0", 1, [("pressure_ripple", "shaker")]),
+    ("viscoelastic_pad", "link_0", 1, [("hydraulic_compliance", "shaker")]),
+    ("pressure_ripple", "shaker", 3, []), ("base_shake", "link_0", 2, []), ("coulomb", "link_0", 1, []),
+    ("rough_friction", "link_1", 2, [("coulomb", "link_1")])])
+def test_laws_of_the_same_force_are_told_only_at_a_mass_that_a_wall_holds(name, place, masses, wanted):
+    found = alike(Planted(HIDDEN[name], place, SPOT), drawn(np.random.default_rng(2), masses))
+    assert [(one["name"], one["place"]) for one in found] == wanted
+
+
+def test_a_ripple_of_the_shaker_moves_one_mass_as_its_shaken_wall_does():
+    """Of one amplitude k a and phase, for a link without damping."""
+    rig = drawn(np.random.default_rng(2), 1)
+    rig = replace(rig, links=(replace(rig.links[0], damping=0.0),))
+    spot = replace(SPOT, rig=rig, index=0, force=rig.links[0].stiffness * SPOT.length)
+    ripple, shaken = ([HIDDEN[name].build(spot, 0.4).laws[0].force(t, E, V, np.zeros(0)) for t in (0.1, 0.5, 1.7)]
+                      for name in ("pressure_ripple", "base_shake"))
+    np.testing.assert_allclose(ripple, shaken, rtol=1e-12)

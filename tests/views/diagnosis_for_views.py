@@ -54,6 +54,8 @@ def diagnosis(verdict="missing", **values):
                                     velocity=1e-3 * np.cos(TIME))},
         "follows": {name: Follows(share=0.8, p_value=0.001, unit=unit, centre=[-1e-3, 1e-3], curve=[-3, 3])
                  for name, unit in (("displacement", "m"), ("velocity", "m/s"))},
+        "latent_use": "", "latent_term": [], "latent_coefficient": [], "latent_unit": [], "latent_predicted": {},
+        "squeal": {},
         "next_condition": ["level = 8 N"], "next_separates": ["coulomb at guide", "quadratic_damping at arm"],
         "next_value": 3.2, "runs": {"bang": run(0), "pulses": run(1)}}
     return Diagnosis(**{**given, **values})

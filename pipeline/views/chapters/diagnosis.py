@@ -3,12 +3,14 @@
 import numpy as np
 
 from pipeline.views import diagnosis as pictures
+from pipeline.views import latent_force
 from pipeline.views.chapter import Chapter, Figure, Table
 from pipeline.views.readable import number, percent, quantity, scale
+from pipeline.views.squeal_check import squeal_tables
 
 #: axes of the location that are bins of what moves, and all in the order of reading
 REGIMES = ("amplitude", "velocity", "time")
-AXES = ("stage", "place", "run", "band", *REGIMES)
+AXES = ("stage", "substitution", "place", "run", "band", *REGIMES)
 #: rows of the table of hypotheses that are shown unfolded
 ROWS = 12
 
@@ -40,8 +42,10 @@ def chapter(product, look):
     return Chapter(
         "diagnosis", "What the recordings say is missing", f"{told['What differs']} {told['Where']}",
         " ".join(filter(None, (told["What is missing"], told["What it changes"], told["Measure next"]))),
-        tuple(_figures(product)), tuple(filter(None, (_errors(product), _parameters(product), _hypotheses(product),
-                                                      _location(product)))), tuple(_notes(product)))
+        tuple(_figures(product)), tuple(filter(None, (
+            _errors(product), _with_force(product), *squeal_tables(product), _parameters(product),
+            _hypotheses(product), _location(product)))),
+        tuple(_notes(product)))
 
 
 def key_figure(product):
@@ -85,7 +89,8 @@ def _differs(product):
 
 def _where(product):
     parts = []
-    for axis, say in (("stage", "stage {}"), ("place", "at {}"), ("run", "most in run {}"), ("band", "in {}"),
+    for axis, say in (("stage", "stage {}"), ("substitution", "stage {}, by what was measured in its place"),
+                      ("place", "at {}"), ("run", "most in run {}"), ("band", "in {}"),
                       ("amplitude", "amplitudes {}"), ("velocity", "velocities {}"), ("time", "times {}")):
         found = product.location.get(axis)
         if found is not None and (found.p_value[found.member > 0] <= 0.05).any():
@@ -183,7 +188,11 @@ def _notes(product):
     if not any(r.held_out for r in product.runs.values()):
         yield "No run was held out: nothing here is verified on a recording that was not fitted."
     if product.latent_sentence.item() and product.verdict.item() == "unknown":
-        yield "The latent force is a description of this recording, not identified physics; no prediction uses it."
+        yield "The latent force is a description of this recording, not identified physics;" + (
+            " the held-out runs were predicted with it because this was asked." if product.latent_predicted else
+            " no prediction uses it.")
+    if product.latent_use.item():
+        yield product.latent_use.item()
 
 
 def _figures(product):
@@ -208,9 +217,18 @@ def _figures(product):
                      " deviations of circular shifts; blue: significant.")
     if product.latent:
         first = name if name in product.latent else next(iter(product.latent))
-        yield Figure(pictures.latent_force(product, first),
+        yield Figure(latent_force.latent_force(product, first),
                      f"The missing force of run {first}, beside the recalibrated nominal model and without any"
                      " hypothesis; red: mean over bins of all fitted runs. Description, not identified physics.")
+    yield from _predicted_with_force(product)
+
+
+def _predicted_with_force(product):
+    """The first held-out run with the latent force."""
+    for name in list(product.latent_predicted)[:1]:
+        yield Figure(latent_force.with_latent_force(product, name),
+                     f"Run {name}, never fitted: measured, with the best values of the nominal model, and with the"
+                     " latent force as a function of what it follows. Description, not identified physics.")
 
 
 def _signals(product, name, held_out, channel=0):
@@ -238,6 +256,16 @@ def _errors(product):
             rows.append((title, "", *(percent(e, 3) for e in product.fit[row])))
     head = ("run", "", "nominal", "recalibrated", "completed", "noise alone")
     return Table(head, tuple(rows), "Error over standard deviation", numeric=(2, 3, 4, 5))
+
+
+def _with_force(product):
+    """Errors of the held-out runs with the latent force, beside those without."""
+    if not product.latent_predicted:
+        return None
+    rows = tuple((name, percent(product.runs[name].error[1], 3), percent(float(one.error), 3),
+                  percent(product.runs[name].error[3], 3)) for name, one in product.latent_predicted.items())
+    return Table(("held-out run", "recalibrated", "with the latent force", "noise alone"), rows,
+                 "Held out, with the latent force: description, not identified physics", numeric=(1, 2, 3))
 
 
 def _parameters(product):

@@ -1,0 +1,47 @@
+"""Pictures of the latent force: what it follows, and what it predicts where that was asked."""
+
+import numpy as np
+
+from pipeline.views.readable import scale
+from pipeline.views.style import BLUE, FAINT, INK, ORANGE, RED, drawing, legend, svg
+
+
+def latent_force(product, name):
+    """SVG: the missing force of one run over displacement and over velocity at the place, with mean curves."""
+    force = product.latent[name]
+    unit, size = scale(np.abs(force.force).max(), "N")
+    with drawing(2.9, left=0.72) as figure:
+        panes = figure.subplots(1, 2, sharey=True)
+        figure.subplots_adjust(wspace=0.12)
+        for axes, (what, short) in zip(panes, (("displacement", "m"), ("velocity", "m/s")), strict=True):
+            values, follows = getattr(force, what), product.follows[what]
+            name_of, across = scale(np.abs(values).max(), short)
+            axes.plot(values / across, force.force / size, ".", ms=2, color=FAINT, alpha=0.6, rasterized=False)
+            axes.plot(follows.centre / across, follows.curve / size, color=RED, marker="o", ms=3.5)
+            axes.set(xlabel=f"{what} / {name_of}")
+            axes.set_title(f"explains {100 * float(follows.share):.0f} %", loc="left", pad=3)
+        panes[0].set_ylabel(f"missing force / {unit}")
+        return svg(figure)
+
+
+def with_latent_force(product, name, channel=0, count=400):
+    """SVG: an excerpt of one channel of a held-out run about its largest motion, predicted without and with the force;
+    below, what either leaves."""
+    run = product.runs[name]
+    middle = int(np.argmax(np.abs(run.measured[channel] - run.measured[channel].mean())))
+    begin = int(np.clip(middle - count // 2, 0, max(run.measured.shape[1] - count, 0)))
+    part = slice(begin, begin + count)
+    unit, size = scale(np.abs(run.measured[channel, part]).max(), str(product.channel_unit[channel]))
+    time, measured = run.time[part], np.where(run.valid[channel, part] > 0, run.measured[channel, part], np.nan) / size
+    with drawing(4.2, top=0.58) as figure:
+        above, below = figure.subplots(2, sharex=True, height_ratios=(3, 2))
+        above.plot(time, measured, color=INK, lw=2.6, alpha=0.35, label="measured")
+        for label, told, colour, line in (
+                ("recalibrated", run.recalibrated, ORANGE, "--"),
+                ("with the latent force", product.latent_predicted[name].predicted, BLUE, "-")):
+            above.plot(time, told[channel, part] / size, color=colour, ls=line, lw=1.2, label=label)
+            below.plot(time, measured - told[channel, part] / size, color=colour, ls=line, lw=1.0)
+        above.set_ylabel(f"{product.channel[channel]} / {unit}")
+        below.set(xlabel="time / s", ylabel=f"left / {unit}")
+        legend(above, 2)
+        return svg(figure)
