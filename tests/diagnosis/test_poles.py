@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from pipeline.contract import ConfigError
-from pipeline.diagnosis.poles import assigned, features, nearer, observed, predicted
+from pipeline.diagnosis.poles import _heard, assigned, features, nearer, observed, predicted
 from pipeline.physics.bench_modes import modes
 from pipeline.physics.free_decay import Poles
 from tests.diagnosis.small_bench import bench, laid_out, recorded, run
@@ -44,6 +44,15 @@ def test_ratios_of_sensors_tell_gain_and_delay():
     found = features(whole, recorded(late), BAND)["rest"]
     assert found.values["gain of accelerometer over laser"] == pytest.approx(np.log(1.3), abs=0.01)
     assert found.values["delay of accelerometer behind laser"] == pytest.approx(1e-4, abs=3e-6)
+
+
+def test_poles_that_two_sensors_do_not_hear_say_nothing_of_their_ratio():
+    """Eight modes of another part against one of theirs: what they show of the eight is noise."""
+    random = np.random.default_rng(1)
+    noise = 1e-4 * (random.standard_normal((8, 2)) + 1j * random.standard_normal((8, 2)))
+    shape = np.vstack((noise, [[1.0, 1.3]]))
+    assert list(_heard(shape)) == [8]
+    assert list(_heard(np.array([[1.0, 0.0], [0.0, 1.0]]))) == [0, 1], "all, where no pole moves both"
 
 
 def test_every_peak_is_explained_by_a_root_of_its_own(told):
