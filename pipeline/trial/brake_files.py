@@ -51,13 +51,13 @@ def write(draw, folder):
     if far:
         values[far] = NOMINAL[far] * float(random.uniform(*FAR)) ** int(random.choice((-1, 1)))
     hidden = {name: _sizes(random, name) for name in draw.hidden}
+    seen = Seen(values, shape) if hidden and draw.kind != "sensor" else None
     if draw.kind == "below":
-        hidden = _faint(Seen(values, shape), hidden, float(random.uniform(*BELOW)))
+        hidden = _faint(seen, hidden, float(random.uniform(*BELOW)))
     files.leave(folder, nominal(shape), brake.record(built(values, shape, hidden=hidden), draw.seed))
-    physics = {name: own for name, own in hidden.items() if name not in brake.DECOYS}
     found = {"class": draw.kind, "system": draw.system, "seed": draw.seed, "parameters": _known(values, shape),
              "effects": [_told(*one) for one in hidden.items()], "wrong": _FAR_OFF.get(far, "")}
-    return {**found, "left": Seen(values, shape).left(physics)} if physics else found
+    return {**found, "left": seen.left(hidden)} if seen else found
 
 
 def hides():
