@@ -12,6 +12,7 @@ less than once in six seconds. The recorder filters (Butterworth, order 4), adds
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.linalg import eig
 from scipy.signal import butter, sosfilt
 
 from pipeline.contract.errors import ConvergenceError
@@ -110,18 +111,19 @@ def _recorded(brake, root, amplitude, gain, random):
 def vibrations(brake, run):
     """(root (p,), shape (p, s), kick (p, h)) below HIGHEST: blows J give velocities Re sum shape (kick J) e^pt."""
     matrix, size = small_motion(brake, run), len(brake.mass)
-    value, right = np.linalg.eig(matrix)
+    value, left, right = eig(matrix, left=True)
     kept = (value.imag > 0) & (value.imag < 2 * np.pi * HIGHEST)
+    left, right = left[:, kept].conj().T, right[:, kept]
     blow = np.zeros((len(matrix), len(brake.taps)))
     blow[size:2 * size] = np.linalg.solve(brake.mass, brake.taps.T)
-    return value[kept], (brake.sensors @ right[size:2 * size, kept]).T, 2 * np.linalg.solve(right, blow)[kept]
+    kick = 2 * (left @ blow) / np.sum(left.T * right, axis=0)[:, None]
+    return value[kept], (brake.sensors @ right[size:2 * size]).T, kick
 
 
 def small_motion(brake, run):
     """State matrix of (q, q', friction that lags) about the steady state of a run. ConvergenceError as ``record``."""
-    size = len(brake.mass)
-    stiffness, damping, lagging = parts(brake, run), brake.damping, (np.zeros((size, 0)), np.zeros((0, 2 * size)),
-                                                                      np.zeros(0))
+    size, stiffness, damping = len(brake.mass), parts(brake, run), brake.damping
+    push, fed, rate = np.zeros((size, 0)), np.zeros((0, 2 * size)), np.zeros(0)
     if run.load > 0:
         _, press, slope = pressed(brake, run)
         loss = brake.share * brake.hidden.get("contact_damping", {}).get("damping", 0.0)
@@ -133,11 +135,10 @@ def small_motion(brake, run):
                                (gain * loss)[:, None] * brake.normal + drag[:, None] * brake.tangent))
             if memory := brake.hidden.get("contact_memory"):
                 rate = run.speed * brake.radius / memory["length"]
-                lagging = brake.tangent.T, -rate[:, None] * drawn, rate
+                push, fed = brake.tangent.T, -rate[:, None] * drawn
             else:
                 stiffness, damping = (whole + brake.tangent.T @ part for whole, part in zip(
                     (stiffness, damping), np.hsplit(drawn, 2), strict=True))
-    push, fed, rate = lagging
     whole = np.zeros((2 * size + len(rate),) * 2)
     whole[:size, size:2 * size] = np.eye(size)
     whole[size:2 * size] = np.linalg.solve(brake.mass, np.hstack((-stiffness, -damping, push)))

@@ -136,7 +136,7 @@ def test_taps_are_the_exponential_of_the_small_motion(monkeypatch):
     wanted = bench.sensors @ (expm(matrix * time) @ state)[size:2 * size]
     root, shape, kick = brake.vibrations(bench, SLIDING)
     shown = ((shape * (kick @ blow)[:, None]).T @ np.exp(root * time)).real
-    np.testing.assert_allclose(shown, wanted, atol=2e-4 * abs(wanted).max())
+    np.testing.assert_allclose(shown, wanted, atol=1e-9 * abs(wanted).max())
 
 
 def test_warm_discs_are_softer_run_by_run():
