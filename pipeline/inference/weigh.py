@@ -16,8 +16,8 @@ EXCLUDED = 5.0
 #: squared error of a recalibration that did not converge over that of a candidate, beyond which its end cannot matter
 _FAR_BELOW = 30.0
 #: share of what a fit explains below which what its slopes still promise cannot matter (forces with kinks have no
-#: smooth optimum)
-_NOTHING_MORE = 1e-3
+#: smooth optimum); the same of one that reaches the noise already
+_NOTHING_MORE, _AT_NOISE = 1e-3, 1e-2
 
 
 def held_out_gains(problem, budget, null, fits, share):
@@ -69,7 +69,8 @@ def contender(null, null_evidence, candidate, fit, own, share, p_value, held_out
 def _doubts(fit, null):
     """Why a Fit cannot be relied on beside that of the nominal model, in words."""
     explained = null.chi_square.sum() - fit.chi_square.sum()
-    ended = fit.converged or promised(fit) <= _NOTHING_MORE * explained
+    share = _AT_NOISE if fit.chi_square.sum() <= fit.counts.sum() else _NOTHING_MORE
+    ended = fit.converged or promised(fit) <= share * explained
     told = () if ended else ("its fit did not converge",)
     near = null.chi_square.sum() < _FAR_BELOW * fit.chi_square.sum()
     if not null.converged and near and HOPE * promised(null) > explained:
