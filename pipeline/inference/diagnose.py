@@ -100,7 +100,7 @@ def diagnose(problem, budget, catalogue, settings=None, fan_out=map):
             continue
         if pair.decision.verdict in _NAMED:
             alone = _weighed(_dropping(course, first, pair))
-            return alone if alone.decision.verdict in _NAMED and _evident(alone) > _evident(pair) else pair
+            return alone if alone.decision.verdict in _NAMED and _evident(alone, pair) > _evident(pair, pair) else pair
     return single
 
 
@@ -140,9 +140,9 @@ def _course(problem, budget, catalogue, settings, fan_out, start=None, base=None
     return _Course(problem, budget, refits, found, results, base)
 
 
-def _evident(diagnosis):
-    """Log evidence of what a Diagnosis names."""
-    return max(w.evidence.log_evidence for w in diagnosis.named)
+def _evident(diagnosis, weighing):
+    """Log evidence of what a Diagnosis names, with the weights of the runs of another."""
+    return max(evidence(w.fit, weighing.weights).log_evidence for w in diagnosis.named)
 
 
 def _dropping(course, first, pair):
