@@ -35,8 +35,8 @@ def judged(truth, answer):
              "type": alone and sorted(e["name"] for e in named) == sorted(e["name"] for e in wanted),
              "among_tied": verdict in ("tie", "sensor") and len(named) > len(wanted) and _all_in(wanted, named),
              "top": _all_in(wanted, [*named, *answer.get("alternatives", ())][:max(_TOP, len(wanted))])}
-    if kind == "below":     # to abstain is right, or to name what comes nearest; to name something else is not
-        near = verdict == "missing" and len(named) == len(wanted) and all(_like(w, named) for w in wanted)
+    if kind == "below":     # to abstain is right, or to name what is there or comes nearest; to name another is not
+        near = called and all(any(_like(w, [one]) for w in wanted) for one in named)
         found["right"] = found["right"] or verdict in (*NOTHING, "unknown") or found["among_tied"] or near
     return found
 
@@ -53,7 +53,7 @@ def _like(true, told):
 
 def class_of(truth):
     """The class as which a case is scored: what leaves less than VISIBLE standard deviations is below the threshold."""
-    faint = truth.get("left", VISIBLE) < VISIBLE and truth["class"] in ("effect", "sensor", "foreign")
+    faint = truth.get("left", VISIBLE) < VISIBLE and truth["class"] in ("effect", "pair", "sensor", "foreign")
     return "below" if faint else truth["class"]
 
 

@@ -33,19 +33,19 @@ class PlannedMotion:
 
 
 def planned_motions(bench, recorded, equation, given, where="diagnosis.next"):
-    """PlannedMotions (m,) like each of ``recorded`` {name: Recorded} with one thing changed.
+    """PlannedMotions (m,) like that of ``recorded`` {name: Recorded} which moves farthest, with one thing changed each.
 
     ``given`` is the section ``next`` {motion, pace or what else can change: values}, nothing: WITHIN. ConfigError for
     names that neither motions nor the bench have, and units that do not fit.
     """
+    widest = max(recorded, key=lambda name: max(map(np.ptp, _measured(bench, recorded[name]).values())))
     found = []
-    for run, one in recorded.items():
-        for name, values in (given or WITHIN).items():
-            for value in values:
-                told = f"{words(name, value)}, as {run}"
-                again, section, altered = _again(bench, one, equation, name, value, f"{where}.{name}")
-                again = replace(again, run=replace(again.run, name=told), repeat_of="")
-                found.append(PlannedMotion(told, run, balance(bench, _driven(bench, again, section), section), altered))
+    for name, values in (given or WITHIN).items():
+        for value in values:
+            told = f"{words(name, value)}, as {widest}"
+            again, section, altered = _again(bench, recorded[widest], equation, name, value, f"{where}.{name}")
+            again = replace(again, run=replace(again.run, name=told), repeat_of="")
+            found.append(PlannedMotion(told, widest, balance(bench, _driven(bench, again, section), section), altered))
     return tuple(found)
 
 
@@ -53,6 +53,8 @@ def _again(bench, one, equation, name, value, where):
     """(Recorded, section of its equation, altered) with one thing changed."""
     if name in (MOTION, PACE) and not (isinstance(value, (int, float)) and value > 0):
         raise ConfigError(where, "factors above 0", repr(value))
+    if name in bench.model.input_name:
+        raise ConfigError(where, f"{MOTION}, {PACE} or a number of the bench: inputs are what the motion takes", name)
     if name == MOTION:
         moves = np.array([_quantity(bench, channel) == MOTIONS[0] for channel in one.channels])[:, None]
         middle = (one.samples.max(axis=1, keepdims=True) + one.samples.min(axis=1, keepdims=True)) / 2
@@ -70,10 +72,14 @@ def _again(bench, one, equation, name, value, where):
 def _driven(bench, one, equation):
     """The Recorded with the inputs that its motion takes on the nominal bench."""
     names, idle = bench.model.input_name, replace(one.run, inputs=dict.fromkeys(bench.model.input_name, 0.0))
-    measured = {c: s for c, s in zip(one.channels, one.samples, strict=True) if _quantity(bench, c) == MOTIONS[0]}
-    needed = forces_missing(bench, idle, smoothed(bench, idle, measured, equation.corner))
+    needed = forces_missing(bench, idle, smoothed(bench, idle, _measured(bench, one), equation.corner))
     force = np.linalg.lstsq(bench.model.input_rows.T, needed, rcond=None)[0]
     return replace(one, run=replace(one.run, inputs=dict(zip(names, force, strict=True))))
+
+
+def _measured(bench, one):
+    """{channel: (samples,)} of the displacements of a Recorded run."""
+    return {c: s for c, s in zip(one.channels, one.samples, strict=True) if _quantity(bench, c) == MOTIONS[0]}
 
 
 def _quantity(bench, channel):

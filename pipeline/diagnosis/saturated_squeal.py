@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from pipeline.benches.bench import only
-from pipeline.contract import BrakechainError, ConfigError
+from pipeline.contract import BrakechainError
 from pipeline.diagnosis.location import fitted
 from pipeline.diagnosis.simulation import shown
 from pipeline.physics.bench import MOTIONS, Channel, at_begin, run_friction
@@ -78,13 +78,10 @@ class Squeals:
 
     def _points(self):
         """{run: its records} of runs that slide and show a motion, repeats with the run that they repeat."""
-        unknown = sorted(set(self.told.runs) - set(self.recorded))
-        if unknown:
-            raise ConfigError("diagnosis.saturated_squeal.runs", f"of {', '.join(self.recorded)}", ", ".join(unknown))
         points = {}
         for name, one in self.recorded.items():
             own = one.repeat_of or name
-            wanted = not self.told.runs or own in self.told.runs
+            wanted = not self.told.runs or {name, own} & set(self.told.runs)
             if wanted and at_begin(self.bench, one.run)[0] and self._motions(one.channels):
                 points.setdefault(own, []).append(one)
         return points
@@ -124,9 +121,10 @@ class Squeals:
 
 def simulated(bench, like, told, seed=0):
     """[{channel: (n,)}] of the repeats of a Recorded run on a completed Bench, forces of its contacts beside."""
-    run = replace(like.run, duration=told.duration)
+    speed, first = at_begin(bench, like.run)
+    run = replace(like.run, duration=told.duration, drive=speed,
+                  inputs=dict(zip(bench.model.input_name, first.tolist(), strict=True)))
     there = loaded(bench, run)
-    speed, first = at_begin(there, run)
     model = there.model.at_speed(speed)
     steady = steady_start(model, there.law, run_friction(there, run), first)
     system = modal_system(model)

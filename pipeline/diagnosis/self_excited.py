@@ -52,6 +52,8 @@ def question(bench, recorded, settings, band):
     seen = features(bench, recorded, band)
     check_names("held_out", settings.held_out, seen)
     told, units = observed(seen, settings.held_out)
+    if settings.saturated_squeal:
+        check_names("saturated_squeal.runs", settings.saturated_squeal.runs, recorded)
     if not units:
         raise ConfigError("diagnosis", "poles that two records show", "none", "widen bench.poles, or tap harder")
     after = planned_records(bench, {o.name: seen[o.name] for o in told if not o.held_out}, settings.next)

@@ -7,7 +7,7 @@ A null hypothesis that has not converged lets every candidate win: it is refitte
 that lacks physics may have no smooth optimum at all: then a candidate counts only where it goes far below the null.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 
 import numpy as np
@@ -25,6 +25,8 @@ from pipeline.inference.weigh import contender, held_out_gains, situation, unexp
 
 #: where the linearisation of the null holds, scores that chance reaches more often than this are not looked into
 _LIKELY = 0.1
+#: verdicts that name something
+_NAMED = ("missing", "sensor", "numerics")
 
 
 @dataclass(frozen=True)
@@ -86,21 +88,39 @@ def diagnose(problem, budget, catalogue, settings=None, fan_out=map):
     the nominal model has no fit.
     """
     settings = settings or Settings()
-    single = _one_step(problem, budget, catalogue, settings, fan_out)
+    course = _course(problem, budget, catalogue, settings, fan_out)
+    single = _weighed(course)
     if single.decision.verdict not in ("unknown", "missing") or len(problem.runs) < 2:
         return single
     for first in _leading(single, settings.rules):
         rest = [c for c in catalogue if c.name != first.candidate.name]
         try:
-            pair = _one_step(problem.given(first.candidate), budget, rest, settings, fan_out, first.fit, single)
+            pair = _weighed(_course(problem.given(first.candidate), budget, rest, settings, fan_out, first.fit, single))
         except ConvergenceError:
             continue
-        if pair.decision.verdict in ("missing", "sensor", "numerics"):
-            return pair
+        if pair.decision.verdict in _NAMED:
+            alone = _weighed(_dropping(course, first, pair))
+            return alone if alone.decision.verdict in _NAMED and _evident(alone, pair) > _evident(pair, pair) else pair
     return single
 
 
-def _one_step(problem, budget, catalogue, settings, fan_out, start=None, base=None):
+@dataclass(frozen=True)
+class _Course:
+    """What one step of a diagnosis has found: the ``null`` Fit, Directions ``found`` and {index: Refitted}."""
+
+    problem: object
+    budget: dict
+    refits: Refits
+    found: list
+    results: dict
+    base: Diagnosis | None
+
+    @property
+    def null(self):
+        return self.refits.null
+
+
+def _course(problem, budget, catalogue, settings, fan_out, start=None, base=None):
     runs, hypothesis = problem.training, problem.nominal
     noises = tuple(budget[run.name] for run in runs)
     null = start if start and start.converged else calibrate(
@@ -115,12 +135,25 @@ def _one_step(problem, budget, catalogue, settings, fan_out, start=None, base=No
     results = refits.of(_overlooked(null, found, results, settings), rough.start, results)
     better = min([null, *(r.null for r in results.values() if r.null is not None)], key=lambda f: f.objective)
     if better.objective < null.objective - 0.1:
-        null = better
-        found = list(fan_out(partial(directions, problem, null), catalogue))
-    fits = {i: r.fit for i, r in results.items() if r.fit is not None}
-    failures = {catalogue[i].name: r.told for i, r in results.items() if r.told}
-    failures |= {f.candidate.name: f.failure for f in found if f.failure}
-    return _weighed(problem, budget, null, found, fits, failures, settings, base)
+        refits = replace(refits, null=better)
+        found = list(fan_out(partial(directions, problem, better), catalogue))
+    return _Course(problem, budget, refits, found, results, base)
+
+
+def _evident(diagnosis, weighing):
+    """Log evidence of what a Diagnosis names, with the weights of the runs of another."""
+    return max(evidence(w.fit, weighing.weights).log_evidence for w in diagnosis.named)
+
+
+def _dropping(course, first, pair):
+    """The course with fits of what ``pair`` names, begun at its values, but without the ``first`` effect.
+
+    Greedy addition may begin with an effect that is not needed once the other one is there.
+    """
+    size, before = len(course.null.latent), len(first.fit.latent)
+    starts = {i: np.concatenate((w.fit.latent[:size], w.fit.latent[before:])) for w in pair.named
+              for i, c in enumerate(course.refits.catalogue) if c.name == w.candidate.name}
+    return replace(course, results=course.refits.better(course.results, starts))
 
 
 def _first_refits(refits, hopeful, starts):
@@ -166,11 +199,16 @@ def _evidences(null, found, fits, settings, failed=()):
     return np.array(logs), evidences, final, weights
 
 
-def _weighed(problem, budget, null, found, fits, failures, settings, base):
+def _weighed(course):
+    """Diagnosis of a _Course by the rules."""
+    null, found, settings, problem = course.null, course.found, course.refits.settings, course.problem
+    fits = {i: r.fit for i, r in course.results.items() if r.fit is not None}
+    failures = {found[i].candidate.name: r.told for i, r in course.results.items() if r.told}
+    failures |= {f.candidate.name: f.failure for f in found if f.failure}
     logs, evidences, final, weights = _evidences(null, found, fits, settings, failures)
     null_evidence = evidence(null, weights)
     share = posterior(logs, cautious_prior(len(found)))
-    held_out = held_out_gains(problem, budget, null, fits, share[1:])
+    held_out = held_out_gains(problem, course.budget, null, fits, share[1:])
     drifting = drift(null, weights, seed=settings.seed)
     weighed = [Weighed(found[i].candidate, fit, evidences[i], contender(
         null, null_evidence, found[i].candidate, fit, evidences[i], share[1 + i], final.p_value[i],
@@ -182,7 +220,7 @@ def _weighed(problem, budget, null, found, fits, failures, settings, base):
         raise ConvergenceError(f"calibration of {problem.nominal.name}", "a fit that converges",
                                f"none after {null.evaluations} predictions", "check the nominal values and priors")
     return Diagnosis(decision, problem.nominal, null, null_evidence, drifting, final, tuple(weighed), weights,
-                     share, failures, base)
+                     share, failures, course.base)
 
 
 def _leading(single, rules, count=2):

@@ -2,6 +2,9 @@
 
 import numpy as np
 
+#: the first few correlations, and standard deviations beyond which each of them counts
+_FIRST, _FAINT = 3, 2.0
+
 
 def effective_share(noise, white, power=2):
     """N_eff / N of a whitened residual (m,), for sums of its squares.
@@ -11,7 +14,8 @@ def effective_share(noise, white, power=2):
     the same factor (their own spread), count as none. Channels add.
 
     ``power`` 1, with |rho_k|: for sums of the residual along a motion, whatever its frequency; the density of noise is
-    1 + 2 sum_k rho_k cos(k w) times that of white noise.
+    1 + 2 sum_k rho_k cos(k w) times that of white noise. There the first few correlations count from two of their
+    standard deviations on: faint colour lies in them.
     """
     if not noise.ordered:
         return 1.0
@@ -31,18 +35,29 @@ def tempering(noises, whites):
 def coherent_energy(noise, white, level=1.0, chance=1e-3):
     """Energy of a whitened residual (m,) in frequencies that noise of power ``level`` does not explain.
 
-    The sum of periodogram ordinates beyond the largest that white noise shows with probability 1 - ``chance`` in any of
-    them (each is exponential), less their expectation. Robust to a wrong noise level; samples without order: squares.
+    The sum of periodogram ordinates beyond the largest that noise shows with probability 1 - ``chance`` in any of
+    them (each is exponential), less their expectation. Robust to a wrong noise level, and to noise whose samples are
+    correlated with the next ones by rho: its density is at most (1 + |rho|) / (1 - |rho|) times that of white noise.
+    Samples without order: squares.
     """
     parts = noise.by_channel(white) if noise.ordered else [white]
     total = sum(len(p) for p in parts)
     if not noise.ordered:
-        bound, power = 2 * np.log(2 * max(total, 1) / chance), white**2
+        bound, power, levels = 2 * np.log(2 * max(total, 1) / chance), white**2, level
     else:
-        power = np.concatenate([np.abs(np.fft.rfft(p)[1:(len(p) + 1) // 2]) ** 2 / max(len(p), 1) for p in parts])
+        power = [np.abs(np.fft.rfft(p)[1:(len(p) + 1) // 2]) ** 2 / max(len(p), 1) for p in parts]
+        levels = np.concatenate([np.full(len(own), level * _density(p)) for own, p in zip(power, parts, strict=True)])
+        power = np.concatenate(power)
         bound = np.log(max(len(power), 1) / chance)
-    found = power[power > level * bound] - level
+    found = np.where(power > levels * bound, power - levels, 0.0)
     return float(found.sum() * (2 if noise.ordered else 1))
+
+
+def _density(series):
+    """Largest density of noise that is correlated as a series is with its next samples, over that of white noise."""
+    size = series @ series
+    rho = min(abs(series[1:] @ series[:-1]) / size, 0.5) if size > 0 else 0.0
+    return (1 + rho) / (1 - rho) if rho**2 * len(series) > _FAINT**2 else 1.0
 
 
 def _effective_count(series, power):
@@ -55,4 +70,7 @@ def _effective_count(series, power):
     for _ in range(2):
         kept = np.where(size**2 < spread * 2 * np.log(length) / length, 0.0, size)
         spread = 1 + 2 * np.sum(fade * kept**2)
+    if power == 1:
+        first = slice(0, _FIRST)
+        kept[first] = np.where(size[first] ** 2 * length > _FAINT**2 * spread, size[first], 0.0)
     return length / (1 + 2 * np.sum(fade * kept**power))

@@ -65,6 +65,12 @@ class Refits:
                 break
         return results
 
+    def better(self, results, starts):
+        """{index: Refitted} with fits begun at the latent values ``starts`` {index: (k,)}, where they are better."""
+        tried = [(i, *_tried(self.problem, self.null, self.catalogue[i], [start], ())) for i, start in starts.items()]
+        found = {i: _finished(self.problem, self.null, np.inf, state) for i, state, _ in tried if state is not None}
+        return _lowest(results, found)
+
     def _explains(self, fit):
         gained = tempering(fit.noises, fit.residuals).max() * (self.null.objective - fit.objective)
         return gained > 2 * self.settings.rules.evidence_gain
@@ -81,7 +87,7 @@ class Refits:
         begin = partial(_begun_at, self.problem, anchor)
         found = self._ended(rivals, self.fan_out(begin, [(self.catalogue[i], seen.start[i]) for i in rivals]),
                             {top: results[top]})
-        return {**results, **{i: r for i, r in found.items() if i not in results or _lower(r.fit, results[i].fit)}}
+        return _lowest(results, found)
 
     def _ended(self, chosen, begins, before):
         """{index: Refitted} of ``before`` and of candidates with their [(Fit or None, what went wrong)] of a begin."""
@@ -116,8 +122,12 @@ def _best(results):
     return min(fits, key=fits.get, default=None)
 
 
-def _lower(fit, other):
-    return fit is not None and (other is None or fit.objective < other.objective)
+def _lowest(results, found):
+    """{index: Refitted} of both, each of the lower objective."""
+    def lower(fit, other):
+        return fit is not None and (other is None or fit.objective < other.objective)
+
+    return {**results, **{i: r for i, r in found.items() if i not in results or lower(r.fit, results[i].fit)}}
 
 
 def _begun(problem, null, offsets, item):

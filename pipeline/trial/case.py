@@ -6,7 +6,7 @@ import numpy as np
 
 from pipeline.contract.errors import ConfigError
 from pipeline.trial import excitation, rig, sensors
-from pipeline.trial.detectable import coarse, of_rig
+from pipeline.trial.detectable import Values, beside, coarse, of_rig
 from pipeline.trial.hidden import HIDDEN, Spot
 from pipeline.trial.motion import PARTS, World
 from pipeline.trial.planted import Planted, Recorder, change_of, shown, sized
@@ -78,8 +78,8 @@ def made(seed, hidden="", place=0, level=0.01, masses=2, colour=0.0, change=None
     exact = _exact(names, indices, masses)
     if not exact and kind != "wrong_value":
         exact = known(seed, truth)
-    explained = of_rig(recorder, truth, len(recorder.runs) - 1, SPREAD, GAIN_ERROR, exact)
-    hiding = _Hiding(recorder, truth, bare, explained, level, colour)
+    values = Values(truth, SPREAD, GAIN_ERROR, exact)
+    hiding = _Hiding(recorder, values, bare, of_rig(recorder, values, len(recorder.runs) - 1), level, colour)
     planted = tuple(hiding.planted(name, at, shape, change or drawn, kind == "below")
                     for name, at, (shape, drawn) in zip(names, indices, draws, strict=False))
     seen = shown(recorder, truth, planted, bare)
@@ -146,11 +146,15 @@ class _Hiding:
     """Where and how large physics is hidden in a rig whose ``bare`` motion is known."""
 
     recorder: Recorder
-    truth: object
+    values: Values
     bare: list
     explained: object
     level: float
     colour: float
+
+    @property
+    def truth(self):
+        return self.values.rig
 
     def planted(self, name, place, shape, wanted, below):
         """The Planted of a piece of HIDDEN at the place of this index."""
@@ -166,10 +170,11 @@ class _Hiding:
 
         Others that are planted, and what of the known physics is nearest to a piece that is not, may take part.
         """
-        others = tuple(p for p in planted if p is not one)
+        others, trained = tuple(p for p in planted if p is not one), len(self.recorder.runs) - 1
         change = _difference(seen, shown(self.recorder, self.truth, others, self.bare))[:-1]
-        beside = [self._alone(p) for p in (*others, *self._kin(one, change_of(seen[:1], self._without(1))))]
-        return self.explained.left(change, noise, self.colour, beside)
+        near = [self._alone(p) for p in (*others, *self._kin(one, change_of(seen[:1], self._without(1))))]
+        explained = beside(self.recorder, self.values, trained, others) if others else self.explained
+        return explained.left(change, noise, self.colour, near)
 
     def _kin(self, one, change):
         """Known physics nearest to a piece at its spot, about as large."""

@@ -15,10 +15,13 @@ from scipy.linalg import expm
 from scipy.signal import lfilter
 
 from pipeline.trial.motion import PARTS
+from pipeline.trial.planted import shown
 from pipeline.trial.rig import Rig, value_names
 
 #: step of the differences: relative of values, or in standard deviations
 _STEP = 1e-4
+#: the same of integrated motion, whose error is about 1e-6, and iterations of its refit
+_COARSE, _FEW = 1e-2, 3
 #: iterations of a refit, its longest step of a value in standard deviations, shares of a step that are tried, and the
 #: gain of the objective below which it has settled
 _ITERATIONS, _LONGEST, _SHARES, _SETTLED = 30, 1.5, (1.0, 0.5, 0.25, 0.1, 0.03, 0.01), 0.01
@@ -92,10 +95,14 @@ class Explained:
 
 
 class Refitted(Explained):
-    """What ``size`` other values explain however large their change: ``model(u)`` -> (run, sensor, n)."""
+    """What ``size`` other values explain however large their change: ``model(u)`` -> (run, sensor, n).
 
-    def __init__(self, model, size):
+    ``step`` of the differences and ``iterations`` of a refit: fewer leave too much rather than too little.
+    """
+
+    def __init__(self, model, size, step=_STEP, iterations=_ITERATIONS):
         self.model, self.at_rest, self.size = model, np.array(model(np.zeros(size))), size
+        self.step, self.iterations = step, iterations
         super().__init__(self._slopes(np.zeros(size), self.at_rest))
 
     def left(self, change, noise, colour=0.0, beside=()):
@@ -103,7 +110,7 @@ class Refitted(Explained):
         others = self._rows(beside, noise, colour) if len(beside) else np.zeros((0, np.size(change)))
         directions, u = self.directions, np.zeros(self.size + len(others))
         r, seen = self._residual(u, change, noise, colour, others)
-        for _ in range(_ITERATIONS):
+        for _ in range(self.iterations):
             rows = np.vstack((self._rows(directions, noise, colour), others))
             step = np.linalg.solve(np.eye(len(u)) + rows @ rows.T, rows @ r - u)
             step *= min(1.0, _LONGEST / max(abs(step).max(), 1e-300))
@@ -125,7 +132,7 @@ class Refitted(Explained):
         return whitened(np.array(change) - seen + self.at_rest, noise, colour).ravel() - u[self.size:] @ others, seen
 
     def _slopes(self, u, seen):
-        return np.array([(self.model(u + _STEP * one) - seen) / _STEP for one in np.eye(self.size)])
+        return np.array([(np.array(self.model(u + self.step * one)) - seen) / self.step for one in np.eye(self.size)])
 
 
 def explained(seen, values, spread, gain_spread, step=_STEP):
@@ -142,25 +149,45 @@ def explained(seen, values, spread, gain_spread, step=_STEP):
     return Explained(found)
 
 
-def of_rig(recorder, rig, runs, spread, gain_spread, exact=()):
-    """Refitted by other values of a ``rig`` alone, in the first ``runs`` of a Recorder; arguments as ``explained``.
+class Values:
+    """Values of a ``rig`` and gains of its sensors, off by u (size,) in standard deviations.
 
-    ``exact``: names of values that are known (see ``rig.value_names``).
+    Spreads as in ``explained``; ``exact``: names of values that are known (see ``rig.value_names``).
     """
-    masses, links = len(rig.mass), len(rig.links)
-    free = np.array([name not in exact for name in value_names(rig)] + [True] * masses)
 
-    def model(u):
-        whole = np.zeros(len(free))
-        whole[free] = u
-        own = np.exp(spread * whole[:masses + 2 * links])
-        other = Rig(tuple(rig.mass * own[:masses]), tuple(
+    def __init__(self, rig, spread, gain_spread, exact=()):
+        self.rig, self.spread, self.gain_spread = rig, spread, gain_spread
+        self.free = np.array([name not in exact for name in value_names(rig)] + [True] * len(rig.mass))
+        self.size = int(self.free.sum())
+
+    def at(self, u):
+        """(Rig, factors (sensor,) of the gains)."""
+        whole, masses, links = np.zeros(len(self.free)), len(self.rig.mass), len(self.rig.links)
+        whole[self.free] = u
+        own = np.exp(self.spread * whole[:masses + 2 * links])
+        rig = Rig(tuple(self.rig.mass * own[:masses]), tuple(
             replace(link, stiffness=link.stiffness * k, damping=link.damping * c) for link, (k, c) in zip(
-                rig.links, own[masses:].reshape(links, 2), strict=True)), rig.pushed)
-        seen = recorder.seen([linear(other, f, 1 / recorder.rate, recorder.corner) for f in recorder.runs[:runs]])
-        return np.array(seen) * (1 + gain_spread * whole[masses + 2 * links:])[:, None]
+                self.rig.links, own[masses:].reshape(links, 2), strict=True)), self.rig.pushed)
+        return rig, 1 + self.gain_spread * whole[masses + 2 * links:]
 
-    return Refitted(model, int(free.sum()))
+
+def of_rig(recorder, values, runs):
+    """Refitted by Values of a rig alone, in the first ``runs`` of a Recorder."""
+    def model(u):
+        rig, gains = values.at(u)
+        seen = recorder.seen([linear(rig, f, 1 / recorder.rate, recorder.corner) for f in recorder.runs[:runs]])
+        return np.array(seen) * gains[:, None]
+
+    return Refitted(model, values.size)
+
+
+def beside(recorder, values, runs, planted):
+    """The same where ``planted`` physics acts in the rig: by integration, at whose cost the refit is short."""
+    def model(u):
+        rig, gains = values.at(u)
+        return np.array(shown(recorder, rig, planted, runs=slice(runs))) * gains[:, None]
+
+    return Refitted(model, values.size, _COARSE, _FEW)
 
 
 def whitened(samples, noise, colour):

@@ -118,6 +118,18 @@ def _branches(weights, times):
                   lambda s, size: lambda t, e, v, z: stiffness(s, size) * v - z / times(s))
 
 
+#: branches of a shim, evenly spread over three decades: their times in radians, and what they hold at one radian
+_SHIM = 10 ** np.linspace(-1.5, 1.5, 9)
+_HELD = 0.12 * np.sum(_SHIM**2 / (1 + _SHIM**2))
+
+
+def _shim(spot, size):
+    """A link of one loss factor whose stiffness is stated as measured in motion."""
+    stiffness = size * spot.link.stiffness
+    rates = _branches(lambda s: np.full(len(_SHIM), 0.12), lambda s: _SHIM / s.angular)(spot, size).laws[0].rates
+    return World(spot.rig, (Law(spot.row, lambda t, e, v, z: z.sum() - stiffness * _HELD * e, len(_SHIM), rates),))
+
+
 _DECADES = 10 ** np.linspace(-2, 2, 17)
 
 
@@ -242,8 +254,7 @@ _PIECES = (
     Hidden("backlash", "link", _along(_backlash)),
     Hidden("viscoelastic_pad", "link", _branches(
         lambda s: [1.0], lambda s: np.array([s.between(0, 0.5, 2) / s.angular]))),
-    Hidden("shim_damping", "link", _branches(
-        lambda s: np.full(9, 0.12), lambda s: 10 ** np.linspace(-1.5, 1.5, 9) / s.angular), exact="stiffness"),
+    Hidden("shim_damping", "link", _shim, exact="stiffness"),
     Hidden("thermal_softening", "link", _along(
         lambda s, size: lambda t, e, v, z: -min(size, 0.8) * s.link.stiffness * e
         * (1 - np.exp(-t / (s.time * s.between(0, 0.2, 0.8)))))),

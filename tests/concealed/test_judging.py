@@ -48,7 +48,9 @@ def test_what_leaves_less_than_four_standard_deviations_is_below_the_threshold()
         assert judged(faint, told("parameters"))["right"] and not judged(clear, told("parameters"))["right"]
         assert not judged(faint, told("missing", CUBIC))["right"]
     assert judged({**truth("sensor", COULOMB), "left": 1.0}, told("sensor", COULOMB))["named"]
-    assert class_of({**truth("pair", COULOMB, CUBIC), "left": 1.0}) == "pair"
+    faint = {**truth("pair", COULOMB, CUBIC), "left": 1.0}
+    assert class_of(faint) == "below" and judged(faint, told("missing", CUBIC))["right"]
+    assert not judged(faint, told("missing", SHIFTED, CUBIC))["right"]
     assert class_of(truth("control")) == "control"
 
 

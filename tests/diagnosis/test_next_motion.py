@@ -74,7 +74,8 @@ def test_without_a_section_motions_stay_within_the_recorded_ones():
 
 @pytest.mark.parametrize("given, said", [
     ({"pace": ["2 m/s"]}, "diagnosis.next.pace: expected factors above 0"),
-    ({"motion": [-1.0]}, "diagnosis.next.motion"), ({"colour": [2.0]}, "diagnosis.next.colour")])
+    ({"motion": [-1.0]}, "diagnosis.next.motion"), ({"shaker": ["2 N"]}, "inputs are what the motion takes"),
+    ({"colour": [2.0]}, "diagnosis.next.colour")])
 def test_what_no_motion_has_is_refused(given, said):
     with pytest.raises(ConfigError, match=said):
         planned(**given)

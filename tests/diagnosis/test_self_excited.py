@@ -33,6 +33,7 @@ def test_what_was_hidden_is_named_and_wrong_values_are_not_physics(hidden, verdi
 
 
 @pytest.mark.parametrize("more, said", [({"held_out": ["never"]}, "diagnosis.held_out"),
+                                        ({"saturated_squeal": {"runs": ["never"]}}, "diagnosis.saturated_squeal.runs"),
                                         ({"parameters": {"bodies.pin.colour": {}}}, "diagnosis.parameters")])
 def test_wrong_questions_are_refused(more, said):
     with pytest.raises(ConfigError, match=said):

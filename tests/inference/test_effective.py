@@ -56,6 +56,18 @@ def test_a_run_weighs_less_where_its_residual_exceeds_its_noise():
     assert weights[0] > 0.97 and weights[1] == pytest.approx(1 / np.mean((3 * white) ** 2), rel=0.01)
 
 
+def test_faint_colour_counts_along_a_motion_in_short_records():
+    shares = [effective_share(unit_noise(500), coloured(k, 500, 0.2, 1.0), 1) for k in range(40)]
+    assert np.mean(shares) == pytest.approx(2 / 3, abs=0.08)
+    assert np.mean([effective_share(unit_noise(500), np.random.default_rng(k).standard_normal(500), 1)
+                    for k in range(40)]) > 0.94
+
+
+def test_colour_is_no_coherent_energy():
+    alarms = [coherent_energy(unit_noise(500), coloured(k, 500, 0.2, 1.0)) > 0 for k in range(400)]
+    assert np.mean(alarms) < 0.02
+
+
 def test_coherent_energy_is_that_of_a_tone_and_nothing_in_noise():
     noise, time = unit_noise(4000), np.arange(4000)
     tone = 0.3 * np.sin(2 * np.pi * 100 * time / 4000)

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from pipeline.trial.detectable import Explained, coarse, linear, of_rig, whitened
+from pipeline.trial.detectable import Explained, Values, beside, coarse, linear, of_rig, whitened
 from pipeline.trial.motion import World, moved
 from pipeline.trial.planted import Recorder
 from pipeline.trial.rig import drawn
@@ -18,7 +18,7 @@ def explained(spread=0.25):
     forces = tuple(random.standard_normal((2, 150)))
     rig = drawn(random, 2)
     recorder = Recorder(forces, 100.0, np.ones(2), 2.5e-3, 40.0)
-    return of_rig(recorder, rig, 2, spread, 0.005), rig, recorder
+    return of_rig(recorder, Values(rig, spread, 0.005), 2), rig, recorder
 
 
 @pytest.mark.exact
@@ -77,9 +77,16 @@ def test_a_rig_of_quite_other_values_is_explained_once_it_is_refitted():
 
 def test_a_value_that_is_known_explains_nothing():
     own, rig, recorder = explained()
-    known = of_rig(recorder, rig, 2, 0.25, 0.005, ("stiffness_0",))
+    known = of_rig(recorder, Values(rig, 0.25, 0.005, ("stiffness_0",)), 2)
     stiffer = own.directions[2] * 0.1
     assert known.size == own.size - 1 and known.left(stiffer, NOISE) > 3 * own.left(stiffer, NOISE)
+
+
+def test_beside_nothing_the_integration_explains_what_the_linear_rig_does():
+    own, rig, recorder = explained()
+    odd = np.random.default_rng(3).standard_normal((2, 2, 150)) * NOISE[:, None] + 0.1 * own.directions[2]
+    integrated = beside(recorder, Values(rig, 0.25, 0.005), 2, ())
+    assert integrated.left(odd, NOISE) == pytest.approx(own.left(odd, NOISE), rel=1e-3)
 
 
 @pytest.mark.parametrize("linearly", [True, False])
