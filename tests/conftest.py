@@ -1,7 +1,25 @@
-"""One thread for each process of the tests, as for each of the program: more would wait for each other."""
+"""One thread for each process of the tests; public recordings are found, or tests of them skip with the reason."""
 
 import os
+from pathlib import Path
+
+import pytest
 
 from pipeline.environment import ONE_THREAD
 
-os.environ.update(ONE_THREAD)       # before anything loads linear algebra
+os.environ.update(ONE_THREAD)       # before anything loads linear algebra: more would wait for each other
+
+_VARIABLE = "BRAKECHAIN_DATA"
+_BESIDE = Path(__file__).parents[2] / "shared" / "data"
+if _BESIDE.is_dir():
+    os.environ.setdefault(_VARIABLE, str(_BESIDE))
+
+
+def pytest_collection_modifyitems(items):
+    """Tests marked ``measured`` skip where the public recordings are not."""
+    where = os.environ.get(_VARIABLE)
+    if where and Path(where).is_dir():
+        return
+    for item in items:
+        if item.get_closest_marker("measured"):
+            item.add_marker(pytest.mark.skip(reason=f"no public recordings at {where or _BESIDE}; set {_VARIABLE}"))

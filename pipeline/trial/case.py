@@ -6,7 +6,7 @@ import numpy as np
 
 from pipeline.contract.errors import ConfigError
 from pipeline.trial import excitation, rig, sensors
-from pipeline.trial.detectable import Values, beside, coarse, of_rig
+from pipeline.trial.detectable import Values, coarse, of_rig
 from pipeline.trial.hidden import HIDDEN, Spot
 from pipeline.trial.motion import PARTS, World
 from pipeline.trial.planted import Planted, Recorder, change_of, shown, sized
@@ -166,15 +166,15 @@ class _Hiding:
         return sized(start, self._change, wanted)
 
     def left(self, one, planted, seen, noise):
-        """Standard deviations of ``noise`` that values leave of the change by ``one`` of what is planted and ``seen``.
+        """Standard deviations of ``noise`` that values of the linear rig leave of the change by ``one`` of what is
+        planted and ``seen``: too many, where the others are strong and bend what values do.
 
         Others that are planted, and what of the known physics is nearest to a piece that is not, may take part.
         """
-        others, trained = tuple(p for p in planted if p is not one), len(self.recorder.runs) - 1
+        others = tuple(p for p in planted if p is not one)
         change = _difference(seen, shown(self.recorder, self.truth, others, self.bare))[:-1]
         near = [self._alone(p) for p in (*others, *self._kin(one, change_of(seen[:1], self._without(1))))]
-        explained = beside(self.recorder, self.values, trained, others) if others else self.explained
-        return explained.left(change, noise, self.colour, near)
+        return self.explained.left(change, noise, self.colour, near)
 
     def _kin(self, one, change):
         """Known physics nearest to a piece at its spot, about as large."""

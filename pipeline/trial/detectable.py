@@ -15,13 +15,10 @@ from scipy.linalg import expm
 from scipy.signal import lfilter
 
 from pipeline.trial.motion import PARTS
-from pipeline.trial.planted import shown
 from pipeline.trial.rig import Rig, value_names
 
 #: step of the differences: relative of values, or in standard deviations
 _STEP = 1e-4
-#: the same of integrated motion, whose error is about 1e-6, and iterations of its refit
-_COARSE, _FEW = 1e-2, 3
 #: iterations of a refit, its longest step of a value in standard deviations, shares of a step that are tried, and the
 #: gain of the objective below which it has settled
 _ITERATIONS, _LONGEST, _SHARES, _SETTLED = 30, 1.5, (1.0, 0.5, 0.25, 0.1, 0.03, 0.01), 0.01
@@ -95,14 +92,10 @@ class Explained:
 
 
 class Refitted(Explained):
-    """What ``size`` other values explain however large their change: ``model(u)`` -> (run, sensor, n).
+    """What ``size`` other values explain however large their change: ``model(u)`` -> (run, sensor, n)."""
 
-    ``step`` of the differences and ``iterations`` of a refit: fewer leave too much rather than too little.
-    """
-
-    def __init__(self, model, size, step=_STEP, iterations=_ITERATIONS):
+    def __init__(self, model, size):
         self.model, self.at_rest, self.size = model, np.array(model(np.zeros(size))), size
-        self.step, self.iterations = step, iterations
         super().__init__(self._slopes(np.zeros(size), self.at_rest))
 
     def left(self, change, noise, colour=0.0, beside=()):
@@ -110,7 +103,7 @@ class Refitted(Explained):
         others = self._rows(beside, noise, colour) if len(beside) else np.zeros((0, np.size(change)))
         directions, u = self.directions, np.zeros(self.size + len(others))
         r, seen = self._residual(u, change, noise, colour, others)
-        for _ in range(self.iterations):
+        for _ in range(_ITERATIONS):
             rows = np.vstack((self._rows(directions, noise, colour), others))
             step = np.linalg.solve(np.eye(len(u)) + rows @ rows.T, rows @ r - u)
             step *= min(1.0, _LONGEST / max(abs(step).max(), 1e-300))
@@ -132,7 +125,7 @@ class Refitted(Explained):
         return whitened(np.array(change) - seen + self.at_rest, noise, colour).ravel() - u[self.size:] @ others, seen
 
     def _slopes(self, u, seen):
-        return np.array([(np.array(self.model(u + self.step * one)) - seen) / self.step for one in np.eye(self.size)])
+        return np.array([(np.array(self.model(u + _STEP * one)) - seen) / _STEP for one in np.eye(self.size)])
 
 
 def explained(seen, values, spread, gain_spread, step=_STEP):
@@ -179,15 +172,6 @@ def of_rig(recorder, values, runs):
         return np.array(seen) * gains[:, None]
 
     return Refitted(model, values.size)
-
-
-def beside(recorder, values, runs, planted):
-    """The same where ``planted`` physics acts in the rig: by integration, at whose cost the refit is short."""
-    def model(u):
-        rig, gains = values.at(u)
-        return np.array(shown(recorder, rig, planted, runs=slice(runs))) * gains[:, None]
-
-    return Refitted(model, values.size, _COARSE, _FEW)
 
 
 def whitened(samples, noise, colour):

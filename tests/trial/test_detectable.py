@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from pipeline.trial.detectable import Explained, Values, beside, coarse, linear, of_rig, whitened
+from pipeline.trial.detectable import Explained, Values, coarse, linear, of_rig, whitened
 from pipeline.trial.motion import World, moved
 from pipeline.trial.planted import Recorder
 from pipeline.trial.rig import drawn
@@ -80,13 +80,6 @@ def test_a_value_that_is_known_explains_nothing():
     known = of_rig(recorder, Values(rig, 0.25, 0.005, ("stiffness_0",)), 2)
     stiffer = own.directions[2] * 0.1
     assert known.size == own.size - 1 and known.left(stiffer, NOISE) > 3 * own.left(stiffer, NOISE)
-
-
-def test_beside_nothing_the_integration_explains_what_the_linear_rig_does():
-    own, rig, recorder = explained()
-    odd = np.random.default_rng(3).standard_normal((2, 2, 150)) * NOISE[:, None] + 0.1 * own.directions[2]
-    integrated = beside(recorder, Values(rig, 0.25, 0.005), 2, ())
-    assert integrated.left(odd, NOISE) == pytest.approx(own.left(odd, NOISE), rel=1e-3)
 
 
 @pytest.mark.parametrize("linearly", [True, False])
