@@ -87,6 +87,7 @@ def test_it_hides_by_class_and_lacks_at_least_two_of_the_catalogue():
 
 
 @pytest.mark.slow
+@pytest.mark.study
 @pytest.mark.parametrize("kind, hidden, seed", [("control", (), 12), ("effect", ("doublet_split",), 14),
                                                 ("foreign", ("resonant_clip",), 15)])
 def test_a_case_is_solved(tmp_path, monkeypatch, kind, hidden, seed):
