@@ -11,15 +11,15 @@ os.environ.update(ONE_THREAD)       # before anything loads linear algebra: more
 
 _VARIABLE = "BRAKECHAIN_DATA"
 _BESIDE = Path(__file__).parents[2] / "shared" / "data"
-if _BESIDE.is_dir():
-    os.environ.setdefault(_VARIABLE, str(_BESIDE))
+_DATA = Path(os.environ.get(_VARIABLE, _BESIDE)).resolve()
+if _DATA.is_dir():
+    os.environ[_VARIABLE] = str(_DATA)
 
 
 def pytest_collection_modifyitems(items):
     """Tests marked ``measured`` skip where the public recordings are not."""
-    where = os.environ.get(_VARIABLE)
-    if where and Path(where).is_dir():
+    if _DATA.is_dir():
         return
     for item in items:
         if item.get_closest_marker("measured"):
-            item.add_marker(pytest.mark.skip(reason=f"no public recordings at {where or _BESIDE}; set {_VARIABLE}"))
+            item.add_marker(pytest.mark.skip(reason=f"no public recordings at {_DATA}; set {_VARIABLE}"))

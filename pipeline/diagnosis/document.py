@@ -93,12 +93,12 @@ def _completing(product):
 
 def as_json(product):
     """The verdict for machines; the schema is that of SCHEMA."""
-    told = set(_completing(product)) | set(product.named)
+    named = set(_completing(product)) | set(product.named)
     ordered = sorted(range(len(product.hypothesis)), key=lambda k: -product.posterior[k])
     told = {
         "schema": SCHEMA, "verdict": product.verdict.item(), "reasons": [str(r) for r in product.reason],
         "effects": [_effect(product, k) for k in (*product.known, *product.named)],
-        "alternatives": [_effect(product, k, False) for k in ordered if k not in told][:ALTERNATIVES],
+        "alternatives": [_effect(product, k, False) for k in ordered if k not in named][:ALTERNATIVES],
         "location": _location(product),
         "parameters": {str(name): {"nominal": float(product.parameter_nominal[k]),
                                    "value": float(product.parameter_value[k]),

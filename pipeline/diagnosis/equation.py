@@ -13,7 +13,7 @@ from pipeline.diagnosis.forced import check_names, chosen, nominal_parameters
 from pipeline.diagnosis.location import Axes
 from pipeline.diagnosis.next_motion import planned_motions
 from pipeline.diagnosis.next_run import altered
-from pipeline.diagnosis.question import Question, nominal
+from pipeline.diagnosis.question import Question, nominal, nothing
 from pipeline.diagnosis.simulation import candidates, completed, observed, reach
 from pipeline.inference.noise import budget
 from pipeline.inference.problem import Problem
@@ -48,7 +48,7 @@ def question(bench, recorded, settings, equation):
     seen = tuple(observed(one.seen, noise, name in settings.held_out) for name, one in balances.items())
     after = planned_motions(bench, {o.name: recorded[o.name] for o in seen if not (o.held_out or o.repeat_of)},
                             equation, settings.next)
-    forward = Balanced(bench, balances | {p.name: p.balance for p in after}, {p.name: p.altered for p in after})
+    forward = Balanced(bench, balances | {p.name: p.shown for p in after}, {p.name: p.altered for p in after})
     problem = Problem(seen, forward, nominal(nominal_parameters(bench, settings)))
     # begun as measured, so that nominal runs have the sizes of the measured ones
     trained = [begun(bench, recorded[o.name]) for o in problem.training]
@@ -56,7 +56,7 @@ def question(bench, recorded, settings, equation):
                        reach(bench, trained), settings.priors)
     noises = budget(problem, above=settings.noise.above)
     describe = DescribeBalance(bench, balances, problem, noises, seed=settings.seed)
-    asked = {"use": describe.use} if settings.latent_force.predict else {}
     axes = BalanceAxes(channel_names(bench), Axes(problem, noises, seed=settings.seed))
     return Question(problem, noises | {p.name: noises[p.like] for p in after}, found, units, axes=axes,
-                    describe=describe, next_runs=tuple(observed(p.balance.seen) for p in after), **asked)
+                    describe=describe, use=describe.use if settings.latent_force.predict else nothing,
+                    next_runs=tuple(observed(p.shown.seen) for p in after))

@@ -7,7 +7,7 @@ from pipeline.contract.units import to_si
 from pipeline.diagnosis.latent import Describe
 from pipeline.diagnosis.location import Axes, ForcedAxes
 from pipeline.diagnosis.next_run import feasible
-from pipeline.diagnosis.question import Question, nominal
+from pipeline.diagnosis.question import Question, nominal, nothing
 from pipeline.diagnosis.settings import parameter
 from pipeline.diagnosis.simulation import (
     Simulated,
@@ -39,11 +39,11 @@ def question(bench, recorded, settings):
                        reach(bench, trained), settings.priors, largest(trained))
     noises = budget(problem, above=settings.noise.above)
     describe = Describe(bench, runs, problem, noises, seed=settings.seed)
-    asked = {"use": describe.use} if settings.latent_force.predict else {}
     return Question(problem, noises | {f.run.name: noises[trained[0].run.name] for f in after},
                     (*found, *([solver_candidate()] if settings.solver else [])), shown,
                     axes=ForcedAxes(bench, runs, Axes(problem, noises, seed=settings.seed)),
-                    describe=describe, next_runs=tuple(f.observed for f in after), **asked)
+                    describe=describe, use=describe.use if settings.latent_force.predict else nothing,
+                    next_runs=tuple(f.observed for f in after))
 
 
 def nominal_parameters(bench, settings):

@@ -16,15 +16,13 @@ from pipeline.contract import BrakechainError
 from pipeline.diagnosis.question import parameter_name
 from pipeline.diagnosis.simulation import completed
 from pipeline.effects.stick import stick_stiffness
-from pipeline.inference.least_squares import fit, promised
+from pipeline.inference.least_squares import ended, fit
 from pipeline.inference.priors import Normal, Parameter
 from pipeline.inference.problem import Problem
 from pipeline.physics.elements import Dry, Element, Polynomial, Power, Wave
 
 #: largest p-value of a dependence that is used
 LEVEL = 0.01
-#: share of what the law explains below which what its fit still promises does not matter
-_NOTHING_MORE = 1e-3
 #: harmonics of the drive's angle
 _ORDERS = (1, 2, 3)
 #: what the force is called wherever it predicts
@@ -152,9 +150,7 @@ def used(bench, row, description, problem, budget, null, forward):
     said = [f"A function of {', '.join(t for t in law.coefficient if t != _CONSTANT)}, fitted to the training runs,"
             f" stands for the latent force at {description.place}, of which it explains {100 * law.share:.0f} %:"
             f" {LABEL}."]
-    explained = null.chi_square.sum() - found.chi_square.sum()
-    ended = found.converged or promised(found) <= _NOTHING_MORE * explained
-    said += [] if ended else ["Its fit had not converged."]
+    said += [] if ended(found, null.chi_square.sum() - found.chi_square.sum()) else ["Its fit had not converged."]
     said += [f"Beyond what it was learned from: {', '.join(beyond)}."] if beyond else []
     return LatentUse(runs, whole.told(found.values), " ".join(said))
 

@@ -4,12 +4,11 @@ A record that nobody has made shows what the most similar recorded one did, as w
 each as the completed model of every hypothesis has it there.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
-from pipeline.diagnosis.next_run import changed, words
-from pipeline.diagnosis.poles import Features
+from pipeline.diagnosis.next_run import Planned, changed, words
 from pipeline.physics.bench import at_begin
 
 _LIFTED = "hammer, lifted"
@@ -17,19 +16,8 @@ _LIFTED = "hammer, lifted"
 _BESIDE = (0.5, 2.0)
 
 
-@dataclass(frozen=True)
-class PlannedRecord:
-    """A record that could be made: what it would show, as Features of the recorded run ``like``, whose noise it has,
-    and the numbers of the bench that are ``altered`` (see ``next_run``)."""
-
-    name: str
-    like: str
-    features: Features
-    altered: dict
-
-
 def planned_records(bench, seen, given, where="diagnosis.next"):
-    """PlannedRecords (m,) from ``seen`` {run: Features}.
+    """Planned Features (m,) from ``seen`` {run: Features}.
 
     ``given`` is the section ``next`` {condition or number of the bench: values}: one thing changed in the first record
     of each kind that has it. Without it: all recorded loads at all recorded speeds, and half and twice of where only
@@ -62,11 +50,11 @@ def _asked(bench, told, members, name, value, where):
     like, one = next(iter(members.items()))
     run, altered = changed(bench, one.run, name, value, where)
     own = f"{told}, {words(name, value)}"
-    return PlannedRecord(own, like, replace(one, run=replace(run, name=own)), altered)
+    return Planned(own, like, replace(one, run=replace(run, name=own)), altered)
 
 
 def _crossed(bench, seen, told, members):
-    """PlannedRecords of one kind at points (speed, loads) that none of its ``members`` has."""
+    """Planned Features of one kind at points (speed, loads) that none of its ``members`` has."""
     if told == _LIFTED:
         return
     every, own = [_point(bench, one) for one in seen.values()], {n: _point(bench, one) for n, one in members.items()}
@@ -99,10 +87,10 @@ def _apart(first, second):
 
 
 def _at(bench, told, like, one, point):
-    """PlannedRecord like the Features ``one`` of a run ``like`` at another point."""
+    """Planned like the Features ``one`` of a run ``like`` at another point."""
     speed, load = point
     inputs = dict(zip(bench.model.input_name, load, strict=True))
     said = [f"{n} = {v:g} N" for n, v in inputs.items()] + ([f"speed = {speed:g} rad/s"] if speed else [])
     name = f"{told}, {', '.join(said)}"
     run = replace(one.run, name=name, inputs=inputs, drive=None, conditions={**one.run.conditions, "speed": speed})
-    return PlannedRecord(name, like, replace(one, run=run), {})
+    return Planned(name, like, replace(one, run=run), {})

@@ -5,13 +5,13 @@ force that it takes. A recorded motion is planned again, ``motion`` times as lar
 fast, with as many samples; or on a bench of which one number is another.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
-from pipeline.benches.equation import Balance, balance
+from pipeline.benches.equation import balance
 from pipeline.contract import ConfigError
-from pipeline.diagnosis.next_run import changed, words
+from pipeline.diagnosis.next_run import Planned, changed, words
 from pipeline.physics.bench import MOTIONS
 from pipeline.physics.equation_residual import forces_missing, smoothed
 
@@ -21,19 +21,8 @@ MOTION, PACE = "motion", "pace"
 WITHIN = {MOTION: (0.5, 0.25), PACE: (0.5, 0.25)}
 
 
-@dataclass(frozen=True)
-class PlannedMotion:
-    """A motion that could be measured: its Balance on the nominal bench, the recorded run ``like`` whose noise it has,
-    and the numbers of the bench that are ``altered`` (see ``next_run``)."""
-
-    name: str
-    like: str
-    balance: Balance
-    altered: dict
-
-
 def planned_motions(bench, recorded, equation, given, where="diagnosis.next"):
-    """PlannedMotions (m,) like that of ``recorded`` {name: Recorded} which moves farthest, with one thing changed each.
+    """Planned Balances (m,), like ``recorded`` {name: Recorded} which moves farthest, with one thing changed each.
 
     ``given`` is the section ``next`` {motion, pace or what else can change: values}, nothing: WITHIN. ConfigError for
     names that neither motions nor the bench have, and units that do not fit.
@@ -45,7 +34,7 @@ def planned_motions(bench, recorded, equation, given, where="diagnosis.next"):
             told = f"{words(name, value)}, as {widest}"
             again, section, altered = _again(bench, recorded[widest], equation, name, value, f"{where}.{name}")
             again = replace(again, run=replace(again.run, name=told), repeat_of="")
-            found.append(PlannedMotion(told, widest, balance(bench, _driven(bench, again, section), section), altered))
+            found.append(Planned(told, widest, balance(bench, _driven(bench, again, section), section), altered))
     return tuple(found)
 
 

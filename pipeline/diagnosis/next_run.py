@@ -37,6 +37,17 @@ class Feasible:
     altered: dict
 
 
+@dataclass(frozen=True)
+class Planned:
+    """A record that could be made like the recorded run ``like``, whose noise it has: ``shown``, what its forward model
+    makes of a record (a Balance on the nominal bench, Features); ``altered`` as of a Feasible run."""
+
+    name: str
+    like: str
+    shown: object
+    altered: dict
+
+
 def feasible(bench, given, like, where="diagnosis.next"):
     """Feasible runs (n,) of the section ``next`` {name: values}, each like the Recorded ``like`` but for one thing.
 

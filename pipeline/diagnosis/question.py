@@ -12,12 +12,9 @@ def _nowhere(diagnosis):
     return {}
 
 
-def _nothing(diagnosis, axes):
-    return None
-
-
-def _not_asked(first, second):
-    return None
+def nothing(first, second):
+    """What a Question answers where it is not asked."""
+    return
 
 
 @dataclass(frozen=True)
@@ -39,9 +36,9 @@ class Question:
     units: dict
     rules: Rules = Rules()
     axes: Callable = _nowhere
-    describe: Callable = _nothing
-    use: Callable = _not_asked
-    squeal: Callable = _not_asked
+    describe: Callable = nothing
+    use: Callable = nothing
+    squeal: Callable = nothing
     next_runs: tuple = ()
     starts: tuple = course.Settings.starts
 

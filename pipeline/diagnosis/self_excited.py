@@ -7,7 +7,7 @@ from pipeline.diagnosis.forced import check_names, chosen, nominal_parameters
 from pipeline.diagnosis.next_features import planned_records
 from pipeline.diagnosis.next_run import altered
 from pipeline.diagnosis.poles import features, observed, predicted
-from pipeline.diagnosis.question import Question, nominal
+from pipeline.diagnosis.question import Question, nominal, nothing
 from pipeline.diagnosis.saturated_squeal import Squeals
 from pipeline.diagnosis.simulation import candidates, completed
 from pipeline.inference.decide import Rules
@@ -52,22 +52,23 @@ def question(bench, recorded, settings, band):
     seen = features(bench, recorded, band)
     check_names("held_out", settings.held_out, seen)
     told, units = observed(seen, settings.held_out)
+    squeal = nothing
     if settings.saturated_squeal:
         check_names("saturated_squeal.runs", settings.saturated_squeal.runs, recorded)
+        squeal = Squeals(bench, recorded, settings.saturated_squeal, settings.seed)
     if not units:
         raise ConfigError("diagnosis", "poles that two records show", "none", "widen bench.poles, or tap harder")
     after = planned_records(bench, {o.name: seen[o.name] for o in told if not o.held_out}, settings.next)
-    forward = Rooted(bench, seen | {p.name: p.features for p in after}, {p.name: p.altered for p in after})
+    forward = Rooted(bench, seen | {p.name: p.shown for p in after}, {p.name: p.altered for p in after})
     problem = Problem(told, forward, nominal(nominal_parameters(bench, settings)))
     brief = tuple(replace(seen[o.name].run, duration=_GLIMPSE, sample_rate=max(1 / bench.step, 2 / _GLIMPSE), inputs={},
                           drive=None) for o in problem.training)
     noises, recorded_as = budget(problem), {o.name: o for o in told}
-    blank = {p.name: replace(recorded_as[p.like], name=p.name, conditions=p.features.run.conditions) for p in after}
+    blank = {p.name: replace(recorded_as[p.like], name=p.name, conditions=p.shown.run.conditions) for p in after}
     return Question(problem, noises | {p.name: noises[p.like] for p in after},
                     candidates(bench, brief, chosen(settings), settings.places, priors=settings.priors), units, RULES,
                     starts=_STARTS, next_runs=_predictable(problem, blank.values(), must=bool(settings.next)),
-                    **({"squeal": Squeals(bench, recorded, settings.saturated_squeal, settings.seed)}
-                       if settings.saturated_squeal else {}))
+                    squeal=squeal)
 
 
 def _predictable(problem, runs, must):

@@ -28,6 +28,9 @@ _STALLED = 1.0
 _LEAST = 0.1
 #: so many times the decrease of the objective that its slope promises may a fit still come down
 HOPE = 10.0
+#: share of what a fit explains below which what its slopes still promise cannot matter (forces with kinks have no
+#: smooth optimum)
+NOTHING_MORE = 1e-3
 #: noise powers beyond which a residual is far off
 FAR = 100.0
 #: iterations, and the share of the objective that is left after them where a fit crawls
@@ -185,6 +188,11 @@ def promised(fit):
     """Decrease of the objective that the slopes of a Fit still promise."""
     gradient, hessian = _slopes(fit)
     return float(gradient @ np.linalg.solve(hessian, gradient))
+
+
+def ended(fit, explained, share=NOTHING_MORE):
+    """Whether a Fit converged, or its slopes promise less than ``share`` of what it ``explained``."""
+    return fit.converged or promised(fit) <= share * explained
 
 
 def _tolerance(state, scale, patient):

@@ -81,7 +81,7 @@ class Refits:
         anchor = linearised(self.problem, self.null.noises, self.problem.nominal, fit.latent[:size], self.null.runs)
         like = {own_name(p): fit.values[p.name] for p in fit.hypothesis.parameters[size:]}
         look = partial(directions, self.problem, anchor, like=like)
-        seen = screen(anchor, list(self.fan_out(look, self.catalogue)), None, 1)
+        seen = screen(anchor, list(self.fan_out(look, self.catalogue)), draws=0)
         rivals = [i for i in seen.order() if i != top and seen.score[i] > 0
                   and seen.score[i]**2 >= _RIVAL * seen.score[top]**2][:self.settings.kept]
         begin = partial(_begun_at, self.problem, anchor)

@@ -83,7 +83,10 @@ def directions(problem, null, candidate, like=None):
 
 
 def screen(null, found, weights=None, draws=DRAWS, seed=0):
-    """Screen of [Directions] at the Fit ``null``; ``weights`` (runs,) of the runs (see ``effective.tempering``)."""
+    """Screen of [Directions] at the Fit ``null``; ``weights`` (runs,) of the runs (see ``effective.tempering``).
+
+    Without ``draws`` of the null scores are not compared with it, and p-values say nothing.
+    """
     root = np.sqrt(np.repeat(np.ones(len(null.runs)) if weights is None else weights, null.counts))
     jacobian = root[:, None] * np.concatenate(null.jacobians)
     residual = root * np.concatenate(from_prior_mean(null))
@@ -95,8 +98,10 @@ def screen(null, found, weights=None, draws=DRAWS, seed=0):
     seen = square > _VISIBLE * np.einsum("qm,qm->q", vectors, vectors)
     size = np.sqrt(np.where(seen, square, 1.0))
     score = np.where(seen, _one_sided(cleaned @ residual / size, sign), -np.inf)
-    correlation = np.where(seen[:, None] & seen, (cleaned @ vectors.T) / np.outer(size, size), 0.0)
-    largest = largest_scores(correlation, np.where(seen, sign, 0), draws, seed)
+    largest = np.empty(0)
+    if draws:
+        correlation = np.where(seen[:, None] & seen, (cleaned @ vectors.T) / np.outer(size, size), 0.0)
+        largest = largest_scores(correlation, np.where(seen, sign, 0), draws, seed)
     return _gathered(found, owner, score, np.where(seen, size, 0.0), largest)
 
 

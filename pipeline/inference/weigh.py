@@ -7,7 +7,7 @@ from pipeline.contract.errors import BrakechainError
 from pipeline.inference.decide import Contender, Situation
 from pipeline.inference.drift import agreement
 from pipeline.inference.effective import coherent_energy, effective_share
-from pipeline.inference.least_squares import HOPE, promised, whitened
+from pipeline.inference.least_squares import HOPE, NOTHING_MORE, ended, promised, whitened
 from pipeline.inference.priors import LATENT_LIMIT
 from pipeline.inference.verify import gain, held_out_residuals
 
@@ -15,9 +15,8 @@ from pipeline.inference.verify import gain, held_out_residuals
 EXCLUDED = 5.0
 #: squared error of a recalibration that did not converge over that of a candidate, beyond which its end cannot matter
 _FAR_BELOW = 30.0
-#: share of what a fit explains below which what its slopes still promise cannot matter (forces with kinks have no
-#: smooth optimum); the same of one that reaches the noise already
-_NOTHING_MORE, _AT_NOISE = 1e-3, 1e-2
+#: NOTHING_MORE of a fit that reaches the noise already
+_AT_NOISE = 1e-2
 
 
 def held_out_gains(problem, budget, null, fits, share):
@@ -69,9 +68,8 @@ def contender(null, null_evidence, candidate, fit, own, share, p_value, held_out
 def _doubts(fit, null):
     """Why a Fit cannot be relied on beside that of the nominal model, in words."""
     explained = null.chi_square.sum() - fit.chi_square.sum()
-    share = _AT_NOISE if fit.chi_square.sum() <= fit.counts.sum() else _NOTHING_MORE
-    ended = fit.converged or promised(fit) <= share * explained
-    told = () if ended else ("its fit did not converge",)
+    share = _AT_NOISE if fit.chi_square.sum() <= fit.counts.sum() else NOTHING_MORE
+    told = () if ended(fit, explained, share) else ("its fit did not converge",)
     near = null.chi_square.sum() < _FAR_BELOW * fit.chi_square.sum()
     if not null.converged and near and HOPE * promised(null) > explained:
         told += ("the recalibration of the nominal model did not converge, so that nothing lies far below it",)

@@ -156,6 +156,11 @@ class _Hiding:
     def truth(self):
         return self.values.rig
 
+    @property
+    def trained(self):
+        """How many runs are fitted: all but the last."""
+        return len(self.recorder.runs) - 1
+
     def planted(self, name, place, shape, wanted, below):
         """The Planted of a piece of HIDDEN at the place of this index."""
         piece = HIDDEN[name]
@@ -172,17 +177,17 @@ class _Hiding:
         Others that are planted, and what of the known physics is nearest to a piece that is not, may take part.
         """
         others = tuple(p for p in planted if p is not one)
-        change = _difference(seen, shown(self.recorder, self.truth, others, self.bare))[:-1]
-        near = [self._alone(p) for p in (*others, *self._kin(one, change_of(seen[:1], self._without(1))))]
-        return self.explained.left(change, noise, self.colour, near)
+        before, without = self._with(others), self._without(self.trained)
+        near = [self._with((p,)) for p in self._kin(one, change_of(seen[:1], without[:1]))] + [before] * bool(others)
+        beside = [_difference(found, without) for found in near]
+        return self.explained.left(_difference(seen[:self.trained], before), noise, self.colour, beside)
 
     def _kin(self, one, change):
         """Known physics nearest to a piece at its spot, about as large."""
         return [sized(replace(one, piece=HIDDEN[name]), self._change, change) for name in one.piece.kin]
 
-    def _alone(self, one):
-        trained = slice(len(self.recorder.runs) - 1)
-        return _difference(shown(self.recorder, self.truth, (one,), self.bare, trained), self._without(trained.stop))
+    def _with(self, planted):
+        return shown(self.recorder, self.truth, planted, self.bare, slice(self.trained))
 
     def _without(self, runs):
         return self.recorder.seen(self.bare[:runs])
@@ -191,8 +196,8 @@ class _Hiding:
         return change_of(shown(self.recorder, self.truth, (one,), self.bare, slice(1)), self._without(1))
 
     def _left(self, one):
-        noise = noise_of(self._without(len(self.recorder.runs) - 1), self.level)
-        return self.explained.left(self._alone(one), noise, self.colour)
+        without = self._without(self.trained)
+        return self.explained.left(_difference(self._with((one,)), without), noise_of(without, self.level), self.colour)
 
     def _spot(self, piece, index, shape):
         row = self.truth.rows[index] if "link" in piece.place else np.eye(len(self.truth.mass))[index]

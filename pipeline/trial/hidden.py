@@ -109,27 +109,22 @@ def _slip_rates(spot, size):
     return lambda t, e, v, z: stiffness * v * np.where(z * v > 0, 1 - np.minimum(abs(z / limit), 1.0) ** 8, 1.0)
 
 
-def _branches(weights, times):
-    """Relaxing branches z' = g v - z / tau beside a link, with ``weights`` and ``times`` in its own units."""
+def _branches(weights, times, held=0.0):
+    """Relaxing branches z' = g v - z / tau beside a link, with ``weights`` and ``times`` in its own units.
+
+    ``held``: what the stated stiffness of the link has of theirs already, as one that is measured in motion has.
+    """
     def stiffness(spot, size):
         return size * spot.link.stiffness * np.asarray(weights(spot))
 
-    return _along(lambda s, size: lambda t, e, v, z: z.sum(), lambda s: len(times(s)),
+    return _along(lambda s, size: lambda t, e, v, z: z.sum() - size * s.link.stiffness * held * e,
+                  lambda s: len(times(s)),
                   lambda s, size: lambda t, e, v, z: stiffness(s, size) * v - z / times(s))
 
 
-#: branches of a shim, evenly spread over three decades: their times in radians, and what they hold at one radian
-_SHIM = 10 ** np.linspace(-1.5, 1.5, 9)
-_HELD = 0.12 * np.sum(_SHIM**2 / (1 + _SHIM**2))
-
-
-def _shim(spot, size):
-    """A link of one loss factor whose stiffness is stated as measured in motion."""
-    stiffness = size * spot.link.stiffness
-    rates = _branches(lambda s: np.full(len(_SHIM), 0.12), lambda s: _SHIM / s.angular)(spot, size).laws[0].rates
-    return World(spot.rig, (Law(spot.row, lambda t, e, v, z: z.sum() - stiffness * _HELD * e, len(_SHIM), rates),))
-
-
+#: branches of a shim, evenly spread over three decades: their times in radians and weight; what all hold at one radian
+_SHIM, _OF_SHIM = 10 ** np.linspace(-1.5, 1.5, 9), 0.12
+_HELD = _OF_SHIM * np.sum(_SHIM**2 / (1 + _SHIM**2))
 _DECADES = 10 ** np.linspace(-2, 2, 17)
 
 
@@ -254,7 +249,8 @@ _PIECES = (
     Hidden("backlash", "link", _along(_backlash)),
     Hidden("viscoelastic_pad", "link", _branches(
         lambda s: [1.0], lambda s: np.array([s.between(0, 0.5, 2) / s.angular]))),
-    Hidden("shim_damping", "link", _shim, exact="stiffness"),
+    Hidden("shim_damping", "link", _branches(
+        lambda s: np.full(len(_SHIM), _OF_SHIM), lambda s: _SHIM / s.angular, _HELD), exact="stiffness"),
     Hidden("thermal_softening", "link", _along(
         lambda s, size: lambda t, e, v, z: -min(size, 0.8) * s.link.stiffness * e
         * (1 - np.exp(-t / (s.time * s.between(0, 0.2, 0.8)))))),

@@ -178,8 +178,14 @@ def spectra(product, name, channel):
         return svg(figure)
 
 
-def trace(product, name, channel, count=400):
+def trace(product, name, channel):
     """SVG: an excerpt of one channel about its largest motion: measured and predicted, and below what is left."""
+    run = product.runs[name]
+    return excerpt(product, name, channel, [(key, getattr(run, key), colour, line) for key, colour, line in MODELS])
+
+
+def excerpt(product, name, channel, curves, count=400):
+    """The same of ``curves`` [(label, predicted (c, n), colour, line)]."""
     run = product.runs[name]
     middle = int(np.argmax(np.abs(run.measured[channel] - run.measured[channel].mean())))
     begin = int(np.clip(middle - count // 2, 0, max(run.measured.shape[1] - count, 0)))
@@ -189,9 +195,9 @@ def trace(product, name, channel, count=400):
     with drawing(4.2, top=0.58) as figure:
         above, below = figure.subplots(2, sharex=True, height_ratios=(3, 2))
         above.plot(time, measured, color=INK, lw=2.6, alpha=0.35, label="measured")
-        for key, colour, line in MODELS:
-            told = getattr(run, key)[channel, part] / size
-            above.plot(time, told, color=colour, ls=line, lw=1.2, label=key)
+        for label, predicted, colour, line in curves:
+            told = predicted[channel, part] / size
+            above.plot(time, told, color=colour, ls=line, lw=1.2, label=label)
             below.plot(time, measured - told, color=colour, ls=line, lw=1.0)
         above.set_ylabel(f"{product.channel[channel]} / {unit}")
         below.set(xlabel="time / s", ylabel=f"left / {unit}")

@@ -2,8 +2,9 @@
 
 import numpy as np
 
+from pipeline.views.diagnosis import excerpt
 from pipeline.views.readable import scale
-from pipeline.views.style import BLUE, FAINT, INK, ORANGE, RED, drawing, legend, svg
+from pipeline.views.style import BLUE, FAINT, ORANGE, RED, drawing, svg
 
 
 def latent_force(product, name):
@@ -24,24 +25,9 @@ def latent_force(product, name):
         return svg(figure)
 
 
-def with_latent_force(product, name, channel=0, count=400):
+def with_latent_force(product, name, channel=0):
     """SVG: an excerpt of one channel of a held-out run about its largest motion, predicted without and with the force;
     below, what either leaves."""
-    run = product.runs[name]
-    middle = int(np.argmax(np.abs(run.measured[channel] - run.measured[channel].mean())))
-    begin = int(np.clip(middle - count // 2, 0, max(run.measured.shape[1] - count, 0)))
-    part = slice(begin, begin + count)
-    unit, size = scale(np.abs(run.measured[channel, part]).max(), str(product.channel_unit[channel]))
-    time, measured = run.time[part], np.where(run.valid[channel, part] > 0, run.measured[channel, part], np.nan) / size
-    with drawing(4.2, top=0.58) as figure:
-        above, below = figure.subplots(2, sharex=True, height_ratios=(3, 2))
-        above.plot(time, measured, color=INK, lw=2.6, alpha=0.35, label="measured")
-        for label, told, colour, line in (
-                ("recalibrated", run.recalibrated, ORANGE, "--"),
-                ("with the latent force", product.latent_predicted[name].predicted, BLUE, "-")):
-            above.plot(time, told[channel, part] / size, color=colour, ls=line, lw=1.2, label=label)
-            below.plot(time, measured - told[channel, part] / size, color=colour, ls=line, lw=1.0)
-        above.set_ylabel(f"{product.channel[channel]} / {unit}")
-        below.set(xlabel="time / s", ylabel=f"left / {unit}")
-        legend(above, 2)
-        return svg(figure)
+    return excerpt(product, name, channel, (
+        ("recalibrated", product.runs[name].recalibrated, ORANGE, "--"),
+        ("with the latent force", product.latent_predicted[name].predicted, BLUE, "-")))

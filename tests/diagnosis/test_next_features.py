@@ -42,7 +42,7 @@ def test_a_section_changes_one_thing_of_each_kind_that_has_it(seen):
         "hammer at rest, press = 20 N", "growth phase, press = 20 N", "slow turn, press = 20 N",
         "growth phase, speed x 3", "slow turn, speed x 3"]
     heavy, = planned_records(bench(), {"slow_10": seen["slow_10"]}, {"press": ["20 N"]})
-    assert heavy.features.run.inputs == {"press": 20.0} and heavy.like == "slow_10" and not heavy.altered
+    assert heavy.shown.run.inputs == {"press": 20.0} and heavy.like == "slow_10" and not heavy.altered
     stiff, = planned_records(bench(), {"slow_10": seen["slow_10"]}, {"joints.arm.stiffness": [2.0]})
     assert stiff.altered == {"joints.arm.stiffness": (2.0, True)}
     with pytest.raises(ConfigError, match="diagnosis.next.colour"):

@@ -29,7 +29,7 @@ def rig():
 
 
 def planned(**given):
-    """({name of what is changed: PlannedMotion}, Bench)."""
+    """({name of what is changed: Planned}, Bench)."""
     bench, runs, equation = rig()
     return {p.name.partition(", as ")[0]: p for p in planned_motions(bench, runs, equation, given)}, bench
 
@@ -37,7 +37,7 @@ def planned(**given):
 def added(one, bench, **hidden):
     """Force (n, m) that an effect at the mount adds to what a planned motion needs."""
     whole = with_effects(bench, effects({name: {"mount": values} for name, values in hidden.items()}))
-    return one.balance.predicted(whole) - one.balance.predicted(bench)
+    return one.shown.predicted(whole) - one.shown.predicted(bench)
 
 
 @pytest.mark.exact
@@ -58,10 +58,10 @@ def test_forces_scale_with_size_and_pace_as_their_laws_say(hidden, size, pace):
 def test_the_nominal_bench_needs_what_the_inputs_give_and_another_mass_more():
     motions, bench = planned(pace=[0.5], **{"masses.block": [3.0]})
     slow, heavy = motions["pace x 0.5"], motions["masses.block x 3"]
-    np.testing.assert_allclose(slow.balance.predicted(bench), slow.balance.seen.samples, atol=1e-9)
-    motion = heavy.balance._motion(bench)[0]
-    more = heavy.balance.predicted(altered(bench, heavy.altered))[0] - heavy.balance.seen.samples[0]
-    rate = heavy.balance.run.sample_rate
+    np.testing.assert_allclose(slow.shown.predicted(bench), slow.shown.seen.samples, atol=1e-9)
+    motion = heavy.shown._motion(bench)[0]
+    more = heavy.shown.predicted(altered(bench, heavy.altered))[0] - heavy.shown.seen.samples[0]
+    rate = heavy.shown.run.sample_rate
     np.testing.assert_allclose(more[1:-1], 2.0 * (motion[2:] - 2 * motion[1:-1] + motion[:-2]) * rate**2, rtol=1e-6,
                                atol=1e-9)
 

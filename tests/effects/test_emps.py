@@ -44,7 +44,6 @@ def fitted(record, with_friction, mass=95.0):
 
 @pytest.mark.measured
 @pytest.mark.published
-@pytest.mark.skipif("BRAKECHAIN_DATA" not in os.environ, reason="needs the public recordings")
 def test_coulomb_friction_explains_the_force_of_the_held_out_record():
     """20.4 N and a held-out force error of .17 without, at most .065 with it (Janot, Gautier & Brunot 2019 data)."""
     training, held_out = recorded("DATA_EMPS"), recorded("DATA_EMPS_PULSES")

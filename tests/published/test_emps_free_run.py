@@ -5,7 +5,6 @@ speed. Least squares on positions tell dry from viscous friction less well than 
 the carriage gets twice the viscous friction and a quarter more mass, and drifts by 7 mm where dry friction leaves 3.
 """
 
-import os
 from dataclasses import replace
 
 import numpy as np
@@ -35,7 +34,6 @@ def bench(mass, damping, offset, friction):
 @pytest.mark.published
 @pytest.mark.slow
 @pytest.mark.study
-@pytest.mark.skipif("BRAKECHAIN_DATA" not in os.environ, reason="needs the public recordings")
 def test_the_completed_model_follows_25_s_within_5_mm():
     force, place = recorded("DATA_EMPS")
     run = Run("record", (len(force) - 1) / RATE, RATE, {"input_0": held(force, "step")})

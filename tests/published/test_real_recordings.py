@@ -1,7 +1,6 @@
 """Real recordings from nominal model to verdict by one command: a carriage drive and an electric circuit."""
 
 import json
-import os
 
 import pytest
 
@@ -9,9 +8,7 @@ from pipeline.contract import store
 from pipeline.products import Bench, Diagnosis
 from tests.chain.conftest import ROOT, brakechain
 
-pytestmark = [pytest.mark.measured, pytest.mark.published, pytest.mark.slow,
-              pytest.mark.study,
-              pytest.mark.skipif("BRAKECHAIN_DATA" not in os.environ, reason="needs the public recordings")]
+pytestmark = [pytest.mark.measured, pytest.mark.published, pytest.mark.slow, pytest.mark.study]
 
 
 @pytest.fixture(scope="module", params=["emps", "silverbox"])
