@@ -21,6 +21,7 @@ class Rules:
     tolerance: float = 0.05             # spread of coefficients that does not matter, relative
     from_null: float = 2.0              # distance of the coefficient from its null, standard deviations
     unexplained: float = 0.05           # share of the excess that the named effect may leave
+    second_share: float = 1e-2          # of what a first effect explains: its law may be wrong by a tenth of its force
     misfit: float = 3.0                 # standard deviations of chi^2 beyond which the nominal model does not fit
     noise_uncertainty: float = 0.05     # relative uncertainty of the noise power
     moved: float = 0.01                 # p-value below which nominal values count as wrong

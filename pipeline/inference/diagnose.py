@@ -81,7 +81,8 @@ class Diagnosis:
 def diagnose(problem, budget, catalogue, settings=None, fan_out=map):
     """Diagnosis of a Problem with {run: Noise} ``budget`` over a ``catalogue`` of Hypotheses (effects alone).
 
-    A second effect is refitted only where its score is significant beside the first.
+    A second effect is refitted only where its score is significant beside the first, and named only where it explains
+    a share of what the first explains that the law of the first cannot be wrong by.
 
     ``fan_out(function, items)`` maps as the builtin does. Where one effect is not enough, pairs with each of the
     leading ones that can be fitted are tried by the same rules, the first taken as known. Raises ConvergenceError where
@@ -93,12 +94,15 @@ def diagnose(problem, budget, catalogue, settings=None, fan_out=map):
     if single.decision.verdict not in ("unknown", "missing") or len(problem.runs) < 2:
         return single
     for first in _leading(single, settings.rules):
+        least = settings.rules.second_share * _explained(single.null, first.fit)
+        if _room(first.fit, settings.rules) < least:
+            continue
         rest = [c for c in catalogue if c.name != first.candidate.name]
         try:
             pair = _weighed(_course(problem.given(first.candidate), budget, rest, settings, fan_out, first.fit, single))
         except ConvergenceError:
             continue
-        if pair.decision.verdict in _NAMED:
+        if pair.decision.verdict in _NAMED and max(_explained(pair.null, w.fit) for w in pair.named) >= least:
             alone = _weighed(_dropping(course, first, pair))
             return alone if alone.decision.verdict in _NAMED and _evident(alone, pair) > _evident(pair, pair) else pair
     return single
@@ -138,6 +142,17 @@ def _course(problem, budget, catalogue, settings, fan_out, start=None, base=None
         refits = replace(refits, null=better)
         found = list(fan_out(partial(directions, problem, better), catalogue))
     return _Course(problem, budget, refits, found, results, base)
+
+
+def _explained(null, fit):
+    """Squared error of the null that a Fit explains."""
+    return null.chi_square.sum() - fit.chi_square.sum()
+
+
+def _room(fit, rules):
+    """Squared error that one more effect may explain: what a Fit leaves above the noise, as uncertain as that is."""
+    counts = fit.counts.sum()
+    return fit.chi_square.sum() - (1 - rules.noise_uncertainty) * counts + 2 * np.sqrt(2 * counts)
 
 
 def _evident(diagnosis, weighing):

@@ -143,12 +143,13 @@ def continued(problem, state, iterations=ITERATIONS, enough=np.inf, patient=True
     """The Fit after further iterations. Jacobians are updated by the secant (Broyden 1965) as long as that serves.
 
     A fit is given up, as it is, where its slope promises nothing that would bring its objective down to ``enough``, and
-    without ``patient`` where features stay far off.
+    without ``patient`` where features stay far off. Where its iterations do not end by themselves, central differences
+    tell how far it is from its optimum: in a narrow valley the error of forward ones looks like a slope.
     """
     found = iterated(problem, state, iterations, enough, patient)
     if found.converged or found.objective > enough:
         return found
-    found = found if found.fresh else _refreshed(problem, found)
+    found = _refreshed(problem, found, central=True)
     return replace(found, converged=promised(found) < _STALLED * _scale(found))
 
 
@@ -239,22 +240,27 @@ def _scale(state):
     return 1 / max(tempering(state.noises, state.residuals).max(), 1e-12)
 
 
-def _jacobians(problem, noises, hypothesis, latent, residuals, runs, first=0, width=DIFFERENCE):
-    """Forward differences (backward at the upper limit and where the forward model fails ahead) from ``first`` on."""
-    columns = []
+def _jacobians(problem, noises, hypothesis, latent, residuals, runs, first=0, width=DIFFERENCE, central=False):
+    """Forward differences (backward at the upper limit and where the forward model fails ahead) from ``first`` on.
+
+    ``central``: the mean of both.
+    """
+    columns, count = [], 0
     for k in range(first, len(latent)):
+        slopes = []
         for step in (width, -width):
-            if abs(latent[k] + step) > LATENT_LIMIT:
+            if abs(latent[k] + step) > LATENT_LIMIT or (slopes and not central):
                 continue
             moved, error = whitened(problem, noises, hypothesis, latent + step * (np.arange(len(latent)) == k), runs)
+            count += 1
             if moved is not None:
-                break
-        if moved is None:
+                slopes.append([(before - after) / step for before, after in zip(residuals, moved, strict=True)])
+        if not slopes:
             raise error
-        columns.append([(before - after) / step for before, after in zip(residuals, moved, strict=True)])
+        columns.append([np.mean(own, axis=0) for own in zip(*slopes, strict=True)])
     jacobians = tuple(np.array([column[i] for column in columns]).reshape(len(columns), len(residual)).T
                       for i, residual in enumerate(residuals))
-    return jacobians, len(columns)
+    return jacobians, count
 
 
 def _slopes(state):
@@ -267,9 +273,9 @@ def _slopes(state):
     return gradient, hessian
 
 
-def _refreshed(problem, state, width=DIFFERENCE):
+def _refreshed(problem, state, width=DIFFERENCE, central=False):
     jacobians, count = _jacobians(problem, state.noises, state.hypothesis, state.latent, state.residuals, state.runs,
-                                  width=width)
+                                  width=width, central=central)
     return replace(state, jacobians=jacobians, fresh=True, evaluations=state.evaluations + count)
 
 

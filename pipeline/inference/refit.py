@@ -167,8 +167,11 @@ def _enough(results):
 
 
 def _finished(problem, null, enough, state):
-    """Refitted of a candidate that has begun."""
-    best = state if state.converged else continued(problem, state, enough=enough, patient=False)
+    """Refitted of a candidate that has begun; where its forward model fails on the way, of its begin."""
+    try:
+        best = state if state.converged else continued(problem, state, enough=enough, patient=False)
+    except BrakechainError as error:
+        return Refitted(state, None, str(error))
     if not best.converged and best.objective > enough:
         return Refitted(best, None, "its fit was given up, far from what others reach")
     told = "" if best.converged else f"its fit had not converged after {best.evaluations} predictions"

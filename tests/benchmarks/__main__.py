@@ -1,11 +1,13 @@
-"""'make bench': seconds of the kernels and of every stage, each in one table. Prints; asserts nothing.
+"""'make bench': seconds of the kernels, of every stage and of the diagnoses, each in one table. Asserts nothing.
 
 Kernels: median of repeated calls in this process, one thread, after one warm-up call.
 Stages: the quick case from nothing, wall and CPU seconds as its products tell them.
+Diagnoses: the public recordings (where BRAKECHAIN_DATA names them) and one practice file, from nothing to the verdict.
 """
 
 import argparse
 import json
+import os
 import statistics
 import subprocess
 import sys
@@ -14,10 +16,14 @@ import time
 from pathlib import Path
 
 from pipeline.contract import store
+from pipeline.environment import ONE_THREAD
 from stages import NAMES
 from tests.benchmarks.kernels import KERNELS, PAIRS
+from tests.studies import self_excited
 
 ROOT = Path(__file__).parents[2]
+#: cases that diagnose public recordings
+MEASURED = ("emps", "silverbox", "tribometer")
 
 
 def main():
@@ -25,12 +31,14 @@ def main():
     parser = argparse.ArgumentParser(prog="make bench", description=__doc__)
     parser.add_argument("--runs", type=int, default=5, help="counted calls of each kernel")
     parser.add_argument("--case", type=Path, default=ROOT / "configs" / "disc_brake_quick.yaml", help="case to time")
-    parser.add_argument("--only", choices=("kernels", "stages"), help="one of the two tables")
+    parser.add_argument("--only", choices=("kernels", "stages", "diagnoses"), help="one of the tables")
     chosen = parser.parse_args()
-    if chosen.only != "stages":
+    if chosen.only in (None, "kernels"):
         print_kernels(chosen.runs)
-    if chosen.only != "kernels":
+    if chosen.only in (None, "stages"):
         print_stages(chosen.case)
+    if chosen.only in (None, "diagnoses"):
+        print_diagnoses()
 
 
 def print_kernels(runs):
@@ -72,6 +80,26 @@ def print_stages(case):
             print(f"{name:<24} {told['wall_seconds']:8.2f} {told['cpu_seconds']:8.2f} {size:8.1f}")
         packages = json.loads(told["packages"])
     print(f"{'whole command':<24} {whole:8.2f}    {', '.join(f'{k} {v}' for k, v in packages.items())}")
+
+
+def print_diagnoses():
+    """One line a diagnosis: seconds of the stage and of the whole command, its verdict."""
+    print(f"\n{'diagnosis of':<24} {'stage s':>8} {'CPU s':>8} {'whole s':>8}   verdict")
+    with tempfile.TemporaryDirectory() as folder:
+        for name in MEASURED if os.environ.get("BRAKECHAIN_DATA") else ():
+            _diagnosed(name, Path(folder) / name)
+        self_excited.practice(Path(folder) / "practice")
+        bench = Path(folder) / "practice" / "bench_0.h5"
+        _diagnosed("pin_on_disc_bench", Path(folder) / "pin", "--set", f"recording.files.0.file={bench}")
+
+
+def _diagnosed(name, folder, *more):
+    begin = time.perf_counter()
+    subprocess.run([sys.executable, "-m", "pipeline", "run", ROOT / "configs" / f"{name}.yaml", "--run", folder, *more],
+                   check=True, cwd=ROOT, stdout=subprocess.DEVNULL, env={**os.environ, **ONE_THREAD})
+    whole, told = time.perf_counter() - begin, store.provenance(folder / "diagnosis.h5")
+    verdict = json.loads((folder / "diagnosis.json").read_text())["verdict"]
+    print(f"{name:<24} {told['wall_seconds']:8.2f} {told['cpu_seconds']:8.2f} {whole:8.2f}   {verdict}", flush=True)
 
 
 if __name__ == "__main__":

@@ -10,8 +10,10 @@ import pytest
 
 from pipeline.contract.errors import ConvergenceError
 from pipeline.inference import diagnose as course
+from pipeline.inference import refit
 from pipeline.inference.decide import Rules
 from pipeline.inference.diagnose import Settings, diagnose
+from pipeline.inference.least_squares import linearised
 from pipeline.inference.noise import budget
 from pipeline.inference.priors import Normal, Parameter
 from pipeline.inference.problem import Hypothesis
@@ -71,6 +73,25 @@ def test_two_effects_are_found_one_after_the_other():
     effects = {effect for effect, _ in told.nominal.effects} | {c.name for c in told.decision.named}
     assert told.decision.verdict == "missing" and effects == {"cubic", "coulomb"}
     assert [c.name for c in told.base.decision.named] == ["cubic"], "friction is a small share of the excess"
+
+
+def test_a_second_effect_within_the_error_of_the_law_of_the_first_is_not_named():
+    problem = bench(5, 0.1, stiffness=380.0, extra=both)
+    asked = replace(Settings(), rules=replace(Rules(), second_share=0.2))
+    told = diagnose(problem, budget(problem), CATALOGUE, asked)
+    assert told.base is None and [c.name for c in told.decision.named] in ([], ["cubic"])
+
+
+def test_a_candidate_whose_forward_model_fails_on_its_way_is_told_and_not_judged(monkeypatch):
+    def failing(*_, **__):
+        raise ConvergenceError("time stepping at t = 0.4 s", "a force that settles", "none", "take a shorter step")
+
+    problem = bench(5, 0.1, stiffness=430.0, extra=coulomb)
+    noises = tuple(budget(problem)[run.name] for run in problem.training)
+    begin = linearised(problem, noises, problem.nominal, np.zeros(len(problem.nominal.parameters)), problem.training)
+    monkeypatch.setattr(refit, "continued", failing)
+    found = refit._finished(problem, begin, np.inf, begin)
+    assert found.fit is begin and found.null is None and "a force that settles" in found.told
 
 
 def test_a_solver_that_lags_is_told_from_missing_physics():

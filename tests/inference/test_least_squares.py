@@ -13,6 +13,7 @@ from pipeline.inference.least_squares import (
     from_prior_mean,
     linearised,
     orthogonal,
+    promised,
 )
 from pipeline.inference.noise import budget
 from pipeline.inference.priors import HalfNormal, LogNormal, Normal, Parameter
@@ -130,6 +131,16 @@ def test_a_fit_that_cannot_come_near_enough_is_given_up():
     assert free.converged and continued(whole, begin, enough=2 * free.objective).converged
     stopped = continued(whole, begin, enough=-10 * begin.objective)
     assert not stopped.converged and stopped.evaluations == begin.evaluations
+
+
+def test_a_fit_that_is_stopped_is_judged_by_central_differences():
+    """A residual curved so that forward differences at its optimum still promise a way down."""
+    whole, noise = curve_problem(lambda v, x: 3e4 * v["a"] ** 2 + 0 * x,
+                                 (Parameter("a", "1", 0.0, Normal(0.0, 1.0)),), lambda x: -1.0 + 0 * x, 0.1)
+    begin = linearised(whole, noise, whole.nominal, np.zeros(1), whole.training)
+    assert promised(begin) > 50, "the error of forward differences"
+    stopped = continued(whole, begin, iterations=0)
+    assert stopped.converged and promised(stopped) < 1e-2 and stopped.evaluations == begin.evaluations + 2
 
 
 def test_known_columns_are_taken_and_not_called_fresh():
