@@ -21,6 +21,8 @@ class Rules:
     tolerance: float = 0.05             # spread of coefficients that does not matter, relative
     from_null: float = 2.0              # distance of the coefficient from its null, standard deviations
     unexplained: float = 0.05           # share of the excess that the named effect may leave
+    held_out_left: float = 0.1          # the same on held-out runs, whose conditions may be new
+    growth: float = 3.0                 # power of what it leaves on held-out runs over that on the fitted ones
     second_share: float = 1e-2          # of what a first effect explains: its law may be wrong by a tenth of its force
     misfit: float = 3.0                 # standard deviations of chi^2 beyond which the nominal model does not fit
     noise_uncertainty: float = 0.05     # relative uncertainty of the noise power
@@ -34,9 +36,10 @@ class Contender:
 
     ``left_out_gain``: log predictive density of left-out operating points over the null's; ``unfitted_errors``: gain on
     left-out points and held-out runs together, in standard errors (None as those). ``held_out_share``: what its gain
-    may be of the excess error, a standard error allowed for. ``from_null``: largest
-    distance of an effect parameter from its null, in standard deviations. ``forbidden``: why its values cannot be
-    (sign, passivity), or empty; ``doubts``: why its fit cannot be relied on, in words.
+    may be of the excess error, a standard error allowed for; ``held_out_left``: what it leaves of it beyond doubt;
+    ``growth``: the power of its error there over that on the fitted runs. ``from_null``: largest distance of an effect
+    parameter from its null, in standard deviations. ``forbidden``: why its values cannot be (sign, passivity), or
+    empty; ``doubts``: why its fit cannot be relied on, in words.
     """
 
     name: str
@@ -48,6 +51,8 @@ class Contender:
     unfitted_errors: float | None
     held_out_errors: float | None
     held_out_share: float | None
+    held_out_left: float | None
+    growth: float | None
     beats_decoy: bool | None
     disagreement: float
     from_null: float
@@ -115,6 +120,10 @@ def objections(contender, situation, rules):
             told.append(f"it predicts held-out runs worse, by {-contender.held_out_errors:.1f} standard errors")
         elif contender.held_out_share < rules.gain_share:
             told.append(f"it takes {contender.held_out_share:.1%} of the excess error on held-out runs at most")
+        elif contender.held_out_left > rules.held_out_left:
+            told.append(f"it leaves {contender.held_out_left:.0%} of the excess error on held-out runs")
+        elif contender.growth > rules.growth:
+            told.append(f"its squared error on held-out runs is {contender.growth:.1f} times that on the fitted ones")
         if contender.beats_decoy is False:
             told.append("it predicts held-out runs no better than a decoy of equal size")
     return told

@@ -13,12 +13,13 @@ from pipeline.inference.noise import floor, normalised_error
 class Gain:
     """Decrease ``value`` of the squared whitened error from one model to another, and its standard error ``std``.
 
-    ``excess``: squared error of the first model beyond noise.
+    ``excess``: squared error of the first model beyond noise (negative below it), over ``count`` samples.
     """
 
     value: float
     std: float
     excess: float
+    count: int
 
     @property
     def errors(self):
@@ -34,6 +35,22 @@ class Gain:
     def share_at_most(self):
         """The share of the excess error that the gain may be, a standard error allowed for."""
         return self._share(self.value + self.std)
+
+    @property
+    def beyond(self):
+        """Squared error of the second model beyond noise."""
+        return self.excess - self.value
+
+    def left(self, uncertainty):
+        """Share of the excess error that the second model leaves beyond doubt, the power of noise known as well."""
+        return max(self.beyond - self._doubt(uncertainty), 0.0) / max(self.excess, self.value, 1e-300)
+
+    def growth(self, power, uncertainty):
+        """Mean squared error of the second model, less that doubt, over the ``power`` that it leaves where fitted."""
+        return (1 + max(self.beyond - self._doubt(uncertainty), 0.0) / max(self.count, 1)) / max(power, 1.0)
+
+    def _doubt(self, uncertainty):
+        return uncertainty * self.count + 2 * np.sqrt(2 * self.count)
 
     def _share(self, value):
         return value / max(self.excess, value) if value > 0 else 0.0
@@ -72,8 +89,9 @@ def gain(noises, first, second):
     weights = tempering(noises, second)
     change = [a @ a - b @ b for a, b in zip(first, second, strict=True)]
     variance = [4 * (a - b) @ (a - b) / w for a, b, w in zip(first, second, weights, strict=True)]
-    excess = sum(a @ a - len(a) for a in first)
-    return Gain(float(sum(change)), float(np.sqrt(sum(variance))), float(max(excess, 0.0)))
+    count = sum(len(a) for a in first)
+    excess = sum(a @ a for a in first) - count
+    return Gain(float(sum(change)), float(np.sqrt(sum(variance))), float(excess), count)
 
 
 def held_out_residuals(problem, noises, fit, runs):

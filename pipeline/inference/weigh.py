@@ -60,7 +60,9 @@ def contender(null, null_evidence, candidate, fit, own, share, p_value, held_out
     unfitted = gained and (gained.errors_with(left_out) if len(left_out) > 1 else gained.errors)
     return Contender(
         candidate.name, candidate.kind, float(share), own.log_evidence - null_evidence.log_evidence, float(p_value),
-        float(left_out.sum()), unfitted, gained and gained.errors, gained and gained.share_at_most, held_out[1],
+        float(left_out.sum()), unfitted, gained and gained.errors, gained and gained.share_at_most,
+        gained and gained.left(rules.noise_uncertainty),
+        gained and gained.growth(fit.chi_square.sum() / fit.counts.sum(), rules.noise_uncertainty), held_out[1],
         max(differing, default=0.0), max(moved, default=0.0), unexplained(null, fit, rules),
         candidate.forbidden(fit.values) if candidate.forbidden else "", _doubts(fit, null))
 

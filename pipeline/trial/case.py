@@ -20,7 +20,9 @@ SPREAD = 0.25
 GAIN_ERROR, CHANGE = 0.005, (0.25, 0.45)
 #: what of a change below the threshold is left beside other values of the rig, in standard deviations of the noise
 BELOW = (0.5, 1.5)
-#: the same of the error of a step that is too long, at least
+#: speeds, as multiples of the typical one, at which a known law with times of its own is near to an unknown one
+_SPEEDS = (1.0, 3.0, 9.0)
+#: what is left of the error of a step that is too long, in standard deviations of the noise, at least
 VISIBLE = 8.0
 #: how far off one value of a case with a wrong one is, as a factor either way
 FAR = (1.4, 1.7)
@@ -183,8 +185,11 @@ class _Hiding:
         return self.explained.left(_difference(seen[:self.trained], before), noise, self.colour, beside)
 
     def _kin(self, one, change):
-        """Known physics nearest to a piece at its spot, about as large."""
-        return [sized(replace(one, piece=HIDDEN[name]), self._change, change) for name in one.piece.kin]
+        """Known physics nearest to a piece at its spot, about as large; what has times also with faster ones."""
+        near = [(piece, speed) for piece in map(HIDDEN.get, one.piece.kin)
+                for speed in (_SPEEDS if piece.timed else (1.0,))]
+        return [sized(replace(one, piece=piece, spot=replace(one.spot, speed=speed * one.spot.speed)), self._change,
+                      change) for piece, speed in near]
 
     def _with(self, planted):
         return shown(self.recorder, self.truth, planted, self.bare, slice(self.trained))

@@ -58,7 +58,8 @@ class Spot(Drawn):
 class Hidden:
     """One piece of physics: ``build(spot, size)`` -> World, or the Chain of a channel.
 
-    ``kin``: names of known pieces at such a place that come nearest to one that is not known.
+    ``kin``: names of known pieces at such a place that come nearest to one that is not known; ``timed``: whether it has
+    times of its own, which follow the typical ones of the spot.
     """
 
     name: str
@@ -67,6 +68,7 @@ class Hidden:
     known: bool = True
     exact: str = ""
     kin: tuple = ()
+    timed: bool = False
 
 
 def _along(force, states=0, rates=None):
@@ -248,9 +250,9 @@ _PIECES = (
     Hidden("hysteretic_joint", "link", _along(_slip_force, len(_SLIDERS), _slip_rates)),
     Hidden("backlash", "link", _along(_backlash)),
     Hidden("viscoelastic_pad", "link", _branches(
-        lambda s: [1.0], lambda s: np.array([s.between(0, 0.5, 2) / s.angular]))),
+        lambda s: [1.0], lambda s: np.array([s.between(0, 0.5, 2) / s.angular])), timed=True),
     Hidden("shim_damping", "link", _branches(
-        lambda s: np.full(len(_SHIM), _OF_SHIM), lambda s: _SHIM / s.angular, _HELD), exact="stiffness"),
+        lambda s: np.full(len(_SHIM), _OF_SHIM), lambda s: _SHIM / s.angular, _HELD), exact="stiffness", timed=True),
     Hidden("thermal_softening", "link", _along(
         lambda s, size: lambda t, e, v, z: -min(size, 0.8) * s.link.stiffness * e
         * (1 - np.exp(-t / (s.time * s.between(0, 0.2, 0.8)))))),

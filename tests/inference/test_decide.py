@@ -6,7 +6,7 @@ import pytest
 
 from pipeline.inference.decide import VERDICTS, Contender, Rules, Situation, decide, objections
 
-GOOD = Contender("friction", "physics", 0.99, 40.0, 1e-4, 30.0, 15.0, 12.0, 0.8, True, 0.3, 20.0, 0.01)
+GOOD = Contender("friction", "physics", 0.99, 40.0, 1e-4, 30.0, 15.0, 12.0, 0.8, 0.02, 1.2, True, 0.3, 20.0, 0.01)
 FOUR = Situation(runs=4, points=3, misfit=25.0, coherent=True, moved_p=0.0, drift_p=0.001)
 FINE = replace(FOUR, misfit=-0.2, coherent=False, moved_p=0.4, drift_p=0.3)
 
@@ -46,6 +46,8 @@ def test_values_that_priors_exclude_are_told_where_nothing_is_named():
     ({"unfitted_errors": 2.9}, "gain on runs that were not fitted is 2.9 standard errors"),
     ({"held_out_errors": -1.1}, "predicts held-out runs worse, by 1.1 standard errors"),
     ({"held_out_share": 0.04}, "4.0% of the excess error"),
+    ({"held_out_left": 0.11}, "leaves 11% of the excess error on held-out runs"),
+    ({"growth": 3.1}, "squared error on held-out runs is 3.1 times that on the fitted ones"),
     ({"beats_decoy": False}, "no better than a decoy"),
 ])
 def test_a_single_broken_rule_forbids_the_name_and_is_told(broken, told):

@@ -48,6 +48,17 @@ def test_the_share_is_of_the_excess_error():
     assert gain(WHITE, [noise], [noise + signal]).share == 0.0
 
 
+@pytest.mark.exact
+def test_what_is_left_counts_beyond_the_doubt_about_noise():
+    signal, noise = np.full(SIZE, 3.0), np.random.default_rng(0).standard_normal(SIZE)
+    first, second = noise + signal, noise + 0.5 * signal
+    left = second @ second - 1.05 * SIZE - 2 * np.sqrt(2 * SIZE)
+    assert gain(WHITE, [first], [second]).left(0.05) == pytest.approx(left / (first @ first - SIZE))
+    assert gain(WHITE, [first], [noise]).left(0.05) == 0.0 and gain(WHITE, [first], [first]).left(0.0) > 0.9
+    assert gain(WHITE, [first], [second]).growth(2.0, 0.05) == pytest.approx((1 + left / SIZE) / 2)
+    assert gain(WHITE, [first], [noise]).growth(0.9, 0.05) == 1.0
+
+
 def test_errors_fall_from_nominal_to_completed_and_end_at_the_floor():
     problem = oscillator.bench(2, stiffness=430.0, extra=lambda t, x, v: 0.6 * np.tanh(v / 0.005))
     noise = budget(problem)
