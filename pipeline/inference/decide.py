@@ -65,14 +65,16 @@ class Contender:
 class Situation:
     """The recordings and the recalibrated nominal model, in numbers.
 
-    ``misfit``: standard deviations of its chi^2 beyond noise (noise uncertainty taken off); ``coherent``: whether its
-    residual holds frequencies that noise does not explain; ``moved_p``: of the nominal values; ``drift_p``: drift test;
+    ``misfit``: standard deviations of its chi^2 beyond noise (noise uncertainty taken off), ``held_out`` the same on
+    runs never fitted; ``coherent``: whether its residual holds frequencies that noise does not explain; ``moved_p``: of
+    the nominal values; ``drift_p``: drift test;
     ``excluded``: nominal values that the data want where their priors all but exclude them, in words.
     """
 
     runs: int
     points: int
     misfit: float
+    held_out: float
     coherent: bool
     moved_p: float
     drift_p: float
@@ -161,6 +163,9 @@ def _nothing_named(situation, contenders, rules, some_significant):
     if misfit:
         found = "a significant candidate breaks a rule" if some_significant else "no candidate is significant"
         return Decision("unknown", (), (f"the recalibrated nominal model does not reach the noise, and {found}",))
+    if situation.held_out > rules.misfit:
+        return Decision("unknown", (), ("the recalibrated nominal model reaches the noise on the fitted runs, but is"
+                                        f" {situation.held_out:.1f} standard deviations off on held-out ones",))
     if situation.drift_p <= rules.drift and not some_significant:
         return Decision("unknown", (), (f"fitted values drift over operating points (p {situation.drift_p:.2g})",))
     if situation.moved_p <= rules.moved:

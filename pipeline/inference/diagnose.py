@@ -229,7 +229,7 @@ def _weighed(course):
         null, null_evidence, found[i].candidate, fit, evidences[i], share[1 + i], final.p_value[i],
         held_out[i], weights, settings.rules)) for i, fit in fits.items()]
     weighed.sort(key=lambda w: -w.evidence.log_evidence)
-    known = situation(problem, null, weights, drifting, settings.rules)
+    known = situation(problem, course.budget, null, weights, drifting, settings.rules)
     decision = rulebook.decide(known, [w.contender for w in weighed], settings.rules)
     if not null.converged and decision.verdict in ("consistent", "parameters"):
         raise ConvergenceError(f"calibration of {problem.nominal.name}", "a fit that converges",

@@ -7,7 +7,7 @@ from pipeline.contract.errors import BrakechainError
 from pipeline.inference.decide import Contender, Situation
 from pipeline.inference.drift import agreement
 from pipeline.inference.effective import coherent_energy, effective_share
-from pipeline.inference.least_squares import HOPE, NOTHING_MORE, ended, promised, whitened
+from pipeline.inference.least_squares import HOPE, NOTHING_MORE, ended, linearised, orthogonal, promised, whitened
 from pipeline.inference.priors import LATENT_LIMIT
 from pipeline.inference.verify import gain, held_out_residuals
 
@@ -106,13 +106,33 @@ def _coherent(fit, level):
     return sum(coherent_energy(n, r, level) for n, r in zip(fit.noises, fit.residuals, strict=True))
 
 
-def situation(problem, null, weights, drifting, rules):
-    """Situation of the recalibrated nominal model ``null`` (Fit) with its Drift."""
-    counts, level = null.counts.sum(), 1 + rules.noise_uncertainty
-    effective = sum(len(r) * effective_share(n, r) for n, r in zip(null.noises, null.residuals, strict=True))
-    misfit = (null.chi_square.sum() - level * counts) / (counts * np.sqrt(2 / effective))
-    return Situation(len(problem.runs), len(drifting.points), float(misfit), _coherent(null, level) > 0,
-                     _moved_p(problem, null, weights), drifting.p_value, excluded(null, EXCLUDED))
+def situation(problem, budget, null, weights, drifting, rules):
+    """Situation of the recalibrated nominal model ``null`` (Fit) with its Drift, under {run: Noise} ``budget``."""
+    return Situation(
+        len(problem.runs), len(drifting.points), _misfit(null.noises, null.residuals, null.chi_square.sum(), rules),
+        _misfit_held_out(problem, budget, null, weights, rules), _coherent(null, 1 + rules.noise_uncertainty) > 0,
+        _moved_p(problem, null, weights), drifting.p_value, excluded(null, EXCLUDED))
+
+
+def _misfit(noises, residuals, square, rules):
+    """Standard deviations that a ``square`` of residuals lies beyond noise, whose power is as uncertain as it is."""
+    count = sum(len(r) for r in residuals)
+    effective = sum(len(r) * effective_share(n, r) for n, r in zip(noises, residuals, strict=True))
+    return float((square - (1 + rules.noise_uncertainty) * count) / (count * np.sqrt(2 / effective))) if count else 0.0
+
+
+def _misfit_held_out(problem, budget, null, weights, rules):
+    """The same on held-out runs; what the uncertainty of the values explains there does not count.
+
+    With C their covariance, e'(I + J C J')^-1 e of the residual e with Jacobian J.
+    """
+    runs = problem.held_out
+    if not runs:
+        return 0.0
+    seen = linearised(problem, tuple(budget[run.name] for run in runs), null.hypothesis, null.latent, runs)
+    jacobian, residual = np.concatenate(seen.jacobians), np.concatenate(seen.residuals)
+    left = orthogonal(residual, jacobian, np.linalg.inv(null.covariance(weights)))
+    return _misfit(seen.noises, seen.residuals, residual @ left, rules)
 
 
 def _moved_p(problem, null, weights):

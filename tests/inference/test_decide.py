@@ -7,8 +7,8 @@ import pytest
 from pipeline.inference.decide import VERDICTS, Contender, Rules, Situation, decide, objections
 
 GOOD = Contender("friction", "physics", 0.99, 40.0, 1e-4, 30.0, 15.0, 12.0, 0.8, 0.02, 1.2, True, 0.3, 20.0, 0.01)
-FOUR = Situation(runs=4, points=3, misfit=25.0, coherent=True, moved_p=0.0, drift_p=0.001)
-FINE = replace(FOUR, misfit=-0.2, coherent=False, moved_p=0.4, drift_p=0.3)
+FOUR = Situation(runs=4, points=3, misfit=25.0, held_out=12.0, coherent=True, moved_p=0.0, drift_p=0.001)
+FINE = replace(FOUR, misfit=-0.2, held_out=0.3, coherent=False, moved_p=0.4, drift_p=0.3)
 
 
 def verdict(situation, *contenders):
@@ -27,6 +27,7 @@ def test_without_candidates_the_nominal_model_decides():
     assert verdict(FINE) == "consistent"
     assert verdict(replace(FINE, moved_p=1e-6)) == "parameters"
     assert verdict(replace(FINE, misfit=3.1)) == "unknown"
+    assert verdict(replace(FINE, held_out=3.1)) == "unknown"
     assert verdict(replace(FINE, coherent=True)) == "unknown"
     assert verdict(replace(FINE, drift_p=5e-4)) == "unknown"
 

@@ -70,8 +70,8 @@ def fit_at(whole, found, latent):
 
 @pytest.mark.exact
 def test_the_given_values_are_tested_by_chi_square():
-    whole, _, _, found = fits({"nominal_0": 0.1})
-    told = situation(whole, found[0], np.ones(4), drift(found[0]), Rules())
+    whole, noise, _, found = fits({"nominal_0": 0.1})
+    told = told_of(whole, noise, found[0])
     given = sum(((r.samples / linear.STD) ** 2).sum() for r in whole.runs)
     assert told.moved_p == pytest.approx(stats.chi2.sf(given - found[0].chi_square.sum(), 2), rel=1e-3)
     assert told.runs == told.points == 4 and not told.coherent
@@ -83,8 +83,27 @@ def test_the_misfit_of_a_good_model_is_small_and_of_a_bad_one_large():
 
 
 def misfit(truth, seed):
-    whole, _, _, found = fits(truth, seed)
-    return situation(whole, found[0], np.ones(4), drift(found[0]), Rules()).misfit
+    whole, noise, _, found = fits(truth, seed)
+    return told_of(whole, noise, found[0]).misfit
+
+
+@pytest.mark.exact
+def test_held_out_runs_are_off_as_chi_square_is_what_the_values_leave_open():
+    """Values that 240 samples tell, of three runs, err in the fourth: (I + J C J') whitens that."""
+    rules = replace(Rules(), noise_uncertainty=0.0)
+    off = [told_of(whole, noise, found[0], rules).held_out for whole, noise, _, found in (
+        fits({"nominal_0": 1.0}, seed, held_out=1, sizes=(20,)) for seed in range(60))]
+    assert abs(np.mean(off)) < 3.5 / np.sqrt(60) and np.std(off) == pytest.approx(1.0, abs=0.35)
+
+
+def test_held_out_runs_that_differ_from_the_fitted_ones_are_seen():
+    whole, noise, _, found = fits({"nominal_0": 1.0}, held_out=1)
+    other = tuple(replace(r, samples=r.samples + linear.STD) if r in whole.held_out else r for r in whole.runs)
+    assert told_of(whole, noise, found[0]).held_out < 3 < told_of(replace(whole, runs=other), noise, found[0]).held_out
+
+
+def told_of(whole, noise, null, rules=None):
+    return situation(whole, noise, null, np.ones(len(null.runs)), drift(null), rules or Rules())
 
 
 def test_what_has_no_optimum_is_compared_only_by_far():
