@@ -16,6 +16,8 @@ from pipeline.inference import locate, unknown
 
 #: samples from which the covariance of the force is estimated
 LEARNED = 2000
+#: samples of a run at which its force is told, at least
+FEWEST = 64
 BINS = 7
 
 
@@ -89,7 +91,7 @@ def latent_run(bench, row, run, observed, noise):
     if found is None:
         return None
     count = run.samples
-    every = max(1, int(run.sample_rate / (4 * found.highest)))
+    every = max(1, min(int(run.sample_rate / (4 * found.highest)), int((1 - 2 * FADE) * count) // FEWEST))
     kept = slice(int(FADE * count), int((1 - FADE) * count), every)
     raw, rate = found.force[kept], run.sample_rate / every
     learned = unknown.latent_force(raw[:LEARNED], rate)

@@ -1,8 +1,8 @@
 """The course of a diagnosis: recalibrate, screen, refit, weigh, verify, decide; pairs by greedy addition.
 
-Where the nominal model is pulled to values at odds with their priors, its linearisation ranks nothing: there every
-candidate begins its fit unless one of the first few explains enough, and the best few go on. What else could move as
-the best one does is looked for at the nominal values that the best one asks for.
+Where the nominal model does not reach the noise, its linearisation may rank nothing: there every candidate begins its
+fit unless one of the first few explains enough, and the best few go on. What else could move as the best one does is
+looked for at the nominal values that the best one asks for.
 A null hypothesis that has not converged lets every candidate win: it is refitted from each candidate's optimum. A model
 that lacks physics may have no smooth optimum at all: then a candidate counts only where it goes far below the null.
 """
@@ -19,7 +19,7 @@ from pipeline.inference.drift import drift
 from pipeline.inference.effective import tempering
 from pipeline.inference.evidence import cautious_prior, evidence, posterior, reached, screened
 from pipeline.inference.least_squares import of_features
-from pipeline.inference.refit import Refits, at_odds, reaches_noise
+from pipeline.inference.refit import Refits, reaches_noise
 from pipeline.inference.screen import directions, screen
 from pipeline.inference.weigh import contender, held_out_gains, situation, unexplained
 
@@ -176,7 +176,8 @@ def _first_refits(refits, hopeful, starts):
     kept, rules = refits.settings.kept, refits.settings.rules
     results = refits.from_best(refits.of(hopeful[:kept], starts))
     fits = [r.fit for r in results.values() if r.fit]
-    if not at_odds(refits.null) or any(unexplained(refits.null, fit, rules) <= rules.unexplained for fit in fits):
+    enough = any(unexplained(refits.null, fit, rules) <= rules.unexplained for fit in fits)
+    if enough or reaches_noise(refits.null, rules) or of_features(refits.null.noises):
         return results
     return refits.from_best(refits.of(hopeful[kept:], starts, results))
 

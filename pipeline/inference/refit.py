@@ -7,6 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from pipeline.contract.errors import BrakechainError
+from pipeline.inference import tones
 from pipeline.inference.calibrate import begun
 from pipeline.inference.effective import tempering
 from pipeline.inference.least_squares import Fit, continued, far, linearised, of_features
@@ -134,12 +135,9 @@ def _begun(problem, null, offsets, item):
     """(Fit of a candidate after a few iterations or None, why there is none)."""
     candidate, screened_start = item
     begins = [screened_start] + [np.full(len(candidate.parameters), offset) for offset in offsets]
-    bases = [null.latent] * len(begins)
-    if misled := _misled(null):
-        bases = [problem.nominal.nominal] * len(begins)
-    if at_odds(null):
-        bases.append(null.latent)
-        begins.append(screened_start)
+    bases = [problem.nominal.nominal if (misled := _misled(null)) else null.latent] * len(begins)
+    begins += [screened_start] * at_odds(null) + tones.starts(problem, null, candidate)
+    bases += [null.latent] * (len(begins) - len(bases))
     starts = [np.concatenate((base, np.clip(begin, -2, 2))) for base, begin in zip(bases, begins, strict=True)]
     return _tried(problem, null, candidate, starts, () if misled else null.jacobians)
 
@@ -147,8 +145,9 @@ def _begun(problem, null, offsets, item):
 def _begun_at(problem, anchor, item):
     """The same from the nominal values of the Fit ``anchor`` alone."""
     candidate, start = item
-    return _tried(problem, anchor, candidate, [np.concatenate((anchor.latent, np.clip(start, -2, 2)))],
-                  anchor.jacobians)
+    starts = [np.concatenate((anchor.latent, np.clip(one, -2, 2)))
+              for one in (start, *tones.starts(problem, anchor, candidate))]
+    return _tried(problem, anchor, candidate, starts, anchor.jacobians)
 
 
 def _tried(problem, null, candidate, starts, known):
