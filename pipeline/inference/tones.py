@@ -15,7 +15,7 @@ from pipeline.inference.least_squares import from_prior_mean, orthogonal, whiten
 _TRIED, _BEGUN = 4, 2
 #: ordinates of a spectrum for each that its length resolves
 _FINER = 4
-#: amplitude of the two predictions, in latent standard deviations of its prior from none
+#: amplitude of the two predictions, in scales of its prior
 _SMALL = 0.02
 
 
@@ -83,4 +83,4 @@ def _latent(candidate, tone, size, frequency, phase):
     for k, value in zip(tone, (parameters[tone.amplitude].null + size * parameters[tone.amplitude].prior.scale,
                                frequency, phase), strict=True):
         latent[k] = parameters[k].prior.latent(value)
-    return np.clip(latent, -2, 2)
+    return latent
