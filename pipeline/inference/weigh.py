@@ -7,7 +7,16 @@ from pipeline.contract.errors import BrakechainError
 from pipeline.inference.decide import Contender, Situation
 from pipeline.inference.drift import agreement
 from pipeline.inference.effective import coherent_energy, effective_share
-from pipeline.inference.least_squares import HOPE, NOTHING_MORE, ended, linearised, orthogonal, promised, whitened
+from pipeline.inference.least_squares import (
+    HOPE,
+    NOTHING_MORE,
+    ended,
+    linearised,
+    of_features,
+    orthogonal,
+    promised,
+    whitened,
+)
 from pipeline.inference.priors import LATENT_LIMIT
 from pipeline.inference.verify import gain, held_out_residuals
 
@@ -62,9 +71,15 @@ def contender(null, null_evidence, candidate, fit, own, share, p_value, held_out
         candidate.name, candidate.kind, float(share), own.log_evidence - null_evidence.log_evidence, float(p_value),
         float(left_out.sum()), unfitted, gained and gained.errors, gained and gained.share_at_most,
         gained and gained.left(rules.noise_uncertainty),
-        gained and gained.growth(fit.chi_square.sum() / fit.counts.sum(), rules.noise_uncertainty), held_out[1],
+        gained and _growth(gained, fit, rules), held_out[1],
         max(differing, default=0.0), max(moved, default=0.0), unexplained(null, fit, rules),
         candidate.forbidden(fit.values) if candidate.forbidden else "", _doubts(fit, null))
+
+
+def _growth(gained, fit, rules):
+    """Power of a Fit's error on held-out runs over that on the fitted ones; of features, whose errors are shared, 1."""
+    power = fit.chi_square.sum() / fit.counts.sum()
+    return 1.0 if of_features(fit.noises) else gained.growth(power, rules.noise_uncertainty)
 
 
 def _doubts(fit, null):
@@ -124,10 +139,11 @@ def _misfit(noises, residuals, square, rules):
 def _misfit_held_out(problem, budget, null, weights, rules):
     """The same on held-out runs; what the uncertainty of the values explains there does not count.
 
-    With C their covariance, e'(I + J C J')^-1 e of the residual e with Jacobian J.
+    With C their covariance, e'(I + J C J')^-1 e of the residual e with Jacobian J. Features are not asked: the error of
+    a model is common to all those of a run.
     """
     runs = problem.held_out
-    if not runs:
+    if not runs or of_features(null.noises):
         return 0.0
     seen = linearised(problem, tuple(budget[run.name] for run in runs), null.hypothesis, null.latent, runs)
     jacobian, residual = np.concatenate(seen.jacobians), np.concatenate(seen.residuals)
