@@ -150,7 +150,7 @@ def used(bench, row, description, problem, budget, null, forward):
     said = [f"A function of {', '.join(t for t in law.coefficient if t != _CONSTANT)}, fitted to the training runs,"
             f" stands for the latent force at {description.place}, of which it explains {100 * law.share:.0f} %:"
             f" {LABEL}."]
-    said += [] if ended(found, null.chi_square.sum() - found.chi_square.sum()) else ["Its fit had not converged."]
+    said += [] if ended(found, found.explains(null)) else ["Its fit had not converged."]
     said += [f"Beyond what it was learned from: {', '.join(beyond)}."] if beyond else []
     return LatentUse(runs, whole.told(found.values), " ".join(said))
 

@@ -67,8 +67,8 @@ class Situation:
 
     ``misfit``: standard deviations of its chi^2 beyond noise (noise uncertainty taken off), ``held_out`` the same on
     runs never fitted; ``coherent``: whether its residual holds frequencies that noise does not explain; ``moved_p``: of
-    the nominal values; ``drift_p``: drift test;
-    ``excluded``: nominal values that the data want where their priors all but exclude them, in words.
+    the nominal values; ``drift_p``: drift test; ``excluded``: nominal values that the data want where their priors all
+    but exclude them, in words.
     """
 
     runs: int

@@ -16,7 +16,7 @@ from pipeline.contract.errors import ConvergenceError
 from pipeline.inference import decide as rulebook
 from pipeline.inference.calibrate import calibrate
 from pipeline.inference.drift import drift
-from pipeline.inference.effective import tempering
+from pipeline.inference.effective import doubt, tempering
 from pipeline.inference.evidence import cautious_prior, evidence, posterior, reached, screened
 from pipeline.inference.least_squares import of_features
 from pipeline.inference.refit import Refits, reaches_noise
@@ -94,7 +94,7 @@ def diagnose(problem, budget, catalogue, settings=None, fan_out=map):
     if single.decision.verdict not in ("unknown", "missing") or len(problem.runs) < 2:
         return single
     for first in _leading(single, settings.rules):
-        least = settings.rules.second_share * _explained(single.null, first.fit)
+        least = settings.rules.second_share * first.fit.explains(single.null)
         if _room(first.fit, settings.rules) < least:
             continue
         rest = [c for c in catalogue if c.name != first.candidate.name]
@@ -102,7 +102,7 @@ def diagnose(problem, budget, catalogue, settings=None, fan_out=map):
             pair = _weighed(_course(problem.given(first.candidate), budget, rest, settings, fan_out, first.fit, single))
         except ConvergenceError:
             continue
-        if pair.decision.verdict in _NAMED and max(_explained(pair.null, w.fit) for w in pair.named) >= least:
+        if pair.decision.verdict in _NAMED and max(w.fit.explains(pair.null) for w in pair.named) >= least:
             alone = _weighed(_dropping(course, first, pair))
             return alone if alone.decision.verdict in _NAMED and _evident(alone, pair) > _evident(pair, pair) else pair
     return single
@@ -144,15 +144,10 @@ def _course(problem, budget, catalogue, settings, fan_out, start=None, base=None
     return _Course(problem, budget, refits, found, results, base)
 
 
-def _explained(null, fit):
-    """Squared error of the null that a Fit explains."""
-    return null.chi_square.sum() - fit.chi_square.sum()
-
-
 def _room(fit, rules):
     """Squared error that one more effect may explain: what a Fit leaves above the noise, as uncertain as that is."""
     counts = fit.counts.sum()
-    return fit.chi_square.sum() - (1 - rules.noise_uncertainty) * counts + 2 * np.sqrt(2 * counts)
+    return fit.chi_square.sum() - counts + doubt(counts, rules.noise_uncertainty)
 
 
 def _evident(diagnosis, weighing):

@@ -32,6 +32,14 @@ def tempering(noises, whites):
                      for noise, white in zip(noises, whites, strict=True)])
 
 
+def doubt(count, uncertainty):
+    """Squared error beyond that of ``count`` samples of noise which noise may have: its scatter, and that of its power.
+
+    ``uncertainty``: relative one of the power; two standard deviations of chi^2.
+    """
+    return uncertainty * count + 2 * np.sqrt(2 * count)
+
+
 def coherent_energy(noise, white, level=1.0, chance=1e-3):
     """Energy of a whitened residual (m,) in frequencies that noise of power ``level`` does not explain.
 

@@ -77,6 +77,10 @@ class Fit:
     def objective(self):
         return float(self.chi_square.sum() + self.latent @ self.latent)
 
+    def explains(self, null):
+        """Squared error of the Fit ``null`` that this one explains."""
+        return null.chi_square.sum() - self.chi_square.sum()
+
     def covariance(self, weights=None):
         """Posterior covariance (k, k) of the latent coordinates, runs weighted (see ``effective.tempering``)."""
         return np.linalg.inv(_information(self.jacobians, _ones(self, weights)) + np.eye(len(self.latent)))

@@ -134,20 +134,23 @@ def _lowest(results, found):
 def _begun(problem, null, offsets, item):
     """(Fit of a candidate after a few iterations or None, why there is none)."""
     candidate, screened_start = item
-    begins = [screened_start] + [np.full(len(candidate.parameters), offset) for offset in offsets]
-    bases = [problem.nominal.nominal if (misled := _misled(null)) else null.latent] * len(begins)
-    begins += [screened_start] * at_odds(null) + tones.starts(problem, null, candidate)
-    bases += [null.latent] * (len(begins) - len(bases))
-    starts = [np.concatenate((base, np.clip(begin, -2, 2))) for base, begin in zip(bases, begins, strict=True)]
+    misled = _misled(null)
+    starts = _starts(problem.nominal.nominal if misled else null.latent, [
+        screened_start, *(np.full(len(candidate.parameters), offset) for offset in offsets)])
+    starts += _starts(null.latent, [screened_start] * at_odds(null) + tones.starts(problem, null, candidate))
     return _tried(problem, null, candidate, starts, () if misled else null.jacobians)
 
 
 def _begun_at(problem, anchor, item):
     """The same from the nominal values of the Fit ``anchor`` alone."""
     candidate, start = item
-    starts = [np.concatenate((anchor.latent, np.clip(one, -2, 2)))
-              for one in (start, *tones.starts(problem, anchor, candidate))]
+    starts = _starts(anchor.latent, [start, *tones.starts(problem, anchor, candidate)])
     return _tried(problem, anchor, candidate, starts, anchor.jacobians)
+
+
+def _starts(base, begins):
+    """Latent values of a candidate beside nominal ones ``base``, from those of its own effect, none of them far out."""
+    return [np.concatenate((base, np.clip(begin, -2, 2))) for begin in begins]
 
 
 def _tried(problem, null, candidate, starts, known):

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from pipeline.inference.effective import tempering
+from pipeline.inference.effective import doubt, tempering
 from pipeline.inference.least_squares import whitened
 from pipeline.inference.noise import floor, normalised_error
 
@@ -36,21 +36,17 @@ class Gain:
         """The share of the excess error that the gain may be, a standard error allowed for."""
         return self._share(self.value + self.std)
 
-    @property
-    def beyond(self):
-        """Squared error of the second model beyond noise."""
-        return self.excess - self.value
-
     def left(self, uncertainty):
         """Share of the excess error that the second model leaves beyond doubt, the power of noise known as well."""
-        return max(self.beyond - self._doubt(uncertainty), 0.0) / max(self.excess, self.value, 1e-300)
+        return self._beyond(uncertainty) / max(self.excess, self.value, 1e-300)
 
     def growth(self, power, uncertainty):
         """Mean squared error of the second model, less that doubt, over the ``power`` that it leaves where fitted."""
-        return (1 + max(self.beyond - self._doubt(uncertainty), 0.0) / max(self.count, 1)) / max(power, 1.0)
+        return (1 + self._beyond(uncertainty) / max(self.count, 1)) / max(power, 1.0)
 
-    def _doubt(self, uncertainty):
-        return uncertainty * self.count + 2 * np.sqrt(2 * self.count)
+    def _beyond(self, uncertainty):
+        """Squared error of the second model beyond noise and the doubt about it."""
+        return max(self.excess - self.value - doubt(self.count, uncertainty), 0.0)
 
     def _share(self, value):
         return value / max(self.excess, value) if value > 0 else 0.0

@@ -6,7 +6,7 @@ from scipy.stats import chi2
 from pipeline.contract.errors import BrakechainError
 from pipeline.inference.decide import Contender, Situation
 from pipeline.inference.drift import agreement
-from pipeline.inference.effective import coherent_energy, effective_share
+from pipeline.inference.effective import coherent_energy, doubt, effective_share
 from pipeline.inference.least_squares import (
     HOPE,
     NOTHING_MORE,
@@ -50,7 +50,7 @@ def _beats_decoy(index, null, fits, gains, share):
     That is: posterior below 5 %, and less than half of what this candidate explains; another name for nearly the same
     force is a rival, no decoy.
     """
-    explained = {i: null.chi_square.sum() - fit.chi_square.sum() for i, fit in fits.items()}
+    explained = {i: fit.explains(null) for i, fit in fits.items()}
     decoys = [i for i, fit in fits.items() if i != index and share[i] < 0.05
               and explained[i] < 0.5 * explained[index] and len(fit.latent) == len(fits[index].latent)]
     if not decoys:
@@ -84,7 +84,7 @@ def _growth(gained, fit, rules):
 
 def _doubts(fit, null):
     """Why a Fit cannot be relied on beside that of the nominal model, in words."""
-    explained = null.chi_square.sum() - fit.chi_square.sum()
+    explained = fit.explains(null)
     share = _AT_NOISE if fit.chi_square.sum() <= fit.counts.sum() else NOTHING_MORE
     told = () if ended(fit, explained, share) else ("its fit did not converge",)
     near = null.chi_square.sum() < _FAR_BELOW * fit.chi_square.sum()
@@ -110,10 +110,9 @@ def _immaterial(fit, index, rules):
 
 def unexplained(null, fit, rules):
     """Share of the null's excess error that a Fit leaves: by squared error or in frequencies noise does not explain."""
-    level = 1 + rules.noise_uncertainty
-    excess = max(null.chi_square.sum() - null.counts.sum(), null.chi_square.sum() - fit.chi_square.sum(), 1e-300)
-    doubt = 2 * np.sqrt(2 * fit.counts.sum())
-    by_size = max(0.0, fit.chi_square.sum() - level * fit.counts.sum() - doubt) / excess
+    level, counts = 1 + rules.noise_uncertainty, fit.counts.sum()
+    excess = max(null.chi_square.sum() - counts, fit.explains(null), 1e-300)
+    by_size = max(0.0, fit.chi_square.sum() - counts - doubt(counts, rules.noise_uncertainty)) / excess
     return float(max(by_size, _coherent(fit, level) / max(_coherent(null, level), excess)))
 
 

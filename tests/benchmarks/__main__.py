@@ -16,7 +16,6 @@ import time
 from pathlib import Path
 
 from pipeline.contract import store
-from pipeline.environment import ONE_THREAD
 from stages import NAMES
 from tests.benchmarks.kernels import KERNELS, PAIRS
 from tests.studies import self_excited
@@ -63,13 +62,15 @@ def _timed(call):
     return time.perf_counter() - begin
 
 
+def _run(case, folder, *more):
+    subprocess.run([sys.executable, "-m", "pipeline", "run", case, "--run", folder, *more], check=True, cwd=ROOT,
+                   stdout=subprocess.DEVNULL)
+
+
 def print_stages(case):
     """One line a stage of ``case``, run in an empty folder."""
     with tempfile.TemporaryDirectory() as folder:
-        begin = time.perf_counter()
-        subprocess.run([sys.executable, "-m", "pipeline", "run", case, "--run", folder], check=True, cwd=ROOT,
-                       stdout=subprocess.DEVNULL)
-        whole = time.perf_counter() - begin
+        whole = _timed(lambda: _run(case, folder))
         print(f"\n{'stage of ' + case.stem:<24} {'wall s':>8} {'CPU s':>8} {'file MB':>8}")
         for name in NAMES:
             path = Path(folder) / f"{name}.h5"
@@ -94,10 +95,8 @@ def print_diagnoses():
 
 
 def _diagnosed(name, folder, *more):
-    begin = time.perf_counter()
-    subprocess.run([sys.executable, "-m", "pipeline", "run", ROOT / "configs" / f"{name}.yaml", "--run", folder, *more],
-                   check=True, cwd=ROOT, stdout=subprocess.DEVNULL, env={**os.environ, **ONE_THREAD})
-    whole, told = time.perf_counter() - begin, store.provenance(folder / "diagnosis.h5")
+    whole = _timed(lambda: _run(ROOT / "configs" / f"{name}.yaml", folder, *more))
+    told = store.provenance(folder / "diagnosis.h5")
     verdict = json.loads((folder / "diagnosis.json").read_text())["verdict"]
     print(f"{name:<24} {told['wall_seconds']:8.2f} {told['cpu_seconds']:8.2f} {whole:8.2f}   {verdict}", flush=True)
 
