@@ -24,6 +24,7 @@ class Rules:
     held_out_left: float = 0.1          # the same on held-out runs, whose conditions may be new
     growth: float = 3.0                 # power of what it leaves on held-out runs over that on the fitted ones
     second_share: float = 1e-2          # of what a first effect explains: its law may be wrong by a tenth of its force
+    second_at_noise: float = 1e-4       # the same where both together reach the noise on all runs
     misfit: float = 3.0                 # standard deviations of chi^2 beyond which the nominal model does not fit
     noise_uncertainty: float = 0.05     # relative uncertainty of the noise power
     moved: float = 0.01                 # p-value below which nominal values count as wrong

@@ -82,7 +82,7 @@ def diagnose(problem, budget, catalogue, settings=None, fan_out=map):
     """Diagnosis of a Problem with {run: Noise} ``budget`` over a ``catalogue`` of Hypotheses (effects alone).
 
     A second effect is refitted only where its score is significant beside the first, and named only where it explains
-    a share of what the first explains that the law of the first cannot be wrong by.
+    a share of what the first explains that the law of the first cannot be wrong by; less, where both reach the noise.
 
     ``fan_out(function, items)`` maps as the builtin does. Where one effect is not enough, pairs with each of the
     leading ones that can be fitted are tried by the same rules, the first taken as known. Raises ConvergenceError where
@@ -94,15 +94,15 @@ def diagnose(problem, budget, catalogue, settings=None, fan_out=map):
     if single.decision.verdict not in ("unknown", "missing") or len(problem.runs) < 2:
         return single
     for first in _leading(single, settings.rules):
-        least = settings.rules.second_share * first.fit.explains(single.null)
-        if _room(first.fit, settings.rules) < least:
+        explained = first.fit.explains(single.null)
+        if _room(first.fit, settings.rules) < settings.rules.second_at_noise * explained:
             continue
         rest = [c for c in catalogue if c.name != first.candidate.name]
         try:
             pair = _weighed(_course(problem.given(first.candidate), budget, rest, settings, fan_out, first.fit, single))
         except ConvergenceError:
             continue
-        if pair.decision.verdict in _NAMED and max(w.fit.explains(pair.null) for w in pair.named) >= least:
+        if pair.decision.verdict in _NAMED and _material(pair, explained, settings.rules):
             alone = _weighed(_dropping(course, first, pair))
             return alone if alone.decision.verdict in _NAMED and _evident(alone, pair) > _evident(pair, pair) else pair
     return single
@@ -142,6 +142,19 @@ def _course(problem, budget, catalogue, settings, fan_out, start=None, base=None
         refits = replace(refits, null=better)
         found = list(fan_out(partial(directions, problem, better), catalogue))
     return _Course(problem, budget, refits, found, results, base)
+
+
+def _material(pair, explained, rules):
+    """Whether a ``pair`` names a second effect that is more than an error of the first, which ``explained`` so much.
+
+    A wrong law of the first is seldom made good down to the noise, on runs that were not fitted too: what does that may
+    be smaller.
+    """
+    def least(one):
+        at_noise = reaches_noise(one.fit, rules) and not one.contender.held_out_left
+        return rules.second_at_noise if at_noise else rules.second_share
+
+    return any(one.fit.explains(pair.null) >= least(one) * explained for one in pair.named)
 
 
 def _room(fit, rules):

@@ -77,9 +77,17 @@ def test_two_effects_are_found_one_after_the_other():
 
 def test_a_second_effect_within_the_error_of_the_law_of_the_first_is_not_named():
     problem = bench(5, 0.1, stiffness=380.0, extra=both)
-    asked = replace(Settings(), rules=replace(Rules(), second_share=0.2))
+    asked = replace(Settings(), rules=replace(Rules(), second_share=0.2, second_at_noise=0.2))
     told = diagnose(problem, budget(problem), CATALOGUE, asked)
     assert told.base is None and [c.name for c in told.decision.named] in ([], ["cubic"])
+
+
+def test_a_smaller_second_effect_is_named_where_both_reach_the_noise():
+    problem = bench(5, 0.1, stiffness=380.0, extra=both)
+    asked = replace(Settings(), rules=replace(Rules(), second_share=0.2))
+    told = diagnose(problem, budget(problem), CATALOGUE, asked)
+    assert told.base is not None and told.decision.verdict == "missing"
+    assert not told.named[0].contender.held_out_left
 
 
 def test_a_candidate_whose_forward_model_fails_on_its_way_is_told_and_not_judged(monkeypatch):
