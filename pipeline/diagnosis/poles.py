@@ -83,7 +83,7 @@ def _told(bench, one, settings):
         values |= {frequency: root.imag / (2 * np.pi), growth: root.real}
         floor = settings.resolution * root.imag
         std |= {frequency: np.hypot(spread, floor) / (2 * np.pi), growth: np.hypot(spread, floor)}
-    for (first, second), (gain, delay) in _pairs(bench).items():
+    for (first, second), (gain, delay) in _pairs(bench).items() if len(one.seen.root) else ():
         heard = one.seen.of(_heard(one.seen.shape[:, [first, second]]))
         ratio = heard.shape[:, second] / heard.shape[:, first]
         trusted = 1 / (heard.std / abs(heard.root) + 1e-3) ** 2
@@ -121,10 +121,17 @@ def _turned(bench, one):
 
 
 def observed(found, held_out=()):
-    """(Observed, ...) of {run: Features} with one list of channels, {channel: SI unit}; what a run lacks is masked."""
-    names = sorted({name for one in found.values() for name in one.values}, key=_order)
+    """(Observed, ...) of {run: Features} with one list of channels, {channel: SI unit}; what a run lacks is masked.
+
+    Runs that show nothing are left out. Raises ConfigError where all do.
+    """
+    shown = {run: one for run, one in found.items() if one.values}
+    if not shown:
+        raise ConfigError("bench.poles", "runs that show a pole in two records each", f"none of {', '.join(found)}",
+                          "widen low and high, or record longer")
+    names = sorted({name for one in shown.values() for name in one.values}, key=_order)
     told = []
-    for run, one in found.items():
+    for run, one in shown.items():
         valid = np.array([[name in one.values] for name in names])
         samples = np.array([[one.values.get(name, 0.0)] for name in names])
         std = np.array([one.std.get(name, 1.0) for name in names])
@@ -154,12 +161,16 @@ def predicted(bench, one, channels):
 
 
 def assigned(seen, root, shape):
-    """Index (p,) of the root (r,) that explains each of the Poles ``seen``, by distance and shape."""
-    if len(root) < len(seen.root):
-        raise ConfigError("poles", f"at most {len(root)} peaks, the modes of the model", f"{len(seen.root)}",
-                          "narrow bench.poles to the band of the model")
+    """Index (p,) of the root (r,) that explains each of the Poles ``seen``, by distance and shape.
+
+    Each root explains one; a peak that none is left for, as where the model lacks a mode, falls to the likeliest.
+    """
     apart = abs(np.subtract.outer(seen.root, root)) / (_NEAR * abs(seen.root))[:, None]
-    return linear_sum_assignment(apart / np.sqrt(1 + (apart / _FAR) ** 2) + 1 - likeness(seen.shape, shape))[1]
+    cost = apart / np.sqrt(1 + (apart / _FAR) ** 2) + 1 - likeness(seen.shape, shape)
+    found = cost.argmin(axis=1)
+    peaks, roots = linear_sum_assignment(cost)
+    found[peaks] = roots
+    return found
 
 
 def nearer(seen, root):

@@ -59,8 +59,29 @@ def test_every_peak_is_explained_by_a_root_of_its_own(told):
     whole, found, _, _ = told
     root, shape = modes(whole, run("slow_10"))
     assert list(assigned(found["slow_10"].seen, root, shape)) == [0, 1]
-    with pytest.raises(ConfigError, match="at most 1 peaks"):
-        assigned(found["slow_10"].seen, root[:1], shape[:1])
+
+
+def test_a_peak_beyond_the_modes_of_the_model_falls_to_the_likeliest_and_is_missed_by_far(told):
+    whole, found, _, _ = told
+    root, shape = modes(whole, run("slow_10"))
+    extra = Poles(*(np.insert(own, 1, added, axis=0) for own, added in zip(
+        (found["slow_10"].seen.root, found["slow_10"].seen.std, found["slow_10"].seen.shape),
+        (1.05 * root[0], found["slow_10"].seen.std[0], shape[0]), strict=True)))
+    assert list(assigned(extra, root, shape)) == [0, 0, 1]
+    assert abs(nearer(extra.root, root[[0, 0, 1]]) - extra.root)[1] > 0.04 * abs(root[0])
+
+
+def test_a_record_without_a_sure_pole_says_nothing(monkeypatch):
+    whole = bench()
+    given = {name: one for name, one in recorded(whole).items() if "rest" in (name, one.repeat_of)}
+    nothing = Poles(np.zeros(0, complex), np.zeros(0), np.zeros((0, 2), complex))
+    monkeypatch.setattr("pipeline.diagnosis.poles.confirmed", lambda *_: nothing)
+    found = features(whole, given, BAND)
+    assert found["rest"].values == {} and predicted(whole, found["rest"], ("pole 1 frequency",)) == 0.0
+    with pytest.raises(ConfigError, match="none of rest"):
+        observed(found)
+    turned = features(whole, {"turned": recorded(whole)["turned"]}, BAND)
+    assert [one.name for one in observed({**found, **turned})[0]] == ["turned"]
 
 
 def test_a_peak_that_is_no_mode_does_not_move_the_others_by_one():
