@@ -25,6 +25,8 @@ DIAGNOSIS = ("-m", "pipeline", "run", "nominal.yaml", "--run", "products", "--un
 #: how a process ends that somebody else ended
 _ENDED = (signal.SIGKILL, signal.SIGTERM, signal.SIGINT, signal.SIGHUP)
 _LONGEST = 500
+#: bytes of address space that a process may take, where the system keeps to it: what asks for more is refused
+MEMORY = 8 << 30
 _ROOT = Path(__file__).parents[2]
 
 
@@ -69,8 +71,9 @@ def refused(reason):
 
 def _run(arguments, folder, variables, limit):
     """None where the process ends well, else why not."""
-    with subprocess.Popen(arguments, cwd=folder, env=variables, start_new_session=True, stdin=subprocess.DEVNULL,
-                          stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True) as process:
+    with subprocess.Popen(arguments, cwd=folder, env=variables, start_new_session=True, preexec_fn=_bounded,
+                          stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE,
+                          text=True) as process:
         try:
             _, told = process.communicate(timeout=limit)
         except subprocess.TimeoutExpired:
@@ -83,6 +86,12 @@ def _run(arguments, folder, variables, limit):
                               "run the same command to go on")
     lines = [line for line in told.splitlines() if line.strip()] or ["it said nothing"]
     return lines[-1][:_LONGEST] if process.returncode else None
+
+
+def _bounded():
+    """Hold this process to MEMORY: one that grows without end would take others with it."""
+    with contextlib.suppress(ValueError, OSError):
+        resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
 
 
 def _read(path):

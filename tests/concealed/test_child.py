@@ -67,6 +67,13 @@ def test_a_case_that_is_not_answered_is_refused_with_the_reason(tmp_path, monkey
     assert (answer["verdict"], answer["effects"], answer["reasons"]) == ("refused", [], [reason])
 
 
+@pytest.mark.skipif(sys.platform != "linux", reason="other systems do not keep to a bound of the address space")
+def test_a_process_that_grows_without_end_is_refused(tmp_path, monkeypatch):
+    running(monkeypatch, f"print(len(bytes({2 * child.MEMORY})))")
+    answer = child.answered(small_set(tmp_path / "a") / "cases" / "001", "diagnosis", 60)
+    assert answer["verdict"] == "refused" and answer["reasons"] == ["MemoryError"]
+
+
 def test_a_process_that_was_ended_from_outside_is_no_answer(tmp_path, monkeypatch):
     running(monkeypatch, f"import os; os.kill(os.getpid(), {int(signal.SIGTERM)})")
     with pytest.raises(BrakechainError, match="to run until its end, found signal 15"):
