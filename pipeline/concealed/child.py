@@ -71,9 +71,9 @@ def refused(reason):
 
 def _run(arguments, folder, variables, limit):
     """None where the process ends well, else why not."""
-    with subprocess.Popen(arguments, cwd=folder, env=variables, start_new_session=True, preexec_fn=_bounded,
-                          stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE,
-                          text=True) as process:
+    with subprocess.Popen(arguments, cwd=folder, env=variables, start_new_session=True, stdin=subprocess.DEVNULL,
+                          stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True) as process:
+        _bound(process)
         try:
             _, told = process.communicate(timeout=limit)
         except subprocess.TimeoutExpired:
@@ -88,10 +88,11 @@ def _run(arguments, folder, variables, limit):
     return lines[-1][:_LONGEST] if process.returncode else None
 
 
-def _bounded():
-    """Hold this process to MEMORY: one that grows without end would take others with it."""
-    with contextlib.suppress(ValueError, OSError):
-        resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
+def _bound(process):
+    """Hold a process to MEMORY, where the system can: one that grows without end would take others with it."""
+    if hasattr(resource, "prlimit"):
+        with contextlib.suppress(ProcessLookupError):
+            resource.prlimit(process.pid, resource.RLIMIT_AS, (MEMORY, MEMORY))
 
 
 def _read(path):

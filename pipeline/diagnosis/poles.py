@@ -76,14 +76,16 @@ def _poles(bench, one, settings):
 
 
 def _told(bench, one, settings):
-    """The Features with their values: every pole, and the ratio of every two sensors of one point."""
+    """The Features with their values: every pole, and the ratio of every two sensors of one point; none, if no pole."""
+    if not len(one.seen.root):
+        return one
     values, std = {}, {}
     for k, (root, spread) in enumerate(zip(one.seen.root, one.seen.std, strict=True), 1):
         frequency, growth = _named(k)
         values |= {frequency: root.imag / (2 * np.pi), growth: root.real}
         floor = settings.resolution * root.imag
         std |= {frequency: np.hypot(spread, floor) / (2 * np.pi), growth: np.hypot(spread, floor)}
-    for (first, second), (gain, delay) in _pairs(bench).items() if len(one.seen.root) else ():
+    for (first, second), (gain, delay) in _pairs(bench).items():
         heard = one.seen.of(_heard(one.seen.shape[:, [first, second]]))
         ratio = heard.shape[:, second] / heard.shape[:, first]
         trusted = 1 / (heard.std / abs(heard.root) + 1e-3) ** 2

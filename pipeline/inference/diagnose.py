@@ -19,9 +19,9 @@ from pipeline.inference.drift import drift
 from pipeline.inference.effective import doubt, tempering
 from pipeline.inference.evidence import cautious_prior, evidence, posterior, reached, screened
 from pipeline.inference.least_squares import of_features
-from pipeline.inference.refit import Refits, reaches_noise
+from pipeline.inference.refit import Refits
 from pipeline.inference.screen import directions, screen
-from pipeline.inference.weigh import contender, held_out_gains, situation, unexplained
+from pipeline.inference.weigh import contender, held_out_gains, reaches_noise, situation, unexplained
 
 #: where the linearisation of the null holds, scores that chance reaches more often than this are not looked into
 _LIKELY = 0.1

@@ -102,11 +102,6 @@ class Refits:
         return ended
 
 
-def reaches_noise(fit, rules):
-    """Whether a Fit leaves no more than noise whose power is known as well as the rules say."""
-    return fit.chi_square.sum() <= (1 + rules.noise_uncertainty) * fit.counts.sum()
-
-
 def at_odds(null):
     """Whether samples pull the null to values at odds with their priors: then its linearisation ranks nothing."""
     return bool(excluded(null, EXCLUDED)) and not of_features(null.noises)

@@ -116,6 +116,11 @@ def unexplained(null, fit, rules):
     return float(max(by_size, _coherent(fit, level) / max(_coherent(null, level), excess)))
 
 
+def reaches_noise(fit, rules):
+    """Whether a Fit leaves no more than noise whose power is known as well as the rules say."""
+    return fit.chi_square.sum() <= (1 + rules.noise_uncertainty) * fit.counts.sum()
+
+
 def _coherent(fit, level):
     return sum(coherent_energy(n, r, level) for n, r in zip(fit.noises, fit.residuals, strict=True))
 

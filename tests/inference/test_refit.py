@@ -8,7 +8,8 @@ from pipeline.inference.calibrate import calibrate
 from pipeline.inference.decide import Rules
 from pipeline.inference.diagnose import Settings, diagnose
 from pipeline.inference.noise import budget
-from pipeline.inference.refit import Refits, at_odds, reaches_noise
+from pipeline.inference.refit import Refits, at_odds
+from pipeline.inference.weigh import reaches_noise
 from tests.inference.oscillator import CATALOGUE, bench
 
 CUBIC = [c.name for c in CATALOGUE].index("cubic")
