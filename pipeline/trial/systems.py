@@ -120,7 +120,7 @@ def _on_belts():
 
 SYSTEMS = {system.name: system for system in (
     System("forced_rig", _forced, _classes(HIDDEN.values()), sizes=(0.03, 0.1, 0.3), noises=(0.01, 0.03, 0.1)),
-    System("belt_rig", _belt, _on_belts(), sizes=(0.03, 0.1, 0.2), noises=(0.03, 0.1), weight=0.06),
+    System("belt_rig", _belt, _on_belts(), sizes=(0.03, 0.1, 0.2), noises=(0.03, 0.1), weight=0.03),
     System("pin_on_disc", benches.pin_on_disc, benches.hides(pin_bench.HIDDEN, pin_bench.DECOYS), (0.0,), (0.0,),
            "self_excited", weight=0.5),
     System("worn_pads", benches.worn_pads, benches.hides(benches.worn_names()), (0.0,), (0.0,), "micro", weight=0.03),
