@@ -4,7 +4,8 @@ PYTHON ?= python3
 ARGS   ?=
 TESTS  ?= tests
 PRACTICE ?= data/runs/trial_practice
-SEALED ?= data/trial/sealed_1
+SEALED ?= data/trial/sealed_2
+AGAIN ?= data/runs/trial_again
 STAGES := surface effects micro_friction friction_map structure reduced_model complex_modes multibody response squeal comparison report interface_law friction_descriptions pin_on_disc transient lock_in lumped rupture beam_on_beam motion_scatter beam_geometry recording bench diagnosis
 
 CONFIG := configs/$(CASE).yaml
@@ -12,7 +13,7 @@ READY  := .venv/.ready
 BIN    := .venv/bin
 
 .DEFAULT_GOAL := help
-.PHONY: help setup run test test-slow test-study bench trial trial_sealed study_diagnosis study_squeal pin_bench worn_bench lint clean $(STAGES)
+.PHONY: help setup run test test-slow test-study bench trial trial_sealed trial_again study_diagnosis study_squeal pin_bench worn_bench lint clean $(STAGES)
 
 help:            ## show this list
 	@echo "usage: make TARGET [CASE=disc_brake] [ARGS=...]      cases: $(basename $(notdir $(wildcard configs/*.yaml)))"
@@ -51,12 +52,18 @@ trial: $(READY)  ## the open practice trial: made, solved and scored in at most 
 	$(BIN)/brakechain trial show $(PRACTICE)
 
 trial_sealed: $(READY)  ## the sealed trial SEALED: made and sealed; once its commitment is committed, solved and scored
-	@test -e $(SEALED)/set.yaml || $(BIN)/brakechain trial make $(SEALED) --cases 320 --sealed
+	@test -e $(SEALED)/set.yaml || $(BIN)/brakechain trial make $(SEALED) --cases 310 --sealed
 	@git ls-files --error-unmatch $(SEALED)/set.yaml >/dev/null 2>&1 || { \
 		echo "commit $(SEALED)/{set.yaml,code.json,truth.sealed} before anything is solved; then run this again"; exit 2; }
 	@test -e $(SEALED)/result.json || { $(BIN)/brakechain trial solve $(SEALED) $(ARGS) && $(BIN)/brakechain trial score $(SEALED); }
 	$(BIN)/brakechain trial show $(SEALED)
 	$(BIN)/brakechain trial verify $(SEALED)
+
+trial_again: $(READY)  ## the published trial SEALED made anew as an open one, solved and scored by the present code; resumes
+	@test -e $(AGAIN)/set.yaml || $(BIN)/brakechain trial remake $(SEALED) $(AGAIN)
+	$(BIN)/brakechain trial solve $(AGAIN) $(ARGS)
+	$(BIN)/brakechain trial score $(AGAIN)
+	$(BIN)/brakechain trial show $(AGAIN)
 
 study_diagnosis: $(READY)  ## hidden physics on forced rigs: rates of right answers; resumes case by case
 	$(BIN)/python -m tests.studies.forced $(ARGS)
