@@ -1,4 +1,4 @@
-"""The commands of a concealed trial: make, seal, solve, score, verify, show."""
+"""The commands of a concealed trial: make, seal, solve, score, verify, show, remake."""
 
 import os
 from pathlib import Path
@@ -122,6 +122,30 @@ def show(folder, markdown):
         return
     write_companion(folder / "trial.html", page(found))
     click.echo(f"page: {folder / 'trial.html'}")
+
+
+@trial.command()
+@_SET
+@click.argument("into", metavar="[NEW]", required=False, type=click.Path(path_type=Path))
+@_KEY
+@options("workers", "scheduler", "debug")
+def remake(folder, into, key_file, workers, scheduler):
+    """Make the cases of SET again: in its own folder where they were lost, or as the open set NEW, to be solved anew.
+
+    NEW is made of a published set. Only sets that 'trial make' made can be made again. Goes on where it was stopped.
+    """
+    from pipeline.concealed import remaking, sealing
+
+    if into and key_file:
+        raise click.UsageError("NEW shows its truth: it is made of a published set, which needs no --key")
+    with _working(workers, scheduler) as work:
+        if into:
+            same = remaking.repeat(folder, into, work, _telling("made"))
+            click.echo("the files are those of the set" if same else
+                       "the files differ from those of the set: made with other packages or on another processor")
+        else:
+            remaking.restore(folder, work, sealing.key_path(folder, key_file), _telling("made"))
+    click.echo(f"next: brakechain trial solve {into or folder}")
 
 
 def _working(workers, scheduler):
