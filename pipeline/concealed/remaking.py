@@ -16,7 +16,7 @@ from pipeline.trial.systems import SYSTEMS, Draw
 def restore(folder, work, key_file=None, tell=lambda done, total: None):
     """Make the cases of a set again in its own folder, from the truth that lies there or the one that its key opens.
 
-    Refused where they are not, byte for byte, those that the set was committed with. work, tell : as of ``making.make``.
+    Refused where they are not, byte for byte, those that the set was committed with. work, tell : see ``making.make``.
     """
     found = TrialSet(folder)
     with locked(folder):
