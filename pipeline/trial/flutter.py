@@ -12,9 +12,11 @@ import numpy as np
 from pipeline.trial import pin_bench
 from pipeline.trial.pin_bench import Bench, with_structure
 
-#: what can be hidden, as in ``pin_bench``: no doublets, and friction that falls more, because a block is heavier
+#: what can be hidden, as in ``pin_bench``: no doublets; friction that falls more, because a block is heavier; and less
+#: runout, because its guide carries two thirds of the load
 HIDDEN = {name: ends for name, ends in pin_bench.HIDDEN.items() if name != "doublet_split"} | {
-    "falling_friction": {"rise": (0.15, 0.4), "decay_speed": (0.05, 0.12)}}
+    "falling_friction": {"rise": (0.15, 0.4), "decay_speed": (0.05, 0.12)},
+    "runout": {"amplitude": (5e-7, 1.2e-6), "phase": (-3.0, 3.0)}}
 DECOYS = pin_bench.DECOYS
 #: masses kg, stiffnesses N/m, dampings N s/m, friction, as drawn
 NOMINAL = {"tail": 0.06, "block": 0.1, "tie": 2e6, "along": 9.3e6, "onto": 7e6, "inclined": 1.5e6, "guide": 3.0,

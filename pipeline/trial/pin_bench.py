@@ -254,7 +254,10 @@ def hidden_values(bench, name):
 
 
 def _steady(bench, load, speed, hidden, gap=0.0):
-    """Coordinates (n,) of steady sliding, by fixed-point iteration of the contact force on the stiffness with it."""
+    """Coordinates (n,) of steady sliding, by fixed-point iteration of the contact force on the stiffness with it.
+
+    A contact that would have to pull is open.
+    """
     stiffness = np.diag(bench.mass * bench.squared) + bench.coupling
     if load == 0:
         return np.zeros(len(bench.mass))
@@ -268,7 +271,7 @@ def _steady(bench, load, speed, hidden, gap=0.0):
                                 - secant * gap * drive)
         new = max(-secant * (bench.normal @ place + gap), 1e-9)
         if abs(new - force) < 1e-12 * load:
-            return place
+            return place if new > 1e-9 else np.linalg.solve(stiffness, bench.press * load)
         force = 0.5 * (force + new)
     raise ArithmeticError("steady sliding of the practice bench was not found")
 

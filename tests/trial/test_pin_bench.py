@@ -48,6 +48,16 @@ def test_an_undisturbed_bench_stays_where_it_slides(hidden):
     assert abs(velocity).max() < (1e-4 if hidden == "runout" else 1e-8)
 
 
+@pytest.mark.exact
+@pytest.mark.parametrize(("gap", "open_"), [(0.9, False), (1.1, True)])
+def test_a_turned_contact_does_not_pull(gap, open_):
+    """The arm carries all of the load where the surface falls back by more than the arm alone would give way."""
+    bench, _ = pin_bench.make(5)
+    hidden = {name: pin_bench.hidden_values(bench, name) for name in pin_bench.HIDDEN}
+    place = pin_bench._steady(bench, 15.0, 0.5, hidden, gap * 15.0 / bench.arm[-1])
+    assert np.isclose(abs(bench.arm @ place), 15.0, rtol=1e-9) == open_
+
+
 def test_values_are_off_and_effects_hidden():
     _, truth = pin_bench.make(7, ("runout",), ("sensor_gain",))
     off = np.log(list(truth["factors"].values()))
