@@ -38,9 +38,11 @@ def number(value, digits=4):
 
 
 def scale(largest, unit):
-    """(name, size in SI) of the convenient unit for magnitudes up to ``largest`` SI units."""
+    """(name, size in SI) of the convenient unit for magnitudes up to ``largest`` SI units; SI's own for 0."""
     scales = SCALES.get(unit, ((unit.replace("^2", "²").replace("^3", "³").replace("^4", "⁴"), 1.0),))
-    return next((s for s in scales if abs(largest) >= 0.9995 * s[1]), scales[-1] if largest else scales[0])
+    if not largest:
+        return next((s for s in scales if s[1] == 1.0), scales[0])
+    return next((s for s in scales if abs(largest) >= 0.9995 * s[1]), scales[-1])
 
 
 def quantity(value, unit, digits=4):

@@ -18,7 +18,8 @@ def test_a_number_keeps_its_digits(value, text):
 @pytest.mark.parametrize(("value", "unit", "text"), [
     (13.5e6, "Pa", "13.5\u202fMPa"), (0.1567, "m", "156.7\u202fmm"), (7e-7, "m", "700\u202fnm"),
     (3.3e-12, "1/Pa", "3.3\u202f×\u202f10⁻⁶\u202fmm²/N"), (16600, "Hz", "16.6\u202fkHz"), (0.25, "1", "0.25"),
-    ((1e6, 2e6, 3e6), "Pa", "1, 2, 3\u202fMPa"), (0.0, "m", "0\u202fm"), (7200.0, "kg/m^3", "7200\u202fkg/m³")])
+    ((1e6, 2e6, 3e6), "Pa", "1, 2, 3\u202fMPa"), (0.0, "m", "0\u202fm"), (0.0, "N", "0\u202fN"),
+    (7200.0, "kg/m^3", "7200\u202fkg/m³")])
 def test_a_quantity_takes_a_convenient_unit(value, unit, text):
     assert quantity(value, unit) == text
 

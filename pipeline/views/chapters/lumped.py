@@ -55,9 +55,9 @@ def _contacts(lumped):
 
 
 def _inputs(lumped):
-    largest = abs(lumped.input_history).max(axis=0, initial=0.0)
+    largest = [quantity(abs(own).max(), "N") if own.size else "\u2014" for own in lumped.input_history.T]
     rows = tuple((str(name), _combination(lumped, lumped.input_rows[i]), quantity(lumped.input_area[i], "N"),
-                  quantity(largest[i], "N")) for i, name in enumerate(lumped.input_name))
+                  largest[i]) for i, name in enumerate(lumped.input_name))
     head = ("name", "acts along", "constant", "largest over time")
     return Table(head, rows, "Inputs", (2, 3)) if rows else None
 
