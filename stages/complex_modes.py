@@ -172,7 +172,7 @@ def _friction_law(friction_map, model, settings):
         return Friction(law), partial(from_map, law, 0.0)
     decay_speed, last = settings.decay_speed, settings.friction
     at_rest = last if settings.friction_at_rest is None else settings.friction_at_rest
-    law = constant(last) if at_rest == last else falling(at_rest, last, decay_speed)
+    law = falling(at_rest, last, decay_speed)
     return law, partial(falling_with_speed, last, at_rest, decay_speed)
 
 

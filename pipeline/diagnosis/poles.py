@@ -35,12 +35,16 @@ _POWER = {"displacement": 1, "velocity": 0, "acceleration": -1}
 
 @dataclass(frozen=True)
 class Features:
-    """What one operating point showed: Poles ``seen``, or none; ``values``, ``std`` {feature: SI value}."""
+    """What one operating point showed: Poles ``seen``, or none; ``values``, ``std`` {feature: SI value}.
+
+    ``resolved``: rad/s that poles have to be apart to be told apart, 2 pi / length of the shortest record.
+    """
 
     run: object
     seen: Poles | None
     values: dict
     std: dict
+    resolved: float = 0.0
 
 
 def features(bench, recorded, settings):
@@ -59,20 +63,22 @@ def features(bench, recorded, settings):
         if not again:
             raise ConfigError(f"run {name}", "a repeat: poles count where two records show them", "none",
                               "record it twice and set repeat_of")
-        seen = confirmed(_poles(bench, one, settings), _poles(bench, again[0], settings))
-        found[name] = _told(bench, Features(one.run, fundamental(seen), {}, {}), settings)
+        (first, apart), (second, other) = (_poles(bench, record, settings) for record in (one, again[0]))
+        seen = fundamental(confirmed(first, second))
+        found[name] = _told(bench, Features(one.run, seen, {}, {}, max(apart, other)), settings)
     return found
 
 
 def _poles(bench, one, settings):
-    """Poles of a run as its motion channels show them, shapes as velocities."""
+    """(Poles of a run as its motion channels show them, shapes as velocities; rad/s that it tells apart)."""
     seen = [c for c in motions(bench) if c.name in one.channels]
     samples = one.samples[[one.channels.index(c.name) for c in seen]]
     count = before_saturation(samples, one.run.sample_rate, settings.saturation)
     told = poles(samples, one.run.sample_rate, settings.low, settings.high, count)
     power = np.array([_POWER[c.quantity] for c in seen])
-    merged = _UNRESOLVED * 2 * np.pi * one.run.sample_rate / min(count, samples.shape[1])
-    return replace(told, shape=told.shape * told.root[:, None] ** power, std=np.hypot(told.std, merged))
+    apart = 2 * np.pi * one.run.sample_rate / min(count, samples.shape[1])
+    std = np.hypot(told.std, _UNRESOLVED * apart)
+    return replace(told, shape=told.shape * told.root[:, None] ** power, std=std), apart
 
 
 def _told(bench, one, settings):
@@ -95,7 +101,7 @@ def _told(bench, one, settings):
             kept = abs(each - middle) <= 3 * np.median(abs(each - middle)) + floor
             values[name] = float(np.average(each[kept], weights=trusted[kept]))
             std[name] = float(np.hypot(np.std(each[kept]) / np.sqrt(kept.sum()), floor))
-    return Features(one.run, one.seen, values, std)
+    return replace(one, values=values, std=std)
 
 
 def _heard(shape):
@@ -148,7 +154,8 @@ def predicted(bench, one, channels):
     values = {}
     if one.seen is not None:
         root, shape = modes(bench, one.run)
-        for k, near in enumerate(nearer(one.seen.root, root[assigned(one.seen, root, shape)]), 1):
+        own = merged(one.seen.root, root, assigned(one.seen, root, shape), one.resolved)
+        for k, near in enumerate(nearer(one.seen.root, own), 1):
             values |= dict(zip(_named(k), (near.imag / (2 * np.pi), near.real), strict=True))
         told = motions(bench)
         for (first, second), (gain, delay) in _pairs(bench).items():
@@ -172,6 +179,20 @@ def assigned(seen, root, shape):
     found = cost.argmin(axis=1)
     peaks, roots = linear_sum_assignment(cost)
     found[peaks] = roots
+    return found
+
+
+def merged(seen, root, own, resolved):
+    """What (p,) the roots ``own`` (indices) of peaks ``seen`` look like beside those that no peak is left for.
+
+    Two roots that a record cannot tell apart show as one peak between them: it is taken to lie where it was seen.
+    """
+    found, rest = root[own], np.delete(root, own)
+    for k, (peak, first) in enumerate(zip(seen, root[own], strict=True)):
+        way = rest[abs(rest - first) < resolved] - first
+        share = np.clip(np.real((peak - first) * way.conj()) / np.maximum(abs(way) ** 2, 1e-300), 0, 1)
+        between = np.append(first, first + share * way)
+        found[k] = between[np.argmin(abs(between - peak))]
     return found
 
 

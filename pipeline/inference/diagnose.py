@@ -17,7 +17,7 @@ from pipeline.inference import decide as rulebook
 from pipeline.inference.calibrate import calibrate
 from pipeline.inference.drift import drift
 from pipeline.inference.effective import doubt, tempering
-from pipeline.inference.evidence import cautious_prior, evidence, posterior, reached, screened
+from pipeline.inference.evidence import cautious_prior, evidence, family_wise, posterior, reached, screened
 from pipeline.inference.least_squares import of_features
 from pipeline.inference.refit import Refits
 from pipeline.inference.screen import directions, screen
@@ -235,7 +235,8 @@ def _weighed(course):
     held_out = held_out_gains(problem, course.budget, null, fits, share[1:])
     drifting = drift(null, weights, seed=settings.seed)
     weighed = [Weighed(found[i].candidate, fit, evidences[i], contender(
-        null, null_evidence, found[i].candidate, fit, evidences[i], share[1 + i], final.p_value[i],
+        null, null_evidence, found[i].candidate, fit, evidences[i], share[1 + i],
+        family_wise(final.p_value[i], evidences[i].log_evidence - null_evidence.log_evidence, len(found)),
         held_out[i], weights, settings.rules)) for i, fit in fits.items()]
     weighed.sort(key=lambda w: -w.evidence.log_evidence)
     known = situation(problem, course.budget, null, weights, drifting, settings.rules)

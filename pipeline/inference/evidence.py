@@ -63,6 +63,16 @@ def cautious_prior(count):
     return np.concatenate(([0.5], np.full(count, 0.5 / max(count, 1))))
 
 
+def family_wise(p_value, gain, count):
+    """p-value over a catalogue of ``count`` candidates of one whose ln Z exceeds the null's by ``gain``.
+
+    That of the screen, or what Markov's inequality says where that is less: if nothing is missing, the ratio of Z is t
+    or more at most once in t times (V. Vovk, R. Wang, Ann. Statist. 49 (2021) 1736). A screen looks at a few shapes of
+    an effect alone, and a tone may lie between them.
+    """
+    return float(min(p_value, count * np.exp(-max(gain, 0.0))))
+
+
 def nested(problem, fit, sampler, weights=None):
     """ln Z with the forward model itself, for near ties: ``sampler(log_likelihood, transform, size)`` -> ln Z.
 

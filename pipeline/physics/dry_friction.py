@@ -126,9 +126,14 @@ def tabulated(speed, coefficient, **options):
 
 
 def falling(static, kinetic, decay_speed, **options):
-    """Friction kinetic + (static - kinetic) exp(-|v| / decay_speed), as a table within 2e-5 of static - kinetic."""
+    """Friction kinetic + (static - kinetic) exp(-|v| / decay_speed), as a table within 2e-5 of static - kinetic.
+
+    One value where both are the same: tables over pressure and distance, which effects add, multiply its size.
+    """
     if not decay_speed > 0:
         raise ConfigError("friction: decay_speed", "above 0", f"{decay_speed:g}")
+    if static == kinetic:
+        return constant(kinetic, **options)
     over = np.linspace(0, _SPAN, _SPAN * _SAMPLES + 1)
     return tabulated(decay_speed * over, kinetic + (static - kinetic) * np.exp(-over), **options)
 

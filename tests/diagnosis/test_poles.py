@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from pipeline.contract import ConfigError
-from pipeline.diagnosis.poles import _heard, assigned, features, nearer, observed, predicted
+from pipeline.diagnosis.poles import _heard, assigned, features, merged, nearer, observed, predicted
 from pipeline.physics.bench_modes import modes
 from pipeline.physics.free_decay import Poles
 from tests.diagnosis.small_bench import bench, laid_out, recorded, run
@@ -89,6 +89,16 @@ def test_a_peak_that_is_no_mode_does_not_move_the_others_by_one():
     root = 2j * np.pi * np.array([600.0, 700, 800, 900, 1000, 1100])
     one = Poles(np.sort_complex(np.append(root[:5], 500j * 2 * np.pi)), np.ones(6), np.ones((6, 2), complex))
     assert list(assigned(one, root, np.ones((6, 2)))) == [5, 0, 1, 2, 3, 4]
+
+
+def test_two_roots_that_a_record_cannot_tell_apart_show_as_one_between_them():
+    root = np.array([-17 + 13960j, -140 + 14030j, -20 + 14400j])
+    peak, away = -34 + 13970j, -34 + 13990j
+    near = merged(np.array([peak]), root, [1], 150.0).item()
+    assert abs(near - peak) < 1.0 and abs(merged(np.array([away]), root, [1], 150.0).item() - away) > 5
+    assert merged(np.array([peak]), root, [1], 100.0) == root[1], "roots that are told apart"
+    assert np.array_equal(merged(np.array([peak, root[1]]), root, [0, 1], 150.0), root[:2]), "each with a peak"
+    assert merged(np.array([-200 + 14040j]), root, [1], 150.0) == root[1], "never beyond the root itself"
 
 
 def test_far_roots_count_less_and_less():

@@ -7,7 +7,7 @@ import pytest
 from scipy import stats
 from scipy.integrate import quad
 
-from pipeline.inference.evidence import cautious_prior, evidence, nested, posterior, reached, screened
+from pipeline.inference.evidence import cautious_prior, evidence, family_wise, nested, posterior, reached, screened
 from pipeline.inference.least_squares import fit, linearised
 from pipeline.inference.noise import budget
 from pipeline.inference.priors import HalfNormal, Parameter
@@ -75,6 +75,17 @@ def test_a_screened_candidate_has_the_evidence_of_its_refit():
 
 
 @pytest.mark.exact
+@pytest.mark.exact
+def test_evidence_bounds_how_often_chance_names_one_of_many():
+    """z ~ N(0, 1) of 50 candidates of power 3 where nothing is missing: the best is below p in fewer than p of draws."""
+    score = np.random.default_rng(0).standard_normal((20000, 50))
+    gain = screened(0.0, abs(score), 3.0).max(axis=1)
+    found = np.array([family_wise(1.0, g, 50) for g in gain])
+    assert found.min() < 0.1 and all(np.mean(found <= p) <= p for p in (0.5, 0.1, 0.05, 0.01))
+    assert family_wise(1e-4, 3.0, 50) == 1e-4 and family_wise(0.5, -2.0, 50) == 0.5
+    assert family_wise(0.5, 30.0, 50) == pytest.approx(50 * np.exp(-30.0))
+
+
 def test_probabilities_are_bayes_rule():
     np.testing.assert_allclose(posterior(np.log([1.0, 2.0, 5.0]) + 700), [0.125, 0.25, 0.625])
     np.testing.assert_allclose(posterior(np.log([1.0, 2.0, 4.0]), cautious_prior(2)), [0.25, 0.25, 0.5])

@@ -31,6 +31,14 @@ def test_one_coefficient_at_all_states():
 
 
 @pytest.mark.exact
+def test_friction_that_does_not_fall_is_one_value():
+    """Tables of effects over pressure and distance multiply its size."""
+    friction = falling(0.4, 0.4, 0.01, static_factor=1.2)
+    assert friction.law.friction.size == 1 and friction.at_speed([0.0, 0.3]).tolist() == [0.4, 0.4]
+    assert friction.static_factor == 1.2
+
+
+@pytest.mark.exact
 @pytest.mark.parametrize("exponent", [1.0, 2.0, 3.5])
 def test_evolution_rule_solves_its_equation(exponent):
     """From a force on the other side of zero, far into sliding and back, against DOP853."""
