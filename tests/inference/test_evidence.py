@@ -77,7 +77,7 @@ def test_a_screened_candidate_has_the_evidence_of_its_refit():
 @pytest.mark.exact
 @pytest.mark.exact
 def test_evidence_bounds_how_often_chance_names_one_of_many():
-    """z ~ N(0, 1) of 50 candidates of power 3 where nothing is missing: the best is below p in fewer than p of draws."""
+    """z ~ N(0, 1) of 50 candidates of power 3, nothing missing: the best is below p in fewer than p of draws."""
     score = np.random.default_rng(0).standard_normal((20000, 50))
     gain = screened(0.0, abs(score), 3.0).max(axis=1)
     found = np.array([family_wise(1.0, g, 50) for g in gain])
