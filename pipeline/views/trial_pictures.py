@@ -48,7 +48,7 @@ def table(counted, row_label, column_label):
     grid = np.array([[row.get(c, 0) for c in columns] for row in counted.values()], float)
     share = grid / grid.sum(axis=1, keepdims=True)
     below = 0.5 + 0.06 * max(map(len, columns))
-    with drawing(0.1 + below + 0.25 * len(counted), left=1.75, top=0.1) as figure:
+    with drawing(0.1 + below + 0.25 * len(counted), left=2.05, top=0.1) as figure:
         figure.subplots_adjust(bottom=below / figure.get_figheight())
         axes = figure.subplots()
         axes.imshow(np.where(grid > 0, share, np.nan), aspect="auto", vmin=0, vmax=1, cmap=SEQUENTIAL)

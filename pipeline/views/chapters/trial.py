@@ -5,6 +5,7 @@ from pipeline.views.chapter import Chapter, Figure, Table
 from pipeline.views.readable import number, percent, plural
 
 #: why a case may be wrong, and how its page is headed
+_SELF = "the same"
 _CLASSES = {"effect": "one effect", "pair": "two effects", "control": "nothing missing", "wrong_value": "a wrong value",
             "sensor": "a sensor", "solver": "the solver", "foreign": "not in the catalogue",
             "below": "below the threshold"}
@@ -69,13 +70,15 @@ def _confusion(main):
     figures = [Figure(pictures.table(main["confusion"], "in truth", "told"),
                       "Cases of each class by what was told of them; colour: share of the class.")]
     if named:
-        figures.append(Figure(pictures.table(dict(sorted(named.items())), "hidden", "named"),
-                              "What was named where one thing was hidden, at whatever place; verdicts where nothing"
-                              " was named."))
+        told = {hidden: {_SELF if name == hidden else name: count for name, count in row.items()}
+                for hidden, row in sorted(named.items())}
+        figures.append(Figure(pictures.table(told, "hidden", "named"),
+                              "What was named where one thing was hidden, at whatever place: the same, or another law;"
+                              " verdicts where nothing was named."))
     rows = tuple((_CLASSES[kind], verdict, str(count)) for kind, row in main["confusion"].items()
                  for verdict, count in sorted(row.items(), key=lambda r: -r[1]))
     return Chapter("confusion", "What was taken for what", "Rows are what was hidden, columns what was told.",
-                   "Off the diagonal stands what the diagnosis confuses.", tuple(figures),
+                   f"Beside '{_SELF}' stands what the diagnosis confuses or does not name.", tuple(figures),
                    (Table(("in truth", "told", "cases"), rows, "All verdicts", (2,), folded=True),))
 
 
