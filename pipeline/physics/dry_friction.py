@@ -130,10 +130,10 @@ def falling(static, kinetic, decay_speed, **options):
 
     One value where both are the same: tables over pressure and distance, which effects add, multiply its size.
     """
-    if not decay_speed > 0:
-        raise ConfigError("friction: decay_speed", "above 0", f"{decay_speed:g}")
     if static == kinetic:
         return constant(kinetic, **options)
+    if not decay_speed > 0:
+        raise ConfigError("friction: decay_speed", "above 0", f"{decay_speed:g}")
     over = np.linspace(0, _SPAN, _SPAN * _SAMPLES + 1)
     return tabulated(decay_speed * over, kinetic + (static - kinetic) * np.exp(-over), **options)
 
