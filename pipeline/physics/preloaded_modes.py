@@ -55,6 +55,6 @@ def _corrections(system, stiffness, modes):
     if modes.shape[1] == len(stiffness):
         return answer[:, :0], np.empty(0)
     independent = weight > INDEPENDENT * np.abs(np.diag(system.mass)).max()
-    vectors = answer @ (mix / np.sqrt(np.abs(weight)))[:, independent]
+    vectors = answer @ (mix[:, independent] / np.sqrt(weight[independent]))
     square, turn = np.linalg.eigh(vectors.T @ stiffness @ vectors)
     return vectors @ turn, np.sqrt(square)
