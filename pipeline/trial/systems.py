@@ -123,13 +123,12 @@ SYSTEMS = {system.name: system for system in (
     System("belt_rig", _belt, _on_belts(), sizes=(0.03, 0.1, 0.2), noises=(0.03, 0.1), weight=0.03),
     System("pin_on_disc", benches.pin_on_disc, benches.hides(pin_bench.HIDDEN, pin_bench.DECOYS), (0.0,), (0.0,),
            "self_excited", weight=0.5),
+    System("shoe_on_drum", benches.shoe_on_drum, benches.hides(flutter.HIDDEN, flutter.DECOYS), (0.0,), (0.0,),
+           "self_excited", weight=0.1),
     System("worn_pads", benches.worn_pads, benches.hides(benches.worn_names()), (0.0,), (0.0,), "micro", weight=0.03),
     System("disc_brake", brake_files.write, brake_files.hides(), (0.0,), (0.0,), "disc_brake", weight=0.14),
     System("coarse_rig", _forced, {"solver": ((),)}, sizes=(0.0,), noises=(0.003, 0.01)),
 )}
-#: a system whose records hold too few sure poles as yet to be part of sets: a falling friction in it was not seen
-OPEN = {"shoe_on_drum": System("shoe_on_drum", benches.shoe_on_drum, benches.hides(flutter.HIDDEN, flutter.DECOYS),
-                               (0.0,), (0.0,), "self_excited")}
 #: the same of real recordings, for those who have them: see ``pipeline.trial.recorded``
 RECORDED = {name: System(name, recorded.write, recorded.removable(name), (0.0,), (0.0,), "recorded")
             for name in recorded.NAMES}
