@@ -6,7 +6,7 @@ from pathlib import Path
 
 from pipeline.concealed import sealing
 from pipeline.concealed.making import described
-from pipeline.concealed.scoring import check_commitment
+from pipeline.concealed.scoring import unsealed
 from pipeline.concealed.sets import TrialSet
 from pipeline.contract.errors import ConfigError
 from pipeline.contract.runner import locked
@@ -50,10 +50,7 @@ def _truth(found, key_file):
     if found.has("truth.json"):
         truth = found.read("truth.json")
     elif found.has("truth.sealed") and key_file:
-        opened = sealing.unlocked(found.path("truth.sealed").read_bytes(), sealing.read_key(key_file),
-                                  found.path("truth.sealed"))
-        check_commitment(found, opened["salt"], opened["truth"])
-        truth = opened["truth"]
+        truth = unsealed(found, sealing.read_key(key_file))["truth"]
     else:
         raise ConfigError(found.folder, "a published set, with its truth.json", "none",
                           "a sealed set is published once it is scored")

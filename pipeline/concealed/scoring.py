@@ -55,13 +55,19 @@ def _opened(found, key_file):
     key = sealing.read_key(key_file)
     check_code(found, code.files(), "before it was scored")
     check_cases(found)
-    opened = sealing.unlocked(found.path("truth.sealed").read_bytes(), key, found.path("truth.sealed"))
-    check_commitment(found, opened["salt"], opened["truth"])
+    opened = unsealed(found, key)
     check_truth(found, opened["truth"])
     found.write("truth.json", opened["truth"])
     found.write("opened.yaml", {"key": key.decode(), "salt": opened["salt"],
                                 "scored": datetime.now(UTC).isoformat(timespec="seconds")})
     return opened["truth"]
+
+
+def unsealed(found, key):
+    """{salt, truth} that a ``key`` opens; ConfigError where it is not the set's, or they are not what was committed."""
+    opened = sealing.unlocked(found.path("truth.sealed").read_bytes(), key, found.path("truth.sealed"))
+    check_commitment(found, opened["salt"], opened["truth"])
+    return opened
 
 
 def check_commitment(found, salt, truth):

@@ -75,7 +75,6 @@ def test_a_screened_candidate_has_the_evidence_of_its_refit():
 
 
 @pytest.mark.exact
-@pytest.mark.exact
 def test_evidence_bounds_how_often_chance_names_one_of_many():
     """z ~ N(0, 1) of 50 candidates of power 3, nothing missing: the best is below p in fewer than p of draws."""
     score = np.random.default_rng(0).standard_normal((20000, 50))
@@ -86,6 +85,7 @@ def test_evidence_bounds_how_often_chance_names_one_of_many():
     assert family_wise(0.5, 30.0, 50) == pytest.approx(50 * np.exp(-30.0))
 
 
+@pytest.mark.exact
 def test_probabilities_are_bayes_rule():
     np.testing.assert_allclose(posterior(np.log([1.0, 2.0, 5.0]) + 700), [0.125, 0.25, 0.625])
     np.testing.assert_allclose(posterior(np.log([1.0, 2.0, 4.0]), cautious_prior(2)), [0.25, 0.25, 0.5])

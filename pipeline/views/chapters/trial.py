@@ -4,8 +4,9 @@ from pipeline.views import trial_pictures as pictures
 from pipeline.views.chapter import Chapter, Figure, Table
 from pipeline.views.readable import number, percent, plural
 
-#: why a case may be wrong, and how its page is headed
+#: column of what was named as what it is
 _SELF = "the same"
+#: why a case may be wrong, and how its page is headed
 _CLASSES = {"effect": "one effect", "pair": "two effects", "control": "nothing missing", "wrong_value": "a wrong value",
             "sensor": "a sensor", "solver": "the solver", "foreign": "not in the catalogue",
             "below": "below the threshold"}
