@@ -1,12 +1,12 @@
 """What of an answer is right, case by case. Truth as ``pipeline.trial.systems`` writes it, answer as diagnosis.json."""
 
+from pipeline.trial.detectable import VISIBLE
+
 #: verdicts by what they say: nothing is missing, or this is
 NOTHING, NAMING = ("consistent", "parameters"), ("missing", "tie", "sensor", "numerics")
 #: classes in which nothing is missing; class -> verdict that names what it hides
 EMPTY = ("control", "wrong_value")
 NAMED_BY = {"effect": "missing", "pair": "missing", "below": "missing", "foreign": "missing", "sensor": "sensor"}
-#: standard deviations of the noise that an effect must leave beside the nominal values to be named
-VISIBLE = 4.0
 #: hypotheses among which the truth counts as near
 _TOP = 3
 

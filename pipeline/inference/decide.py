@@ -10,6 +10,7 @@ class Rules:
     """What must hold before an effect is named, and what counts as a misfit."""
 
     posterior: float = 0.9              # of the named set among all that survive
+    outweighed: float = 1.0             # posterior of all that survive over that of all that break a rule
     p_value: float = 0.01               # family-wise, over the whole catalogue
     evidence_gain: float = 5.0          # ln Z over the refitted null
     gain_errors: float = 3.0            # gain on runs that were not fitted, in standard errors
@@ -97,9 +98,12 @@ def decide(situation, contenders, rules):
     significant = [c for c in contenders if c.p_value <= rules.p_value and c.evidence_gain >= rules.evidence_gain]
     told = [f"{c.name}: {why}" for c in significant for why in objections(c, situation, rules)]
     survivors = [c for c in significant if not objections(c, situation, rules)]
-    if survivors:
+    refused = [c for c in significant if c not in survivors]
+    outweighed = _weight(survivors) < rules.outweighed * _weight(refused)
+    if survivors and not outweighed:
         decision = _among(survivors, situation, rules)
     else:
+        told += [f"{c.name}: candidates that break a rule are more likely" for c in survivors]
         decision = _nothing_named(situation, contenders, rules, bool(significant))
         decision = replace(decision, reasons=decision.reasons + situation.excluded)
     return replace(decision, reasons=decision.reasons + tuple(told) + waived)
@@ -132,8 +136,13 @@ def objections(contender, situation, rules):
     return told
 
 
+def _weight(contenders):
+    """Posterior of several Contenders together."""
+    return sum(c.posterior for c in contenders)
+
+
 def _among(survivors, situation, rules):
-    total = sum(c.posterior for c in survivors)
+    total = _weight(survivors)
     ordered = sorted((replace(c, posterior=c.posterior / max(total, 1e-300)) for c in survivors),
                      key=lambda c: -c.posterior)
     named, share = [], 0.0

@@ -21,7 +21,16 @@ from pipeline.inference.evidence import cautious_prior, evidence, family_wise, p
 from pipeline.inference.least_squares import of_features
 from pipeline.inference.refit import Refits
 from pipeline.inference.screen import directions, screen
-from pipeline.inference.weigh import contender, held_out_gains, reaches_noise, situation, unexplained
+from pipeline.inference.weigh import (
+    EXCLUDED,
+    contender,
+    excluded,
+    held_out_gains,
+    reaches_noise,
+    situation,
+    unexplained,
+    unfinished,
+)
 
 #: where the linearisation of the null holds, scores that chance reaches more often than this are not looked into
 _LIKELY = 0.1
@@ -94,8 +103,8 @@ def diagnose(problem, budget, catalogue, settings=None, fan_out=map):
     if single.decision.verdict not in ("unknown", "missing") or len(problem.runs) < 2:
         return single
     for first in _leading(single, settings.rules):
-        explained = first.fit.explains(single.null)
-        if _room(first.fit, settings.rules) < settings.rules.second_at_noise * explained:
+        explained = single.null.objective - first.fit.objective
+        if not _asks_for_more(first.fit, explained, settings.rules):
             continue
         rest = [c for c in catalogue if c.name != first.candidate.name]
         try:
@@ -131,11 +140,10 @@ def _course(problem, budget, catalogue, settings, fan_out, start=None, base=None
         problem, noises, hypothesis, [start.latent if start else hypothesis.nominal], runs, settled=False)
     found = list(fan_out(partial(directions, problem, null), catalogue))
     rough = screen(null, found, None, settings.draws, settings.seed)
-    largest = _hopeful(null, settings.rules) if base is None else settings.rules.p_value
+    largest = _hopeful(null, settings.rules, settings.rules.p_value if base else _LIKELY)
     hopeful = [i for i in rough.order() if np.isfinite(rough.score[i]) and rough.p_value[i] <= largest]
     refits = Refits(problem, null, tuple(catalogue), settings, fan_out)
-    results = _first_refits(refits, hopeful, rough.start) if base is None else refits.of(
-        hopeful[:settings.kept], rough.start)
+    results = _first_refits(refits, hopeful, rough.start)
     results = refits.of(_overlooked(null, found, results, settings), rough.start, results)
     better = min([null, *(r.null for r in results.values() if r.null is not None)], key=lambda f: f.objective)
     if better.objective < null.objective - 0.1:
@@ -148,19 +156,28 @@ def _material(pair, explained, rules):
     """Whether a ``pair`` names a second effect that is more than an error of the first, which ``explained`` so much.
 
     A wrong law of the first is seldom made good down to the noise, on runs that were not fitted too: what does that may
-    be smaller.
+    be smaller, or give nominal values back to their priors.
     """
-    def least(one):
-        at_noise = reaches_noise(one.fit, rules) and not one.contender.held_out_left
-        return rules.second_at_noise if at_noise else rules.second_share
+    odd = len(excluded(pair.null, EXCLUDED))
 
-    return any(one.fit.explains(pair.null) >= least(one) * explained for one in pair.named)
+    def is_more(one):
+        gained = pair.null.objective - one.fit.objective
+        if reaches_noise(one.fit, rules) and not one.contender.held_out_left:
+            return gained >= rules.second_at_noise * explained or len(excluded(one.fit, EXCLUDED)) < odd
+        return gained >= rules.second_share * explained
+
+    return any(is_more(one) for one in pair.named)
 
 
-def _room(fit, rules):
-    """Squared error that one more effect may explain: what a Fit leaves above the noise, as uncertain as that is."""
+def _asks_for_more(fit, explained, rules):
+    """Whether a second effect may be material beside a first, whose Fit ``explained`` so much of the objective.
+
+    What the first leaves above the noise is as uncertain as the noise is; values at odds with their priors make up for
+    something.
+    """
     counts = fit.counts.sum()
-    return fit.chi_square.sum() - counts + doubt(counts, rules.noise_uncertainty)
+    room = fit.objective - counts + doubt(counts, rules.noise_uncertainty)
+    return room >= rules.second_at_noise * explained or bool(excluded(fit, EXCLUDED))
 
 
 def _evident(diagnosis, weighing):
@@ -180,7 +197,7 @@ def _dropping(course, first, pair):
 
 
 def _first_refits(refits, hopeful, starts):
-    """{index: Refitted} of a first effect: the best few of the screen and their rivals, else all of them."""
+    """{index: Refitted}: the best few of the screen and their rivals, else all of them."""
     kept, rules = refits.settings.kept, refits.settings.rules
     results = refits.from_best(refits.of(hopeful[:kept], starts))
     fits = [r.fit for r in results.values() if r.fit]
@@ -190,13 +207,13 @@ def _first_refits(refits, hopeful, starts):
     return refits.from_best(refits.of(hopeful[kept:], starts, results))
 
 
-def _hopeful(null, rules):
-    """Largest p-value of the screen at which a first effect is refitted: any, where the null's linearisation may fail.
+def _hopeful(null, rules, likely):
+    """Largest p-value of the screen at which a candidate is refitted: any, where the null's linearisation may fail.
 
     It holds where the null reaches the noise; of features, which are few and far from linear only where they are
     paired anew, wherever the null has an optimum.
     """
-    return _LIKELY if reaches_noise(null, rules) or (of_features(null.noises) and null.converged) else 1.0
+    return likely if reaches_noise(null, rules) or (of_features(null.noises) and null.converged) else 1.0
 
 
 def _overlooked(null, found, results, settings):
@@ -252,7 +269,7 @@ def _leading(single, rules, count=2):
     """Refitted candidates worth taking as known: significant ones, best first."""
     good = [w for w in single.weighed if w.contender.p_value <= rules.p_value
             and w.contender.evidence_gain >= rules.evidence_gain and w.contender.unexplained < 0.5
-            and not w.contender.doubts]
+            and not unfinished(w.fit, single.null)]
     if single.decision.verdict == "missing":
         return single.named[:1]
     return good[:count]

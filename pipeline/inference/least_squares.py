@@ -24,6 +24,8 @@ _LONGEST = 1.5
 #: where no step helps (rounding, kinks of the forward model) or iterations are used up, a fit counts as converged below
 #: this: a posterior standard deviation from its linearised optimum
 _STALLED = 1.0
+#: so many times that a fit that used up its iterations may promise to go on, for this fraction of them
+_NEARLY, _AGAIN = 30.0, 3
 #: share of the tolerance below which the gain of a step is none
 _LEAST = 0.1
 #: so many times the decrease of the objective that its slope promises may a fit still come down
@@ -148,12 +150,22 @@ def continued(problem, state, iterations=ITERATIONS, enough=np.inf, patient=True
 
     A fit is given up, as it is, where its slope promises nothing that would bring its objective down to ``enough``, and
     without ``patient`` where features stay far off. Where its iterations do not end by themselves, central differences
-    tell how far it is from its optimum: in a narrow valley the error of forward ones looks like a slope.
+    tell how far it is from its optimum: in a narrow valley the error of forward ones looks like a slope. From there a
+    fit goes on that is nearly at its end.
     """
     found = iterated(problem, state, iterations, enough, patient)
     if found.converged or found.objective > enough:
         return found
-    found = _refreshed(problem, found, central=True)
+    found = _looked_at(problem, found)
+    if found.converged or promised(found) > _NEARLY * _scale(found):
+        return found
+    found = iterated(problem, found, iterations // _AGAIN, enough, patient)
+    return found if found.converged or found.objective > enough else _looked_at(problem, found)
+
+
+def _looked_at(problem, state):
+    """The Fit with central differences, and whether they find it at its optimum."""
+    found = _refreshed(problem, state, central=True)
     return replace(found, converged=promised(found) < _STALLED * _scale(found))
 
 

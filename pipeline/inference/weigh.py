@@ -73,7 +73,8 @@ def contender(null, null_evidence, candidate, fit, own, share, p_value, held_out
         gained and gained.left(rules.noise_uncertainty),
         gained and _growth(gained, fit, rules), held_out[1],
         max(differing, default=0.0), max(moved, default=0.0), unexplained(null, fit, rules),
-        candidate.forbidden(fit.values) if candidate.forbidden else "", _doubts(fit, null))
+        candidate.forbidden(fit.values) if candidate.forbidden else "",
+        unfinished(fit, null) + excluded(fit, LATENT_LIMIT - 1e-6))
 
 
 def _growth(gained, fit, rules):
@@ -82,15 +83,15 @@ def _growth(gained, fit, rules):
     return 1.0 if of_features(fit.noises) else gained.growth(power, rules.noise_uncertainty)
 
 
-def _doubts(fit, null):
-    """Why a Fit cannot be relied on beside that of the nominal model, in words."""
-    explained = fit.explains(null)
+def unfinished(fit, null):
+    """Why the end of a Fit, or of that of the nominal model, says little of one beside the other, in words."""
+    gained = null.objective - fit.objective
     share = _AT_NOISE if fit.chi_square.sum() <= fit.counts.sum() else NOTHING_MORE
-    told = () if ended(fit, explained, share) else ("its fit did not converge",)
+    told = () if ended(fit, gained, share) else ("its fit did not converge",)
     near = null.chi_square.sum() < _FAR_BELOW * fit.chi_square.sum()
-    if not null.converged and near and HOPE * promised(null) > explained:
+    if not null.converged and near and HOPE * promised(null) > gained:
         told += ("the recalibration of the nominal model did not converge, so that nothing lies far below it",)
-    return told + excluded(fit, LATENT_LIMIT - 1e-6)
+    return told
 
 
 def excluded(fit, beyond):

@@ -10,9 +10,10 @@ import numpy as np
 
 from pipeline.contract.errors import ConfigError
 from pipeline.trial import case, rig, sensors
-from pipeline.trial.case import BELOW, CORNER, FAR, GAIN_ERROR, RATE, SAMPLES, SPREAD, noise_of, places, recorder_of
+from pipeline.trial.case import CORNER, FAR, GAIN_ERROR, RATE, SAMPLES, SPREAD, recorder_of
 from pipeline.trial.detectable import explained, nudged
 from pipeline.trial.hidden import HIDDEN, Spot
+from pipeline.trial.hiding import BELOW, noise_of, places
 from pipeline.trial.motion import PARTS, Law, World, moved
 from pipeline.trial.planted import Planted, Recorder, built, change_of, sized
 from pipeline.trial.rubbing import FRICTION, Contact, Drag, Rubbed, plain

@@ -26,8 +26,9 @@ from pipeline.trial.brake_model import (
     nominal,
 )
 from pipeline.trial.brake_parts import LOSS, NOMINAL, ORDERS, SHAPES, built
-from pipeline.trial.case import BELOW, FAR
+from pipeline.trial.case import FAR
 from pipeline.trial.detectable import Explained
+from pipeline.trial.hiding import BELOW
 
 #: values that the truth draws beside what the waves of the disc say of them
 _OWN = ("contact", "shear", "friction", *JOINTS)

@@ -1,15 +1,16 @@
 """A case of a trial: a rig with hidden physics or none, recorded in runs, and what a workshop believes of it."""
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
 from pipeline.contract.errors import ConfigError
 from pipeline.trial import excitation, rig, sensors
 from pipeline.trial.detectable import Values, coarse, of_rig
-from pipeline.trial.hidden import HIDDEN, Spot
-from pipeline.trial.motion import PARTS, World
-from pipeline.trial.planted import Planted, Recorder, change_of, shown, sized
+from pipeline.trial.hidden import HIDDEN
+from pipeline.trial.hiding import Hiding, difference, noise_of, placed
+from pipeline.trial.motion import World
+from pipeline.trial.planted import Recorder, change_of, shown
 
 #: sampling, sensors, and the size of the shaker: root mean squares of its force in the runs, N; the last is held out
 RATE, SAMPLES, CORNER, DELAY = 100.0, 500, 40.0, 2.5e-3
@@ -18,10 +19,6 @@ LEVELS, BAND = (2.0, 1.0, 4.0, 3.0), (0.8, 5.0)
 SPREAD = 0.25
 #: error of gains that a calibration leaves, and the change of motion that hidden physics makes, both relative
 GAIN_ERROR, CHANGE = 0.005, (0.25, 0.45)
-#: what of a change below the threshold is left beside other values of the rig, in standard deviations of the noise
-BELOW = (0.5, 1.5)
-#: speeds, as multiples of the typical one, at which a known law with times of its own is near to an unknown one
-_SPEEDS = (1.0, 3.0, 9.0)
 #: what is left of the error of a step that is too long, in standard deviations of the noise, at least
 VISIBLE = 8.0
 #: how far off one value of a case with a wrong one is, as a factor either way
@@ -41,7 +38,7 @@ class Case:
 
     ``runs`` [(force (n,), shown (sensor, n))] at ``rate`` Hz, ``noise`` (sensor,) of each sensor in m, ``colour`` of
     the noise; ``truth`` and ``belief`` are Rigs, ``exact`` names of known values, ``far`` that of the wrong one;
-    ``change``: of what the sensors show in the first run, relative.
+    ``change``: of what the sensors show in the first run, relative; ``hiding``: how it was hidden.
     """
 
     seed: int
@@ -58,6 +55,7 @@ class Case:
     noise: np.ndarray
     colour: float
     change: float
+    hiding: Hiding
 
     @property
     def step(self):
@@ -81,7 +79,7 @@ def made(seed, hidden="", place=0, level=0.01, masses=2, colour=0.0, change=None
     if not exact and kind != "wrong_value":
         exact = known(seed, truth)
     values = Values(truth, SPREAD, GAIN_ERROR, exact)
-    hiding = _Hiding(recorder, values, bare, of_rig(recorder, values, len(recorder.runs) - 1), level, colour)
+    hiding = Hiding(recorder, values, bare, of_rig(recorder, values, len(recorder.runs) - 1), level, colour)
     planted = tuple(hiding.planted(name, at, shape, change or drawn, kind == "below")
                     for name, at, (shape, drawn) in zip(names, indices, draws, strict=False))
     seen = shown(recorder, truth, planted, bare)
@@ -95,13 +93,13 @@ def made(seed, hidden="", place=0, level=0.01, masses=2, colour=0.0, change=None
         belief, far = rig.far_off(random, truth, belief, FAR)
     runs = tuple((f, _recorded(random, s, noise, colour)) for f, s in zip(recorder.runs, seen, strict=True))
     return Case(seed, kind or kind_of(names), planted, left, level, truth, belief, exact, far, runs, rate, noise,
-                colour, change_of(seen[:1], recorder.seen(bare[:1])))
+                colour, change_of(seen[:1], recorder.seen(bare[:1])), hiding)
 
 
 def _exact(names, indices, masses):
     """Names of values that are stated exactly, as what is hidden would else be a wrong value of them."""
     found = [(HIDDEN[name], place) for name, place in zip(names, indices, strict=False)]
-    return tuple(_EXACT[piece.exact].format(_place(piece, at, masses)[0]) for piece, at in found if piece.exact)
+    return tuple(_EXACT[piece.exact].format(placed(piece, at, masses)[0]) for piece, at in found if piece.exact)
 
 
 def known(seed, truth):
@@ -127,111 +125,15 @@ def kind_of(names, pieces=HIDDEN):
     return ("sensor" if piece.place == "channel" else "effect") if piece.known else "foreign"
 
 
-def places(piece, masses):
-    """[(index, name)] of the places of a Hidden on a rig of so many masses."""
-    links = masses + (masses > 2)
-    walls = ["link_0", f"link_{links - 1}"][:1 + (masses > 2)]
-    names = {"link": [f"link_{k}" for k in range(links)], "wall link": walls,
-             "mass": [f"mass_{k}" for k in range(masses)], "shaker": ["shaker"],
-             "channel": [f"x_{k}" for k in range(masses)]}[piece.place]
-    return [(int(name.partition("_")[2] or 0), name) for name in names]
-
-
-def _place(piece, number, masses):
-    """(index, name) of the place of this number, counted on from the first after the last."""
-    there = places(piece, masses)
-    return there[number % len(there)]
-
-
-@dataclass(frozen=True)
-class _Hiding:
-    """Where and how large physics is hidden in a rig whose ``bare`` motion is known."""
-
-    recorder: Recorder
-    values: Values
-    bare: list
-    explained: object
-    level: float
-    colour: float
-
-    @property
-    def truth(self):
-        return self.values.rig
-
-    @property
-    def trained(self):
-        """How many runs are fitted: all but the last."""
-        return len(self.recorder.runs) - 1
-
-    def planted(self, name, place, shape, wanted, below):
-        """The Planted of a piece of HIDDEN at the place of this index."""
-        piece = HIDDEN[name]
-        index, where = _place(piece, place, len(self.truth.mass))
-        start = Planted(piece, where, self._spot(piece, index, shape))
-        if below:
-            return sized(start, self._left, start.spot.between(2, *BELOW))
-        return sized(start, self._change, wanted)
-
-    def left(self, one, planted, seen, noise):
-        """Standard deviations of ``noise`` that values of the linear rig leave of the change by ``one`` of what is
-        planted and ``seen``: too many, where the others are strong and bend what values do.
-
-        Others that are planted, and what of the known physics is nearest to a piece that is not, may take part.
-        """
-        others = tuple(p for p in planted if p is not one)
-        before, without = self._with(others), self._without(self.trained)
-        near = [self._with((p,)) for p in self._kin(one, change_of(seen[:1], without[:1]))] + [before] * bool(others)
-        beside = [_difference(found, without) for found in near]
-        return self.explained.left(_difference(seen[:self.trained], before), noise, self.colour, beside)
-
-    def _kin(self, one, change):
-        """Known physics nearest to a piece at its spot, about as large; what has times also with faster ones."""
-        near = [(piece, speed) for piece in map(HIDDEN.get, one.piece.kin)
-                for speed in (_SPEEDS if piece.timed else (1.0,))]
-        return [sized(replace(one, piece=piece, spot=replace(one.spot, speed=speed * one.spot.speed)), self._change,
-                      change) for piece, speed in near]
-
-    def _with(self, planted):
-        return shown(self.recorder, self.truth, planted, self.bare, slice(self.trained))
-
-    def _without(self, runs):
-        return self.recorder.seen(self.bare[:runs])
-
-    def _change(self, one):
-        return change_of(shown(self.recorder, self.truth, (one,), self.bare, slice(1)), self._without(1))
-
-    def _left(self, one):
-        without = self._without(self.trained)
-        return self.explained.left(_difference(self._with((one,)), without), noise_of(without, self.level), self.colour)
-
-    def _spot(self, piece, index, shape):
-        row = self.truth.rows[index] if "link" in piece.place else np.eye(len(self.truth.mass))[index]
-        way = np.array([row @ x for x in self.bare])
-        length = float(np.sqrt(np.mean(way**2)))
-        speed = float(np.sqrt(np.mean(np.gradient(way, 1 / (self.recorder.rate * PARTS), axis=1) ** 2)))
-        force = float(np.sqrt(np.mean(np.square(self.recorder.runs)))) if piece.place == "shaker" else self.truth.links[
-            min(index, len(self.truth.links) - 1)].stiffness * length
-        return Spot(self.truth, index, length, speed, force, SAMPLES / self.recorder.rate, shape)
-
-
 def _of_solver(hiding, seen, noise):
     """What values leave of the error of a step of one sample; ConfigError where that is too little to be seen."""
     recorder = hiding.recorder
     found = recorder.seen([coarse(hiding.truth, f, 1 / recorder.rate, CORNER) for f in recorder.runs])
-    left = hiding.explained.left(_difference(found, seen)[:-1], noise, hiding.colour)
+    left = hiding.explained.left(difference(found, seen)[:-1], noise, hiding.colour)
     if left < VISIBLE:
         raise ConfigError("trial: solver", f"an error of {VISIBLE:g} standard deviations", f"{left:.2g}",
                           "draw another seed")
     return left
-
-
-def _difference(shown_now, before):
-    return np.array(shown_now) - np.array(before)
-
-
-def noise_of(seen, level):
-    """Standard deviation (sensor,) of noise of this ``level`` relative to what the sensors show in all runs."""
-    return level * np.sqrt(np.mean([s**2 for s in seen], axis=(0, 2)))
 
 
 def _recorded(random, seen, noise, colour):

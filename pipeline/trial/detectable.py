@@ -17,8 +17,14 @@ from scipy.signal import lfilter
 from pipeline.trial.motion import PARTS
 from pipeline.trial.rig import Rig, value_names
 
+#: standard deviations of the noise that must be left beside the nominal values for something to be named
+VISIBLE = 4.0
 #: step of the differences: relative of values, or in standard deviations
 _STEP = 1e-4
+#: the same of a motion that is integrated to a tolerance
+_WIDER = 1e-2
+#: share of the objective that a step must gain for slopes to be updated only
+_SERVES = 0.5
 #: iterations of a refit, its longest step of a value in standard deviations, shares of a step that are tried, and the
 #: gain of the objective below which it has settled
 _ITERATIONS, _LONGEST, _SHARES, _SETTLED = 30, 1.5, (1.0, 0.5, 0.25, 0.1, 0.03, 0.01), 0.01
@@ -82,50 +88,75 @@ class Explained:
 
         ``beside`` [change]: what of other physics may take part, in any amount of about one.
         """
+        return self.taken(change, noise, colour, beside)[0]
+
+    def taken(self, change, noise, colour=0.0, beside=()):
+        """The same, linearly, and the amounts (size,) in which each of ``beside`` takes part."""
         r = whitened(np.array(change), noise, colour).ravel()
         rows = self._rows([*self.directions, *beside], noise, colour)
         u = np.linalg.solve(np.eye(len(rows)) + rows @ rows.T, rows @ r)
-        return float(np.hypot(np.linalg.norm(r - u @ rows), np.linalg.norm(u)))
+        return float(np.hypot(np.linalg.norm(r - u @ rows), np.linalg.norm(u))), u[len(self.directions):]
 
     def _rows(self, changes, noise, colour):
         return whitened(np.array(changes), noise, colour).reshape(len(changes), -1)
 
 
 class Refitted(Explained):
-    """What ``size`` other values explain however large their change: ``model(u)`` -> (run, sensor, n)."""
+    """What ``size`` other values explain however large their change: ``model(u)`` -> (run, sensor, n).
 
-    def __init__(self, model, size):
-        self.model, self.at_rest, self.size = model, np.array(model(np.zeros(size))), size
+    ``costly``: the model integrates; between differences, slopes are updated by the secant (C. G. Broyden 1965).
+    """
+
+    def __init__(self, model, size, costly=False):
+        self.model, self.at_rest, self.size, self.costly = model, np.array(model(np.zeros(size))), size, costly
         super().__init__(self._slopes(np.zeros(size), self.at_rest))
 
-    def left(self, change, noise, colour=0.0, beside=()):
-        """As ``Explained.left``, by Gauss's iteration with steps that are halved until they help."""
+    def left(self, change, noise, colour=0.0, beside=(), enough=0.0):
+        """As ``Explained.left``, by Gauss's iteration with steps that are halved until they help; ``enough``: d below
+        which no more is looked for."""
         others = self._rows(beside, noise, colour) if len(beside) else np.zeros((0, np.size(change)))
-        directions, u = self.directions, np.zeros(self.size + len(others))
+        directions, fresh, u = self.directions, True, np.zeros(self.size + len(others))
         r, seen = self._residual(u, change, noise, colour, others)
         for _ in range(_ITERATIONS):
-            rows = np.vstack((self._rows(directions, noise, colour), others))
-            step = np.linalg.solve(np.eye(len(u)) + rows @ rows.T, rows @ r - u)
-            step *= min(1.0, _LONGEST / max(abs(step).max(), 1e-300))
-            before = r @ r + u @ u
-            for share in _SHARES:
-                nearer, now = self._residual(u + share * step, change, noise, colour, others)
-                if nearer @ nearer + (u + share * step) @ (u + share * step) < before:
-                    break
-            else:
+            rows, before = np.vstack((self._rows(directions, noise, colour), others)), r @ r + u @ u
+            if before < enough**2:
                 break
-            u, r, seen = u + share * step, nearer, now
-            if before - r @ r - u @ u < _SETTLED:
+            moved = self._nearer(u, self._step(rows, r, u), before, change, noise, colour, others)
+            gained = before - moved[1] @ moved[1] - moved[0] @ moved[0] if moved else 0.0
+            if moved:
+                way = moved[0] - u
+                directions = self._updated(directions, way[:self.size], moved[2] - seen)
+                u, r, seen = moved
+            if gained < _SETTLED and fresh:
                 break
-            directions = self._slopes(u[:self.size], seen)
+            fresh = not (self.costly and gained > _SERVES * before)
+            if fresh:
+                directions = self._slopes(u[:self.size], seen)
         return float(np.hypot(np.linalg.norm(r), np.linalg.norm(u)))
+
+    def _step(self, rows, r, u):
+        step = np.linalg.solve(np.eye(len(u)) + rows @ rows.T, rows @ r - u)
+        return step * min(1.0, _LONGEST / max(abs(step).max(), 1e-300))
+
+    def _nearer(self, u, step, before, *asked):
+        """(values, residual, what is seen) a share of a step on where that is nearer than ``before``, else None."""
+        for share in _SHARES:
+            r, seen = self._residual(u + share * step, *asked)
+            if r @ r + (u + share * step) @ (u + share * step) < before:
+                return u + share * step, r, seen
+        return None
+
+    def _updated(self, directions, way, change):
+        """Directions that agree with the ``change`` seen on a ``way`` (size,)."""
+        return directions + np.multiply.outer(way, change - np.tensordot(way, directions, 1)) / max(way @ way, 1e-300)
 
     def _residual(self, u, change, noise, colour, others):
         seen = np.array(self.model(u[:self.size]))
         return whitened(np.array(change) - seen + self.at_rest, noise, colour).ravel() - u[self.size:] @ others, seen
 
     def _slopes(self, u, seen):
-        return np.array([(np.array(self.model(u + _STEP * one)) - seen) / _STEP for one in np.eye(self.size)])
+        step = _WIDER if self.costly else _STEP
+        return np.array([(np.array(self.model(u + step * one)) - seen) / step for one in np.eye(self.size)])
 
 
 def explained(seen, values, spread, gain_spread, step=_STEP):

@@ -7,6 +7,8 @@ import yaml
 
 from pipeline.contract.errors import ConfigError
 from pipeline.trial.case import CORNER, DELAY, GAIN_ERROR, LEVELS, SPREAD
+from pipeline.trial.detectable import VISIBLE
+from pipeline.trial.rivals import rivals
 from pipeline.trial.told import alike, parameters
 
 _CONFIGS = Path(__file__).parents[2] / "configs"
@@ -60,13 +62,19 @@ def channels(force, shown, rate):
 
 
 def truth(case):
-    """What is opened only for the score: see ``pipeline.trial.systems``; ``left`` is d of ``pipeline.trial.detectable``
-    (of the weaker of a pair)."""
-    own = effects(case, parameters)
-    told = [{**one, "alike": alike(p, case.truth)} for one, p in zip(own, case.planted, strict=True)]
+    """What is opened only for the score: see ``pipeline.trial.systems``.
+
+    ``left`` is d of ``pipeline.trial.detectable``: of the weaker of a pair; of physics that no catalogue holds, beside
+    the nearest known law. Laws that leave less than can be told are alike.
+    """
+    near = rivals(case) if case.kind in ("effect", "foreign") else []
+    taken = [{"name": one.name, "place": one.place} for one in near if one.left < VISIBLE]
+    told = [{**one, "alike": [*alike(p, case.truth), *(t for t in taken if t not in alike(p, case.truth))]}
+            for one, p in zip(effects(case, parameters), case.planted, strict=True)]
+    left = [*case.left, *(one.left for one in near if case.kind == "foreign")]
     return {"class": case.kind, "effects": told, "system": "forced_rig", "size": case.change,
             "noise": case.level, "parameters": values(case.truth), "seed": case.seed, "colour": case.colour,
-            "left": min(case.left, default=0.0), "wrong": case.far}
+            "left": min(left, default=0.0), "wrong": case.far}
 
 
 def effects(case, told):

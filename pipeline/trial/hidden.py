@@ -58,8 +58,7 @@ class Spot(Drawn):
 class Hidden:
     """One piece of physics: ``build(spot, size)`` -> World, or the Chain of a channel.
 
-    ``kin``: names of known pieces at such a place that come nearest to one that is not known; ``timed``: whether it has
-    times of its own, which follow the typical ones of the spot.
+    ``timed``: whether it has times of its own, which follow the typical ones of the spot.
     """
 
     name: str
@@ -67,7 +66,6 @@ class Hidden:
     build: Callable
     known: bool = True
     exact: str = ""
-    kin: tuple = ()
     timed: bool = False
 
 
@@ -270,17 +268,16 @@ _PIECES = (
     Hidden("sensor_offset_drift", "channel", _channel(
         offset=lambda s, size: size * s.length, drift=lambda s, size: size * (s.shape[0] - 0.5) * s.length / s.time)),
     Hidden("clipping", "channel", _channel(limit=lambda s, size: 2 * s.length / size)),
-    Hidden("film_drag", "link", _drag(1.5), known=False, kin=("joint_damping", "quadratic_damping")),
+    Hidden("film_drag", "link", _drag(1.5), known=False),
     Hidden("parametric_stiffness", "link", _along(_modulated), known=False),
     Hidden("impact", "mass", _bouncing, known=False),
-    Hidden("magnetic_softening", "link", _along(_magnet), known=False, kin=("cubic_stiffness",)),
+    Hidden("magnetic_softening", "link", _along(_magnet), known=False),
     Hidden("fractional_damping", "link", _branches(
-        lambda s: _fractional_weights(0.5), lambda s: _DECADES / s.angular), known=False,
-        kin=("viscoelastic_pad", "shim_damping")),
-    Hidden("leaking_mass", "mass", _leaking, known=False, kin=("attached_mass",)),
-    Hidden("rough_friction", "link", _along(_rough), known=False, kin=("coulomb",)),
-    Hidden("dithered_friction", "link", _along(_dithered), known=False, kin=("coulomb", "joint_damping")),
-    Hidden("dwell_friction", "link", _along(_dwelling, 1, _dwelling_rates), known=False, kin=("coulomb",)),
-    Hidden("quintic_stiffness", "link", _polynomial(5), known=False, kin=("cubic_stiffness",)),
+        lambda s: _fractional_weights(0.5), lambda s: _DECADES / s.angular), known=False),
+    Hidden("leaking_mass", "mass", _leaking, known=False),
+    Hidden("rough_friction", "link", _along(_rough), known=False),
+    Hidden("dithered_friction", "link", _along(_dithered), known=False),
+    Hidden("dwell_friction", "link", _along(_dwelling, 1, _dwelling_rates), known=False),
+    Hidden("quintic_stiffness", "link", _polynomial(5), known=False),
 )
 HIDDEN = {piece.name: piece for piece in _PIECES}

@@ -20,8 +20,9 @@ from itertools import combinations, product
 import numpy as np
 
 from pipeline.trial import belt, belt_files, benches, brake_files, files, flutter, pin_bench, recorded
-from pipeline.trial.case import KINDS, kind_of, made, places
+from pipeline.trial.case import KINDS, kind_of, made
 from pipeline.trial.hidden import HIDDEN
+from pipeline.trial.hiding import places
 from pipeline.trial.rubbing import FRICTION
 
 CLASSES = ("effect", "pair", "control", "wrong_value", "sensor", "solver", "foreign", "below")

@@ -19,12 +19,12 @@ _OF_WALL = {"pressure_ripple": "base_shake", "hydraulic_compliance": "viscoelast
 
 
 def alike(planted, rig):
-    """[{name, place}] of known laws whose force at these places is that of a Planted, or comes nearest to it."""
+    """[{name, place}] of known laws whose force at these places is that of a Planted."""
     walls = [f"link_{k}" for k, link in enumerate(rig.links) if (link.near, link.far) == (rig.pushed, -1)]
     same = [(_OF_WALL[name], wall) for name in (planted.piece.name,) if name in _OF_WALL for wall in walls]
     same += [(name, "shaker") for name, other in _OF_WALL.items() if (other, planted.place) in
              [(planted.piece.name, wall) for wall in walls]]
-    return [{"name": name, "place": place} for name, place in (*same, *((k, planted.place) for k in planted.piece.kin))]
+    return [{"name": name, "place": place} for name, place in same]
 
 
 def _wave(spot, low, high):

@@ -76,6 +76,12 @@ def test_a_rival_that_breaks_a_rule_leaves_the_other_named():
     assert verdict(FOUR, first, second) == "missing"
 
 
+def test_what_breaks_no_rule_is_not_named_in_place_of_something_more_likely():
+    first, second = replace(GOOD, posterior=0.6, held_out_errors=-2.0), replace(GOOD, name="gap", posterior=0.39)
+    told = decide(FOUR, [first, second], Rules())
+    assert told.verdict == "unknown" and "gap: candidates that break a rule are more likely" in told.reasons
+
+
 def test_what_leaves_more_than_a_twentieth_is_unknown():
     assert verdict(FOUR, replace(GOOD, unexplained=0.06)) == "unknown"
     assert verdict(FOUR, replace(GOOD, unexplained=0.049)) == "missing"

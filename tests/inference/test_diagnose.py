@@ -90,6 +90,31 @@ def test_a_smaller_second_effect_is_named_where_both_reach_the_noise():
     assert not told.named[0].contender.held_out_left
 
 
+def odd_values(amount):
+    """A linear problem of a strong effect_1, and an effect_2 of this ``amount`` that 7 deviations of a value mimic."""
+    whole, noise, catalogue, tables = linear.problem((1, 1, 1), runs=4, held_out=1)
+    runs = []
+    for run in whole.runs:
+        table = tables[run.name]
+        table["effect_2_0"] = 7 * table["nominal_0"] + 0.3 * table["effect_2_0"]
+        runs.append(replace(run, samples=run.samples + 3 * table["effect_1_0"] + amount * table["effect_2_0"]))
+    return replace(whole, runs=tuple(runs)), noise, catalogue
+
+
+def test_a_second_effect_that_gives_values_back_to_their_priors_is_named():
+    asked = replace(Settings(), rules=replace(Rules(), second_share=0.9, second_at_noise=0.9))
+    told = diagnose(*odd_values(1.0), asked)
+    assert told.decision.verdict == "missing" and told.base is not None
+    assert {c.name for c in told.decision.named} == {"effect_2"} and told.nominal.effects[0][0] == "effect_1"
+
+
+def test_values_within_their_priors_ask_for_no_second_effect():
+    asked = replace(Settings(), rules=replace(Rules(), second_share=0.9, second_at_noise=0.9))
+    told = diagnose(*odd_values(0.4), asked)
+    assert told.decision.verdict == "missing" and told.base is None
+    assert [c.name for c in told.decision.named] == ["effect_1"]
+
+
 def test_a_candidate_whose_forward_model_fails_on_its_way_is_told_and_not_judged(monkeypatch):
     def failing(*_, **__):
         raise ConvergenceError("time stepping at t = 0.4 s", "a force that settles", "none", "take a shorter step")

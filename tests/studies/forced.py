@@ -22,8 +22,9 @@ from pipeline.diagnosis.document import as_json
 from pipeline.products import Recording
 from pipeline.recordings.neutral import read_neutral
 from pipeline.trial import files
-from pipeline.trial.case import made, places
+from pipeline.trial.case import made
 from pipeline.trial.hidden import HIDDEN
+from pipeline.trial.hiding import places
 from stages.bench import bench
 from stages.diagnosis import diagnosis
 from stages.lumped import lumped

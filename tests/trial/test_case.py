@@ -1,15 +1,10 @@
 """Cases: the same seed gives the same case, hidden physics changes it by what is wanted, controls hide nothing."""
 
-from dataclasses import replace
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
-from pipeline.trial import case
-from pipeline.trial.case import BELOW, CHANGE, FAR, LEVELS, SAMPLES, VISIBLE, kind_of, known, made
-from pipeline.trial.hidden import HIDDEN, Spot
-from pipeline.trial.planted import Planted
+from pipeline.trial.case import CHANGE, FAR, LEVELS, SAMPLES, VISIBLE, kind_of, known, made
 from pipeline.trial.rig import drawn
 
 
@@ -45,16 +40,6 @@ def test_values_known_exactly_stand_in_controls_as_well_and_betray_nothing():
     assert set(told) == {(), ("mass_0",), ("stiffness_0",), ("damping_0",)}
     first = next(seed for seed, names in enumerate(told) if names)
     assert made(first, masses=1, level=0.1).exact == told[first]
-
-
-def test_what_comes_near_to_a_law_that_relaxes_does_so_at_several_times(monkeypatch):
-    monkeypatch.setattr(case, "sized", lambda one, *_: one)
-    one = Planted(HIDDEN["fractional_damping"], "link_0", Spot(None, 0, 1.0, 2.0, 3.0, 4.0, (0.5, 0.5, 0.5)))
-    near = case._Hiding._kin(SimpleNamespace(_change=None), one, 0.1)
-    assert [(p.piece.name, p.spot.angular) for p in near] == [
-        (name, 2.0 * speed) for name in ("viscoelastic_pad", "shim_damping") for speed in (1.0, 3.0, 9.0)]
-    rough = case._Hiding._kin(SimpleNamespace(_change=None), replace(one, piece=HIDDEN["rough_friction"]), 0.1)
-    assert [(p.piece.name, p.spot) for p in rough] == [("coulomb", one.spot)]
 
 
 def test_a_pair_hides_both():

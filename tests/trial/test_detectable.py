@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from pipeline.trial.detectable import Explained, Values, coarse, linear, of_rig, whitened
+from pipeline.trial.detectable import Explained, Refitted, Values, coarse, linear, of_rig, whitened
 from pipeline.trial.motion import World, moved
 from pipeline.trial.planted import Recorder
 from pipeline.trial.rig import drawn
@@ -99,3 +99,16 @@ def test_coloured_noise_is_white_after_whitening():
         samples.append(colour * samples[-1] + np.sqrt(1 - colour**2) * random.standard_normal())
     white = whitened(np.array([samples]), [1.0], colour)[0]
     assert white.std() == pytest.approx(1, abs=0.02) and abs(white[1:] @ white[:-1] / (white @ white)) < 0.02
+
+
+def test_slopes_that_are_updated_end_where_new_ones_do_with_fewer_motions():
+    own, rig, recorder = explained()
+    links = (replace(rig.links[0], stiffness=1.4 * rig.links[0].stiffness), *rig.links[1:])
+    other = np.array(recorder.seen([linear(replace(rig, links=links), f, 0.01, 40.0) for f in recorder.runs]))
+    noise, counts, lefts = 0.01 * np.sqrt(np.mean(other**2, axis=(0, 2))), [], []
+    for costly in (False, True):
+        asked = []
+        refit = Refitted(lambda u, asked=asked: asked.append(u) or own.model(u), own.size, costly)
+        lefts.append(refit.left(other - own.at_rest, noise))
+        counts.append(len(asked))
+    assert lefts[1] == pytest.approx(lefts[0], rel=0.01) and counts[1] < counts[0]

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 from pipeline.effects import CATALOGUE
-from pipeline.trial.case import places
 from pipeline.trial.hidden import HIDDEN, Spot
+from pipeline.trial.hiding import places
 from pipeline.trial.motion import World
 from pipeline.trial.rig import drawn
 

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from pipeline.recordings.neutral import read_neutral
-from pipeline.trial.case import places
 from pipeline.trial.hidden import HIDDEN
+from pipeline.trial.hiding import places
 from pipeline.trial.systems import CLASSES, SYSTEMS, Draw, _apart
 from tests.trial.imported import imported
 

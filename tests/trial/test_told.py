@@ -57,8 +57,7 @@ def test_other_laws_have_no_values():
     ("pressure_ripple", "shaker", 1, [("base_shake", "link_0")]),
     ("base_shake", "link_0", 1, [("pressure_ripple", "shaker")]),
     ("viscoelastic_pad", "link_0", 1, [("hydraulic_compliance", "shaker")]),
-    ("pressure_ripple", "shaker", 3, []), ("base_shake", "link_0", 2, []), ("coulomb", "link_0", 1, []),
-    ("rough_friction", "link_1", 2, [("coulomb", "link_1")])])
+    ("pressure_ripple", "shaker", 3, []), ("base_shake", "link_0", 2, []), ("coulomb", "link_0", 1, [])])
 def test_laws_of_the_same_force_are_told_only_at_a_mass_that_a_wall_holds(name, place, masses, wanted):
     found = alike(Planted(HIDDEN[name], place, SPOT), drawn(np.random.default_rng(2), masses))
     assert [(one["name"], one["place"]) for one in found] == wanted
