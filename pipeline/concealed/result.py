@@ -154,13 +154,26 @@ def claims(cases):
 
 
 def parameters(cases):
-    """{nominal, effects: how near fitted values are} where the verdict is right: relative errors and coverage."""
-    right = [(t, a) for t, a, j in cases if j["right"]]
-    return {"nominal": _compared([pair for t, a in right for pair in _pairs(
-                t.get("parameters", {}), a.get("parameters", {}))]),
-            "effects": _compared([pair for t, a in right for true in t["effects"] for told in a["effects"]
+    """{nominal, lacking, effects: how near fitted values are} where the verdict is right: relative errors and coverage.
+
+    ``nominal``: values of models that hold all that acts; ``lacking``: of those without something that is in no
+    catalogue or too faint to be named, whose fitted values make up for it.
+    """
+    right = [(t, a, j) for t, a, j in cases if j["right"]]
+
+    def nominal(whole):
+        return _compared([pair for t, a, j in right if _whole(t, j) == whole
+                          for pair in _pairs(t.get("parameters", {}), a.get("parameters", {}))])
+
+    return {"nominal": nominal(True), "lacking": nominal(False),
+            "effects": _compared([pair for t, a, _ in right for true in t["effects"] for told in a["effects"]
                                   if same(true, told) for pair in _pairs(true.get("parameters", {}),
                                                                          told.get("parameters", {}))])}
+
+
+def _whole(truth, judged):
+    """Whether the model of a right answer holds all that acts: nothing is hidden, or it is named."""
+    return class_of(truth) in (*EMPTY, "solver") or judged.get("named", False)
 
 
 def _pairs(true, told):

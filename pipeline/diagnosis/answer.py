@@ -5,6 +5,7 @@ import numpy as np
 from pipeline.diagnosis.location import stage_of
 from pipeline.diagnosis.next_run import next_experiment
 from pipeline.diagnosis.question import label, split_name
+from pipeline.inference.effective import tempering
 from pipeline.inference.noise import normalised_error
 from pipeline.inference.verify import errors
 from pipeline.inference.weigh import unexplained
@@ -128,8 +129,22 @@ def _row(name, effects, kind, **values):
     return row | values
 
 
+def _spread(found, best):
+    """{name: standard deviation} of the values of the Fit ``best``; what a model leaves counts as its noise.
+
+    Where nothing could be named, values depend on what is missing: they are those of ``best`` or of a refitted
+    candidate that fits better, each as likely as the others since none of them suffices.
+    """
+    unknown = found.decision.verdict == "unknown"
+    models = [best, *(w.fit for w in found.weighed if unknown and w.fit.objective < best.objective)]
+    spreads = [fit.spread(tempering(fit.noises, fit.residuals)) for fit in models]
+    return {name: float(np.sqrt(np.mean([std[name] ** 2 + (fit.values[name] - value) ** 2
+                                         for fit, std in zip(models, spreads, strict=True)])))
+            for name, value in best.values.items()}
+
+
 def _parameters(question, found, best, table):
-    std, values = best.spread(found.weights), best.values
+    std, values = _spread(found, best), best.values
     owners = dict(zip(table["hypothesis"], range(len(table["hypothesis"])), strict=True))
     rows = []
     for parameter in best.hypothesis.parameters:

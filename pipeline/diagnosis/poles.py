@@ -13,7 +13,7 @@ from scipy.optimize import linear_sum_assignment
 from pipeline.contract import ConfigError
 from pipeline.inference.problem import Observed
 from pipeline.physics.bench_modes import modes, motions, order_locked
-from pipeline.physics.free_decay import Poles, before_saturation, confirmed, fundamental, likeness, poles
+from pipeline.physics.free_decay import Poles, before_saturation, confirmed, fundamental, likeness, steady_poles
 
 #: orders of the drive that slow turns are read for
 ORDERS = (1, 2, 3)
@@ -74,7 +74,7 @@ def _poles(bench, one, settings):
     seen = [c for c in motions(bench) if c.name in one.channels]
     samples = one.samples[[one.channels.index(c.name) for c in seen]]
     count = before_saturation(samples, one.run.sample_rate, settings.saturation)
-    told = poles(samples, one.run.sample_rate, settings.low, settings.high, count)
+    told = steady_poles(samples, one.run.sample_rate, settings.low, settings.high, count)
     power = np.array([_POWER[c.quantity] for c in seen])
     apart = 2 * np.pi * one.run.sample_rate / min(count, samples.shape[1])
     std = np.hypot(told.std, _UNRESOLVED * apart)

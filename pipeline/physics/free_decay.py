@@ -8,7 +8,7 @@ amplitudes eliminated), whose Jacobian gives the standard deviations. Where a re
 first, so that its end, where saturation begins, counts no more than its begin.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.optimize import linear_sum_assignment
@@ -28,8 +28,12 @@ _KNOWN = 2e-3
 #: in powers of e
 _FASTEST = 2.0
 _ITERATIONS = 12
-#: how close to the sum of two others a pole is a combination tone of them, as a share of its root
+#: how close to the sum of two others, of which one grows, a pole is a combination tone of them, as a share of its root
 _TONE = 1e-3
+#: the same where both decay, in standard deviations
+_AGREES = 3.0
+#: how much later a record begins to be asked again, in lengths of the filter of a band
+_LATER = 1 / 3
 #: poles that begin fainter than this share of the loudest in every channel are distortion that grew from nothing
 _FAINT = 5e-3
 #: longest window of the pencil in samples
@@ -57,12 +61,34 @@ def poles(samples, rate, low, high, count=None):
     """
     if not 0 < low < high < 0.5 * rate:
         raise ConfigError("poles: band", f"0 < low < high < {0.5 * rate:g} Hz", f"{low:g} to {high:g} Hz")
-    bands = max(1, round((high - low) / _WIDTH))
-    edges = np.linspace(low, high, bands + 1)
-    found = [_band(samples[:, :count], rate, *edges[k:k + 2]) for k in range(bands)]
+    edges = _edges(low, high)
+    found = [_band(samples[:, :count], rate, *both) for both in zip(edges[:-1], edges[1:], strict=True)]
     whole = Poles(*(np.concatenate(parts) for parts in zip(*((f.root, f.std, f.shape) for f in found), strict=True)))
     whole = whole.of(np.argsort(whole.root.imag))
     return whole.of(_loudness(whole.shape) > _FAINT)
+
+
+def steady_poles(samples, rate, low, high, count=None):
+    """The ``poles`` that the record shows also where it begins later, none known better than the two agree.
+
+    What fades within the filter of a band stands on few samples, beside others that fade faster and are not told.
+    Records too short to begin later show what they show.
+    """
+    shown = samples[:, :count]
+    found = poles(shown, rate, low, high)
+    late = round(_LATER * _TAPS * rate / np.diff(_edges(low, high))[0])
+    try:
+        later = poles(shown[:, min(late, shown.shape[1] - 1):], rate, low, high)
+    except ConfigError:
+        return found
+    pairs = matched(found, later)
+    kept, again = found.of([i for i, _ in pairs]), later.of([j for _, j in pairs])
+    return replace(kept, std=np.maximum(kept.std, abs(kept.root - again.root) / 2))
+
+
+def _edges(low, high):
+    """Edges (bands + 1,) in Hz of bands of even width."""
+    return np.linspace(low, high, max(1, round((high - low) / _WIDTH)) + 1)
 
 
 def _loudness(shape):
@@ -91,7 +117,7 @@ def likeness(first, second):
     return abs(first.conj() @ second.T) ** 2 / np.maximum(size, 1e-300)
 
 
-def matched(first, second, within, alike):
+def matched(first, second, within=0.008, alike=0.8):
     """[(i, j)] of two Poles that are the same: frequencies within the share ``within``, likeness above ``alike``."""
     apart = abs(np.subtract.outer(first.root.imag, second.root.imag)) / first.root.imag[:, None]
     same = likeness(first.shape, second.shape)
@@ -99,12 +125,12 @@ def matched(first, second, within, alike):
     return [(int(i), int(j)) for i, j in zip(*linear_sum_assignment(cost), strict=True) if cost[i, j] < 1e3]
 
 
-def confirmed(first, second, within=0.008, alike=0.8):
+def confirmed(first, second):
     """Mean of the Poles seen in two records; others are dropped.
 
     Its standard deviation is that of the mean, or half the difference where the two differ by more than theirs.
     """
-    pairs = matched(first, second, within, alike)
+    pairs = matched(first, second)
     one, other = first.of([i for i, _ in pairs]), second.of([j for _, j in pairs])
     weight = 1 / one.std**2, 1 / other.std**2
     total = weight[0] + weight[1]
@@ -116,12 +142,21 @@ def confirmed(first, second, within=0.008, alike=0.8):
 
 
 def fundamental(found):
-    """The Poles without combination tones: sums p_i + p_j and p_i + p_j* with one that grows, amplitudes no longer
-    small; they grow as the sum of what they come from."""
-    growing = found.root[found.root.real > 0]
-    tones = np.add.outer(growing, np.concatenate((found.root, found.root.conj()))).ravel()
-    apart = abs(np.subtract.outer(found.root, np.where(tones.imag < 0, tones.conj(), tones)))
-    return found.of((apart > _TONE * abs(found.root)[:, None]).all(axis=1))
+    """The Poles without combination tones: sums p_i + p_j and p_i + p_j*, which a law that is not linear makes of two.
+
+    With one that grows, amplitudes are no longer small. Of two that decay, a fainter pole is the tone where it agrees
+    with their sum in frequency and decay, as well as these are known.
+    """
+    i, j = np.triu_indices(len(found.root))
+    tone = np.concatenate((found.root[i] + found.root[j], found.root[i] + found.root[j].conj()))
+    tone = np.where(tone.imag < 0, tone.conj(), tone)
+    grows, std = (found.root.real[i] > 0) | (found.root.real[j] > 0), np.hypot(found.std[i], found.std[j])
+    loud = _loudness(found.shape)
+    fainter = np.less.outer(loud, np.tile(np.minimum(loud[i], loud[j]), 2))
+    apart = abs(np.subtract.outer(found.root, tone))
+    same = fainter & (apart <= _AGREES * np.hypot.outer(found.std, np.tile(std, 2)))
+    near = apart <= _TONE * abs(found.root)[:, None]
+    return found.of(~np.where(np.tile(grows, 2), near, same).any(axis=1))
 
 
 def _band(samples, rate, low, high):

@@ -10,6 +10,8 @@ from pipeline.trial import files, flutter, pin_bench, worn_pad
 #: which joint carries the arm of each bench
 _ARM = {"pin_on_disc": "arm", "shoe_on_drum": "onto"}
 _BESIDE = {"kind": "hdf5", "file": "recordings.h5"}
+#: factor of a mode -> what a diagnosis calls it
+_OF_MODES = {"mass": "modal_mass", "frequency": "frequency", "damping": "damping"}
 #: names of the catalogue for what a worn pad hides
 _WORN = {"third_body": "third_body_film", "transfer": "material_transfer"}
 
@@ -18,7 +20,16 @@ def pin_on_disc(draw, folder):
     """A tilted pin on a turning disc, tapped until it squeals."""
     bench, told = pin_bench.make(draw.seed, *_split(draw, pin_bench.DECOYS))
     document = files.stated("pin_on_disc_bench.yaml")
-    return _self_excited(draw, folder, document, pin_bench.record(bench, draw.seed), told["hidden"], told["factors"])
+    found = _self_excited(draw, folder, document, pin_bench.record(bench, draw.seed), told["hidden"], told["factors"])
+    return {**found, "parameters": _values(bench, told["factors"])}
+
+
+def _values(bench, factors):
+    """{parameter of a diagnosis: true value} of a pin_bench.Bench: SI, of its modes over the nominal value."""
+    modes = {f"bodies.{body}.{_OF_MODES[kind]}": factor for (body, kind), factor in (
+        (name.split("."), factor) for name, factor in factors.items() if "." in name) if body not in ("arm", "contact")}
+    return {**modes, "joints.arm.stiffness": float(abs(bench.arm[-1])), "contact.stiffness": float(bench.contact),
+            "friction.stiffness": float(bench.shear), "friction": float(bench.friction)}
 
 
 def shoe_on_drum(draw, folder):

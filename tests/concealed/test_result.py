@@ -52,6 +52,17 @@ def test_values_of_named_effects_are_compared_too():
     assert (told["count"], told["distances"]) == (1, [4.0]) and told["within_95"]["hits"] == 0
 
 
+def test_values_of_models_that_lack_something_are_counted_apart():
+    cases = [case("control", "parameters", right=True), case("effect", "missing", ("coulomb", "a", 1.0), right=True),
+             case("foreign", "unknown", right=True), case("below", "parameters", right=True),
+             case("effect", "unknown", right=False)]
+    for shift, (truth, answer, found) in enumerate(cases, 1):
+        truth["parameters"], answer["parameters"] = {"mass": 2.0}, {"mass": {"value": 2.0 + shift, "std": 1.0}}
+        found["named"] = found["right"] and truth["class"] == "effect"
+    told = parameters(cases)
+    assert told["nominal"]["distances"] == [1, 2] and told["lacking"]["distances"] == [3, 4]
+
+
 def test_only_a_case_that_is_not_right_says_why(found):
     assert [n for n, one in found["cases"].items() if "why" in one["answers"]["diagnosis"]] == ["003"]
     assert json.loads(json.dumps(found, allow_nan=False)) == found

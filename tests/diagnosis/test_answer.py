@@ -14,6 +14,7 @@ from pipeline.diagnosis.forced import question
 from pipeline.diagnosis.settings import Settings
 from pipeline.inference.diagnose import Settings as Course
 from pipeline.inference.diagnose import diagnose
+from pipeline.inference.effective import tempering
 from pipeline.inference.locate import against_null
 from tests.diagnosis.small_rig import HIDDEN, NOISE, laid_out, model, recording
 
@@ -75,6 +76,21 @@ def test_nothing_missing_and_wrong_values():
     found = told(hidden=False, stiffness="430 N/m")
     assert found.verdict.item() == "parameters"
     assert abs(found.parameter_value[0] - 430.0) < 4 * found.parameter_std[0]
+
+
+def test_where_nothing_is_named_values_are_as_uncertain_as_what_is_missing():
+    given = recording(HIDDEN)
+    asked = question(benches.built(model(), laid_out()), recorded(given, laid_out()), fill(
+        Settings, {**ASKED, "solver": False, "effects": ["coulomb", "quadratic_stiffness"]}, "d"))
+    found = diagnose(asked.problem, asked.budget, asked.candidates, Course(kept=2, draws=2000))
+    product, null = answer(asked, found), found.null
+    assert product.verdict.item() == "unknown" and list(product.parameter) == list(null.values)
+    better = [w.fit for w in found.weighed if w.fit.objective < null.objective]
+    assert better and np.all(null.chi_square > 10 * null.counts)
+    for name, std in zip(product.parameter, product.parameter_std, strict=True):
+        apart = max(abs(fit.values[name] - null.values[name]) for fit in better)
+        assert apart / np.sqrt(1 + len(better)) < std < apart + 2 * null.spread(tempering(
+            null.noises, null.residuals))[name]
 
 
 def test_an_axis_of_names_and_one_of_bins():

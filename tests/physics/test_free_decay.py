@@ -4,7 +4,16 @@ import numpy as np
 import pytest
 
 from pipeline.contract.errors import ConfigError
-from pipeline.physics.free_decay import Poles, before_saturation, confirmed, fundamental, likeness, matched, poles
+from pipeline.physics.free_decay import (
+    Poles,
+    before_saturation,
+    confirmed,
+    fundamental,
+    likeness,
+    matched,
+    poles,
+    steady_poles,
+)
 
 RATE = 10240.0
 ROOT = np.array([-12 + 2j * np.pi * 310, -9 + 2j * np.pi * 611, -9 + 2j * np.pi * 617, 40 + 2j * np.pi * 1502.5])
@@ -59,6 +68,28 @@ def test_sums_of_growing_poles_are_not_poles():
     every = np.concatenate(([grows, decays, 2 * decays], tones))
     left = fundamental(Poles(every, np.ones(6), np.ones((6, 2))))
     np.testing.assert_array_equal(left.root, every[:3])
+
+
+def test_a_faint_pole_in_frequency_and_decay_of_two_others_is_their_tone():
+    one, other = -50 + 2j * np.pi * 1114, -21 + 2j * np.pi * 2241
+    root = np.array([one, other, other + one.conjugate() + 0.4j, one + other + 30])
+    size, std = np.array([1.0, 0.4, 0.02, 0.02]), np.full(4, 0.3)
+    np.testing.assert_array_equal(fundamental(Poles(root, std, size[:, None] * np.ones(2))).root, root[[0, 1, 3]])
+    assert len(fundamental(Poles(root, std, np.ones((4, 2)))).root) == 4, "tones are fainter than what they come from"
+
+
+def test_a_pole_is_known_as_well_as_two_beginnings_of_a_record_agree():
+    """One that fades beside others, of which one fades too fast to be told."""
+    root = np.array([-7 + 2j * np.pi * 1010, -122 + 2j * np.pi * 990, -460 + 2j * np.pi * 1191])
+    shape = np.array([[1, 0.01, 0.01], [0.08, 0.3, 0.3], [0.08, 0.35, 0.35j]])
+    samples = record(0.012, 1, root=root, shape=shape, rate=25600.0)
+    at_once, steady = (find(samples, 25600.0, 250.0, 4600.0) for find in (poles, steady_poles))
+    apart = [[abs(found.root - r).min() / found.std[abs(found.root - r).argmin()] for r in root[:2]]
+             for found in (at_once, steady)]
+    assert apart[0][1] > 5 and max(apart[1]) < 3
+    short = samples[:, :340]
+    np.testing.assert_array_equal(steady_poles(short, 25600.0, 250.0, 4600.0).std,
+                                  poles(short, 25600.0, 250.0, 4600.0).std)
 
 
 def test_growth_is_free_until_a_share_of_its_largest():

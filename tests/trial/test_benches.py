@@ -5,7 +5,7 @@ import pytest
 from pipeline.effects import CATALOGUE
 from pipeline.effects.typical import Typical
 from pipeline.recordings.neutral import read_neutral
-from pipeline.trial import benches, pin_bench, worn_pad
+from pipeline.trial import benches, files, pin_bench, worn_pad
 from pipeline.trial.systems import Draw
 
 
@@ -30,6 +30,16 @@ def test_a_bench_leaves_two_files_and_tells_its_truth(tmp_path, short, system, h
     assert str(runs["lifted_2"].repeat_of) == "lifted_1" and "turned_15N" in runs
     text = (tmp_path / "nominal.yaml").read_text()
     assert "file: recordings.h5" in text and "practice/bench" not in text
+
+
+def test_true_values_are_told_of_every_parameter_that_is_asked_for(tmp_path, short):
+    truth = benches.pin_on_disc(Draw(4, "pin_on_disc", "effect", ("moving_base",), 0.0, 0.0), tmp_path)
+    asked = set(files.stated("pin_on_disc_bench.yaml")["diagnosis"]["parameters"])
+    assert asked <= set(truth["parameters"])
+    factors, known = truth["factors"], truth["parameters"]
+    assert known["bodies.two.modal_mass"] == factors["two.mass"] and known["friction"] == 0.3 * factors["friction"]
+    assert known["joints.arm.stiffness"] == pytest.approx(2e6 * factors["arm.stiffness"], rel=1e-12)
+    assert known["friction.stiffness"] == 2.4e6 * factors["contact.tangential_stiffness"]
 
 
 @pytest.mark.parametrize("hidden", ["", "third_body_film", "material_transfer"])

@@ -10,6 +10,9 @@ _SELF = "the same"
 _CLASSES = {"effect": "one effect", "pair": "two effects", "control": "nothing missing", "wrong_value": "a wrong value",
             "sensor": "a sensor", "solver": "the solver", "foreign": "not in the catalogue",
             "below": "below the threshold"}
+#: which fitted values are compared with the truth, in words
+_VALUES = {"nominal": "nominal values", "lacking": "nominal values of models that lack something",
+           "effects": "values of named effects"}
 
 
 def all_of(result):
@@ -147,9 +150,8 @@ def _held_out(result):
 
 
 def _parameters(main):
-    kinds = [(name, found) for name, found in (("nominal values", main["parameters"]["nominal"]),
-                                               ("values of named effects", main["parameters"]["effects"]))
-             if found["count"]]
+    told = main["parameters"]
+    kinds = [(name, told[key]) for key, name in _VALUES.items() if told.get(key, {}).get("count")]
     if not kinds:
         return None
     rows = tuple((name, str(found["count"]), percent(found["median_error"], 2), _cell(found["within_68"]),
@@ -157,7 +159,8 @@ def _parameters(main):
     head = ("values", "count", "median error", "within 1 standard deviation", "within 1.96")
     return Chapter("parameters", "Are fitted values right?", "Fitted values of the cases that were told right, beside"
                    " the truth where the set tells it.", "Of calibrated errors 68 % lie within one stated standard"
-                   " deviation and 95 % within 1.96.", tuple(
+                   " deviation and 95 % within 1.96. Where something is too faint to be named, or in no"
+                   " catalogue, values make up for what the model lacks.", tuple(
                        Figure(pictures.distances(found["distances"]), f"Distance of {name} from the truth in stated"
                               " standard deviations (cut at 8).") for name, found in kinds),
                    (Table(head, rows, "Fitted values", (1, 2, 3, 4)),))
