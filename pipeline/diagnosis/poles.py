@@ -17,8 +17,9 @@ from pipeline.physics.free_decay import Poles, before_saturation, confirmed, fun
 
 #: orders of the drive that slow turns are read for
 ORDERS = (1, 2, 3)
-#: how far a predicted root may lie from a seen one, as a share of it, before it costs as much as another shape
-_NEAR = 0.03
+#: how far a predicted root may lie from a seen one, as a share of it, before it costs as much as another shape: as far
+#: as stated values put it. Roots that have to pass each other on the way to their peaks are told by their shapes
+_NEAR = 0.1
 #: so many times that, and distance counts less and less: one peak that is no mode does not move all others by one
 _FAR = 3.0
 #: how far a root may be from a peak, as a share of it, before the distance counts less and less

@@ -6,6 +6,7 @@ import numpy as np
 
 from pipeline.contract.errors import BrakechainError, ConvergenceError
 from pipeline.inference.least_squares import FAR, continued, iterated, linearised, of_features, whitened
+from pipeline.inference.weigh import EXCLUDED
 
 #: iterations from every start before only the best goes on
 _TRIAL = 3
@@ -15,8 +16,11 @@ _EASIER = 8
 #: phase of a nonlinear motion cannot slip, so that the optimum is reached from far away
 _HORIZONS, _FEWEST = (0.08, 0.3), 32
 #: standard deviations, as multiples of the true ones, with which features are fitted first where they are that far off:
-#: then priors hold what few features tell, and each is paired with what it belongs to before it counts in full
-_LOOSE = (30.0, 6.0)
+#: then priors hold what few features tell, and each is paired with what it belongs to before it counts in full. Under
+#: the first, features known to a few parts in ten thousand weigh no more than values known to a few per cent
+_LOOSE = (300.0, 30.0, 6.0)
+#: times that a fit of features begins again where the prior of a value all but excludes it
+_AGAIN = 2
 
 
 def calibrate(problem, noises, hypothesis, starts, runs, settled=True):
@@ -29,9 +33,35 @@ def calibrate(problem, noises, hypothesis, starts, runs, settled=True):
     for state in _begun(problem, noises, hypothesis, starts, runs, reasons):
         found = state if state.converged else continued(problem, state, patient=settled)
         if found.converged or not settled:
-            return found
+            return paired_anew(problem, found)
         reasons.append(f"not converged after {found.evaluations} predictions")
     raise _stopped(hypothesis, reasons)
+
+
+def paired_anew(problem, found):
+    """The Fit ``found``, or a lower one of features, begun with those values at their prior means that priors exclude.
+
+    A feature paired with what it does not belong to drags the value that moves this there; as long as it is there, the
+    two stay paired.
+    """
+    for _ in range(_AGAIN):
+        pulled = abs(found.latent) > EXCLUDED
+        if not (of_features(found.noises) and pulled.any()):
+            break
+        other = _from(problem, found, np.where(pulled, 0.0, found.latent))
+        if other is None or other.objective >= found.objective:
+            break
+        found = other
+    return found
+
+
+def _from(problem, found, start):
+    """The Fit of what ``found`` is of, from the latent ``start``; None where the forward model fails on the way."""
+    states = _begun(problem, found.noises, found.hypothesis, [start], found.runs, [])
+    try:
+        return continued(problem, states[0], patient=False) if states else None
+    except BrakechainError:
+        return None
 
 
 def begun(problem, noises, hypothesis, starts, runs, known=()):

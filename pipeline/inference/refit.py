@@ -8,7 +8,7 @@ import numpy as np
 
 from pipeline.contract.errors import BrakechainError
 from pipeline.inference import tones
-from pipeline.inference.calibrate import begun
+from pipeline.inference.calibrate import begun, paired_anew
 from pipeline.inference.effective import tempering
 from pipeline.inference.least_squares import Fit, continued, far, linearised, of_features
 from pipeline.inference.screen import directions, own_name, screen
@@ -167,6 +167,7 @@ def _finished(problem, null, enough, state):
     """Refitted of a candidate that has begun; where its forward model fails on the way, of its begin."""
     try:
         best = state if state.converged else continued(problem, state, enough=enough, patient=False)
+        best = paired_anew(problem, best)
     except BrakechainError as error:
         return Refitted(state, None, str(error))
     if not best.converged and best.objective > enough:

@@ -71,6 +71,14 @@ def test_a_peak_beyond_the_modes_of_the_model_falls_to_the_likeliest_and_is_miss
     assert abs(nearer(extra.root, root[[0, 0, 1]]) - extra.root)[1] > 0.04 * abs(root[0])
 
 
+def test_roots_that_have_to_pass_each_other_are_told_by_their_shapes():
+    """The peaks of two motions whose roots stated values put in the other order: the nearest is the other's."""
+    shape = np.array([[1.0, 0.0], [1.0, 0.7]], complex)
+    seen = Poles(np.array([1362j, 1543j]), np.ones(2), shape)
+    assert list(assigned(seen, np.array([1378j, 1426j]), shape[::-1])) == [1, 0]
+    assert list(assigned(seen, np.array([1378j, 1426j]), shape)) == [0, 1]
+
+
 def test_a_record_without_a_sure_pole_says_nothing(monkeypatch):
     whole = bench()
     given = {name: one for name, one in recorded(whole).items() if "rest" in (name, one.repeat_of)}

@@ -1,4 +1,4 @@
-"""Small problems without order in time: a curve over a grid, two features of one number."""
+"""Small problems without order in time: a curve over a grid, two features of one number, a peak of either of two."""
 
 import numpy as np
 
@@ -24,4 +24,18 @@ def features(seen, std):
     run = Observed("a", {}, ("one", "two"), np.array([[seen], [seen**2]]), None, noise_std=np.full(2, std))
     whole = Problem((run,), lambda hypothesis, values, run: np.array([[values["x"]], [values["x"] ** 2]]),
                     Hypothesis("nominal", (), (Parameter("x", "1", 0.0, Normal(0.0, 1.0)),)))
+    return whole, (budget(whole)["a"],)
+
+
+def either_of_two(peak, scale, std):
+    """Two features: the one of two roots, (10 + 1.5 low) (1 + scale / 10) and (20 + high) (1 + scale / 10), that lies
+    nearest the ``peak``, and the ``scale``; all values are N(0, 1)."""
+    def predict(hypothesis, values, run):
+        whole = 1 + 0.1 * values["scale"]
+        roots = whole * np.array([10 + 1.5 * values["low"], 20 + values["high"]])
+        return np.array([[roots[np.argmin(abs(roots - peak))]], [values["scale"]]])
+
+    run = Observed("a", {}, ("peak", "scale"), np.array([[peak], [scale]]), None, noise_std=np.full(2, std))
+    parameters = tuple(Parameter(name, "1", 0.0, Normal(0.0, 1.0)) for name in ("scale", "low", "high"))
+    whole = Problem((run,), predict, Hypothesis("nominal", (), parameters))
     return whole, (budget(whole)["a"],)

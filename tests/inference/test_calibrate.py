@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 
 from pipeline.contract.errors import ConvergenceError
-from pipeline.inference.calibrate import _under, begun, calibrate
+from pipeline.inference.calibrate import _under, begun, calibrate, paired_anew
 from pipeline.inference.least_squares import fit, linearised
 from pipeline.inference.priors import Normal, Parameter
-from tests.inference.curves import curve_problem, features
+from tests.inference.curves import curve_problem, either_of_two, features
 
 
 def test_several_starts_find_the_better_of_two_minima():
@@ -37,6 +37,24 @@ def test_features_far_off_are_fitted_from_the_start_that_is_best_loosely():
         found = begun(whole, noises, whole.nominal, [np.array([x]) for x in starts], whole.runs)
         assert found.latent == pytest.approx(1.4, abs=0.05)
     assert begun(whole, noises, whole.nominal, [np.array([1.3])], whole.runs).latent == pytest.approx(1.4, abs=0.05)
+
+
+def test_a_feature_paired_wrongly_is_paired_anew_where_it_drags_a_value_beyond_its_prior():
+    """A peak at 14.5 where all is 0.72 of what was stated: 20 became it, not 10 at 6.8 standard deviations."""
+    whole, noises = either_of_two(14.5, -2.8, 0.01)
+    dragged = np.array([-2.8, 6.76, 0.0])
+    alone = fit(whole, noises, whole.nominal, dragged, whole.runs)
+    found = calibrate(whole, noises, whole.nominal, [dragged], whole.runs)
+    assert alone.converged and alone.values["low"] > 6
+    assert found.values["high"] == pytest.approx(14.5 / 0.72 - 20, abs=0.05) and abs(found.values["low"]) < 1e-3
+    assert found.objective < 0.2 * alone.objective
+
+
+def test_values_that_no_other_start_betters_stay_where_they_are():
+    whole, noises = features(6.0, 0.05)
+    found = fit(whole, noises, whole.nominal, np.array([5.5]), whole.runs)
+    assert found.latent == pytest.approx(6.0, abs=0.05)
+    assert paired_anew(whole, found) is found
 
 
 def test_a_start_where_the_model_fails_is_passed_over_and_told_where_all_fail():
