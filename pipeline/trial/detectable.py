@@ -14,7 +14,7 @@ import numpy as np
 from scipy.linalg import expm
 from scipy.signal import lfilter
 
-from pipeline.trial.motion import PARTS
+from pipeline.trial.motion import PARTS, rates
 from pipeline.trial.rig import Rig, value_names
 
 #: standard deviations of the noise that must be left beside the nominal values for something to be named
@@ -23,6 +23,8 @@ VISIBLE = 4.0
 _STEP = 1e-4
 #: the same of a motion that is integrated to a tolerance
 _WIDER = 1e-2
+#: instants, s, at which laws are looked at for whether they are linear
+_INSTANTS = (0.0, 0.7, 3.1)
 #: share of the objective that a step must gain for slopes to be updated only
 _SERVES = 0.5
 #: iterations of a refit, its longest step of a value in standard deviations, shares of a step that are tried, and the
@@ -48,6 +50,20 @@ def coarse(rig, force, interval, corner):
     return np.array(found)
 
 
+def linear_world(world, force, interval, corner):
+    """The same of a World whose laws are linear and do not change; None of another."""
+    size, reach = len(world.rig.mass), 2 * np.pi * corner
+    still, pushed = (rates(world, np.array([0.0, 1.0]), np.full(2, push), reach) for push in (0.0, 1.0))
+    if world.jump or world.mass:
+        return None
+    states = 3 * size + sum(law.states for law in world.laws)
+    matrix = np.array([still(0.0, one) for one in np.eye(states)]).T
+    for time, state in zip(_INSTANTS, np.random.default_rng(0).standard_normal((len(_INSTANTS), states)), strict=True):
+        if not np.allclose(still(time, state), matrix @ state, rtol=1e-9, atol=1e-9 * abs(matrix @ state).max()):
+            return None
+    return _driven(matrix, pushed(0.0, np.zeros(states)), force, interval)[:, 2 * size:3 * size].T
+
+
 def _states(rig, force, interval, corner):
     """(instant, displacements, velocities and filtered displacements) of a rig alone."""
     size, rows, reach = len(rig.mass), rig.rows, 2 * np.pi * corner
@@ -55,15 +71,20 @@ def _states(rig, force, interval, corner):
     stiffness, damping = (rows.T @ np.diag([getattr(link, what) for link in rig.links]) @ rows
                           for what in ("stiffness", "damping"))
     none, one = np.zeros((size, size)), np.eye(size)
-    rates = np.block([[none, one, none], [-inverse @ stiffness, -inverse @ damping, none],
-                      [reach * one, none, -reach * one]])
+    matrix = np.block([[none, one, none], [-inverse @ stiffness, -inverse @ damping, none],
+                       [reach * one, none, -reach * one]])
     push = np.concatenate((np.zeros(size), inverse[rig.pushed], np.zeros(size)))
-    step = interval / PARTS
-    kept, now, ramp = _held(rates, push, step)
+    return _driven(matrix, push, force, interval)
+
+
+def _driven(matrix, push, force, interval):
+    """States (instant, s) of x' = ``matrix`` x + ``push`` f from rest, the forces (n,) joined linearly."""
+    size, step = len(push), interval / PARTS
+    kept, now, ramp = _held(matrix, push, step)
     fine = np.interp(np.arange(PARTS * (len(force) - 1) + 1) / PARTS, np.arange(len(force)), force)
     driven = np.outer(fine[:-1], now) + np.outer(np.diff(fine), ramp)
     factors, shapes = np.linalg.eig(kept)
-    own = np.vstack((np.zeros(3 * size), driven @ np.linalg.inv(shapes).T))
+    own = np.vstack((np.zeros(size), driven @ np.linalg.inv(shapes).T))
     return np.real(np.array([lfilter([1.0], [1.0, -factor], g) for factor, g in zip(factors, own.T, strict=True)]).T
                    @ shapes.T)
 

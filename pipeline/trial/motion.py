@@ -46,7 +46,7 @@ def moved(world, force, interval, corner):
     size = len(world.rig.mass)
     own = interval * np.arange(len(force))
     time = np.linspace(0, own[-1], PARTS * (len(force) - 1) + 1)
-    rate = _rate(world, own, np.asarray(force, float), 2 * np.pi * corner)
+    rate = rates(world, own, np.asarray(force, float), 2 * np.pi * corner)
     start = np.zeros(3 * size + sum(law.states for law in world.laws))
     if world.jump is None:
         return _integrated(rate, start, time, interval)[:, 2 * size:3 * size].T
@@ -68,8 +68,11 @@ def _integrated(rate, start, time, interval):
     return states
 
 
-def _rate(world, own, pushed, reach):
-    """The right-hand side: states are displacements, velocities, filtered displacements, then those of laws."""
+def rates(world, own, pushed, reach):
+    """The right-hand side ``rate(t, state)`` under forces ``pushed`` at instants ``own``, filters of ``reach`` rad/s.
+
+    States are displacements, velocities, filtered displacements, then those of laws.
+    """
     rig, size, rows = world.rig, len(world.rig.mass), world.rig.rows
     stiffness = rows.T @ np.diag([link.stiffness for link in rig.links]) @ rows
     damping = rows.T @ np.diag([link.damping for link in rig.links]) @ rows

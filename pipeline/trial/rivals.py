@@ -9,10 +9,11 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from pipeline.contract.errors import BrakechainError
-from pipeline.trial.detectable import VISIBLE, Refitted
+from pipeline.trial.detectable import VISIBLE, Refitted, linear_world
 from pipeline.trial.hidden import HIDDEN
 from pipeline.trial.hiding import difference, places
-from pipeline.trial.planted import Planted, shown, sized
+from pipeline.trial.motion import moved
+from pipeline.trial.planted import Planted, built, sized
 
 #: known laws that come near to a piece at the same place
 KIN = {
@@ -48,9 +49,9 @@ class Rival:
 def rivals(case):
     """[Rival] of the one piece of physics that a Case hides, nearest first."""
     one, hiding = case.planted[0], case.hiding
-    without, seen, near = hiding.without(hiding.trained), hiding.shown((one,)), {}
+    without, seen, near = hiding.without(hiding.trained), _shown(hiding.recorder, hiding.truth, one, hiding.trained), {}
     for law in _laws(hiding, one):
-        change = difference(hiding.shown((law,)), without)
+        change = difference(_shown(hiding.recorder, hiding.truth, law, hiding.trained), without)
         asked = difference(seen, without), case.noise, case.colour, [change]
         left, key = hiding.explained.left(*asked), (law.piece.name, law.place)
         if left < near.get(key, (np.inf,))[0]:
@@ -93,9 +94,19 @@ def of_law(recorder, values, law, runs):
         size, speed = np.exp(np.multiply(_SPREADS, u[values.size:]))
         spot = replace(law.spot, speed=speed * law.spot.speed)
         try:
-            moved = shown(recorder, rig, (replace(law, size=size * law.size, spot=spot),), runs=slice(runs))
+            seen = _shown(recorder, rig, replace(law, size=size * law.size, spot=spot), runs)
         except BrakechainError:
             return np.full((runs, len(recorder.gains), len(recorder.runs[0])), _LOST)
-        return np.array(moved) * gains[:, None]
+        return np.array(seen) * gains[:, None]
 
     return Refitted(model, values.size + len(_SPREADS), costly=True)
+
+
+def _shown(recorder, rig, law, runs):
+    """[(sensor, n)] of a rig with a Planted ``law`` in the first ``runs``: by the exponential where it is linear."""
+    world, chains = built(rig, (law,))
+    motion = []
+    for force in recorder.runs[:runs]:
+        exact = linear_world(world, force, 1 / recorder.rate, recorder.corner)
+        motion.append(moved(world, force, 1 / recorder.rate, recorder.corner) if exact is None else exact)
+    return recorder.seen(motion, chains)

@@ -1,10 +1,10 @@
 """Cases: the same seed gives the same case, hidden physics changes it by what is wanted, controls hide nothing."""
 
-
 import numpy as np
 import pytest
 
 from pipeline.trial.case import CHANGE, FAR, LEVELS, SAMPLES, VISIBLE, kind_of, known, made
+from pipeline.trial.hiding import BELOW
 from pipeline.trial.rig import drawn
 
 

@@ -5,9 +5,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from pipeline.trial.detectable import Explained, Refitted, Values, coarse, linear, of_rig, whitened
+from pipeline.trial.detectable import Explained, Refitted, Values, coarse, linear, linear_world, of_rig, whitened
+from pipeline.trial.hidden import HIDDEN, Spot
 from pipeline.trial.motion import World, moved
-from pipeline.trial.planted import Recorder
+from pipeline.trial.planted import Planted, Recorder, built
 from pipeline.trial.rig import drawn
 
 NOISE = np.array([1e-3, 2e-3])
@@ -28,6 +29,20 @@ def test_the_exponential_moves_a_rig_as_its_integration_does(masses):
     rig, force = drawn(random, masses), random.standard_normal(100)
     found, other = linear(rig, force, 0.01, 40.0), moved(World(rig), force, 0.01, 40.0)
     np.testing.assert_allclose(found, other, atol=2e-5 * abs(other).max())
+
+
+@pytest.mark.exact
+@pytest.mark.parametrize("name", ["viscoelastic_pad", "shim_damping", "joint_damping", "moving_base", "coulomb"])
+def test_a_world_that_is_linear_moves_as_its_integration_does(name):
+    random = np.random.default_rng(4)
+    rig, force = drawn(random, 3), random.standard_normal(100)
+    spot = Spot(rig, 0, 0.01, 0.2, 3.0, 1.0, (0.3, 0.6, 0.9))
+    world, _ = built(rig, (Planted(HIDDEN[name], "link_0", spot, 0.4),))
+    found, other = linear_world(world, force, 0.01, 40.0), moved(world, force, 0.01, 40.0)
+    if name == "coulomb":
+        assert found is None
+    else:
+        np.testing.assert_allclose(found, other, atol=2e-5 * abs(other).max())
 
 
 @pytest.mark.exact
