@@ -1,12 +1,17 @@
 """What of an answer is right, case by case. Truth as ``pipeline.trial.systems`` writes it, answer as diagnosis.json."""
 
-from pipeline.trial.detectable import VISIBLE
+import numpy as np
 
 #: verdicts by what they say: nothing is missing, or this is
 NOTHING, NAMING = ("consistent", "parameters"), ("missing", "tie", "sensor", "numerics")
 #: classes in which nothing is missing; class -> verdict that names what it hides
 EMPTY = ("control", "wrong_value")
 NAMED_BY = {"effect": "missing", "pair": "missing", "below": "missing", "foreign": "missing", "sensor": "sensor"}
+#: standard deviations of the noise that something must leave beside the nominal values to count as visible: one that is
+#: alone in an ideal linear case is named in 95 % of draws then, at 4 in hardly any
+VISIBLE = 7.0
+#: the same where a truth states no ``visible``
+_UNSTATED = 4.0
 #: hypotheses among which the truth counts as near
 _TOP = 3
 
@@ -52,9 +57,9 @@ def _like(true, told):
 
 
 def class_of(truth):
-    """The class as which a case is scored: what leaves less than VISIBLE standard deviations is below the threshold."""
-    faint = truth.get("left", VISIBLE) < VISIBLE and truth["class"] in ("effect", "pair", "sensor", "foreign")
-    return "below" if faint else truth["class"]
+    """The class as which a case is scored: what leaves less than is ``visible`` is below the threshold."""
+    shown = truth.get("left", np.inf) >= truth.get("visible", _UNSTATED)
+    return truth["class"] if shown or truth["class"] not in (*NAMED_BY, "below") else "below"
 
 
 def _all_in(wanted, named):

@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from pipeline.concealed import code, sealing
+from pipeline.concealed.judging import VISIBLE
 from pipeline.concealed.plan import drawn
 from pipeline.concealed.sets import FORMAT, TrialSet, canonical, read_json
 from pipeline.contract.errors import BrakechainError, ConfigError
@@ -18,6 +19,8 @@ from pipeline.trial.systems import SYSTEMS, Draw
 
 #: seeds that are tried for a case that cannot be made
 _TRIES = 8
+#: times as far as without what is hidden that a motion may go: beyond, a law has left the range that it is meant for
+_REACH = 5.0
 
 
 @dataclass(frozen=True)
@@ -120,7 +123,9 @@ def _drawn(draw, folder):
         except BrakechainError as error:
             told.append(str(error))
             continue
-        return {**truth, "motion": SYSTEMS[draw.system].motion, "draw": asdict(again)}
+        if truth.get("reach", 0.0) < _REACH:
+            return {**truth, "motion": SYSTEMS[draw.system].motion, "visible": VISIBLE, "draw": asdict(again)}
+        told.append(f"a motion {truth['reach']:.3g} times as far as without what is hidden")
     hidden = " + ".join(draw.hidden)
     raise ConfigError(f"{draw.system}: {draw.kind} {hidden}", f"a case within {_TRIES} seeds", told[-1])
 

@@ -38,7 +38,8 @@ class Case:
 
     ``runs`` [(force (n,), shown (sensor, n))] at ``rate`` Hz, ``noise`` (sensor,) of each sensor in m, ``colour`` of
     the noise; ``truth`` and ``belief`` are Rigs, ``exact`` names of known values, ``far`` that of the wrong one;
-    ``change``: of what the sensors show in the first run, relative; ``hiding``: how it was hidden.
+    ``change``: of what the sensors show in the first run, relative; ``reach``: largest peak of a sensor over that
+    without hidden physics; ``hiding``: how it was hidden.
     """
 
     seed: int
@@ -55,6 +56,7 @@ class Case:
     noise: np.ndarray
     colour: float
     change: float
+    reach: float
     hiding: Hiding
 
     @property
@@ -93,7 +95,13 @@ def made(seed, hidden="", place=0, level=0.01, masses=2, colour=0.0, change=None
         belief, far = rig.far_off(random, truth, belief, FAR)
     runs = tuple((f, _recorded(random, s, noise, colour)) for f, s in zip(recorder.runs, seen, strict=True))
     return Case(seed, kind or kind_of(names), planted, left, level, truth, belief, exact, far, runs, rate, noise,
-                colour, change_of(seen[:1], recorder.seen(bare[:1])), hiding)
+                colour, change_of(seen[:1], recorder.seen(bare[:1])), _reach(seen, recorder.seen(bare)), hiding)
+
+
+def _reach(seen, without):
+    """Largest peak of a sensor in all runs over that in those ``without`` hidden physics."""
+    far, near = (np.max(np.abs(one), axis=(0, 2)) for one in (seen, without))
+    return float((far / near).max())
 
 
 def _exact(names, indices, masses):

@@ -17,12 +17,12 @@ from scipy.signal import lfilter
 from pipeline.trial.motion import PARTS, rates
 from pipeline.trial.rig import Rig, value_names
 
-#: standard deviations of the noise that must be left beside the nominal values for something to be named
-VISIBLE = 4.0
+#: standard deviations of the noise below which two laws cannot be told apart with a probability of 0.9
+APART = 4.0
 #: step of the differences: relative of values, or in standard deviations
 _STEP = 1e-4
 #: the same of a motion that is integrated to a tolerance
-_WIDER = 1e-2
+_WIDER = 3e-3
 #: instants, s, at which laws are looked at for whether they are linear
 _INSTANTS = (0.0, 0.7, 3.1)
 #: share of the objective that a step must gain for slopes to be updated only

@@ -7,7 +7,7 @@ import yaml
 
 from pipeline.contract.errors import ConfigError
 from pipeline.trial.case import CORNER, DELAY, GAIN_ERROR, LEVELS, SPREAD
-from pipeline.trial.detectable import VISIBLE
+from pipeline.trial.detectable import APART
 from pipeline.trial.rivals import rivals
 from pipeline.trial.told import alike, parameters
 
@@ -68,13 +68,13 @@ def truth(case):
     the nearest known law. Laws that leave less than can be told are alike.
     """
     near = rivals(case) if case.kind in ("effect", "foreign") else []
-    taken = [{"name": one.name, "place": one.place} for one in near if one.left < VISIBLE]
+    taken = [{"name": one.name, "place": one.place} for one in near if one.left < APART]
     told = [{**one, "alike": [*alike(p, case.truth), *(t for t in taken if t not in alike(p, case.truth))]}
             for one, p in zip(effects(case, parameters), case.planted, strict=True)]
     left = [*case.left, *(one.left for one in near if case.kind == "foreign")]
     return {"class": case.kind, "effects": told, "system": "forced_rig", "size": case.change,
             "noise": case.level, "parameters": values(case.truth), "seed": case.seed, "colour": case.colour,
-            "left": min(left, default=0.0), "wrong": case.far}
+            "left": min(left, default=0.0), "wrong": case.far, "reach": case.reach}
 
 
 def effects(case, told):

@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from pipeline.contract.errors import BrakechainError
-from pipeline.trial.detectable import VISIBLE, Refitted, linear_world
+from pipeline.trial.detectable import APART, Refitted, linear_world
 from pipeline.trial.hidden import HIDDEN
 from pipeline.trial.hiding import difference, places
 from pipeline.trial.motion import moved
@@ -29,7 +29,7 @@ KIN = {
 }
 #: speeds, as multiples of the typical one, at which a law with times of its own is tried
 _SPEEDS = (1.0, 3.0, 9.0)
-#: how many laws are refitted, of those that leave less than so many times VISIBLE linearly
+#: how many laws are refitted, of those that leave less than so many times APART linearly
 _REFITTED, _WORTH = 2, 16.0
 #: standard deviations of the logarithms of size and speed of a law that is refitted
 _SPREADS = (1.0, 3.0)
@@ -57,7 +57,7 @@ def rivals(case):
         if left < near.get(key, (np.inf,))[0]:
             near[key] = left, replace(law, size=float(hiding.explained.taken(*asked)[1][0]) * law.size)
     order = sorted(near.values(), key=lambda found: found[0])
-    refitted = [(min(left, _refitted(case, law, seen)) if k < _REFITTED and left < _WORTH * VISIBLE else left, law)
+    refitted = [(min(left, _refitted(case, law, seen)) if k < _REFITTED and left < _WORTH * APART else left, law)
                 for k, (left, law) in enumerate(order)]
     return [Rival(law.piece.name, law.place, float(left)) for left, law in sorted(refitted, key=lambda found: found[0])]
 
@@ -84,7 +84,7 @@ def _refitted(case, law, seen):
     """What a law leaves of the motion ``seen`` that it is fitted to, together with the values of the rig."""
     hiding = case.hiding
     own = of_law(hiding.recorder, hiding.values, law, hiding.trained)
-    return own.left(difference(seen, own.at_rest), case.noise, case.colour, enough=0.9 * VISIBLE)
+    return own.left(difference(seen, own.at_rest), case.noise, case.colour, enough=0.9 * APART)
 
 
 def of_law(recorder, values, law, runs):
