@@ -19,6 +19,8 @@ _HORIZONS, _FEWEST = (0.08, 0.3), 32
 #: then priors hold what few features tell, and each is paired with what it belongs to before it counts in full. Under
 #: the first, features known to a few parts in ten thousand weigh no more than values known to a few per cent
 _LOOSE = (300.0, 30.0, 6.0)
+#: the same, where the first ones end at so many noise powers: whether roots pass each other is a matter of chance
+_LOOSER, _OFF = (1000.0, 100.0, 10.0, 3.0), 4.0
 #: times that a fit of features begins again where the prior of a value all but excludes it
 _AGAIN = 2
 
@@ -33,9 +35,18 @@ def calibrate(problem, noises, hypothesis, starts, runs, settled=True):
     for state in _begun(problem, noises, hypothesis, starts, runs, reasons):
         found = state if state.converged else continued(problem, state, patient=settled)
         if found.converged or not settled:
-            return paired_anew(problem, found)
+            return _on_another_way(problem, paired_anew(problem, found), starts)
         reasons.append(f"not converged after {found.evaluations} predictions")
     raise _stopped(hypothesis, reasons)
+
+
+def _on_another_way(problem, found, starts):
+    """The Fit ``found``, or a lower one of features that comes from ``starts`` by other standard deviations."""
+    if not of_features(found.noises) or found.chi_square.sum() < _OFF * found.counts.sum():
+        return found
+    states = _tightened(problem, found.noises, found.hypothesis, starts, found.runs, [], _LOOSER)
+    other = _ended(problem, states)
+    return min([found, *([paired_anew(problem, other)] if other else [])], key=lambda f: f.objective)
 
 
 def paired_anew(problem, found):
@@ -57,7 +68,11 @@ def paired_anew(problem, found):
 
 def _from(problem, found, start):
     """The Fit of what ``found`` is of, from the latent ``start``; None where the forward model fails on the way."""
-    states = _begun(problem, found.noises, found.hypothesis, [start], found.runs, [])
+    return _ended(problem, _begun(problem, found.noises, found.hypothesis, [start], found.runs, []))
+
+
+def _ended(problem, states):
+    """The first of fits that began, continued; None where there is none or the forward model fails on the way."""
     try:
         return continued(problem, states[0], patient=False) if states else None
     except BrakechainError:
@@ -87,7 +102,7 @@ def _begun(problem, noises, hypothesis, starts, runs, reasons, known=()):
     if min(sizes) < FAR:
         return _tried(problem, noises, hypothesis, starts, runs, reasons, known)
     if of_features(noises):
-        return _tightened(problem, noises, hypothesis, starts, runs, reasons)
+        return _tightened(problem, noises, hypothesis, starts, runs, reasons, _LOOSE)
     near = [*_over_horizons(problem, noises, hypothesis, starts, runs, reasons), starts[int(np.argmin(sizes))]]
     return _tried(problem, noises, hypothesis, near, runs, reasons, known)
 
@@ -114,21 +129,21 @@ def _over_horizons(problem, noises, hypothesis, starts, runs, reasons):
     return ahead
 
 
-def _tightened(problem, noises, hypothesis, starts, runs, reasons):
-    """[Fit] of features after a few iterations under falling standard deviations, from the start that does best under
-    the largest; [] where none can."""
+def _tightened(problem, noises, hypothesis, starts, runs, reasons, factors):
+    """[Fit] of features after a few iterations under standard deviations larger by falling ``factors``, from the start
+    that does best under the largest; [] where none can."""
     found, known = [], ()
     for start in starts:
         try:
             state = linearised(problem, noises, hypothesis, start, runs, known)
             known = [j[:, :len(problem.nominal.parameters)] for j in state.jacobians]
-            found.append(_roughly(problem, state, noises, _LOOSE[0]))
+            found.append(_roughly(problem, state, noises, factors[0]))
         except BrakechainError as error:
             reasons.append(str(error))
     if not found:
         return []
     state = min(found, key=lambda f: f.objective)
-    for factor in _LOOSE[1:]:
+    for factor in factors[1:]:
         state = _roughly(problem, state, noises, factor)
     return _tried(problem, noises, hypothesis, [state.latent], runs, reasons)
 

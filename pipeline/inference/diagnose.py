@@ -34,6 +34,8 @@ from pipeline.inference.weigh import (
 
 #: where the linearisation of the null holds, scores that chance reaches more often than this are not looked into
 _LIKELY = 0.1
+#: share of what the best first effect explains from which another may be the first of a pair, too
+_AS_MUCH = 0.9
 #: verdicts that name something
 _NAMED = ("missing", "sensor", "numerics")
 
@@ -266,10 +268,11 @@ def _weighed(course):
 
 
 def _leading(single, rules, count=2):
-    """Refitted candidates worth taking as known: significant ones, best first."""
+    """Refitted candidates worth taking as known: significant ones, best first, another only if it explains as much."""
+    if single.decision.verdict == "missing":
+        return single.named[:1]
     good = [w for w in single.weighed if w.contender.p_value <= rules.p_value
             and w.contender.evidence_gain >= rules.evidence_gain and w.contender.unexplained < 0.5
             and not unfinished(w.fit, single.null)]
-    if single.decision.verdict == "missing":
-        return single.named[:1]
-    return good[:count]
+    explained = [single.null.objective - w.fit.objective for w in good]
+    return [w for w, own in zip(good[:count], explained, strict=False) if own >= _AS_MUCH * max(explained)]

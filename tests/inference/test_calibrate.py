@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from pipeline.contract.errors import ConvergenceError
+from pipeline.inference import calibrate as calibration
 from pipeline.inference.calibrate import _under, begun, calibrate, paired_anew
 from pipeline.inference.least_squares import fit, linearised
 from pipeline.inference.priors import Normal, Parameter
@@ -37,6 +38,16 @@ def test_features_far_off_are_fitted_from_the_start_that_is_best_loosely():
         found = begun(whole, noises, whole.nominal, [np.array([x]) for x in starts], whole.runs)
         assert found.latent == pytest.approx(1.4, abs=0.05)
     assert begun(whole, noises, whole.nominal, [np.array([1.3])], whole.runs).latent == pytest.approx(1.4, abs=0.05)
+
+
+def test_features_that_end_far_off_are_tried_on_another_way(monkeypatch):
+    """From -1, without larger standard deviations, x stays below 0, where x^2 alone is met."""
+    monkeypatch.setattr(calibration, "_LOOSE", (1.0,))
+    whole, noises = features(1.4, 0.05)
+    asked = whole, noises, whole.nominal, [np.array([-1.0])], whole.runs
+    assert calibrate(*asked, settled=False).latent == pytest.approx(1.4, abs=0.05)
+    monkeypatch.setattr(calibration, "_LOOSER", (1.0,))
+    assert calibrate(*asked, settled=False).latent < 0
 
 
 def test_a_feature_paired_wrongly_is_paired_anew_where_it_drags_a_value_beyond_its_prior():
