@@ -10,7 +10,8 @@ from pipeline.trial.hiding import BELOW, difference, noise_of, placed, places
 
 @pytest.mark.parametrize("name, masses, wanted", [
     ("coulomb", 1, ["link_0"]), ("coulomb", 3, ["link_0", "link_1", "link_2", "link_3"]),
-    ("moving_base", 2, ["link_0"]), ("moving_base", 3, ["link_0", "link_3"]), ("attached_mass", 2, ["mass_0", "mass_1"]),
+    ("moving_base", 2, ["link_0"]), ("moving_base", 3, ["link_0", "link_3"]),
+    ("attached_mass", 2, ["mass_0", "mass_1"]),
     ("pressure_ripple", 2, ["shaker"]), ("clipping", 2, ["x_0", "x_1"])])
 def test_places_of_a_piece(name, masses, wanted):
     assert [place for _, place in places(HIDDEN[name], masses)] == wanted
