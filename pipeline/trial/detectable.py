@@ -23,6 +23,8 @@ APART = 4.0
 _STEP = 1e-4
 #: the same of a motion that is integrated to a tolerance
 _WIDER = 3e-3
+#: condition of shapes of motion beyond which they are all but alike
+_ALIKE = 1e8
 #: instants, s, at which laws are looked at for whether they are linear
 _INSTANTS = (0.0, 0.7, 3.1)
 #: share of the objective that a step must gain for slopes to be updated only
@@ -84,9 +86,19 @@ def _driven(matrix, push, force, interval):
     fine = np.interp(np.arange(PARTS * (len(force) - 1) + 1) / PARTS, np.arange(len(force)), force)
     driven = np.outer(fine[:-1], now) + np.outer(np.diff(fine), ramp)
     factors, shapes = np.linalg.eig(kept)
+    if np.linalg.cond(shapes) > _ALIKE:
+        return _marched(kept, driven)
     own = np.vstack((np.zeros(size), driven @ np.linalg.inv(shapes).T))
     return np.real(np.array([lfilter([1.0], [1.0, -factor], g) for factor, g in zip(factors, own.T, strict=True)]).T
                    @ shapes.T)
+
+
+def _marched(kept, driven):
+    """The same step by step: where shapes of motion are all but alike, a state is no sum of them."""
+    states = np.zeros((len(driven) + 1, len(kept)))
+    for k, more in enumerate(driven):
+        states[k + 1] = kept @ states[k] + more
+    return states
 
 
 def _held(rates, push, step):
@@ -123,7 +135,8 @@ class Explained:
 
 
 class Refitted(Explained):
-    """What ``size`` other values explain however large their change: ``model(u)`` -> (run, sensor, n).
+    """What ``size`` other values explain however large their change: ``model(u)`` -> (run, sensor, n), NaN where it
+    cannot; a value towards which it cannot stays as it is.
 
     ``costly``: the model integrates; between differences, slopes are updated by the secant (C. G. Broyden 1965).
     """
@@ -153,7 +166,7 @@ class Refitted(Explained):
             fresh = not (self.costly and gained > _SERVES * before)
             if fresh:
                 directions = self._slopes(u[:self.size], seen)
-        return float(np.hypot(np.linalg.norm(r), np.linalg.norm(u)))
+        return float(np.hypot(np.linalg.norm(r), np.linalg.norm(u))) if np.isfinite(r).all() else np.inf
 
     def _step(self, rows, r, u):
         step = np.linalg.solve(np.eye(len(u)) + rows @ rows.T, rows @ r - u)
@@ -177,7 +190,8 @@ class Refitted(Explained):
 
     def _slopes(self, u, seen):
         step = _WIDER if self.costly else _STEP
-        return np.array([(np.array(self.model(u + step * one)) - seen) / step for one in np.eye(self.size)])
+        found = np.array([(np.array(self.model(u + step * one)) - seen) / step for one in np.eye(self.size)])
+        return np.where(np.isfinite(found), found, 0.0)
 
 
 def explained(seen, values, spread, gain_spread, step=_STEP):

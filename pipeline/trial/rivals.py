@@ -33,8 +33,6 @@ _SPEEDS = (1.0, 3.0, 9.0)
 _REFITTED, _WORTH = 2, 16.0
 #: standard deviations of the logarithms of size and speed of a law that is refitted
 _SPREADS = (1.0, 3.0)
-#: displacement, m, that stands for a motion that cannot be integrated
-_LOST = 1e3
 
 
 @dataclass(frozen=True)
@@ -96,7 +94,7 @@ def of_law(recorder, values, law, runs):
         try:
             seen = _shown(recorder, rig, replace(law, size=size * law.size, spot=spot), runs)
         except BrakechainError:
-            return np.full((runs, len(recorder.gains), len(recorder.runs[0])), _LOST)
+            return np.full((runs, len(recorder.gains), len(recorder.runs[0])), np.nan)
         return np.array(seen) * gains[:, None]
 
     return Refitted(model, values.size + len(_SPREADS), costly=True)

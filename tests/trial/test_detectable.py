@@ -5,7 +5,17 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from pipeline.trial.detectable import Explained, Refitted, Values, coarse, linear, linear_world, of_rig, whitened
+from pipeline.trial.detectable import (
+    Explained,
+    Refitted,
+    Values,
+    _driven,
+    coarse,
+    linear,
+    linear_world,
+    of_rig,
+    whitened,
+)
 from pipeline.trial.hidden import HIDDEN, Spot
 from pipeline.trial.motion import World, moved
 from pipeline.trial.planted import Planted, Recorder, built
@@ -43,6 +53,15 @@ def test_a_world_that_is_linear_moves_as_its_integration_does(name):
         assert found is None
     else:
         np.testing.assert_allclose(found, other, atol=2e-5 * abs(other).max())
+
+
+@pytest.mark.exact
+def test_a_double_root_moves_as_its_closed_form_does():
+    """x'' + 2 x' + x = 1 from rest: x = 1 - (1 + t) exp(-t), the shapes of its two motions being one."""
+    matrix, push = np.array([[0.0, 1.0], [-1.0, -2.0]]), np.array([0.0, 1.0])
+    found = _driven(matrix, push, np.ones(6), 0.5)[:, 0]
+    time = np.linspace(0, 2.5, len(found))
+    np.testing.assert_allclose(found, 1 - (1 + time) * np.exp(-time), atol=1e-12)
 
 
 @pytest.mark.exact
@@ -127,3 +146,13 @@ def test_slopes_that_are_updated_end_where_new_ones_do_with_fewer_motions():
         lefts.append(refit.left(other - own.at_rest, noise))
         counts.append(len(asked))
     assert lefts[1] == pytest.approx(lefts[0], rel=0.01) and counts[1] < counts[0]
+
+
+@pytest.mark.parametrize("lost, left", [(lambda u: u[0] != 0, 3.0), (lambda u: True, np.inf)])
+def test_a_value_towards_which_the_model_cannot_stays_as_it_is(lost, left):
+    """The first of two values would explain all; the second explains nothing."""
+    def model(u):
+        return np.full((1, 1, 9), np.nan) if lost(u) else np.full((1, 1, 9), 100 * u[0])
+
+    found = Refitted(model, 2, costly=True)
+    assert found.left(np.ones((1, 1, 9)), [1.0]) == left
