@@ -6,6 +6,7 @@ import secrets
 import pytest
 
 from pipeline.concealed import making, sealing
+from pipeline.concealed.judging import VISIBLE
 from pipeline.concealed.sets import TrialSet
 from pipeline.contract.errors import BrakechainError, ConfigError
 from pipeline.contract.executor import InProcess
@@ -18,8 +19,8 @@ KEY = sealing.Fernet.generate_key()
 class Generator:
     """Writes cases that tell their seed, counts them, and fails when told."""
 
-    def __init__(self, fails=lambda call: None):
-        self.calls, self.fails = 0, fails
+    def __init__(self, fails=lambda call: None, reach=lambda call: 1.0):
+        self.calls, self.fails, self.reach = 0, fails, reach
 
     def write(self, draw, folder):
         self.calls += 1
@@ -30,13 +31,14 @@ class Generator:
             raise error
         (folder / "recordings.h5").write_text(str(draw.seed))
         hidden = [{"name": name, "place": "x"} for name in draw.hidden]
-        return {"class": draw.kind, "effects": hidden, "system": draw.system, "size": draw.size, "noise": draw.noise}
+        return {"class": draw.kind, "effects": hidden, "system": draw.system, "size": draw.size, "noise": draw.noise,
+                "reach": self.reach(self.calls)}
 
 
 @pytest.fixture
 def generator(monkeypatch):
-    def put(fails=lambda call: None):
-        made = Generator(fails)
+    def put(*asked, **named):
+        made = Generator(*asked, **named)
         system = System("toy", made.write, {"control": ((),), "effect": (("a",), ("b",))}, (0.3,), (0.01,))
         monkeypatch.setattr(making, "SYSTEMS", {"toy": system})
         return made
@@ -89,6 +91,15 @@ def test_a_case_that_cannot_be_made_is_drawn_again_and_then_given_up(tmp_path, g
     assert len(make(tmp_path / "a").cases) == 5 and made.calls == 7
     generator(lambda call: trouble)
     with pytest.raises(BrakechainError, match="a case within 8 seeds"):
+        make(tmp_path / "b")
+
+
+def test_a_motion_that_runs_away_is_drawn_again_and_every_truth_says_what_is_visible(tmp_path, generator):
+    made = generator(reach=lambda call: 30.0 if call == 2 else 2.0)
+    truth = make(tmp_path / "a").read("truth.json")
+    assert made.calls == 6 and all(one["reach"] == 2.0 and one["visible"] == VISIBLE for one in truth.values())
+    generator(reach=lambda call: 30.0)
+    with pytest.raises(ConfigError, match="a motion 30 times as far"):
         make(tmp_path / "b")
 
 
