@@ -8,7 +8,7 @@ import yaml
 from pipeline.contract.errors import ConfigError
 from pipeline.trial.case import CORNER, DELAY, GAIN_ERROR, LEVELS, SPREAD
 from pipeline.trial.detectable import APART
-from pipeline.trial.rivals import rivals
+from pipeline.trial.rivals import beside_the_other, rivals
 from pipeline.trial.told import alike, parameters
 
 _CONFIGS = Path(__file__).parents[2] / "configs"
@@ -64,14 +64,15 @@ def channels(force, shown, rate):
 def truth(case):
     """What is opened only for the score: see ``pipeline.trial.systems``.
 
-    ``left`` is d of ``pipeline.trial.detectable``: of the weaker of a pair; of physics that no catalogue holds, beside
-    the nearest known law. Laws that leave less than can be told are alike.
+    ``left`` is d of ``pipeline.trial.detectable``: of the weaker of a pair, the other refitted; of physics that no
+    catalogue holds, beside the nearest known law. Laws that leave less than can be told are alike.
     """
     near = rivals(case) if case.kind in ("effect", "foreign") else []
     taken = [{"name": one.name, "place": one.place} for one in near if one.left < APART]
     told = [{**one, "alike": [*alike(p, case.truth), *(t for t in taken if t not in alike(p, case.truth))]}
             for one, p in zip(effects(case, parameters), case.planted, strict=True)]
     left = [*case.left, *(one.left for one in near if case.kind == "foreign")]
+    left += beside_the_other(case) if case.kind == "pair" else ()
     return {"class": case.kind, "effects": told, "system": "forced_rig", "size": case.change,
             "noise": case.level, "parameters": values(case.truth), "seed": case.seed, "colour": case.colour,
             "left": min(left, default=0.0), "wrong": case.far, "reach": case.reach}

@@ -13,7 +13,7 @@ from pipeline.trial.detectable import APART, Refitted, linear_world
 from pipeline.trial.hidden import HIDDEN
 from pipeline.trial.hiding import difference, places
 from pipeline.trial.motion import moved
-from pipeline.trial.planted import Planted, built, sized
+from pipeline.trial.planted import Planted, built, shown, sized
 
 #: known laws that come near to a piece at the same place
 KIN = {
@@ -60,6 +60,16 @@ def rivals(case):
     return [Rival(law.piece.name, law.place, float(left)) for left, law in sorted(refitted, key=lambda found: found[0])]
 
 
+def beside_the_other(case):
+    """What each of the two pieces that a Case hides leaves where the other is refitted alone, as ``Rival.left``.
+
+    What leaves much linearly is not refitted.
+    """
+    seen = shown(case.hiding.recorder, case.hiding.truth, case.planted, runs=slice(case.hiding.trained))
+    return tuple(min(left, _refitted(case, other, seen)) if left < _WORTH * APART else left
+                 for left, other in zip(case.left, case.planted[::-1], strict=True))
+
+
 def _laws(hiding, one):
     """Planted laws that change motion about as much as ``one`` does, where there is such a size."""
     masses, wanted = len(hiding.truth.mass), hiding.change(one)
@@ -79,7 +89,8 @@ def _laws(hiding, one):
 
 
 def _refitted(case, law, seen):
-    """What a law leaves of the motion ``seen`` that it is fitted to, together with the values of the rig."""
+    """What a law leaves of the motion ``seen`` that it is fitted to, together with the values of the rig; where that is
+    less than APART, it may be still less."""
     hiding = case.hiding
     own = of_law(hiding.recorder, hiding.values, law, hiding.trained)
     return own.left(difference(seen, own.at_rest), case.noise, case.colour, enough=0.9 * APART)

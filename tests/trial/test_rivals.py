@@ -10,7 +10,7 @@ from pipeline.trial.case import made
 from pipeline.trial.detectable import APART
 from pipeline.trial.hidden import HIDDEN
 from pipeline.trial.hiding import difference
-from pipeline.trial.rivals import KIN, of_law, rivals
+from pipeline.trial.rivals import KIN, beside_the_other, of_law, rivals
 
 
 def softening(level):
@@ -47,3 +47,16 @@ def test_the_truth_of_a_case_says_what_cannot_be_told_from_it():
 def test_what_has_no_kin_is_taken_for_nothing(hidden):
     case = made(11, hidden, level=0.1, masses=1, change=0.1)
     assert rivals(case) == [] and files.truth(case)["left"] == min(case.left)
+
+
+@pytest.mark.slow
+def test_of_a_pair_each_leaves_what_the_other_alone_cannot_explain():
+    """A gap is another cubic spring, nearly."""
+    pair = made(12, ("cubic_stiffness", "backlash"), (0, 0), level=0.05, masses=1, change=0.05)
+    spring, gap = beside_the_other(pair)
+    assert spring <= pair.left[0] and 5 < gap < 0.9 * pair.left[1] and files.truth(pair)["left"] == pytest.approx(gap)
+
+
+def test_of_a_pair_far_above_the_noise_nothing_is_refitted():
+    pair = made(12, ("cubic_stiffness", "backlash"), (0, 0), level=0.001, masses=1, change=0.05)
+    assert beside_the_other(pair) == pair.left
