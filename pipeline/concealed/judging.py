@@ -59,7 +59,7 @@ def _like(true, told):
 def class_of(truth):
     """The class as which a case is scored: what leaves less than is ``visible`` is below the threshold."""
     shown = truth.get("left", np.inf) >= truth.get("visible", _UNSTATED)
-    return truth["class"] if shown or truth["class"] not in (*NAMED_BY, "below") else "below"
+    return truth["class"] if shown or truth["class"] not in NAMED_BY else "below"
 
 
 def _all_in(wanted, named):

@@ -44,9 +44,8 @@ def _on_another_way(problem, found, starts):
     """The Fit ``found``, or a lower one of features that comes from ``starts`` by other standard deviations."""
     if not of_features(found.noises) or found.chi_square.sum() < _OFF * found.counts.sum():
         return found
-    states = _tightened(problem, found.noises, found.hypothesis, starts, found.runs, [], _LOOSER)
-    other = _ended(problem, states)
-    return min([found, *([paired_anew(problem, other)] if other else [])], key=lambda f: f.objective)
+    other = _ended(problem, _tightened(problem, found.noises, found.hypothesis, starts, found.runs, [], _LOOSER))
+    return min(found, paired_anew(problem, other), key=lambda f: f.objective) if other else found
 
 
 def paired_anew(problem, found):
@@ -59,16 +58,12 @@ def paired_anew(problem, found):
         pulled = abs(found.latent) > EXCLUDED
         if not (of_features(found.noises) and pulled.any()):
             break
-        other = _from(problem, found, np.where(pulled, 0.0, found.latent))
+        start = np.where(pulled, 0.0, found.latent)
+        other = _ended(problem, _begun(problem, found.noises, found.hypothesis, [start], found.runs, []))
         if other is None or other.objective >= found.objective:
             break
         found = other
     return found
-
-
-def _from(problem, found, start):
-    """The Fit of what ``found`` is of, from the latent ``start``; None where the forward model fails on the way."""
-    return _ended(problem, _begun(problem, found.noises, found.hypothesis, [start], found.runs, []))
 
 
 def _ended(problem, states):

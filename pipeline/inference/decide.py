@@ -96,9 +96,9 @@ def decide(situation, contenders, rules):
     """Decision over all refitted ``contenders``."""
     waived = _waivers(situation)
     significant = [c for c in contenders if c.p_value <= rules.p_value and c.evidence_gain >= rules.evidence_gain]
-    told = [f"{c.name}: {why}" for c in significant for why in objections(c, situation, rules)]
-    survivors = [c for c in significant if not objections(c, situation, rules)]
-    refused = [c for c in significant if c not in survivors]
+    asked = [(c, objections(c, situation, rules)) for c in significant]
+    told = [f"{c.name}: {why}" for c, objected in asked for why in objected]
+    survivors, refused = ([c for c, objected in asked if bool(objected) is broken] for broken in (False, True))
     outweighed = _weight(survivors) < rules.outweighed * _weight(refused)
     if survivors and not outweighed:
         decision = _among(survivors, situation, rules)

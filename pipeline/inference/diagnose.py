@@ -92,8 +92,9 @@ class Diagnosis:
 def diagnose(problem, budget, catalogue, settings=None, fan_out=map):
     """Diagnosis of a Problem with {run: Noise} ``budget`` over a ``catalogue`` of Hypotheses (effects alone).
 
-    A second effect is refitted only where its score is significant beside the first, and named only where it explains
-    a share of what the first explains that the law of the first cannot be wrong by; less, where both reach the noise.
+    A second effect is refitted only where its score is significant beside the first, or the first leaves more than
+    noise, and named only where it explains a share of what the first explains that the law of the first cannot be wrong
+    by; less, where both reach the noise.
 
     ``fan_out(function, items)`` maps as the builtin does. Where one effect is not enough, pairs with each of the
     leading ones that can be fitted are tried by the same rules, the first taken as known. Raises ConvergenceError where
@@ -105,7 +106,7 @@ def diagnose(problem, budget, catalogue, settings=None, fan_out=map):
     if single.decision.verdict not in ("unknown", "missing") or len(problem.runs) < 2:
         return single
     for first in _leading(single, settings.rules):
-        explained = single.null.objective - first.fit.objective
+        explained = first.fit.betters(single.null)
         if not _asks_for_more(first.fit, explained, settings.rules):
             continue
         rest = [c for c in catalogue if c.name != first.candidate.name]
@@ -145,7 +146,7 @@ def _course(problem, budget, catalogue, settings, fan_out, start=None, base=None
     largest = _hopeful(null, settings.rules, settings.rules.p_value if base else _LIKELY)
     hopeful = [i for i in rough.order() if np.isfinite(rough.score[i]) and rough.p_value[i] <= largest]
     refits = Refits(problem, null, tuple(catalogue), settings, fan_out)
-    results = _first_refits(refits, hopeful, rough.start)
+    results = _best_refits(refits, hopeful, rough.start)
     results = refits.of(_overlooked(null, found, results, settings), rough.start, results)
     better = min([null, *(r.null for r in results.values() if r.null is not None)], key=lambda f: f.objective)
     if better.objective < null.objective - 0.1:
@@ -163,7 +164,7 @@ def _material(pair, explained, rules):
     odd = len(excluded(pair.null, EXCLUDED))
 
     def is_more(one):
-        gained = pair.null.objective - one.fit.objective
+        gained = one.fit.betters(pair.null)
         if reaches_noise(one.fit, rules) and not one.contender.held_out_left:
             return gained >= rules.second_at_noise * explained or len(excluded(one.fit, EXCLUDED)) < odd
         return gained >= rules.second_share * explained
@@ -198,7 +199,7 @@ def _dropping(course, first, pair):
     return replace(course, results=course.refits.better(course.results, starts))
 
 
-def _first_refits(refits, hopeful, starts):
+def _best_refits(refits, hopeful, starts):
     """{index: Refitted}: the best few of the screen and their rivals, else all of them."""
     kept, rules = refits.settings.kept, refits.settings.rules
     results = refits.from_best(refits.of(hopeful[:kept], starts))
@@ -274,5 +275,5 @@ def _leading(single, rules, count=2):
     good = [w for w in single.weighed if w.contender.p_value <= rules.p_value
             and w.contender.evidence_gain >= rules.evidence_gain and w.contender.unexplained < 0.5
             and not unfinished(w.fit, single.null)]
-    explained = [single.null.objective - w.fit.objective for w in good]
+    explained = [w.fit.betters(single.null) for w in good]
     return [w for w, own in zip(good[:count], explained, strict=False) if own >= _AS_MUCH * max(explained)]

@@ -83,6 +83,10 @@ class Fit:
         """Squared error of the Fit ``null`` that this one explains."""
         return null.chi_square.sum() - self.chi_square.sum()
 
+    def betters(self, null):
+        """Decrease of the objective from the Fit ``null`` to this one."""
+        return null.objective - self.objective
+
     def covariance(self, weights=None):
         """Posterior covariance (k, k) of the latent coordinates, runs weighted (see ``effective.tempering``)."""
         return np.linalg.inv(_information(self.jacobians, _ones(self, weights)) + np.eye(len(self.latent)))

@@ -73,7 +73,7 @@ class Refits:
         return _lowest(results, found)
 
     def _explains(self, fit):
-        gained = tempering(fit.noises, fit.residuals).max() * (self.null.objective - fit.objective)
+        gained = tempering(fit.noises, fit.residuals).max() * fit.betters(self.null)
         return gained > 2 * self.settings.rules.evidence_gain
 
     def _beside(self, top, results):

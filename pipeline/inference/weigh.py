@@ -85,7 +85,7 @@ def _growth(gained, fit, rules):
 
 def unfinished(fit, null):
     """Why the end of a Fit, or of that of the nominal model, says little of one beside the other, in words."""
-    gained = null.objective - fit.objective
+    gained = fit.betters(null)
     share = _AT_NOISE if fit.chi_square.sum() <= fit.counts.sum() else NOTHING_MORE
     told = () if ended(fit, gained, share) else ("its fit did not converge",)
     near = null.chi_square.sum() < _FAR_BELOW * fit.chi_square.sum()

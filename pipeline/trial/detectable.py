@@ -17,8 +17,6 @@ from scipy.signal import lfilter
 from pipeline.trial.motion import PARTS, rates
 from pipeline.trial.rig import Rig, value_names
 
-#: standard deviations of the noise below which two laws cannot be told apart with a probability of 0.9
-APART = 4.0
 #: step of the differences: relative of values, or in standard deviations
 _STEP = 1e-4
 #: the same of a motion that is integrated to a tolerance
@@ -52,8 +50,9 @@ def coarse(rig, force, interval, corner):
     return np.array(found)
 
 
-def linear_world(world, force, interval, corner):
-    """The same of a World whose laws are linear and do not change; None of another."""
+def linear_world(world, forces, interval, corner):
+    """[(sensor, instant)] under each of ``forces``, as ``linear``, of a World whose laws are linear and do not change;
+    None of another."""
     size, reach = len(world.rig.mass), 2 * np.pi * corner
     still, pushed = (rates(world, np.array([0.0, 1.0]), np.full(2, push), reach) for push in (0.0, 1.0))
     if world.jump or world.mass:
@@ -63,7 +62,8 @@ def linear_world(world, force, interval, corner):
     for time, state in zip(_INSTANTS, np.random.default_rng(0).standard_normal((len(_INSTANTS), states)), strict=True):
         if not np.allclose(still(time, state), matrix @ state, rtol=1e-9, atol=1e-9 * abs(matrix @ state).max()):
             return None
-    return _driven(matrix, pushed(0.0, np.zeros(states)), force, interval)[:, 2 * size:3 * size].T
+    push = pushed(0.0, np.zeros(states))
+    return [_driven(matrix, push, force, interval)[:, 2 * size:3 * size].T for force in forces]
 
 
 def _states(rig, force, interval, corner):
@@ -155,17 +155,14 @@ class Refitted(Explained):
             rows, before = np.vstack((self._rows(directions, noise, colour), others)), r @ r + u @ u
             if before < enough**2:
                 break
-            moved = self._nearer(u, self._step(rows, r, u), before, change, noise, colour, others)
-            gained = before - moved[1] @ moved[1] - moved[0] @ moved[0] if moved else 0.0
-            if moved:
-                way = moved[0] - u
-                directions = self._updated(directions, way[:self.size], moved[2] - seen)
-                u, r, seen = moved
-            if gained < _SETTLED and fresh:
+            moved = self._nearer(u, self._step(rows, r, u), before, change, noise, colour, others) or (u, r, seen)
+            way, shift = (moved[0] - u)[:self.size], moved[2] - seen
+            u, r, seen = moved
+            gained = before - r @ r - u @ u
+            if not gained >= _SETTLED and fresh:
                 break
             fresh = not (self.costly and gained > _SERVES * before)
-            if fresh:
-                directions = self._slopes(u[:self.size], seen)
+            directions = self._slopes(u[:self.size], seen) if fresh else self._updated(directions, way, shift)
         return float(np.hypot(np.linalg.norm(r), np.linalg.norm(u))) if np.isfinite(r).all() else np.inf
 
     def _step(self, rows, r, u):

@@ -7,8 +7,7 @@ import yaml
 
 from pipeline.contract.errors import ConfigError
 from pipeline.trial.case import CORNER, DELAY, GAIN_ERROR, LEVELS, SPREAD
-from pipeline.trial.detectable import APART
-from pipeline.trial.rivals import beside_the_other, rivals
+from pipeline.trial.rivals import APART, beside_the_other, rivals
 from pipeline.trial.told import alike, parameters
 
 _CONFIGS = Path(__file__).parents[2] / "configs"
@@ -68,9 +67,10 @@ def truth(case):
     catalogue holds, beside the nearest known law. Laws that leave less than can be told are alike.
     """
     near = rivals(case) if case.kind in ("effect", "foreign") else []
-    taken = [{"name": one.name, "place": one.place} for one in near if one.left < APART]
-    told = [{**one, "alike": [*alike(p, case.truth), *(t for t in taken if t not in alike(p, case.truth))]}
-            for one, p in zip(effects(case, parameters), case.planted, strict=True)]
+    own = effects(case, parameters)
+    told = [{**one, "alike": alike(p, case.truth)} for one, p in zip(own, case.planted, strict=True)]
+    for taken in ({"name": one.name, "place": one.place} for one in near if one.left < APART):
+        told[0]["alike"] += [taken] * (taken not in told[0]["alike"])
     left = [*case.left, *(one.left for one in near if case.kind == "foreign")]
     left += beside_the_other(case) if case.kind == "pair" else ()
     return {"class": case.kind, "effects": told, "system": "forced_rig", "size": case.change,

@@ -48,11 +48,11 @@ def test_a_world_that_is_linear_moves_as_its_integration_does(name):
     rig, force = drawn(random, 3), random.standard_normal(100)
     spot = Spot(rig, 0, 0.01, 0.2, 3.0, 1.0, (0.3, 0.6, 0.9))
     world, _ = built(rig, (Planted(HIDDEN[name], "link_0", spot, 0.4),))
-    found, other = linear_world(world, force, 0.01, 40.0), moved(world, force, 0.01, 40.0)
+    found, other = linear_world(world, [force], 0.01, 40.0), moved(world, force, 0.01, 40.0)
     if name == "coulomb":
         assert found is None
     else:
-        np.testing.assert_allclose(found, other, atol=2e-5 * abs(other).max())
+        np.testing.assert_allclose(found[0], other, atol=2e-5 * abs(other).max())
 
 
 @pytest.mark.exact

@@ -7,10 +7,9 @@ import pytest
 
 from pipeline.trial import files
 from pipeline.trial.case import made
-from pipeline.trial.detectable import APART
 from pipeline.trial.hidden import HIDDEN
 from pipeline.trial.hiding import difference
-from pipeline.trial.rivals import KIN, beside_the_other, of_law, rivals
+from pipeline.trial.rivals import APART, KIN, beside_the_other, of_law, rivals
 
 
 def softening(level):
