@@ -83,7 +83,7 @@ def test_the_page_of_a_trial_opens_quietly_and_is_no_wider_than_the_screen(width
     document, console, requests = opened(tmp_path, SCREEN.format(width=width, page=escape(page(drawn()))))
     found = json.loads(unescape(document.partition("<title>")[2].partition("</title>")[0]))
     assert "hidden effects named at their place" in found["text"] and found["wide"] == width
-    assert found["images"] == 8 and found["broken"] == 0 and not console and not requests
+    assert found["images"] == 9 and found["broken"] == 0 and not console and not requests
 
 
 def test_a_page_that_speaks_or_asks_is_caught(tmp_path):
