@@ -93,7 +93,7 @@ def _draws(store, asked):
     if plan["asked"] != asked:
         raise ConfigError(store.folder.parent, f"the command that began this set: {plan['asked']}", str(asked),
                           "repeat that command, or name a new folder")
-    return {number: Draw(**{**one, "hidden": tuple(one["hidden"])}) for number, one in plan["draws"].items()}
+    return {number: Draw.read(one) for number, one in plan["draws"].items()}
 
 
 def _seed(random, given):

@@ -77,5 +77,5 @@ def _make_case(cases, half, item):
     number, draw = item
     if not (cases / number).exists():
         shutil.rmtree(half / number, ignore_errors=True)
-        SYSTEMS[draw["system"]].write(Draw(**{**draw, "hidden": tuple(draw["hidden"])}), half / number)
+        SYSTEMS[draw["system"]].write(Draw.read(draw), half / number)
         (half / number).rename(cases / number)

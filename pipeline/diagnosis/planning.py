@@ -50,7 +50,8 @@ def plan(bench, units, settings):
     ConfigError without planned runs or noise, for unknown inputs and effects.
     """
     runs, costs = planned_runs(bench, settings.plan), [run.cost for run in settings.plan.runs.values()]
-    found = candidates(bench, tuple(runs.values()), chosen(settings), settings.places)
+    found = candidates(bench, tuple(runs.values()), chosen(settings), settings.places,
+                       priors=settings.priors)
     directions, jacobians = _seen(bench, runs, units, settings, found)
     names = tuple(c.name for c in found)
     needed, everything = settings.plan.needed, range(len(runs))

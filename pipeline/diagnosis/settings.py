@@ -115,7 +115,12 @@ class Settings(Section):
 
 
 def parameter(name, unit, value, given, where):
-    """Parameter of a nominal number of ``value`` with the Prior ``given``; ConfigError for priors that lack a size."""
+    """Parameter of a nominal number of ``value`` with the section ``given``; ConfigError as ``prior_of``."""
+    return Parameter(name, unit, value, prior_of(unit, value, given, where))
+
+
+def prior_of(unit, value, given, where):
+    """Prior in ``unit`` about a nominal ``value``, as a section ``given`` states it; ConfigError without a size."""
     def size(key):
         told = getattr(given, key)
         if told is None:
@@ -125,6 +130,6 @@ def parameter(name, unit, value, given, where):
     if given.prior == "log_normal" and not value > 0:
         raise ConfigError(f"{where}.prior", "normal, half_normal or uniform, because the nominal value is not positive",
                           f"log_normal about {value:g} {unit}")
-    prior = {"log_normal": lambda: LogNormal(value, given.spread), "normal": lambda: Normal(value, size("std")),
-             "half_normal": lambda: HalfNormal(size("std")), "uniform": lambda: Uniform(size("low"), size("high"))}
-    return Parameter(name, unit, value, prior[given.prior]())
+    return {"log_normal": lambda: LogNormal(value, given.spread), "normal": lambda: Normal(value, size("std")),
+            "half_normal": lambda: HalfNormal(size("std")),
+            "uniform": lambda: Uniform(size("low"), size("high"))}[given.prior]()

@@ -8,7 +8,7 @@ from pipeline.benches import corrections
 from pipeline.benches.bench import only
 from pipeline.diagnosis.next_run import altered
 from pipeline.diagnosis.question import label, parameter_name, split_name
-from pipeline.diagnosis.settings import parameter
+from pipeline.diagnosis.settings import prior_of
 from pipeline.effects import CATALOGUE, named
 from pipeline.effects.effect import Term, compose
 from pipeline.effects.typical import CHANNEL, typical
@@ -135,12 +135,17 @@ def candidates(bench, runs, catalogue, places=(), scale=1.0, priors=(), peaks=()
 
 
 def _named(own, effect, place, priors):
-    """The parameter of an effect under its name at a place, with the prior that the case states for it, if any."""
+    """The parameter of an effect under its name at a place, with the prior that the case states for it, if any.
+
+    The size that recordings suggest gives way to the middle of a stated prior that excludes it.
+    """
     key, name = f"{effect.name}.{own.name}", parameter_name(effect.name, place, own.name)
     if key not in priors:
         return replace(own, name=name)
-    stated = parameter(name, own.unit, own.nominal, priors[key], f"diagnosis.priors.{key}")
-    return replace(stated, null=own.null)
+    prior = prior_of(own.unit, own.nominal, priors[key], f"diagnosis.priors.{key}")
+    low, high = prior.support
+    size = own.nominal if low <= own.nominal <= high else prior.quantile(0.5)
+    return Parameter(name, own.unit, size, prior, own.null)
 
 
 def solver_candidate():

@@ -20,7 +20,7 @@ SPREAD = 0.25
 #: error of gains that a calibration leaves, and the change of motion that hidden physics makes, both relative
 GAIN_ERROR, CHANGE = 0.005, (0.25, 0.45)
 #: what is left of the error of a step that is too long, in standard deviations of the noise, at least
-VISIBLE = 8.0
+STEP_SHOWS = 8.0
 #: how far off one value of a case with a wrong one is, as a factor either way
 FAR = (1.4, 1.7)
 #: longest step that is stated of the model, and one that is too long, in samples; then the rate is low as well, Hz
@@ -138,8 +138,8 @@ def _of_solver(hiding, seen, noise):
     recorder = hiding.recorder
     found = recorder.seen([coarse(hiding.truth, f, 1 / recorder.rate, CORNER) for f in recorder.runs])
     left = hiding.explained.left(difference(found, seen)[:-1], noise, hiding.colour)
-    if left < VISIBLE:
-        raise ConfigError("trial: solver", f"an error of {VISIBLE:g} standard deviations", f"{left:.2g}",
+    if left < STEP_SHOWS:
+        raise ConfigError("trial: solver", f"an error of {STEP_SHOWS:g} standard deviations", f"{left:.2g}",
                           "draw another seed")
     return left
 

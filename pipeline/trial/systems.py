@@ -42,6 +42,11 @@ class Draw:
     size: float
     noise: float
 
+    @classmethod
+    def read(cls, fields):
+        """The draw whose fields a file lists, as ``dataclasses.asdict`` wrote them."""
+        return cls(**{**fields, "hidden": tuple(fields["hidden"])})
+
 
 @dataclass(frozen=True)
 class System:

@@ -51,6 +51,13 @@ def test_d_falls_with_the_noise_where_nothing_hides_it():
     np.testing.assert_allclose(one, 10 * ten, rtol=1e-9)
 
 
+def test_a_size_that_is_known_otherwise_is_planned_with():
+    """Friction far below what moves slides all the time: ten times the force is seen ten times as well."""
+    faint, weak = (planned(priors={"coulomb.force": {"prior": "uniform", "low": "0 N", "high": f"{force} mN"}},
+                           effects=["coulomb"], parameters={}).power for force in (1, 10))
+    np.testing.assert_allclose(weak, 10 * faint, rtol=0.05)
+
+
 def test_the_table_has_a_row_an_effect(found):
     head, rows = table(found)
     assert head == ("effect", "small", "large", "all", "chosen") and [r[0] for r in rows] == list(found.effects)

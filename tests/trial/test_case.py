@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from pipeline.trial.case import CHANGE, FAR, LEVELS, SAMPLES, VISIBLE, kind_of, known, made
+from pipeline.trial.case import CHANGE, FAR, LEVELS, SAMPLES, STEP_SHOWS, kind_of, known, made
 from pipeline.trial.hiding import BELOW
 from pipeline.trial.rig import drawn
 
@@ -69,7 +69,7 @@ def test_one_wrong_value_is_far_off_and_the_others_are_not():
 def test_a_decoy_of_the_solver_is_a_control_whose_step_is_too_long():
     decoy, control = made(3, masses=1, kind="solver"), made(3, masses=1)
     assert decoy.step * decoy.rate == 4 * control.step * control.rate == 1 and decoy.truth == control.truth
-    assert decoy.left[0] >= VISIBLE and not decoy.planted
+    assert decoy.left[0] >= STEP_SHOWS and not decoy.planted
 
 
 def test_a_case_is_of_the_class_of_what_it_hides():
