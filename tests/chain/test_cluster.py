@@ -10,7 +10,9 @@ from contextlib import contextmanager
 
 import pytest
 
+from pipeline.concealed.sets import TrialSet
 from tests.chain.conftest import QUICK, ROOT, brakechain, contents
+from tests.concealed.their_set import their_set
 
 pytest.importorskip("distributed")
 
@@ -51,6 +53,22 @@ def test_the_same_bits_come_back(tmp_path, finished):
         with worker(address, 2, tmp_path):
             brakechain("run", QUICK, "--run", tmp_path / "run", "--scheduler", address)
     assert contents(tmp_path / "run") == contents(finished)
+
+
+def test_a_trial_is_solved_alike(tmp_path):
+    here, there = their_set(tmp_path / "here"), their_set(tmp_path / "there")
+    brakechain("trial", "solve", here, "--methods", "diagnosis", "--workers", 1)
+    with scheduler() as started:
+        address = address_of(started)
+        with worker(address, 2, tmp_path):
+            brakechain("trial", "solve", there, "--methods", "diagnosis", "--scheduler", address)
+    one, other = ({number: {**told, "cpu_seconds": None} for number, told in answers(folder).items()}
+                  for folder in (here, there))
+    assert one == other and [one[number]["verdict"] for number in sorted(one)] == ["parameters", "missing"]
+
+
+def answers(folder):
+    return TrialSet(folder).read("answers.json")["answers"]["diagnosis"]
 
 
 def without_brakechain(folder):

@@ -2,14 +2,13 @@
 
 import json
 import re
-from pathlib import Path
+import shutil
 
 import pytest
 from click.testing import CliRunner
 
 from pipeline.cli import cli
-
-DOCUMENT = (Path(__file__).parents[2] / "docs" / "trial_sets.md").read_text()
+from tests.concealed.their_set import block, their_set
 
 
 def brakechain(*arguments):
@@ -21,21 +20,12 @@ def brakechain(*arguments):
     return done.output
 
 
-def block(language):
-    return re.search(rf"```{language}\n(.*?)```", DOCUMENT, re.DOTALL)[1]
-
-
 @pytest.fixture
-def theirs(tmp_path, monkeypatch):
-    """Two cases of the document, and one whose nominal model nobody can read; few effects, to keep it short."""
-    folder = tmp_path / "theirs"
-    for number in ("001", "002", "003"):
-        (folder / "cases" / number).mkdir(parents=True)
-        (folder / "cases" / number / "nominal.yaml").write_text(f"{block('yaml')}  effects: [coulomb, backlash]\n")
-    monkeypatch.chdir(folder)
-    exec(block("python"), {})
+def theirs(tmp_path):
+    """Two cases of the document, and one whose nominal model nobody can read."""
+    folder = their_set(tmp_path / "theirs")
+    shutil.copytree(folder / "cases" / "001", folder / "cases" / "003")
     (folder / "cases" / "003" / "nominal.yaml").write_text("chain: lumped_bench\nlumpt: {}\n")
-    (folder / "cases" / "003" / "recordings.h5").write_bytes((folder / "cases/001/recordings.h5").read_bytes())
     truth = json.loads((folder / "truth.json").read_text())
     (folder / "truth.json").write_text(json.dumps({**truth, "003": truth["001"]}))
     return folder
