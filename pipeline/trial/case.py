@@ -6,9 +6,10 @@ import numpy as np
 
 from pipeline.contract.errors import ConfigError
 from pipeline.trial import excitation, rig, sensors
-from pipeline.trial.detectable import Values, coarse, of_rig
+from pipeline.trial.detectable import Values, of_rig
 from pipeline.trial.hidden import HIDDEN
 from pipeline.trial.hiding import Hiding, difference, noise_of, placed
+from pipeline.trial.linear import coarse
 from pipeline.trial.motion import World
 from pipeline.trial.planted import Recorder, change_of, shown
 

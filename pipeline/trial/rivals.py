@@ -9,9 +9,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from pipeline.contract.errors import BrakechainError
-from pipeline.trial.detectable import Refitted, linear_world
+from pipeline.trial.detectable import Refitted
 from pipeline.trial.hidden import HIDDEN
 from pipeline.trial.hiding import difference, places
+from pipeline.trial.linear import linear_world
 from pipeline.trial.planted import Planted, built, shown, sized
 
 #: standard deviations of the noise below which two laws cannot be told apart with a probability of 0.9

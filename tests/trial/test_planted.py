@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from pipeline.contract.errors import ConfigError
-from pipeline.trial.detectable import linear
 from pipeline.trial.hidden import HIDDEN, Spot
+from pipeline.trial.linear import linear
 from pipeline.trial.motion import World, moved
 from pipeline.trial.planted import Planted, Recorder, built, change_of, shown, sized
 from pipeline.trial.rig import Link, Rig, drawn
