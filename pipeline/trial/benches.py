@@ -25,11 +25,12 @@ def pin_on_disc(draw, folder):
 
 
 def _values(bench, factors):
-    """{parameter of a diagnosis: true value} of a pin_bench.Bench: SI, of its modes over the nominal value."""
+    """{parameter of a diagnosis: true value} of a pin_bench.Bench: the arm in SI, else factors of the nominal value."""
     modes = {f"bodies.{body}.{_OF_MODES[kind]}": factor for (body, kind), factor in (
         (name.split("."), factor) for name, factor in factors.items() if "." in name) if body not in ("arm", "contact")}
-    return {**modes, "joints.arm.stiffness": float(abs(bench.arm[-1])), "contact.stiffness": float(bench.contact),
-            "friction.stiffness": float(bench.shear), "friction": float(bench.friction)}
+    return {**modes, "joints.arm.stiffness": float(abs(bench.arm[-1])), "friction": factors["friction"],
+            "contact.stiffness": factors["contact.stiffness"],
+            "friction.stiffness": factors["contact.tangential_stiffness"]}
 
 
 def shoe_on_drum(draw, folder):

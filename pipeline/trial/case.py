@@ -108,7 +108,15 @@ def _reach(seen, without):
 def _exact(names, indices, masses):
     """Names of values that are stated exactly, as what is hidden would else be a wrong value of them."""
     found = [(HIDDEN[name], place) for name, place in zip(names, indices, strict=False)]
-    return tuple(_EXACT[piece.exact].format(placed(piece, at, masses)[0]) for piece, at in found if piece.exact)
+    return tuple(_EXACT[piece.exact].format(_number(piece, placed(piece, at, masses)[0], masses))
+                 for piece, at in found if piece.exact)
+
+
+def _number(piece, index, masses):
+    """Number of the value that is exact for a piece at the place of this ``index``: of a spring to the wall at the last
+    of three or more masses that of the link to the far wall, which comes after those of all masses."""
+    far = piece.place == "mass" and piece.exact == "stiffness" and masses > 2 and index == masses - 1
+    return masses if far else index
 
 
 def known(seed, truth):

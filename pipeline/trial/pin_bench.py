@@ -17,6 +17,8 @@ from numba import njit
 from scipy.linalg import eigh
 from scipy.signal import butter, sosfilt
 
+from pipeline.contract.errors import ConvergenceError
+
 #: what can be hidden, with the sizes it is given: low and high of a draw
 HIDDEN = {
     "falling_friction": {"rise": (0.03, 0.1), "decay_speed": (0.05, 0.12)},
@@ -47,6 +49,8 @@ _CONTACT, _SHEAR, _FRICTION = 3e6, 2.4e6, 0.3
 _REFERENCE_LOAD, _SMOOTH = 15.0, 6e-3
 _NOISE = {"laser_disc": 5e-7, "laser_pin": 5e-7, "accelerometer": 0.01, "load_cell": 0.02}
 _LOADS, _SPEEDS = (8.0, 15.0, 28.0), (0.25, 0.5, 1.0)
+#: iterations for the contact force of steady sliding
+_STEADY = 400
 
 
 @dataclass(frozen=True)
@@ -205,7 +209,7 @@ def record(bench, seed, taps=(1e-4, 1e-5)):
     ``taps`` N s: size of a blow at rest and in sliding.
 
     Taps on the lifted pin and disc, at rest under three loads, and in sliding under three loads and speeds, each
-    twice; and one turn by hand under the load cell.
+    twice; and one turn by hand under the load cell. Raises ConvergenceError where no steady sliding is found.
     """
     random, runs = np.random.default_rng(seed + 1), {}
     plan = [("lifted", 0.0, 0.0)] + [(f"rest_{load:g}N", load, 0.0) for load in _LOADS]
@@ -256,13 +260,13 @@ def hidden_values(bench, name):
 def _steady(bench, load, speed, hidden, gap=0.0):
     """Coordinates (n,) of steady sliding, by fixed-point iteration of the contact force on the stiffness with it.
 
-    A contact that would have to pull is open.
+    A contact that would have to pull is open. Raises ConvergenceError.
     """
     stiffness = np.diag(bench.mass * bench.squared) + bench.coupling
     if load == 0:
         return np.zeros(len(bench.mass))
     force, place = load, None
-    for _ in range(400):
+    for _ in range(_STEADY):
         friction = 0.0 if speed == 0 else _mu(bench.friction, force, speed * RADIUS, hidden)
         drive = bench.normal + friction * bench.tangent
         approach = _approach(bench.contact, force, hidden["contact_stiffness_law"]["exponent"])
@@ -273,7 +277,8 @@ def _steady(bench, load, speed, hidden, gap=0.0):
         if abs(new - force) < 1e-12 * load:
             return place if new > 1e-9 else np.linalg.solve(stiffness, bench.press * load)
         force = 0.5 * (force + new)
-    raise ArithmeticError("steady sliding of the practice bench was not found")
+    raise ConvergenceError("practice bench", f"steady sliding within {_STEADY} iterations",
+                           f"a contact force of {force:.6g} N that still changes", "draw another seed")
 
 
 def _approach(stiffness, force, exponent):

@@ -34,6 +34,14 @@ def test_a_law_that_would_be_a_wrong_value_has_that_value_exact():
     assert found.belief.links[0].stiffness != found.truth.links[0].stiffness
 
 
+def test_a_spring_to_the_wall_beside_a_link_to_the_wall_has_that_link_exact():
+    """The last of three masses has the links 2, to its neighbour, and 3, to the far wall."""
+    found = made(9, "added_stiffness", place=2, masses=3)
+    far = found.truth.links[3]
+    assert (far.near, far.far) == (2, -1) and found.exact == ("stiffness_3",)
+    assert found.belief.links[3].stiffness == far.stiffness and found.left[0] > 5
+
+
 def test_values_known_exactly_stand_in_controls_as_well_and_betray_nothing():
     told = [known(seed, drawn(np.random.default_rng(seed), 1)) for seed in range(300)]
     assert 75 < sum(map(len, told)) < 125

@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from pipeline.contract.errors import ConvergenceError
 from pipeline.recordings.neutral import read_neutral, write_neutral
 from pipeline.trial import pin_bench
 from tests.trial.imported import imported
@@ -56,6 +57,12 @@ def test_a_turned_contact_does_not_pull(gap, open_):
     hidden = {name: pin_bench.hidden_values(bench, name) for name in pin_bench.HIDDEN}
     place = pin_bench._steady(bench, 15.0, 0.5, hidden, gap * 15.0 / bench.arm[-1])
     assert np.isclose(abs(bench.arm @ place), 15.0, rtol=1e-9) == open_
+
+
+def test_a_steady_state_that_is_not_found_is_told(monkeypatch):
+    monkeypatch.setattr(pin_bench, "_STEADY", 2)
+    with pytest.raises(ConvergenceError, match="steady sliding within 2 iterations"):
+        pin_bench.record(pin_bench.make(5)[0], 5)
 
 
 def test_values_are_off_and_effects_hidden():
