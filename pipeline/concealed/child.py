@@ -20,8 +20,8 @@ from pipeline.concealed.sets import FILES
 from pipeline.contract.errors import BrakechainError
 from pipeline.environment import CACHE, ONE_THREAD, own_compiled_code
 
-#: method -> arguments of python; baselines have a door of their own
-DIAGNOSIS = ("-m", "pipeline", "run", "nominal.yaml", "--run", "products", "--until", "diagnosis", "--workers", "1")
+#: what runs a diagnosis; baselines have a door of their own
+DIAGNOSIS = ("pipeline", "run", "nominal.yaml", "--run", "products", "--until", "diagnosis", "--workers", "1")
 #: how a process ends that somebody else ended
 _ENDED = (signal.SIGKILL, signal.SIGTERM, signal.SIGINT, signal.SIGHUP)
 _LONGEST = 500
@@ -31,8 +31,9 @@ _ROOT = Path(__file__).parents[2]
 
 
 def command(method):
-    """Arguments of the interpreter for a method: 'diagnosis', or the name of a baseline."""
-    return (sys.executable, *(DIAGNOSIS if method == "diagnosis" else ("-m", "pipeline.baselines", method)))
+    """The command of a method, 'diagnosis' or the name of a baseline, which ends with this process."""
+    return (sys.executable, "-m", "pipeline.contract.following", str(os.getpid()),
+            *(DIAGNOSIS if method == "diagnosis" else ("pipeline.baselines", method)))
 
 
 def environment(home):

@@ -15,6 +15,7 @@ from threadpoolctl import threadpool_limits
 from pipeline import __version__
 from pipeline.contract.errors import BrakechainError, ConfigError
 from pipeline.contract.fingerprint import project_digest
+from pipeline.contract.following import follow
 from pipeline.environment import ONE_THREAD
 
 #: solvers with global state: one task at a time in a process, also in a worker with several threads
@@ -63,7 +64,7 @@ class LocalProcesses:
         if self._pool is None:
             os.environ.update(ONE_THREAD)
             spawn = multiprocessing.get_context("spawn")
-            self._pool = ProcessPoolExecutor(self.workers, spawn, _follow, (os.getpid(),))
+            self._pool = ProcessPoolExecutor(self.workers, spawn, follow, (os.getpid(),))
         futures = [self._pool.submit(run_task, function, item) for item in items]
         try:
             for future in as_completed(futures):
@@ -81,17 +82,6 @@ class LocalProcesses:
     def close(self):
         if self._pool is not None:
             self._pool.shutdown(cancel_futures=True)
-
-
-def _follow(parent):
-    """End this worker when its parent is gone, however it went."""
-
-    def watch():
-        while os.getppid() == parent:
-            time.sleep(0.5)
-        os._exit(1)
-
-    threading.Thread(target=watch, daemon=True).start()
 
 
 #: expression whose value is the digest of the brakechain where it is evaluated; to ask needs no brakechain there
