@@ -58,8 +58,7 @@ def answered(case, method, limit):
         for name in FILES:
             shutil.copyfile(case / name, work / name)
         told = _run(command(method), work, environment(home), limit)
-        answer = told if isinstance(told, str) else _read(work / "products" / "diagnosis.json")
-        answer = refused(answer) if isinstance(answer, str) else answer
+        answer = _read(work / "products" / "diagnosis.json") if told is None else told
     finally:
         shutil.rmtree(here, ignore_errors=True)
     return {**answer, "cpu_seconds": round(_cpu_seconds() - before, 3)}
@@ -71,14 +70,14 @@ def refused(reason):
 
 
 def _run(arguments, folder, variables, limit):
-    """None where the process ends well, else why not."""
+    """None where the process ends well, else the refusal."""
     with subprocess.Popen(arguments, cwd=folder, env=variables, start_new_session=True, stdin=subprocess.DEVNULL,
                           stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True) as process:
         _bound(process)
         try:
             _, told = process.communicate(timeout=limit)
         except subprocess.TimeoutExpired:
-            return f"no answer within {limit:g} s"
+            return {**refused(f"no answer within {limit:g} s"), "limit": limit}
         finally:
             with contextlib.suppress(ProcessLookupError):
                 os.killpg(process.pid, signal.SIGKILL)
@@ -86,7 +85,7 @@ def _run(arguments, folder, variables, limit):
         raise BrakechainError("a solver process", "to run until its end", f"signal {-process.returncode}",
                               "run the same command to go on")
     lines = [line for line in told.splitlines() if line.strip()] or ["it said nothing"]
-    return lines[-1][:_LONGEST] if process.returncode else None
+    return refused(lines[-1][:_LONGEST]) if process.returncode else None
 
 
 def _bound(process):
@@ -100,7 +99,7 @@ def _read(path):
     try:
         return json.loads(path.read_text(encoding="utf-8"))
     except (OSError, ValueError) as error:
-        return f"no readable answer: {type(error).__name__}"
+        return refused(f"no readable answer: {type(error).__name__}")
 
 
 def _cpu_seconds():

@@ -7,6 +7,8 @@ NOTHING, NAMING = ("consistent", "parameters"), ("missing", "tie", "sensor", "nu
 #: classes in which nothing is missing; class -> verdict that names what it hides
 EMPTY = ("control", "wrong_value")
 NAMED_BY = {"effect": "missing", "pair": "missing", "below": "missing", "foreign": "missing", "sensor": "sensor"}
+#: every class that a truth may state
+CLASSES = (*EMPTY, *NAMED_BY, "solver")
 #: standard deviations of the noise that something must leave beside the nominal values to count as visible: one that is
 #: alone in an ideal linear case is named in 95 % of draws then, at 4 in hardly any
 VISIBLE = 7.0
@@ -41,7 +43,7 @@ def judged(truth, answer):
              "among_tied": verdict in ("tie", "sensor") and len(named) > len(wanted) and _all_in(wanted, named),
              "top": _all_in(wanted, [*named, *answer.get("alternatives", ())][:max(_TOP, len(wanted))])}
     if kind == "below":     # to abstain is right, or to name what is there or comes nearest; to name another is not
-        near = called and all(any(_like(w, [one]) for w in wanted) for one in named)
+        near = (called or verdict == "tie") and all(any(_like(w, [one]) for w in wanted) for one in named)
         found["right"] = found["right"] or verdict in (*NOTHING, "unknown") or found["among_tied"] or near
     return found
 
@@ -57,9 +59,14 @@ def _like(true, told):
 
 
 def class_of(truth):
-    """The class as which a case is scored: what leaves less than is ``visible`` is below the threshold."""
-    shown = truth.get("left", np.inf) >= truth.get("visible", _UNSTATED)
+    """The class as which a case is scored: what leaves less than ``threshold`` is below it."""
+    shown = truth.get("left", np.inf) >= threshold(truth)
     return truth["class"] if shown or truth["class"] not in NAMED_BY else "below"
+
+
+def threshold(truth):
+    """Standard deviations of the noise that what is hidden must leave to count as visible."""
+    return truth.get("visible", _UNSTATED)
 
 
 def _all_in(wanted, named):

@@ -12,6 +12,7 @@ from pipeline.concealed import code, sealing
 from pipeline.concealed.judging import VISIBLE
 from pipeline.concealed.plan import drawn
 from pipeline.concealed.sets import FORMAT, TrialSet, canonical, read_json
+from pipeline.concealed.truths import check_truth
 from pipeline.contract.errors import BrakechainError, ConfigError
 from pipeline.contract.runner import locked
 from pipeline.contract.store import write_companion
@@ -176,11 +177,3 @@ def _counted(names):
 def write_code(found):
     """Write code.json: the digests of what decides answers and scores."""
     found.write("code.json", code.files())
-
-
-def check_truth(found, truth):
-    """Refuse a truth that does not speak of every case, and of no other."""
-    apart = sorted(set(truth) ^ set(found.cases))
-    if apart:
-        raise ConfigError(found.folder / "truth.json", f"the {len(found.cases)} cases of the folder",
-                          f"{', '.join(apart[:5])} in only one of both")

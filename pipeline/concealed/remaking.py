@@ -12,6 +12,9 @@ from pipeline.contract.errors import ConfigError
 from pipeline.contract.runner import locked
 from pipeline.trial.systems import SYSTEMS, Draw
 
+#: where cases lie until they are whole
+_HALF = ".remaking"
+
 
 def restore(folder, work, key_file=None, tell=lambda done, total: None):
     """Make the cases of a set again in its own folder, from the truth that lies there or the one that its key opens.
@@ -21,6 +24,7 @@ def restore(folder, work, key_file=None, tell=lambda done, total: None):
     found = TrialSet(folder)
     with locked(folder):
         _make_cases(found.folder, _truth(found, key_file), work, tell)
+        shutil.rmtree(found.folder / _HALF)
     if found.digest() != found.about["digest"]:
         raise ConfigError(found.folder / "cases", f"files of digest {found.about['digest'][:16]}...", "other files",
                           f"check out commit {found.about.get('commit') or '(none recorded)'} with the packages "
@@ -33,7 +37,8 @@ def repeat(folder, into, work, tell=lambda done, total: None):
     Other packages or another processor may change last digits: what is hidden, and how well it shows, stay the same.
     """
     found, into = TrialSet(folder), Path(into)
-    if (into / "set.yaml").exists():
+    if (into / "set.yaml").exists() or (not (into / _HALF).exists() and (
+            (into / "cases").exists() or (into / "truth.json").exists())):
         raise ConfigError(into, "a folder without a set", "a set of cases", "name a new folder")
     truth = _truth(found, None)
     into.mkdir(parents=True, exist_ok=True)
@@ -42,6 +47,7 @@ def repeat(folder, into, work, tell=lambda done, total: None):
         made = TrialSet(into)
         made.write("truth.json", truth)
         made.write("set.yaml", described(made, truth, "open"))
+        shutil.rmtree(into / _HALF)
     return made.digest() == found.about.get("digest")
 
 
@@ -65,12 +71,11 @@ def _truth(found, key_file):
 def _make_cases(folder, truth, work, tell):
     """Cases of a truth in a folder, each whole or not at all; those that are there stay."""
     done = iter(range(1, len(truth) + 1))
-    half = folder / ".remaking"
+    half = folder / _HALF
     half.mkdir(exist_ok=True)
     (folder / "cases").mkdir(exist_ok=True)
     work.map(partial(_make_case, folder / "cases", half), [(n, one["draw"]) for n, one in truth.items()],
              lambda: tell(next(done), len(truth)))
-    shutil.rmtree(half)
 
 
 def _make_case(cases, half, item):

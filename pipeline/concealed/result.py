@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from pipeline.concealed.judging import EMPTY, class_of, judged, same
+from pipeline.concealed.judging import EMPTY, class_of, judged, same, threshold
 from pipeline.concealed.rates import calibration, rate
 from pipeline.concealed.reasons import why
 
@@ -27,19 +27,29 @@ GOALS = {
 }
 
 
-def result(about, truth, answers):
+def result(about, truth, answers, errata=()):
     """All numbers of a scored set.
 
-    about : what the set says of itself; truth : {case: truth}; answers : {method: {case: answer}}.
+    about : what the set says of itself; truth : {case: truth}; answers : {method: {case: answer}}; errata : [{system,
+    parameters: [name, ...], reason}], true values of a system that are known to be wrong, and are not compared.
+    ``thresholds`` of the result: what hidden physics must leave in its cases to count as visible.
     """
+    truth = {number: _without_errata(one, errata) for number, one in truth.items()}
     found = {method: {number: judged(truth[number], told[number]) for number in truth}
              for method, told in answers.items()}
-    return {"format": FORMAT, "set": about,
+    return {"format": FORMAT, "set": about, **({"errata": errata} if errata else {}),
+            "thresholds": sorted({threshold(t) for t in truth.values() if "left" in t}),
             "methods": {method: _numbers(truth, answers[method], found[method]) for method in answers},
             "cases": {number: {"class": class_of(truth[number]), "truth": truth[number], "answers": {
                 method: {**_brief(answers[method][number]), "judged": found[method][number],
                          **why(truth[number], answers[method][number], found[method][number])}
                 for method in answers}} for number in sorted(truth)}}
+
+
+def _without_errata(truth, errata):
+    wrong = {name for one in errata if one["system"] == truth.get("system") for name in one["parameters"]}
+    right = {name: value for name, value in truth.get("parameters", {}).items() if name not in wrong}
+    return {**truth, "parameters": right} if wrong else truth
 
 
 def _numbers(truth, answers, found):
@@ -112,7 +122,7 @@ def names(cases):
 
 def detection(cases):
     """[{noise, low, high, right: rate}] over sizes, of what is to be named, right type and place."""
-    hidden = [(t, j) for t, _, j in cases if t["class"] in _ALONE and t.get("size")]
+    hidden = [(t, j) for t, _, j in cases if t["class"] in _ALONE and t.get("size") and "noise" in t]
     return [{"noise": noise, **one} for noise in sorted({t["noise"] for t, _ in hidden})
             for one in _binned([(t["size"], j["named"]) for t, j in hidden if t["noise"] == noise], SIZES, 1.0)]
 
@@ -142,13 +152,15 @@ def systems(cases):
 
 
 def claims(cases):
-    """[(stated probability, whether it is so)] of everything that was named, alone or among tied."""
+    """[(stated probability, whether it is so)] of everything that was named, alone or among tied; of a solver that is
+    named whether it is wrong at all."""
     found = []
     for truth, answer, _ in cases:
-        true = {(e["name"], e["place"]) for e in truth["effects"]} if truth["class"] != "foreign" else set()
+        true = truth["effects"] if truth["class"] != "foreign" else []
         for effect in answer["effects"]:
             if "posterior" in effect:
-                right = any(effect["name"] == name and place in ("", effect["place"]) for name, place in true)
+                right = (truth["class"] == "solver" if answer["verdict"] == "numerics"
+                         else any(same(one, effect) for one in true))
                 found.append((min(max(float(effect["posterior"]), 0.0), 1.0), right))
     return found
 

@@ -3,10 +3,10 @@
 from datetime import UTC, datetime
 
 from pipeline.concealed import code, sealing
-from pipeline.concealed.making import check_truth
 from pipeline.concealed.result import result
 from pipeline.concealed.sets import TrialSet, canonical, read_json, sha256
-from pipeline.concealed.solving import METHODS, check_cases, check_code
+from pipeline.concealed.solving import METHODS, check_cases, check_code, digest_of_case
+from pipeline.concealed.truths import check_truth
 from pipeline.contract.errors import ConfigError
 
 
@@ -18,15 +18,24 @@ def score(folder, key_file=None, truth_file=None):
     """
     found = TrialSet(folder)
     answers = _answers(found)
-    if found.sealed:
-        truth = _opened(found, key_file)
-    else:
-        truth = read_json(truth_file or found.path("truth.json"))
-        check_truth(found, truth)
-        _check_current(answers)
-    scored = result(found.about or {"name": found.name, "kind": "open", "cases": len(truth)}, truth, answers)
+    opened, key = _opened(found, key_file) if found.sealed else (None, None)
+    truth = opened["truth"] if opened else read_json(truth_file or found.path("truth.json"))
+    check_truth(found, truth)
+    if not found.sealed:
+        _check_current(found, answers)
+    scored = scored_as(found, truth, answers)
+    if opened:
+        found.write("truth.json", truth)
+        found.write("opened.yaml", {"key": key.decode(), "salt": opened["salt"],
+                                    "scored": datetime.now(UTC).isoformat(timespec="seconds")})
     found.write("result.json", scored)
     return scored
+
+
+def scored_as(found, truth, answers):
+    """The result of a TrialSet of this truth and these answers, but for the errata of the set."""
+    return result(found.about or {"name": found.name, "kind": "open", "cases": len(truth)}, truth, answers,
+                  found.read_yaml("errata.yaml")["errata"] if found.has("errata.yaml") else ())
 
 
 def _answers(found):
@@ -48,19 +57,14 @@ def _solved(found):
 
 
 def _opened(found, key_file):
-    """Truth of a sealed set, opened for the first time."""
+    """({salt, truth}, key) of a sealed set that was not scored, by its committed code on its committed cases."""
     if found.has("result.json"):
         raise ConfigError(found.folder, "a sealed set that was not scored", "its result",
                           "check it with: brakechain trial verify SET")
     key = sealing.read_key(key_file)
     check_code(found, code.files(), "before it was scored")
     check_cases(found)
-    opened = unsealed(found, key)
-    check_truth(found, opened["truth"])
-    found.write("truth.json", opened["truth"])
-    found.write("opened.yaml", {"key": key.decode(), "salt": opened["salt"],
-                                "scored": datetime.now(UTC).isoformat(timespec="seconds")})
-    return opened["truth"]
+    return unsealed(found, key), key
 
 
 def unsealed(found, key):
@@ -77,10 +81,12 @@ def check_commitment(found, salt, truth):
                           found.about.get("commitment"), "truth or commitment was changed after the set was made")
 
 
-def _check_current(answers):
-    """Refuse to score answers of an open set that other code gave."""
-    now = code.of_answers(code.files())
-    apart = sum(answer["code"] != now for found in answers.values() for answer in found.values())
-    if apart:
-        raise ConfigError("answers.json", "answers of this code", f"{apart} of other code",
-                          "run again: brakechain trial solve")
+def _check_current(found, answers):
+    """Refuse to score answers of an open set that other code gave, or to other files."""
+    now, files = code.of_answers(code.files()), {number: digest_of_case(case) for number, case in found.cases.items()}
+    told = [(number, answer) for own in answers.values() for number, answer in own.items()]
+    for what, apart in (("of other code", sum(answer["code"] != now for _, answer in told)),
+                        ("to other files", sum(answer["files"] != files.get(number) for number, answer in told))):
+        if apart:
+            raise ConfigError(found.path("answers.json"), "answers of this code to these cases", f"{apart} {what}",
+                              f"run again: brakechain trial solve {found.folder}")

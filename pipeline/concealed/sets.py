@@ -5,6 +5,7 @@
     truth.sealed, set.yaml                    of a sealed set: the truth encrypted, and its commitment
     answers/METHOD/NNN.json, answers.json     what ``solve`` left; all of them in one file once there are all
     opened.yaml, result.json, trial.html      what ``score`` and ``show`` left
+    errata.yaml                               what was found to be wrong in a published truth, told beside it
 
 Of these only ``cases`` and a truth are needed; set.yaml is written by ``make`` and ``seal``.
 """

@@ -5,7 +5,7 @@ from functools import partial
 from pipeline.baselines import BASELINES
 from pipeline.concealed import code
 from pipeline.concealed.child import answered
-from pipeline.concealed.sets import TrialSet, canonical, read_json, sha256
+from pipeline.concealed.sets import FILES, TrialSet, canonical, read_json, sha256
 from pipeline.contract.errors import ConfigError
 
 METHODS = ("diagnosis", *BASELINES)
@@ -16,30 +16,37 @@ LIMIT = 3600.0
 def solve(folder, work, methods=METHODS, limit=LIMIT, tell=lambda done, total: None):
     """Answer the cases of a set that have no answer yet; returns how many were answered now.
 
-    A sealed set is solved once, with the code of its commitment; of an open one, answers of other code are renewed.
+    A sealed set is solved once, with the code of its commitment; methods that were not asked may be added until it is
+    scored. Of an open set answers of other code, to other files or within a shorter limit are renewed.
     """
     found, now = TrialSet(folder), code.files()
     unknown = set(methods) - set(METHODS)
     if unknown:
         raise ConfigError("--methods", f"some of {', '.join(METHODS)}", ", ".join(sorted(unknown)))
     if found.sealed:
-        check_unsolved(found)
+        methods = _unasked(found, methods)
         check_code(found, now, "before it was solved")
         check_cases(found)
     digest = code.of_answers(now)
-    todo = [(number, method) for method in methods for number in found.cases
-            if not _answered(found, method, number, None if found.sealed else digest)]
+    asked = {number: None if found.sealed else (digest, digest_of_case(case), limit)
+             for number, case in found.cases.items()}
+    todo = [(number, method) for method in methods for number in asked
+            if not _answered(found, method, number, asked[number])]
     done = iter(range(1, len(todo) + 1))
     work.map(partial(_solve, found.folder.resolve(), digest, limit), todo, lambda: tell(next(done), len(todo)))
     _close(found, methods)
     return len(todo)
 
 
-def check_unsolved(found):
-    """Refuse a set that was solved: a second look after the first would be no trial."""
-    if found.has("answers.json"):
-        raise ConfigError(found.folder, "a sealed set that was not solved", "answers.json of all its cases",
+def _unasked(found, methods):
+    """Those of the methods that have not answered a sealed set: a second look after the first would be no trial."""
+    told = found.read("answers.json")["answers"] if found.has("answers.json") else {}
+    left = tuple(method for method in methods if method not in told)
+    if not left or found.has("result.json"):
+        raise ConfigError(found.folder, "a sealed set that was not solved",
+                          "its result" if found.has("result.json") else f"answers of {', '.join(methods)}",
                           "a sealed set is solved once: make a new one")
+    return left
 
 
 def check_code(found, now, when):
@@ -59,10 +66,18 @@ def check_cases(found):
                           "the cases were changed after the set was made")
 
 
-def _answered(found, method, number, digest):
-    """Whether a case has its answer, of this code where a ``digest`` is given."""
+def digest_of_case(folder):
+    """SHA-256 over both files of a case."""
+    return sha256("".join(sha256((folder / name).read_bytes()) for name in FILES).encode())
+
+
+def _answered(found, method, number, asked):
+    """Whether a case has its answer; where a (code, files, limit) is ``asked``, to these, and not for want of time."""
     path = found.path(f"answers/{method}/{number}.json")
-    return path.exists() and digest in (None, read_json(path).get("code"))
+    if not path.exists() or asked is None:
+        return path.exists()
+    told, (own, files, limit) = read_json(path), asked
+    return (told.get("code"), told.get("files")) == (own, files) and not told.get("limit", limit) < limit
 
 
 def _solve(folder, digest, limit, item):
@@ -75,7 +90,8 @@ def _solve(folder, digest, limit, item):
     if code.of_answers(code.files()) != digest:
         raise ConfigError(f"case {number}", "the same code from begin to end", "code that changed meanwhile",
                           "run again")
-    found.write(f"answers/{method}/{number}.json", {**answer, "code": digest})
+    found.write(f"answers/{method}/{number}.json",
+                {**answer, "code": digest, "files": digest_of_case(found.cases[number])})
 
 
 def _close(found, methods):
@@ -83,5 +99,7 @@ def _close(found, methods):
     cases = list(found.cases)
     whole = [method for method in METHODS if all(found.has(f"answers/{method}/{number}.json") for number in cases)]
     if set(methods) <= set(whole):
-        told = {method: {number: found.read(f"answers/{method}/{number}.json") for number in cases} for method in whole}
+        kept = found.read("answers.json")["answers"] if found.sealed and found.has("answers.json") else {}
+        told = kept | {method: {number: found.read(f"answers/{method}/{number}.json") for number in cases}
+                       for method in whole if method not in kept}
         found.write("answers.json", {"digest": sha256(canonical(told)), "answers": told})

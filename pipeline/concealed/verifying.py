@@ -1,8 +1,7 @@
 """Verifying a published set: that truth, key, commitment, answers and result belong together."""
 
 from pipeline.concealed import code, sealing
-from pipeline.concealed.result import result
-from pipeline.concealed.scoring import check_commitment
+from pipeline.concealed.scoring import check_commitment, scored_as
 from pipeline.concealed.sets import TrialSet, canonical, sha256
 from pipeline.contract.errors import ConfigError
 
@@ -17,10 +16,11 @@ def verify(folder):
     told = [*_sealing(found, truth)] if found.sealed else ["open set: nothing was sealed"]
     _check(sha256(canonical(kept["answers"])) == kept["digest"], found, "answers.json is not what was solved")
     told.append(f"answers {kept['digest']} are unchanged")
-    again = result(found.read("result.json")["set"], truth, kept["answers"])
-    _check(canonical(again) == canonical(found.read("result.json")), found,
+    _check(canonical(scored_as(found, truth, kept["answers"])) == canonical(found.read("result.json")), found,
            "result.json is not the score of these answers by this code")
     told.append(f"result.json is the score of {len(truth)} cases by this code")
+    told += [f"errata.yaml: not compared are {', '.join(one['parameters'])} of {one['system']}: {one['reason']}"
+             for one in found.read("result.json").get("errata", ())]
     if (found.folder / "cases").exists() and found.about:
         _check(found.digest() == found.about["digest"], found, "the cases are not those of set.yaml")
         told.append("the files of all cases are those that were committed")

@@ -76,12 +76,13 @@ def detection(points):
         return svg(figure)
 
 
-def visible(points):
-    """Rate of what is named at its place over what it leaves beside the nominal values."""
+def visible(points, thresholds):
+    """Rate of what is named at its place over what it leaves beside the nominal values; lines at ``thresholds``."""
     with drawing() as figure:
         axes = figure.subplots()
         _curve(axes, points, 1.0, 0, None)
-        axes.axvline(4, color=FAINT, lw=1)
+        for one in thresholds:
+            axes.axvline(one, color=FAINT, lw=1)
         axes.set_xticks([1, 2, 4, 8, 16, 32, 64], ["0", "2", "4", "8", "16", "32", ""])
         axes.set(xlabel="left beside the nominal values, standard deviations", ylabel="named at its place")
         return svg(figure)

@@ -68,6 +68,9 @@ def test_a_tie_of_laws_of_one_force_names_it_and_a_fainter_rest_is_named_by_its_
     faint = {**known, "class": "foreign", "left": 3.0}
     assert judged(faint, told("missing", CUBIC))["right"] and not judged(faint, told("missing", SHIFTED))["right"]
     assert not judged({**faint, "left": 5.0}, told("missing", CUBIC))["right"]
+    faint = {**known, "class": "below"}
+    assert judged(faint, told("tie", CUBIC))["right"] and not judged(faint, told("tie", CUBIC, SHIFTED))["right"]
+    assert judged(faint, told("tie", COULOMB, SHIFTED))["right"]
 
 
 def test_type_place_and_rank_are_told_apart():

@@ -72,6 +72,14 @@ def test_cases_that_come_out_otherwise_are_refused(tmp_path, generators, key_fil
         remaking.restore(found.folder, InProcess(), key_file)
 
 
+def test_a_folder_that_somebody_filled_is_left_as_it_is(tmp_path, generators):
+    found, theirs = make(tmp_path / "a", seed=3), small_set(tmp_path / "b")
+    before = (theirs / "truth.json").read_text(), contents(theirs)
+    with pytest.raises(ConfigError, match="a folder without a set, found a set of cases"):
+        remaking.repeat(found.folder, theirs, InProcess())
+    assert ((theirs / "truth.json").read_text(), contents(theirs)) == before
+
+
 def test_a_published_set_is_repeated_as_an_open_one(tmp_path, generators):
     found = make(tmp_path / "a", seed=3)
     assert remaking.repeat(found.folder, tmp_path / "b", InProcess())

@@ -79,6 +79,20 @@ def test_everything_that_was_named_is_a_claim_of_its_probability():
                    case("foreign", "missing", ("coulomb", "a", 0.95))]) == [(0.6, True), (0.4, False), (0.95, False)]
 
 
+def test_a_solver_that_is_named_is_a_claim_that_it_is_wrong():
+    """It has no place among what is hidden, which is physics or a sensor."""
+    right, wrong = ({**case("control", "numerics", ("time_step", "solver", 1.0))[0], "class": kind, "effects": []}
+                    for kind in ("solver", "control"))
+    answer = case("control", "numerics", ("time_step", "solver", 1.0))[1]
+    assert claims([(right, answer, {}), (wrong, answer, {})]) == [(1.0, True), (1.0, False)]
+
+
+def test_a_size_without_a_noise_is_in_no_curve():
+    truth, answer, judged = case("effect", "missing", right=True, size=0.2)
+    del truth["noise"]
+    assert detection([(truth, answer, judged)]) == []
+
+
 def test_an_effect_named_at_another_place_and_abstaining_below_the_threshold():
     elsewhere = case("effect", "missing", ("coulomb", "b", 1.0))
     elsewhere[2]["type"] = True
@@ -86,6 +100,12 @@ def test_an_effect_named_at_another_place_and_abstaining_below_the_threshold():
     below = case("below", "parameters", size=0.02, right=True)
     below[2]["named"] = False
     assert detection([below])[0]["right"]["hits"] == 0, "to abstain is right, and is no detection"
+
+
+def test_a_result_tells_what_counts_as_visible_in_its_cases(found):
+    told = {n: {**t, **more} for (n, t), more in zip(TRUTH.items(), ({}, {"left": 5.0}, {"left": 9.0, "visible": 7.0}),
+                                                    strict=True)}
+    assert found["thresholds"] == [] and result({}, told, {"diagnosis": TOLD})["thresholds"] == [4.0, 7.0]
 
 
 def test_what_is_visible_is_counted_in_bins_of_what_is_left():

@@ -5,7 +5,7 @@ import stat
 
 import pytest
 
-from pipeline.concealed import code, making, sealing
+from pipeline.concealed import code, making, scoring, sealing
 from pipeline.concealed.scoring import score
 from pipeline.concealed.sets import TrialSet
 from pipeline.contract.errors import BrakechainError
@@ -117,6 +117,24 @@ def test_an_open_set_is_scored_from_its_truth_wherever_it_lies_and_again(tmp_pat
     (tmp_path / "elsewhere.json").write_text(json.dumps({"001": TRUTH["001"]}))
     with pytest.raises(BrakechainError, match="002, 003 in only one of both"):
         score(folder, truth_file=tmp_path / "elsewhere.json")
+
+
+def test_an_open_set_is_not_scored_with_answers_to_other_files(tmp_path, monkeypatch):
+    folder = small_set(tmp_path / "set")
+    solved(folder, monkeypatch)
+    (folder / "cases" / "002" / "nominal.yaml").write_text("# other\n")
+    with pytest.raises(BrakechainError, match=r"found \d to other files; run again"):
+        score(folder)
+
+
+def test_nothing_is_opened_where_the_score_fails(sealed_set, key, monkeypatch):
+    def failing(*_):
+        raise KeyError("noise")
+
+    monkeypatch.setattr(scoring, "result", failing)
+    with pytest.raises(KeyError):
+        score(sealed_set, key)
+    assert not (sealed_set / "truth.json").exists() and not (sealed_set / "opened.yaml").exists()
 
 
 def test_an_open_set_is_not_scored_with_answers_of_other_code(tmp_path, monkeypatch):

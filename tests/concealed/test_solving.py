@@ -1,10 +1,11 @@
 """Solving: case by case, once for a sealed set, and with the code that it was committed with."""
 
 import json
+import shutil
 
 import pytest
 
-from pipeline.concealed import code, making, sealing, solving
+from pipeline.concealed import child, code, making, sealing, solving
 from pipeline.concealed.sets import TrialSet
 from pipeline.contract.errors import BrakechainError
 from pipeline.contract.executor import InProcess, LocalProcesses
@@ -76,6 +77,28 @@ def test_a_sealed_set_is_solved_once(sealed_set, monkeypatch):
     assert solved(sealed_set, monkeypatch) == 3 * len(solving.METHODS)
     with pytest.raises(BrakechainError, match="a sealed set is solved once"):
         solved(sealed_set, monkeypatch)
+
+
+def test_methods_that_were_not_asked_may_be_added_to_a_sealed_set_until_it_is_scored(sealed_set, monkeypatch):
+    solved(sealed_set, monkeypatch, methods=("stlsq",))
+    shutil.rmtree(sealed_set / "answers" / "stlsq")
+    assert solved(sealed_set, monkeypatch, methods=("diagnosis", "stlsq")) == 3
+    assert list(TrialSet(sealed_set).read("answers.json")["answers"]) == ["stlsq", "diagnosis"]
+    with pytest.raises(BrakechainError, match="found answers of stlsq; a sealed set is solved once"):
+        solved(sealed_set, monkeypatch, methods=("stlsq",))
+    TrialSet(sealed_set).write("result.json", {})
+    with pytest.raises(BrakechainError, match="found its result; a sealed set is solved once"):
+        solved(sealed_set, monkeypatch)
+
+
+def test_answers_to_other_files_and_for_want_of_time_are_renewed_in_an_open_set(tmp_path, monkeypatch):
+    folder = small_set(tmp_path / "set")
+    late = {**TOLD, "003": {**child.refused("no answer within 10 s"), "limit": 10.0}}
+    assert solved(folder, monkeypatch, late, methods=("diagnosis",), limit=10.0) == 3
+    assert solved(folder, monkeypatch, methods=("diagnosis",), limit=10.0) == 0
+    assert solved(folder, monkeypatch, methods=("diagnosis",), limit=20.0) == 1
+    (folder / "cases" / "002" / "recordings.h5").write_bytes(b"other")
+    assert solved(folder, monkeypatch, methods=("diagnosis",)) == 1
 
 
 def test_a_sealed_set_is_not_solved_by_other_code_nor_with_other_cases(sealed_set, monkeypatch):

@@ -5,7 +5,7 @@ import json
 import pytest
 
 from pipeline.concealed import making, sealing
-from pipeline.concealed.scoring import score
+from pipeline.concealed.scoring import score, scored_as
 from pipeline.concealed.sets import TrialSet, canonical, sha256
 from pipeline.concealed.verifying import verify
 from pipeline.contract.errors import BrakechainError
@@ -41,6 +41,7 @@ def test_a_published_set_holds_with_its_cases_and_without(published):
 @pytest.mark.parametrize("file, change, message", [
     ("truth.json", lambda v: v["001"].update({"class": "effect"}), "truth.json is not what was sealed"),
     ("result.json", lambda v: v["cases"]["003"].update(truth=TRUTH["001"]), "not the score of these answers"),
+    ("result.json", lambda v: v["set"].update(commitment="0" * 64), "not the score of these answers"),
     ("answers.json", lambda v: v["answers"]["diagnosis"]["003"].update(verdict="unknown"), "not what was solved"),
     ("answers.json", lambda v: (v["answers"]["diagnosis"]["003"].update(code="0"), v.update(digest=sha256(canonical(
         v["answers"])))), "other code than that of the commitment")])
@@ -48,6 +49,21 @@ def test_what_was_changed_afterwards_is_found(published, file, change, message):
     spoilt(published / file, change)
     with pytest.raises(BrakechainError, match=message):
         verify(published)
+
+
+def test_values_that_are_wrong_in_the_truth_are_told_and_not_compared(published):
+    def compared():
+        return TrialSet(published).read("result.json")["methods"]["diagnosis"]["parameters"]["nominal"]["count"]
+
+    before = compared()
+    wrong = {"system": "rig", "parameters": ["masses.a"], "reason": "grams, not kilograms"}
+    TrialSet(published).write("errata.yaml", {"errata": [wrong]})
+    with pytest.raises(BrakechainError, match="not the score of these answers"):
+        verify(published)
+    found = TrialSet(published)
+    found.write("result.json", scored_as(found, found.read("truth.json"), found.read("answers.json")["answers"]))
+    assert "errata.yaml: not compared are masses.a of rig: grams, not kilograms" in verify(published)
+    assert (before, compared()) == (1, 0)
 
 
 def test_another_commitment_and_other_cases_are_found(published):

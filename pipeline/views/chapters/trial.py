@@ -18,8 +18,10 @@ _VALUES = {"nominal": "nominal values", "lacking": "nominal values of models tha
 def all_of(result):
     """Chapters of a result, in reading order."""
     main = result["methods"]["diagnosis"]
-    return [c for c in (_rates(result), _confusion(main), _detection(main), _systems(main), _calibration(main),
-                        _held_out(result), _parameters(main), _cost(result), _failures(result)) if c]
+    found = (_rates(result), _confusion(main), _detection(main, result["thresholds"]), _systems(main),
+             _calibration(main), _held_out(result), _parameters(main, result.get("errata", ())), _cost(result),
+             _failures(result))
+    return [chapter for chapter in found if chapter]
 
 
 def reached(one):
@@ -86,24 +88,25 @@ def _confusion(main):
                    (Table(("in truth", "told", "cases"), rows, "All verdicts", (2,), folded=True),))
 
 
-def _detection(main):
+def _detection(main, thresholds):
     points = main["detection"]
     if not points:
         return None
     rows = tuple((percent(p["noise"], 2), f"{percent(p['low'], 2)} to {percent(p['high'], 2)}", _cell(p["right"]))
                  for p in points)
     figures = (Figure(pictures.detection(points), "Named at its place, over size and noise, with 95 % intervals."),
-               *_visible(main["visible"]))
+               *_visible(main["visible"], thresholds))
     return Chapter("detection", "What size of an effect is found", "Share of hidden effects, sensors included, that"
                    " were named at their place, over the change that they make in what sensors show.",
                    "A small effect in much noise is not named; to abstain there is right.", figures,
                    (Table(("noise", "size", "named at its place"), rows, "Detection", (2,)),))
 
 
-def _visible(points):
+def _visible(points, thresholds):
     if points:
-        yield Figure(pictures.visible(points), "Named at its place, over what the change leaves once the nominal values"
-                     " are fitted to it; below 4 standard deviations (line) abstaining counts as right.")
+        yield Figure(pictures.visible(points, thresholds), "Named at its place, over what the change leaves once the"
+                     f" nominal values are fitted to it; below {' or '.join(f'{t:g}' for t in thresholds)} standard"
+                     " deviations (line) it counts as too faint, and abstaining is right.")
 
 
 def _systems(main):
@@ -149,7 +152,7 @@ def _held_out(result):
                            " recalibrated nominal one; dashed: 1.2 noise floors."),))
 
 
-def _parameters(main):
+def _parameters(main, errata):
     told = main["parameters"]
     kinds = [(name, told[key]) for key, name in _VALUES.items() if told.get(key, {}).get("count")]
     if not kinds:
@@ -157,9 +160,11 @@ def _parameters(main):
     rows = tuple((name, str(found["count"]), percent(found["median_error"], 2), _cell(found["within_68"]),
                   _cell(found["within_95"])) for name, found in kinds)
     head = ("values", "count", "median error", "within 1 standard deviation", "within 1.96")
+    apart = "".join(f" Not compared are {', '.join(one['parameters'])} of {one['system'].replace('_', ' ')}:"
+                    f" {one['reason']}." for one in errata)
     return Chapter("parameters", "Are fitted values right?", "Fitted values of the cases that were told right, beside"
-                   " the truth where the set tells it.", "Of calibrated errors 68 % lie within one stated standard"
-                   " deviation and 95 % within 1.96. Where something is too faint to be named, or in no"
+                   f" the truth where the set tells it.{apart}", "Of calibrated errors 68 % lie within one stated"
+                   " standard deviation and 95 % within 1.96. Where something is too faint to be named, or in no"
                    " catalogue, values make up for what the model lacks.", tuple(
                        Figure(pictures.distances(found["distances"]), f"Distance of {name} from the truth in stated"
                               " standard deviations (cut at 8).") for name, found in kinds),
