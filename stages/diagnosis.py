@@ -29,7 +29,7 @@ from pipeline.products import (
 
 
 def _check(sections):
-    """Refuse a diagnosis in which nothing is asked."""
+    """Refuse settings that contradict one another."""
     settings = sections["diagnosis"]
     both = set(settings.effects) & set(settings.without)
     if both:
@@ -51,8 +51,9 @@ def diagnosis(model: ReducedModel | None, effects: Effects | None, recording: Re
 
     Method:
     Nominal values were refitted first; only what they cannot explain counts as evidence of missing physics. Every
-    effect of the catalogue at every place was screened, the best {kept} were refitted in the full model, and an effect
-    is named only by the rules that the page states; held-out runs were never fitted.
+    effect of the catalogue that the case does not leave out was screened at every place that it names, the best {kept}
+    were refitted in the full model, and an effect is named only by the rules that the page states; held-out runs were
+    never fitted.
     """
     if settings.forward == "lines":
         told = published_diagnosis(recording, Models(model, structure, modes), settings, context)

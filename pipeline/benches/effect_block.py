@@ -20,14 +20,14 @@ def parameters(effect):
     return effect.parameters(Typical())
 
 
-def _unit(parameter):
-    """Unit that a value is written in; those of a channel are numbers in its SI unit."""
-    return "1" if "unit of the channel" in parameter.unit else parameter.unit
+def written(unit):
+    """Unit in which a value of this unit is written; those of a channel are numbers in its SI unit."""
+    return "1" if "unit of the channel" in unit else unit
 
 
 def _values(effect):
     """Section of the values of one effect at one place."""
-    fields = {p.name: (Quantity(_unit(p)), option(..., f"{p.name.replace('_', ' ')} [{p.unit}]"))
+    fields = {p.name: (Quantity(written(p.unit)), option(..., f"{p.name.replace('_', ' ')} [{p.unit}]"))
               for p in parameters(effect)}
     return section(f"{effect.name}_values", effect.summary, fields)
 

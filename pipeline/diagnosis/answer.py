@@ -104,16 +104,30 @@ def _hypotheses(found):
     if known:
         nothing = found.base.posterior[0]
         rows[0]["posterior"], share = nothing, (1 - nothing) * share
-        rows.append(_row(found.nominal.name, known, "physics", posterior=share[0], refitted=1))
+        rows.append(_alone(found))
     for k, candidate in enumerate(screen.candidates):
         own = weighed.get(candidate.name)
-        rows.append(_row(candidate.name, candidate.effects, candidate.kind, posterior=share[1 + k],
-                         score=max(float(screen.score[k]), -1e3), p_value=float(screen.p_value[k]),
-                         power=float(screen.power[k]), evidence_gain=own.contender.evidence_gain if own else 0.0,
-                         refitted=int(own is not None), objection=_objection(found, candidate, own)))
+        rows.append(_screened(screen, k, own) | {
+            "posterior": share[1 + k], "objection": _objection(found, candidate, own)})
     names = [row["hypothesis"] for row in rows]
     return {**{key: [row[key] for row in rows] for key in rows[0]},
             "named": [names.index(c.name) for c in found.decision.named], "known": [1] if known else []}
+
+
+def _alone(found):
+    """Row of what is taken as known, as it stood when it was weighed alone."""
+    before, effects = found.base, found.nominal.effects
+    k = next(k for k, c in enumerate(before.screen.candidates) if c.effects == effects)
+    own = next(w for w in before.weighed if w.candidate.effects == effects)
+    return _screened(before.screen, k, own) | {"posterior": (1 - before.posterior[0]) * found.posterior[0]}
+
+
+def _screened(screen, k, own):
+    """Row of the candidate of this index in a Screen; ``own``: it refitted, whose p-value the rule went by, or None."""
+    candidate, judged = screen.candidates[k], own.contender if own else None
+    return _row(candidate.name, candidate.effects, candidate.kind, score=max(float(screen.score[k]), -1e3),
+                p_value=float(judged.p_value if judged else screen.p_value[k]), power=float(screen.power[k]),
+                evidence_gain=judged.evidence_gain if judged else 0.0, refitted=int(own is not None))
 
 
 def _objection(found, candidate, own):

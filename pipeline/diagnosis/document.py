@@ -5,13 +5,17 @@ import json
 
 import numpy as np
 
+from pipeline.benches.effect_block import written
 from pipeline.contract import documents as yaml
 from pipeline.diagnosis.latent_law import LABEL
 from pipeline.diagnosis.question import split_name
+from pipeline.effects import CATALOGUE
 
 SCHEMA = "brakechain-diagnosis/1"
 #: hypotheses that are listed beside those named
 ALTERNATIVES = 5
+#: effects that a case can state; the solver and the friction map are none
+_STATED = frozenset(effect.name for effect in CATALOGUE)
 
 
 def companions(product, case):
@@ -39,12 +43,13 @@ def latent_csv(product):
 
 
 def completed_name(product, case_name):
-    """Name of the file of the completed case; empty where the diagnosis adds nothing to it."""
+    """Name of the file of the completed case; empty where the diagnosis adds nothing that a case can state."""
     verdict = product.verdict.item()
     if verdict == "parameters":
         return f"{case_name}_with_other_values.yaml"
-    effects = dict.fromkeys(str(product.effect[k]) for k in _completing(product))
-    return f"{case_name}_with_{'_and_'.join(effects)}.yaml" if effects and verdict != "numerics" else ""
+    effects = dict.fromkeys(e for k in _completing(product) for e in str(product.effect[k]).split(" + "))
+    stated = effects and _STATED.issuperset(effects)
+    return f"{case_name}_with_{'_and_'.join(effects)}.yaml" if stated else ""
 
 
 def completed(product, case):
@@ -82,7 +87,7 @@ def _correct_rubbing(document, corrections):
 
 
 def _written(product, k):
-    value, unit = float(product.parameter_value[k]), str(product.parameter_unit[k])
+    value, unit = float(product.parameter_value[k]), written(str(product.parameter_unit[k]))
     return value if unit == "1" else f"{value!r} {unit}"
 
 

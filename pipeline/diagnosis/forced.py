@@ -27,6 +27,7 @@ def question(bench, recorded, settings):
     check_names("held_out", settings.held_out, recorded)
     runs = {name: one.run for name, one in recorded.items()}
     shown = {c: u for one in recorded.values() for c, u in zip(one.channels, one.unit, strict=True)}
+    check_names("noise.std", settings.noise.std, shown)
     given = {c: to_si(v, shown[c], f"diagnosis.noise.std.{c}") for c, v in settings.noise.std.items()}
     seen = tuple(observed(one, given, name in settings.held_out) for name, one in recorded.items())
     trained = [recorded[o.name] for o in seen if not o.held_out]

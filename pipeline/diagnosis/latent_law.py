@@ -135,7 +135,7 @@ def used(bench, row, description, problem, budget, null, forward):
     learned = [description.runs[run.name] for run in problem.training if run.name in description.runs]
     law = regressed(learned, description.follows)
     if law is None:
-        return LatentUse({}, None, "The latent force follows nothing clearly: it predicts nothing.")
+        return LatentUse({}, None, "The latent force follows nothing that a law can use: it predicts nothing.")
     whole = WithForce(bench, row, description.place, law, forward)
     terms = tuple(Parameter(whole.name(t), law.unit(t), c, Normal(c, law.size[t])) for t, c in law.coefficient.items())
     hypothesis = replace(null.hypothesis, name=_FORCE, parameters=null.hypothesis.parameters + terms)

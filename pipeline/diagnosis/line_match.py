@@ -14,9 +14,9 @@ DRAWS = 20000
 class Match:
     """Of measured lines against those of a model.
 
-    ``found``: measured lines within their tolerance of a model line of their own; ``p_value``: how often as many lines
-    at random in the band are found as well; ``gain``: ln of the density of the measured lines under the model over that
-    of lines anywhere in the band.
+    ``found``: measured lines within their tolerance of a model line, which several may share; ``p_value``: how often as
+    many lines at random in the band are found as well; ``gain``: ln of the density of the measured lines under the
+    model over that of lines anywhere in the band.
     """
 
     found: int

@@ -4,6 +4,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
+from scipy.stats import chi2
 
 from pipeline.contract import ConfigError, Section, option
 from pipeline.diagnosis.line_match import assigned, chance, covered
@@ -20,6 +21,8 @@ _CHANGE = 0.1
 _ANYWHERE = 2.0
 #: modes further apart than this factor are not the same mode
 _FARTHEST = 1.25
+#: probability below which rows do not agree with a table
+_RARE = 0.05
 
 #: what undoes an alternative: {record: Check}
 CHECKS = {"measured = shapes of the lines that differ, counted in nodal diameters and circles":
@@ -168,11 +171,11 @@ def mode_reasons(rows, found):
 
 def _of_factor(rows, null):
     before = float(np.sum(((rows.test - rows.model) / rows.std) ** 2))
-    factor, std = null.values[FACTOR], null.spread()[FACTOR]
+    factor, std, left = null.values[FACTOR], null.spread()[FACTOR], null.chi_square.sum()
     return (f"one factor on all frequencies, as a wrong modulus or density gives, is fitted as {factor:.3f} +-"
-            f" {std:.3f} and takes the squared deviations from {before:.1f} to {null.chi_square.sum():.1f} over"
+            f" {std:.3f} and takes the squared deviations from {before:.1f} to {left:.1f} over"
             f" {len(rows.name)} rows:"
-            f" {'enough' if null.chi_square.sum() < before / 2 else 'it does not explain the rows that differ'}")
+            f" {'enough' if left <= chi2.isf(_RARE, len(rows.name)) else 'it does not explain the rows that differ'}")
 
 
 def _of_pair(rows, i, mode):

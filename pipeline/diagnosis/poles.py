@@ -73,13 +73,23 @@ def features(bench, recorded, settings):
 def _poles(bench, one, settings):
     """(Poles of a run as its motion channels show them, shapes as velocities; rad/s that it tells apart)."""
     seen = [c for c in motions(bench) if c.name in one.channels]
-    samples = one.samples[[one.channels.index(c.name) for c in seen]]
+    samples = _unbroken(one)[[one.channels.index(c.name) for c in seen]]
     count = before_saturation(samples, one.run.sample_rate, settings.saturation)
     told = steady_poles(samples, one.run.sample_rate, settings.low, settings.high, count)
     power = np.array([_POWER[c.quantity] for c in seen])
     apart = 2 * np.pi * one.run.sample_rate / min(count, samples.shape[1])
     std = np.hypot(told.std, _UNRESOLVED * apart)
     return replace(told, shape=told.shape * told.root[:, None] ** power, std=std), apart
+
+
+def _unbroken(one):
+    """Samples (c, n) of a Recorded run from where all its channels begin. ConfigError where any is lost after that."""
+    valid = one.valid.all(axis=0)
+    begin = int(np.argmax(valid))
+    if not valid[begin:].all():
+        raise ConfigError(f"run {one.run.name}", "samples without a gap, of which poles can be read",
+                          f"{int((~valid[begin:]).sum())} lost ones", "cut the record before them, or leave it out")
+    return one.samples[:, begin:]
 
 
 def _told(bench, one, settings):

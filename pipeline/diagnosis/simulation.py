@@ -6,6 +6,7 @@ import numpy as np
 
 from pipeline.benches import corrections
 from pipeline.benches.bench import only
+from pipeline.contract import ConfigError
 from pipeline.diagnosis.next_run import altered
 from pipeline.diagnosis.question import label, parameter_name, split_name
 from pipeline.diagnosis.settings import prior_of
@@ -22,8 +23,12 @@ _NAMES = frozenset(effect.name for effect in CATALOGUE)
 
 
 def observed(recorded, noise_std=None, held_out=False):
-    """Observed of a Recorded run; ``noise_std`` {channel: SI value} where it is given."""
+    """Observed of a Recorded run; ``noise_std`` {channel: SI value} where it is given, then of all its channels."""
     one = recorded
+    lacking = [c for c in one.channels if c not in noise_std] if noise_std else []
+    if lacking:
+        raise ConfigError("diagnosis.noise.std", f"the noise of every channel of run {one.run.name}, or of none",
+                          f"none of {', '.join(lacking)}", "give it too, or leave all to the repeats of runs")
     told = np.array([noise_std[c] for c in one.channels]) if noise_std else None
     return Observed(one.run.name, one.run.conditions, one.channels, one.samples, one.run.sample_rate, one.valid,
                     noise_std=told, held_out=held_out, repeat_of=one.repeat_of)

@@ -43,8 +43,9 @@ def drift(fit, weights=None, draws=DRAWS, seed=0):
     null = _null(information, inverse, joint, draws, np.random.default_rng(seed))
     freedom = sum(_rank(a) for a in information) - _rank(information.sum(axis=0))
     shift, std = _own_values(information, score)
+    rare = (1 + np.sum(null >= statistic)) / (1 + draws) if freedom else 1.0      # one point differs from no other
     return Drift(tuple(operating_points(fit.runs)), tuple(p.name for p in fit.hypothesis.parameters), shift, std,
-                 statistic, (1 + np.sum(null >= statistic)) / (1 + draws), freedom)
+                 statistic, rare, freedom)
 
 
 def by_point(fit, weights=None):

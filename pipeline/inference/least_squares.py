@@ -284,7 +284,8 @@ def _jacobians(problem, noises, hypothesis, latent, residuals, runs, first=0, wi
 
 
 def _slopes(state):
-    """Gradient (k,) and Gauss-Newton's Hessian (k, k) of half the objective; bounds that hold do not take part."""
+    """Descent (k,), the negative gradient, and Gauss-Newton's Hessian (k, k) of half the objective; bounds that hold do
+    not take part."""
     gradient = sum(j.T @ r for j, r in zip(state.jacobians, state.residuals, strict=True)) - state.latent
     hessian = _information(state.jacobians) + np.eye(len(state.latent))
     held = (np.abs(state.latent) >= LATENT_LIMIT) & (gradient * state.latent > 0)

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from pipeline.contract.errors import ConfigError
-from pipeline.inference.least_squares import orthogonal
+from pipeline.inference.least_squares import from_prior_mean, orthogonal
 from pipeline.inference.screen import family_p
 
 DRAWS = 4000
@@ -90,7 +90,7 @@ def places(names, bases, null, weights=None, draws=DRAWS, seed=0):
     """
     root = np.sqrt(np.repeat(np.ones(len(null.runs)) if weights is None else weights, null.counts))
     jacobian = root[:, None] * np.concatenate(null.jacobians)
-    residual = root * np.concatenate([r + j @ null.latent for r, j in zip(null.residuals, null.jacobians, strict=True)])
+    residual = root * np.concatenate(from_prior_mean(null))
     frames = [_frame(root[:, None] * bases[name], jacobian) for name in names]
     vectors = np.hstack([frame for frame, _ in frames])
     normal = np.random.default_rng(seed).standard_normal((draws, vectors.shape[1]))
@@ -106,8 +106,9 @@ def places(names, bases, null, weights=None, draws=DRAWS, seed=0):
 
 
 def regimes(power, coordinate, edges, draws=DRAWS, seed=0):
-    """Bins of a coordinate (amplitude, sliding speed, time) by residual power; both (n,) series of one run.
+    """Bins of a coordinate (amplitude, sliding speed, time) by residual power.
 
+    Both are series (n,), of one run or of several one after the other.
     A bin scores its mean power over the mean of all, in units of the spread under circular shifts of the power against
     the coordinate; ``edges`` (b + 1,). Empty bins score nothing. Set by resampling of sixteen stretches.
     """

@@ -79,11 +79,30 @@ def from_repeats(runs, order=ORDER):
 
 
 def from_high_band(run, above):
-    """Autocovariance (c, 1) of white noise whose density is that of the samples beyond ``above`` [Hz]."""
+    """Autocovariance (c, 1) of white noise whose density is that of the samples beyond ``above`` [Hz].
+
+    Each channel is read in the longest stretch in which it lacks no sample.
+    """
     if run.rate is None or not 0 < above < 0.5 * run.rate:
         raise ConfigError(f"run {run.name}: noise band", "a frequency below half the sample rate", f"{above:g} Hz")
-    frequency, density = periodogram(run.samples, run.rate, "hann")
-    return density[:, frequency > above].mean(axis=1, keepdims=True) * 0.5 * run.rate
+    return np.array([[_beyond(run, k, above)] for k in range(len(run.channels))])
+
+
+def _beyond(run, k, above):
+    """Power of white noise of the density that channel ``k`` has beyond ``above`` [Hz]."""
+    begin, end = _longest(run.valid[k])
+    if (end - begin) * (0.5 * run.rate - above) < run.rate:
+        raise ConfigError(f"run {run.name}: {run.channels[k]}",
+                          f"samples without a gap to tell noise beyond {above:g} Hz", f"{end - begin} at most",
+                          "give the noise, or repeats of the run")
+    frequency, density = periodogram(run.samples[k, begin:end], run.rate, "hann")
+    return density[frequency > above].mean() * 0.5 * run.rate
+
+
+def _longest(valid):
+    """(begin, end) of the longest stretch of a mask (n,) that holds."""
+    edges = np.flatnonzero(np.diff(np.concatenate(([0], valid.astype(int), [0])))).reshape(-1, 2)
+    return max(edges.tolist(), key=lambda stretch: stretch[1] - stretch[0], default=(0, 0))
 
 
 def from_density(density, rate, order=ORDER):

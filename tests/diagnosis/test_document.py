@@ -10,6 +10,7 @@ from pipeline.benches import bench as benches
 from pipeline.benches.effect_block import Settings as EffectSettings
 from pipeline.benches.effect_block import product, with_effects
 from pipeline.benches.runs import recorded
+from pipeline.contract import ConfigError
 from pipeline.contract.case import CaseText
 from pipeline.contract.settings import fill, without_origins
 from pipeline.diagnosis.document import as_json, companions
@@ -55,6 +56,31 @@ def test_saturated_squeal_is_written_with_what_agrees():
     assert written["completed"]["features"]["frequency of laser"]["agrees"] and written["completed"]["saturated"] == 3
     assert "agrees" not in written["completed"]["features"]["share of time open"], "no sensor shows it"
     assert written["recalibrated"]["features"] == {} and "saturated_squeal" not in as_json(told())
+
+
+def test_a_wrong_sensor_is_written_as_a_case_reads_it():
+    """Offsets in units of the channel are plain numbers in a case."""
+    found = told()
+    row, = found.named
+    rename = {"effect": "sensor_offset_drift", "place": "x", "hypothesis": "sensor_offset_drift at x"}
+    columns = {key: [value if k == row else str(old) for k, old in enumerate(getattr(found, key))]
+               for key, value in rename.items()}
+    own = list(found.parameter_owner).index(row)
+    units = {"parameter": "sensor_offset_drift@x.offset", "parameter_unit": "unit of the channel"}
+    columns |= {key: [value if k == own else str(old) for k, old in enumerate(getattr(found, key))]
+                for key, value in units.items()}
+    files = companions(replace(found, **columns), CASE)
+    case = without_origins(yaml.safe_load(files["rig_with_sensor_offset_drift.yaml"]), "case")
+    told_offset = case["effects"]["sensor_offset_drift"]["x"]["offset"]
+    assert told_offset == pytest.approx(float(found.parameter_value[own]))
+    with pytest.raises(ConfigError, match="drift: expected"):      # the one value that this case does not tell
+        fill(EffectSettings, case["effects"], "effects")
+
+
+def test_no_case_is_written_of_what_no_case_can_state():
+    found = told()
+    solver = ["time_step" if k in found.named else str(e) for k, e in enumerate(found.effect)]
+    assert set(companions(replace(found, verdict="tie", effect=solver), CASE)) == {"diagnosis.json", "latent_force.csv"}
 
 
 def test_nothing_is_written_where_nothing_is_missing():

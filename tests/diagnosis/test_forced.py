@@ -61,7 +61,8 @@ def test_runs_that_could_be_next_come_with_their_noise():
     ({"next": {"temperature": ["20 K"]}}, "diagnosis.next.temperature"),
     ({"held_out": ["level_9"]}, "diagnosis.held_out"), ({"effects": ["magic"]}, "diagnosis.effects"),
     ({"parameters": {"joints.mount.stifness": {}}}, "diagnosis.parameters"),
-    ({"noise": {"std": {"x": "1 kg"}}}, "diagnosis.noise.std.x"), ({"noise": {}}, "noise"),
+    ({"noise": {"std": {"x": "1 kg"}}}, "diagnosis.noise.std.x"),
+    ({"noise": {"std": {"y": "1 mm"}}}, "noise.std.*y"), ({"noise": {}}, "noise"),
     ({"held_out": ["level_1", "level_2", "level_3", "level_4"]}, "at least one run to fit")])
 def test_wrong_questions_are_refused(more, said):
     with pytest.raises(ConfigError, match=said):

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from pipeline.contract import ConfigError
-from pipeline.diagnosis.poles import _heard, assigned, features, merged, nearer, observed, predicted
+from pipeline.diagnosis.poles import _heard, _unbroken, assigned, features, merged, nearer, observed, predicted
 from pipeline.physics.bench_modes import modes
 from pipeline.physics.free_decay import Poles
 from tests.diagnosis.small_bench import bench, laid_out, recorded, run
@@ -123,3 +123,14 @@ def test_records_that_cannot_be_used_are_refused():
     short = replace(given["turned"], run=replace(given["turned"].run, conditions={"press": 10.0, "speed": 0.1}))
     with pytest.raises(ConfigError, match="a whole turn"):
         features(whole, {"turned": short}, BAND)
+
+
+def test_a_record_is_read_from_where_all_channels_begin_and_not_across_a_gap():
+    whole = bench()
+    one = recorded(whole)["rest"]
+    valid = one.valid.copy()
+    valid[0, :3] = False
+    assert _unbroken(replace(one, valid=valid)).shape == (len(one.channels), one.samples.shape[1] - 3)
+    valid[1, 50:54] = False
+    with pytest.raises(ConfigError, match="samples without a gap, of which poles can be read, found 4 lost ones"):
+        features(whole, {**recorded(whole), "rest": replace(one, valid=valid)}, BAND)

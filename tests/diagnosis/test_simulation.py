@@ -9,6 +9,7 @@ import pytest
 from pipeline.benches import bench as benches
 from pipeline.benches.effect_block import with_effects
 from pipeline.benches.runs import recorded
+from pipeline.contract import ConfigError
 from pipeline.diagnosis.question import nominal
 from pipeline.diagnosis.simulation import (
     REFINEMENT,
@@ -32,6 +33,13 @@ RECORDED = recorded(recording(HIDDEN, noise=0.0), SETTINGS)
 RUNS = {name: one.run for name, one in RECORDED.items()}
 FOUND = candidates(BENCH, tuple(RUNS.values()), CATALOGUE)
 CUBIC = next(c for c in FOUND if c.effects == (("cubic_stiffness", "mount"),))
+
+
+def test_noise_is_given_of_every_channel_or_of_none():
+    one = next(iter(RECORDED.values()))
+    assert observed(one).noise_std is None and observed(one, {"x": 1e-3}).noise_std == pytest.approx([1e-3])
+    with pytest.raises(ConfigError, match="or of none, found none of x; give it too"):
+        observed(one, {"y": 1e-3})
 
 
 def test_every_place_of_every_effect_is_a_candidate():

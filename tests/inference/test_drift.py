@@ -49,6 +49,12 @@ def test_p_values_are_even_where_nothing_drifts():
     assert stats.kstest(p_values, "uniform").statistic < 1.63 / np.sqrt(150)
 
 
+def test_one_point_drifts_from_no_other_however_odd_its_values():
+    """What is left of Q is the pull of the prior: values 4 of its standard deviations off."""
+    found = drift(fitted(runs=1, truth={"nominal_0": 200.0})[1])
+    assert found.freedom == 0 and found.p_value == 1.0
+
+
 def test_a_value_that_follows_the_load_drifts_and_says_so():
     whole, found, tables = fitted(runs=4, truth={"nominal_0": 1.0})
     moved = partial(_following_load, whole.predict)

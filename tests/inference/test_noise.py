@@ -69,6 +69,18 @@ def test_noise_is_read_from_a_band_without_signal():
 
 
 @pytest.mark.exact
+def test_samples_that_are_missing_are_no_part_of_the_noise_of_a_band():
+    """About an offset zeros in their place would be steps; in the place of half the run they would halve its power."""
+    samples = 1.0 + 0.1 * np.random.default_rng(4).standard_normal((2, 2048))
+    valid = np.ones((2, 2048), bool)
+    valid[:, :1024] = valid[1, 1500] = False
+    found = from_high_band(run(samples, valid=valid), 20.0)
+    assert found[:, 0] == pytest.approx([0.01, 0.01], rel=4 * np.sqrt(1 / (0.6 * 547)))
+    valid[1] = False
+    with pytest.raises(ConfigError, match="c1: expected samples without a gap to tell noise beyond 20 Hz, found 0"):
+        from_high_band(run(samples, valid=valid), 20.0)
+
+
 def test_missing_samples_never_enter_a_whitened_one():
     covariance = 0.25 * 0.8 ** np.arange(3)[None]
     valid = np.ones((1, 40), bool)

@@ -28,6 +28,33 @@ def test_every_verdict_has_its_headline(kind, said, tone):
     assert verdict({"diagnosis": found}, ()).headline == headline(found)[0]
 
 
+@pytest.mark.parametrize("kind, rows, said, kinds", [
+    ("missing", ([1], [2]), "Coulomb at guide and quadratic damping at arm are missing", ()),
+    ("tie", ([1], [2, 3]), "Missing, but not told apart: coulomb at guide, and quadratic damping at arm or sensor", ()),
+    ("tie", ([], [1]), "Proposed, not confirmed: coulomb at guide", ()),
+    ("sensor", ([], [1, 2]), "The measurement, not the physics: coulomb at guide or quadratic damping at arm",
+     ("sensor", "sensor")),
+    ("sensor", ([1], [3]), "The measurement, and physics too: coulomb at guide and sensor gain at position", ())])
+def test_what_is_known_is_told_apart_from_what_may_be(kind, rows, said, kinds):
+    found = diagnosis(kind, known=rows[0], named=rows[1], kind=["physics", *(kinds or ("physics",) * 2), "sensor"])
+    assert headline(found)[0].startswith(said)
+    told = dict(note(found))["What is missing"]
+    assert ("20.4" in told) == (len(rows[1]) == 1 and kind != "tie"), "values are those of the first alone"
+    assert "not tell apart" not in told or len(rows[1]) > 1
+
+
+def test_only_rules_that_were_applied_are_told():
+    found = diagnosis(reason=["2 operating point(s): whether values agree across them was not tested"])
+    assert "held-out gain, bounds" in dict(note(found))["How sure"]
+    fitted = {name: changed(run, held_out=0) for name, run in diagnosis().runs.items()}
+    assert "false alarms, agreement over runs, bounds" in dict(note(changed(diagnosis(), runs=fitted)))["How sure"]
+
+
+def test_values_that_moved_together_name_the_one_that_moved_most():
+    told = dict(note(diagnosis("parameters", parameter_nominal=[211.0, 20.3])))
+    assert told["What is missing"].endswith("others: joints.guide.damping 215 ± 4\u202fN s/m (given 211\u202fN s/m).")
+
+
 def test_the_note_answers_what_a_colleague_would_ask():
     told = dict(note(diagnosis()))
     assert "never fitted the nominal model misses the recordings by 60\u202f%" in told["What differs"]

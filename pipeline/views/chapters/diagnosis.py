@@ -13,6 +13,8 @@ REGIMES = ("amplitude", "velocity", "time")
 AXES = ("stage", "substitution", "place", "run", "band", *REGIMES)
 #: rows of the table of hypotheses that are shown unfolded
 ROWS = 12
+#: what a tie of one says: a single run, or a list alone, names nothing
+_PROPOSED = "Proposed, not confirmed"
 
 
 def headline(product):
@@ -20,8 +22,8 @@ def headline(product):
     named = _named(product)
     said = {"missing": (f"{_first_up(named)} {'is' if ' and ' not in named else 'are'} missing ({_sure(product)})",
                         "warning"),
-            "tie": (f"Missing, but not told apart: {named}", "warning"),
-            "sensor": (f"The measurement, not the physics: {named} ({_sure(product)})", "warning"),
+            "tie": (f"{'Missing, but not told apart' if len(product.named) > 1 else _PROPOSED}: {named}", "warning"),
+            "sensor": (f"{_measured(product)}: {named} ({_sure(product)})", "warning"),
             "numerics": (f"The solver, not the physics: {named}", "warning"),
             "parameters": ("Values are off, no physics is missing", "warning"),
             "consistent": ("Nothing is missing: the model explains the recordings", "quiet"),
@@ -52,13 +54,21 @@ def key_figure(product):
     """The mismatch map, for the first screen."""
     parts = "octave" if all(map(pictures.sampled, product.runs.values())) else "channel"
     return Figure(pictures.mismatch_map(product),
-                  f"Mismatch map: what is left of each run in each {parts}, over its noise; 1 (dark) is noise alone.")
+                  f"Mismatch map: what is left of each run in each {parts}, over its noise taken as white; 1 (dark)"
+                  " is noise alone.")
 
 
 def _named(product):
-    rows = [*product.known, *product.named]
-    return " or ".join(_effect(product, k) for k in rows) if product.verdict.item() == "tie" else " and ".join(
-        _effect(product, k) for k in rows)
+    """What is known, and what is named beside it: one, or several of which one."""
+    parts = [_effect(product, k) for k in product.known]
+    parts += [" or ".join(_effect(product, k) for k in product.named)] * bool(len(product.named))
+    return (", and " if len(product.named) > 1 else " and ").join(parts)
+
+
+def _measured(product):
+    """Whether it is the measurement alone."""
+    physics = any(str(product.kind[k]) == "physics" for k in product.known)
+    return "The measurement, and physics too" if physics else "The measurement, not the physics"
 
 
 def _effect(product, k):
@@ -112,13 +122,16 @@ def _missing(product):
     verdict = product.verdict.item()
     if verdict in ("missing", "sensor", "numerics"):
         values = "; ".join(_value(product, k) for k in range(len(product.parameter)) if product.parameter_owner[k])
-        return f"{_first_up(_named(product))}{': ' + values if values else ''}."
+        told = values if len(product.named) < 2 else ""      # else they are those of the first alone
+        return f"{_first_up(_named(product))}{': ' + told if told else ''}."
     if verdict == "tie":
-        return f"One of these, which the recordings do not tell apart: {_named(product)}."
+        several = len(product.named) > 1
+        return f"{'One of these, which the recordings do not tell apart' if several else _PROPOSED}: {_named(product)}."
     if verdict == "unknown":
         return product.latent_sentence.item() or "Something that the catalogue does not hold; no force stands for it."
     if verdict == "parameters":
-        moved = [k for k in range(len(product.parameter)) if _distance(product, k) > 2]
+        every = range(len(product.parameter))
+        moved = [k for k in every if _distance(product, k) > 2] or [max(every, key=lambda k: _distance(product, k))]
         return f"No physics; these values are others: {'; '.join(_value(product, k, given=True) for k in moved)}."
     return "Nothing that these recordings can show."
 
@@ -148,9 +161,12 @@ def _how_sure(product):
     if product.verdict.item() not in ("missing", "sensor", "numerics"):
         return " ".join(_sentence(r) for r in product.reason)
     first = product.named[0]
+    held_out = any(run.held_out for run in product.runs.values())
+    agreed = not any("across them was not tested" in str(reason) for reason in product.reason)
+    rules = ("posterior", "false alarms", *["held-out gain"] * held_out, *["agreement over runs"] * agreed, "bounds")
     return (f"Probability {_sure(product)} among {len(product.hypothesis) - 1} hypotheses. Nothing missing would score"
             f" as high anywhere in the catalogue with probability {number(product.p_value[first], 2)}. It was named by"
-            " the rules of the case: posterior, false alarms, held-out gain, agreement over runs, bounds.")
+            f" the rules of the case: {', '.join(rules)}.")
 
 
 def _sentence(text):
@@ -237,7 +253,8 @@ def _signals(product, name, held_out, channel=0):
                  f"Run {name}{', never fitted' if held_out else ''}: measured, nominal, recalibrated and completed"
                  f" about the largest {product.channel[channel]}; below, what each leaves.")
     yield Figure(pictures.spectra(product, name, channel),
-                 f"What the models leave of {product.channel[channel]} in run {name}, as a spectrum, with the noise.")
+                 f"What the models leave of {product.channel[channel]} in run {name}, as a spectrum, with the noise"
+                 " taken as white.")
 
 
 def _shown_run(product):
