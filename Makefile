@@ -42,7 +42,7 @@ test-slow: $(READY)  ## the slow studies: full cases, kill-and-resume in every s
 test-study: $(READY)  ## the long diagnoses: every case of its kind, samples of the studies
 	$(BIN)/python -m pytest -q -m study $(ARGS) $(TESTS)
 
-bench: $(READY)  ## benchmarks: seconds and memory of every stage and kernel
+bench: $(READY)  ## benchmarks: seconds and memory of every stage and kernel (the stage: brakechain bench CONFIG)
 	$(BIN)/python -m tests.benchmarks $(ARGS)
 
 trial: $(READY)  ## the open practice trial: made, solved and scored in at most half an hour on two cores; resumes
@@ -83,5 +83,5 @@ lint: $(READY)   ## style of the code
 clean:           ## delete the products of CASE
 	rm -rf data/runs/$(CASE)
 
-$(STAGES): $(READY)
+$(filter-out bench,$(STAGES)): $(READY)
 	$(BIN)/brakechain $(subst _,-,$@) $(CONFIG) $(ARGS)

@@ -180,11 +180,14 @@ def plan(config, overrides, file):
     from pipeline import measured
     from pipeline.benches import bench, effect_block
     from pipeline.console import table
-    from pipeline.contract import case
+    from pipeline.contract import ConfigError, case
+    from pipeline.contract.store import write_companion
     from pipeline.diagnosis import planning
 
-    chosen = case.load(config, {"lumped_bench": stages.CHAINS["lumped_bench"]}, stages.load, overrides, measured.path,
-                       unchecked=("recording",)).sections
+    given = case.load(config, stages.CHAINS, stages.load, overrides, measured.path, unread=("recording",))
+    if given.document["chain"] != "lumped_bench":
+        raise ConfigError(f"{config}: chain", "lumped_bench, of which runs can be planned", given.document["chain"])
+    chosen = given.sections
     model = stages.load("reduced_model")(stages.load("lumped")(settings=chosen["lumped"]),
                                          settings=chosen["reduced_model"])
     whole = effect_block.with_effects(bench.built(model, chosen["bench"]), effect_block.product(chosen["effects"]))
@@ -193,7 +196,7 @@ def plan(config, overrides, file):
     table("d: standard deviations that each effect leaves beside the nominal values", head, rows,
           planning.conclusion(found))
     if file is not None:
-        file.write_text("\n".join(",".join(row) for row in (head, *rows)) + "\n", encoding="utf-8")
+        write_companion(file, "\n".join(",".join(row) for row in (head, *rows)) + "\n")
 
 
 @cli.group()

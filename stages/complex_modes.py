@@ -18,7 +18,7 @@ from pipeline.benches.steady import Posed, Steady, branch_stiffness, posed, refu
 from pipeline.contract import ConfigError, Context, Quantities, Quantity, Section, option, stage
 from pipeline.physics.dry_friction import Friction, constant, falling
 from pipeline.physics.friction_corrections import FrictionBasis, friction_basis
-from pipeline.physics.friction_law import FrictionLaw
+from pipeline.physics.friction_law import FrictionLaw, refuse_beyond
 from pipeline.physics.hard_contact import allowed_motions, hard_sliding, is_hard
 from pipeline.physics.quadratic_modes import follow_roots, quadratic_modes, quadratic_roots, upper_half
 from pipeline.physics.sliding_model import SlidingModel
@@ -59,8 +59,15 @@ class Settings(Section):
 
 
 def _check(sections):
-    """Refuse friction that is given twice or not at all, before anything is computed."""
-    given = sections["complex_modes"].friction is not None
+    """Refuse friction that is given twice or not at all, and speeds of both signs, before anything is computed."""
+    told = sections["complex_modes"]
+    given = told.friction is not None
+    if told.friction_at_rest is not None and not given:
+        raise ConfigError("complex_modes.friction_at_rest", "friction beside it, or neither", "none",
+                          "for friction that falls from that of a map or law, state effects.falling_friction")
+    if min(told.speeds) < 0 < max(told.speeds):
+        raise ConfigError("complex_modes.speeds", "speeds of one sign, at whose mean the sweep runs",
+                          f"{min(told.speeds):g} to {max(told.speeds):g} rad/s", "make a case of each direction")
     mapped = "friction_map" in sections
     if given and mapped or not (given or mapped or "interface_law" in sections):
         raise ConfigError("complex_modes.friction", "friction from one source",
@@ -165,6 +172,7 @@ def _response(one, settings):
 def _friction_law(friction_map, model, settings):
     """(Friction, the same over pressure and speed): of the map; without one, of the settings or the model."""
     if friction_map is not None:
+        refuse_beyond(settings.sliding_distance, friction_map.distance[-1], "complex_modes.sliding_distance")
         law = FrictionLaw(friction_map.pressure, friction_map.speed, friction_map.distance, friction_map.friction)
         return Friction(law, distance=settings.sliding_distance), partial(from_map, law, settings.sliding_distance)
     if settings.friction is None:

@@ -205,7 +205,7 @@ def _growing(sliding, friction, settings):
     """The root with the largest growth rate below the limit, 0 where none grows."""
     roots = quadratic_roots(*sliding.linearised(friction))
     kept = roots[(roots.imag > 0) & (np.abs(roots) < 2 * np.pi * settings.highest_mode)]
-    fastest = kept[np.argmax(kept.real)]
+    fastest = max(kept, key=lambda root: root.real, default=0j)
     return complex(fastest) if fastest.real > 0 else 0j
 
 

@@ -16,6 +16,9 @@ from pipeline.products import Lumped
 from pipeline.recordings.columns import read_columns
 from pipeline.systems import lumped as system
 
+#: samples, joined by lines, that a period needs to keep its size within 2 %
+_SAMPLES = 10
+
 
 class Mass(Section):
     """One rigid body."""
@@ -284,7 +287,11 @@ def _input_row(given, place, joints, where):
 
 
 def _shape(history, time, where):
-    """The history at ``time``."""
+    """The history at ``time``; ConfigError for a frequency that its samples, joined by lines, do not follow."""
+    highest = max((getattr(history, name, 0.0) for name in ("frequency", "first", "last")), default=0.0)
+    if highest * _SAMPLES * time[1] > 1 + 1e-9:
+        raise ConfigError("lumped.histories.interval", f"at most {1 / (_SAMPLES * highest):.3g} s, {_SAMPLES} samples a"
+                          f" period at {highest:g} Hz", f"{time[1]:g} s", f"lower it, or the frequency of {where}")
     if isinstance(history, Harmonic):
         return histories.harmonic(time, history.frequency, history.phase)
     if isinstance(history, Chirp):

@@ -23,8 +23,8 @@ def micro_friction(surface: Surface, effects: Effects | None, settings: Settings
     {disc_strength} / sqrt(3); Archard wear on both surfaces follows in {cycles} cycles. The coefficient of friction
     is the sum of shear over the sum of normal force, with the real area corrected for its perimeter (Yastrebov et al.
     2017), mean over one pass of the slider and {realisations} relative positions of the patches. Speed enters through a
-    rate term ({rate_coefficient}) and thermal softening ({softening}) of the limit. The modulus of the asperities,
-    the third-body factor and the wear coefficients are tuned to the published contact area, friction and approach.
+    rate term ({rate_coefficient}) and thermal softening ({softening}) of the limit. Moduli of the asperities,
+    third-body factor and wear coefficients whose origin is "tuned" were fitted to the facts that their source names.
     Effects of the catalogue at the asperities act on wear and shear as ordinary physics.
     """
     for name in ("pressures", "disc_speeds"):

@@ -97,10 +97,13 @@ def _check(sections):
     pin = sections["pin_on_disc"].pin
     if _light(pin):
         return
-    for name in ("complex_modes", "transient", "lock_in"):
-        if name in sections and min(sections[name].speeds, default=0.0) < 0:
-            raise ConfigError(f"{name}.speeds", "speeds above 0, where a heavy clamp may lock the pin",
-                              f"{min(sections[name].speeds):.3g} rad/s with a base_mass of {pin.base_mass:g} kg",
+    speeds = {f"{name}.speeds": sections[name].speeds for name in ("complex_modes", "transient", "lock_in")
+              if name in sections}
+    speeds |= {"lock_in.speed": (sections["lock_in"].speed,)} if "lock_in" in sections else {}
+    for name, own in speeds.items():
+        if min(own, default=0.0) < 0:
+            raise ConfigError(name, "speeds above 0, where a heavy clamp may lock the pin",
+                              f"{min(own):.3g} rad/s with a base_mass of {pin.base_mass:g} kg",
                               "to slide the other way, change the signs of pin.tilt and contact.offset")
 
 

@@ -3,7 +3,7 @@
 import hashlib
 from typing import Literal
 
-from pipeline.contract import ConfigError, Context, InputFile, Quantity, Section, option, stage
+from pipeline.contract import ConfigError, Context, InputFile, OneOf, Quantity, Section, option, stage
 from pipeline.contract.units import in_si
 from pipeline.products import Condition, Recording, Run
 from pipeline.published import load
@@ -111,7 +111,8 @@ class PublishedLines(Section):
 class Settings(Section):
     """Files of the bench, each with what its columns are."""
 
-    files: tuple[Matlab | Table | Uff | Neutral | PublishedLines, ...] = option((), "files in any order; at least one")
+    files: tuple[OneOf(Matlab, Table, Uff, Neutral, PublishedLines), ...] = option(
+        (), "files in any order; at least one")
 
 
 def _check(sections):

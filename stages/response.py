@@ -46,7 +46,8 @@ class _Superposition:
 
 
 def _check(sections):
-    """Refuse, before anything is computed, operating points without preload and signals that end before they settle."""
+    """Refuse, before anything is computed, operating points without preload, signals that end before they settle, and
+    bands beyond the modes that are there."""
     motion, solved = sections["multibody"], sections["structure"].pressures
     for pressure in motion.pressures:
         if not np.isclose(solved, pressure, rtol=1e-6).any():
@@ -56,6 +57,11 @@ def _check(sections):
         if sections[name].settling >= motion.duration:
             raise ConfigError(f"{name}.settling", f"less than multibody.duration, {motion.duration:g} s",
                               f"{sections[name].settling:g} s")
+    for name, last, until in (("response", "structure", "frequency_max"), ("squeal", "response", "highest_frequency")):
+        asked, there = sections[name].highest_frequency, getattr(sections[last], until)
+        if asked > there:
+            raise ConfigError(f"{name}.highest_frequency", f"at most {last}.{until}, {there:g} Hz", f"{asked:g} Hz",
+                              f"raise {last}.{until} too: what lies above it is missing")
 
 
 @stage(check=_check)

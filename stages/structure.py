@@ -7,8 +7,9 @@ import numpy as np
 import scipy.sparse as sp
 
 from pipeline.assembled import assembly_fields, body_product, incidence
-from pipeline.contract import Context, InputFile, Quantities, Quantity, Section, option, stage
+from pipeline.contract import Context, ConvergenceError, InputFile, Quantities, Quantity, Section, option, stage
 from pipeline.physics.disc_modes import describe
+from pipeline.physics.friction_law import refuse_beyond
 from pipeline.physics.static_contact import condense, contact_law, solve_preload
 from pipeline.physics.supports import free_freedoms, held_modes
 from pipeline.products import FrictionMap, Structure
@@ -16,8 +17,8 @@ from pipeline.systems.disc_brake import BODIES, build
 
 #: the contact law is tabulated up to so many times the largest nominal pressure
 _LAW_RANGE = 20
-#: motions of a free disc below this share of the frequency limit are rigid
-_RIGID_SHARE = 0.01
+#: rigid motions of a free body, and the most that their frequencies may be of that of its first mode
+_RIGID, _RIGID_SHARE = 6, 0.1
 
 
 class Disc(Section):
@@ -167,8 +168,11 @@ def _all_modes(brake, settings, context):
     tasks += [(body, body.supported, settings.frequency_max) for body in brake.bodies]
     found = context.map(partial(_modes, context.solver), tasks, "real modes")
     frequency, shape = found[0]
-    elastic = frequency > _RIGID_SHARE * settings.free_frequency_max
-    return [(frequency[elastic], shape[:, elastic]), *found[1:]]
+    if len(frequency) > _RIGID and frequency[_RIGID - 1] > _RIGID_SHARE * frequency[_RIGID]:
+        raise ConvergenceError("structure: free disc", "six rigid motions far below its first mode",
+                               f"frequencies {', '.join(f'{f:.4g}' for f in frequency[:_RIGID + 1])} Hz",
+                               "check the mesh of the disc: it must be one body")
+    return [(frequency[_RIGID:], shape[:, _RIGID:]), *found[1:]]
 
 
 def _modes(solver, task):
@@ -177,7 +181,8 @@ def _modes(solver, task):
 
 
 def _law(friction_map, settings):
-    """Closure and pressure of the interface at the sliding distance."""
+    """Closure and pressure of the interface at the sliding distance, which the map must reach."""
+    refuse_beyond(settings.sliding_distance, friction_map.distance[-1], "structure.sliding_distance")
     stiffness = [np.interp(settings.sliding_distance, friction_map.distance, row)
                  for row in friction_map.normal_stiffness]
     return contact_law(friction_map.pressure, stiffness, _LAW_RANGE * max(settings.pressures))

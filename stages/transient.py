@@ -63,12 +63,16 @@ def transient(model: ReducedModel, effects: Effects | None, settings: Settings, 
     and cycles are those of the last {window}.
     """
     points = [(state, speed) for state in range(len(model.pressure)) for speed in settings.speeds]
-    motions = context.map(partial(_move, model, effects, settings), points, "operating points")
+    found = context.map(partial(_move, model, effects, settings), points, "operating points")
+    motions, highest = [motion for motion, _ in found], max(frequency for _, frequency in found)
     interval = settings.step * settings.record_every
     late = motions[0].time >= motions[0].time[-1] - settings.window
     velocity = np.array([m.velocity for m in motions])
     frequency, spectrum = power_spectrum(velocity[..., late], 1 / interval, 1 / settings.window)
     _report(context, points, motions)
+    if highest > 0.5 / interval:
+        context.log(f"modes up to {highest:.4g} Hz move, samples tell {0.5 / interval:.4g} Hz at most: what sounds"
+                    " above shows folded below; lower record_every or highest_frequency")
     return Transient(
         pressure=[model.pressure[state] for state, _ in points], speed=[speed for _, speed in points],
         time=motions[0].time, sensor_name=model.sensor_name, sensor_position=model.sensor_position,
@@ -84,7 +88,7 @@ def transient(model: ReducedModel, effects: Effects | None, settings: Settings, 
 
 
 def _move(model, effects, settings, task):
-    """Motion at one operating point: (row of the preload table, speed of the drive)."""
+    """(motion, highest frequency of its modes in Hz) at one operating point: (row of the preload table, speed)."""
     state, speed = task
     bench = with_effects(about(model, settings, "transient", state, speed, settings.step), effects, channels=False)
     sliding, law, friction = bench.model, bench.law, bench.friction
@@ -93,10 +97,11 @@ def _move(model, effects, settings, task):
     drawn = {"sliding": friction, "pressed": constant(0.0)}.get(settings.start)
     start = None if drawn is None else steady_start(sliding, law, drawn, inputs)
     kick = random_kick(system, sliding.sensor_rows, settings.kick, settings.seed)
-    return simulate(sliding, law, friction, step=settings.step, duration=settings.duration,
-                    inputs=_history(model, model.input_history, inputs),
-                    drive=_history(model, speed * model.drive_history, None),
-                    record_every=settings.record_every, system=system, start=_kicked(start, kick))
+    motion = simulate(sliding, law, friction, step=settings.step, duration=settings.duration,
+                      inputs=_history(model, model.input_history, inputs),
+                      drive=_history(model, speed * model.drive_history, None),
+                      record_every=settings.record_every, system=system, start=_kicked(start, kick))
+    return motion, system.highest / (2 * np.pi)
 
 
 def _history(model, samples, constant):

@@ -42,6 +42,8 @@ def test_every_stage_command_has_the_same_form(name):
     ("chain: disc_brake\nmultibody: {duration: 3 kg}", 2, "multibody.duration: expected a quantity in s"),
     ("chain: disc_brake\nmultibody: {pressures: [4 MPa]}", 2, "multibody.pressures: expected pressures among"),
     ("chain: disc_brake\nresponse: {settling: 3 s}", 2, "response.settling: expected less than multibody.duration"),
+    ("chain: disc_brake\nresponse: {highest_frequency: 24 kHz}", 2, "expected at most structure.frequency_max"),
+    ("chain: disc_brake\nsqueal: {highest_frequency: 24 kHz}", 2, "expected at most response.highest_frequency"),
     ("chain: none", 2, "chain: expected one of disc_brake"),
 ])
 def test_bad_cases_are_one_sentence_without_traceback(tmp_path, text, code, message):
@@ -52,13 +54,19 @@ def test_bad_cases_are_one_sentence_without_traceback(tmp_path, text, code, mess
 
 
 def test_plan_prints_and_writes_the_table(tmp_path):
+    """Before the bench: the recording that the case names does not exist yet."""
     done = brakechain("plan", "docs/practice/rig.yaml", "--csv", tmp_path / "plan.csv", "--set",
-                      "recording.files=[]", "--set", "diagnosis.effects=[cubic_stiffness]",
+                      "recording.files.0.file=not_yet.h5", "--set", "diagnosis.effects=[cubic_stiffness]",
                       "--set", "diagnosis.plan.wanted=[cubic_stiffness]")
     assert done.returncode == 0, done.stderr
     assert "cheapest set: soft (cost 1)" in done.stdout
     head, first, *_ = (tmp_path / "plan.csv").read_text().splitlines()
     assert head == "effect,soft,loud,tone,all,chosen" and first.startswith("cubic_stiffness at guide,")
+
+
+def test_a_plan_of_another_chain_is_refused():
+    done = brakechain("plan", "configs/belt.yaml")
+    assert done.returncode == 2 and "chain: expected lumped_bench, of which runs can be planned" in done.stderr
 
 
 def test_debug_shows_the_traceback(tmp_path):

@@ -90,6 +90,8 @@ def about(model, laws, where, state, speed, step):
 
     ``where`` is the stage that the laws belong to, for messages.
     """
+    if state >= len(model.preload):
+        raise ConfigError(f"{where}.state", f"a row of the preload table, 0 to {len(model.preload) - 1}", str(state))
     sliding = sliding_model(model, state, speed)
     return Bench(sliding, normal_law(model, sliding.contacts, laws, where),
                  friction_law(model, sliding.contacts, laws, where), step, (), groups(model),

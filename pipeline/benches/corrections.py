@@ -48,9 +48,16 @@ def known(bench):
 
 
 def read(bench, given, where):
-    """{name: SI value} of ``given`` {name: quantity as written}; ConfigError for unknown names and units."""
+    """{name: SI value} of ``given`` {name: quantity as written}.
+
+    ConfigError for unknown names and units, and for masses and factors of bodies that are not above 0.
+    """
     units = known(bench)
-    return {name: to_si(value, _known(name, units, where), f"{where}.{name}") for name, value in given.items()}
+    found = {name: to_si(value, _known(name, units, where), f"{where}.{name}") for name, value in given.items()}
+    for name, value in found.items():
+        if _steps(name)[0] in ("masses", "bodies") and not value > 0:
+            raise ConfigError(f"{where}.{name}", "a value above 0", f"{value:g}")
+    return found
 
 
 def nominal(bench, name, where="parameters"):

@@ -3,10 +3,19 @@
 from pipeline.contract.context import Context
 from pipeline.contract.errors import BrakechainError, ConfigError, ConvergenceError, ProductError
 from pipeline.contract.product import Array, count, part, parts, product, quantity, text
-from pipeline.contract.settings import InputFile, Quantities, Quantity, Section, option, restored, section, stored
+from pipeline.contract.settings import (
+    InputFile,
+    OneOf,
+    Quantities,
+    Quantity,
+    Section,
+    option,
+    restored,
+    section,
+    stored,
+)
 from pipeline.contract.stage import Products, Stage, stage
 
 __all__ = ["Array", "BrakechainError", "ConfigError", "Context", "ConvergenceError", "InputFile", "ProductError",
-           "Products", "Quantities", "Quantity", "Section", "Stage", "count", "option", "part", "parts", "product",
-           "quantity", "restored", "section", "stage",
-           "stored", "text"]
+           "OneOf", "Products", "Quantities", "Quantity", "Section", "Stage", "count", "option", "part", "parts",
+           "product", "quantity", "restored", "section", "stage", "stored", "text"]

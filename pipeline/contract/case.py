@@ -34,6 +34,7 @@ class CaseFile:
     stages: tuple       # the stages of its chain, in order
     folders: tuple      # where a file is looked for that is not beside the YAML that names it: here, then the bases
     measured: object = None     # name of a public recording -> its local file
+    unread: tuple = ()          # names of stages that will not run, whose sections are not looked at
 
     @property
     def name(self):
@@ -52,7 +53,7 @@ class CaseFile:
         """stage name -> filled settings; ConfigError for anything not understood."""
         context = {"folders": self.folders, "measured": self.measured}
         return {s.name: settings.fill(s.settings, self._plain[s.name], f"{self.path}: {s.name}", context)
-                for s in self.stages}
+                for s in self.stages if s.name not in self.unread}
 
     def given(self, stage):
         """The settings of a stage as the YAML gives them, with origins."""
@@ -90,7 +91,7 @@ def _origin(given, steps):
     """What the YAML says of one setting: its annotation, or that of what holds it; 'user' of a bare value; else {}."""
     said = {}
     for step in steps:
-        if isinstance(given, dict) and "value" in given:
+        if settings.annotated(given):
             said, given = {k: v for k, v in given.items() if k != "value"}, given["value"]
         if isinstance(given, dict) and step in given:
             given = given[step]
@@ -98,32 +99,32 @@ def _origin(given, steps):
             given = given[int(step)]
         else:
             return said
-    if isinstance(given, dict) and "value" in given:
+    if settings.annotated(given):
         said = {k: v for k, v in given.items() if k != "value"}
     return {"origin": "user", **said}
 
 
-def load(path, chains, stage_of, overrides=(), measured=None, unchecked=()):
+def load(path, chains, stage_of, overrides=(), measured=None, unread=()):
     """Read and check the case at ``path``.
 
     chains : dict, chain name -> names of its stages in order
     stage_of : function, stage name -> Stage
     overrides : strings 'stage.key=value', as given to --set
     measured : function, name of a public recording -> its local file
-    unchecked : names of stages that will not run, whose own demands are left out
+    unread : names of stages that will not run, whose sections are not looked at
     """
     path = Path(path)
     document, folders = _read(path, chains)
     for item in overrides:
         _override(document, item)
     name = document.get("chain")
-    if name not in chains:
+    if not isinstance(name, str) or name not in chains:
         raise ConfigError(f"{path}: chain", f"one of {', '.join(chains)}", repr(name))
     stages = tuple(stage_of(each) for each in chains[name])
     _check_keys(path, document, stages)
-    case = CaseFile(path, document, stages, folders, measured)
+    case = CaseFile(path, document, stages, folders, measured, tuple(unread))
     for stage in stages:
-        if stage.name not in unchecked:
+        if stage.name not in unread:
             stage.check(case.sections)
     return case
 
@@ -143,16 +144,17 @@ def _read(path, chains, readers=()):
     if file.resolve() in [reader.resolve() for reader in (*readers, path)]:
         raise ConfigError(f"{path}: based_on", "a file that does not lead back here", repr(base))
     below, folders = _read(file, chains, (*readers, path))
-    foreign = set(chains.get(below.get("chain"), ())) - set(chains.get(document.get("chain", below.get("chain")), ()))
+    whose, own = (str(name) for name in (below.get("chain"), document.get("chain", below.get("chain"))))
+    foreign = set(chains.get(whose, ())) - set(chains.get(own, ()))
     kept = {key: value for key, value in below.items() if key not in foreign}
     return _laid_over(kept, document), (path.parent, *folders)
 
 
 def _laid_over(base, own):
     """``own`` where it speaks, ``base`` elsewhere; a mapping of another ``kind`` replaces the whole mapping."""
-    if own is None and isinstance(base, dict):
+    if own is None and isinstance(base, dict) and not settings.annotated(base):
         return base
-    plain = all(isinstance(d, dict) and "value" not in d for d in (base, own))
+    plain = all(isinstance(d, dict) and not settings.annotated(d) for d in (base, own))
     if not plain or own.get("kind", base.get("kind")) != base.get("kind"):
         return own
     return {**base, **{key: _laid_over(base.get(key), value) for key, value in own.items()}}
@@ -166,7 +168,7 @@ def _override(document, item):
     place = document
     for step in steps[:-1]:
         inner = _step(place, step, item)
-        if isinstance(inner, dict) and "value" in inner:    # what is overridden is no longer what was annotated
+        if settings.annotated(inner):       # what is overridden is no longer what was annotated
             inner = place[int(step) if isinstance(place, list) else step] = inner["value"]
         place = inner
     last = int(steps[-1]) if isinstance(place, list) and steps[-1].isdigit() else steps[-1]

@@ -7,6 +7,8 @@ import yaml
 from pipeline.contract.errors import ConfigError
 
 _MERGE = "tag:yaml.org,2002:merge"
+#: characters that are told of an error of a library
+_LONGEST = 200
 
 
 class _StrictLoader(yaml.SafeLoader):
@@ -37,6 +39,8 @@ def read_yaml(path):
         raise ConfigError(path, "a YAML file", "none", "check the path") from None
     except (OSError, UnicodeDecodeError) as error:
         raise ConfigError(path, "a readable YAML file", str(error)) from None
+    except (ValueError, TypeError, AttributeError, RecursionError) as error:     # of a value, such as a 13th month
+        raise ConfigError(path, "values that YAML can hold", f"{type(error).__name__}: {error}"[:_LONGEST]) from None
     except yaml.YAMLError as error:
         mark = getattr(error, "problem_mark", None)
         where = f"{path}:{mark.line + 1}" if mark else path
@@ -68,5 +72,5 @@ def parse_value(text):
     """One YAML value from the command line: ``--set key=TEXT``."""
     try:
         return yaml.load(text, _StrictLoader)
-    except yaml.YAMLError as error:
-        raise ConfigError(f"--set ...={text}", "a YAML value", getattr(error, "problem", str(error))) from None
+    except (yaml.YAMLError, ValueError, TypeError, AttributeError, RecursionError) as error:
+        raise ConfigError(f"--set ...={text}", "a YAML value", getattr(error, "problem", None) or str(error)) from None

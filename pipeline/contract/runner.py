@@ -144,8 +144,11 @@ class Run:
     def _compute(self, stage, context):
         if not os.access(self.folder, os.W_OK | os.X_OK):      # now, not after minutes of computing
             raise _closed(self.folder, os.strerror(errno.EACCES))
-        inputs = self._inputs(stage)
-        now = self.fingerprint(stage)
+        inputs, now = self._inputs(stage), self.fingerprint(stage)
+        for product in self.filled(stage).values():
+            if now is None and product and store.identity(self.path(product)) is None:
+                raise ProductError(self.path(product), f"the product {product.name}", _unreadable(self.path(product)),
+                                   f"run 'brakechain {product.name.replace('_', '-')}' first")
         wall, cpu = time.perf_counter(), _cpu_seconds(context)
         with context.stage(stage):
             output = stage(**inputs, settings=self.case.sections[stage.name], context=context)
@@ -182,7 +185,7 @@ def _stored(path):
     try:
         told = store.provenance(path)
         return {"fingerprint": json.loads(told["fingerprint"]), "companions": json.loads(told["companions"])}
-    except (ProductError, KeyError, ValueError):
+    except (ProductError, KeyError, ValueError, OSError, RuntimeError):
         return None
 
 

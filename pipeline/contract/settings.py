@@ -13,7 +13,7 @@ import os
 from dataclasses import dataclass
 from difflib import get_close_matches
 from pathlib import Path
-from typing import Annotated, get_args
+from typing import Annotated, Union, get_args
 
 from pydantic import (
     BaseModel,
@@ -62,6 +62,11 @@ def Quantity(unit, **bounds):  # noqa: N802 - reads as a type in annotations
 def Quantities(unit, **bounds):  # noqa: N802
     """A tuple of floats in ``unit``, each within ``bounds``; at least one."""
     return Annotated[tuple[Quantity(unit, **bounds), ...], Field(min_length=1)]
+
+
+def OneOf(*sections):  # noqa: N802
+    """One of several sections, told apart by their key ``kind``."""
+    return Annotated[Union[sections], Field(discriminator="kind")]  # noqa: UP007
 
 
 def option(default, meaning, **more):
@@ -144,12 +149,17 @@ def _existing(value, info: ValidationInfo):
 InputFile = Annotated[Path, BeforeValidator(_existing), WithJsonSchema({"type": "string", "description": "a file"})]
 
 
+def annotated(values):
+    """Whether a mapping of a case is a value with its origin; one that tells its unit is a section of its own."""
+    return isinstance(values, dict) and "value" in values and "unit" not in values
+
+
 def without_origins(values, where):
     """``values`` with each ``{value:, origin:, source:}`` replaced by its value; ConfigError for a bad annotation."""
+    if annotated(values):
+        _check_annotation(values, where)
+        return without_origins(values["value"], where)
     if isinstance(values, dict):
-        if "value" in values:
-            _check_annotation(values, where)
-            return without_origins(values["value"], where)
         return {key: without_origins(value, f"{where}.{key}") for key, value in values.items()}
     if isinstance(values, list):
         return [without_origins(value, f"{where}.{index}") for index, value in enumerate(values)]

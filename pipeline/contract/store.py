@@ -124,7 +124,7 @@ def read(cls, path):
         _check_identity(h5, cls, path)
         try:
             item, content = _read_group(h5["data"], cls, path), h5.attrs["content"]
-        except (KeyError, OSError) as error:
+        except (KeyError, OSError, RuntimeError) as error:
             raise _damaged(path, error) from None
     if content_hash(item) != content:
         raise _damaged(path, "its values are not those that were written")
@@ -168,7 +168,7 @@ def _unwritable(path, error):
 
 def _damaged(path, error):
     return DamagedFile(path, "a whole HDF5 product", f"a truncated or damaged file ({error})",
-                        "delete it and rerun the stage that writes it")
+                       "rerun the stage that writes it")
 
 
 def _check_identity(h5, cls, path):
@@ -196,8 +196,11 @@ def _read_group(group, cls, path):
 
 
 def walk(path):
-    """Yield (name, attributes, dataset or None) for every group and dataset of a product file."""
+    """Yield (name, attributes, dataset or None) for every group and dataset of a product file; refuses others."""
     with _opened(path) as h5:
+        if "product" not in h5.attrs:
+            raise ProductError(path, "a product of brakechain", "an HDF5 file without product name",
+                               "for recordings see 'brakechain data format'")
         yield "/", dict(h5.attrs), None
         rows = []
         h5["data"].visititems(lambda name, node: rows.append((f"data/{name}", node)))

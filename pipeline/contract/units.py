@@ -21,6 +21,9 @@ MEASURED = ("1", "m", "m/s", "m/s^2", "N", "N m", "Pa", "V", "A", "K", "s", "Hz"
 
 _ANGULAR = {"radian", "degree", "turn", "revolution", "cycle", "revolutions_per_minute", "revolutions_per_second"}
 _NUMBER = re.compile(r"\s*[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?\s*(?P<unit>.*)")
+#: numbers that belong to a unit, as in mm^2, s**-1, kg^(-0.5) and 1/s; any other one beside it is a mistake
+_OF_UNIT = re.compile(r"(\^|\*\*)\s*\(?\s*[-+]?\d+(\.\d+)?(\s*/\s*\d+)?\s*\)?|(?<![\w.])1\s*/")
+_STRAY = re.compile(r"[,±]|(?<![A-Za-z_\d.])\d")
 
 
 def to_si(value, unit, where):
@@ -36,6 +39,8 @@ def to_si(value, unit, where):
     spelt = _NUMBER.fullmatch(value) if isinstance(value, str) else None
     if not spelt or (unit != "1" and not spelt["unit"]):
         raise ConfigError(where, expected, repr(value))
+    if _STRAY.search(_OF_UNIT.sub("", spelt["unit"])):
+        raise ConfigError(where, expected, repr(value), "write one number, with a decimal point, and its unit")
     return _convert(value, unit, lambda: ConfigError(where, expected, repr(value)))
 
 

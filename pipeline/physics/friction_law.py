@@ -15,6 +15,13 @@ from pipeline.contract.errors import ConfigError
 AXES = ("pressure", "speed", "distance")
 
 
+def refuse_beyond(distance, last, where):
+    """ConfigError at ``where`` for a sliding ``distance`` (m) beyond the ``last`` of a friction map."""
+    if distance > last * (1 + 1e-6):
+        raise ConfigError(where, f"at most {last:g} m, the last distance of the friction map", f"{distance:g} m",
+                          "lower it, or raise micro_friction.recorded_distances")
+
+
 @dataclass(frozen=True)
 class FrictionLaw:
     """mu on the grid pressure (P,) Pa x speed (V,) m/s x distance (S,) m; ``friction`` is (P, V, S)."""

@@ -20,10 +20,13 @@ def turned_disc(nodes, length, shortest, rms_height, *, seed, feed, marks_share,
     Tool marks run along x with a whole number of feeds near ``feed`` (m) in the patch and carry ``marks_share`` of the
     variance, a self-affine roughness (``hurst``, roll-off ``roughness_wavelength`` in m) the rest. Grain outbreaks are
     round pits of diameter ``outbreak_size`` (m) on ``outbreak_share`` of the area, ``outbreak_depth`` times the
-    rms of the rest deep at their centre.
+    rms of the rest deep at their centre. Raises ConfigError for feeds below ``shortest``.
     """
-    random = np.random.default_rng(seed)
-    size = _construction_size(length, shortest)
+    size, random = _construction_size(length, shortest), np.random.default_rng(seed)
+    fed = length / max(round(length / feed), 1)
+    if fed < 0.99 * shortest:
+        raise ConfigError("feed of the turned disc", f"at least {shortest:g} m, the shortest wavelength of the surface",
+                          f"{fed:g} m", "raise surface.disc.feed, or surface.nodes and lower the wavelength")
     phase = np.arange(size) / size * max(round(length / feed), 1)
     cusp = (2.0 * np.abs(phase - np.round(phase))) ** 2
     marks = np.repeat(_standard(cusp)[:, None], size, axis=1)

@@ -145,6 +145,13 @@ class _Equilibrium:
         force, slope = normal_force(closure, contacts.area, self.law_closure, self.law_pressure)
         return np.where(contacts.fixed, contacts.preload, force), np.where(contacts.fixed, 0.0, slope)
 
+    def contacts_balance(self, closure, slope, step):
+        """Whether a ``step`` changes no force; an open contact counts as if it were just closed."""
+        first = np.where(self.model.contacts.fixed, 0.0,
+                         self.model.contacts.area * self.law_pressure[1] / self.law_closure[1])
+        largest = max(self.contact(closure)[0].max(), (first * np.abs(self.free)).max())
+        return np.abs(np.maximum(slope, first) * step).max() <= _TOLERANCE * largest
+
     def friction_state(self, force):
         return self.friction(force / self.model.contacts.area, abs(self.model.sliding_speed))
 
@@ -156,7 +163,7 @@ class _Equilibrium:
                 step = np.linalg.solve(tangent, miss)
             except np.linalg.LinAlgError:
                 return None
-            if np.abs(slope * step).max() <= _TOLERANCE * self.contact(closure)[0].max():
+            if self.contacts_balance(closure, slope, step):
                 return closure
             for length in 0.5 ** np.arange(_HALVINGS):
                 trial = self._miss(closure - length * step, share)

@@ -72,7 +72,7 @@ def solve_preload(compliance, free_closure, area, law_closure, law_pressure):
     if (free_closure <= 0).all():
         raise ConfigError("preload", "pads that touch the disc under the load",
                           f"gaps of at least {-free_closure.max():g} m", "check the piston force and the positions")
-    closure = np.full_like(free_closure, law_closure[1])
+    closure, first = np.full_like(free_closure, law_closure[1]), area * law_pressure[1] / law_closure[1]
     force, slope = normal_force(closure, area, law_closure, law_pressure)
     miss = closure - free_closure + compliance @ force
     for _ in range(_STEPS):
@@ -84,11 +84,13 @@ def solve_preload(compliance, free_closure, area, law_closure, law_pressure):
             if np.linalg.norm(trial_miss) < np.linalg.norm(miss) or halving == _HALVINGS - 1:
                 break
         closure, miss = trial, trial_miss
-        balance = np.linalg.solve(np.eye(len(area)) + compliance * slope, miss) * slope
-        if np.abs(balance).max() <= _TOLERANCE * force.max():
+        # an open patch counts as if it were just closed
+        balance = np.linalg.solve(np.eye(len(area)) + compliance * slope, miss) * np.maximum(slope, first)
+        largest = max(force.max(), (first * np.abs(free_closure)).max())
+        if np.abs(balance).max() <= _TOLERANCE * largest:
             return Preload(force, slope, closure)
     raise ConvergenceError("preload", f"contact forces that balance within {_TOLERANCE:g}",
-                           f"{np.abs(balance).max() / force.max():.1e}", "raise the load or soften the contact law")
+                           f"{np.abs(balance).max() / largest:.1e}", "raise the load or soften the contact law")
 
 
 def normal_force(closure, area, law_closure, law_pressure):

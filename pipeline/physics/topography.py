@@ -105,7 +105,13 @@ def periodic_patch(heights, spacing, length, overlap=0.1):
 
 
 def to_grid(heights, spacing, length, nodes, shortest, longest, rms_height, where):
-    """Periodic map (nodes, nodes) of a levelled scan in the band ``shortest`` to ``longest``, of rms ``rms_height``."""
+    """Periodic map (nodes, nodes) of a levelled scan in the band ``shortest`` to ``longest``, of rms ``rms_height``.
+
+    ConfigError at ``where`` for a scan whose pixels do not tell the shortest wavelength, or without height.
+    """
+    if 2 * max(spacing) > shortest * (1 + 1e-6):
+        raise ConfigError(where, f"pixels of at most {shortest / 2:.3g} m, two a shortest wavelength",
+                          f"{max(spacing):.3g} m", "raise surface.shortest_wavelength, or take a finer scan")
     patch = periodic_patch(heights - heights.mean(), spacing, length)
     filtered = resample(band_limit(patch, (length, length), shortest, longest), (nodes, nodes))
     _refuse_constant(filtered, where)

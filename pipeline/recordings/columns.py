@@ -45,7 +45,6 @@ def read_matlab(path):
 def _decoded(content, path):
     """Variables of a MATLAB file of version 4 to 7; a file that is cut off or damaged is refused."""
     from scipy.io import loadmat
-    from scipy.io.matlab import MatReadError
 
     if 0 not in content[:4]:        # version 4 begins with a small number, later ones with text
         byte_order = {b"IM": "<", b"MI": ">"}.get(content[126:128])
@@ -55,8 +54,8 @@ def _decoded(content, path):
             raise ConfigError(path, "a whole MATLAB file", "one that is cut off", "copy it again")
     try:
         return {k: v for k, v in loadmat(BytesIO(content)).items() if not k.startswith("__")}
-    except (MatReadError, TypeError, ValueError) as error:
-        raise ConfigError(path, "an undamaged MATLAB file", str(error)) from None
+    except Exception as error:  # loadmat passes on whatever its parser stumbles over
+        raise ConfigError(path, "an undamaged MATLAB file", str(error) or type(error).__name__) from None
 
 
 def _whole(content, byte_order):
@@ -101,7 +100,10 @@ def read_table(path, delimiter=None, skip=0):
     if len(lines) < 2:
         raise ConfigError(path, "a head and at least one line of numbers", f"{len(lines)} lines")
     mark = delimiter or next((d for d in "\t;," if d in lines[0]), ",")
-    head, *rows = csv.reader(lines, delimiter=mark)
+    try:
+        head, *rows = csv.reader(lines, delimiter=mark)
+    except (csv.Error, TypeError) as error:
+        raise ConfigError(path, f"a text table whose columns {mark!r} separates", str(error)) from None
     names = [name.strip() for name in head]
     if len(set(names)) < len(names):
         raise ConfigError(f"{path}:{skip + 1}", "each column name once", ", ".join(names))

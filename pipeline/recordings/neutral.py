@@ -39,7 +39,7 @@ def read_neutral(path):
     """
     try:
         with h5py.File(path, "r") as h5:
-            if "runs" not in h5 or not len(h5["runs"]):
+            if not isinstance(h5.get("runs"), h5py.Group) or not len(h5["runs"]):
                 raise ConfigError(path, "a group /runs with at least one run", f"{', '.join(h5) or 'an empty file'}")
             return {name: _run(group, f"{path}: runs/{name}") for name, group in h5["runs"].items()}
     except OSError as error:
@@ -70,12 +70,23 @@ def write_neutral(path, runs):
 def _run(group, where):
     read = {"conditions": _condition, "channels": _channel, "frf": _frf, "modes": _modes, "lines": _lines,
             "topography": _topography, "friction": _friction}
-    unknown = set(group) - set(read)
+    if not isinstance(group, h5py.Group):
+        raise ConfigError(where, f"a group of {', '.join(read)}", str(group))
+    unknown = set(group) - set(read) | {kind for kind, node in group.items() if not isinstance(node, h5py.Group)}
     if unknown:
         raise ConfigError(where, f"groups among {', '.join(read)}", ", ".join(sorted(unknown)))
-    filled = {kind: {name: one(node, f"{where}/{kind}/{name}") for name, node in group.get(kind, {}).items()}
-              for kind, one in read.items()}
+    filled = {kind: {name: _understood(one, node, f"{where}/{kind}/{name}") for name, node in group.get(
+        kind, {}).items()} for kind, one in read.items()}
     return Run(description=_said(group, "description"), repeat_of=_said(group, "repeat_of"), **filled)
+
+
+def _understood(read, node, where):
+    """What ``read`` makes of a node; ConfigError with its place for what it cannot read, whatever that is."""
+    try:
+        return read(node, where)
+    except (KeyError, TypeError, ValueError, AttributeError, IndexError, RuntimeError) as error:
+        raise ConfigError(where, "data and attributes as 'brakechain data format' prints them",
+                          f"what cannot be read ({type(error).__name__}: {error})") from None
 
 
 def _said(node, name, default=""):

@@ -6,6 +6,8 @@ from pipeline.contract.errors import ConfigError
 from pipeline.contract.units import in_si
 from pipeline.products import Channel
 
+#: what a channel may be: what the bench answered, or imposed
+ROLES = ("response", "excitation")
 #: largest deviation of a sampling instant from an even grid, as a share of the interval
 EVEN = 0.01
 #: largest distance of an instant from a declared grid, in intervals
@@ -16,8 +18,14 @@ def channel(values, unit, measures, rate, begin, where, *, role="response", plac
     """Channel of ``values`` (sample,) in ``unit``; samples that are not finite are missing.
 
     ``rate`` Hz and ``begin`` s: sampling rate and time of the first sample. Raises ConfigError, with ``where``, for a
-    unit that pint does not read and for a channel without a single sample.
+    unit that pint does not read, a rate that is none and a channel without a single sample.
     """
+    if not (np.isfinite(rate) and rate > 0):
+        raise ConfigError(f"{where}: sample_rate", "a rate above 0 Hz", f"{rate:g}")
+    if np.iscomplexobj(values):
+        raise ConfigError(where, "real samples", "complex ones", "complex spectra go into frf")
+    if role not in ROLES:
+        raise ConfigError(f"{where}: role", f"one of {', '.join(ROLES)}", repr(role))
     converted, name = in_si(np.asarray(values, float), unit, f"{where}: unit")
     good = np.isfinite(converted)
     if not good.any():
@@ -49,8 +57,11 @@ def on_grid(columns, time, rate, where):
     """(columns, begin in s) with NaN where a sample of the even grid was lost; ``columns`` name -> (sample,).
 
     ``time`` (sample,) s: instants, of which some of the grid at ``rate`` Hz may lack. Raises ConfigError where one lies
-    off the grid by more than OFF_GRID intervals, or twice on the same instant.
+    off the grid by more than OFF_GRID intervals, or twice on the same instant, or where a sample has none.
     """
+    if not len(time) or not np.isfinite(time).all() or {len(values) for values in columns.values()} - {len(time)}:
+        raise ConfigError(where, "a finite time of every sample", f"{np.isfinite(time).sum()} of"
+                          f" {max(map(len, columns.values()), default=0)}", "mend the file, or leave the times out")
     place = (time - time[0]) * rate
     index = np.rint(place).astype(int)
     off = np.abs(place - index).max()

@@ -1,6 +1,8 @@
 """Universal files: time signals and frequency responses (data set 58), modes (data set 55). The door of pyuff."""
 
+import re
 import warnings
+from pathlib import Path
 
 import numpy as np
 
@@ -16,16 +18,21 @@ QUANTITY = {8: "displacement", 9: "force", 11: "velocity", 12: "acceleration", 1
             21: "pressure", 5: "temperature"}
 #: units as benches spell them, as pint reads them
 SPELT = {"m/s2": "m/s^2", "g": "g_0", "NONE": "", "-": ""}
+#: the line that begins a data set, and the one that ends it
+_DELIMITER = re.compile(rb"^ {4}-1\s*$", re.MULTILINE)
 
 
 def read_uff(path, units=None):
     """(channels, frf, modes), each a dict by name, of the universal file at ``path``.
 
     ``units``: response name -> unit, where the file says none. Data sets of other kinds are left out. Raises
-    ConfigError for a file that is no universal file or holds nothing that is read here.
+    ConfigError for a file that is no universal file, is cut off or holds nothing that is read here, and for ``units``
+    of responses that it does not hold.
     """
     import pyuff
 
+    if Path(path).is_file() and len(_DELIMITER.findall(Path(path).read_bytes())) % 2:
+        raise ConfigError(path, "a whole universal file", "one whose last data set does not end", "copy it again")
     units, channels, frf, modes = units or {}, {}, {}, {}
     try:
         with warnings.catch_warnings():
@@ -42,6 +49,10 @@ def read_uff(path, units=None):
             _put(frf, _name(found), _response(found, units, where))
         elif found["type"] == 55 and "freq" in found:
             _put(modes, f"mode_{len(modes) + 1}", _mode(found))
+    strange = sorted(set(units) - {_name(found) for found in sets if found["type"] == 58})
+    if strange:
+        raise ConfigError(f"{path}: units", f"responses among {', '.join((*channels, *frf)) or 'none'}",
+                          ", ".join(strange))
     if not channels and not frf and not modes:
         raise ConfigError(path, "time signals, frequency responses or modes", f"{len(sets)} data sets of other kinds")
     return channels, frf, modes
@@ -62,8 +73,8 @@ def _name(found):
 
 def _unit(found, units, where):
     name = _name(found)
-    written = units.get(name) or found.get("ordinate_axis_units_lab", "NONE").strip()
-    unit = SPELT.get(written, written)
+    written = found.get("ordinate_axis_units_lab", "NONE").strip()
+    unit = SPELT.get(written, written) or units.get(name, "")
     if not unit:
         raise ConfigError(f"{where} ({name})", "a unit in the file or in 'units'", "none",
                           f"add units: {{{name}: ...}}")

@@ -7,8 +7,8 @@ def _bulk(micro):
     kept = [f"{number(1e12 / micro.normal_stiffness[p, 0, -1], 3)} µm/MPa at {quantity(micro.pressure[p], 'Pa')}"
             for p in (0, -1)]
     removed = number(1e12 * micro.block_compliance, 3)
-    return ("Depth of the rough pair: its moduli are effective values of the asperities, tuned to the real contact"
-            f" area, not those of the bulk. The uniform compliance of its blocks, {removed} µm/MPa, is"
+    return ("Depth of the rough pair: its moduli are effective values of the asperities, which the real contact area"
+            f" asks for, not those of the bulk. The uniform compliance of its blocks, {removed} µm/MPa, is"
             f" therefore left out of the interface, which keeps {' and '.join(kept)} after wear; pads and disc of the"
             " brake model deform with their own moduli instead.")
 

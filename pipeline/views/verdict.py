@@ -129,8 +129,14 @@ def _why(products):
             f"{forced if products.get('multibody') is not None else ''}.")
 
 
+def _compared(products):
+    """The comparison, None where nothing published stands beside the products."""
+    found = products.get("comparison")
+    return found if found is not None and len(found.row) else None
+
+
 def _sure(products):
-    comparison = products.get("comparison")
+    comparison = _compared(products)
     if comparison is None:
         return "Nothing published was compared."
     within = judged(comparison, "within")
@@ -141,7 +147,7 @@ def _sure(products):
 
 
 def _tuned(products, tuned_settings):
-    comparison = products.get("comparison")
+    comparison = _compared(products)
     rows = [] if comparison is None else list(dict.fromkeys(t for t in map(str, comparison.tuned) if t))
     settings = [f"{name} = {value}" for name, value in tuned_settings]
     shown = rows or settings[:6]

@@ -20,6 +20,11 @@ def test_a_sensor_of_something_unknown_is_refused():
         benches.built(model(), laid_out(channels={"x": {"quantity": "displacement", "source": "blok"}}))
 
 
+def test_a_row_that_the_preload_table_lacks_is_refused():
+    with pytest.raises(ConfigError, match="bench.state: expected a row of the preload table, 0 to 0, found 5"):
+        benches.built(model(), laid_out(state=5))
+
+
 def test_one_body_is_no_group():
     assert benches.groups(model()) == {}
 

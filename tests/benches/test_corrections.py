@@ -64,7 +64,9 @@ def test_mass_by_value_and_by_factor_agree():
 
 
 @pytest.mark.parametrize("given, said", [({"joints.mont.stiffness": "1 N/m"}, "did you mean 'joints.mount"),
-                                         ({"joints.mount.stiffness": "1 kg"}, "N/m")])
+                                         ({"joints.mount.stiffness": "1 kg"}, "N/m"),
+                                         ({"masses.block": "-1 kg"}, "masses.block: expected a value above 0"),
+                                         ({"bodies.block.frequency": 0}, "expected a value above 0, found 0")])
 def test_wrong_names_and_units_are_refused(given, said):
     with pytest.raises(ConfigError, match=said):
         corrections.read(bench(), given, "bench.corrections")

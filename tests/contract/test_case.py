@@ -4,7 +4,7 @@ from types import SimpleNamespace
 
 import pytest
 
-from pipeline.contract import ConfigError, InputFile, Section, case, documents, option
+from pipeline.contract import ConfigError, InputFile, Section, case, documents, option, settings
 from tests.contract.toy import CHAINS, load
 
 YAML = """
@@ -67,6 +67,9 @@ def test_an_alias_is_a_copy(tmp_path):
     ("chain: toy\nsolver: fast", "solver: expected one of auto, pypardiso, superlu"),
     ("chain: toy\ntitle: [1]", "title: expected text"),
     ("chain: toy\nsource: 3", "source: expected a mapping of settings"),
+    ("chain: [toy]", "chain: expected one of toy, found ['toy']"),
+    ("chain: toy\ntitle: 2020-13-45", "expected values that YAML can hold, found ValueError: month must be in 1..12"),
+    ("chain: toy\n? {a: 1}\n: 3", "bad.yaml"), ("chain: toy\nsource: &a {duration: *a}", "bad.yaml"),
 ])
 def test_refusals(tmp_path, text, message):
     path = tmp_path / "bad.yaml"
@@ -94,6 +97,22 @@ def test_a_case_may_be_based_on_another(config):
     case_ = loaded(other)
     assert case_.sections["source"].duration == 3.0 and case_.sections["doubled"].factor == 7.0
     assert case_.card("").origins["source"]["duration"]["origin"] == "stated" and case_.card("").title == "Another"
+
+
+def test_null_takes_back_what_a_base_states(config):
+    """In place of a value, with its origin or without; over a section it says nothing."""
+    other = config.with_name("other.yaml")
+    other.write_text("based_on: toy.yaml\nsource: {duration: null}\ndoubled: null\n")
+    found = case._read(other, {})[0]
+    assert found["source"]["duration"] is None and isinstance(found["doubled"], dict)
+
+
+def test_a_value_that_tells_its_unit_is_no_annotation(config):
+    given = {"load": {"value": 5, "unit": "N"}}
+    assert settings.without_origins(given, "x") == given
+    assert settings.without_origins({"load": {"value": given["load"], "origin": "measured"}}, "x") == given
+    with pytest.raises(ConfigError, match="x.load.orgin: unknown key"):
+        settings.without_origins({"load": {"value": 5, "orgin": "user"}}, "x")
 
 
 def test_a_case_of_another_chain_leaves_what_it_has_no_stage_for(config):

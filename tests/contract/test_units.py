@@ -30,6 +30,20 @@ def test_turns_and_angles_are_not_mixed(text, unit):
         to_si(text, unit, "x")
 
 
+@pytest.mark.parametrize("text, unit", [
+    ("1,5 mm", "m"), ("0,35", "1"), ("1,000 mm", "m"), ("1 2 mm", "m"), ("5 m 3", "m"), ("1 mm ± 2", "m"),
+    ("2 * 3 mm", "m"), ("1 mm + 2 mm", "m")])
+def test_a_second_number_or_a_decimal_comma_is_refused(text, unit):
+    """pint would read 15 mm, 0, 1 m, 2 mm, 15 m, 2 mm, 6 mm and 3 mm."""
+    with pytest.raises(ConfigError, match="write one number, with a decimal point, and its unit"):
+        to_si(text, unit, "x")
+
+
+@pytest.mark.parametrize("text, value", [("2 mm^2", 2e-6), ("2 mm**2", 2e-6), ("2e4 cm^(2)", 2.0), ("3 1/mm^-2", 3e-6)])
+def test_numbers_of_the_unit_belong_to_it(text, value):
+    assert to_si(text, "m^2", "x") == pytest.approx(value, rel=1e-12)
+
+
 @pytest.mark.parametrize("value", ["3 kg", "3", 3, "three mm", "12 mn mm", True, None, [1], "mm"])
 def test_refuses_what_is_no_length(value):
     with pytest.raises(ConfigError, match="a.yaml: disc.thickness: expected a quantity in m"):

@@ -85,6 +85,13 @@ def test_resampling_reproduces_a_wave():
     np.testing.assert_allclose(resample(fine, (12, 20)), wave, atol=1e-13)
 
 
+@pytest.mark.parametrize("feed", [20e-6, 50e-6])
+def test_marks_shorter_than_the_surface_holds_are_refused(feed):
+    """On 62.5 um a feed of 20 um would show as waves of 71 um, one of 50 um would lose most of its marks."""
+    with pytest.raises(ConfigError, match="feed of the turned disc: expected at least 6.25e-05 m"):
+        turned_disc(128, 1e-3, 62.5e-6, 3e-6, **{**DISC, "feed": feed})
+
+
 def test_a_wavelength_beyond_the_patch_is_refused():
     with pytest.raises(ConfigError, match="shortest wavelength <= patch length"):
         turned_disc(64, LENGTH, 2e-3, 3e-6, **DISC)

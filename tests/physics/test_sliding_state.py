@@ -85,6 +85,27 @@ def test_a_block_that_tips_has_no_state():
         slide(rubbed_block(), 2.5)
 
 
+def strut(friction):
+    """Steady sliding of a shoe on an oblique strut, which locks where the friction digs it in: near 0.67."""
+    way, row = np.array([0.55, 0.835]), np.array([[0.0, 1.0]])
+    model = sliding_model_of(1e7 * np.outer(way, way), np.zeros((2, 2)), row, row[:, ::-1], 0 * row, -row, 1.0)
+    return slide(model, friction, law=(np.array([0.0, 1e-3]), np.array([0.0, 5e4 / AREA])), load=100.0)
+
+
+@pytest.mark.exact
+@pytest.mark.parametrize("friction", [0.0, 0.3, 0.6])
+def test_a_strut_that_digs_in_carries_more(friction):
+    """Along sliding the strut bears mu N, hence across it mu N times the slope of its direction, and N the load too."""
+    carried = 100.0 / (1 - friction * 0.835 / 0.55)
+    assert strut(friction).contact.force == pytest.approx([carried], rel=1e-9)
+
+
+@pytest.mark.parametrize("friction", [0.7, 0.8, 1.0])
+def test_a_strut_that_locks_has_no_state(friction):
+    with pytest.raises(ConvergenceError, match="steady sliding"):
+        strut(friction)
+
+
 def test_bodies_that_nothing_holds():
     loose = rubbed_block()
     with pytest.raises(ConfigError, match="hold"):

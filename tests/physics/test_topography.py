@@ -116,6 +116,8 @@ def test_a_patch_larger_than_the_scan_is_refused(rough):
 
 
 def test_the_grid_has_the_band_and_the_height_asked_for(rough):
+    with pytest.raises(ConfigError, match="test: expected pixels of at most 8e-06 m, .* found 9e-06 m"):
+        to_grid(rough, (1e-6, 9e-6), 64e-6, 32, 16e-6, 32e-6, 3e-6, "test")
     grid = to_grid(rough, (1e-6, 1e-6), 64e-6, 32, 16e-6, 32e-6, 3e-6, "test")
     assert grid.std() == pytest.approx(3e-6, rel=1e-12)
     wave = np.hypot(*np.meshgrid(np.fft.fftfreq(32, 2e-6), np.fft.fftfreq(32, 2e-6)))

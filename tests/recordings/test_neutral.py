@@ -50,6 +50,14 @@ def test_everything_comes_back_in_si(tmp_path):
     (lambda run: run.create_group("chanels"), "runs/first: expected groups among conditions, channels.*found chanels"),
     (lambda run: run["frf/drive_point"].pop("frequency"), "frf/drive_point: expected the dataset frequency"),
     (lambda run: run["topography/pad"].attrs.update(units="N"), "expected heights .* in a unit of length"),
+    (lambda run: run["channels/force"].attrs.update(sample_rate="10 Hz"), "channels/force: expected data and .*Value"),
+    (lambda run: run["channels/force"].attrs.update(sample_rate=0.0), "force: sample_rate: expected a rate above"),
+    (lambda run: run["channels/force"].attrs.update(role="foo"), "role: expected one of response, excitation"),
+    (lambda run: run["topography/pad"].attrs.update(pixel_size=[1.0, 2.0, 3.0]), "topography/pad: expected data and"),
+    (lambda run: run.create_dataset("frf/other", data=1.0), "frf/other: expected data and attributes"),
+    (lambda run: run.pop("frf") and run.create_dataset("frf", data=1.0), "expected groups among .*found frf"),
+    (lambda run: run.create_dataset("channels/odd", data=[1j]).attrs.update(units="m", quantity="x", sample_rate=1.0),
+     "channels/odd: expected real samples"),
 ])
 def test_mistakes_are_told_with_their_place(tmp_path, change, message):
     with pytest.raises(ConfigError, match=message):

@@ -41,6 +41,9 @@ def test_lost_samples_are_found_from_the_times():
     for wrong in ([0.0, 0.14, 0.2], [0.0, 0.1, 0.1]):
         with pytest.raises(ConfigError, match="t: expected rising times on a grid of 10 Hz"):
             on_grid({}, np.array(wrong), 10.0, "t")
+    for wrong in ([0.0, 0.1], [0.0, 0.1, np.nan], []):
+        with pytest.raises(ConfigError, match="t: expected a finite time of every sample"):
+            on_grid({"x": np.arange(3.0)}, np.array(wrong), 10.0, "t")
 
 
 def test_neighbouring_stretches_share_no_sample():

@@ -52,6 +52,24 @@ def test_frequency_responses(tmp_path):
     assert response.response[1] == pytest.approx(2j) and str(response.reference) == "node 2 direction 1"
 
 
+def test_the_unit_of_the_file_counts_and_a_name_that_it_lacks_is_refused(tmp_path):
+    path = write(tmp_path / "a.uff")
+    assert str(read_uff(path, {"acc_1": "mm"})[0]["acc_1"].unit) == "m/s^2"
+    with pytest.raises(ConfigError, match="units: expected responses among acc_1, found acc_2"):
+        read_uff(path, {"acc_2": "mm"})
+
+
+def test_a_file_that_is_cut_off_is_refused(tmp_path):
+    path = write(tmp_path / "a.uff")
+    whole = path.read_bytes()
+    path.write_bytes(whole[:-4])
+    with pytest.raises(ConfigError, match="a whole universal file, found one whose last data set does not end"):
+        read_uff(path)
+    path.write_bytes(whole + whole[:len(whole) // 2])
+    with pytest.raises(ConfigError, match="a whole universal file"):
+        read_uff(path)
+
+
 def test_refuses_what_is_no_universal_file(tmp_path):
     (tmp_path / "b.uff").write_text("not at all")
     with pytest.raises(ConfigError, match="b.uff: expected"):

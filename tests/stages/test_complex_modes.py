@@ -211,6 +211,14 @@ def test_a_hard_contact_that_holds_the_whole_mass_along_its_only_motion_is_refus
         oscillator_modes(hard=True)
 
 
+@pytest.mark.parametrize(("given", "said"), [
+    ({"friction_at_rest": 0.9}, "friction_at_rest: expected friction beside it, or neither"),
+    ({"speeds": ["-10 rad/s", "10.1 rad/s"]}, "speeds: expected speeds of one sign")])
+def test_settings_that_would_do_nothing_or_cross_standstill_are_refused(given, said):
+    with pytest.raises(ConfigError, match=said):
+        complex_modes.check({"complex_modes": Settings(**given), "friction_map": None})
+
+
 @pytest.mark.parametrize(("chain", "friction", "found"), [
     ((), None, "neither this nor a friction map"), (("friction_map",), 0.4, "a friction map")])
 def test_friction_comes_from_one_source(chain, friction, found):

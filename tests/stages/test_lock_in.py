@@ -44,6 +44,11 @@ def test_nothing_grows_without_friction():
     assert not still.root.any() and set(still.kind) == {"none"} and not still.base.any()
 
 
+def test_nothing_grows_below_a_limit_without_modes():
+    found = lock_in(*small_system(), None, Settings(**{**ONE, "highest_mode": "1 Hz"}), context=CONTEXT)
+    assert not found.root.any()
+
+
 @pytest.mark.exact
 def test_bad_input():
     with pytest.raises(ValueError, match="greater than or equal"):

@@ -124,6 +124,9 @@ def test_a_reversing_drive_turns_friction_round():
     ({"inputs": {"motor": {"force": "1 N"}}}, "either along, for a force, or displaces"),
     ({"contacts": {"belt": {"tangent": {"block.x": 1}}}}, "either normal, where it can open, or normal_force"),
     ({"contacts": {"belt": {"tangent": {}, "normal_force": "1 N"}}}, "lumped.contacts.belt.tangent"),
+    ({"drive": {"history": {"kind": "harmonic", "frequency": "5 kHz"}}},
+     "lumped.histories.interval: expected at most 2e-05 s, 10 samples a period at 5000 Hz, found 0.0001 s"),
+    ({"drive": {"history": {"kind": "chirp", "first": "1 Hz", "last": "2 kHz", "sweep": "1 s"}}}, "at most 5e-05 s"),
 ])
 def test_what_does_not_fit_together_is_refused(change, said):
     with pytest.raises(ConfigError) as error:

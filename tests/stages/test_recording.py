@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 from scipy.io import savemat
 
-from pipeline.contract import ConfigError
+import stages
+from pipeline.contract import ConfigError, case
 from pipeline.contract.settings import fill
 from stages.recording import Settings, recording
 from tests.recordings import test_neutral, test_uff
@@ -54,10 +55,35 @@ def test_runs_of_all_kinds_of_files(files):
     ({**MATLAB, "runs": {"a": {"repeat_of": "b"}}}, "recording: a.repeat_of: expected another of a, found 'b'"),
     ({**MATLAB, "runs": {"a": {"begin": "9 s"}}}, "runs.a: expected a stretch within 0.5 s to 1 s"),
     ({**MATLAB, "file": "none.mat"}, "expected a file, found none"),
+    ({**TABLE, "sample_rate": 10}, r"files.0.sample_rate: .*without a unit"),
+    ({k: v for k, v in TABLE.items() if k != "kind"}, r"files.0: unable to extract tag using discriminator 'kind'"),
+    ({**TABLE, "delimiter": "::"}, "a text table whose columns '::' separates"),
+    ({**TABLE, "columns": {"x": {**COLUMNS["x"], "role": "foo"}}}, "role: input should be 'response' or 'excitation'"),
 ])
 def test_refuses(files, file, message):
     with pytest.raises(ConfigError, match=message):
         read(files, file)
+
+
+def test_a_mistake_is_told_in_one_line(files):
+    with pytest.raises(ConfigError) as error:
+        read(files, {**TABLE, "sample_rate": 10, "run": "a"})
+    told = str(error.value)
+    assert len(told.splitlines()) == 2 and "files.0.run: unknown key; did you mean 'runs'?" in told
+
+
+def test_conditions_reach_the_runs_from_yaml(files):
+    """A condition has a value and a unit, and is no value with its origin."""
+    (files / "case.yaml").write_text("""
+chain: recording
+recording:
+  files:
+  - {kind: matlab, file: a.mat, time: t, columns: {x: {column: pos, unit: mm, measures: displacement}},
+     runs: {all: {conditions: {load: {value: 5, unit: kN}}}}}
+""")
+    found = case.load(files / "case.yaml", {"recording": ("recording",)}, stages.load)
+    run = recording(settings=found.sections["recording"]).runs["all"]
+    assert run.conditions["load"].value.tolist() == [5000.0] and str(run.conditions["load"].unit) == "N"
 
 
 def test_a_run_name_is_taken_once(files):

@@ -1,6 +1,6 @@
 """The first screen says what the products say."""
 
-from dataclasses import replace
+from dataclasses import fields, replace
 
 import numpy as np
 
@@ -69,6 +69,16 @@ def test_a_case_that_ends_early_gets_no_verdict():
 def test_published_squeal_lines_come_from_the_comparison_in_hertz():
     np.testing.assert_allclose(published_squeal(small.comparison()), [16600.0, 17800.0])
     assert published_squeal(None) == ()
+
+
+def test_a_comparison_with_nothing_is_none():
+    """A brake of one's own: comparison: {reference: null}."""
+    comparison = small.comparison()
+    none = replace(comparison, **{f.name: getattr(comparison, f.name)[:0] for f in fields(comparison)
+                                  if f.metadata.get("dims", ("",))[0] == "row"})
+    told = words(verdict(small.products(comparison=none), (("a.b", "1"),)))
+    assert "Nothing published was compared" in told and "published facts" not in told
+    assert "does not say which facts" not in told
 
 
 def test_tuned_settings_without_tuned_facts_are_told():
