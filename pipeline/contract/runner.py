@@ -145,10 +145,9 @@ class Run:
         if not os.access(self.folder, os.W_OK | os.X_OK):      # now, not after minutes of computing
             raise _closed(self.folder, os.strerror(errno.EACCES))
         inputs, now = self._inputs(stage), self.fingerprint(stage)
-        for product in self.filled(stage).values():
+        for product in self.filled(stage).values():     # also those that a stage which reads all might never read
             if now is None and product and store.identity(self.path(product)) is None:
-                raise ProductError(self.path(product), f"the product {product.name}", _unreadable(self.path(product)),
-                                   f"run 'brakechain {product.name.replace('_', '-')}' first")
+                store.read(product, self.path(product))     # says what is wrong with it
         wall, cpu = time.perf_counter(), _cpu_seconds(context)
         with context.stage(stage):
             output = stage(**inputs, settings=self.case.sections[stage.name], context=context)

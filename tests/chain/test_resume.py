@@ -36,7 +36,7 @@ def test_a_changed_setting_reruns_its_stage_and_what_follows(copy):
 def test_a_report_of_products_that_are_gone_is_refused_and_the_old_one_stays(copy):
     (copy / "effects.h5").unlink()
     told = brakechain("report", QUICK, "--run", copy, code=4).stderr
-    assert "effects.h5: expected the product effects, found not computed yet; run 'brakechain effects' first" in told
+    assert "effects.h5: expected the product effects, found no file; run 'brakechain effects' first" in told
     assert (copy / "report.html").exists()
 
 

@@ -18,7 +18,7 @@ def roots(bench):
 
 
 def test_it_uses_nothing_of_what_solves_it():
-    parts = {"pipeline.trial", "pipeline.trial.flutter", "pipeline.trial.pin_bench"}
+    parts = {"pipeline.trial", "pipeline.trial.flutter", "pipeline.trial.pin_bench", "pipeline.contract.errors"}
     assert imported("pipeline.trial.flutter") <= parts
 
 
