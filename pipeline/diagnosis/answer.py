@@ -104,7 +104,7 @@ def _hypotheses(found):
     if known:
         nothing = found.base.posterior[0]
         rows[0]["posterior"], share = nothing, (1 - nothing) * share
-        rows.append(_alone(found))
+        rows.append(_alone(found) | {"posterior": share[0]})
     for k, candidate in enumerate(screen.candidates):
         own = weighed.get(candidate.name)
         rows.append(_screened(screen, k, own) | {
@@ -119,7 +119,7 @@ def _alone(found):
     before, effects = found.base, found.nominal.effects
     k = next(k for k, c in enumerate(before.screen.candidates) if c.effects == effects)
     own = next(w for w in before.weighed if w.candidate.effects == effects)
-    return _screened(before.screen, k, own) | {"posterior": (1 - before.posterior[0]) * found.posterior[0]}
+    return _screened(before.screen, k, own)
 
 
 def _screened(screen, k, own):

@@ -9,13 +9,11 @@ from pipeline.benches.effect_block import written
 from pipeline.contract import documents as yaml
 from pipeline.diagnosis.latent_law import LABEL
 from pipeline.diagnosis.question import split_name
-from pipeline.effects import CATALOGUE
+from pipeline.diagnosis.simulation import NAMES
 
 SCHEMA = "brakechain-diagnosis/1"
 #: hypotheses that are listed beside those named
 ALTERNATIVES = 5
-#: effects that a case can state; the solver and the friction map are none
-_STATED = frozenset(effect.name for effect in CATALOGUE)
 
 
 def companions(product, case):
@@ -48,7 +46,7 @@ def completed_name(product, case_name):
     if verdict == "parameters":
         return f"{case_name}_with_other_values.yaml"
     effects = dict.fromkeys(e for k in _completing(product) for e in str(product.effect[k]).split(" + "))
-    stated = effects and _STATED.issuperset(effects)
+    stated = effects and NAMES.issuperset(effects)
     return f"{case_name}_with_{'_and_'.join(effects)}.yaml" if stated else ""
 
 

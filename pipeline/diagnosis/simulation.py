@@ -19,7 +19,8 @@ from pipeline.physics.bench import MOTIONS, respond
 
 #: the solver as a hypothesis: its place, and its parameter: 0 as it is, 1 with half its step (4/3: none, at order 2)
 STEP, SOLVER, REFINEMENT = "time_step", "solver", "refinement"
-_NAMES = frozenset(effect.name for effect in CATALOGUE)
+#: names of all effects; the solver and the friction map are none
+NAMES = frozenset(effect.name for effect in CATALOGUE)
 
 
 def observed(recorded, noise_std=None, held_out=False):
@@ -42,7 +43,7 @@ def completed(bench, hypothesis, values):
 
 def terms(hypothesis, values):
     """Terms of a Hypothesis with its ``values``; what is no effect of the catalogue, as the solver, is none."""
-    found = {pair: {} for pair in hypothesis.effects if pair[0] in _NAMES}
+    found = {pair: {} for pair in hypothesis.effects if pair[0] in NAMES}
     for name, value in values.items():
         effect, place, own = split_name(name)
         if (effect, place) in found:

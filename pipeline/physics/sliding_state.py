@@ -21,7 +21,7 @@ import numpy as np
 from pipeline.contract.errors import ConfigError, ConvergenceError
 from pipeline.physics.friction_law import friction_at
 from pipeline.physics.sliding_model import FrictionState, SlidingModel
-from pipeline.physics.static_contact import Preload, normal_force
+from pipeline.physics.static_contact import Preload, first_slope, normal_force
 
 _ITERATIONS = 60
 _HALVINGS = 20
@@ -148,7 +148,7 @@ class _Equilibrium:
     def contacts_balance(self, closure, slope, step):
         """Whether a ``step`` changes no force; an open contact counts as if it were just closed."""
         first = np.where(self.model.contacts.fixed, 0.0,
-                         self.model.contacts.area * self.law_pressure[1] / self.law_closure[1])
+                         first_slope(self.model.contacts.area, self.law_closure, self.law_pressure))
         largest = max(self.contact(closure)[0].max(), (first * np.abs(self.free)).max())
         return np.abs(np.maximum(slope, first) * step).max() <= _TOLERANCE * largest
 

@@ -72,7 +72,7 @@ def solve_preload(compliance, free_closure, area, law_closure, law_pressure):
     if (free_closure <= 0).all():
         raise ConfigError("preload", "pads that touch the disc under the load",
                           f"gaps of at least {-free_closure.max():g} m", "check the piston force and the positions")
-    closure, first = np.full_like(free_closure, law_closure[1]), area * law_pressure[1] / law_closure[1]
+    closure, first = np.full_like(free_closure, law_closure[1]), first_slope(area, law_closure, law_pressure)
     force, slope = normal_force(closure, area, law_closure, law_pressure)
     miss = closure - free_closure + compliance @ force
     for _ in range(_STEPS):
@@ -91,6 +91,11 @@ def solve_preload(compliance, free_closure, area, law_closure, law_pressure):
             return Preload(force, slope, closure)
     raise ConvergenceError("preload", f"contact forces that balance within {_TOLERANCE:g}",
                            f"{np.abs(balance).max() / largest:.1e}", "raise the load or soften the contact law")
+
+
+def first_slope(area, law_closure, law_pressure):
+    """Stiffness (c,) N/m of patches that have just closed."""
+    return area * law_pressure[1] / law_closure[1]
 
 
 def normal_force(closure, area, law_closure, law_pressure):
