@@ -3,7 +3,7 @@
 import numpy as np
 import scipy.sparse as sp
 
-from pipeline.physics.body_reduction import ElasticBody
+from pipeline.physics.reduction.body import ElasticBody
 from pipeline.products import Body, Incidence, PinOnDisc, Structure
 
 #: what presses the contacts of a system, in its fields <input>_rows and <input>_area

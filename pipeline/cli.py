@@ -94,12 +94,12 @@ def _job(config, folder, overrides):
     """The case and its run folder, checked, with the sparse solver resolved."""
     from pipeline import measured
     from pipeline.contract import case, runner
-    from pipeline.physics import linear_solver
+    from pipeline.physics.numerics import sparse_solver
 
     chosen = case.load(config, stages.CHAINS, stages.load, overrides, measured.path)
-    solver = linear_solver.available()[0] if chosen.solver == "auto" else chosen.solver
-    if solver not in linear_solver.available():
-        raise click.BadParameter(f"{config}: solver: expected one of {', '.join(linear_solver.available())} on this"
+    solver = sparse_solver.available()[0] if chosen.solver == "auto" else chosen.solver
+    if solver not in sparse_solver.available():
+        raise click.BadParameter(f"{config}: solver: expected one of {', '.join(sparse_solver.available())} on this"
                                  f" machine, found {solver!r}")
     return runner.Run(chosen, folder or RUNS / chosen.name, solver)
 

@@ -7,14 +7,14 @@ import numpy as np
 from scipy.optimize import differential_evolution
 
 from pipeline.contract import BrakechainError, Context, Quantities, Quantity, Section, option, stage
-from pipeline.physics.bursts import bursts, harmonic_lines
-from pipeline.physics.dry_friction import constant
-from pipeline.physics.evolution import evolve, stretch_samples
-from pipeline.physics.hard_contact import growth, hard_sliding
-from pipeline.physics.sliding_model import Contacts, Joints, SlidingModel
-from pipeline.physics.spectra import power_spectrum
-from pipeline.physics.time_stepping import Hard, simulate
-from pipeline.physics.time_stepping_start import steady_start
+from pipeline.physics.friction.dry_friction import constant
+from pipeline.physics.numerics.search import evolve, stretch_samples
+from pipeline.physics.signals.bursts import bursts, harmonic_lines
+from pipeline.physics.signals.spectra import power_spectrum
+from pipeline.physics.sliding.model import Contacts, Joints, SlidingModel
+from pipeline.physics.stability.constrained_modes import growth, hard_sliding
+from pipeline.physics.time_stepping.initial_state import steady_start
+from pipeline.physics.time_stepping.simulate import Hard, simulate
 from pipeline.products import BeamGeometry
 from pipeline.systems.beam_geometry import (
     GEOMETRY,

@@ -6,8 +6,8 @@ import numpy as np
 
 from pipeline.contract import ConfigError, Context, InputFile, Quantity, Section, option, stage
 from pipeline.contract.documents import read_yaml
-from pipeline.physics.beam_reduction import beam_modes
-from pipeline.physics.hard_coalescence import coalescences, friction_over_frequency
+from pipeline.physics.reduction.beam import beam_modes
+from pipeline.physics.stability.coalescence import coalescences, friction_over_frequency
 from pipeline.products import BeamOnBeam
 from pipeline.systems.beam_on_beam import BODIES, build, joined, touching, upwards
 

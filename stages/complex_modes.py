@@ -16,15 +16,15 @@ from scipy.linalg import eigvalsh
 from pipeline.benches.effect_block import conditions, physics_terms
 from pipeline.benches.steady import Posed, Steady, branch_stiffness, posed, refuse_twice
 from pipeline.contract import ConfigError, Context, Quantities, Quantity, Section, option, stage
-from pipeline.physics.dry_friction import Friction, constant, falling
-from pipeline.physics.friction_corrections import FrictionBasis, friction_basis
-from pipeline.physics.friction_law import FrictionLaw, refuse_beyond
-from pipeline.physics.hard_contact import allowed_motions, hard_sliding, is_hard
-from pipeline.physics.quadratic_modes import follow_roots, quadratic_modes, quadratic_roots, upper_half
-from pipeline.physics.sliding_model import SlidingModel
-from pipeline.physics.sliding_state import ClosureResponse, closure_response, falling_with_speed, from_map
-from pipeline.physics.tangential_law import tangential_law
-from pipeline.physics.time_stepping import Table
+from pipeline.physics.friction.dry_friction import Friction, constant, falling
+from pipeline.physics.friction.friction_table import FrictionLaw, refuse_beyond
+from pipeline.physics.friction.tangential_law import tangential_law
+from pipeline.physics.modal.quadratic_eigenproblem import follow_roots, quadratic_modes, quadratic_roots, upper_half
+from pipeline.physics.sliding.equilibrium import ClosureResponse, closure_response, falling_with_speed, from_map
+from pipeline.physics.sliding.model import SlidingModel
+from pipeline.physics.stability.constrained_modes import allowed_motions, hard_sliding, is_hard
+from pipeline.physics.stability.friction_basis import FrictionBasis, friction_basis
+from pipeline.physics.time_stepping.simulate import Table
 from pipeline.products import ComplexModes, Effects, FrictionMap, ReducedModel
 
 #: friction values of one task of the fan-out

@@ -6,8 +6,8 @@ import numpy as np
 
 from pipeline.contract import Context, Quantity, Section, option, stage
 from pipeline.physics.closed_form.cattaneo_mindlin import tangential_load
-from pipeline.physics.dry_friction import DESCRIPTIONS
-from pipeline.physics.friction_descriptions import block_on_drive, curve_error, run
+from pipeline.physics.friction.description_study import block_on_drive, curve_error, run
+from pipeline.physics.friction.dry_friction import DESCRIPTIONS
 from pipeline.products import FrictionDescriptions, InterfaceLaw
 
 #: initial stiffness of one Hertz contact over limit per sliding displacement, and the exponent of its own curve

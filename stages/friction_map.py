@@ -3,7 +3,7 @@
 import numpy as np
 
 from pipeline.contract import Context, Section, option, stage
-from pipeline.physics.friction_law import refine
+from pipeline.physics.friction.friction_table import refine
 from pipeline.products import FrictionMap, MicroFriction
 
 

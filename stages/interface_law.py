@@ -5,7 +5,7 @@ from typing import Literal
 import numpy as np
 
 from pipeline.contract import ConfigError, Context, Quantity, Section, option, stage
-from pipeline.physics.interface_law import (
+from pipeline.physics.rough.summit_model import (
     Summits,
     elastic,
     evolved,

@@ -7,20 +7,20 @@ import numpy as np
 
 from pipeline.assembled import elastic_body
 from pipeline.contract import ConfigError, Context, Quantities, Quantity, Section, option, stage
-from pipeline.physics.body_exchange import exchanged
-from pipeline.physics.body_reduction import reduce_body
-from pipeline.physics.dry_friction import constant
-from pipeline.physics.limit_cycle import cycle
-from pipeline.physics.lock_in import KINDS, NONE, harmonic_levels
-from pipeline.physics.lock_in import lock_in as classified
-from pipeline.physics.quadratic_modes import quadratic_roots
-from pipeline.physics.sliding_model import sliding_model
-from pipeline.physics.static_contact import normal_force
-from pipeline.physics.supports import held_modes
-from pipeline.physics.tangential_law import tangential_law
-from pipeline.physics.time_stepping import Penalty, simulate
-from pipeline.physics.time_stepping_linear import modal_system
-from pipeline.physics.time_stepping_start import steady_start
+from pipeline.physics.contact.static_preload import normal_force
+from pipeline.physics.fem.supports import held_modes
+from pipeline.physics.friction.dry_friction import constant
+from pipeline.physics.friction.tangential_law import tangential_law
+from pipeline.physics.modal.quadratic_eigenproblem import quadratic_roots
+from pipeline.physics.reduction.body import reduce_body
+from pipeline.physics.signals.limit_cycle import cycle
+from pipeline.physics.sliding.body_exchange import exchanged
+from pipeline.physics.sliding.model import sliding_model
+from pipeline.physics.stability.lock_in import KINDS, NONE, harmonic_levels
+from pipeline.physics.stability.lock_in import lock_in as classified
+from pipeline.physics.time_stepping.initial_state import steady_start
+from pipeline.physics.time_stepping.modal_integrator import modal_system
+from pipeline.physics.time_stepping.simulate import Penalty, simulate
 from pipeline.products import Effects, LockIn, PinOnDisc, ReducedModel
 from pipeline.systems.pin_on_disc import reshaped
 

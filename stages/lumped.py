@@ -10,8 +10,8 @@ import numpy as np
 
 from pipeline.contract import ConfigError, Context, InputFile, Quantities, Quantity, Section, option, stage
 from pipeline.contract.units import to_si
-from pipeline.physics import histories
-from pipeline.physics.set_contacts import static_forces
+from pipeline.physics.contact.static_forces import static_forces
+from pipeline.physics.signals import input_histories as histories
 from pipeline.products import Lumped
 from pipeline.recordings.columns import read_columns
 from pipeline.systems import lumped as system

@@ -7,8 +7,8 @@ import numpy as np
 from pipeline.benches.effect_block import rubbing_with_effects
 from pipeline.benches.rubbing import Settings, cycle_distance, offsets, rough_pair, rubbing, shifted
 from pipeline.contract import ConfigError, Context, stage, stored
-from pipeline.physics.rough_contact import contact_area, solve_normal_contact
-from pipeline.physics.rough_friction import slide
+from pipeline.physics.rough.normal_contact import contact_area, solve_normal_contact
+from pipeline.physics.rough.sliding_pair import slide
 from pipeline.products import Effects, MicroFriction, Surface
 
 

@@ -7,13 +7,13 @@ from typing import Literal
 import numpy as np
 
 from pipeline.contract import ConfigError, Context, Quantities, Quantity, Section, option, stage
-from pipeline.physics.bursts import bursts, harmonic_lines
-from pipeline.physics.dry_friction import constant
-from pipeline.physics.sliding_model import sliding_model
-from pipeline.physics.spectra import power_spectrum
-from pipeline.physics.time_stepping import Forward, Hard, Lagrange, simulate
-from pipeline.physics.time_stepping_linear import modal_system
-from pipeline.physics.time_stepping_start import random_kick, steady_start
+from pipeline.physics.friction.dry_friction import constant
+from pipeline.physics.signals.bursts import bursts, harmonic_lines
+from pipeline.physics.signals.spectra import power_spectrum
+from pipeline.physics.sliding.model import sliding_model
+from pipeline.physics.time_stepping.initial_state import random_kick, steady_start
+from pipeline.physics.time_stepping.modal_integrator import modal_system
+from pipeline.physics.time_stepping.simulate import Forward, Hard, Lagrange, simulate
 from pipeline.products import MotionScatter, ReducedModel
 
 #: multiples of the fundamental that are told

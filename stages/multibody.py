@@ -10,15 +10,14 @@ import numpy as np
 from pipeline.benches.effect_block import conditions, physics_terms
 from pipeline.benches.pads import braked, kept, refuse_idle, with_terms
 from pipeline.contract import ConfigError, Context, Quantities, Quantity, Section, option, stage
-from pipeline.physics import multibody as exudyn_model
-from pipeline.physics import newmark
-from pipeline.physics.contact_history import contact_history
-from pipeline.physics.friction_law import FrictionLaw
-from pipeline.physics.oscillation import FEWEST_PERIODS, dominant_frequency, growth_rate, sign_is_decided
-from pipeline.physics.pad_motion import gravity_rows, sliding_axes
-from pipeline.physics.pad_system import pad_system, static_start
-from pipeline.physics.preloaded_modes import preloaded_modes
-from pipeline.physics.stability_map import stability_map
+from pipeline.physics.friction.friction_table import FrictionLaw
+from pipeline.physics.pads import exudyn_model, newmark
+from pipeline.physics.pads.contact_history import contact_history
+from pipeline.physics.pads.pad_motion import gravity_rows, sliding_axes
+from pipeline.physics.pads.pad_system import pad_system, static_start
+from pipeline.physics.pads.preloaded_modes import preloaded_modes
+from pipeline.physics.pads.stability_map import stability_map
+from pipeline.physics.signals.oscillation import FEWEST_PERIODS, dominant_frequency, growth_rate, sign_is_decided
 from pipeline.products import Effects, FrictionMap, Multibody, ReducedModel
 
 DISC = "disc"

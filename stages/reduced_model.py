@@ -11,7 +11,7 @@ from scipy.linalg import block_diag
 
 from pipeline.assembled import INPUTS, elastic_body, row_fields
 from pipeline.contract import Context, Quantity, Section, option, stage
-from pipeline.physics.body_reduction import reduce_body
+from pipeline.physics.reduction.body import reduce_body
 from pipeline.products import BeamOnBeam, Lumped, PinOnDisc, ReducedModel, Structure
 
 #: the tangential law of a system that has none: its friction comes from a map or from settings

@@ -7,11 +7,11 @@ from typing import Literal
 import numpy as np
 
 from pipeline.contract import ConfigError, Context, Quantity, Section, option, stage
-from pipeline.physics.force_mapping import circle_table
-from pipeline.physics.mesh import Mesh, boundary_faces
-from pipeline.physics.modal_response import Points, fixed_points, modal_response, sharpened, undamped_modes
-from pipeline.physics.sliding_model import sliding_model
-from pipeline.physics.spectra import power_spectrum
+from pipeline.physics.fem.force_mapping import circle_table
+from pipeline.physics.fem.mesh import Mesh, boundary_faces
+from pipeline.physics.modal.modal_superposition import Points, fixed_points, modal_response, sharpened, undamped_modes
+from pipeline.physics.signals.spectra import power_spectrum
+from pipeline.physics.sliding.model import sliding_model
 from pipeline.products import Multibody, ReducedModel, Response, Structure
 
 #: samples per period of the highest mode below which its velocity is not shown faithfully

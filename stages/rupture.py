@@ -7,12 +7,12 @@ from typing import Literal
 import numpy as np
 
 from pipeline.contract import ConfigError, Context, Quantities, Quantity, Section, option, stage
-from pipeline.physics import rupture_fronts as fronts
 from pipeline.physics.closed_form.slip_pulse import intersonic_pulse_speeds
 from pipeline.physics.closed_form.wave_speeds import Solid, generalised_rayleigh_speed, rayleigh_speed
-from pipeline.physics.rupture import OPEN
-from pipeline.physics.rupture_history import run
-from pipeline.physics.rupture_mach import View, front_angle
+from pipeline.physics.rupture import fronts
+from pipeline.physics.rupture.dynamics import OPEN
+from pipeline.physics.rupture.history import run
+from pipeline.physics.rupture.mach_fronts import View, front_angle
 from pipeline.products import Rupture
 from pipeline.systems.bimaterial_rupture import Parameters, build, refuse
 

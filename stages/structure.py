@@ -8,10 +8,10 @@ import scipy.sparse as sp
 
 from pipeline.assembled import assembly_fields, body_product, incidence
 from pipeline.contract import Context, ConvergenceError, InputFile, Quantities, Quantity, Section, option, stage
-from pipeline.physics.disc_modes import describe
-from pipeline.physics.friction_law import refuse_beyond
-from pipeline.physics.static_contact import condense, contact_law, solve_preload
-from pipeline.physics.supports import free_freedoms, held_modes
+from pipeline.physics.contact.static_preload import condense, contact_law, solve_preload
+from pipeline.physics.fem.supports import free_freedoms, held_modes
+from pipeline.physics.friction.friction_table import refuse_beyond
+from pipeline.physics.modal.disc_modes import describe
 from pipeline.products import FrictionMap, Structure
 from pipeline.systems.disc_brake import BODIES, build
 

@@ -5,10 +5,10 @@ from typing import Literal
 import numpy as np
 
 from pipeline.contract import ConfigError, Context, InputFile, Quantity, Section, option, stage
-from pipeline.physics.layered_solid import graded_depth
-from pipeline.physics.rough_surface import band_limit, plateau_pad, resample, turned_disc
-from pipeline.physics.topography import isotropic_spectrum, level, read_scan, remove_outliers, statistics, to_grid
-from pipeline.physics.worn_depth import without_plane
+from pipeline.physics.rough.generator import band_limit, plateau_pad, resample, turned_disc
+from pipeline.physics.rough.layered_solid import graded_depth
+from pipeline.physics.rough.topography import isotropic_spectrum, level, read_scan, remove_outliers, statistics, to_grid
+from pipeline.physics.rough.worn_depth import without_plane
 from pipeline.products import Surface
 from pipeline.recordings.neutral import read_neutral
 

@@ -9,12 +9,12 @@ from pipeline.benches.bench import about
 from pipeline.benches.effect_block import with_effects
 from pipeline.benches.laws import Laws
 from pipeline.contract import ConfigError, Context, Quantities, Quantity, option, stage
-from pipeline.physics.dry_friction import constant
-from pipeline.physics.limit_cycle import cycle, harmonic_levels
-from pipeline.physics.spectra import power_spectrum
-from pipeline.physics.time_stepping import History, Start, simulate
-from pipeline.physics.time_stepping_linear import modal_system
-from pipeline.physics.time_stepping_start import random_kick, steady_start
+from pipeline.physics.friction.dry_friction import constant
+from pipeline.physics.signals.limit_cycle import cycle, harmonic_levels
+from pipeline.physics.signals.spectra import power_spectrum
+from pipeline.physics.time_stepping.initial_state import random_kick, steady_start
+from pipeline.physics.time_stepping.modal_integrator import modal_system
+from pipeline.physics.time_stepping.simulate import History, Start, simulate
 from pipeline.products import Effects, ReducedModel, Transient
 
 

@@ -7,7 +7,7 @@ import pytest
 import scipy.sparse as sp
 
 from pipeline.assembled import body_product, body_rows, elastic_body, incidence, row_fields
-from pipeline.physics.supports import free_freedoms
+from pipeline.physics.fem.supports import free_freedoms
 from pipeline.products import PinOnDisc, Structure
 from pipeline.systems.solids import Rows
 from tests.stages.small_structure import small_structure

@@ -52,7 +52,7 @@ MAY_IMPORT = {
     "pipeline.cli_trial": {"pipeline.cli_options", "pipeline.concealed", "pipeline.contract",
                            "pipeline.trial.systems.SYSTEMS", "pipeline.views.trial"},
     "pipeline.cli": {"pipeline.cli_options", "pipeline.cli_trial", "pipeline.contract", "pipeline.console",
-                     "pipeline.inspection", "pipeline.measured", "pipeline.physics.linear_solver",
+                     "pipeline.inspection", "pipeline.measured", "pipeline.physics.numerics.sparse_solver",
                      "pipeline.recordings.neutral", "pipeline.schema", "stages", "pipeline.benches",
                      "pipeline.diagnosis.planning"},
     "pipeline.__main__": {"pipeline.cli", "pipeline.environment"},
@@ -66,9 +66,9 @@ DOORS = {
     "cryptography": {"pipeline.concealed.sealing"}, "pint": {"pipeline.contract.units"},
     "pydantic": {"pipeline.contract.settings", "pipeline.published", "pipeline.measured"},
     "pooch": {"pipeline.measured"}, "distributed": {"pipeline.contract.executor"},
-    "skfem": {"pipeline.physics.elasticity", "pipeline.physics.faces", "pipeline.physics.layer_element"},
-    "meshio": {"pipeline.physics.mesh"}, "exudyn": {"pipeline.physics.multibody"},
-    "pypardiso": {"pipeline.physics.linear_solver"}, "SurfaceTopography": {"pipeline.physics.topography"},
+    "skfem": {"pipeline.physics.fem.elasticity", "pipeline.physics.fem.face_averages", "pipeline.physics.rough.layer_element"},
+    "meshio": {"pipeline.physics.fem.mesh"}, "exudyn": {"pipeline.physics.pads.exudyn_model"},
+    "pypardiso": {"pipeline.physics.numerics.sparse_solver"}, "SurfaceTopography": {"pipeline.physics.rough.topography"},
     "pyvista": {"pipeline.views"}, "matplotlib": {"pipeline.views"}, "jinja2": {"pipeline.views"},
 }
 #: packages that must not be loaded before they are needed

@@ -8,9 +8,9 @@ import numpy as np
 from pipeline.benches import corrections
 from pipeline.benches.laws import Laws, friction_law, normal_law
 from pipeline.contract import ConfigError, Quantity, Section, option
-from pipeline.physics.bench import FORCES, MOTIONS, Bench, Channel
-from pipeline.physics.doublets import doublets
-from pipeline.physics.sliding_model import sliding_model
+from pipeline.physics.sliding.doublets import doublets
+from pipeline.physics.sliding.model import sliding_model
+from pipeline.physics.virtual_rig.response import FORCES, MOTIONS, Bench, Channel
 
 
 class Sensor(Section):

@@ -20,9 +20,9 @@ import numpy as np
 
 from pipeline.contract import ConfigError
 from pipeline.contract.units import to_si
-from pipeline.physics.elements import Element, Wave
-from pipeline.physics.friction_law import FrictionLaw
-from pipeline.physics.time_stepping import Penalty
+from pipeline.physics.friction.friction_table import FrictionLaw
+from pipeline.physics.time_stepping.elements import Element, Wave
+from pipeline.physics.time_stepping.simulate import Penalty
 
 
 def known(bench):

@@ -11,7 +11,7 @@ from pipeline.contract import ConfigError, Quantity, option, section
 from pipeline.effects import CATALOGUE, named
 from pipeline.effects.effect import Term, compose
 from pipeline.effects.typical import ASPERITIES, Typical
-from pipeline.physics.dry_friction import under
+from pipeline.physics.friction.dry_friction import under
 from pipeline.products import Effects
 
 

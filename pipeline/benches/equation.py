@@ -10,9 +10,9 @@ import numpy as np
 
 from pipeline.benches.runs import Recorded
 from pipeline.contract import ConfigError
-from pipeline.physics.bench import MOTIONS, Run
-from pipeline.physics.equation_residual import applied_force, coordinates, forces_missing, smoothed, thinned
-from pipeline.physics.time_stepping import Start
+from pipeline.physics.time_stepping.simulate import Start
+from pipeline.physics.virtual_rig.force_residual import applied_force, coordinates, forces_missing, smoothed, thinned
+from pipeline.physics.virtual_rig.response import MOTIONS, Run
 
 #: samples of the parabola whose slope is the speed at the start
 _FIRST = 7

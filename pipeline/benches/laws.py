@@ -5,9 +5,9 @@ from typing import Literal
 import numpy as np
 
 from pipeline.contract import ConfigError, Quantity, Section, option
-from pipeline.physics.dry_friction import constant, falling
-from pipeline.physics.tangential_law import tangential_law
-from pipeline.physics.time_stepping import Forward, Hard, Lagrange, Penalty, Table
+from pipeline.physics.friction.dry_friction import constant, falling
+from pipeline.physics.friction.tangential_law import tangential_law
+from pipeline.physics.time_stepping.simulate import Forward, Hard, Lagrange, Penalty, Table
 
 
 class Laws(Section):

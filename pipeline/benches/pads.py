@@ -8,16 +8,16 @@ from pipeline.benches.bench import groups
 from pipeline.contract import ConfigError
 from pipeline.effects import CATALOGUE
 from pipeline.effects.effect import compose
-from pipeline.physics.bench import Bench
-from pipeline.physics.contact_groups import parts
-from pipeline.physics.doublets import doublets
-from pipeline.physics.dry_friction import FIRST, Friction, kernel, under
-from pipeline.physics.elements import Gap, Polynomial, Power, Softening, Wave, wave_table
-from pipeline.physics.friction_states import Scatter
-from pipeline.physics.pad_system import pad_elements
-from pipeline.physics.sliding_model import sliding_model
-from pipeline.physics.time_stepping import Table
-from pipeline.physics.time_stepping_laws import normal_kernel
+from pipeline.physics.contact.groups import parts
+from pipeline.physics.friction.dry_friction import FIRST, Friction, kernel, under
+from pipeline.physics.friction.state_variables import Scatter
+from pipeline.physics.pads.pad_system import pad_elements
+from pipeline.physics.sliding.doublets import doublets
+from pipeline.physics.sliding.model import sliding_model
+from pipeline.physics.time_stepping.elements import Gap, Polynomial, Power, Softening, Wave, wave_table
+from pipeline.physics.time_stepping.normal_laws import normal_kernel
+from pipeline.physics.time_stepping.simulate import Table
+from pipeline.physics.virtual_rig.response import Bench
 
 #: laws of elements without memory
 _WITHOUT_MEMORY = (Polynomial, Power, Gap, Softening, Wave)

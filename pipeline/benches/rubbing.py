@@ -5,10 +5,10 @@ from dataclasses import replace
 import numpy as np
 
 from pipeline.contract import Quantities, Quantity, Section, option
-from pipeline.physics.flash_temperature import ThermalSolid
-from pipeline.physics.layered_solid import layered_compliance
-from pipeline.physics.rough_friction import RoughPair, Rubbing, Shearing, Solving, Wearing
-from pipeline.physics.rough_surface import resample
+from pipeline.physics.rough.flash_temperature import ThermalSolid
+from pipeline.physics.rough.generator import resample
+from pipeline.physics.rough.layered_solid import layered_compliance
+from pipeline.physics.rough.sliding_pair import RoughPair, Rubbing, Shearing, Solving, Wearing
 
 
 class Iron(Section):

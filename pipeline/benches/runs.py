@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from pipeline.contract import ConfigError
-from pipeline.physics.bench import Run
+from pipeline.physics.virtual_rig.response import Run
 
 
 @dataclass(frozen=True)

@@ -8,18 +8,18 @@ import numpy as np
 from pipeline.benches.bench import groups
 from pipeline.contract import ConfigError
 from pipeline.effects.effect import compose
-from pipeline.physics.bench import Bench
-from pipeline.physics.contact_groups import alike, read
-from pipeline.physics.doublets import doublets
-from pipeline.physics.dry_friction import constant, under
-from pipeline.physics.elements import Turning, bears
-from pipeline.physics.sliding_model import FrictionState, sliding_model, spread
-from pipeline.physics.sliding_state import given_state, steady_sliding
-from pipeline.physics.small_motion import element_slopes, friction_about, maxwell_branches, present, settling
-from pipeline.physics.static_contact import Preload
-from pipeline.physics.time_stepping import Hard, Penalty, Start, Table
-from pipeline.physics.time_stepping_laws import tangent
-from pipeline.physics.time_stepping_start import steady_start
+from pipeline.physics.contact.groups import alike, read
+from pipeline.physics.contact.static_preload import Preload
+from pipeline.physics.friction.dry_friction import constant, under
+from pipeline.physics.sliding.doublets import doublets
+from pipeline.physics.sliding.equilibrium import given_state, steady_sliding
+from pipeline.physics.sliding.model import FrictionState, sliding_model, spread
+from pipeline.physics.stability.linearisation import element_slopes, friction_about, maxwell_branches, present, settling
+from pipeline.physics.time_stepping.elements import Turning, bears
+from pipeline.physics.time_stepping.initial_state import steady_start
+from pipeline.physics.time_stepping.normal_laws import tangent
+from pipeline.physics.time_stepping.simulate import Hard, Penalty, Start, Table
+from pipeline.physics.virtual_rig.response import Bench
 
 #: step of a bench that is not stepped: dry friction of joints, which alone asks for it, is left out
 _STEP = 1e-6

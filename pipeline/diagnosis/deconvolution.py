@@ -16,8 +16,8 @@ from scipy.signal.windows import tukey
 
 from pipeline.contract import BrakechainError
 from pipeline.diagnosis.simulation import shown
-from pipeline.physics.bench import MOTIONS, Channel, respond
-from pipeline.physics.bench_roots import linearised
+from pipeline.physics.virtual_rig.response import MOTIONS, Channel, respond
+from pipeline.physics.virtual_rig.roots import linearised
 
 #: name of what is added to a bench: an input, or a sensor
 EXTRA = "latent"

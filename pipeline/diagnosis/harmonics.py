@@ -20,11 +20,11 @@ from pipeline.contract import BrakechainError, ConfigError, Quantity, Section, o
 from pipeline.diagnosis.lines import Alternative, Features, lines_of, question
 from pipeline.effects import named
 from pipeline.effects.effect import Term, compose
-from pipeline.physics.dry_friction import constant
-from pipeline.physics.limit_cycle import cycle, harmonic_levels
-from pipeline.physics.time_stepping import simulate
-from pipeline.physics.time_stepping_linear import modal_system
-from pipeline.physics.time_stepping_start import random_kick, steady_start
+from pipeline.physics.friction.dry_friction import constant
+from pipeline.physics.signals.limit_cycle import cycle, harmonic_levels
+from pipeline.physics.time_stepping.initial_state import random_kick, steady_start
+from pipeline.physics.time_stepping.modal_integrator import modal_system
+from pipeline.physics.time_stepping.simulate import simulate
 
 #: name of the recorded list of the base frequency
 BASE = "base"

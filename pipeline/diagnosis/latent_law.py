@@ -19,7 +19,7 @@ from pipeline.effects.stick import stick_stiffness
 from pipeline.inference.least_squares import ended, fit
 from pipeline.inference.priors import Normal, Parameter
 from pipeline.inference.problem import Problem
-from pipeline.physics.elements import Dry, Element, Polynomial, Power, Wave
+from pipeline.physics.time_stepping.elements import Dry, Element, Polynomial, Power, Wave
 
 #: largest p-value of a dependence that is used
 LEVEL = 0.01

@@ -19,7 +19,7 @@ from pipeline.inference import locate
 from pipeline.inference.decide import Rules
 from pipeline.inference.effective import effective_share
 from pipeline.inference.least_squares import whitened
-from pipeline.physics.bench import run_drive, run_inputs
+from pipeline.physics.virtual_rig.response import run_drive, run_inputs
 
 #: octaves below the highest frequency of the records that are bands of their own
 OCTAVES = 8

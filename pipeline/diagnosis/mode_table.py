@@ -11,7 +11,7 @@ from pipeline.diagnosis.line_match import assigned, chance, covered
 from pipeline.diagnosis.lines import FACTOR, Alternative, Features, lines_of, question
 from pipeline.diagnosis.next_lines import Check
 from pipeline.inference.priors import LogNormal, Parameter
-from pipeline.physics.disc_modes import describe
+from pipeline.physics.modal.disc_modes import describe
 
 #: computed lines closer than this share are one pair of a round disc
 _SPLIT = 0.01

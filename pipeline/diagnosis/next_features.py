@@ -9,7 +9,7 @@ from dataclasses import replace
 import numpy as np
 
 from pipeline.diagnosis.next_run import Planned, changed, words
-from pipeline.physics.bench import at_begin
+from pipeline.physics.virtual_rig.response import at_begin
 
 _LIFTED = "hammer, lifted"
 #: factors on the one load or speed that was recorded, where there is only one

@@ -12,8 +12,8 @@ import numpy as np
 from pipeline.benches.equation import balance
 from pipeline.contract import ConfigError
 from pipeline.diagnosis.next_run import Planned, changed, words
-from pipeline.physics.bench import MOTIONS
-from pipeline.physics.equation_residual import forces_missing, smoothed
+from pipeline.physics.virtual_rig.force_residual import forces_missing, smoothed
+from pipeline.physics.virtual_rig.response import MOTIONS
 
 #: what a recorded motion is planned with: factors on its size about its middle, and on its speed
 MOTION, PACE = "motion", "pace"

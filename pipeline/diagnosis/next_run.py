@@ -18,8 +18,8 @@ from pipeline.contract.units import to_si
 from pipeline.inference.least_squares import linearised
 from pipeline.inference.next_experiment import choose, predicted
 from pipeline.inference.problem import Observed
-from pipeline.physics.bench import Run, run_drive, run_inputs
-from pipeline.physics.normal_load import CONDITION as NORMAL_LOAD
+from pipeline.physics.virtual_rig.normal_load import CONDITION as NORMAL_LOAD
+from pipeline.physics.virtual_rig.response import Run, run_drive, run_inputs
 
 #: factor on the speed of the drive, whether it is constant or recorded
 DRIVE = "drive"

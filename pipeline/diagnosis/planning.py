@@ -21,7 +21,7 @@ from pipeline.inference import plan as mathematics
 from pipeline.inference.least_squares import linearised, whitened
 from pipeline.inference.noise import budget
 from pipeline.inference.problem import Observed, Problem
-from pipeline.physics.bench import Run
+from pipeline.physics.virtual_rig.response import Run
 
 #: quantile one standard deviation above the middle
 _ONE_SIGMA = 0.8413

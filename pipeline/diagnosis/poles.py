@@ -12,8 +12,15 @@ from scipy.optimize import linear_sum_assignment
 
 from pipeline.contract import ConfigError
 from pipeline.inference.problem import Observed
-from pipeline.physics.bench_modes import modes, motions, order_locked
-from pipeline.physics.free_decay import Poles, before_saturation, confirmed, fundamental, likeness, steady_poles
+from pipeline.physics.signals.pole_identification import (
+    Poles,
+    before_saturation,
+    confirmed,
+    fundamental,
+    likeness,
+    steady_poles,
+)
+from pipeline.physics.virtual_rig.modes import modes, motions, order_locked
 
 #: orders of the drive that slow turns are read for
 ORDERS = (1, 2, 3)

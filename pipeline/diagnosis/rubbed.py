@@ -26,8 +26,8 @@ from pipeline.inference.decide import Rules
 from pipeline.inference.noise import budget
 from pipeline.inference.priors import Normal, Parameter
 from pipeline.inference.problem import Hypothesis, Problem
-from pipeline.physics.friction_law import FrictionLaw
-from pipeline.physics.spot_table import friction, mean_wear, spot_table
+from pipeline.physics.friction.friction_table import FrictionLaw
+from pipeline.physics.rough.spot_table import friction, mean_wear, spot_table
 
 #: numbers of the section micro_friction that may be wrong, with their units
 UNIT_OF = {"pad.youngs_modulus": "Pa", "disc_strength": "Pa", "pad.wear_coefficient": "m^2/N",

@@ -13,11 +13,11 @@ from pipeline.benches.bench import only
 from pipeline.contract import BrakechainError
 from pipeline.diagnosis.location import fitted
 from pipeline.diagnosis.simulation import shown
-from pipeline.physics.bench import MOTIONS, Channel, at_begin, run_friction
-from pipeline.physics.normal_load import loaded
-from pipeline.physics.squeal_features import GROWING, SATURATED, agree, means, motion_features, saturated, state
-from pipeline.physics.time_stepping_linear import modal_system
-from pipeline.physics.time_stepping_start import random_kick, steady_start
+from pipeline.physics.signals.squeal_features import GROWING, SATURATED, agree, means, motion_features, saturated, state
+from pipeline.physics.time_stepping.initial_state import random_kick, steady_start
+from pipeline.physics.time_stepping.modal_integrator import modal_system
+from pipeline.physics.virtual_rig.normal_load import loaded
+from pipeline.physics.virtual_rig.response import MOTIONS, Channel, at_begin, run_friction
 
 #: who squeals, in the order of the tables
 WHO = ("recorded", "recalibrated", "completed")

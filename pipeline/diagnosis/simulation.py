@@ -15,7 +15,7 @@ from pipeline.effects.effect import Term, compose
 from pipeline.effects.typical import CHANNEL, typical
 from pipeline.inference.priors import Normal, Parameter
 from pipeline.inference.problem import Hypothesis, Observed
-from pipeline.physics.bench import MOTIONS, respond
+from pipeline.physics.virtual_rig.response import MOTIONS, respond
 
 #: the solver as a hypothesis: its place, and its parameter: 0 as it is, 1 with half its step (4/3: none, at order 2)
 STEP, SOLVER, REFINEMENT = "time_step", "solver", "refinement"

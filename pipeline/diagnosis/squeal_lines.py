@@ -13,7 +13,7 @@ from scipy.optimize import brentq
 from pipeline.contract import ConfigError, Quantity, Section, option
 from pipeline.diagnosis.line_match import Match, covered, match
 from pipeline.diagnosis.lines import Alternative, Features, lines_of, question
-from pipeline.physics.disc_modes import describe
+from pipeline.physics.modal.disc_modes import describe
 
 #: explained or not: half-way is two standard deviations
 _STD = 0.25

@@ -19,8 +19,8 @@ from pipeline.contract import BrakechainError
 from pipeline.diagnosis.location import fitted
 from pipeline.diagnosis.simulation import Simulated, shown
 from pipeline.inference import locate
-from pipeline.physics.free_decay import likeness
-from pipeline.physics.friction_law import FrictionLaw
+from pipeline.physics.friction.friction_table import FrictionLaw
+from pipeline.physics.signals.pole_identification import likeness
 
 #: name of the axis, and stages that can be measured
 AXIS, FRICTION, STRUCTURE = "substitution", "friction", "structure"

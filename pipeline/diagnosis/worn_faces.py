@@ -6,8 +6,8 @@ import numpy as np
 
 from pipeline.contract import ConfigError
 from pipeline.inference.problem import Observed
-from pipeline.physics.rough_friction import Drag
-from pipeline.physics.worn_depth import worn_depth
+from pipeline.physics.rough.sliding_pair import Drag
+from pipeline.physics.rough.worn_depth import worn_depth
 
 #: channels of a run, in the order of ``spot_table.mean_wear``
 FRICTION, WEAR = "friction", ("pad wear", "disc wear")

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from pipeline.physics.elements import Element
+from pipeline.physics.time_stepping.elements import Element
 
 
 def beside_joint(bench, effect, joint, law):

@@ -2,7 +2,7 @@
 
 from pipeline.effects.effect import Effect
 from pipeline.inference.priors import HalfNormal, Parameter
-from pipeline.physics.elements import Element, Gap
+from pipeline.physics.time_stepping.elements import Element, Gap
 
 
 def parameters(typical):

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 from pipeline.effects.effect import Effect
 from pipeline.inference.priors import Normal, Parameter
-from pipeline.physics.contact_groups import read, with_field
+from pipeline.physics.contact.groups import read, with_field
 
 
 def parameters(typical):

@@ -8,7 +8,7 @@ change. The direct effect of the speed is left to the law of friction itself.
 
 from pipeline.effects.effect import Effect
 from pipeline.inference.priors import HalfNormal, LogNormal, Parameter
-from pipeline.physics.friction_states import Healing
+from pipeline.physics.friction.state_variables import Healing
 
 #: sampling intervals that the typical delay takes
 _DELAY = 5

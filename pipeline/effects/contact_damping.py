@@ -11,7 +11,7 @@ import numpy as np
 from pipeline.contract.errors import ConfigError
 from pipeline.effects.effect import Effect
 from pipeline.inference.priors import HalfNormal, LogNormal, Parameter
-from pipeline.physics.time_stepping import Penalty, Table
+from pipeline.physics.time_stepping.simulate import Penalty, Table
 
 
 def parameters(typical):

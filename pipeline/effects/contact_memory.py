@@ -7,7 +7,7 @@ Growth rates against speed show it: the delay is L / |v|. L = 0 is friction with
 
 from pipeline.effects.effect import Effect
 from pipeline.inference.priors import HalfNormal, Parameter
-from pipeline.physics.friction_states import Memory
+from pipeline.physics.friction.state_variables import Memory
 
 #: sampling intervals that the typical delay takes
 _DELAY = 5

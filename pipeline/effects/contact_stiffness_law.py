@@ -8,7 +8,7 @@ import numpy as np
 from pipeline.contract.errors import ConfigError
 from pipeline.effects.effect import Effect
 from pipeline.inference.priors import HalfNormal, LogNormal, Parameter
-from pipeline.physics.time_stepping import Penalty, Table
+from pipeline.physics.time_stepping.simulate import Penalty, Table
 
 #: pressures that the table spans above the reference, and its samples
 _SPAN, _SAMPLES = 100.0, 400

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from pipeline.physics.elements import Waviness
+from pipeline.physics.time_stepping.elements import Waviness
 
 
 def sliding_angle(contacts, own):

@@ -8,7 +8,7 @@ the joint of the pins.
 from pipeline.effects.effect import Effect
 from pipeline.effects.stick import stick_stiffness
 from pipeline.inference.priors import HalfNormal, Parameter
-from pipeline.physics.elements import Dry, Element
+from pipeline.physics.time_stepping.elements import Dry, Element
 
 
 def parameters(typical):

@@ -3,7 +3,7 @@
 from pipeline.effects.attached import beside_joint
 from pipeline.effects.effect import Effect
 from pipeline.inference.priors import Normal, Parameter
-from pipeline.physics.elements import Polynomial
+from pipeline.physics.time_stepping.elements import Polynomial
 
 
 def parameters(typical):

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 from pipeline.contract.errors import ConfigError
 from pipeline.effects.typical import ASPERITIES, Typical, places, typical
-from pipeline.physics.rough_friction import Rubbing
+from pipeline.physics.rough.sliding_pair import Rubbing
 
 #: order in which effects are put on: what others refer to (joints, masses) first, sensors last
 STAGES = ("structure", "contact", "friction", "excitation", "measurement")

@@ -8,7 +8,7 @@ slip, s = 0 friction that keeps the direction of the drive.
 
 from pipeline.effects.effect import Effect
 from pipeline.inference.priors import Parameter, Uniform
-from pipeline.physics.elements import Element, Turning
+from pipeline.physics.time_stepping.elements import Element, Turning
 
 
 def parameters(typical):

@@ -8,7 +8,7 @@ import numpy as np
 from pipeline.effects.effect import Effect
 from pipeline.effects.friction_table import times
 from pipeline.inference.priors import LogNormal, Parameter, Uniform
-from pipeline.physics.friction_states import Distance
+from pipeline.physics.friction.state_variables import Distance
 
 #: samples of the exponential, over this many decay distances: within 2e-4 of the rise
 _SAMPLES, _SPAN = 601, 20.0

@@ -7,7 +7,7 @@ import numpy as np
 
 from pipeline.effects.effect import Effect
 from pipeline.inference.priors import Parameter, Uniform
-from pipeline.physics.friction_states import Scatter
+from pipeline.physics.friction.state_variables import Scatter
 
 
 def parameters(typical):

@@ -8,7 +8,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from pipeline.physics.friction_law import FrictionLaw
+from pipeline.physics.friction.friction_table import FrictionLaw
 
 
 def times(friction, axis, samples, factor):

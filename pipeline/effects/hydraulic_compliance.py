@@ -10,7 +10,7 @@ import numpy as np
 
 from pipeline.effects.effect import Effect
 from pipeline.inference.priors import HalfNormal, LogNormal, Parameter
-from pipeline.physics.elements import Element, Maxwell
+from pipeline.physics.time_stepping.elements import Element, Maxwell
 
 
 def parameters(typical):

@@ -7,7 +7,7 @@ The loss of a cycle grows as the power x + 3 of its amplitude, and the joint sof
 
 from pipeline.effects.effect import Effect
 from pipeline.inference.priors import LogNormal, Parameter, Uniform
-from pipeline.physics.elements import Element, iwan
+from pipeline.physics.time_stepping.elements import Element, iwan
 
 
 def parameters(typical):

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 from pipeline.effects.effect import Effect
 from pipeline.inference.priors import Normal, Parameter
-from pipeline.physics.dry_friction import Condition
+from pipeline.physics.friction.dry_friction import Condition
 
 #: relative humidity at which nominal friction holds
 _REFERENCE = 0.5

@@ -11,7 +11,7 @@ import numpy as np
 
 from pipeline.effects.effect import Effect
 from pipeline.inference.priors import HalfNormal, LogNormal, Parameter
-from pipeline.physics.sliding_model import Joints
+from pipeline.physics.sliding.model import Joints
 
 
 def parameters(typical):

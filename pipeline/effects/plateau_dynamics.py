@@ -8,7 +8,7 @@ pressure and speed, and gets there with a delay of at most tau.
 
 from pipeline.effects.effect import Effect
 from pipeline.inference.priors import HalfNormal, LogNormal, Parameter
-from pipeline.physics.friction_states import Plateaus
+from pipeline.physics.friction.state_variables import Plateaus
 
 
 def parameters(typical):

@@ -3,7 +3,7 @@
 from pipeline.effects.attached import beside_joint
 from pipeline.effects.effect import Effect
 from pipeline.inference.priors import HalfNormal, Parameter
-from pipeline.physics.elements import Power
+from pipeline.physics.time_stepping.elements import Power
 
 
 def parameters(typical):

@@ -12,7 +12,7 @@ import numpy as np
 from pipeline.effects.attached import beside_joint
 from pipeline.effects.effect import Effect
 from pipeline.inference.priors import LogNormal, Parameter, Uniform
-from pipeline.physics.elements import Maxwell
+from pipeline.physics.time_stepping.elements import Maxwell
 
 #: times of the branches in units of 1 / (2 pi f)
 _TIMES = 10 ** (np.arange(-2, 3) / 2)

@@ -7,7 +7,7 @@ x is the temperature in units of what the power q per area would reach; every ru
 
 from pipeline.effects.effect import Effect
 from pipeline.inference.priors import HalfNormal, LogNormal, Parameter
-from pipeline.physics.friction_states import Fade
+from pipeline.physics.friction.state_variables import Fade
 
 
 def parameters(typical):

@@ -2,7 +2,7 @@
 
 from pipeline.effects.effect import Effect
 from pipeline.inference.priors import LogNormal, Parameter, Uniform
-from pipeline.physics.elements import Element, Softening
+from pipeline.physics.time_stepping.elements import Element, Softening
 
 
 def parameters(typical):

@@ -7,7 +7,7 @@ import numpy as np
 
 from pipeline.effects.effect import Effect
 from pipeline.inference.priors import HalfNormal, Parameter, Uniform
-from pipeline.physics.elements import Element, Wave
+from pipeline.physics.time_stepping.elements import Element, Wave
 
 
 def parameters(typical):

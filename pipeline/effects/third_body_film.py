@@ -11,7 +11,7 @@ from dataclasses import replace
 from pipeline.effects.effect import Effect
 from pipeline.effects.typical import ASPERITIES
 from pipeline.inference.priors import HalfNormal, LogNormal, Parameter
-from pipeline.physics.friction_states import Film
+from pipeline.physics.friction.state_variables import Film
 
 
 def parameters(typical):

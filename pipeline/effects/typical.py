@@ -6,9 +6,9 @@ import numpy as np
 
 from pipeline.contract.errors import ConfigError
 from pipeline.effects.contact_surface import sliding_angle
-from pipeline.physics.bench import Channel, respond, run_drive, run_inputs
-from pipeline.physics.contact_groups import parts
-from pipeline.physics.time_stepping import Penalty, Table
+from pipeline.physics.contact.groups import parts
+from pipeline.physics.time_stepping.simulate import Penalty, Table
+from pipeline.physics.virtual_rig.response import Channel, respond, run_drive, run_inputs
 
 #: kinds of place that an effect can have; ``contact`` is a group of them, ``contacts`` all together, ``pressed
 #: contact`` a group that can open, which friction joints cannot, ``contact row`` one whose contacts lie one behind the

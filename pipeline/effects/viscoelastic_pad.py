@@ -10,7 +10,7 @@ import numpy as np
 from pipeline.effects.attached import beside_joint
 from pipeline.effects.effect import Effect
 from pipeline.inference.priors import HalfNormal, LogNormal, Parameter
-from pipeline.physics.elements import Maxwell
+from pipeline.physics.time_stepping.elements import Maxwell
 
 
 def parameters(typical):

@@ -13,7 +13,7 @@ import numpy as np
 from scipy.linalg import eigh
 
 from pipeline.contract.errors import ConfigError
-from pipeline.physics.hard_coalescence import coalescences
+from pipeline.physics.stability.coalescence import coalescences
 from pipeline.systems.beam_on_beam import build, joined
 
 #: name, lower and upper bound; lengths in mm, widths and damping as logarithms, stiffnesses as powers of ten (SI)

@@ -17,9 +17,9 @@ import numpy as np
 import scipy.sparse as sp
 
 from pipeline.contract.errors import ConfigError
-from pipeline.physics.hard_coalescence import ContactModes
-from pipeline.physics.plane_stress import sheet
-from pipeline.physics.timoshenko import BeamSection, beam
+from pipeline.physics.fem.plane_stress import sheet
+from pipeline.physics.fem.timoshenko_beam import BeamSection, beam
+from pipeline.physics.stability.coalescence import ContactModes
 
 SLIDER, TRACK = range(2)
 BODIES = ("slider", "track")

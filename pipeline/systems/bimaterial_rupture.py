@@ -9,9 +9,9 @@ import numpy as np
 
 from pipeline.contract.errors import ConfigError
 from pipeline.physics.closed_form.wave_speeds import Solid, checked
-from pipeline.physics.plate_grid import ABSORBING, FIXED, FREE, Plate, plate
-from pipeline.physics.rupture import Interface, pairing, positions
-from pipeline.physics.rupture_preload import Preload, solve_preload
+from pipeline.physics.rupture.dynamics import Interface, pairing, positions
+from pipeline.physics.rupture.plate_grid import ABSORBING, FIXED, FREE, Plate, plate
+from pipeline.physics.rupture.preload import Preload, solve_preload
 
 #: fewest elements on the nucleation zone
 FEWEST = 2

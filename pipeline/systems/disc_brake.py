@@ -14,8 +14,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from pipeline.contract.errors import ConfigError
-from pipeline.physics.elasticity import isotropic, orthotropic
-from pipeline.physics.mesh import boundary_faces, face_normals, read_mesh, revolve
+from pipeline.physics.fem.elasticity import isotropic, orthotropic
+from pipeline.physics.fem.mesh import boundary_faces, face_normals, read_mesh, revolve
 from pipeline.systems.disc_brake_rows import contacts, joints, piston_rows, sensor_rows
 from pipeline.systems.solids import Assembly, Rows, Solid
 

@@ -9,8 +9,8 @@ from dataclasses import dataclass
 import numpy as np
 import scipy.sparse as sp
 
-from pipeline.physics.faces import along, face_points, surface_rows
-from pipeline.physics.mesh import boundary_faces, face_normals
+from pipeline.physics.fem.face_averages import along, face_points, surface_rows
+from pipeline.physics.fem.mesh import boundary_faces, face_normals
 from pipeline.systems.solids import Contacts, Joints, Rows
 
 DISC, OUTER, INNER, CALIPER = range(4)

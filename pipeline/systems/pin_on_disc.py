@@ -15,11 +15,11 @@ import numpy as np
 import scipy.sparse as sp
 
 from pipeline.contract.errors import ConfigError
-from pipeline.physics.elasticity import assemble, isotropic
-from pipeline.physics.faces import along, surface_rows
-from pipeline.physics.linear_solver import factorise
-from pipeline.physics.mesh import Mesh, block, boundary_faces, face_normals, revolve
-from pipeline.physics.supports import free_freedoms
+from pipeline.physics.fem.elasticity import assemble, isotropic
+from pipeline.physics.fem.face_averages import along, surface_rows
+from pipeline.physics.fem.mesh import Mesh, block, boundary_faces, face_normals, revolve
+from pipeline.physics.fem.supports import free_freedoms
+from pipeline.physics.numerics.sparse_solver import factorise
 from pipeline.systems.solids import Assembly, Contacts, Joints, Rows, Solid
 
 BODIES = ("disc", "pin")

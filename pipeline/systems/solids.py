@@ -8,8 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 import scipy.sparse as sp
 
-from pipeline.physics.elasticity import assemble
-from pipeline.physics.mesh import Mesh
+from pipeline.physics.fem.elasticity import assemble
+from pipeline.physics.fem.mesh import Mesh
 
 
 @dataclass(frozen=True)

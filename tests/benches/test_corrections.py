@@ -6,7 +6,7 @@ import pytest
 from pipeline.benches import bench as benches
 from pipeline.benches import corrections
 from pipeline.contract import ConfigError
-from pipeline.physics.bench import Run, respond
+from pipeline.physics.virtual_rig.response import Run, respond
 from tests.diagnosis.small_rig import RATE, force, laid_out, model
 
 RUN = Run("level", 1.0, RATE, {"shaker": force(3.0, 1)[:201]})

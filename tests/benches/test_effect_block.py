@@ -16,7 +16,7 @@ from pipeline.contract import ConfigError
 from pipeline.contract.settings import fill
 from pipeline.effects import CATALOGUE
 from pipeline.effects.typical import ASPERITIES
-from pipeline.physics.friction_states import Film
+from pipeline.physics.friction.state_variables import Film
 from tests.diagnosis.small_rig import HIDDEN, effects, laid_out, model
 from tests.effects import rough_pair
 

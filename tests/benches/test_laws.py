@@ -6,8 +6,8 @@ import pytest
 from pipeline.benches.laws import Laws, friction_law, normal_law
 from pipeline.contract import ConfigError
 from pipeline.contract.settings import fill
-from pipeline.physics.sliding_model import sliding_model
-from pipeline.physics.time_stepping import Hard, Penalty
+from pipeline.physics.sliding.model import sliding_model
+from pipeline.physics.time_stepping.simulate import Hard, Penalty
 from tests.diagnosis.small_rig import model
 
 

@@ -8,8 +8,8 @@ import pytest
 from pipeline.benches.effect_block import terms
 from pipeline.benches.steady import branch_stiffness, posed, refuse_twice
 from pipeline.contract import ConfigError
-from pipeline.physics.dry_friction import constant
-from pipeline.physics.sliding_state import closure_response
+from pipeline.physics.friction.dry_friction import constant
+from pipeline.physics.sliding.equilibrium import closure_response
 from tests.diagnosis.small_rig import effects
 from tests.effects.systems import rig
 

@@ -9,25 +9,25 @@ from pipeline.contract.settings import fill
 from pipeline.diagnosis.forced import question
 from pipeline.diagnosis.settings import Settings as DiagnosisSettings
 from pipeline.inference.diagnose import diagnose
-from pipeline.physics import multibody, newmark
-from pipeline.physics.bench import Run as BenchRun
-from pipeline.physics.bench import respond
-from pipeline.physics.dry_friction import constant
-from pipeline.physics.eigen import lowest_modes
-from pipeline.physics.elasticity import assemble, isotropic
-from pipeline.physics.layered_solid import graded_depth, layered_compliance
-from pipeline.physics.linear_solver import available
-from pipeline.physics.mesh import revolve
-from pipeline.physics.modal_response import fixed_points, modal_response
-from pipeline.physics.pad_system import static_start
-from pipeline.physics.plate_grid import largest_step, plate
-from pipeline.physics.plate_step import plain_step, rims
-from pipeline.physics.preloaded_modes import preloaded_modes
-from pipeline.physics.quadratic_modes import quadratic_roots
-from pipeline.physics.rough_contact import solve_normal_contact
-from pipeline.physics.rough_surface import plateau_pad, turned_disc
-from pipeline.physics.rupture_history import run
-from pipeline.physics.time_stepping import Hard, simulate
+from pipeline.physics.fem.elasticity import assemble, isotropic
+from pipeline.physics.fem.mesh import revolve
+from pipeline.physics.friction.dry_friction import constant
+from pipeline.physics.modal.modal_superposition import fixed_points, modal_response
+from pipeline.physics.modal.natural_modes import lowest_modes
+from pipeline.physics.modal.quadratic_eigenproblem import quadratic_roots
+from pipeline.physics.numerics.sparse_solver import available
+from pipeline.physics.pads import exudyn_model, newmark
+from pipeline.physics.pads.pad_system import static_start
+from pipeline.physics.pads.preloaded_modes import preloaded_modes
+from pipeline.physics.rough.generator import plateau_pad, turned_disc
+from pipeline.physics.rough.layered_solid import graded_depth, layered_compliance
+from pipeline.physics.rough.normal_contact import solve_normal_contact
+from pipeline.physics.rupture.history import run
+from pipeline.physics.rupture.plate_grid import largest_step, plate
+from pipeline.physics.rupture.plate_step import plain_step, rims
+from pipeline.physics.time_stepping.simulate import Hard, simulate
+from pipeline.physics.virtual_rig.response import Run as BenchRun
+from pipeline.physics.virtual_rig.response import respond
 from stages.lock_in import Settings as LockInSettings
 from stages.lock_in import lock_in
 from stages.pin_on_disc import Settings as PinSettings
@@ -150,7 +150,7 @@ def _stepping(integrate, steps=5000):
 
 def exudyn_steps():
     """pads on patches in exudyn, compiled force function"""
-    return _stepping(multibody.integrate)
+    return _stepping(exudyn_model.integrate)
 
 
 def newmark_steps():

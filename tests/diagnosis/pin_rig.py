@@ -5,7 +5,7 @@ import numpy as np
 from pipeline.benches import bench as benches
 from pipeline.benches.effect_block import with_effects
 from pipeline.contract.settings import fill
-from pipeline.physics.bench import Run, respond
+from pipeline.physics.virtual_rig.response import Run, respond
 from pipeline.products import Channel, Condition, Recording
 from pipeline.products import Run as RunProduct
 from stages.lumped import Settings as LumpedSettings

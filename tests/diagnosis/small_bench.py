@@ -7,8 +7,8 @@ from pipeline.benches.effect_block import Settings as EffectSettings
 from pipeline.benches.effect_block import product, with_effects
 from pipeline.benches.runs import Recorded
 from pipeline.contract.settings import fill
-from pipeline.physics.bench import Run
-from pipeline.physics.bench_modes import modes, motions, order_locked
+from pipeline.physics.virtual_rig.modes import modes, motions, order_locked
+from pipeline.physics.virtual_rig.response import Run
 from stages.lumped import Settings as LumpedSettings
 from stages.lumped import lumped
 from stages.reduced_model import Settings as ReductionSettings

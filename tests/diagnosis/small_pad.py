@@ -8,7 +8,7 @@ from pipeline.benches.effect_block import Settings as EffectSettings
 from pipeline.benches.effect_block import product, rubbing_with_effects
 from pipeline.benches.rubbing import Settings, rubbing
 from pipeline.contract.settings import fill
-from pipeline.physics.rough_friction import slide, states
+from pipeline.physics.rough.sliding_pair import slide, states
 from pipeline.products import MeasuredFriction, Recording, Run, Topography
 from stages.micro_friction import micro_friction
 from stages.surface import Settings as SurfaceSettings

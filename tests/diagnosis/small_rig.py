@@ -6,7 +6,7 @@ from pipeline.benches import bench as benches
 from pipeline.benches.effect_block import Settings as EffectSettings
 from pipeline.benches.effect_block import product, with_effects
 from pipeline.contract.settings import fill
-from pipeline.physics.bench import Run, respond
+from pipeline.physics.virtual_rig.response import Run, respond
 from pipeline.products import Channel, Condition, Recording
 from pipeline.products import Run as RunProduct
 from stages.lumped import Settings as LumpedSettings

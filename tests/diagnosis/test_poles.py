@@ -7,8 +7,8 @@ import pytest
 
 from pipeline.contract import ConfigError
 from pipeline.diagnosis.poles import _heard, _unbroken, assigned, features, merged, nearer, observed, predicted
-from pipeline.physics.bench_modes import modes
-from pipeline.physics.free_decay import Poles
+from pipeline.physics.signals.pole_identification import Poles
+from pipeline.physics.virtual_rig.modes import modes
 from tests.diagnosis.small_bench import bench, laid_out, recorded, run
 
 BAND = laid_out().poles

@@ -10,7 +10,7 @@ from pipeline.contract.settings import fill
 from pipeline.diagnosis.answer import squeal_check
 from pipeline.diagnosis.saturated_squeal import Squeals, simulated
 from pipeline.diagnosis.settings import SaturatedSqueal
-from pipeline.physics.bench import Run
+from pipeline.physics.virtual_rig.response import Run
 from tests.diagnosis.small_bench import bench
 
 RATE = 4096.0

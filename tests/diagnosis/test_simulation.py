@@ -24,7 +24,7 @@ from pipeline.diagnosis.simulation import (
 )
 from pipeline.effects import CATALOGUE
 from pipeline.inference.priors import LogNormal, Parameter
-from pipeline.physics.time_stepping import Start
+from pipeline.physics.time_stepping.simulate import Start
 from tests.diagnosis.small_rig import HIDDEN, effects, laid_out, model, recording
 
 SETTINGS = laid_out()

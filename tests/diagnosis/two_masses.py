@@ -11,7 +11,7 @@ from pipeline.inference.least_squares import linearised
 from pipeline.inference.noise import budget
 from pipeline.inference.priors import LogNormal, Parameter
 from pipeline.inference.problem import Hypothesis, Problem
-from pipeline.physics.bench import Run, respond
+from pipeline.physics.virtual_rig.response import Run, respond
 from pipeline.products import Channel, Recording
 from pipeline.products import Run as RunProduct
 from stages.lumped import Settings as LumpedSettings

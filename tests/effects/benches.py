@@ -5,9 +5,9 @@ from dataclasses import replace
 import numpy as np
 from scipy.linalg import expm
 
-from pipeline.physics.bench import Bench, Channel, Run, respond
-from pipeline.physics.dry_friction import constant
-from pipeline.physics.time_stepping import Hard, Penalty, Start, Table
+from pipeline.physics.friction.dry_friction import constant
+from pipeline.physics.time_stepping.simulate import Hard, Penalty, Start, Table
+from pipeline.physics.virtual_rig.response import Bench, Channel, Run, respond
 from tests.physics.lumps import lumps
 
 RATE = 2000.0

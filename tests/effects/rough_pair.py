@@ -4,10 +4,10 @@ from functools import cache
 
 import numpy as np
 
-from pipeline.physics.flash_temperature import ThermalSolid
-from pipeline.physics.layered_solid import graded_depth, layered_compliance
-from pipeline.physics.rough_friction import Drag, RoughPair, Rubbing, Shearing, Solving, Wearing, slide
-from pipeline.physics.rough_surface import self_affine
+from pipeline.physics.rough.flash_temperature import ThermalSolid
+from pipeline.physics.rough.generator import self_affine
+from pipeline.physics.rough.layered_solid import graded_depth, layered_compliance
+from pipeline.physics.rough.sliding_pair import Drag, RoughPair, Rubbing, Shearing, Solving, Wearing, slide
 
 NODES, LENGTH, CYCLES = 24, 1e-3, 4
 PAD, DISC = 4e-12, 4e-13        # m^2/N

@@ -11,9 +11,9 @@ from pipeline.benches.effect_block import product, with_effects
 from pipeline.contract import Context
 from pipeline.contract.settings import fill
 from pipeline.effects.typical import Typical
-from pipeline.physics.bench import Bench
-from pipeline.physics.doublets import doublets
-from pipeline.physics.sliding_model import sliding_model
+from pipeline.physics.sliding.doublets import doublets
+from pipeline.physics.sliding.model import sliding_model
+from pipeline.physics.virtual_rig.response import Bench
 from stages.complex_modes import Settings as ModeSettings
 from stages.complex_modes import complex_modes
 from stages.lumped import Settings as LumpedSettings

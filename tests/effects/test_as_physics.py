@@ -10,8 +10,8 @@ from pipeline.contract import ConfigError
 from pipeline.effects import CATALOGUE, named
 from pipeline.effects.effect import null_values, shaped_values
 from pipeline.effects.typical import ASPERITIES
-from pipeline.physics.bench import Run
-from pipeline.physics.bench_roots import roots
+from pipeline.physics.virtual_rig.response import Run
+from pipeline.physics.virtual_rig.roots import roots
 from stages.bench import bench as bench_stage
 from tests.diagnosis.small_rig import effects, laid_out, model, recording
 from tests.effects.systems import MODES, SYSTEMS, Telling, lumped_bench, system

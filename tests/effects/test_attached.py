@@ -3,7 +3,7 @@
 import numpy as np
 
 from pipeline.effects.attached import at_point, beside_joint
-from pipeline.physics.elements import Power
+from pipeline.physics.time_stepping.elements import Power
 from tests.effects.benches import rubbing
 
 

@@ -7,9 +7,9 @@ import pytest
 from scipy.optimize import brentq
 
 from pipeline.effects import named
-from pipeline.physics.bench import Channel, respond
-from pipeline.physics.bench_roots import roots
-from pipeline.physics.time_stepping import Start
+from pipeline.physics.time_stepping.simulate import Start
+from pipeline.physics.virtual_rig.response import Channel, respond
+from pipeline.physics.virtual_rig.roots import roots
 from tests.effects.benches import slider, steady
 
 VALUES = {"share": 0.1, "speed": 0.5, "length": 0.01}

@@ -7,12 +7,12 @@ import pytest
 
 from pipeline.contract.errors import ConfigError
 from pipeline.effects import named
-from pipeline.physics.bench import Bench, Run, respond
-from pipeline.physics.bench_roots import roots
-from pipeline.physics.dry_friction import constant, tabulated
-from pipeline.physics.equation_residual import equation_residual
-from pipeline.physics.oscillation import growth_rate
-from pipeline.physics.time_stepping import Hard, Penalty
+from pipeline.physics.friction.dry_friction import constant, tabulated
+from pipeline.physics.signals.oscillation import growth_rate
+from pipeline.physics.time_stepping.simulate import Hard, Penalty
+from pipeline.physics.virtual_rig.force_residual import equation_residual
+from pipeline.physics.virtual_rig.response import Bench, Run, respond
+from pipeline.physics.virtual_rig.roots import roots
 from tests.effects.benches import RATE, anchored, rubbing, slider, steady
 from tests.physics.lumps import lumps
 

@@ -4,8 +4,8 @@ import pytest
 
 from pipeline.contract.errors import ConfigError
 from pipeline.effects import named
-from pipeline.physics.bench import respond
-from pipeline.physics.time_stepping import Hard
+from pipeline.physics.time_stepping.simulate import Hard
+from pipeline.physics.virtual_rig.response import respond
 from tests.effects.benches import slider, steady, tabled
 
 

@@ -5,7 +5,7 @@ import pytest
 from scipy.special import ellipk
 
 from pipeline.effects import named
-from pipeline.physics.bench import respond
+from pipeline.physics.virtual_rig.response import respond
 from tests.effects.benches import let_go, period, sprung
 
 

@@ -5,8 +5,8 @@ import pytest
 
 from pipeline.contract.errors import ConfigError
 from pipeline.effects import named
-from pipeline.physics.bench import respond
-from pipeline.physics.bench_roots import roots
+from pipeline.physics.virtual_rig.response import respond
+from pipeline.physics.virtual_rig.roots import roots
 from tests.effects.benches import round_disc, struck
 
 SPLIT = named("doublet_split")

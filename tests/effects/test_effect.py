@@ -12,9 +12,9 @@ from pipeline.contract.errors import BrakechainError, ConfigError
 from pipeline.effects import CATALOGUE, named
 from pipeline.effects.effect import STAGES, Term, compose, null_values, shaped_values
 from pipeline.effects.typical import ASPERITIES, CHANNEL, Typical
-from pipeline.physics.bench import respond
-from pipeline.physics.bench_roots import roots
-from pipeline.physics.equation_residual import equation_residual
+from pipeline.physics.virtual_rig.force_residual import equation_residual
+from pipeline.physics.virtual_rig.response import respond
+from pipeline.physics.virtual_rig.roots import roots
 from tests.effects.benches import pressed, rubbing, tabled
 
 BASE, RUN = rubbing(), pressed()

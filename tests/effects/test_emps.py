@@ -9,10 +9,10 @@ from scipy.io import loadmat
 from scipy.signal import decimate
 
 from pipeline.effects import named
-from pipeline.physics.bench import Bench, Channel, Run
-from pipeline.physics.dry_friction import constant
-from pipeline.physics.equation_residual import equation_residual
-from pipeline.physics.time_stepping import Hard
+from pipeline.physics.friction.dry_friction import constant
+from pipeline.physics.time_stepping.simulate import Hard
+from pipeline.physics.virtual_rig.force_residual import equation_residual
+from pipeline.physics.virtual_rig.response import Bench, Channel, Run
 from tests.physics.lumps import lumps
 
 RATE, TRIM, DECIMATION = 1000.0, 100, 10

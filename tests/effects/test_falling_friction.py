@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from pipeline.effects import named
-from pipeline.physics.bench import Channel, respond
+from pipeline.physics.virtual_rig.response import Channel, respond
 from tests.effects.benches import rubbing, slider, steady
 
 

@@ -7,10 +7,10 @@ import pytest
 
 from pipeline.contract.errors import ConfigError
 from pipeline.effects import named
-from pipeline.physics.bench import Bench, Channel, respond
-from pipeline.physics.bench_roots import roots
-from pipeline.physics.dry_friction import constant
-from pipeline.physics.time_stepping import Penalty, Start
+from pipeline.physics.friction.dry_friction import constant
+from pipeline.physics.time_stepping.simulate import Penalty, Start
+from pipeline.physics.virtual_rig.response import Bench, Channel, respond
+from pipeline.physics.virtual_rig.roots import roots
 from tests.effects.benches import slider, steady
 from tests.physics.lumps import lumps
 

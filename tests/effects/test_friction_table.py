@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from pipeline.effects.friction_table import times
-from pipeline.physics.dry_friction import constant, tabulated
+from pipeline.physics.friction.dry_friction import constant, tabulated
 
 
 @pytest.mark.exact

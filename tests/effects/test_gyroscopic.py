@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 from pipeline.effects import named
-from pipeline.physics.bench import respond
-from pipeline.physics.bench_roots import roots
-from pipeline.physics.equation_residual import equation_residual
+from pipeline.physics.virtual_rig.force_residual import equation_residual
+from pipeline.physics.virtual_rig.response import respond
+from pipeline.physics.virtual_rig.roots import roots
 from tests.effects.benches import round_disc, rubbing, struck
 
 ORDER, SPEED, ROOT = 3.0, 1.5, 20.0

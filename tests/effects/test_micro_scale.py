@@ -10,7 +10,7 @@ from pipeline.contract.errors import ConfigError
 from pipeline.effects import CATALOGUE, named
 from pipeline.effects.effect import Term, compose, null_values, shaped_values
 from pipeline.effects.typical import ASPERITIES
-from pipeline.physics.friction_states import Film
+from pipeline.physics.friction.state_variables import Film
 from tests.effects.benches import rubbing as bench
 from tests.effects.rough_pair import DRAG, rubbed, rubbing
 

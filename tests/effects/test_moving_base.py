@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from pipeline.effects import named
-from pipeline.physics.bench import respond
+from pipeline.physics.virtual_rig.response import respond
 from tests.effects.benches import let_go, sprung
 
 

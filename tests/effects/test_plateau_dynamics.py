@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 from pipeline.effects import named
-from pipeline.physics.bench import respond
-from pipeline.physics.bench_roots import roots
-from pipeline.physics.dry_friction import constant
+from pipeline.physics.friction.dry_friction import constant
+from pipeline.physics.virtual_rig.response import respond
+from pipeline.physics.virtual_rig.roots import roots
 from tests.effects.benches import anchored, slider, steady
 
 VALUES = {"strength": 0.6, "heat": 8e4, "time": 0.05}

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 from pipeline.effects import named
-from pipeline.physics.bench import respond
-from pipeline.physics.bench_roots import roots
-from pipeline.physics.time_stepping import Penalty
+from pipeline.physics.time_stepping.simulate import Penalty
+from pipeline.physics.virtual_rig.response import respond
+from pipeline.physics.virtual_rig.roots import roots
 from tests.effects.benches import slider, steady
 
 VALUES = {"force": 5.0, "frequency": 3.0, "phase": 0.4}

@@ -3,7 +3,7 @@
 import pytest
 
 from pipeline.effects import named
-from pipeline.physics.bench import respond
+from pipeline.physics.virtual_rig.response import respond
 from tests.effects.benches import let_go, sprung
 
 

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from pipeline.effects import named
-from pipeline.physics.bench import respond
-from pipeline.physics.time_stepping import Penalty
+from pipeline.physics.time_stepping.simulate import Penalty
+from pipeline.physics.virtual_rig.response import respond
 from tests.effects.benches import rubbing, slider, steady
 
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from pipeline.effects import named
-from pipeline.physics.bench_roots import roots
+from pipeline.physics.virtual_rig.roots import roots
 from tests.effects.benches import let_go, sprung, swung
 
 SHIM, LOSS, BAND = named("shim_damping"), 0.2, 3.0

@@ -5,9 +5,9 @@ import pytest
 
 from pipeline.contract.errors import ConfigError
 from pipeline.effects import named
-from pipeline.physics.bench import Bench, Channel, respond
-from pipeline.physics.dry_friction import constant
-from pipeline.physics.time_stepping import Penalty
+from pipeline.physics.friction.dry_friction import constant
+from pipeline.physics.time_stepping.simulate import Penalty
+from pipeline.physics.virtual_rig.response import Bench, Channel, respond
 from tests.effects.benches import at_angles, evolved, rubbing, steady
 from tests.physics.lumps import lumps
 

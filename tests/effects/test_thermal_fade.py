@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from pipeline.effects import named
-from pipeline.physics.bench import respond
-from pipeline.physics.dry_friction import constant
+from pipeline.physics.friction.dry_friction import constant
+from pipeline.physics.virtual_rig.response import respond
 from tests.effects.benches import anchored, steady
 
 

@@ -5,8 +5,8 @@ import pytest
 
 from pipeline.effects import named
 from pipeline.effects.typical import ASPERITIES
-from pipeline.physics.bench import respond
-from pipeline.physics.dry_friction import constant
+from pipeline.physics.friction.dry_friction import constant
+from pipeline.physics.virtual_rig.response import respond
 from tests.effects.benches import anchored, steady
 from tests.effects.rough_pair import CYCLES, rubbed, rubbing
 

@@ -20,8 +20,8 @@ from pipeline.effects.typical import (
     places,
     typical,
 )
-from pipeline.physics.bench import respond
-from pipeline.physics.time_stepping import Hard
+from pipeline.physics.time_stepping.simulate import Hard
+from pipeline.physics.virtual_rig.response import respond
 from tests.effects.benches import RATE, let_go, pressed, rubbing, slider, sprung, steady
 
 

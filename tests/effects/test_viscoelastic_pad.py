@@ -5,9 +5,9 @@ import pytest
 
 from pipeline.contract.errors import ConfigError
 from pipeline.effects import named
-from pipeline.physics.bench import Run, respond
-from pipeline.physics.bench_roots import roots
-from pipeline.physics.equation_residual import equation_residual
+from pipeline.physics.virtual_rig.force_residual import equation_residual
+from pipeline.physics.virtual_rig.response import Run, respond
+from pipeline.physics.virtual_rig.roots import roots
 from tests.effects.benches import RATE, let_go, sprung, swung
 
 PAD = named("viscoelastic_pad")

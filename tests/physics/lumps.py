@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from pipeline.physics.sliding_model import Contacts, Joints, SlidingModel
+from pipeline.physics.sliding.model import Contacts, Joints, SlidingModel
 
 
 def lumps(mass, joints=(), stiffness=(), damping=None, normal=(), tangent=(), speed=0.0, lever=1.0):

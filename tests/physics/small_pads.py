@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from pipeline.physics.pad_system import PadSystem
-from pipeline.physics.patch_contact import PatchContact
+from pipeline.physics.pads.pad_system import PadSystem
+from pipeline.physics.pads.patch_contact import PatchContact
 
 FAR = 1e-2
 

@@ -3,8 +3,8 @@
 import numpy as np
 
 from pipeline.physics.closed_form.wave_speeds import Solid
-from pipeline.physics.plate_grid import ABSORBING, FIXED, FREE, plate
-from pipeline.physics.rupture import Interface, pairing, positions
+from pipeline.physics.rupture.dynamics import Interface, pairing, positions
+from pipeline.physics.rupture.plate_grid import ABSORBING, FIXED, FREE, plate
 
 STIFF, SOFT = Solid(5.3e9, 0.25, 1246.0), Solid(3.392e9, 0.25, 1246.0)
 

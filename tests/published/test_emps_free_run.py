@@ -14,10 +14,10 @@ from scipy.optimize import least_squares
 from pipeline.benches.equation import measured_start
 from pipeline.benches.runs import Recorded, held
 from pipeline.effects import named
-from pipeline.physics.bench import Bench, Channel, Run, respond
-from pipeline.physics.dry_friction import constant
-from pipeline.physics.elements import Element, Wave
-from pipeline.physics.time_stepping import Hard
+from pipeline.physics.friction.dry_friction import constant
+from pipeline.physics.time_stepping.elements import Element, Wave
+from pipeline.physics.time_stepping.simulate import Hard
+from pipeline.physics.virtual_rig.response import Bench, Channel, Run, respond
 from tests.effects.test_emps import RATE, recorded
 from tests.physics.lumps import lumps
 

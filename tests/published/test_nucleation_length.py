@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from pipeline.physics.closed_form.slip_weakening import growing_weakening
-from pipeline.physics.rupture import SLIP, STICK, advance, at_rest, stable_step
+from pipeline.physics.rupture.dynamics import SLIP, STICK, advance, at_rest, stable_step
 from tests.physics.small_ruptures import SOFT, interface, plates
 
 HALF, PRESSURE = 1e-3, 1e6

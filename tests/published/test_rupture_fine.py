@@ -7,7 +7,7 @@ import pytest
 
 RUN = """
 import resource
-from pipeline.physics.rupture_history import run
+from pipeline.physics.rupture.history import run
 from tests.physics.small_ruptures import interface, plates
 lower, upper = plates(6.25e-6, length=20e-3, height=5e-3)
 run(lower, upper, interface(lower, upper)[0], 2.02e-6)

@@ -6,8 +6,8 @@ The plates are shorter and lower than the paper's; no wave comes back to the fro
 import pytest
 
 from pipeline.physics.closed_form.wave_speeds import generalised_rayleigh_speed
-from pipeline.physics.rupture_fronts import LEFT, RIGHT, arrivals, front
-from pipeline.physics.rupture_history import run
+from pipeline.physics.rupture.fronts import LEFT, RIGHT, arrivals, front
+from pipeline.physics.rupture.history import run
 from tests.physics.small_ruptures import SOFT, STIFF, interface, plates
 
 

@@ -15,8 +15,8 @@ import numpy as np
 import pytest
 
 from pipeline.physics.closed_form.wave_speeds import Solid, rayleigh_speed
-from pipeline.physics.rupture import Interface, pairing, positions
-from pipeline.physics.rupture_history import run
+from pipeline.physics.rupture.dynamics import Interface, pairing, positions
+from pipeline.physics.rupture.history import run
 from tests.physics.small_ruptures import plates
 
 DENSITY, FAST, SLOW = 2670.0, 6000.0, 3464.0

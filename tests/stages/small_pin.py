@@ -3,7 +3,7 @@
 from functools import cache
 
 from pipeline.contract import Context
-from pipeline.physics.linear_solver import available
+from pipeline.physics.numerics.sparse_solver import available
 from stages.interface_law import Settings as LawSettings
 from stages.interface_law import interface_law
 from stages.pin_on_disc import Settings as PinSettings

@@ -2,10 +2,10 @@
 
 import numpy as np
 
-from pipeline.physics.elasticity import assemble, isotropic
-from pipeline.physics.faces import interpolation
-from pipeline.physics.mesh import block, boundary_faces, face_normals, revolve
-from pipeline.physics.supports import held_modes
+from pipeline.physics.fem.elasticity import assemble, isotropic
+from pipeline.physics.fem.face_averages import interpolation
+from pipeline.physics.fem.mesh import block, boundary_faces, face_normals, revolve
+from pipeline.physics.fem.supports import held_modes
 from pipeline.products import Body, FrictionMap, Incidence, Structure
 
 NAMES = ("disc", "pad_outer", "pad_inner", "caliper")

@@ -5,8 +5,8 @@ import pytest
 
 from pipeline.computed.beam_on_beam import beam_on_beam_rows
 from pipeline.contract import ConfigError
-from pipeline.physics.hard_contact import critical_friction
-from pipeline.physics.sliding_model import sliding_model
+from pipeline.physics.sliding.model import sliding_model
+from pipeline.physics.stability.constrained_modes import critical_friction
 from stages.beam_on_beam import beam_on_beam
 from stages.complex_modes import Settings as Modes
 from stages.complex_modes import complex_modes

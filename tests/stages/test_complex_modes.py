@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 from pipeline.contract.errors import ConfigError, ConvergenceError
-from pipeline.physics.quadratic_modes import quadratic_roots
-from pipeline.physics.sliding_model import sliding_model
-from pipeline.physics.sliding_state import closure_response, model_about, steady_sliding
+from pipeline.physics.modal.quadratic_eigenproblem import quadratic_roots
+from pipeline.physics.sliding.equilibrium import closure_response, model_about, steady_sliding
+from pipeline.physics.sliding.model import sliding_model
 from stages.complex_modes import Settings, complex_modes
 from stages.reduced_model import Settings as Reduction
 from stages.reduced_model import reduced_model

@@ -8,7 +8,7 @@ from scipy.linalg import eigh
 
 from pipeline.contract import ConfigError
 from pipeline.contract.settings import fill
-from pipeline.physics.quadratic_modes import quadratic_roots
+from pipeline.physics.modal.quadratic_eigenproblem import quadratic_roots
 from stages.complex_modes import Settings, complex_modes
 from stages.lumped import Settings as LumpedSettings
 from stages.lumped import lumped

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from pipeline.contract import ConfigError
-from pipeline.physics.tangential_law import tangential_law
+from pipeline.physics.friction.tangential_law import tangential_law
 from tests.stages.small_pin import COARSE, small_law, small_pin, small_system
 
 

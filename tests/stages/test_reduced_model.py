@@ -8,9 +8,9 @@ import scipy.sparse as sp
 from scipy.linalg import eigh
 
 from pipeline.contract import ConfigError
-from pipeline.physics.eigen import lowest_modes
-from pipeline.physics.elasticity import assemble
-from pipeline.physics.sliding_model import sliding_model
+from pipeline.physics.fem.elasticity import assemble
+from pipeline.physics.modal.natural_modes import lowest_modes
+from pipeline.physics.sliding.model import sliding_model
 from stages.reduced_model import Settings, reduced_model
 from tests.stages.small_structure import CALIPER, DISC, INNER, OUTER, small_structure
 

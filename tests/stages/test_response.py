@@ -5,8 +5,8 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from pipeline.contract import ConfigError
-from pipeline.physics.force_mapping import resultant, spread_rows
-from pipeline.physics.mesh import revolve
+from pipeline.physics.fem.force_mapping import resultant, spread_rows
+from pipeline.physics.fem.mesh import revolve
 from pipeline.products import Body, Incidence, Multibody, ReducedModel, Structure
 from stages.reduced_model import Settings as ReducedSettings
 from stages.reduced_model import reduced_model

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from pipeline.contract import ConfigError
-from pipeline.physics.spectra import power_spectrum
+from pipeline.physics.signals.spectra import power_spectrum
 from pipeline.products import Response
 from stages.squeal import Settings, squeal
 from tests.views.products_for_views import filled

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from pipeline.contract import ConfigError, Context
-from pipeline.physics.linear_solver import available
+from pipeline.physics.numerics.sparse_solver import available
 from pipeline.products import FrictionMap
 from stages.structure import Joints, Settings, structure
 from tests.systems.test_disc_brake import COARSE

@@ -5,8 +5,8 @@ import pytest
 
 from pipeline.contract import ConfigError
 from pipeline.contract.settings import fill
-from pipeline.physics.rough_surface import band_limit, resample, self_affine
-from pipeline.physics.worn_depth import without_plane
+from pipeline.physics.rough.generator import band_limit, resample, self_affine
+from pipeline.physics.rough.worn_depth import without_plane
 from pipeline.recordings.neutral import write_neutral
 from stages.surface import Settings, surface
 

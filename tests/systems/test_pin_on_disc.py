@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from pipeline.contract.errors import ConfigError
-from pipeline.physics.linear_solver import available
-from pipeline.physics.supports import held_modes
+from pipeline.physics.fem.supports import held_modes
+from pipeline.physics.numerics.sparse_solver import available
 from pipeline.systems.pin_on_disc import DISC, PIN, build, pin, reshaped, sliding_flexibility
 
 pytestmark = pytest.mark.exact

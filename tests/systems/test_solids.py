@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 import scipy.sparse as sp
 
-from pipeline.physics.elasticity import isotropic
-from pipeline.physics.mesh import block
+from pipeline.physics.fem.elasticity import isotropic
+from pipeline.physics.fem.mesh import block
 from pipeline.systems.solids import Rows, Solid
 
 pytestmark = pytest.mark.exact

@@ -7,8 +7,8 @@ import pytest
 
 from pipeline.benches import bench as benches
 from pipeline.benches.corrections import corrected
-from pipeline.physics.bench import Run
-from pipeline.physics.bench_modes import modes
+from pipeline.physics.virtual_rig.modes import modes
+from pipeline.physics.virtual_rig.response import Run
 from pipeline.trial import brake, brake_model, brake_parts
 from pipeline.trial.annulus import thick, thin
 from stages.bench import bench

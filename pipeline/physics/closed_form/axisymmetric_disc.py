@@ -8,7 +8,7 @@ Finite Element Method, volume 2, semi-analytical method).
 import numpy as np
 from scipy.linalg import eigh
 
-from pipeline.physics.elasticity import isotropic, quadrature, shape_functions
+from pipeline.physics.fem.elasticity import isotropic, quadrature, shape_functions
 
 _KIND = "quad9"
 

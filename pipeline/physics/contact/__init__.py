@@ -1,0 +1,1 @@
+"""Contact between bodies: groups of contact points and static preload."""

@@ -1,0 +1,108 @@
+"""Static preload of elastic bodies through contact patches with a nonlinear normal law.
+
+Each patch i of area A_i carries N_i = A_i p(c_i) at its closure c_i = -(n_i u); p is a table, zero
+at and below zero closure. The bodies are condensed to the patches: c = c_free - compliance N.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from pipeline.contract.errors import ConfigError, ConvergenceError
+from pipeline.physics.numerics.sparse_solver import factorise
+
+_STEPS = 100
+_HALVINGS = 30
+#: largest accepted imbalance of a contact force, as a share of the largest
+_TOLERANCE = 1e-10
+
+
+@dataclass(frozen=True)
+class Preload:
+    """Contact forces (c,) [N], stiffness dN/dclosure (c,) [N/m] and closure (c,) [m]."""
+
+    force: np.ndarray
+    stiffness: np.ndarray
+    closure: np.ndarray
+
+    @property
+    def closed(self):
+        """True where the patch touches."""
+        return self.closure > 0
+
+
+def condense(stiffness, normal, load, solver):
+    """Compliance (c, c) [m/N] of the patches and their closure (c,) [m] under ``load`` without contact.
+
+    ``stiffness`` (n, n) sparse [N/m] regular without contact; ``normal`` (c, n) sparse, positive opens.
+    """
+    columns = np.column_stack((normal.T.toarray(), load))
+    moved = normal @ factorise(stiffness, solver).solve(columns)
+    return (moved[:, :-1] + moved[:, :-1].T) / 2, -moved[:, -1]
+
+
+def contact_law(pressure, stiffness, largest):
+    """Closure [m] and pressure [Pa], both from 0, of an interface with dp/dclosure = ``stiffness`` at ``pressure``.
+
+    Between the given pressures the stiffness runs linearly. Towards zero pressure it falls as the
+    pressure does, which makes the law exponential; its last hundredth is replaced by the tangent
+    to zero. Beyond the last pressure, up to ``largest`` [Pa], the stiffness stays constant.
+    """
+    pressure, stiffness = np.asarray(pressure, float), np.asarray(stiffness, float)
+    if not (stiffness > 0).all() or not (pressure > 0).all():
+        raise ConfigError("normal contact law", "positive pressures and stiffnesses",
+                          f"{pressure} Pa, {stiffness} Pa/m")
+    low = pressure[0] * np.geomspace(0.01, 1, 60)
+    middle = np.interp(np.linspace(0, len(pressure) - 1, 20 * len(pressure)), np.arange(len(pressure)), pressure)
+    p = np.unique(np.r_[low, middle, max(largest, pressure[-1])])
+    k = np.where(p < pressure[0], stiffness[0] * p / pressure[0], np.interp(p, pressure, stiffness))
+    ratio = k[1:] / k[:-1]
+    growing = np.abs(ratio - 1) > 1e-9
+    mean = np.where(growing, (k[1:] - k[:-1]) / np.log(np.where(growing, ratio, 2.0)), k[:-1])
+    closure = p[0] / k[0] + np.r_[0, np.cumsum(np.diff(p) / mean)]
+    return np.r_[0, closure], np.r_[0, p]
+
+
+def solve_preload(compliance, free_closure, area, law_closure, law_pressure):
+    """Preload of the patches: Newton's method on the closures, with halved steps where needed.
+
+    Raises ConfigError where no patch touches under the load, ConvergenceError where the
+    forces do not balance.
+    """
+    if (free_closure <= 0).all():
+        raise ConfigError("preload", "pads that touch the disc under the load",
+                          f"gaps of at least {-free_closure.max():g} m", "check the piston force and the positions")
+    closure, first = np.full_like(free_closure, law_closure[1]), first_slope(area, law_closure, law_pressure)
+    force, slope = normal_force(closure, area, law_closure, law_pressure)
+    miss = closure - free_closure + compliance @ force
+    for _ in range(_STEPS):
+        step = np.linalg.solve(np.eye(len(area)) + compliance * slope, miss)
+        for halving in range(_HALVINGS):
+            trial = closure - step / 2**halving
+            force, slope = normal_force(trial, area, law_closure, law_pressure)
+            trial_miss = trial - free_closure + compliance @ force
+            if np.linalg.norm(trial_miss) < np.linalg.norm(miss) or halving == _HALVINGS - 1:
+                break
+        closure, miss = trial, trial_miss
+        # an open patch counts as if it were just closed
+        balance = np.linalg.solve(np.eye(len(area)) + compliance * slope, miss) * np.maximum(slope, first)
+        largest = max(force.max(), (first * np.abs(free_closure)).max())
+        if np.abs(balance).max() <= _TOLERANCE * largest:
+            return Preload(force, slope, closure)
+    raise ConvergenceError("preload", f"contact forces that balance within {_TOLERANCE:g}",
+                           f"{np.abs(balance).max() / largest:.1e}", "raise the load or soften the contact law")
+
+
+def first_slope(area, law_closure, law_pressure):
+    """Stiffness (c,) N/m of patches that have just closed."""
+    return area * law_pressure[1] / law_closure[1]
+
+
+def normal_force(closure, area, law_closure, law_pressure):
+    """Force and stiffness of each patch; the last slope of the table continues beyond its end."""
+    last = len(law_closure) - 2
+    low = np.clip(np.searchsorted(law_closure, closure, side="right") - 1, 0, last)
+    slope = np.diff(law_pressure)[low] / np.diff(law_closure)[low]
+    pressure = law_pressure[low] + slope * (closure - law_closure[low])
+    closed = closure > 0
+    return np.where(closed, area * pressure, 0.0), np.where(closed, area * slope, 0.0)

@@ -1,0 +1,1 @@
+"""Finite elements: meshes, elasticity, beams, supports and force mapping."""

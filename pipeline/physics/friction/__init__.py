@@ -1,0 +1,1 @@
+"""Friction laws: tables, dry friction and state variables."""

@@ -1,0 +1,146 @@
+"""States of friction within a time step, compiled: their equations, what they do to friction, and how they go on.
+
+The equations x' = s - r x are those of ``friction_states``. Steps are exact for constant s and r: first with those at
+the begin, which gives the friction of the step, then, once its forces are known, with those of its middle, so that
+nothing is late by a part of a step.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+from numba import njit
+
+from pipeline.physics.friction.dry_friction import (
+    DELAYED,
+    FACTOR,
+    LOAD_KEPT,
+    LOAD_SHARE,
+    READ_AT,
+    SPEED_KEPT,
+    SPEED_SHARE,
+)
+
+MEMORY, HEALING, DISTANCE, FILM, FADE, PLATEAUS, SCATTER = range(7)
+#: below this a rate times a step counts as none, where series replace quotients
+_SMALL = 1e-5
+#: the states that come to rest in steady sliding, about which small motions are found; the others drift or turn
+SETTLING = (MEMORY, HEALING, PLATEAUS)
+
+
+class StateKernel(NamedTuple):
+    """k states of c contacts."""
+
+    kind: np.ndarray        # (k,)
+    contact: np.ndarray     # (k,)
+    parameter: np.ndarray   # (k, 3)
+    area: np.ndarray        # (c,) m^2
+    begin: np.ndarray       # (c,) m, distance where the table is read first
+
+
+@njit(cache=True)
+def source_and_rate(kind, p, load, area, speed, drawn):
+    """(s, r) of a state under a load N, at a slip speed >= 0, with the friction force ``drawn`` >= 0 N."""
+    if kind == HEALING:
+        return p[1] / p[2], speed / p[2]
+    if kind == DISTANCE:
+        return speed, 0.0
+    if kind == FILM:
+        return speed / p[1] * load / (area * p[2]), speed / p[1]
+    if kind == FADE:
+        return drawn * speed / (area * p[1] * p[2]), 1.0 / p[2]
+    if kind == PLATEAUS:
+        return (1.0 + p[0]) / p[2], (1.0 + p[0] * load * speed / (area * p[1])) / p[2]
+    return 0.0, 0.0
+
+
+@njit(cache=True)
+def factor(kind, p, x, angle):
+    """What a state makes of friction; 1 where it does not act as a factor."""
+    if kind == HEALING:
+        return 1.0 + p[0] * np.log1p(x)
+    if kind == FILM:
+        return 1.0 + p[0] * x
+    if kind == FADE:
+        return 1.0 / (1.0 + p[0] * x)
+    if kind == PLATEAUS:
+        return x
+    if kind == SCATTER:
+        return 1.0 + p[0] * np.cos(p[1] * angle - p[2])
+    return 1.0
+
+
+def rate_slopes(kind, p, load, area, speed):
+    """(r, dr/dN, dr/dv) of a state that settles; its source is constant."""
+    if kind == HEALING:
+        return speed / p[2], 0.0, 1.0 / p[2]
+    by_power = p[0] / (area * p[1] * p[2])
+    return (1.0 / p[2] + by_power * load * speed, by_power * speed, by_power * load)
+
+
+def factor_slope(kind, p, x):
+    """Change of friction with a state that settles and acts as a factor, as a share of friction."""
+    return p[0] / (1.0 + x) / (1.0 + p[0] * np.log1p(x)) if kind == HEALING else 1.0 / x
+
+
+@njit(cache=True)
+def _kept(reach):
+    """(e^-z, (1 - e^-z) / z) of z = ``reach``: what is left of a state, and the mean of that."""
+    keep = np.exp(-reach)
+    return keep, (1.0 - keep) / reach if reach > _SMALL else 1.0 - 0.5 * reach
+
+
+@njit(cache=True)
+def expect(states, value, friction, load, slip, drawn, angle, turned, step, middle):
+    """Fill the columns of ``friction`` for the step to come, from states ``value`` (k, 2) and forces at its begin.
+
+    ``load``, ``slip``, ``drawn`` (c,) are N, slip speed and T there, of either sign; the drive goes from ``angle`` to
+    ``turned``. ``middle``: friction acts by its mean over the step, else by its end.
+    """
+    friction.contact[:, FACTOR] = 1.0
+    share = 0.5 if middle else 1.0
+    for k in range(states.kind.size):
+        kind, i, p = states.kind[k], states.contact[k], states.parameter[k]
+        own, speed = friction.contact[i], abs(slip[i])
+        if kind == MEMORY:
+            keep, mean = _kept(step * speed / p[0])
+            last, first = 1.0 - mean, mean - keep
+            own[DELAYED] = 1.0
+            own[LOAD_KEPT] = keep * value[k, 0] + first * load[i]
+            own[SPEED_KEPT] = keep * value[k, 1] + first * speed
+            own[LOAD_SHARE] = own[SPEED_SHARE] = last
+            if middle:      # the mean slip speed is known to friction, that of the end is twice it less the begin
+                own[LOAD_KEPT] = 0.5 * (value[k, 0] + own[LOAD_KEPT])
+                own[SPEED_KEPT] = 0.5 * (value[k, 1] + own[SPEED_KEPT] - last * speed)
+                own[LOAD_SHARE] = 0.5 * last
+            continue
+        source, rate = source_and_rate(kind, p, load[i], states.area[i], speed, abs(drawn[i]))
+        keep, mean = _kept(rate * step)
+        after = keep * value[k, 0] + mean * step * source
+        if kind == DISTANCE:
+            own[READ_AT] = (1.0 - share) * value[k, 0] + share * after
+        else:
+            own[FACTOR] *= ((1.0 - share) * factor(kind, p, value[k, 0], angle)
+                            + share * factor(kind, p, after, turned))
+
+
+@njit(cache=True)
+def settle(states, value, load, loaded, slip, slipped, drawn, step):
+    """Bring states ``value`` (k, 2) to the end of a step.
+
+    ``load`` and ``loaded`` (c,) are N at its begin and end, ``slip`` and ``slipped`` the slip speeds, ``drawn`` the
+    mean T. Contacts that are open remember no load.
+    """
+    for k in range(states.kind.size):
+        kind, i, p = states.kind[k], states.contact[k], states.parameter[k]
+        one, other = abs(slip[i]), abs(slipped[i])
+        if kind == MEMORY:
+            keep, mean = _kept(step * 0.5 * (one + other) / p[0])
+            value[k, 0] = keep * value[k, 0] + (mean - keep) * load[i] + (1.0 - mean) * loaded[i]
+            value[k, 1] = keep * value[k, 1] + (mean - keep) * one + (1.0 - mean) * other
+            if loaded[i] == 0.0:
+                value[k, 0] = 0.0
+            continue
+        source, rate = source_and_rate(kind, p, 0.5 * (load[i] + loaded[i]), states.area[i], 0.5 * (one + other),
+                                       abs(drawn[i]))
+        keep, mean = _kept(rate * step)
+        value[k, 0] = keep * value[k, 0] + mean * step * source

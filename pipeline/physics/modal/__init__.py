@@ -1,0 +1,1 @@
+"""Modal analysis: natural modes, quadratic eigenproblems and modal superposition."""

@@ -1,0 +1,1 @@
+"""Flexible pads on a disc: multibody model, contact patches and pad motion."""

@@ -1,0 +1,48 @@
+"""Contact forces along a computed motion, point by point and sub-disc by sub-disc."""
+
+from typing import NamedTuple
+
+import numpy as np
+from numba import njit
+
+from pipeline.physics.friction.friction_table import friction_at
+from pipeline.physics.pads.patch_contact import SUB_DISCS, contact_state
+
+
+class ContactHistory(NamedTuple):
+    """Forces on the pads at m instants, c contacts, p pads."""
+
+    normal: np.ndarray      # (c, m) N
+    friction: np.ndarray    # (c, m) N, along sliding
+    patch: np.ndarray       # (p, 4, m) N, normal force of each sub-disc on each pad
+    separated: float        # share of the samples without contact
+    outside: float          # share of the friction evaluations outside the friction table
+
+
+@njit(cache=True)
+def contact_history(contact, pad, pads, time, displacement, velocity):
+    """ContactHistory of the motion ``displacement``, ``velocity`` (m, n) at ``time`` (m,).
+
+    ``pad`` (c,) is the number of the pad of each contact, out of ``pads``.
+    """
+    size, samples = pad.size, time.size
+    normal, friction = np.empty((size, samples)), np.empty((size, samples))
+    patch, separated, outside, evaluations = np.zeros((pads, SUB_DISCS, samples)), 0, 0, 0
+    for k in range(samples):
+        state = contact_state(contact, time[k], displacement[k], velocity[k])
+        along, aside = contact.rows[1] @ velocity[k], contact.rows[2] @ velocity[k]
+        for i in range(size):
+            normal[i, k], friction[i, k] = state.normal[i], state.friction[i, 0]
+            if state.normal[i] == 0.0:
+                separated += 1
+                continue
+            slip = np.hypot(contact.disc_speed * contact.radius[i] - along[i], aside[i])
+            for d in range(SUB_DISCS):
+                patch[pad[i], d, k] += state.share[i, d] * state.normal[i]
+                if state.share[i, d] > 0.0:
+                    evaluations += 1
+                    outside += friction_at(
+                        state.normal[i] / contact.area[i], slip, contact.bedding[d] + contact.bedding_speed * time[k],
+                        contact.friction_pressure, contact.friction_speed, contact.friction_distance,
+                        contact.friction)[3]
+    return ContactHistory(normal, friction, patch, separated / (size * samples), outside / max(evaluations, 1))

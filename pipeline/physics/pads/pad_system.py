@@ -1,0 +1,182 @@
+"""Reduced pads and caliper on a rigid disc: M q'' + C q' + K q = load + contact force, and its equilibria."""
+
+from typing import NamedTuple
+
+import numpy as np
+from numba import njit
+from scipy.linalg import cho_factor, cho_solve
+
+from pipeline.contract.errors import ConfigError, ConvergenceError
+from pipeline.physics.pads.patch_contact import SUB_DISCS, PatchContact, contact_force, contact_tangent
+from pipeline.physics.time_stepping.element_forces import LawKernel, element_force
+from pipeline.physics.time_stepping.elements import alone
+
+STATIC_ITERATIONS = 100
+STATIC_TOLERANCE = 1e-12
+STATIC_HALVINGS = 20
+#: patches whose radii and heights differ by less than this share of the radius lie on one circle
+SAME_CIRCLE = 1e-6
+
+
+class PadElements(NamedTuple):
+    """e nonlinear elements without memory on the assembly."""
+
+    law: LawKernel
+    rows: np.ndarray        # (e, n) elongation
+    offset: np.ndarray      # (e,) m, elongation where all coordinates are zero
+
+
+def pad_elements(elements, size):
+    """PadElements of Elements (without memory) of ``size`` coordinates n."""
+    rows = np.array([e.row for e in elements], float).reshape(len(elements), size)
+    kernel = alone(elements)
+    return PadElements(LawKernel(*(getattr(kernel, name) for name in LawKernel._fields)), rows, np.zeros(len(rows)))
+
+
+class PadSystem(NamedTuple):
+    """Equation of motion of the assembly without its disc; n coordinates, SI units."""
+
+    mass: np.ndarray        # (n, n) kg
+    damping: np.ndarray     # (n, n) N s/m, bodies and joints
+    stiffness: np.ndarray   # (n, n) N/m, bodies and joints
+    load: np.ndarray        # (n,) N, generalised force of the pistons
+    contact: PatchContact
+    elements: PadElements = pad_elements((), 0)
+
+
+def pad_system(sliding, input_force, closure, pressure, friction, bedding, bedding_share, sectors, ramp, stick_speed,
+               damping_speed):
+    """PadSystem of a SlidingModel without its disc (``sliding.held("disc")``), at the speed of that model.
+
+    ``input_force`` (i,) N; ``closure`` (k,) m and ``pressure`` (k,) Pa: normal law; ``friction``: FrictionLaw;
+    ``bedding`` (4,) m: distance of the sub-discs on the friction map at the start; ``bedding_share``: part of the
+    distance slid that counts on the map; ``sectors`` per revolution; ``ramp`` s; ``stick_speed`` and
+    ``damping_speed`` m/s. Raises ConfigError.
+    """
+    _check(closure, pressure, bedding, sectors)
+    contacts, (mass, damping, stiffness) = sliding.contacts, sliding.supported()
+    count = len(contacts.area)
+    contact = PatchContact(
+        rows=np.array([contacts.normal, contacts.tangent, contacts.lateral]),
+        opening=np.zeros(count), area=contacts.area, radius=contacts.lever,
+        angle=np.arctan2(contacts.position[:, 1], contacts.position[:, 0]),
+        half_angle=half_angles(contacts.position, contacts.area), closure=closure, pressure=pressure,
+        law_first=np.zeros(count, int), friction_first=np.zeros(count, int),
+        friction_pressure=friction.pressure, friction_speed=friction.speed, friction_distance=friction.distance,
+        friction=friction.friction, bedding=np.array(bedding),
+        bedding_speed=bedding_share * sliding.speed * np.mean(contacts.lever), disc_speed=float(sliding.speed),
+        sectors=int(sectors), ramp=float(ramp), stick_speed=float(stick_speed),
+        damping_speed=np.full(count, float(damping_speed)), waviness=np.empty((0, 6)), scatter=np.empty((0, 4)))
+    arrays = {name: np.array(value) for name, value in contact._asdict().items() if isinstance(value, np.ndarray)}
+    return PadSystem(mass, damping, stiffness, input_force @ sliding.input_rows, contact._replace(**arrays),
+                     pad_elements((), sliding.size))
+
+
+def half_angles(position, area):
+    """(c,) half of the angle in rad that each patch spans: patches on one circle meet halfway, without overlap.
+
+    ``position`` (c, 3) m: centroids, the disc turning about z; ``area`` (c,) m^2: a patch alone on its circle
+    (radius and height, so that the pads are apart) counts as square.
+    """
+    radius, angle = np.hypot(position[:, 0], position[:, 1]), np.arctan2(position[:, 1], position[:, 0])
+    circle = np.column_stack([radius, position[:, 2]])
+    apart = np.abs(np.angle(np.exp(1j * (angle[:, None] - angle))))
+    apart[np.linalg.norm(circle[:, None] - circle, axis=2) > SAME_CIRCLE * radius] = np.inf
+    np.fill_diagonal(apart, np.inf)
+    nearest = apart.min(axis=1)
+    return np.where(np.isfinite(nearest), nearest / 2, np.sqrt(area) / (2 * radius))
+
+
+def _check(closure, pressure, bedding, sectors):
+    if closure[0] != 0 or pressure[0] != 0 or np.any(np.diff(closure) <= 0) or np.any(np.diff(pressure) <= 0):
+        raise ConfigError("multibody: normal contact law", "closure and pressure that rise from 0",
+                          f"closures from {closure[0]:g} m and pressures from {pressure[0]:g} Pa")
+    if len(bedding) != SUB_DISCS:
+        raise ConfigError("multibody.bedding", f"{SUB_DISCS} distances, one per sub-disc", f"{len(bedding)}")
+    if sectors % SUB_DISCS or sectors < SUB_DISCS:
+        raise ConfigError("multibody.sectors", f"a multiple of {SUB_DISCS}", f"{sectors}")
+
+
+@njit(cache=True)
+def force(system, time, displacement, velocity):
+    """M q'' (n,): load and contact force less elastic and damping forces, and those of elements."""
+    inner = system.stiffness @ displacement + system.damping @ velocity
+    found = system.load + contact_force(system.contact, time, displacement, velocity) - inner
+    for k in range(system.elements.offset.size):
+        found -= _drawn(system, k, time, displacement, velocity)[0] * system.elements.rows[k]
+    return found
+
+
+@njit(cache=True)
+def tangent(system, time, displacement, velocity):
+    """(stiffness, damping), both (n, n): minus the exact derivatives of ``force``."""
+    stiffness, damping = contact_tangent(system.contact, time, displacement, velocity)
+    stiffness, damping = system.stiffness + stiffness, system.damping + damping
+    for k in range(system.elements.offset.size):
+        row = system.elements.rows[k]
+        _, slope, drag = _drawn(system, k, time, displacement, velocity)
+        stiffness += slope * np.outer(row, row)
+        damping += drag * np.outer(row, row)
+    return stiffness, damping
+
+
+@njit(cache=True)
+def _drawn(system, k, time, displacement, velocity):
+    """(F, dF/de, dF/dv) of element ``k``."""
+    elements, speed, nothing = system.elements, system.contact.disc_speed, np.zeros(0)
+    row = elements.rows[k]
+    elongation, instant = elements.offset[k] + row @ displacement, (time, speed * time, speed)
+    return element_force(elements.law, k, elongation, row @ velocity, 0.0, nothing, nothing, instant)
+
+
+def without_friction(system):
+    """The same system with a friction coefficient of zero everywhere."""
+    return system._replace(contact=system.contact._replace(friction=np.zeros_like(system.contact.friction)))
+
+
+def static_start(system, where="static start"):
+    """Displacement (n,) in equilibrium with the load before friction acts. Raises ConvergenceError."""
+    frictionless, contact, normal = without_friction(system), system.contact, system.contact.rows[0]
+    first = contact.law_first
+    rise = contact.pressure[first + 1] - contact.pressure[first]
+    slope = contact.area * rise / (contact.closure[1] - contact.closure[0])
+    closed = system.stiffness + (normal.T * slope) @ normal
+    guess = cho_solve(cho_factor(closed), system.load - normal.T @ (slope * contact.opening))
+    return _equilibrium(frictionless, guess, where)
+
+
+def sliding_state(system, start, where="steady sliding"):
+    """Displacement (n,) in equilibrium with the load and full friction, from ``start``. Raises ConvergenceError."""
+    return _equilibrium(system._replace(contact=system.contact._replace(ramp=0.0)), start, where)
+
+
+def linearised(system, displacement):
+    """(stiffness, damping), both (n, n), of small motions about steady sliding at ``displacement``.
+
+    Stiffness: K + k n^T n + (mu + p dmu/dp) k t^T n; damping: C + N dmu/dv t^T t
+    + (mu N / v) l^T l, with full friction.
+    """
+    sliding = system._replace(contact=system.contact._replace(ramp=0.0))
+    return tangent(sliding, 0.0, displacement, np.zeros_like(displacement))
+
+
+def _equilibrium(system, displacement, where):
+    """Newton's method on force = 0 at rest; a step is halved until the residual falls."""
+    rest, scale = np.zeros_like(displacement), np.linalg.norm(system.load)
+    residual = force(system, 0.0, displacement, rest)
+    for _ in range(STATIC_ITERATIONS):
+        if np.linalg.norm(residual) <= STATIC_TOLERANCE * scale:
+            return displacement
+        try:
+            step = np.linalg.solve(tangent(system, 0.0, displacement, rest)[0], residual)
+        except np.linalg.LinAlgError:
+            break
+        for length in 0.5 ** np.arange(STATIC_HALVINGS):
+            trial = displacement + length * step
+            remaining = force(system, 0.0, trial, rest)
+            if np.linalg.norm(remaining) < np.linalg.norm(residual):
+                break
+        displacement, residual = trial, remaining
+    raise ConvergenceError(where, f"a residual below {STATIC_TOLERANCE:g} of the load",
+                           f"{np.linalg.norm(residual) / scale:.3g}",
+                           "check that the joints hold every rigid motion and that the contact law rises")

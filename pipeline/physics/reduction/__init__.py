@@ -1,0 +1,1 @@
+"""Model reduction: Craig-Bampton and its application to beams and bodies."""

@@ -1,0 +1,113 @@
+"""One finite-element body in reduced coordinates: matrices, rows of the sliding model and shapes of its surface.
+
+A body without rigid supports keeps interface coordinates, fixed-interface modes and the residual inertia of its moving
+interface (Craig-Bampton); a supported body keeps its modes and its residual static response to interface forces. A body
+that turns about z gets gyroscopic and centrifugal terms.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+import scipy.sparse as sp
+
+from pipeline.contract.errors import ConfigError
+from pipeline.physics.fem.elasticity import assemble, centrifugal_load, geometric_stiffness, gyroscopic
+from pipeline.physics.fem.mesh import Mesh, boundary_faces
+from pipeline.physics.fem.supports import free_freedoms
+from pipeline.physics.numerics.sparse_solver import factorise
+from pipeline.physics.reduction.craig_bampton import (
+    attachment,
+    craig_bampton,
+    independent_rows,
+    modal_damping,
+    projected,
+)
+
+
+@dataclass(frozen=True)
+class ElasticBody:
+    """Mesh, materials and supports of a body; degree of freedom = 3 node + axis.
+
+    ``rows`` (r, 3n) sparse are all displacement rows that the model reads; those numbered in ``interface`` carry
+    forces. ``frequency`` (m,) Hz and ``modes`` (3n, m) are needed of a supported body only.
+    """
+
+    name: str
+    node: np.ndarray
+    element: np.ndarray
+    kind: str
+    material: np.ndarray
+    density: np.ndarray
+    elasticity: np.ndarray
+    damping_ratio: float
+    supported: np.ndarray
+    rows: sp.csr_matrix
+    interface: np.ndarray
+    turns: bool
+    frequency: np.ndarray
+    modes: np.ndarray
+
+    def matrices(self):
+        """Stiffness and mass (3n, 3n) sparse of the body, supports not yet held."""
+        return assemble(self.node, self.element, self.kind, self.material, self.density, self.elasticity)
+
+
+@dataclass(frozen=True)
+class BodyTerms:
+    """Matrices (k, k), rows (r, k), and the surface: positions (v, 3), quadrilaterals (f, 4), recovery (v, 3, k)."""
+
+    mass: np.ndarray
+    damping: np.ndarray
+    gyroscopic: np.ndarray
+    stiffness: np.ndarray
+    centrifugal: np.ndarray
+    rows: np.ndarray
+    position: np.ndarray
+    face: np.ndarray
+    recovery: np.ndarray
+
+
+def reduce_body(body, fixed_below, residual_below, solver):
+    """BodyTerms of an ElasticBody.
+
+    ``fixed_below`` [Hz] limits the fixed-interface modes of a free body, ``residual_below`` [Hz] the pseudo-frequencies
+    of the residual shapes of both kinds. Raises ConfigError for a turning body without supports.
+    """
+    stiffness, mass = body.matrices()
+    free = free_freedoms(len(body.node), body.supported)
+    stiffness, mass, rows = stiffness[free][:, free], mass[free][:, free], sp.csr_matrix(body.rows)[:, free]
+    interface = rows[body.interface]
+    interface = interface[independent_rows(interface)]
+    if len(body.supported):
+        factor = factorise(stiffness, solver)
+        reduced = attachment(stiffness, mass, interface, body.frequency, body.modes[free], residual_below, factor)
+    elif body.turns:
+        raise ConfigError(f"reduced model: {body.name}", "a turning body on rigid supports", "none",
+                          "hold the nodes of its mount")
+    else:
+        reduced = craig_bampton(stiffness, mass, interface, fixed_below, solver, residual_below)
+    size = reduced.shape.shape[1]
+    whirl, centrifugal = _rotation(body, free, factor, reduced.shape) if body.turns else (np.zeros((size, size)),) * 2
+    return BodyTerms(reduced.mass, modal_damping(reduced.mass, reduced.stiffness, body.damping_ratio), whirl,
+                     reduced.stiffness, centrifugal, rows @ reduced.shape, *_surface(body, free, reduced.shape))
+
+
+def _rotation(body, free, factor, shape):
+    """Reduced gyroscopic matrix per speed; stress stiffening less convective inertia, per squared speed."""
+    mesh = body.node, body.element, body.kind, body.material
+    whirl, convective = gyroscopic(*mesh, body.density)
+    stretched = np.zeros(3 * len(body.node))
+    stretched[free] = factor.solve(centrifugal_load(*mesh, body.density)[free])
+    stiffening = geometric_stiffness(*mesh, body.elasticity, stretched) - convective
+    return tuple(projected(a[free][:, free], shape) for a in (whirl, stiffening))
+
+
+def _surface(body, free, shape):
+    """Corner nodes of the boundary faces, the faces on them, and their displacement per coordinate (float32)."""
+    corners = boundary_faces(Mesh(body.node, body.element, body.kind, np.zeros((len(body.element), 3), int)))[:, :4]
+    visible, face = np.unique(corners, return_inverse=True)
+    row_of = np.full(3 * len(body.node), -1)
+    row_of[free] = np.arange(len(free))
+    rows = row_of[3 * visible[:, None] + np.arange(3)]
+    recovery = np.where((rows >= 0)[..., None], shape[rows], 0.0).astype(np.float32)
+    return body.node[visible], face.reshape(corners.shape), recovery

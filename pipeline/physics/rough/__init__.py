@@ -1,0 +1,1 @@
+"""Rough contact: topography, layered solids, shear limit and Archard wear."""

@@ -1,0 +1,50 @@
+"""Running-in of a rough pair: Archard wear on both surfaces while the slider (disc) passes over the pad.
+
+A cycle stands for ``distance`` of sliding at one position of the slider. The slider advances by one grid node per cycle
+and returns to its start after ``stroke`` nodes, so that every position of the pass meets the same number of cycles.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from pipeline.physics.rough.normal_contact import solve_normal_contact
+
+
+@dataclass(frozen=True)
+class WornPair:
+    """Worn surfaces after some cycles: heights (ny, nx) in m outwards of pad and disc, each on its own grid."""
+
+    pad_height: np.ndarray
+    disc_height: np.ndarray
+    pad_wear: np.ndarray
+    disc_wear: np.ndarray
+
+    def gap(self, position):
+        """Distance (ny, nx) in m of the undeformed surfaces when the slider has moved by ``position`` nodes along x."""
+        return -(self.pad_height - self.pad_wear) - np.roll(self.disc_height - self.disc_wear, position, axis=1)
+
+
+def archard(pressure, distance, coefficient):
+    """Wear depth in m of each node: coefficient (m^2/N) * pressure (Pa) * sliding distance (m) (Archard 1953)."""
+    return coefficient * pressure * distance
+
+
+def run_in(pad_height, disc_height, compliance, mean_pressure, *, cycles, distance, stroke, pad_coefficient,
+           disc_coefficient, tolerance, max_iterations):
+    """Yield the WornPair at the start and after each cycle: ``cycles`` + 1 states.
+
+    ``compliance`` (ny, nx // 2 + 1) in m/Pa is the normal one of both solids; the pressure of a cycle is that at its
+    start. ConvergenceError when a contact solve does not converge.
+    """
+    pair = WornPair(pad_height, disc_height, np.zeros_like(pad_height), np.zeros_like(disc_height))
+    pressure = None
+    yield pair
+    for cycle in range(cycles):
+        position = cycle % (stroke + 1)
+        pressure = solve_normal_contact(pair.gap(position), compliance, mean_pressure, pressure, tolerance,
+                                        max_iterations).pressure
+        pad_wear = pair.pad_wear + archard(pressure, distance, pad_coefficient)
+        disc_wear = pair.disc_wear + archard(np.roll(pressure, -position, axis=1), distance, disc_coefficient)
+        pair = WornPair(pad_height, disc_height, pad_wear, disc_wear)
+        yield pair

@@ -1,0 +1,217 @@
+"""Friction of a rough pair over its sliding distance: normal contact, shear limit, wear and flash heat together.
+
+One call of ``slide`` is one nominal pressure and one relative position of the two patches. Speed acts through the shear
+limit alone, so the contact is solved once for all speeds and the shear once for each.
+"""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from pipeline.physics.friction.state_variables import Film
+from pipeline.physics.rough.archard_wear import run_in
+from pipeline.physics.rough.flash_temperature import ThermalSolid, spot_heating
+from pipeline.physics.rough.layered_solid import SurfaceCompliance
+from pipeline.physics.rough.normal_contact import contact_area, interface_stiffness, solve_normal_contact
+from pipeline.physics.rough.shear_limit import film_factor, full_slip_displacement, limit_at_speed, solve_shear_limit
+
+
+@dataclass(frozen=True)
+class RoughPair:
+    """Two rough solids: heights (ny, nx) in m outwards, ``spacing`` (dy, dx) in m, ``compliance`` of both together."""
+
+    pad_height: np.ndarray
+    disc_height: np.ndarray
+    spacing: tuple
+    compliance: SurfaceCompliance
+
+
+@dataclass(frozen=True)
+class Wearing:
+    """Cycles of ``distance`` m each, ``stroke`` in nodes, wear coefficients in m^2/N; below 0 a surface grows.
+
+    Both coefficients hold at ``reference_pressure`` (Pa) and go with the nominal pressure to the power ``exponent``.
+    """
+
+    cycles: int
+    distance: float
+    stroke: int
+    pad_coefficient: float
+    disc_coefficient: float
+    exponent: float = 0.0
+    reference_pressure: float = 1e6
+
+    def under(self, mean_pressure):
+        """Arguments of ``run_in`` under a nominal pressure."""
+        factor = (mean_pressure / self.reference_pressure) ** self.exponent
+        return {"cycles": self.cycles, "distance": self.distance, "stroke": self.stroke,
+                "pad_coefficient": factor * self.pad_coefficient, "disc_coefficient": factor * self.disc_coefficient}
+
+
+@dataclass(frozen=True)
+class Shearing:
+    """Shear ``limit`` (Pa) at ``reference_speed`` (m/s), its rate and softening (1/K) coefficients, heat paths.
+
+    The limit of a node rises by ``pressure_coefficient`` times its contact pressure, that of all by a ``film``.
+    """
+
+    limit: float
+    reference_speed: float
+    rate: float
+    softening: float
+    pad: ThermalSolid
+    disc: ThermalSolid
+    pressure_coefficient: float = 0.0
+    film: Film | None = None
+
+    def after(self, mean_pressure, distance):
+        """The same with the film that ``distance`` m of sliding under a nominal pressure have left."""
+        if self.film is None:
+            return self
+        factor = film_factor(self.film, mean_pressure, distance)
+        return replace(self, limit=factor * self.limit, pressure_coefficient=factor * self.pressure_coefficient)
+
+
+@dataclass(frozen=True)
+class Solving:
+    """Tolerance (share of the rms gap and of the largest limit) and iteration bound of the contact solves."""
+
+    tolerance: float
+    max_iterations: int
+
+
+@dataclass(frozen=True)
+class Rubbing:
+    """A rough pair with its laws of wear and shear: what physics on the scale of the roughness changes."""
+
+    pair: RoughPair
+    wearing: Wearing
+    shearing: Shearing
+    solving: Solving
+
+
+@dataclass(frozen=True)
+class Drag:
+    """A run on a rubbing bench: one nominal ``pressure`` (Pa), speeds (n,) in m/s and ways (n,) in m of its points."""
+
+    pressure: float
+    speed: np.ndarray
+    distance: np.ndarray
+
+
+@dataclass(frozen=True)
+class SlidingRecord:
+    """What one run tells at each speed and recorded distance, arrays (speeds, records); maps (ny, nx) new and worn."""
+
+    friction: np.ndarray
+    real_area: np.ndarray
+    approach: np.ndarray
+    largest_wear: np.ndarray
+    normal_stiffness: np.ndarray
+    flash_temperature: np.ndarray
+    full_slip_distance: np.ndarray
+    limit_at_speed: np.ndarray
+    contact_pressure_new: np.ndarray
+    contact_pressure_worn: np.ndarray
+    pad_wear: np.ndarray
+    disc_wear: np.ndarray
+
+
+#: fields of a SlidingRecord that vary over the recorded distances
+RECORDED = ("friction", "real_area", "approach", "largest_wear", "normal_stiffness", "flash_temperature",
+            "full_slip_distance", "limit_at_speed")
+
+#: imposed displacement of steady sliding over that of full slip
+FAR = 100.0
+
+
+def slide(rubbing, mean_pressure, speeds, recorded):
+    """SlidingRecord of a Rubbing under ``mean_pressure`` (Pa) at ``speeds`` (m/s) after the ``recorded`` cycles."""
+    figures, pressures = [], []
+    for cycle, worn in enumerate(states(rubbing, mean_pressure)):
+        if cycle in recorded:
+            shearing = rubbing.shearing.after(mean_pressure, cycle * rubbing.wearing.distance)
+            record, pressure = _measure(worn, replace(rubbing, shearing=shearing), mean_pressure, speeds)
+            figures.append(record)
+            pressures.append(pressure)
+    table = {name: np.stack([record[name] for record in figures], axis=-1) for name in RECORDED}
+    return SlidingRecord(**table, contact_pressure_new=pressures[0], contact_pressure_worn=pressures[-1],
+                         pad_wear=worn.pad_wear, disc_wear=worn.disc_wear)
+
+
+def states(rubbing, mean_pressure):
+    """WornPairs of a Rubbing under ``mean_pressure`` (Pa): at the start and after each cycle."""
+    pair = rubbing.pair
+    return run_in(pair.pad_height, pair.disc_height, pair.compliance.normal, mean_pressure,
+                  **rubbing.wearing.under(mean_pressure), **vars(rubbing.solving))
+
+
+def passed(rubbing, worn, mean_pressure):
+    """NormalContacts of a WornPair at every position of one pass of the slider."""
+    contacts, pressure = [], None
+    for position in range(rubbing.wearing.stroke + 1):
+        contact = solve_normal_contact(worn.gap(position), rubbing.pair.compliance.normal, mean_pressure, pressure,
+                                       **vars(rubbing.solving))
+        contacts.append(contact)
+        pressure = contact.pressure
+    return contacts
+
+
+def spots(pressure, pair, shearing, speeds):
+    """(real area share, corrected for its perimeter; counted share; heating of the spots (speeds,) in K/Pa)."""
+    touching = pressure > 0.0
+    counted, area = contact_area(touching)
+    heating = [spot_heating(touching, pair.spacing, shearing.pad, shearing.disc, speed) for speed in speeds]
+    return area, counted, area / counted * np.array(heating)
+
+
+def spot_limit(shearing, mean_pressure, area, speed, heating):
+    """Mean shear limit in Pa of spots that share ``mean_pressure`` (Pa) at ``speed`` (m/s); arrays are welcome."""
+    pressed = shearing.limit + shearing.pressure_coefficient * mean_pressure / area
+    return limit_at_speed(pressed, speed, shearing.reference_speed, shearing.rate, shearing.softening, heating)
+
+
+def _measure(worn, rubbing, mean_pressure, speeds):
+    """Figures per speed of one state, mean over the slider's positions, and the contact pressure at the first.
+
+    The interface stiffness is the mean over the first, the middle and the last position.
+    """
+    contacts, stroke = passed(rubbing, worn, mean_pressure), rubbing.wearing.stroke
+    stiffness = np.mean([interface_stiffness(worn.gap(position), rubbing.pair.compliance.normal, contacts[position],
+                                             **vars(rubbing.solving)) for position in {0, stroke // 2, stroke}])
+    sheared = [_sheared(c.pressure, speeds, rubbing) for c in contacts]
+    figures = {name: np.mean([[f[name] for f in row] for row in sheared], axis=0) for name in sheared[0][0]}
+    same = {"approach": np.mean([c.approach for c in contacts]), "normal_stiffness": stiffness,
+            "largest_wear": max(worn.pad_wear.max(), worn.disc_wear.max())}
+    figures |= {name: np.full(len(speeds), value) for name, value in same.items()}
+    return figures, contacts[0].pressure
+
+
+def _sheared(pressure, speeds, rubbing):
+    """Friction, real area and heat of one contact at every speed.
+
+    The limit of the spots carries the perimeter correction: limit * corrected area / counted area; what the pressure
+    adds needs none, because its sum is that of the pressures. The bases are displaced by ``FAR`` times what full slip
+    takes, so that all slip is along x; that no node sticks is the solution's finding.
+    """
+    shearing, compliance = rubbing.shearing, rubbing.pair.compliance
+    area, counted, heating = spots(pressure, rubbing.pair, shearing, speeds)
+    figures = []
+    for speed, heat in zip(speeds, heating, strict=True):
+        limit = spot_limit(shearing, pressure.mean(), area, speed, heat)
+        nodal = np.where(pressure > 0.0, _nodal_share(pressure, shearing, area) * limit * area / counted, 0.0)
+        slip = full_slip_displacement(nodal, compliance)
+        imposed = FAR * (slip + compliance.along[0, 0] * nodal.mean())
+        shear = solve_shear_limit(nodal, compliance, imposed, **vars(rubbing.solving))
+        figures.append({"friction": shear.traction[0].sum() / pressure.sum(), "real_area": area,
+                        "flash_temperature": heat * limit, "full_slip_distance": slip, "limit_at_speed": limit})
+    return figures
+
+
+def _nodal_share(pressure, shearing, area):
+    """Limit of each node over the mean of the spots: pressed harder, it bears more (``pressure_coefficient``)."""
+    if shearing.pressure_coefficient == 0.0:
+        return 1.0
+    own = shearing.pressure_coefficient * pressure
+    counted = np.count_nonzero(pressure) / pressure.size
+    return (shearing.limit + own * counted / area) / (shearing.limit + own.mean() / area)

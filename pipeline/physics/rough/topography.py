@@ -1,0 +1,179 @@
+"""Measured surfaces: read, clean, level, make periodic; roughness statistics and spectrum.
+
+The one door of SurfaceTopography. Maps are (ny, nx) in m, NaN where the instrument saw nothing.
+"""
+
+import contextlib
+import io
+import logging
+import warnings
+from dataclasses import dataclass
+
+import numpy as np
+from scipy import ndimage
+
+from pipeline.contract.errors import ConfigError
+from pipeline.physics.rough.generator import band_limit, resample
+
+#: median absolute deviation to standard deviation of Gaussian scatter
+MAD_TO_RMS = 1.4826
+
+
+@dataclass(frozen=True)
+class Scan:
+    """Measured ``heights`` (ny, nx) in m with NaN where missing, and ``spacing`` (dy, dx) in m."""
+
+    heights: np.ndarray
+    spacing: tuple
+
+
+@dataclass(frozen=True)
+class Statistics:
+    """ISO 25178 parameters: rms Sq, mean Sa, peak to valley Sz in m; skewness Ssk, kurtosis Sku, rms slope Sdq."""
+
+    rms_height: float
+    mean_height: float
+    peak_to_valley: float
+    skewness: float
+    kurtosis: float
+    rms_slope: float
+
+
+def read_scan(path):
+    """Scan of any file that SurfaceTopography reads (x3p, sur, opd, al3d, plu, dat, nc, ...), heights outwards.
+
+    Raises ConfigError that names the file when it is unreadable, tells no size, or holds no or constant heights.
+    """
+    where = f"scan {path}"
+    with _quiet_readers():
+        topography = _open(path, where)
+        heights = np.ma.filled(np.ma.asarray(topography.heights(), dtype=float), np.nan).T
+        size_x, size_y = topography.physical_sizes
+    if not np.isfinite(heights).any():
+        raise ConfigError(where, "measured heights", "no value that is a number", "choose another scan")
+    _refuse_constant(heights, where)
+    return Scan(heights, (size_y / heights.shape[0], size_x / heights.shape[1]))
+
+
+def remove_outliers(heights, threshold, window=5):
+    """(heights with NaN at outliers, their share): a local median test.
+
+    A sample is an outlier when it differs from the median of its ``window`` x ``window`` neighbours by more than
+    ``threshold`` times the robust scatter of such differences. A pit wider than half the window moves the
+    median with it and stays, however deep; a spike does not.
+    """
+    missing = np.isnan(heights)
+    nearest = ndimage.distance_transform_edt(missing, return_distances=False, return_indices=True)
+    complete = heights[tuple(nearest)]
+    difference = np.abs(complete - ndimage.median_filter(complete, window, mode="nearest"))
+    scatter = MAD_TO_RMS * np.median(difference[~missing])
+    if scatter == 0.0:
+        scatter = difference[~missing].std()
+    outlier = ~missing & (difference > threshold * scatter)
+    return np.where(outlier, np.nan, heights), outlier.mean()
+
+
+def level(heights, spacing):
+    """(heights without holes and form, share of samples filled): harmonic filling, then a quadratic form removed."""
+    missing = np.isnan(heights)
+    with _quiet_readers():
+        topography = _topography(np.ma.masked_invalid(heights), spacing, periodic=False)
+        if missing.any():
+            topography = topography.interpolate_undefined_data_with_harmonic_function()
+        levelled = np.ma.filled(topography.detrend("curvature").heights(), np.nan).T
+    return levelled, missing.mean()
+
+
+def periodic_patch(heights, spacing, length, overlap=0.1):
+    """Central square patch of ``length`` m made periodic: its margins fade into what follows beyond the patch.
+
+    ``overlap`` is the faded share of the length; weights keep the variance of uncorrelated margins. Returns a map on
+    the pixels of the scan. Raises ConfigError when the scan is smaller than length * (1 + overlap).
+    """
+    for axis in (0, 1):
+        kept = round(length / spacing[axis])
+        margin = round(overlap * kept)
+        if kept + margin > heights.shape[axis]:
+            raise ConfigError("surface patch", f"at most {heights.shape[axis] * spacing[axis] / (1 + overlap):.4g} m",
+                              f"{length:.4g} m", "shorten patch_length or take a larger scan")
+        start = (heights.shape[axis] - kept - margin) // 2
+        body, beyond = np.split(np.moveaxis(heights, axis, 0)[start:start + kept + margin], [kept])
+        angle = (np.pi / 2.0 * (np.arange(margin) + 0.5) / max(margin, 1))[:, None]
+        faded = np.sin(angle) * body[:margin] + np.cos(angle) * beyond
+        heights = np.moveaxis(np.concatenate([faded, body[margin:]]), 0, axis)
+    return heights
+
+
+def to_grid(heights, spacing, length, nodes, shortest, longest, rms_height, where):
+    """Periodic map (nodes, nodes) of a levelled scan in the band ``shortest`` to ``longest``, of rms ``rms_height``.
+
+    ConfigError at ``where`` for a scan whose pixels do not tell the shortest wavelength, or without height.
+    """
+    if 2 * max(spacing) > shortest * (1 + 1e-6):
+        raise ConfigError(where, f"pixels of at most {shortest / 2:.3g} m, two a shortest wavelength",
+                          f"{max(spacing):.3g} m", "raise surface.shortest_wavelength, or take a finer scan")
+    patch = periodic_patch(heights - heights.mean(), spacing, length)
+    filtered = resample(band_limit(patch, (length, length), shortest, longest), (nodes, nodes))
+    _refuse_constant(filtered, where)
+    return filtered * (rms_height / filtered.std())
+
+
+def statistics(heights, spacing):
+    """Statistics of a periodic map (ny, nx)."""
+    centred = heights - heights.mean()
+    with _quiet_readers():
+        topography = _topography(centred, spacing, periodic=True)
+        rms, slope = topography.rms_height_from_area(), topography.rms_gradient()
+    return Statistics(rms, np.abs(centred).mean(), np.ptp(centred), (centred ** 3).mean() / rms ** 3,
+                      (centred ** 4).mean() / rms ** 4, slope)
+
+
+def isotropic_spectrum(heights, spacing):
+    """(wavenumber rad/m, power spectrum m^4) of a periodic map, averaged over directions; empty bins left out."""
+    with _quiet_readers():
+        wave, power = _topography(heights, spacing, periodic=True).power_spectrum_from_area()
+    filled = ~(np.ma.getmaskarray(wave) | np.ma.getmaskarray(power)) & np.isfinite(np.ma.getdata(power))
+    return np.ma.getdata(wave)[filled], np.ma.getdata(power)[filled]
+
+
+def _open(path, where):
+    from SurfaceTopography import open_topography
+    from SurfaceTopography.IO import CannotDetectFileFormat, ReadFileError
+
+    remedy = "check the file; 'SurfaceTopography' lists the formats it reads"
+    try:
+        topography = open_topography(str(path)).topography()
+        if topography.dim != 2 or topography.unit is None:
+            raise ConfigError(where, "a map with its length unit", "a profile or no unit", "save it with its unit")
+        return topography.to_unit("m")
+    except CannotDetectFileFormat:
+        raise ConfigError(where, "a surface scan", "no format that is known", remedy) from None
+    except (ReadFileError, ValueError, EOFError, OSError) as error:
+        raise ConfigError(where, "a surface scan", (str(error).splitlines() or ["nothing"])[0][:120], remedy) from None
+
+
+def _topography(heights, spacing, periodic):
+    from SurfaceTopography import Topography
+
+    size = (heights.shape[1] * spacing[1], heights.shape[0] * spacing[0])
+    return Topography(heights.T, size, unit="m", periodic=periodic)
+
+
+def _refuse_constant(heights, where):
+    span, size = np.nanmax(heights) - np.nanmin(heights), np.nanmax(np.abs(heights))
+    if not span > 1e-12 * size:
+        raise ConfigError(where, "heights that vary", f"a constant surface at {np.nanmean(heights):g} m",
+                          "choose another scan or longer cut-off")
+
+
+@contextlib.contextmanager
+def _quiet_readers():
+    """Readers that try formats in turn print, log, warn and leave files open: none of it concerns the user."""
+    before = logging.root.manager.disable
+    logging.disable(logging.CRITICAL)
+    try:
+        with warnings.catch_warnings(), contextlib.redirect_stdout(io.StringIO()):
+            warnings.simplefilter("ignore")
+            yield
+    finally:
+        logging.disable(before)

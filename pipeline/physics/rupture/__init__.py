@@ -1,0 +1,1 @@
+"""Rupture along a bimaterial interface."""

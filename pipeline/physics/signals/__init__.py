@@ -1,0 +1,1 @@
+"""Signal processing: spectra, pole identification and squeal detection."""

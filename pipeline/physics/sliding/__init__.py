@@ -1,0 +1,1 @@
+"""The model linearised about steady sliding and its equilibrium."""

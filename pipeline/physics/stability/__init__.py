@@ -1,0 +1,1 @@
+"""Stability of steady sliding: linearisation, mode coupling and lock-in."""

@@ -1,0 +1,56 @@
+"""A small basis for complex modes: real modes of the frictionless system and corrections for friction and damping.
+
+Real modes alone do not converge the growth rates, because friction and dampers load the bodies locally. What the real
+modes phi (frequencies w) below a limit leave out of the response to these forces, each at its own frequency, is known
+from the modes H (frequencies W) above it:
+
+    x = H (W^2 - w^2)^-1 H^T K_f phi,    y = H (W^2 - w^2)^-1 H^T w C phi,    friction coefficient 1.
+
+With w = 0 in the bracket these would be static corrections, which converge more slowly near the limit. The corrections
+are orthonormalised in the mass; their singular values are amplitudes per unit of modal amplitude.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.linalg import eigh
+
+from pipeline.contract.errors import ConfigError
+from pipeline.physics.sliding.model import spread
+
+
+@dataclass(frozen=True)
+class FrictionBasis:
+    """``shape`` (n, m + c): mass-orthonormal; m real modes of ``frequency`` (m,) Hz, then c ``corrections``."""
+
+    shape: np.ndarray
+    frequency: np.ndarray
+    corrections: int
+
+
+def friction_basis(model, below, friction_damping=True, smallest=1e-3, contact_stiffness=0.0, centrifugal=True,
+                   others=None):
+    """Real modes of a SlidingModel below a frequency [Hz] and their corrections, largest first.
+
+    The real modes are those of closed contacts without friction, damping and gyroscopic terms. Corrections with
+    amplitudes up to ``smallest`` per unit of modal amplitude are left out; ``smallest`` = inf leaves out all. Where the
+    basis shall serve states whose contacts are stiffer or softer, corrections for a change by ``contact_stiffness``
+    (() or (c,) N/m) join them, and where ``others`` (n, n) N/m act, as Maxwell branches do at once, those for these.
+    Raises ConfigError where no mode lies below the frequency.
+    """
+    mass, damping, stiffness = model.frictionless(gyroscopic=False, centrifugal=centrifugal)
+    square, modes = eigh(stiffness, mass)
+    low = square < (2 * np.pi * below) ** 2
+    frequency = np.sqrt(np.maximum(square, 0.0)) / (2 * np.pi)
+    if not low.any():
+        raise ConfigError("real modes", f"a mode below {below:g} Hz", f"the lowest at {frequency[0]:g} Hz")
+    real, high = modes[:, low], modes[:, ~low]
+    drag, follower = model.friction_matrices(1.0, friction_damping)
+    rows = model.contacts.normal
+    force = [follower @ real, spread(rows, contact_stiffness, rows) @ real,
+             (damping + drag) @ real * (2 * np.pi * frequency[low])]
+    force += [] if others is None else [others @ real]
+    response = (high.T @ np.hstack(force)) / (square[~low, None] - np.tile(square[low], len(force)))
+    direction, size, _ = np.linalg.svd(response, full_matrices=False)
+    corrections = high @ direction[:, size > smallest]
+    return FrictionBasis(np.hstack((real, corrections)), frequency[low], corrections.shape[1])

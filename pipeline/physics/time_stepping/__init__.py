@@ -1,0 +1,1 @@
+"""Time integration of reduced models with contact and friction."""

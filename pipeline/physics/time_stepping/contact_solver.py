@@ -1,0 +1,264 @@
+"""Forces of several sliding contacts over one time step, compiled: normal laws with friction, solved together.
+
+Every contact has four observables, (displacement, velocity) along its normal row n and along its tangent row t. At the
+end of the step they are y = free + R x, linear in the contact forces x = (N, T) of the step. ``hard`` contacts and
+rigid sticking are set on velocities, their forces constant over the step (Moreau-Jean; Jean, CMAME 177 (1999) 235):
+
+    0 <= N  _|_  n q'(end) + e n q'(begin) >= 0        where the motion without force would close the gap,
+    T such that the slip ends at 0, while |T| <= mu N;
+
+``penalty`` N = k c + d c' and ``table`` N = A p(c) (1 + c' / v0) (Hunt & Crossley 1975) hold at the end of the step,
+as do the elastic and the evolution description of friction; ``lagrange`` asks n q(end) + gap >= 0. The contacts are
+visited in turn (Gauss-Seidel), the two forces of one contact solved together, until no force changes. A friction joint
+has a normal force of its own that never changes.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+from numba import njit
+
+from pipeline.physics.friction.dry_friction import (
+    DELAYED,
+    EVOLUTION,
+    EXPONENT,
+    LOAD_KEPT,
+    LOAD_SHARE,
+    RIGID,
+    SLIDING_SLOPE,
+    STATIC,
+    STIFFNESS,
+    coefficient,
+    evolution_rule,
+)
+
+HARD, PENALTY, TABLE, LAGRANGE = 0, 1, 2, 3
+OPEN, STICK, SLIP = 0, 1, 2
+SOLVED, UNCONVERGED, JAMMED, TOO_LONG = 0, 1, 2, 3
+SWEEPS, ITERATIONS, TOLERANCE, LOCAL_TOLERANCE = 2000, 100, 1e-9, 1e-13
+#: largest product of a contact stiffness and its flexibility over one step: 8 steps in a period of the contact
+LARGEST_STIFFNESS = 0.1
+
+
+class NormalKernel(NamedTuple):
+    """Normal law of c contacts: kind, gap at zero displacement (m), and what the kind needs."""
+
+    kind: int
+    gap: np.ndarray             # (c,) m
+    fixed: np.ndarray           # (c,) N, normal force of a friction joint, below 0 for all other contacts
+    area: np.ndarray            # (c,) m^2
+    stiffness: np.ndarray       # (c,) N/m, penalty
+    damping: np.ndarray         # (c,) N s/m, penalty
+    closure: np.ndarray         # (k,) m, table
+    pressure: np.ndarray        # (g k,) Pa, tables of g groups on the same closures, stacked
+    first: np.ndarray           # (c,) where the table of a contact begins; below 0 for penalty among tables
+    damping_speed: np.ndarray   # (c,) m/s, table
+    restitution: float          # hard
+    newmark: bool               # the linear part is stepped by Newmark's rule, contact and friction forces with it
+
+
+@njit(cache=True)
+def table_force(law, i, closure, rate):
+    """(N, dN/dclosure, dN/drate) of contact i; beyond its last row the table goes on along its last slope."""
+    if closure <= 0.0:
+        return 0.0, 0.0, 0.0
+    last = law.closure.size - 2
+    k = min(max(np.searchsorted(law.closure, closure) - 1, 0), last)
+    first = law.first[i] + k
+    slope = (law.pressure[first + 1] - law.pressure[first]) / (law.closure[k + 1] - law.closure[k])
+    force = law.area[i] * (law.pressure[first] + slope * (closure - law.closure[k]))
+    factor = 1.0 + rate / law.damping_speed[i]
+    if factor <= 0.0:
+        return 0.0, 0.0, 0.0
+    return force * factor, law.area[i] * slope * factor, force / law.damping_speed[i]
+
+
+@njit(cache=True)
+def solve_contacts(law, friction, response, free, past, held, drive, way, force, status, before):
+    """(code, contact) after filling ``force`` (2, c) N and ``status`` (c,), which enter with those of the last step.
+
+    ``response`` (4, 2, c, c), ``free`` (4, c) observables without forces of this step, ``past`` (4, c) those at its
+    begin, ``held`` (2, c) the forces at its begin, ``drive`` (2, c) sliding velocity at begin and end, ``way`` (c,) m
+    its integral; ``before`` (c,) is room to work in. Nothing is accepted that has not converged: the code says what
+    failed, in which contact.
+    """
+    count = free.shape[1]
+    before[:] = status
+    for _ in range(SWEEPS):
+        change, size, where = 0.0, 0.0, 0
+        for i in range(count):
+            y0, y1, y2, y3 = free[0, i], free[1, i], free[2, i], free[3, i]
+            for j in range(count):
+                if j != i:
+                    for f in range(2):
+                        x = force[f, j]
+                        if x != 0.0:
+                            y0 += response[0, f, i, j] * x
+                            y1 += response[1, f, i, j] * x
+                            y2 += response[2, f, i, j] * x
+                            y3 += response[3, f, i, j] * x
+            active = before[i] != OPEN or law.gap[i] + free[0, i] <= 0.0
+            normal, tangent, status[i], code = _one_contact(
+                law, friction, i, (y0, y1, y2, y3), _own_response(response, i),
+                (past[0, i], past[1, i], past[2, i], past[3, i]), (held[0, i], held[1, i]), (drive[0, i], drive[1, i]),
+                way[i], (force[0, i], force[1, i]), before[i], active)
+            if code != SOLVED:
+                return code, i
+            moved = abs(normal - force[0, i]) + abs(tangent - force[1, i])
+            if moved > change:
+                change, where = moved, i
+            size = max(size, abs(normal) + abs(tangent))
+            force[0, i], force[1, i] = normal, tangent
+            if status[i] == SLIP:
+                before[i] = SLIP        # what has broken loose is no longer held by static friction in this step
+        if count == 1 or change <= TOLERANCE * size:
+            return SOLVED, 0
+    return UNCONVERGED, where
+
+
+@njit(cache=True)
+def _own_response(response, i):
+    """Pairs (to N, to T) of the four observables of contact i: tuples, which cost nothing to pass."""
+    return ((response[0, 0, i, i], response[0, 1, i, i]), (response[1, 0, i, i], response[1, 1, i, i]),
+            (response[2, 0, i, i], response[2, 1, i, i]), (response[3, 0, i, i], response[3, 1, i, i]))
+
+
+@njit(cache=True)
+def _one_contact(law, friction, i, y, r, past, held, drive, way, guess, before, active):
+    """(N, T, status, code) of contact i, its observables without its own forces being ``y``."""
+    if law.kind == HARD and not active:
+        return 0.0, 0.0, OPEN, SOLVED
+    if friction.description == RIGID:
+        return _rigid(law, friction, i, y, r, past, held, drive, way, guess, before)
+    return _yielding(law, friction, i, y, r, past, held, drive, way, guess, before)
+
+
+@njit(cache=True)
+def _rigid(law, friction, i, y, r, past, held, drive, way, guess, before):
+    """Sticks if the force that ends the slip (forward increments: allows none) stays below the limit, else slides."""
+    share, kept = _mean_load(law, friction, i, held)
+    slip_begin = drive[0] - past[3]
+    missing, per_force = drive[1] - y[3], r[3]
+    if law.kind == LAGRANGE and not law.newmark:
+        missing, per_force = way + past[2] - y[2], r[2]
+    sign = np.sign(missing)
+    if per_force[1] > 0.0:
+        fixed, slope = missing / per_force[1], -per_force[0] / per_force[1]
+        normal, code = _normal(law, i, y, r, past, fixed, slope, guess[0])
+        if code == SOLVED:
+            tangent = fixed + slope * normal
+            load = kept + share * normal
+            limit = coefficient(friction, i, load / law.area[i], 0.0, tangent) * load
+            if before == STICK:
+                limit *= friction.contact[i, STATIC]
+            if abs(tangent) <= limit:
+                return normal, tangent, STICK if normal > 0.0 else OPEN, SOLVED
+            sign = np.sign(tangent)
+        elif code != JAMMED:
+            return 0.0, 0.0, OPEN, code
+    normal, speed, mu = guess[0], abs(slip_begin), -1.0
+    for _ in range(ITERATIONS):
+        read = coefficient(friction, i, (kept + share * normal) / law.area[i], speed, sign)
+        if abs(read - mu) <= LOCAL_TOLERANCE:
+            return normal, sign * mu * (kept + share * normal), SLIP if normal > 0.0 else OPEN, SOLVED
+        mu = read
+        fixed, slope = sign * mu * kept, sign * mu * share
+        normal, code = _normal(law, i, y, r, past, fixed, slope, normal)
+        if code != SOLVED:
+            return 0.0, 0.0, OPEN, code
+        slip_end = drive[1] - (y[3] + (r[3][0] + r[3][1] * slope) * normal + r[3][1] * fixed)
+        speed = 0.5 * abs(slip_begin + slip_end)
+    return 0.0, 0.0, OPEN, UNCONVERGED
+
+
+@njit(cache=True)
+def _mean_load(law, friction, i, held):
+    """(share, kept): the normal force that carries rigid friction over the step is kept + share N."""
+    if friction.contact[i, DELAYED] > 0.0:
+        return friction.contact[i, LOAD_SHARE], friction.contact[i, LOAD_KEPT]
+    if law.kind == HARD or law.kind == LAGRANGE or law.newmark:
+        return 1.0, 0.0
+    return 0.5, 0.5 * held[0]
+
+
+@njit(cache=True)
+def _yielding(law, friction, i, y, r, past, held, drive, way, guess, before):
+    """Friction that is a function of the slip of the step, by Newton's method on T, N following T."""
+    stiffness, tangent = friction.contact[i, STIFFNESS], guess[1]
+    if not law.newmark and stiffness * r[2][1] > LARGEST_STIFFNESS:
+        return 0.0, 0.0, OPEN, TOO_LONG
+    normal, speed = guess[0], abs(drive[1] - past[3])
+    for _ in range(ITERATIONS):
+        normal, code = _normal(law, i, y, r, past, tangent, 0.0, normal)
+        if code != SOLVED:
+            return 0.0, 0.0, OPEN, code
+        if normal == 0.0:
+            tangent_new, slope, sliding = 0.0, 0.0, False
+        else:
+            slip = way + past[2] - (y[2] + r[2][0] * normal + r[2][1] * tangent)
+            speed = abs(drive[1] - (y[3] + r[3][0] * normal + r[3][1] * tangent))
+            load = friction.contact[i, LOAD_KEPT] + friction.contact[i, LOAD_SHARE] * normal
+            tangent_new, slope, sliding = _drawn(friction, i, held[1], slip, load, load / law.area[i], speed, before)
+            if sliding:
+                before = SLIP       # once loose in this step, no longer held by static friction
+        change = (tangent_new - tangent) / (1.0 + slope * r[2][1])
+        tangent += change
+        if abs(change) <= LOCAL_TOLERANCE * (abs(tangent) + normal):
+            if normal == 0.0:
+                return 0.0, 0.0, OPEN, SOLVED
+            return normal, tangent, SLIP if sliding else STICK, SOLVED
+    return 0.0, 0.0, OPEN, UNCONVERGED
+
+
+@njit(cache=True)
+def _drawn(friction, i, begin, slip, load, pressure, speed, before):
+    """(T, dT/dslip, slides) of the elastic or the evolution description."""
+    stiffness = friction.contact[i, STIFFNESS]
+    if friction.description == EVOLUTION:
+        limit = coefficient(friction, i, pressure, speed, slip) * load
+        tangent, slope = evolution_rule(begin, slip, limit, stiffness, friction.contact[i, EXPONENT])
+        return tangent, slope, slope < SLIDING_SLOPE * stiffness
+    trial = begin + stiffness * slip
+    hold = coefficient(friction, i, pressure, 0.0, trial) * load
+    if before == STICK:
+        hold *= friction.contact[i, STATIC]
+    if abs(trial) <= hold:
+        return trial, stiffness, False
+    return np.sign(trial) * coefficient(friction, i, pressure, speed, trial) * load, 0.0, True
+
+
+@njit(cache=True)
+def _normal(law, i, y, r, past, fixed, slope, guess):
+    """(N, code) of the normal law where the friction force is fixed + slope N."""
+    if law.fixed[i] >= 0.0:
+        return law.fixed[i], SOLVED
+    gap, rate = law.gap[i] + y[0] + r[0][1] * fixed, y[1] + r[1][1] * fixed
+    flexible, mobile = r[0][0] + r[0][1] * slope, r[1][0] + r[1][1] * slope
+    if law.kind == HARD:
+        missing = rate + law.restitution * past[1]
+        if missing >= 0.0:
+            return 0.0, SOLVED
+        return (-missing / mobile, SOLVED) if mobile > 0.0 else (0.0, JAMMED)
+    if gap >= 0.0:
+        return 0.0, SOLVED
+    if law.kind == LAGRANGE:
+        return (-gap / flexible, SOLVED) if flexible > 0.0 else (0.0, JAMMED)
+    if law.kind == PENALTY or law.first[i] < 0:
+        k, d = law.stiffness[i], law.damping[i]
+        if not law.newmark and k * r[0][0] > LARGEST_STIFFNESS:
+            return 0.0, TOO_LONG
+        against = 1.0 + k * flexible + d * mobile
+        return (max(-(k * gap + d * rate) / against, 0.0), SOLVED) if against > 0.0 else (0.0, JAMMED)
+    normal = guess
+    for _ in range(ITERATIONS):
+        force, k, d = table_force(law, i, -gap - flexible * normal, -rate - mobile * normal)
+        against = 1.0 + k * flexible + d * mobile
+        if k * r[0][0] > LARGEST_STIFFNESS:
+            return 0.0, TOO_LONG
+        if against <= 0.0:
+            return 0.0, JAMMED
+        change = (force - normal) / against
+        normal = max(normal + change, 0.0)
+        if abs(change) <= LOCAL_TOLERANCE * max(normal, abs(force)):
+            return normal, SOLVED
+    return 0.0, UNCONVERGED

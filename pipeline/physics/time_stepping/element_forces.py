@@ -1,0 +1,226 @@
+"""Forces of nonlinear elements, compiled: one function for all kinds, and their solution over one time step.
+
+F is the force that an element draws with at both ends of its row, positive where it resists elongation e = b q with
+rate v; bodies feel -F b. Kinds with memory are functions of the elongation since the begin of the step and of what
+they remember from there:
+
+    polynomial  F = k1 e + k2 e^2 + k3 e^3
+    power       F = c |v|^(p - 1) v
+    sliders     F = k1 e + sum_j clip(F_j + k_j de, -L_j, L_j)      parallel Jenkins elements (Iwan 1966)
+    dry         F = clip(F + k de, -L(v), L(v)), L = F_c (1 + r exp(-|v| / v_s)), F_c of each direction
+    bouc_wen    F = k1 e + k z, dz = (1 - |z / d|^n (s + (1 - s) sgn(z de))) de       (Wen 1976, s = beta d^n)
+    maxwell     F = k1 e + sum_j F_j, F_j' = k_j v - F_j / tau_j             v constant over the step
+    gap         F = k_stop (e - i) + k_inner i, i = clip(e, -lower, upper)
+    softening   F = -k (1 - exp(-t / tau)) e
+    wave        F = -(k u + c u'), u = a cos(order * angle + 2 pi f t - phase)
+    turning     F = share |T| v / |slip|, slip and T of a contact; |slip| with v, along the row, as its other part
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+from numba import njit
+
+from pipeline.physics.time_stepping.contact_solver import LARGEST_STIFFNESS, SOLVED
+
+POLYNOMIAL, POWER, SLIDERS, DRY, BOUC_WEN, GAP, SOFTENING, WAVE, MAXWELL, TURNING = range(10)
+#: codes of a step that has no solution, beside those of the contacts
+TOO_STIFF, UNSETTLED = 5, 6
+#: sizes of the way of a Bouc-Wen element after which nothing is left of where it started
+FORGOTTEN = 40.0
+#: largest product of a damper that turns with friction and the mobility along it over one step
+STRONGEST_TURNING = 10.0
+#: relative rounding of an elongation that is a sum of a few terms
+ROUNDING = 4 * np.finfo(np.float64).eps
+SWEEPS, ITERATIONS, TOLERANCE, LOCAL_TOLERANCE = 500, 100, 1e-10, 1e-13
+
+
+class ElementKernel(NamedTuple):
+    """e elements, as the compiled loops need them; memory and sliders of element k are ``first[k]:first[k + 1]``.
+
+    The last memory of Maxwell branches is the time at which they had their forces.
+    """
+
+    kind: np.ndarray            # (e,)
+    parameter: np.ndarray       # (e, 6) in the order of the law's fields
+    first: np.ndarray           # (e + 1,)
+    stiffness: np.ndarray       # (s,) N/m of sliders and Maxwell branches
+    limit: np.ndarray           # (s,) N of sliders, s of Maxwell branches
+    rows: np.ndarray            # (2 e, 2, m) elongation, then its rate, from the pairs
+    own: np.ndarray             # (2, e, e) of elongation and rate to the forces at the end of the step
+    to_contacts: np.ndarray     # (4, c, e) of the observables of the contacts to these forces
+    to_elements: np.ndarray     # (2, e, 2, c) of elongation and rate to the contact forces
+    waviness: np.ndarray        # (w, 6) contact, amplitude (m), order, frequency (Hz), phase (rad), growth (s)
+    wear: np.ndarray            # (c,) 1/N, depth per normal force and way; empty where nothing wears
+
+
+class LawKernel(NamedTuple):
+    """What the forces alone need of an ElementKernel: fewer arrays, which every compiled call has to hand on."""
+
+    kind: np.ndarray
+    parameter: np.ndarray
+    first: np.ndarray
+    stiffness: np.ndarray
+    limit: np.ndarray
+    own: np.ndarray
+
+
+@njit(cache=True)
+def laws_of(kernel):
+    """LawKernel of an ElementKernel."""
+    return LawKernel(kernel.kind, kernel.parameter, kernel.first, kernel.stiffness, kernel.limit, kernel.own)
+
+
+@njit(cache=True)
+def wave(amplitude, order, frequency, phase, instant):
+    """(u, u') at ``instant``: (time s, angle rad and speed rad/s of the drive)."""
+    time, angle, turning = instant
+    argument = order * angle + 2 * np.pi * frequency * time - phase
+    return (amplitude * np.cos(argument),
+            -amplitude * (order * turning + 2 * np.pi * frequency) * np.sin(argument))
+
+
+@njit(cache=True)
+def element_force(kernel, k, elongation, rate, begin, remembered, memory, instant):
+    """(F, dF/de, dF/dv) of element ``k``; ``memory`` (s,) is filled with what it remembers at the end.
+
+    ``begin`` is the elongation where it remembered ``remembered``.
+    """
+    kind, p, one, last = kernel.kind[k], kernel.parameter[k], kernel.first[k], kernel.first[k + 1]
+    moved = elongation - begin
+    if kind == POLYNOMIAL:
+        return (elongation * (p[0] + elongation * (p[1] + elongation * p[2])),
+                p[0] + elongation * (2 * p[1] + 3 * elongation * p[2]), 0.0)
+    if kind == POWER:
+        steep = p[0] * abs(rate) ** (p[1] - 1)
+        return steep * rate, 0.0, p[1] * steep
+    if kind == SLIDERS:
+        force, slope = p[0] * elongation, p[0]
+        for s in range(one, last):
+            trial = remembered[s] + kernel.stiffness[s] * moved
+            memory[s] = min(max(trial, -kernel.limit[s]), kernel.limit[s])
+            force += memory[s]
+            if abs(trial) <= kernel.limit[s]:
+                slope += kernel.stiffness[s]
+        return force, slope, 0.0
+    if kind == DRY:
+        rise = 1.0 + p[3] * np.exp(-abs(rate) / p[4])
+        trial = remembered[one] + p[0] * moved
+        memory[one] = min(max(trial, -p[2] * rise), p[1] * rise)
+        return memory[one], p[0] if memory[one] == trial else 0.0, 0.0
+    if kind == BOUC_WEN:
+        memory[one], slope = _bouc_wen(remembered[one], moved, p[2], p[3], p[4])
+        return p[0] * elongation + p[1] * memory[one], p[0] + p[1] * slope, 0.0
+    if kind == GAP:
+        inner = min(max(elongation, -p[2]), p[3])
+        return (p[0] * (elongation - inner) + p[1] * inner, p[1] if -p[2] < elongation < p[3] else p[0], 0.0)
+    if kind == SOFTENING:
+        slope = -p[0] * (1.0 - np.exp(-instant[0] / p[1]))
+        return slope * elongation, slope, 0.0
+    if kind == TURNING:
+        return p[2] * rate, 0.0, p[2]
+    if kind == MAXWELL:
+        force, slope = _maxwell(kernel, one, last - 1, moved, remembered, memory, instant[0])
+        return p[0] * elongation + force, p[0] + slope, 0.0
+    place, speed = wave(p[2], p[3], p[4], p[5], instant)
+    return -(p[0] * place + p[1] * speed), 0.0, 0.0
+
+
+@njit(cache=True)
+def turn(kernel, friction, slip, rate):
+    """Set the damping of all ``turning`` elements by friction forces and slip speeds (c,), and their own rates (e,).
+
+    As it is taken at the begin of a step, it resists whatever the step; where friction all but stops the slip, it is
+    no stronger than what stops the motion along the row within the step.
+    """
+    for k in range(kernel.kind.size):
+        if kernel.kind[k] == TURNING:
+            p = kernel.parameter[k]
+            i, mobile = int(p[0]), abs(kernel.own[1, k, k])
+            speed = np.hypot(slip[i], rate[k])
+            p[2] = p[1] * abs(friction[i]) / speed if speed > 0.0 else 0.0
+            if p[2] * mobile > STRONGEST_TURNING:
+                p[2] = STRONGEST_TURNING / mobile
+
+
+@njit(cache=True)
+def _maxwell(kernel, one, clock, moved, remembered, memory, time):
+    """(F, dF/de) of the branches ``one:clock`` after ``moved`` m; exact where the rate is constant over the step."""
+    passed, force, slope = time - remembered[clock], 0.0, 0.0
+    memory[clock] = time
+    for s in range(one, clock):
+        relaxed = -np.expm1(-passed / kernel.limit[s])
+        share = kernel.stiffness[s] * relaxed * kernel.limit[s] / passed if passed > 0.0 else 0.0
+        memory[s] = (1.0 - relaxed) * remembered[s] + share * moved
+        force += memory[s]
+        slope += share
+    return force, slope
+
+
+@njit(cache=True)
+def _bouc_wen_slope(z, way, size, exponent, shape):
+    return 1.0 - (abs(z) / size) ** exponent * (shape + (1.0 - shape) * np.sign(z * way))
+
+
+@njit(cache=True)
+def _bouc_wen(z, way, size, exponent, shape):
+    """(z, dz/de) after ``way`` m, by classical Runge-Kutta steps over a quarter of the size at most."""
+    way = min(max(way, -FORGOTTEN * size), FORGOTTEN * size)
+    parts = int(np.ceil(4 * abs(way) / size)) if way != 0.0 else 1
+    h = way / parts
+    for _ in range(parts):
+        a = _bouc_wen_slope(z, way, size, exponent, shape)
+        b = _bouc_wen_slope(z + 0.5 * h * a, way, size, exponent, shape)
+        c = _bouc_wen_slope(z + 0.5 * h * b, way, size, exponent, shape)
+        d = _bouc_wen_slope(z + h * c, way, size, exponent, shape)
+        z += h * (a + 2 * b + 2 * c + d) / 6
+    return z, _bouc_wen_slope(z, way, size, exponent, shape)
+
+
+@njit(cache=True)
+def solve_elements(kernel, free, begin, remembered, memory, force, grain, instant):
+    """(code, element) after filling ``force`` (e,) N, from a guess, and ``memory``, at the end of the step.
+
+    ``free`` (2, e) are elongation and rate without the forces ``force``, ``begin`` (e,) elongations at the begin of
+    the step. Elements are visited in turn, each solved by Newton's method, until no force changes by more than a
+    tolerance or by more than the rounding of its elongation and rate, which is left in ``grain`` (e,) N.
+    """
+    count = force.size
+    for _ in range(SWEEPS):
+        settled, size, where = True, 0.0, 0
+        for k in range(count):
+            size = max(size, abs(force[k]))
+        for k in range(count):
+            place, rate = free[0, k], free[1, k]
+            for j in range(count):
+                if j != k:
+                    place += kernel.own[0, k, j] * force[j]
+                    rate += kernel.own[1, k, j] * force[j]
+            found, grain[k], code = _one_element(kernel, k, place, rate, begin[k], remembered, memory, force[k],
+                                                 instant)
+            if code != SOLVED:
+                return code, k
+            if abs(found - force[k]) > TOLERANCE * max(size, abs(found)) + grain[k]:
+                settled, where = False, k
+            force[k] = found
+        if count == 1 or settled:
+            return SOLVED, 0
+    return UNSETTLED, where
+
+
+@njit(cache=True)
+def _one_element(kernel, k, place, rate, begin, remembered, memory, guess, instant):
+    """(F, its rounding, code) of element ``k``; ``place``, ``rate``: elongation and rate without its own force."""
+    give, mobile, force = kernel.own[0, k, k], kernel.own[1, k, k], guess
+    for _ in range(ITERATIONS):
+        elongation, speed = place + give * force, rate + mobile * force
+        drawn, slope, drag = element_force(kernel, k, elongation, speed, begin, remembered, memory, instant)
+        grain = ROUNDING * (abs(slope * elongation) + abs(drag * speed))
+        against = 1.0 - slope * give - drag * mobile
+        if abs(slope * give) > LARGEST_STIFFNESS or against <= 0.0:
+            return 0.0, 0.0, TOO_STIFF
+        change = (drawn - force) / against
+        force += change
+        if abs(change) <= LOCAL_TOLERANCE * max(abs(force), abs(drawn)) + grain:
+            return force, grain, SOLVED
+    return 0.0, 0.0, UNSETTLED

@@ -1,0 +1,235 @@
+"""Nonlinear elements of a SlidingModel: each a force along an elongation row, with or without memory.
+
+    replace(model, elements=(Element("stop", row, Gap(stop=1e6, upper=1e-4)),))
+
+The laws and their signs are those of ``element_forces``. Every law has values at which its force is exactly 0. Joints
+carry the linear part; an element that takes something away from a joint does so by a negative ``linear``.
+"""
+
+from dataclasses import astuple, dataclass
+
+import numpy as np
+
+from pipeline.contract.errors import ConfigError
+from pipeline.physics.time_stepping import element_forces as kinds
+
+
+@dataclass(frozen=True)
+class Polynomial:
+    """F = linear e + quadratic e^2 + cubic e^3, in N/m, N/m^2, N/m^3. Duffing's is ``cubic``."""
+
+    linear: float = 0.0
+    quadratic: float = 0.0
+    cubic: float = 0.0
+
+
+@dataclass(frozen=True)
+class Power:
+    """F = coefficient |v|^(exponent - 1) v: 1 viscous (N s/m), 2 quadratic damping (N s^2/m^2)."""
+
+    coefficient: float = 0.0
+    exponent: float = 2.0
+
+
+@dataclass(frozen=True)
+class Sliders:
+    """Jenkins elements in parallel, ``stiffness`` (s,) N/m each held up to ``limit`` (s,) N, and ``linear`` e."""
+
+    stiffness: np.ndarray
+    limit: np.ndarray
+    linear: float = 0.0
+
+
+@dataclass(frozen=True)
+class Dry:
+    """Dry friction with a small elastic way before it slides: ``stiffness`` N/m, sliding force of each direction in N.
+
+    At the speed v the force is (1 + rise exp(-|v| / decay_speed)) times that of its direction.
+    """
+
+    stiffness: float
+    forward: float = 0.0
+    backward: float = 0.0
+    rise: float = 0.0
+    decay_speed: float = 1.0
+
+
+@dataclass(frozen=True)
+class BoucWen:
+    """Hysteresis that forgets with the way: k z up to k ``size``, and ``linear`` e; ``shape`` in 0.5 to 1, n >= 1."""
+
+    linear: float = 0.0
+    stiffness: float = 0.0
+    size: float = 1.0
+    exponent: float = 1.0
+    shape: float = 0.5
+
+
+@dataclass(frozen=True)
+class Maxwell:
+    """Springs ``stiffness`` (s,) N/m in series with dampers, relaxing within ``time`` (s,) s, and ``linear`` e.
+
+    Relaxed where a motion starts: steady loads do not stress the branches.
+    """
+
+    stiffness: np.ndarray
+    time: np.ndarray
+    linear: float = 0.0
+
+
+@dataclass(frozen=True)
+class Gap:
+    """Stops of stiffness ``stop`` N/m beyond -lower and upper (m), and the stiffness ``inner`` between them.
+
+    Backlash of a joint is ``inner`` = minus its stiffness, which vanishes with the gap.
+    """
+
+    stop: float = 0.0
+    inner: float = 0.0
+    lower: float = np.inf
+    upper: float = np.inf
+
+
+@dataclass(frozen=True)
+class Softening:
+    """F = -stiffness (1 - exp(-t / time)) e: a spring that loses ``stiffness`` N/m as it warms up."""
+
+    stiffness: float = 0.0
+    time: float = 1.0
+
+
+@dataclass(frozen=True)
+class Wave:
+    """The far end of a spring and damper moves by u = amplitude cos(order angle + 2 pi frequency t - phase).
+
+    ``angle`` is that of the drive since time 0; m, Hz, rad. With stiffness 1 N/m ``amplitude`` is a force in N along
+    the row.
+    """
+
+    stiffness: float = 0.0
+    damping: float = 0.0
+    amplitude: float = 0.0
+    order: float = 0.0
+    frequency: float = 0.0
+    phase: float = 0.0
+
+
+@dataclass(frozen=True)
+class Turning:
+    """Friction of ``contact`` turns in its plane with the motion along the row: a damper ``share`` |T| / |slip|."""
+
+    contact: int
+    share: float = 1.0
+
+
+_KIND = {Polynomial: kinds.POLYNOMIAL, Power: kinds.POWER, Sliders: kinds.SLIDERS, Dry: kinds.DRY,
+         BoucWen: kinds.BOUC_WEN, Gap: kinds.GAP, Softening: kinds.SOFTENING, Wave: kinds.WAVE, Maxwell: kinds.MAXWELL,
+         Turning: kinds.TURNING}
+
+
+@dataclass(frozen=True)
+class Element:
+    """A law along the elongation ``row`` (n,) of a model; ``name`` for messages."""
+
+    name: str
+    row: np.ndarray
+    law: object
+
+    def __post_init__(self):
+        if type(self.law) not in _KIND:
+            raise ConfigError(f"element {self.name}", f"one of {', '.join(c.__name__ for c in _KIND)}",
+                              type(self.law).__name__)
+        _check(self.name, self.law)
+
+
+@dataclass(frozen=True)
+class Waviness:
+    """Shape of the surface under ``contact``, whose gap grows by u = amplitude cos(order angle + 2 pi f t - phase).
+
+    With a ``growth`` s it comes up from nothing: u (1 - exp(-t / growth)).
+    """
+
+    contact: int
+    amplitude: float
+    order: float
+    phase: float = 0.0
+    frequency: float = 0.0
+    growth: float = 0.0
+
+
+def wave_table(waviness):
+    """(w, 6) of Waviness, as the compiled loops need it."""
+    rows = [(w.contact, w.amplitude, w.order, w.frequency, w.phase, w.growth) for w in waviness]
+    return np.array(rows, float).reshape(-1, 6)
+
+
+def iwan(stiffness, force, exponent=0.0, count=40, elastic=False):
+    """Sliders of a joint that slips in full at ``force`` N, ``stiffness`` N/m while nothing slips.
+
+    Their slip ways are spread as phi^exponent up to phi_max = (exponent + 2) / (exponent + 1) force / stiffness
+    (Segalman, J. Appl. Mech. 72 (2005) 752, with beta = 0), so that the loss of a cycle grows as the power
+    exponent + 3 of its amplitude; -1 < exponent <= 0. The ways are cut into ``count`` bands, each of its exact
+    stiffness and force. ``elastic`` takes ``stiffness`` away again: what the slip of a joint changes.
+    """
+    if not (-1 < exponent <= 0 and force > 0 and stiffness >= 0 and count >= 1):
+        raise ConfigError("iwan", "-1 < exponent <= 0, force > 0, stiffness >= 0, count >= 1",
+                          f"{exponent:g}, {force:g} N, {stiffness:g} N/m, {count}")
+    edge = np.linspace(0, 1, count + 1) ** 2
+    share, strength = np.diff(edge ** (exponent + 1)), np.diff(edge ** (exponent + 2))
+    empty = 0.0 if stiffness == 0 else 1.0
+    return Sliders(stiffness * share, empty * force * strength, -stiffness if elastic else 0.0)
+
+
+def element_kernel(elements, waviness, wear=(), **linear):
+    """ElementKernel of Elements, Waviness and ``wear`` (c,); ``linear``: its arrays that depend on modes and step."""
+    kept = [_remembered(e.law) for e in elements]
+    parameter = np.zeros((len(elements), 6))
+    for k, element in enumerate(elements):
+        law = element.law
+        values = (law.linear,) if isinstance(law, Sliders | Maxwell) else astuple(law)
+        parameter[k, :len(values)] = values
+    return kinds.ElementKernel(
+        np.array([_KIND[type(e.law)] for e in elements], np.int64), parameter,
+        np.cumsum([0, *(len(k[0]) for k in kept)]),
+        *(np.concatenate([np.empty(0), *(np.asarray(k[part], float) for k in kept)]) for part in (0, 1)),
+        waviness=wave_table(waviness), wear=np.array(wear, float), **linear)
+
+
+def _remembered(law):
+    """(stiffness, limit) of what a law remembers: sliders, branches with a clock behind them, one force, nothing."""
+    if isinstance(law, Sliders):
+        return law.stiffness, law.limit
+    if isinstance(law, Maxwell):
+        return [*law.stiffness, 0.0], [*law.time, 0.0]
+    return ([0.0], [0.0]) if isinstance(law, Dry | BoucWen) else ([], [])
+
+
+def alone(elements):
+    """ElementKernel of Elements that stand for themselves: their force laws, without bodies or a step."""
+    count = len(elements)
+    return element_kernel(elements, (), rows=np.zeros((2 * count, 2, 1)), own=np.zeros((2, count, count)),
+                          to_contacts=np.zeros((4, 0, count)), to_elements=np.zeros((2, count, 2, 0)))
+
+
+def bears(element):
+    """Whether an Element has a force at rest on some elongation, as where a motion starts; dry friction has none."""
+    kernel, force = alone((element,)), 0.0
+    if kernel.kind[0] == kinds.DRY:
+        return False
+    memory = np.zeros(int(kernel.first[-1]))
+    for elongation in (-1.0, 1.0):
+        force += abs(kinds.element_force(kernel, 0, elongation, 0.0, 0.0, memory, memory.copy(), (0.0, 0.0, 0.0))[0])
+    return force > 0
+
+
+def _check(name, law):
+    wrong = {Power: lambda p: p.exponent < 1, Dry: lambda p: min(p.forward, p.backward) < 0 or p.stiffness < 0
+             or p.decay_speed <= 0 or p.rise <= -1,
+             BoucWen: lambda p: p.size <= 0 or p.exponent < 1 or not 0.5 <= p.shape <= 1,
+             Gap: lambda p: p.lower < 0 or p.upper < 0, Softening: lambda p: p.time <= 0,
+             Maxwell: lambda p: np.shape(p.stiffness) != np.shape(p.time) or np.min(p.time, initial=1) <= 0
+             or np.min(p.stiffness, initial=0) < 0,
+             Sliders: lambda p: np.shape(p.stiffness) != np.shape(p.limit) or np.min(p.limit, initial=0) < 0}
+    values = [v for v in law.__dict__.values() if not np.isinf(v).any()] if isinstance(law, Gap) else astuple(law)
+    if not all(np.isfinite(v).all() for v in values) or wrong.get(type(law), lambda p: False)(law):
+        raise ConfigError(f"element {name}", f"values as the description of {type(law).__name__} says", str(law))

@@ -1,0 +1,109 @@
+"""Steady sliding as the start of a transient: equilibrium under input forces with friction on every closed contact.
+
+Contact i closes by c_i(N_i) under the force N_i: 0 for contacts that do not yield, N / k, or the inverse of a table.
+With s_i the sign of sliding, the closed contacts C obey
+
+    K q - sum_C (n_i + s_i mu_i t_i) N_i = f,      n_i q + gap_i + c_i(N_i) = 0,
+
+mu_i with what the states of friction make of it, solved together, so that contacts may be what holds a body. Contacts
+that would pull are opened, gaps that would be negative are closed, until neither is left. Friction joints add
+s_i mu_i N_i t_i to f, nonlinear elements their forces at rest by Newton's method: those with memory as if loaded for
+the first time, dry friction none.
+"""
+
+import numpy as np
+
+from pipeline.contract.errors import ConfigError, ConvergenceError
+from pipeline.physics.contact.groups import read
+from pipeline.physics.friction.dry_friction import coefficients
+from pipeline.physics.friction.state_variables import factors, started, state_kernel
+from pipeline.physics.time_stepping.coupled_solver import no_memory, surface_shift
+from pipeline.physics.time_stepping.element_forces import DRY, element_force
+from pipeline.physics.time_stepping.elements import alone, wave_table
+from pipeline.physics.time_stepping.normal_laws import closing
+from pipeline.physics.time_stepping.simulate import Start
+
+_ROUNDS = 200
+_TOLERANCE = 1e-10
+
+
+def steady_start(model, law, friction, inputs):
+    """Start of a SlidingModel at its speed, under ``inputs`` (i,) N, with the ``law`` and Friction of the transient.
+
+    A drive at rest gives equilibrium without friction. Raises ConfigError where joints and closed contacts do not hold
+    the bodies, ConvergenceError where no equilibrium is found, as where friction locks.
+    """
+    contacts = model.contacts
+    load, stiffness = np.asarray(inputs, float) @ model.input_rows, model.supported()[2]
+    gap = read(law, "gap", len(contacts.area)) + _waves(contacts)
+    elements, memory, rest, slope = alone(model.elements), None, 0.0, 0.0
+    states, fixed = state_kernel(friction, contacts.area), contacts.fixed
+    sign, closed, force = np.sign(model.sliding_speed), ~fixed, contacts.preload
+    for _ in range(_ROUNDS):
+        grown = factors(states, started(states, force, model.sliding_speed), 0.0)
+        drawn = sign * grown * coefficients(friction, model.sliding_speed, force / contacts.area)
+        give, offset = closing(law, force, contacts.area)
+        held = load + (drawn * force)[fixed] @ contacts.tangent[fixed] - rest
+        pushed = contacts.normal + drawn[:, None] * contacts.tangent
+        place, found = _solve(stiffness + slope, held, contacts.normal, pushed, gap + offset, give, closed)
+        found = np.where(fixed, force, found)
+        wanted = np.where(closed, found > 0, gap + contacts.normal @ place < 0) & ~fixed
+        settled = abs(found - force).max(initial=0.0) <= _TOLERANCE * abs(found).max(initial=0.0)
+        if model.elements:
+            counted = rest + slope @ place if np.ndim(slope) else np.zeros(model.size)
+            rest, slope, memory = _drawn(elements, model, place)
+            error = rest + slope @ place - counted
+            settled = settled and abs(error).max() <= _TOLERANCE * max(abs(held).max(), abs(stiffness @ place).max())
+        if settled and np.array_equal(wanted, closed | ((found > 0) & ~fixed)):
+            return Start(place, np.zeros(model.size), found, drawn * found, memory)
+        closed, force = wanted, np.where(wanted | fixed, found, 0.0)
+    raise ConvergenceError("steady sliding", "forces that press on every closed contact", "none",
+                           "lower friction or change the tilt (friction that locks has no steady sliding), or start at"
+                           " rest")
+
+
+def _waves(contacts):
+    """Height (c,) of the surfaces at time 0."""
+    shift = np.zeros((2, len(contacts.area)))
+    surface_shift(wave_table(contacts.waviness), (0.0, 0.0, 0.0), shift)
+    return shift[0]
+
+
+def _drawn(elements, model, place):
+    """(F - S q (n,), S (n, n), memory) of the elements at rest at ``place`` (n,), S the slope of F there."""
+    rows = np.array([e.row for e in model.elements])
+    memory, none = no_memory(elements), no_memory(elements)
+    force, slope = np.zeros((2, len(rows)))
+    for k, row in enumerate(rows):
+        if elements.kind[k] != DRY:
+            force[k], slope[k], _ = element_force(elements, k, float(row @ place), 0.0, 0.0, none, memory,
+                                                  (0.0, 0.0, model.speed))
+    return rows.T @ (force - slope * (rows @ place)), (rows.T * slope) @ rows, memory
+
+
+def random_kick(system, sensor_rows, velocity, seed):
+    """Random velocity (n,) of a ModalSystem, all modes alike, whose effective value at the sensors is ``velocity`` m/s.
+
+    ``sensor_rows`` (s, n); nothing where the sensors see nothing.
+    """
+    kick = system.shape @ np.random.default_rng(seed).standard_normal(len(system.squared))
+    seen = np.sqrt(np.mean((sensor_rows @ kick) ** 2)) if len(sensor_rows) else 0.0
+    return kick * (velocity / seen if seen else 0.0)
+
+
+def _solve(stiffness, load, normal, pushed, gap, give, closed):
+    """(displacement, forces) with the contacts ``closed``; 0 N on the others."""
+    size, active = len(load), np.flatnonzero(closed)
+    matrix = np.zeros((size + len(active),) * 2)
+    matrix[:size, :size], matrix[:size, size:] = stiffness, -pushed[active].T
+    matrix[size:, :size], matrix[size:, size:] = normal[active], np.diag(give[active])
+    scale = np.sqrt(abs(np.diag(stiffness)).max(initial=0.0)) or 1.0      # bodies and contacts of one size
+    weight = np.r_[np.full(size, 1 / scale), np.full(len(active), scale)]
+    scaled = weight[:, None] * matrix * weight
+    if np.linalg.cond(scaled, 1) > 1 / np.finfo(float).eps:
+        raise ConfigError("steady sliding", "joints and closed contacts that hold every body", "a body that is free",
+                          "support it, press it on, or start at rest")
+    found = weight * np.linalg.solve(scaled, weight * np.r_[load, -gap[active]])
+    force = np.zeros(len(closed))
+    force[active] = found[size:]
+    return found[:size], force

@@ -1,0 +1,1 @@
+"""Response, modes and roots of a virtual test rig."""

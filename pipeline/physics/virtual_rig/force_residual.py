@@ -1,0 +1,168 @@
+"""What is left of the equation of motion of a bench when measured motions and forces are put into it.
+
+    r = M q'' + C q' + K q + sum_k b_k F_k - sum_i (n_i N_i + t_i T_i) - f        (n, samples), N
+
+r is linear in every parameter that the forces are linear in, which makes it the cheap test of a missing term: no
+simulation, no start state. Displacements are filtered without shift in phase before they are differentiated; r is
+filtered and decimated in the same way, which keeps it linear (Gautier, Janot & Vandanjon, IEEE Trans. Control Syst.
+Technol. 21 (2013) 428).
+"""
+
+from functools import lru_cache
+
+import numpy as np
+from numba import njit
+from scipy.integrate import cumulative_trapezoid
+from scipy.signal import butter, cheby1, sosfiltfilt
+
+from pipeline.contract.errors import ConfigError
+from pipeline.physics.contact.groups import read
+from pipeline.physics.friction.state_variables import friction_along
+from pipeline.physics.time_stepping.coupled_solver import no_memory, surface_shift, wear_on
+from pipeline.physics.time_stepping.element_forces import element_force, turn
+from pipeline.physics.time_stepping.elements import alone, wave_table
+from pipeline.physics.time_stepping.normal_laws import force_along
+from pipeline.physics.virtual_rig.response import MOTIONS, run_drive, run_friction, run_inputs
+
+_SMALLEST_SHARE = 1e-9
+
+
+def equation_residual(bench, run, measured, corner=None, order=4, decimation=1, trim=0):
+    """Residual (n, samples) of measured displacements ``measured`` {channel: (samples,)} and the inputs of ``run``.
+
+    ``corner`` Hz of the Butterworth filter (``order``, run forth and back), None for none; every ``decimation``-th
+    sample is kept, behind a low pass; ``trim`` samples are left out at both ends first. Channels are read as the bench
+    scales them. Raises ConfigError where the channels do not give every coordinate, or a contact does not yield.
+    """
+    return thinned(forces_missing(bench, run, smoothed(bench, run, measured, corner, order)), decimation, trim)
+
+
+def smoothed(bench, run, measured, corner=None, order=4):
+    """Displacements (n, samples) of the coordinates behind the low pass of ``equation_residual``."""
+    motion = coordinates(bench, run, measured)
+    if corner is not None:
+        if not 0 < corner < run.sample_rate / 2:
+            raise ConfigError("equation residual: corner", f"between 0 and {run.sample_rate / 2:g} Hz",
+                              f"{corner:g} Hz")
+        motion = sosfiltfilt(_low_pass(order, 2 * corner / run.sample_rate), motion, axis=1)
+    return motion
+
+
+def applied_force(bench, run, decimation=1, trim=0):
+    """Forces (n, samples) of the inputs of ``run`` on the coordinates, thinned out like the residual."""
+    return thinned(_applied(bench, run), decimation, trim)
+
+
+def thinned(values, decimation, trim):
+    """Every ``decimation``-th of the samples (n, samples) behind a low pass, ``trim`` left out at both ends first."""
+    values = values[:, trim:values.shape[1] - trim]
+    return sosfiltfilt(_before(decimation), values, axis=1)[:, ::decimation] if decimation > 1 else values
+
+
+@lru_cache
+def _low_pass(order, corner):
+    return butter(order, corner, output="sos")
+
+
+@lru_cache
+def _before(decimation):
+    """The filter of scipy.signal.decimate: Chebyshev's first kind, order 8, 0.05 dB up to 0.8 of the new range."""
+    return cheby1(8, 0.05, 0.8 / decimation, output="sos")
+
+
+def coordinates(bench, run, measured):
+    """Displacements (n, samples) that the displacement channels in ``measured`` show, gain, offset and delay undone."""
+    model, rows, values = bench.model, [], []
+    for channel in bench.channels:
+        if channel.quantity != MOTIONS[0] or channel.name not in measured:
+            continue
+        rows.append(bench.sensor(channel.source))
+        shown = np.asarray(measured[channel.name], float) - channel.offset - channel.drift * run.time
+        values.append(np.interp(run.time + channel.delay, run.time, shown / channel.gain))
+    rows = np.reshape(np.array(rows, float), (-1, model.size))
+    share = np.linalg.svd(rows, compute_uv=False)
+    if len(rows) < model.size or share[-1] < _SMALLEST_SHARE * share[0]:
+        raise ConfigError("equation residual", f"displacement channels that give all {model.size} coordinates",
+                          f"{len(rows)} channels", "measure more points, hold bodies, or simulate instead")
+    return np.linalg.pinv(rows) @ np.array(values)
+
+
+def forces_missing(bench, run, motion):
+    """r (n, samples) of displacements (n, samples), differentiated by central differences."""
+    model, interval = bench.model, 1 / run.sample_rate
+    speed = np.gradient(motion, interval, axis=1, edge_order=2)
+    turning = np.broadcast_to(run_drive(bench, run), run.samples)
+    mass, damping, stiffness = model.at_speed(turning[0]).supported()
+    inertia = np.gradient(speed, interval, axis=1, edge_order=2)
+    inertia[:, 1:-1] = (motion[:, 2:] - 2 * motion[:, 1:-1] + motion[:, :-2]) / interval**2
+    residual = mass @ inertia + damping @ speed + stiffness @ motion
+    angle = cumulative_trapezoid(turning, dx=interval, initial=0.0)
+    instants = np.column_stack((run.time, angle, turning))
+    normal, drawn, slip = _contacts(bench, run, motion, speed, instants)
+    residual = residual + _elements(model, motion, speed, instants, drawn, slip)
+    residual = residual - (model.contacts.normal.T @ normal + model.contacts.tangent.T @ drawn)
+    return residual - _applied(bench, run)
+
+
+def _applied(bench, run):
+    forces = np.array([np.broadcast_to(f, run.samples) for f in run_inputs(bench, run)]).reshape(-1, run.samples)
+    return bench.model.input_rows.T @ forces
+
+
+def _elements(model, motion, speed, instants, drawn, slip):
+    """sum_k b_k F_k (n, samples), contacts being drawn at and slipping as said (c, samples)."""
+    rows = np.array([e.row for e in model.elements], float).reshape(-1, model.size)
+    kernel = alone(model.elements)
+    return rows.T @ _along(kernel, rows @ motion, rows @ speed, instants, no_memory(kernel), drawn, slip)
+
+
+@njit(cache=True)
+def _along(kernel, place, rate, instants, memory, drawn, slip):
+    """Forces (e, samples) along elongations ``place`` and their ``rate`` (e, samples)."""
+    force, after = np.zeros_like(place), memory.copy()
+    for s in range(place.shape[1]):
+        instant = (instants[s, 0], instants[s, 1], instants[s, 2])
+        turn(kernel, drawn[:, s], slip[:, s], rate[:, s])
+        for k in range(place.shape[0]):
+            begin = place[k, max(s - 1, 0)]
+            force[k, s] = element_force(kernel, k, place[k, s], rate[k, s], begin, memory, after, instant)[0]
+        memory[:] = after
+    return force
+
+
+def _contacts(bench, run, motion, speed, instants):
+    """(N, T, slip), each (c, samples), sliding everywhere."""
+    contacts, fixed = bench.model.contacts, bench.model.contacts.fixed
+    normal = np.where(fixed, contacts.preload, 0.0)[:, None] * np.ones(motion.shape[1])
+    shift = _surface(contacts, instants)
+    gap = (read(bench.law, "gap", len(fixed))[:, None] + contacts.normal @ motion) + shift[0]
+    opening = contacts.normal @ speed + shift[1]
+    slip = contacts.lever[:, None] * instants[:, 2] - contacts.tangent @ speed
+    wear = np.broadcast_to(contacts.wear, len(fixed))
+    for i in np.flatnonzero(~fixed):
+        if wear[i]:
+            worn = _worn(bench, i, gap[i], opening[i], wear[i] * abs(slip[i]), instants[:, 0])
+            gap[i], opening[i] = gap[i] + worn[0], opening[i] + worn[1]
+        normal[i] = force_along(bench.law, i, contacts.area, -gap[i], -opening[i])
+    drawn = friction_along(run_friction(bench, run), contacts.area, normal, slip, instants[:, 1], 1 / run.sample_rate)
+    return normal, drawn, slip
+
+
+def _surface(contacts, instants):
+    """(2, c, samples): what waviness adds to gaps and opening rates."""
+    shift = np.zeros((2, len(contacts.area), len(instants)))
+    waves = wave_table(contacts.waviness)
+    for s, instant in enumerate(instants if len(waves) else ()):
+        surface_shift(waves, tuple(instant), shift[:, :, s])
+    return shift
+
+
+def _worn(bench, i, gap, opening, rate, time):
+    """(2, samples): what wear adds to gap and opening rate of contact ``i``, rate (m/s) per normal force."""
+    area = bench.model.contacts.area
+    shift, worn, pace = np.zeros((2, len(time))), np.zeros(1), np.zeros(1)
+    for s, interval in enumerate(np.diff(time, prepend=time[0])):
+        shift[:, s] = worn[0] + interval * pace[0], pace[0]
+        force = force_along(bench.law, i, area, -gap[s] - shift[0, s], -opening[s] - shift[1, s])
+        wear_on(rate[s:s + 1], np.reshape(force, 1), np.ones(1), np.zeros(1), interval, worn, pace)
+    return shift

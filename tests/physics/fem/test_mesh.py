@@ -1,0 +1,66 @@
+"""Lattices: counts, outward faces, masks; files through meshio; clear errors."""
+
+import meshio
+import numpy as np
+import pytest
+
+from pipeline.contract.errors import ConfigError
+from pipeline.physics.fem.face_averages import face_points
+from pipeline.physics.fem.mesh import block, boundary_faces, face_normals, read_mesh, revolve
+
+pytestmark = pytest.mark.exact
+LINES = np.linspace(0.1, 0.2, 3), np.linspace(0, 2 * np.pi, 13), np.linspace(-0.01, 0.01, 3)
+
+
+@pytest.mark.parametrize("kind, nodes", [("hexahedron", 3 * 12 * 3), ("hexahedron27", 5 * 24 * 5)])
+def test_closed_ring_has_no_seam(kind, nodes):
+    mesh = revolve(*LINES, kind=kind)
+    assert len(mesh.node) == nodes and len(mesh.element) == 2 * 12 * 2
+    assert len(boundary_faces(mesh)) == 2 * 12 * (2 + 2)
+
+
+@pytest.mark.parametrize("kind", ["hexahedron", "hexahedron20", "hexahedron27"])
+def test_faces_look_outwards(kind):
+    """By the divergence theorem, the flux of the position through the surface is three volumes."""
+    mask = np.ones((2, 12, 2), bool)
+    mask[1, 3:5] = False
+    mesh = revolve(*LINES, mask, kind)
+    face = boundary_faces(mesh)
+    point, area = face_points(mesh.node, face)
+    normal, middle = face_normals(mesh.node, face)
+    flux = (normal * middle).sum(axis=1) @ area.sum(axis=1)
+    whole = np.pi * (0.2**2 - 0.1**2) * 0.02
+    cut = np.pi * (0.2**2 - 0.15**2) * 0.02 * 2 / 12
+    assert flux / 3 == pytest.approx(whole - cut, rel=0.06 if kind == "hexahedron" else 0.03)
+
+
+def test_middle_nodes_lie_on_the_circle():
+    mesh = revolve(*LINES)
+    radius = np.hypot(*mesh.node[:, :2].T)
+    assert np.unique(radius.round(9)) == pytest.approx([0.1, 0.125, 0.15, 0.175, 0.2])
+
+
+def test_file_round_trip(tmp_path):
+    mesh = block(*[np.linspace(0, 1, 3)] * 3)
+    meshio.Mesh(mesh.node, [(mesh.kind, mesh.element)]).write(tmp_path / "body.vtu")
+    read = read_mesh(tmp_path / "body.vtu")
+    assert read.kind == mesh.kind
+    assert np.array_equal(read.node[read.element], mesh.node[mesh.element])
+
+
+def test_other_cells_are_refused(tmp_path):
+    meshio.Mesh(np.eye(4, 3), [("tetra", [[0, 1, 2, 3]])]).write(tmp_path / "tetra.vtu")
+    with pytest.raises(ConfigError, match="hexahedron20.*tetra"):
+        read_mesh(tmp_path / "tetra.vtu")
+    (tmp_path / "broken.vtu").write_text("no mesh")
+    with pytest.raises(ConfigError, match="broken.vtu"):
+        read_mesh(tmp_path / "broken.vtu")
+
+
+def test_negative_thickness_and_missing_bore_are_refused():
+    with pytest.raises(ConfigError, match="third lattice direction"):
+        revolve(LINES[0], LINES[1], np.array([0.01, -0.01]))
+    with pytest.raises(ConfigError, match="bore"):
+        revolve(np.array([0.0, 0.1]), LINES[1], LINES[2])
+    with pytest.raises(ConfigError, match="at least one cell"):
+        block(*LINES, mask=np.zeros((2, 12, 2), bool))

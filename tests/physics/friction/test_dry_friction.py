@@ -1,0 +1,77 @@
+"""Characteristics and descriptions of dry friction against closed forms."""
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+
+from pipeline.contract.errors import ConfigError
+from pipeline.physics.closed_form.cattaneo_mindlin import tangential_load
+from pipeline.physics.friction.dry_friction import (
+    coefficient,
+    constant,
+    elastic_stick,
+    evolution_rule,
+    falling,
+    kernel,
+    tabulated,
+)
+
+
+@pytest.mark.exact
+def test_falling_characteristic():
+    friction, speed = falling(0.5, 0.2, 0.03), np.linspace(-0.3, 0.3, 1001)
+    exact = 0.2 + 0.3 * np.exp(-abs(speed) / 0.03)
+    np.testing.assert_allclose(friction.at_speed(speed), exact, atol=2e-5 * 0.3)
+    compiled = [coefficient(kernel(friction, 1), 0, 0.0, v, v) for v in speed]
+    np.testing.assert_allclose(compiled, friction.at_speed(speed), rtol=1e-14)
+
+
+def test_one_coefficient_at_all_states():
+    assert coefficient(kernel(constant(0.4), 1), 0, 3e6, -7.0, -1.0) == 0.4
+
+
+@pytest.mark.exact
+def test_friction_that_does_not_fall_is_one_value():
+    """Tables of effects over pressure and distance multiply its size."""
+    friction = falling(0.4, 0.4, 0.01, static_factor=1.2)
+    assert friction.law.friction.size == 1 and friction.at_speed([0.0, 0.3]).tolist() == [0.4, 0.4]
+    assert friction.static_factor == 1.2
+
+
+@pytest.mark.exact
+@pytest.mark.parametrize("exponent", [1.0, 2.0, 3.5])
+def test_evolution_rule_solves_its_equation(exponent):
+    """From a force on the other side of zero, far into sliding and back, against DOP853."""
+    limit, stiffness, force, reference = 3.0, 2e6, -1.0, -1.0
+    for slip in (1e-6, 8e-6, -5e-6, 2e-7):
+        sign = np.sign(slip)
+        force, slope = evolution_rule(force, slip, limit, stiffness, exponent)
+        reference = solve_ivp(lambda s, t, sign=sign: sign * stiffness * (1 - sign * t / limit) ** exponent,
+                              (0, abs(slip)), [reference], "DOP853", rtol=1e-12, atol=1e-12).y[0, -1]
+        assert force == pytest.approx(reference, rel=1e-9)
+        assert slope == pytest.approx(stiffness * (1 - sign * force / limit) ** exponent, rel=1e-9)
+
+
+@pytest.mark.exact
+def test_one_hertz_contact_slips_by_the_evolution_rule_of_one_third():
+    sliding, limit = 2e-6, 5.0
+    for share in (0.1, 0.5, 0.9, 1.0, 1.5):
+        found = evolution_rule(0.0, share * sliding, limit, 1.5 * limit / sliding, 1 / 3)[0]
+        assert found == pytest.approx(tangential_load(min(share, 1) * sliding, sliding, limit), rel=1e-12)
+
+
+def test_the_limit_is_never_exceeded():
+    assert elastic_stick(0.0, 1.0, 2.0, 10.0) == (2.0, 0.0)
+    assert elastic_stick(1.0, -0.05, 2.0, 10.0) == (0.5, 10.0)
+    assert evolution_rule(5.0, 1e-9, 2.0, 1e6, 1.0)[0] == 2.0
+    assert evolution_rule(5.0, 1.0, 0.0, 1e6, 1.0) == (0.0, 0.0)
+
+
+@pytest.mark.parametrize("build, said", [
+    (lambda: constant(-0.1), "coefficient"), (lambda: constant(0.1, static_factor=0.9), "static_factor"),
+    (lambda: constant(0.1, description="soft"), "description"), (lambda: constant(0.1, description="elastic"), "stiff"),
+    (lambda: tabulated([0.0, 0.0], [0.1, 0.2]), "rising"), (lambda: falling(0.3, 0.2, 0.0), "decay_speed"),
+    (lambda: constant(0.1, exponent=0.0), "exponent")])
+def test_bad_friction_is_refused(build, said):
+    with pytest.raises(ConfigError, match=said):
+        build()

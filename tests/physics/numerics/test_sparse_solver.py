@@ -1,0 +1,66 @@
+"""Both solvers against one another, dense algebra and inertia; singular matrices are refused."""
+
+import numpy as np
+import pytest
+import scipy.sparse as sp
+
+from pipeline.contract.errors import ConfigError, ConvergenceError
+from pipeline.physics.numerics.sparse_solver import available, factorise
+
+pytestmark = pytest.mark.exact
+
+
+def laplacian(side=8):
+    line = sp.diags([-1.0, 2.0, -1.0], [-1, 0, 1], shape=(side, side))
+    one = sp.identity(side)
+    plane = sp.kron(line, one) + sp.kron(one, line)
+    return (sp.kron(plane, one) + sp.kron(sp.kron(one, one), line)).tocsr()
+
+
+@pytest.fixture(params=available())
+def solver(request):
+    return request.param
+
+
+@pytest.mark.parametrize("shift", [0.0, 1.03])
+def test_symmetric_indefinite_and_its_inertia(solver, shift):
+    matrix = laplacian() - shift * sp.identity(512)
+    rhs = np.random.default_rng(0).standard_normal((512, 3))
+    factor = factorise(matrix, solver)
+    assert np.allclose(factor.solve(rhs), np.linalg.solve(matrix.toarray(), rhs), rtol=1e-9, atol=1e-9)
+    assert np.array_equal(factor.solve(rhs[:, 0]).shape, (512,))
+    assert factor.negative == (np.linalg.eigvalsh(matrix.toarray()) < 0).sum()
+
+
+def test_unsymmetric_and_complex(solver):
+    random = np.random.default_rng(1)
+    matrix = laplacian() + sp.random(512, 512, 0.01, random_state=2)
+    rhs = random.standard_normal(512) + 1j * random.standard_normal(512)
+    for a, symmetric in ((matrix, False), (laplacian() + 0.3j * sp.identity(512), True), (matrix * (1 + 0.1j), False)):
+        x = factorise(a, solver, symmetric).solve(rhs)
+        assert np.linalg.norm(a @ x - rhs) < 1e-10 * np.linalg.norm(rhs)
+
+
+def test_saddle_point_with_empty_diagonal(solver):
+    matrix = sp.bmat([[sp.identity(3), np.ones((3, 1))], [np.ones((1, 3)), None]])
+    rhs = np.arange(4.0)
+    assert np.allclose(factorise(matrix, solver).solve(rhs), np.linalg.solve(matrix.toarray(), rhs))
+
+
+@pytest.mark.parametrize("broken", ["floating", "empty row", "not finite"])
+def test_singular_matrix_is_refused(solver, broken):
+    matrix = laplacian()
+    if broken == "floating":
+        matrix = matrix - sp.diags(np.asarray(matrix.sum(axis=1)).ravel())
+    elif broken == "empty row":
+        matrix = sp.diags(np.r_[1.0, 0.0, 1.0]).tocsr()
+        matrix.eliminate_zeros()
+    else:
+        matrix.data[3] = np.nan
+    with pytest.raises(ConvergenceError, match="factorisation"):
+        factorise(matrix, solver)
+
+
+def test_unknown_solver():
+    with pytest.raises(ConfigError, match="superlu"):
+        factorise(laplacian(), "abacus")

@@ -1,0 +1,49 @@
+"""Archard's volume is exact; the slider returns."""
+
+import numpy as np
+import pytest
+
+from pipeline.physics.rough.archard_wear import archard, run_in
+from pipeline.physics.rough.generator import self_affine
+from pipeline.physics.rough.layered_solid import half_space_compliance
+
+PAD, DISC = (1e-6 * self_affine(np.random.default_rng(seed), 32, 1e-3, 2.5e-4, 5e-4, 0.8) for seed in (1, 2))
+COMPLIANCE = half_space_compliance((32, 32), (1e-3 / 32,) * 2, 1e9, 0.3).normal
+
+
+def states(stroke=3, pad=2e-12, disc=1e-13, cycles=8):
+    return list(run_in(PAD, DISC, COMPLIANCE, 1e6, cycles=cycles, distance=1e-4, stroke=stroke, pad_coefficient=pad,
+                       disc_coefficient=disc, tolerance=1e-6, max_iterations=500))
+
+
+@pytest.mark.exact
+def test_worn_volume_is_coefficient_times_load_times_distance():
+    last = states()[-1]
+    assert last.pad_wear.mean() == pytest.approx(archard(1e6, 8e-4, 2e-12), rel=1e-12)
+    assert last.disc_wear.mean() == pytest.approx(archard(1e6, 8e-4, 1e-13), rel=1e-12)
+
+
+def test_nothing_wears_without_a_coefficient():
+    last = states(pad=0.0, disc=0.0)[-1]
+    assert not last.pad_wear.any() and not last.disc_wear.any()
+    np.testing.assert_array_equal(last.gap(0), -PAD - DISC)
+
+
+def test_the_gap_follows_the_slider():
+    worn = states()[-1]
+    disc = DISC - worn.disc_wear
+    np.testing.assert_array_equal(worn.gap(2), -(PAD - worn.pad_wear) - np.roll(disc, 2, axis=1))
+
+
+def test_the_disc_wears_where_it_touched():
+    """One cycle at position 0, then one at position 1: the second mark of the disc is shifted back."""
+    first, second = states(pad=0.0, disc=1e-20, cycles=2)[1:]
+    disc_mark = (second.disc_wear - first.disc_wear) / 1e-24
+    gap = -PAD - np.roll(DISC, 1, axis=1)
+    touched = np.roll(disc_mark > 0, 1, axis=1)
+    assert gap[touched].mean() < gap[~touched].mean() - gap.std()
+
+
+def test_wear_flattens_what_touches():
+    pairs = states(cycles=40)
+    assert np.std(pairs[-1].gap(0)) < np.std(pairs[0].gap(0))

@@ -1,0 +1,161 @@
+"""What sensors write of a motion, against closed forms."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from pipeline.contract.errors import ConfigError
+from pipeline.physics.friction.dry_friction import constant
+from pipeline.physics.time_stepping.elements import Element, Polynomial
+from pipeline.physics.time_stepping.simulate import Hard, Penalty, Start
+from pipeline.physics.virtual_rig.response import Bench, Channel, Run, at_instants, low_pass, respond, shown
+from tests.physics.lumps import belt, lumps
+
+STEP = 1e-4
+
+
+def sprung(*channels, step=STEP):
+    """1 kg on 100 N/m and 0.4 N s/m."""
+    return Bench(lumps([1.0], [[1.0]], [100.0], [0.4]), Hard(), constant(0.0), step, channels)
+
+
+def seen(quantity, source="sensor_0", **options):
+    return Channel("seen", quantity, source, **options)
+
+
+def swing(rate=100.0, amplitude=0.01):
+    return Run("swing", 2.0, rate, start=Start(np.array([amplitude]), np.zeros(1)))
+
+
+def free_decay(time, amplitude=0.01):
+    """x, x', x'' of the sprung mass let go."""
+    root = -0.2 + 1j * np.sqrt(100 - 0.04)
+    swinging = amplitude * (1 + 1j * root.real / root.imag) * np.exp(root * time)
+    return [np.real(root**k * swinging) for k in range(3)]
+
+
+@pytest.mark.exact
+@pytest.mark.parametrize("k, quantity", [(0, "displacement"), (1, "velocity"), (2, "acceleration")])
+def test_motions_at_the_rate_of_the_run(k, quantity):
+    run = swing()
+    shown_ = respond(sprung(seen(quantity)), run)["seen"]
+    exact = free_decay(run.time)[k]
+    assert len(shown_) == 201
+    np.testing.assert_allclose(shown_, exact, atol=2e-5 * abs(exact).max())
+
+
+@pytest.mark.exact
+def test_joint_force_and_input_at_any_rate():
+    run = replace(swing(333.0), inputs={"input_0": 3.0})
+    found = respond(sprung(Channel("force", "joint_force", "joint_0"), Channel("in", "input", "input_0"),
+                           Channel("a", "acceleration", "sensor_0")), run)
+    np.testing.assert_allclose(found["a"], found["in"] - found["force"], atol=2e-5)
+    np.testing.assert_array_equal(found["in"], 3.0)
+
+
+@pytest.mark.exact
+def test_contact_forces_are_not_late_by_half_a_step():
+    """A mass pressed by a ramp onto a penalty contact, 10 steps a sample: N is that of the closure at the instant."""
+    time = np.linspace(0, 0.5, 51)
+    bench = Bench(belt(speed=5.0), Penalty(1e4, 50.0), constant(0.3), 1e-3,
+                  (Channel("n", "normal_force", "contact"), Channel("t", "friction_force", "contact"),
+                   Channel("y", "displacement", "sensor_1"), Channel("v", "velocity", "sensor_1")))
+    run = Run("ramp", 0.5, 100.0, {"input_1": -100 * time}, start=Start(np.array([0, -1e-5]), np.zeros(2)))
+    errors = []
+    for step in (2e-3, 1e-3, 5e-4):
+        found = respond(replace(bench, step=step), run)
+        law = -1e4 * found["y"] - 50.0 * found["v"]
+        errors.append(abs(found["n"][2:-1] - law[2:-1]).max())
+        np.testing.assert_allclose(found["t"][2:], 0.3 * found["n"][2:], rtol=1e-6)
+    assert errors[-1] < 1e-3 * 50 and errors[0] / errors[-1] > 10
+
+
+@pytest.mark.exact
+def test_means_over_steps_become_values_at_instants():
+    edge = np.linspace(0, 3, 31)
+    means = np.r_[0.0, np.diff(edge**2 / 2) / 0.1]
+    np.testing.assert_allclose(at_instants(means), edge, atol=1e-14)
+
+
+@pytest.mark.exact
+def test_first_order_filter_of_a_sine_and_of_a_ramp():
+    time = np.linspace(0, 20, 20001)
+    gain = 1 / (1 + 1j * 3.0 / 0.7)
+    exact = np.imag(gain * np.exp(3j * 2 * np.pi * time))
+    np.testing.assert_allclose(low_pass(np.sin(3 * 2 * np.pi * time), 1e-3, 0.7)[10000:], exact[10000:], atol=1e-4)
+    np.testing.assert_allclose(low_pass(time, 1e-3, 0.7)[10000:], time[10000:] - 1 / (2 * np.pi * 0.7), rtol=1e-12)
+    np.testing.assert_array_equal(low_pass(np.full(5, 3.0), 1e-3, 0.7), low_pass(np.full(5, 3.0), 1e-3, 0.7))
+
+
+@pytest.mark.exact
+def test_gain_offset_drift_delay_and_limit():
+    time = np.linspace(0, 1, 101)
+    found = shown(seen("displacement", gain=2.0, offset=0.3, drift=-0.1, delay=0.02, limit=1.9), time, 0.01)
+    np.testing.assert_allclose(found, np.minimum(2 * np.maximum(time - 0.02, 0) + 0.3 - 0.1 * time, 1.9), atol=1e-12)
+    values = np.random.default_rng(1).standard_normal(50)
+    np.testing.assert_array_equal(shown(seen("displacement"), values, 0.01), values)
+
+
+def test_conditions_stand_in_for_inputs_and_drive():
+    bench = Bench(belt(), Hard(), constant(0.3), 1e-3, (Channel("x", "displacement", "sensor_0"),
+                                                        Channel("t", "friction_force", "contact")), settled=True)
+    found = respond(bench, Run("pressed", 0.2, 100.0, conditions={"input_1": -10.0, "speed": -0.4}))
+    np.testing.assert_allclose(found["x"], -0.3 * 10 / 100, rtol=1e-6)
+    np.testing.assert_allclose(found["t"], -3.0, rtol=1e-9)
+
+
+def test_force_of_an_element():
+    bench = sprung(Channel("f", "element_force", "spring"), Channel("x", "displacement", "sensor_0"))
+    bench = bench.with_elements(Element("spring", np.ones(1), Polynomial(cubic=1e5)))
+    found = respond(bench, swing())
+    np.testing.assert_allclose(found["f"], 1e5 * found["x"] ** 3, rtol=1e-9)
+
+
+@pytest.mark.exact
+def test_inputs_and_doublets_by_name():
+    bench = Bench(lumps([1.0, 2.0], [[1, 0], [1, -1]], [100.0, 50.0], [3.0, 4.0]), Hard(), constant(0.0), STEP, (),
+                  doublets={"pair": (0, 1)})
+    row, stiffness, damping = bench.input("input_1")
+    assert (list(row), stiffness, damping) == ([0, 1], 50.0, 4.0)
+    mass, stiffness, pair = bench.doublet("pair")
+    assert (list(mass), list(stiffness), pair) == ([1, 2], [150.0, 50.0], [0, 1])
+    with pytest.raises(ConfigError, match="pair"):
+        bench.doublet("other")
+
+
+@pytest.mark.exact
+def test_rotation_is_that_of_the_run():
+    """x'' + 2 n W y' + k x = 0 and so on: the blow of a run at W turns round at n W, whatever the model's speed."""
+    model = replace(lumps([1.0, 1.0], np.eye(2), [100.0, 100.0], speed=9.0), gyroscopic=np.array([[0, 2.0], [-2.0, 0]]))
+    bench = Bench(model, Hard(), constant(0.0), STEP, (seen("displacement"),))
+    run = Run("turning", 1.0, 100.0, drive=0.7, start=Start(np.zeros(2), np.array([0.1, 0.0])))
+    root = np.sqrt(100 + 0.7**2)
+    exact = 0.1 * np.cos(0.7 * run.time) * np.sin(root * run.time) / root
+    np.testing.assert_allclose(respond(bench, run)["seen"], exact, atol=1e-8)
+
+
+@pytest.mark.parametrize("channel, said", [
+    (seen("displacement", "nobody"), "sensor_0"), (seen("joint_force", "nobody"), "joint_0"),
+    (seen("normal_force", "pads"), "contact group"), (seen("element_force"), "element"),
+    (seen("input", "x"), "input_0")])
+def test_unknown_sources_are_refused(channel, said):
+    with pytest.raises(ConfigError, match=said):
+        respond(sprung(channel), swing())
+
+
+def test_impossible_channels_and_runs_are_refused():
+    for make, said in ((lambda: seen("voltage"), "quantity"), (lambda: seen("displacement", delay=-1.0), "delay >= 0"),
+                       (lambda: Run("none", 0.0, 10.0), "one interval")):
+        with pytest.raises(ConfigError, match=said):
+            make()
+    with pytest.raises(ConfigError, match="201 samples"):
+        respond(sprung(seen("displacement")), replace(swing(), inputs={"input_0": np.zeros(7)}))
+    with pytest.raises(ConfigError, match="input_0"):
+        respond(sprung(seen("displacement")), replace(swing(), inputs={"hammer": 1.0}))
+
+
+def test_a_cut_run_is_the_begin_of_the_whole():
+    whole = replace(swing(), inputs={"input_0": np.sin(np.arange(201))})
+    found, cut = (respond(sprung(seen("displacement")), one)["seen"] for one in (whole, whole.until(40)))
+    np.testing.assert_allclose(cut, found[:40], rtol=0, atol=1e-15)
