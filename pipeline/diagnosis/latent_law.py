@@ -15,7 +15,7 @@ import numpy as np
 from pipeline.contract import BrakechainError
 from pipeline.diagnosis.question import parameter_name
 from pipeline.diagnosis.simulation import completed
-from pipeline.effects.stick import stick_stiffness
+from pipeline.effects.joint.stick import stick_stiffness
 from pipeline.inference.least_squares import ended, fit
 from pipeline.inference.priors import Normal, Parameter
 from pipeline.inference.problem import Problem

@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from pipeline.contract.errors import ConfigError
-from pipeline.effects.contact_surface import sliding_angle
+from pipeline.effects.contact.contact_surface import sliding_angle
 from pipeline.physics.contact.groups import parts
 from pipeline.physics.time_stepping.simulate import Penalty, Table
 from pipeline.physics.virtual_rig.response import Channel, respond, run_drive, run_inputs

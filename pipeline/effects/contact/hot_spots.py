@@ -7,7 +7,7 @@ n is the number of spots around the disc, a the height that they reach.
 
 import numpy as np
 
-from pipeline.effects.contact_surface import with_wave
+from pipeline.effects.contact.contact_surface import with_wave
 from pipeline.effects.effect import Effect
 from pipeline.inference.priors import HalfNormal, LogNormal, Parameter, Uniform
 

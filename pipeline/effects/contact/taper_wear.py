@@ -8,9 +8,9 @@ that a positive drive reaches first.
 
 import numpy as np
 
-from pipeline.effects.contact_surface import sliding_angle, with_wear
+from pipeline.effects.contact.contact_surface import sliding_angle, with_wear
+from pipeline.effects.contact.wear import typical_rate
 from pipeline.effects.effect import Effect
-from pipeline.effects.wear import typical_rate
 from pipeline.inference.priors import Normal, Parameter
 
 

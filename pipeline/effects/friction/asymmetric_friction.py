@@ -4,7 +4,7 @@ It comes on top of what resists in both directions; either sign takes energy out
 """
 
 from pipeline.effects.effect import Effect
-from pipeline.effects.stick import stick_stiffness
+from pipeline.effects.joint.stick import stick_stiffness
 from pipeline.inference.priors import Normal, Parameter
 from pipeline.physics.time_stepping.elements import Dry, Element
 

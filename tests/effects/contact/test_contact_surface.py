@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from pipeline.effects.contact_surface import sliding_angle, with_wave, with_wear
+from pipeline.effects.contact.contact_surface import sliding_angle, with_wave, with_wear
 from tests.effects.benches import at_angles, rubbing
 
 

@@ -6,7 +6,7 @@ the joint of the pins.
 """
 
 from pipeline.effects.effect import Effect
-from pipeline.effects.stick import stick_stiffness
+from pipeline.effects.joint.stick import stick_stiffness
 from pipeline.inference.priors import HalfNormal, Parameter
 from pipeline.physics.time_stepping.elements import Dry, Element
 

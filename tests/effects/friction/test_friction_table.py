@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from pipeline.effects.friction_table import times
+from pipeline.effects.friction.friction_table import times
 from pipeline.physics.friction.dry_friction import constant, tabulated
 
 

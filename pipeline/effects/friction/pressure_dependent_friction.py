@@ -6,7 +6,7 @@ a = 1/3 is one elastic sphere whose friction goes with its area; a brake pad tha
 import numpy as np
 
 from pipeline.effects.effect import Effect
-from pipeline.effects.friction_table import times
+from pipeline.effects.friction.friction_table import times
 from pipeline.inference.priors import LogNormal, Normal, Parameter
 
 #: pressures that the law spans on both sides of the reference, and samples between

@@ -8,7 +8,7 @@ has the opposite phase: one entry for each pad.
 
 import numpy as np
 
-from pipeline.effects.contact_surface import with_wave
+from pipeline.effects.contact.contact_surface import with_wave
 from pipeline.effects.effect import Effect
 from pipeline.inference.priors import HalfNormal, Parameter, Uniform
 

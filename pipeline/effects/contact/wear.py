@@ -3,7 +3,7 @@
 What recedes is pressed less and wears less: pressure evens out, at a fixed distance as exp(-r k s / A) with the way s.
 """
 
-from pipeline.effects.contact_surface import with_wear
+from pipeline.effects.contact.contact_surface import with_wear
 from pipeline.effects.effect import Effect
 from pipeline.inference.priors import HalfNormal, Parameter
 

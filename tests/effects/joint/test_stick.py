@@ -2,7 +2,7 @@
 
 import pytest
 
-from pipeline.effects.stick import stick_stiffness
+from pipeline.effects.joint.stick import stick_stiffness
 from tests.effects.benches import sprung
 
 

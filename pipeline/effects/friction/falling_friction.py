@@ -6,7 +6,7 @@ r = 0.2 is 20 % more friction at rest than at speed. The negative slope -r mu_0 
 import numpy as np
 
 from pipeline.effects.effect import Effect
-from pipeline.effects.friction_table import times
+from pipeline.effects.friction.friction_table import times
 from pipeline.inference.priors import HalfNormal, LogNormal, Parameter
 
 #: samples of the exponential, over this many decay speeds: within 2e-4 of the rise

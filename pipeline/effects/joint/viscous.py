@@ -3,7 +3,7 @@
 import numpy as np
 
 from pipeline.effects.effect import Effect
-from pipeline.effects.friction_table import times
+from pipeline.effects.friction.friction_table import times
 from pipeline.inference.priors import HalfNormal, Parameter
 
 #: speeds that the law spans, as multiples of the largest sliding speed of the drive or 1 m/s

@@ -7,7 +7,7 @@ r_i is the radius of contact i, r the mean of the group.
 
 import numpy as np
 
-from pipeline.effects.contact_surface import with_wave
+from pipeline.effects.contact.contact_surface import with_wave
 from pipeline.effects.effect import Effect
 from pipeline.inference.priors import LogNormal, Normal, Parameter
 

@@ -6,7 +6,7 @@ Bedding in: r < 0 starts low, r > 0 high; after some d friction is what it was.
 import numpy as np
 
 from pipeline.effects.effect import Effect
-from pipeline.effects.friction_table import times
+from pipeline.effects.friction.friction_table import times
 from pipeline.inference.priors import LogNormal, Parameter, Uniform
 from pipeline.physics.friction.state_variables import Distance
 

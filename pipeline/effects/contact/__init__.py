@@ -1,0 +1,1 @@
+"""Effects on the contact surface: stiffness, damping, wear, heat."""

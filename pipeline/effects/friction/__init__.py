@@ -1,0 +1,1 @@
+"""Effects on the friction law of a sliding contact."""

@@ -1,0 +1,1 @@
+"""Effects that act in a joint: friction, damping, nonlinear stiffness, play."""

@@ -1,0 +1,1 @@
+"""Effects on the structure: mass, stiffness, damping, gyroscopic terms."""
