@@ -13,7 +13,7 @@ from pipeline.diagnosis.document import companions
 from pipeline.diagnosis.published_lines import Models, published_diagnosis
 from pipeline.diagnosis.settings import Settings
 from pipeline.diagnosis.substitution import substituted
-from pipeline.inference import diagnose as course
+from pipeline.inference import procedure as course
 from pipeline.products import (
     Bench,
     ComplexModes,

@@ -8,7 +8,7 @@ from pipeline import __version__, effects
 from pipeline.concealed.sets import canonical, sha256
 from pipeline.contract.fingerprint import digest
 from pipeline.contract.runner import git_commit
-from pipeline.inference.decide import Rules
+from pipeline.inference.decision.decision_rules import Rules
 
 _ROOT = Path(__file__).parents[2]
 #: what only makes truths, or shows what was found

@@ -5,10 +5,10 @@ import numpy as np
 from pipeline.diagnosis.location import stage_of
 from pipeline.diagnosis.next_run import next_experiment
 from pipeline.diagnosis.question import label, split_name
-from pipeline.inference.effective import tempering
-from pipeline.inference.noise import normalised_error
-from pipeline.inference.verify import errors
-from pipeline.inference.weigh import unexplained
+from pipeline.inference.decision.candidate_statistics import unexplained
+from pipeline.inference.decision.held_out import errors
+from pipeline.inference.fitting.effective_sample_size import tempering
+from pipeline.inference.fitting.noise import normalised_error
 from pipeline.products import DiagnosedRun, Diagnosis, Follows, LatentForce, LatentPrediction, Located, SquealCheck
 
 #: models that are compared, in the order of the tables

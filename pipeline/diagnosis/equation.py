@@ -15,7 +15,7 @@ from pipeline.diagnosis.next_motion import planned_motions
 from pipeline.diagnosis.next_run import altered
 from pipeline.diagnosis.question import Question, nominal, nothing
 from pipeline.diagnosis.simulation import candidates, completed, observed, reach
-from pipeline.inference.noise import budget
+from pipeline.inference.fitting.noise import budget
 from pipeline.inference.problem import Problem
 
 

@@ -18,7 +18,7 @@ from pipeline.diagnosis.simulation import (
     solver_candidate,
 )
 from pipeline.effects import CATALOGUE
-from pipeline.inference.noise import budget
+from pipeline.inference.fitting.noise import budget
 from pipeline.inference.problem import Problem
 
 

@@ -12,7 +12,7 @@ from pipeline.diagnosis.deconvolution import FADE, deconvolved
 from pipeline.diagnosis.latent_law import LABEL, used
 from pipeline.diagnosis.location import drive_angle, fitted, leading_place, places
 from pipeline.diagnosis.simulation import shown
-from pipeline.inference import locate, unknown
+from pipeline.inference.search import gp_latent_force, localisation
 
 #: samples from which the covariance of the force is estimated
 LEARNED = 2000
@@ -94,8 +94,8 @@ def latent_run(bench, row, run, observed, noise):
     every = max(1, min(int(run.sample_rate / (4 * found.highest)), int((1 - 2 * FADE) * count) // FEWEST))
     kept = slice(int(FADE * count), int((1 - FADE) * count), every)
     raw, rate = found.force[kept], run.sample_rate / every
-    learned = unknown.latent_force(raw[:LEARNED], rate)
-    smooth = unknown.smooth(raw, rate, learned.size, learned.length, learned.noise)
+    learned = gp_latent_force.latent_force(raw[:LEARNED], rate)
+    smooth = gp_latent_force.smooth(raw, rate, learned.size, learned.length, learned.noise)
     angle = drive_angle(bench, run)
     return LatentRun(run.time[kept], smooth.mean, smooth.std, found.displacement[kept], found.velocity[kept],
                      None if angle is None else angle[kept])
@@ -104,21 +104,21 @@ def latent_run(bench, row, run, observed, noise):
 def dependences(runs, seed=0):
     """(Dependence, unit) of the force of LatentRuns on displacement, velocity, angle of the drive and time."""
     force, x, v = (np.concatenate([getattr(r, key) for r in runs]) for key in ("force", "displacement", "velocity"))
-    found = [(unknown.dependence("displacement", force, x, seed=seed), "m"),
-             (unknown.dependence("velocity", force, v, seed=seed), "m/s")]
+    found = [(gp_latent_force.dependence("displacement", force, x, seed=seed), "m"),
+             (gp_latent_force.dependence("velocity", force, v, seed=seed), "m/s")]
     if all(r.angle is not None for r in runs):
         angle = np.concatenate([r.angle for r in runs])
-        turned = unknown.dependence("angle of the drive", force, np.mod(angle, 2 * np.pi), seed=seed)
-        share, p_value = unknown.order_locked(force, angle, seed=seed)
+        turned = gp_latent_force.dependence("angle of the drive", force, np.mod(angle, 2 * np.pi), seed=seed)
+        share, p_value = gp_latent_force.order_locked(force, angle, seed=seed)
         found.append((replace(turned, share=share, p_value=p_value), "rad"))
     return (*found, (_drift(max(runs, key=lambda r: len(r.time)), seed), "s"))
 
 
 def _drift(run, seed):
     """Dependence of the size of the force on time within one run."""
-    share, p_value = unknown.slow_drift(run.force, seed=seed)
+    share, p_value = gp_latent_force.slow_drift(run.force, seed=seed)
     parts = np.array_split(np.arange(len(run.time)), 32)
-    return unknown.Dependence("time", share, p_value, np.array([run.time[p].mean() for p in parts]),
+    return gp_latent_force.Dependence("time", share, p_value, np.array([run.time[p].mean() for p in parts]),
                               np.array([np.sqrt(np.mean(run.force[p] ** 2)) for p in parts]))
 
 
@@ -132,9 +132,9 @@ def regimes(runs, draws=2000, seed=0):
     for name, (coordinate, unit) in axes.items():
         edges = np.unique(np.quantile(coordinate, np.linspace(0, 1, BINS + 1)))
         if len(edges) > 2 and power.any():
-            at = locate.regimes(power, coordinate, edges, draws, seed)
+            at = localisation.regimes(power, coordinate, edges, draws, seed)
             named = tuple(f"{low:.3g} to {high:.3g} {unit}" for low, high in at.items)
-            found[name] = (locate.Location(named, at.score, at.p_value, at.members), unit, np.array(at.items))
+            found[name] = (localisation.Location(named, at.score, at.p_value, at.members), unit, np.array(at.items))
     return found
 
 

@@ -16,7 +16,7 @@ from pipeline.contract import BrakechainError
 from pipeline.diagnosis.question import parameter_name
 from pipeline.diagnosis.simulation import completed
 from pipeline.effects.joint.stick import stick_stiffness
-from pipeline.inference.least_squares import ended, fit
+from pipeline.inference.fitting.least_squares import ended, fit
 from pipeline.inference.priors import Normal, Parameter
 from pipeline.inference.problem import Problem
 from pipeline.physics.time_stepping.elements import Dry, Element, Polynomial, Power, Wave

@@ -16,12 +16,12 @@ from scipy.stats import chi2, norm
 
 from pipeline.contract import ConfigError
 from pipeline.diagnosis.question import Question, label, nominal, parameter_name
-from pipeline.inference.diagnose import diagnose
-from pipeline.inference.least_squares import whitened
-from pipeline.inference.locate import Location, holm
-from pipeline.inference.noise import budget
+from pipeline.inference.fitting.least_squares import whitened
+from pipeline.inference.fitting.noise import budget
 from pipeline.inference.priors import HalfNormal, Parameter
 from pipeline.inference.problem import Hypothesis, Observed, Problem
+from pipeline.inference.procedure import diagnose
+from pipeline.inference.search.localisation import Location, holm
 
 #: the parameter of every alternative, and the one nominal value that lists of frequencies may have
 SHARE, FACTOR = "share", "frequency_factor"

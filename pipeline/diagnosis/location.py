@@ -15,10 +15,10 @@ from pipeline.diagnosis.simulation import STEP, completed, shown
 from pipeline.effects import CATALOGUE
 from pipeline.effects.effect import STAGES
 from pipeline.effects.typical import ASPERITIES
-from pipeline.inference import locate
-from pipeline.inference.decide import Rules
-from pipeline.inference.effective import effective_share
-from pipeline.inference.least_squares import whitened
+from pipeline.inference.decision.decision_rules import Rules
+from pipeline.inference.fitting.effective_sample_size import effective_share
+from pipeline.inference.fitting.least_squares import whitened
+from pipeline.inference.search import localisation
 from pipeline.physics.virtual_rig.response import run_drive, run_inputs
 
 #: octaves below the highest frequency of the records that are bands of their own
@@ -121,8 +121,8 @@ def stage_axis(found, names=_STAGES):
         share[row] += refitted.get(candidate.name, 0.0)
     kept = np.flatnonzero(np.isfinite(score))
     share = share[kept] if share[kept].sum() > 0 else np.ones(len(kept))
-    return locate.Location(tuple(names[k] for k in kept), score[kept], p_value[kept],
-                           locate.credible_set(share / share.sum()))
+    return localisation.Location(tuple(names[k] for k in kept), score[kept], p_value[kept],
+                           localisation.credible_set(share / share.sum()))
 
 
 def run_axis(whites, budget, level=1.0, draws=2000, seed=0):
@@ -149,7 +149,7 @@ def _power_axis(parts, level, draws, seed):
     random = np.random.default_rng(seed)
     null = (random.gamma(count / 2, 2 / count, (draws, len(count))) - 1) * np.sqrt(count / 2)
     again = power * random.gamma(real / 2, 2 / real, (draws, len(count)))
-    return locate.against_null(tuple(parts), (power / level - 1) * np.sqrt(count / 2), null, again)
+    return localisation.against_null(tuple(parts), (power / level - 1) * np.sqrt(count / 2), null, again)
 
 
 def band_axis(runs, whites, budget, level=1.0, draws=2000, seed=0):
@@ -160,7 +160,7 @@ def band_axis(runs, whites, budget, level=1.0, draws=2000, seed=0):
     rate = max(rates, key=rates.count)
     parts = [part for run in runs if run.rate == rate for part in budget[run.name].by_channel(whites[run.name])]
     edges = np.concatenate(([0.0], 0.5 * rate * 2.0 ** np.arange(-OCTAVES, 1)))
-    found = locate.bands(np.concatenate(parts) / np.sqrt(level), rate, edges, draws, seed)
+    found = localisation.bands(np.concatenate(parts) / np.sqrt(level), rate, edges, draws, seed)
     return _named(found, "Hz"), "Hz", np.array(found.items)
 
 
@@ -172,7 +172,7 @@ def place_axis(bench, runs, null, weights, draws=2000, seed=0):
         whole = _basis(bench, runs, null, rows, size).T
         if np.isfinite(whole).all() and whole.any():
             bases[name] = whole
-    return locate.places(tuple(bases), bases, null, weights, draws, seed) if bases else None
+    return localisation.places(tuple(bases), bases, null, weights, draws, seed) if bases else None
 
 
 def places(bench):

@@ -11,9 +11,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from pipeline.inference.least_squares import linearised
-from pipeline.inference.next_experiment import Prediction, choose, predicted
-from pipeline.inference.noise import budget
+from pipeline.inference.fitting.least_squares import linearised
+from pipeline.inference.fitting.noise import budget
+from pipeline.inference.planning.experiment_choice import Prediction, choose, predicted
 from pipeline.inference.problem import Observed, Problem
 
 #: an alternative holds or it does not: half-way is two standard deviations

@@ -15,8 +15,8 @@ import numpy as np
 from pipeline.benches import corrections
 from pipeline.contract import BrakechainError, ConfigError
 from pipeline.contract.units import to_si
-from pipeline.inference.least_squares import linearised
-from pipeline.inference.next_experiment import choose, predicted
+from pipeline.inference.fitting.least_squares import linearised
+from pipeline.inference.planning.experiment_choice import choose, predicted
 from pipeline.inference.problem import Observed
 from pipeline.physics.virtual_rig.normal_load import CONDITION as NORMAL_LOAD
 from pipeline.physics.virtual_rig.response import Run, run_drive, run_inputs

@@ -17,9 +17,9 @@ from pipeline.contract.units import to_si
 from pipeline.diagnosis.forced import check_names, chosen, nominal_parameters
 from pipeline.diagnosis.question import nominal
 from pipeline.diagnosis.simulation import Simulated, candidates
-from pipeline.inference import plan as mathematics
-from pipeline.inference.least_squares import linearised, whitened
-from pipeline.inference.noise import budget
+from pipeline.inference.fitting.least_squares import linearised, whitened
+from pipeline.inference.fitting.noise import budget
+from pipeline.inference.planning import campaign as mathematics
 from pipeline.inference.problem import Observed, Problem
 from pipeline.physics.virtual_rig.response import Run
 

@@ -12,7 +12,7 @@ from pipeline.diagnosis.lines import diagnosed
 from pipeline.diagnosis.next_lines import best_check, best_outcome
 from pipeline.diagnosis.next_run import Rival
 from pipeline.diagnosis.question import label
-from pipeline.inference import diagnose as course
+from pipeline.inference import procedure as course
 
 #: verdicts that name something, which needs a second list that nothing was chosen on
 _NAMING = ("missing", "sensor", "numerics")

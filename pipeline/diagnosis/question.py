@@ -3,8 +3,8 @@
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from pipeline.inference import diagnose as course
-from pipeline.inference.decide import Rules
+from pipeline.inference import procedure as course
+from pipeline.inference.decision.decision_rules import Rules
 from pipeline.inference.problem import Hypothesis, Problem
 
 

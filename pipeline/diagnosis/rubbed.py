@@ -22,8 +22,8 @@ from pipeline.diagnosis.simulation import candidates, terms
 from pipeline.diagnosis.worn_faces import FRICTION, UNITS, WEAR, observed, rubbed, shown
 from pipeline.effects import CATALOGUE
 from pipeline.effects.effect import compose
-from pipeline.inference.decide import Rules
-from pipeline.inference.noise import budget
+from pipeline.inference.decision.decision_rules import Rules
+from pipeline.inference.fitting.noise import budget
 from pipeline.inference.priors import Normal, Parameter
 from pipeline.inference.problem import Hypothesis, Problem
 from pipeline.physics.friction.friction_table import FrictionLaw

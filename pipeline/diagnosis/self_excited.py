@@ -10,8 +10,8 @@ from pipeline.diagnosis.poles import features, observed, predicted
 from pipeline.diagnosis.question import Question, nominal, nothing
 from pipeline.diagnosis.saturated_squeal import Squeals
 from pipeline.diagnosis.simulation import candidates, completed
-from pipeline.inference.decide import Rules
-from pipeline.inference.noise import budget
+from pipeline.inference.decision.decision_rules import Rules
+from pipeline.inference.fitting.noise import budget
 from pipeline.inference.problem import Problem
 
 #: an effect is named where its evidence is e^3 times that of the next: a share of 0.95

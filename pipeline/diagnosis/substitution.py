@@ -18,7 +18,7 @@ from scipy.optimize import linear_sum_assignment
 from pipeline.contract import BrakechainError
 from pipeline.diagnosis.location import fitted
 from pipeline.diagnosis.simulation import Simulated, shown
-from pipeline.inference import locate
+from pipeline.inference.search import localisation
 from pipeline.physics.friction.friction_table import FrictionLaw
 from pipeline.physics.signals.pole_identification import likeness
 
@@ -54,7 +54,7 @@ class Substituted:
                 continue
         if not decrease:
             return self.axes(found)
-        return self.axes(found) | {AXIS: (locate.stages(tuple(decrease), decrease, self.draws, self.seed), "", None)}
+        return self.axes(found) | {AXIS: (localisation.stages(tuple(decrease), decrease, self.draws, self.seed), "", None)}
 
     def _squares(self, bench):
         """Squared whitened error (blocks,) of the fitted runs."""

@@ -8,7 +8,7 @@ from pipeline.benches.runs import recorded
 from pipeline.contract.settings import fill
 from pipeline.diagnosis.forced import question
 from pipeline.diagnosis.settings import Settings as DiagnosisSettings
-from pipeline.inference.diagnose import diagnose
+from pipeline.inference.procedure import diagnose
 from pipeline.physics.fem.elasticity import assemble, isotropic
 from pipeline.physics.fem.mesh import revolve
 from pipeline.physics.friction.dry_friction import constant

@@ -6,7 +6,7 @@ from pipeline.concealed import code
 
 def test_answers_depend_on_the_diagnosis_and_scores_on_the_judging_and_neither_on_views_or_generators():
     found = code.files()
-    assert {"stages/diagnosis.py", "pipeline/inference/decide.py", "pipeline/effects/joint/coulomb.py",
+    assert {"stages/diagnosis.py", "pipeline/inference/decision/decision_rules.py", "pipeline/effects/joint/coulomb.py",
             "pipeline/concealed/judging.py"} <= set(found)
     assert not [name for name in found if name.startswith(("pipeline/views", "pipeline/trial/", "pipeline/cli"))]
     assert code.of_answers({**found, "pipeline/concealed/judging.py": "0"}) == code.of_answers(found)

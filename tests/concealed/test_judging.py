@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from pipeline.concealed.judging import VISIBLE, class_of, judged, same
-from pipeline.inference.diagnose import Settings, diagnose
-from pipeline.inference.least_squares import orthogonal
+from pipeline.inference.fitting.least_squares import orthogonal
+from pipeline.inference.procedure import Settings, diagnose
 from tests.inference import linear
 
 COULOMB, CUBIC, SHIFTED = ("coulomb", "link_1"), ("cubic_stiffness", "link_0"), ("coulomb", "link_0")

@@ -12,10 +12,10 @@ from pipeline.diagnosis.answer import answer, located
 from pipeline.diagnosis.document import as_json, completed_name
 from pipeline.diagnosis.forced import question
 from pipeline.diagnosis.settings import Settings
-from pipeline.inference.diagnose import Settings as Course
-from pipeline.inference.diagnose import diagnose
-from pipeline.inference.effective import tempering
-from pipeline.inference.locate import against_null
+from pipeline.inference.fitting.effective_sample_size import tempering
+from pipeline.inference.procedure import Settings as Course
+from pipeline.inference.procedure import diagnose
+from pipeline.inference.search.localisation import against_null
 from tests.diagnosis.small_rig import HIDDEN, NOISE, laid_out, model, recording
 
 ASKED = {"parameters": {"joints.mount.stiffness": {"spread": 0.1}, "joints.mount.damping": {"spread": 0.2}},

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from pipeline.diagnosis.balance_latent import DescribeBalance
-from pipeline.inference.diagnose import diagnose
+from pipeline.inference.procedure import diagnose
 from tests.diagnosis.small_rig import HIDDEN
 from tests.diagnosis.test_equation import asked
 

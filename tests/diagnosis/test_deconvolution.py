@@ -7,7 +7,7 @@ from pipeline.benches import bench as benches
 from pipeline.benches.runs import recorded
 from pipeline.diagnosis.deconvolution import FADE, deconvolved, motion, moved, receptances
 from pipeline.diagnosis.simulation import observed
-from pipeline.inference.noise import whitening
+from pipeline.inference.fitting.noise import whitening
 from tests.diagnosis import pin_rig
 from tests.diagnosis.small_rig import HIDDEN, NOISE, laid_out, model, recording
 

@@ -15,7 +15,7 @@ from pipeline.contract.case import CaseText
 from pipeline.contract.settings import fill, without_origins
 from pipeline.diagnosis.document import as_json, companions
 from pipeline.diagnosis.simulation import shown
-from pipeline.inference.noise import normalised_error
+from pipeline.inference.fitting.noise import normalised_error
 from tests.diagnosis.small_rig import BENCH, HIDDEN, laid_out, model, recording
 from tests.diagnosis.test_answer import told
 from tests.views.test_squeal_check import CHECK

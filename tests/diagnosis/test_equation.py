@@ -8,7 +8,7 @@ from pipeline.contract import ConfigError
 from pipeline.contract.settings import fill
 from pipeline.diagnosis.equation import question
 from pipeline.diagnosis.settings import Settings
-from pipeline.inference.diagnose import diagnose
+from pipeline.inference.procedure import diagnose
 from tests.benches.test_equation import BALANCED
 from tests.diagnosis.small_rig import HIDDEN, laid_out, model, recording
 

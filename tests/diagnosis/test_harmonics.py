@@ -16,7 +16,7 @@ from pipeline.diagnosis.harmonics import (
     unstepped,
 )
 from pipeline.diagnosis.lines import diagnosed
-from pipeline.inference.diagnose import Settings
+from pipeline.inference.procedure import Settings
 from pipeline.products import ComplexModes, Lines, Recording, Run
 from tests.stages.test_transient import growing_root, pair
 from tests.views.products_for_views import filled

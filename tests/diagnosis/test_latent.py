@@ -7,7 +7,7 @@ from pipeline.benches import bench as benches
 from pipeline.benches.runs import recorded
 from pipeline.diagnosis.latent import describe, sentence
 from pipeline.diagnosis.simulation import observed
-from pipeline.inference.noise import budget
+from pipeline.inference.fitting.noise import budget
 from pipeline.inference.priors import LogNormal, Parameter
 from pipeline.inference.problem import Hypothesis, Problem
 from tests.diagnosis.small_rig import HIDDEN, NOISE, laid_out, model, recording

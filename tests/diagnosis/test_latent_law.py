@@ -15,9 +15,9 @@ from pipeline.diagnosis.latent import LatentRun
 from pipeline.diagnosis.latent_law import LABEL, LatentLaw, regressed
 from pipeline.diagnosis.settings import Settings
 from pipeline.diagnosis.simulation import shown
-from pipeline.inference.diagnose import Settings as Course
-from pipeline.inference.diagnose import diagnose
-from pipeline.inference.unknown import Dependence
+from pipeline.inference.procedure import Settings as Course
+from pipeline.inference.procedure import diagnose
+from pipeline.inference.search.gp_latent_force import Dependence
 from tests.benches.test_equation import BALANCED
 from tests.diagnosis.small_rig import HIDDEN, NOISE, laid_out, model, recording
 

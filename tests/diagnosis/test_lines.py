@@ -5,8 +5,8 @@ import pytest
 
 from pipeline.contract import ConfigError
 from pipeline.diagnosis.lines import FACTOR, Alternative, Features, diagnosed, lines_of, question
-from pipeline.inference.diagnose import Settings
 from pipeline.inference.priors import LogNormal, Parameter
+from pipeline.inference.procedure import Settings
 from pipeline.products import Recording, Run
 
 MODEL = np.array([200.0, 450.0, 700.0, 1100.0, 1600.0, 2300.0])

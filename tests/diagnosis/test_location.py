@@ -11,8 +11,8 @@ from pipeline.contract.settings import fill
 from pipeline.diagnosis.forced import question
 from pipeline.diagnosis.location import band_axis, place_axis, places, run_axis, stage_axis, stage_of
 from pipeline.diagnosis.settings import Settings
-from pipeline.inference.least_squares import linearised
-from pipeline.inference.noise import budget
+from pipeline.inference.fitting.least_squares import linearised
+from pipeline.inference.fitting.noise import budget
 from pipeline.inference.priors import LogNormal, Parameter
 from pipeline.inference.problem import Hypothesis, Observed, Problem
 from tests.diagnosis import two_masses

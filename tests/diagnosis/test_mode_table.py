@@ -17,7 +17,7 @@ from pipeline.diagnosis.mode_table import (
     nearer,
     table,
 )
-from pipeline.inference.diagnose import Settings
+from pipeline.inference.procedure import Settings
 from pipeline.products import Lines, Recording, Run
 
 COMPUTED = {"a": 200.0, "b": 450.0, "c": 700.0, "d": 1100.0, "e": 1600.0, "f": 1900.0, "g": 2300.0}

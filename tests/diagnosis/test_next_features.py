@@ -11,7 +11,7 @@ from pipeline.diagnosis.next_features import planned_records
 from pipeline.diagnosis.poles import features
 from pipeline.diagnosis.self_excited import question
 from pipeline.diagnosis.settings import Settings
-from pipeline.inference import diagnose as course
+from pipeline.inference import procedure as course
 from tests.diagnosis.small_bench import bench, laid_out, recorded
 from tests.diagnosis.test_self_excited import ASKED
 

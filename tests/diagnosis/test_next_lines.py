@@ -6,9 +6,9 @@ import pytest
 from pipeline.diagnosis.lines import Alternative, Features, diagnosed, question
 from pipeline.diagnosis.next_lines import Check, best_check, best_outcome
 from pipeline.diagnosis.next_run import Rival
-from pipeline.inference.diagnose import Settings
-from pipeline.inference.least_squares import linearised
-from pipeline.inference.next_experiment import divergence, predicted
+from pipeline.inference.fitting.least_squares import linearised
+from pipeline.inference.planning.experiment_choice import divergence, predicted
+from pipeline.inference.procedure import Settings
 
 STD = 5.0
 MODEL = {"one": 200.0, "two": 700.0, "three": 1600.0}

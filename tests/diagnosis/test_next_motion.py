@@ -13,7 +13,7 @@ from pipeline.diagnosis.equation import question
 from pipeline.diagnosis.next_motion import planned_motions
 from pipeline.diagnosis.next_run import altered
 from pipeline.diagnosis.settings import Settings
-from pipeline.inference import diagnose as course
+from pipeline.inference import procedure as course
 from tests.diagnosis.small_rig import effects, laid_out, model, recording
 
 PLAIN = {"forward": "equation", "equation": {"corner": "20 Hz"}}

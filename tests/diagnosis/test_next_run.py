@@ -11,7 +11,7 @@ from pipeline.diagnosis.answer import answer
 from pipeline.diagnosis.forced import question
 from pipeline.diagnosis.next_run import altered, feasible
 from pipeline.diagnosis.settings import Settings
-from pipeline.inference import diagnose as course
+from pipeline.inference import procedure as course
 from tests.diagnosis.pin_rig import MICRO_SLIP, bench, laid_out, recording
 
 RIVALS = {"compliant_arm at arm", "micro_slip at contact"}

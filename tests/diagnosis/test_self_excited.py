@@ -6,7 +6,7 @@ from pipeline.contract import ConfigError
 from pipeline.contract.settings import fill
 from pipeline.diagnosis.self_excited import question
 from pipeline.diagnosis.settings import Settings
-from pipeline.inference import diagnose as course
+from pipeline.inference import procedure as course
 from tests.diagnosis.small_bench import bench, laid_out, recorded
 
 ASKED = {"forward": "poles", "solver": False, "effects": ["falling_friction", "contact_stiffness_law", "runout"],

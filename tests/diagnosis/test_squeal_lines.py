@@ -15,7 +15,7 @@ from pipeline.diagnosis.squeal_lines import (
     squeal_reasons,
     undecided,
 )
-from pipeline.inference.diagnose import Settings
+from pipeline.inference.procedure import Settings
 from pipeline.products import ComplexModes, Lines, Recording, Run
 from tests.views.products_for_views import filled
 

@@ -13,7 +13,7 @@ from pipeline.contract.settings import fill
 from pipeline.diagnosis import forced
 from pipeline.diagnosis.settings import Settings
 from pipeline.diagnosis.substitution import AXIS, MeasuredShapes, Substituted, measured_law, substituted, swaps
-from pipeline.inference.least_squares import linearised
+from pipeline.inference.fitting.least_squares import linearised
 from pipeline.products import MeasuredFriction, MeasuredModes
 from pipeline.products import Run as RunProduct
 from tests.diagnosis import pin_rig, two_masses

@@ -9,12 +9,12 @@ from functools import cache
 
 import numpy as np
 
-from pipeline.inference.calibrate import calibrate
-from pipeline.inference.diagnose import diagnose
-from pipeline.inference.least_squares import fit, whitened
-from pipeline.inference.noise import budget
+from pipeline.inference.fitting.calibration import calibrate
+from pipeline.inference.fitting.least_squares import fit, whitened
+from pipeline.inference.fitting.noise import budget
 from pipeline.inference.priors import HalfNormal, LogNormal, Normal, Parameter
 from pipeline.inference.problem import Hypothesis, Observed, Problem
+from pipeline.inference.procedure import diagnose
 from tests.inference import linear, oscillator
 from tests.inference.oscillator import CATALOGUE, DAMPING, SOLVER, predict_with_lag
 

@@ -7,8 +7,8 @@ from pipeline.benches.effect_block import with_effects
 from pipeline.benches.runs import recorded
 from pipeline.contract.settings import fill
 from pipeline.diagnosis.simulation import Simulated, observed
-from pipeline.inference.least_squares import linearised
-from pipeline.inference.noise import budget
+from pipeline.inference.fitting.least_squares import linearised
+from pipeline.inference.fitting.noise import budget
 from pipeline.inference.priors import LogNormal, Parameter
 from pipeline.inference.problem import Hypothesis, Problem
 from pipeline.physics.virtual_rig.response import Run, respond

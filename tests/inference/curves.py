@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from pipeline.inference.noise import budget
+from pipeline.inference.fitting.noise import budget
 from pipeline.inference.priors import Normal, Parameter
 from pipeline.inference.problem import Hypothesis, Observed, Problem
 

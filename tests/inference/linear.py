@@ -4,7 +4,7 @@ from functools import partial
 
 import numpy as np
 
-from pipeline.inference.noise import budget
+from pipeline.inference.fitting.noise import budget
 from pipeline.inference.priors import Normal, Parameter
 from pipeline.inference.problem import Hypothesis, Observed, Problem
 

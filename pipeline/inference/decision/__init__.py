@@ -1,0 +1,1 @@
+"""From fits to a verdict: evidence, held-out prediction and decision rules."""

@@ -1,0 +1,1 @@
+"""Least-squares fits: calibration, refitting, noise and drift."""

@@ -1,0 +1,333 @@
+"""Maximum a posteriori by Levenberg-Marquardt in latent coordinates and whitened residuals.
+
+In latent coordinates the prior is N(0, I), so that the objective is |r(u)|^2 + |u|^2 (Nielsen's damping: Madsen,
+Nielsen & Tingleff, Methods for Non-Linear Least Squares Problems, 2004).
+"""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from pipeline.contract.errors import BrakechainError, ConfigError, ConvergenceError
+from pipeline.inference.fitting.effective_sample_size import tempering
+from pipeline.inference.priors import LATENT_LIMIT
+
+ITERATIONS = 60
+#: forward-difference step in latent coordinates, and the widest one, which looks beyond kinks of the forward model
+DIFFERENCE, _WIDEST = 1e-4, 1e-2
+#: the expected decrease of the objective at which a fit counts as converged, tempered as the evidence will be
+TOLERANCE = 1e-3
+#: the same of features, as a share of the objective: far off, a small change of it says nothing
+_SHARE = 1e-4
+#: longest step of a latent coordinate in one iteration
+_LONGEST = 1.5
+#: where no step helps (rounding, kinks of the forward model) or iterations are used up, a fit counts as converged below
+#: this: a posterior standard deviation from its linearised optimum
+_STALLED = 1.0
+#: so many times that a fit that used up its iterations may promise to go on, for this fraction of them
+_NEARLY, _AGAIN = 30.0, 3
+#: share of the tolerance below which the gain of a step is none
+_LEAST = 0.1
+#: so many times the decrease of the objective that its slope promises may a fit still come down
+HOPE = 10.0
+#: share of what a fit explains below which what its slopes still promise cannot matter (forces with kinks have no
+#: smooth optimum)
+NOTHING_MORE = 1e-3
+#: noise powers beyond which a residual is far off
+FAR = 100.0
+#: iterations, and the share of the objective that is left after them where a fit crawls
+_CRAWLING = ((5, 0.97), (8, 0.7))
+#: share of the objective that a step of a rough fit must gain for another to follow
+_ROUGHLY = 0.01
+#: share of the promised decrease below which an updated Jacobian is replaced by differences
+_TRUSTED = 0.25
+
+
+@dataclass(frozen=True)
+class Fit:
+    """A hypothesis at latent coordinates ``latent`` (k,) against runs.
+
+    Per run: whitened ``residuals`` (m_r,) = observed less predicted and ``jacobians`` (m_r, k) of the prediction.
+    ``converged``: whether the iteration reached its tolerance; ``evaluations`` counts predictions of all runs;
+    ``fresh``: whether the Jacobians are differences taken here, not updates of earlier ones.
+    """
+
+    hypothesis: object
+    runs: tuple
+    noises: tuple
+    latent: np.ndarray
+    residuals: tuple
+    jacobians: tuple
+    converged: bool
+    evaluations: int
+    fresh: bool = True
+
+    @property
+    def values(self):
+        return self.hypothesis.values(self.latent)
+
+    @property
+    def chi_square(self):
+        """Sum of squared whitened residuals of each run (runs,)."""
+        return np.array([r @ r for r in self.residuals])
+
+    @property
+    def counts(self):
+        return np.array([len(r) for r in self.residuals])
+
+    @property
+    def objective(self):
+        return float(self.chi_square.sum() + self.latent @ self.latent)
+
+    def explains(self, null):
+        """Squared error of the Fit ``null`` that this one explains."""
+        return null.chi_square.sum() - self.chi_square.sum()
+
+    def betters(self, null):
+        """Decrease of the objective from the Fit ``null`` to this one."""
+        return null.objective - self.objective
+
+    def covariance(self, weights=None):
+        """Posterior covariance (k, k) of the latent coordinates, runs weighted (see ``effective.tempering``)."""
+        return np.linalg.inv(_information(self.jacobians, _ones(self, weights)) + np.eye(len(self.latent)))
+
+    def spread(self, weights=None):
+        """{name: standard deviation} of the values, by the slope of each prior's transform."""
+        std = np.sqrt(np.diag(self.covariance(weights)))
+        low, high = self.hypothesis.values(self.latent - std), self.hypothesis.values(self.latent + std)
+        return {name: 0.5 * (high[name] - low[name]) for name in low}
+
+
+def of_features(noises):
+    """Whether what is fitted has no order in time."""
+    return not all(noise.ordered for noise in noises)
+
+
+def far(state):
+    """Whether a Fit leaves far more than noise."""
+    return bool(state.chi_square.sum() > FAR * state.counts.sum())
+
+
+def whitened(problem, noises, hypothesis, latent, runs):
+    """Whitened residuals [(m_r,)] at ``latent``; None where the forward model cannot, with its error."""
+    values, residuals = hypothesis.values(latent), []
+    for run, noise in zip(runs, noises, strict=True):
+        try:
+            predicted = np.asarray(problem.predict(hypothesis, values, run), float)
+        except BrakechainError as error:
+            return None, error
+        if predicted.shape != run.samples.shape:
+            raise ConfigError(f"prediction of run {run.name}", f"channels and samples {run.samples.shape}",
+                              str(predicted.shape))
+        if not np.isfinite(predicted).all():
+            return None, ConvergenceError(f"prediction of run {run.name}", "finite numbers", "others")
+        residuals.append(noise.whiten(run.samples - predicted))
+    return residuals, None
+
+
+def linearised(problem, noises, hypothesis, latent, runs, known=()):
+    """Fit without iteration: residuals and Jacobians at ``latent``. Raises what the forward model raises.
+
+    ``known`` [(m_r, i)]: the first columns of the Jacobians, taken as they are.
+    """
+    latent = np.asarray(latent, float)
+    residuals, error = whitened(problem, noises, hypothesis, latent, runs)
+    if error:
+        raise error
+    first = known[0].shape[1] if len(known) else 0
+    jacobians, count = _jacobians(problem, noises, hypothesis, latent, residuals, runs, first)
+    if first:
+        jacobians = tuple(np.hstack(both) for both in zip(known, jacobians, strict=True))
+    return Fit(hypothesis, tuple(runs), tuple(noises), latent, tuple(residuals), jacobians, False, 1 + count, not first)
+
+
+def fit(problem, noises, hypothesis, start, runs, iterations=ITERATIONS):
+    """Levenberg-Marquardt from latent ``start``; the Fit says whether it ``converged``.
+
+    ``noises`` [Noise] belong to ``runs``. Raises what the forward model raises at the start.
+    """
+    return continued(problem, linearised(problem, noises, hypothesis, start, runs), iterations)
+
+
+def continued(problem, state, iterations=ITERATIONS, enough=np.inf, patient=True):
+    """The Fit after further iterations. Jacobians are updated by the secant (Broyden 1965) as long as that serves.
+
+    A fit is given up, as it is, where its slope promises nothing that would bring its objective down to ``enough``, and
+    without ``patient`` where features stay far off. Where its iterations do not end by themselves, central differences
+    tell how far it is from its optimum: in a narrow valley the error of forward ones looks like a slope. From there a
+    fit goes on that is nearly at its end.
+    """
+    found = iterated(problem, state, iterations, enough, patient)
+    if found.converged or found.objective > enough:
+        return found
+    found = _looked_at(problem, found)
+    if found.converged or promised(found) > _NEARLY * _scale(found):
+        return found
+    found = iterated(problem, found, iterations // _AGAIN, enough, patient)
+    return found if found.converged or found.objective > enough else _looked_at(problem, found)
+
+
+def _looked_at(problem, state):
+    """The Fit with central differences, and whether they find it at its optimum."""
+    found = _refreshed(problem, state, central=True)
+    return replace(found, converged=promised(found) < _STALLED * _scale(found))
+
+
+def iterated(problem, state, iterations, enough=np.inf, patient=True, rough=False):
+    """The Fit after ``iterations``; where no step helps, differences are taken over wider steps before it ends.
+
+    A ``rough`` one stops where updated Jacobians promise no more: its latent values are of use.
+    """
+    damping, growth, width, before = 1e-3, 2.0, DIFFERENCE, []
+    for _ in range(iterations):
+        before.append(state.objective)
+        if (not patient and _crawls(state, before)) or (rough and _settles(state, before)):
+            break
+        gradient, hessian = _slopes(state)
+        expected, scale = gradient @ np.linalg.solve(hessian, gradient), _scale(state)
+        if state.objective - HOPE * expected > enough:
+            break
+        if expected < _tolerance(state, scale, patient):
+            if rough or state.fresh:
+                return replace(state, converged=not rough)
+            state = _refreshed(problem, state)
+            continue
+        moved, damping, growth = _step(problem, state, gradient, hessian, damping, growth)
+        if moved is not None and state.objective - moved.objective > _LEAST * TOLERANCE * scale:
+            state = moved
+            continue
+        if state.fresh and expected < _STALLED * scale:
+            return replace(state, converged=True)
+        if state.fresh and width >= _WIDEST:
+            break
+        width *= 10 if state.fresh else 1
+        state, damping, growth = _refreshed(problem, state, width), 1e-3, 2.0
+    return state
+
+
+def promised(fit):
+    """Decrease of the objective that the slopes of a Fit still promise."""
+    gradient, hessian = _slopes(fit)
+    return float(gradient @ np.linalg.solve(hessian, gradient))
+
+
+def ended(fit, explained, share=NOTHING_MORE):
+    """Whether a Fit converged, or its slopes promise less than ``share`` of what it ``explained``."""
+    return fit.converged or promised(fit) <= share * explained
+
+
+def _tolerance(state, scale, patient):
+    return max(TOLERANCE * scale, 0.0 if patient or not of_features(state.noises) else _SHARE * state.objective)
+
+
+def _crawls(state, before):
+    """Whether features that are far off have stayed so: their hypothesis has no use for more iterations."""
+    return (of_features(state.noises) and far(state)
+            and any(len(before) > n and before[-1] > share * before[-1 - n] for n, share in _CRAWLING))
+
+
+def _settles(state, before):
+    """Whether the last step gained so little that a rough fit may end."""
+    return not state.fresh and len(before) > 1 and before[-1] > (1 - _ROUGHLY) * before[-2]
+
+
+def orthogonal(residual, jacobian, prior_precision=None):
+    """d = (I - J (J'J + P^-1)^-1 J') r: what parameters cannot explain of whitened (m, ...) residuals.
+
+    ``prior_precision`` (k, k), default I (latent coordinates). d = C^-1 r with C = I + J P J', so that g'd over
+    sqrt(g'C^-1 g) is standard normal for every direction g where nothing else is missing.
+    """
+    precision = np.eye(jacobian.shape[1]) if prior_precision is None else prior_precision
+    return residual - jacobian @ np.linalg.solve(jacobian.T @ jacobian + precision, jacobian.T @ residual)
+
+
+def from_prior_mean(fit):
+    """Linearised whitened residuals [(m_r,)] at latent zero: r + J u."""
+    return [r + j @ fit.latent for r, j in zip(fit.residuals, fit.jacobians, strict=True)]
+
+
+def _ones(fit, weights):
+    return np.ones(len(fit.residuals)) if weights is None else np.asarray(weights, float)
+
+
+def _information(jacobians, weights=None):
+    weights = np.ones(len(jacobians)) if weights is None else weights
+    return sum(w * (j.T @ j) for w, j in zip(weights, jacobians, strict=True))
+
+
+def _scale(state):
+    """Objective per unit of log evidence (see ``effective.tempering``)."""
+    return 1 / max(tempering(state.noises, state.residuals).max(), 1e-12)
+
+
+def _jacobians(problem, noises, hypothesis, latent, residuals, runs, first=0, width=DIFFERENCE, central=False):
+    """Forward differences (backward at the upper limit and where the forward model fails ahead) from ``first`` on.
+
+    ``central``: the mean of both.
+    """
+    columns, count = [], 0
+    for k in range(first, len(latent)):
+        slopes = []
+        for step in (width, -width):
+            if abs(latent[k] + step) > LATENT_LIMIT or (slopes and not central):
+                continue
+            moved, error = whitened(problem, noises, hypothesis, latent + step * (np.arange(len(latent)) == k), runs)
+            count += 1
+            if moved is not None:
+                slopes.append([(before - after) / step for before, after in zip(residuals, moved, strict=True)])
+        if not slopes:
+            raise error
+        columns.append([np.mean(own, axis=0) for own in zip(*slopes, strict=True)])
+    jacobians = tuple(np.array([column[i] for column in columns]).reshape(len(columns), len(residual)).T
+                      for i, residual in enumerate(residuals))
+    return jacobians, count
+
+
+def _slopes(state):
+    """Descent (k,), the negative gradient, and Gauss-Newton's Hessian (k, k) of half the objective; bounds that hold do
+    not take part."""
+    gradient = sum(j.T @ r for j, r in zip(state.jacobians, state.residuals, strict=True)) - state.latent
+    hessian = _information(state.jacobians) + np.eye(len(state.latent))
+    held = (np.abs(state.latent) >= LATENT_LIMIT) & (gradient * state.latent > 0)
+    gradient[held] = hessian[held] = hessian[:, held] = 0.0
+    hessian[held, held] = 1.0
+    return gradient, hessian
+
+
+def _refreshed(problem, state, width=DIFFERENCE, central=False):
+    jacobians, count = _jacobians(problem, state.noises, state.hypothesis, state.latent, state.residuals, state.runs,
+                                  width=width, central=central)
+    return replace(state, jacobians=jacobians, fresh=True, evaluations=state.evaluations + count)
+
+
+def _step(problem, state, gradient, hessian, damping, growth):
+    """The next state that lowers the objective, with the new damping; None where no step does."""
+    objective, tries = state.objective, 0
+    while damping < 1e12:
+        step = np.linalg.solve(hessian + damping * np.diag(np.diag(hessian)), gradient)
+        step *= min(1.0, _LONGEST / max(np.abs(step).max(), 1e-300))
+        latent = np.clip(state.latent + step, -LATENT_LIMIT, LATENT_LIMIT)
+        residuals, _ = whitened(problem, state.noises, state.hypothesis, latent, state.runs)
+        tries += 1
+        if residuals is not None:
+            gain = objective - sum(r @ r for r in residuals) - latent @ latent
+            promised = step @ (2 * gradient - hessian @ step)
+            if gain > 0:
+                ratio = gain / promised if promised > 0 else 0.5
+                moved = _moved(state, latent, residuals, tries)
+                if ratio < _TRUSTED:
+                    moved = _refreshed(problem, moved)
+                return moved, min(damping * max(1 / 3, 1 - (2 * ratio - 1) ** 3), 1e6), 2.0
+        if not state.fresh:
+            break
+        damping, growth = damping * growth, 2 * growth
+    return None, damping, growth
+
+
+def _moved(state, latent, residuals, tries):
+    """State at ``latent`` with Jacobians that agree with the change of the prediction on the way there."""
+    way = latent - state.latent
+    jacobians = tuple(j + np.outer(before - after - j @ way, way) / (way @ way)
+                      for j, before, after in zip(state.jacobians, state.residuals, residuals, strict=True))
+    return replace(state, latent=latent, residuals=tuple(residuals), jacobians=jacobians, fresh=False,
+                   evaluations=state.evaluations + tries)

@@ -1,0 +1,86 @@
+"""Where effects that sound one tone begin their fits: at the frequencies that stand out of what the null leaves.
+
+Over frequency the fit of a tone has one narrow valley among many, as wide as a run is short; amplitude and phase follow
+from two predictions a quarter of a turn apart, as the tone is linear in its cosine and sine.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+from scipy.signal import find_peaks
+
+from pipeline.inference.fitting.least_squares import from_prior_mean, orthogonal, whitened
+
+#: frequencies that are tried, and how many of them a fit begins at
+_TRIED, _BEGUN = 4, 2
+#: ordinates of a spectrum for each that its length resolves
+_FINER = 4
+#: amplitude of the two predictions, in scales of its prior
+_SMALL = 0.02
+
+
+class Tone(NamedTuple):
+    """Indices of the amplitude, frequency and phase among the parameters of an effect."""
+
+    amplitude: int
+    frequency: int
+    phase: int
+
+
+def tone_of(candidate):
+    """The Tone of a candidate's parameters, or None where it sounds none."""
+    parameters = candidate.parameters
+    shapes = {p.unit: k for k, p in enumerate(parameters) if p.null is None}
+    sizes = [k for k, p in enumerate(parameters) if p.null is not None]
+    if len(sizes) != 1 or set(shapes) != {"Hz", "rad"}:
+        return None
+    return Tone(sizes[0], shapes["Hz"], shapes["rad"])
+
+
+def standing_out(fit, count=_TRIED):
+    """Frequencies (up to ``count``,) in Hz of the largest peaks in the spectrum of what a Fit leaves, over all runs."""
+    ordered = [(run.rate, part) for run, noise, white in zip(fit.runs, fit.noises, fit.residuals, strict=True)
+               if noise.ordered and run.rate for part in noise.by_channel(white) if len(part)]
+    if not ordered:
+        return np.empty(0)
+    length = max(len(part) / rate for rate, part in ordered)
+    grid = np.arange(1, int(_FINER * length * min(rate for rate, _ in ordered) / 2)) / (_FINER * length)
+    power = sum(_power(part, rate, grid) for rate, part in ordered)
+    peaks, _ = find_peaks(np.concatenate(([0.0], power, [0.0])), distance=_FINER)
+    return grid[peaks - 1][np.argsort(-power[peaks - 1])[:count]]
+
+
+def _power(part, rate, grid):
+    size = 1 << int(np.ceil(np.log2(_FINER * len(part))))
+    return np.interp(grid, np.fft.rfftfreq(size, 1 / rate), np.abs(np.fft.rfft(part, size)) ** 2 / len(part))
+
+
+def starts(problem, fit, candidate):
+    """Latent values [(k,)] of a tonal candidate at the frequencies that explain most of what a Fit leaves."""
+    tone = tone_of(candidate)
+    if tone is None:
+        return []
+    hypothesis, jacobian = problem.nominal.joined(candidate), np.concatenate(fit.jacobians)
+    base, start = np.concatenate(fit.residuals), np.concatenate(from_prior_mean(fit))
+    found = []
+    for frequency in standing_out(fit):
+        waves = [_latent(candidate, tone, _SMALL, frequency, phase) for phase in (0.0, np.pi / 2)]
+        shown = [whitened(problem, fit.noises, hypothesis, np.concatenate((fit.latent, w)), fit.runs)[0] for w in waves]
+        if None in shown:
+            continue
+        change = np.array([base - np.concatenate(seen) for seen in shown]).T
+        clean = orthogonal(change, jacobian)
+        cosine, sine = np.linalg.lstsq(change.T @ clean, clean.T @ start)[0]
+        gain = (cosine, sine) @ (clean.T @ start)
+        found.append((gain, _latent(candidate, tone, _SMALL * np.hypot(cosine, sine), frequency,
+                                    np.arctan2(sine, cosine))))
+    return [latent for _, latent in sorted(found, key=lambda f: -f[0])[:_BEGUN]]
+
+
+def _latent(candidate, tone, size, frequency, phase):
+    """Latent values (k,) of a tone whose amplitude is ``size`` prior scales."""
+    parameters, latent = candidate.parameters, np.zeros(len(candidate.parameters))
+    for k, value in zip(tone, (parameters[tone.amplitude].null + size * parameters[tone.amplitude].prior.scale,
+                               frequency, phase), strict=True):
+        latent[k] = parameters[k].prior.latent(value)
+    return latent

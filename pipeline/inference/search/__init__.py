@@ -1,0 +1,1 @@
+"""Where to look: score tests, localisation and latent forces."""

@@ -1,0 +1,170 @@
+"""Cheap screen of a catalogue: scores of candidate directions, linear in parameters, against one family-wise null.
+
+A direction g is the change of the whitened prediction, per unit of an effect's parameter, away from its null at the
+nominal fit. With C = I + J J' (noise and the prior of the nominal parameters),
+
+    z = g'C^-1 r / sqrt(g'C^-1 g)  ~  N(0, 1)   where nothing is missing,
+
+and the correlation of two scores is that of C^-1/2 g. The p-value of a score is how often the largest score of the
+whole catalogue reaches it under that null: a parametric bootstrap of the refitted null, in its linearisation.
+"""
+
+from dataclasses import dataclass
+from itertools import product
+
+import numpy as np
+
+from pipeline.inference.fitting.least_squares import from_prior_mean, orthogonal, whitened
+
+#: steps away from the null, in scales of the parameter's prior: its derivative, and a change one would notice
+STEPS = (0.02, 1.0)
+#: parameters that only shape an effect are tried at these shares of their priors
+SHAPES = (0.2, 0.8)
+#: and angles in every quarter of theirs: no wave is at right angles to all of them
+ANGLES = (0.125, 0.375, 0.625, 0.875)
+#: at most this many combinations of shapes per effect parameter
+_COMBINATIONS = 8
+DRAWS = 20000
+#: a direction that keeps less than this share of its square outside the nominal parameters is not told from them
+_VISIBLE = 1e-8
+
+
+@dataclass(frozen=True)
+class Directions:
+    """Whitened directions of one candidate: ``vectors`` (q, m), per prior scale; ``sign`` (q,): +1, -1, 0 (either).
+
+    ``tried`` (q,): the latent values (k,) of the effect's parameters; ``failure``: why there are none, or empty.
+    """
+
+    candidate: object
+    vectors: np.ndarray
+    sign: np.ndarray
+    tried: tuple
+    failure: str = ""
+
+
+@dataclass(frozen=True)
+class Screen:
+    """Per candidate (n,): largest score, its family-wise p-value, and the power d (score expected at prior scale).
+
+    ``start`` [(k,)]: latent values of the effect's parameters at the best direction.
+    """
+
+    candidates: tuple
+    score: np.ndarray
+    p_value: np.ndarray
+    power: np.ndarray
+    start: tuple
+    failures: tuple
+
+    def order(self):
+        """Indices of the candidates, best first."""
+        return np.argsort(-self.score, kind="stable")
+
+
+def directions(problem, null, candidate, like=None):
+    """Directions of one candidate (Hypothesis of its effects alone) at the Fit ``null`` of the nominal hypothesis.
+
+    ``like`` {name without place: value}: shapes that are tried too, where the candidate has parameters of these names.
+    """
+    hypothesis, vectors, signs, tried = problem.nominal.joined(candidate), [], [], []
+    base, failure = np.concatenate(null.residuals), ""
+    for latent, sign, share in _trials(candidate, like or {}):
+        full = np.concatenate((null.latent, latent))
+        moved, error = whitened(problem, null.noises, hypothesis, full, null.runs)
+        if moved is None:
+            failure = str(error)
+            continue
+        vectors.append((base - np.concatenate(moved)) / share)
+        signs.append(sign)
+        tried.append(latent)
+    vectors = np.array(vectors).reshape(len(vectors), len(base))
+    return Directions(candidate, vectors, np.array(signs, int), tuple(tried), "" if len(vectors) else failure)
+
+
+def screen(null, found, weights=None, draws=DRAWS, seed=0):
+    """Screen of [Directions] at the Fit ``null``; ``weights`` (runs,) of the runs (see ``effective.tempering``).
+
+    Without ``draws`` of the null scores are not compared with it, and p-values say nothing.
+    """
+    root = np.sqrt(np.repeat(np.ones(len(null.runs)) if weights is None else weights, null.counts))
+    jacobian = root[:, None] * np.concatenate(null.jacobians)
+    residual = root * np.concatenate(from_prior_mean(null))
+    vectors = np.concatenate([np.empty((0, len(residual))), *(f.vectors for f in found)]) * root
+    sign = np.concatenate([np.empty(0, int), *(f.sign for f in found)])
+    owner = np.repeat(np.arange(len(found)), np.array([len(f.sign) for f in found], int))
+    cleaned = orthogonal(vectors.T, jacobian).T
+    square = np.einsum("qm,qm->q", vectors, cleaned)
+    seen = square > _VISIBLE * np.einsum("qm,qm->q", vectors, vectors)
+    size = np.sqrt(np.where(seen, square, 1.0))
+    score = np.where(seen, _one_sided(cleaned @ residual / size, sign), -np.inf)
+    largest = np.empty(0)
+    if draws:
+        correlation = np.where(seen[:, None] & seen, (cleaned @ vectors.T) / np.outer(size, size), 0.0)
+        largest = largest_scores(correlation, np.where(seen, sign, 0), draws, seed)
+    return _gathered(found, owner, score, np.where(seen, size, 0.0), largest)
+
+
+def largest_scores(correlation, sign, draws=DRAWS, seed=0):
+    """Largest of q scores (draws,) under the null: N(0, correlation), taken one-sided where ``sign`` is not 0."""
+    values, basis = np.linalg.eigh(0.5 * (correlation + correlation.T))
+    root = basis * np.sqrt(np.maximum(values, 0.0))
+    normal = np.random.default_rng(seed).standard_normal((draws, len(sign)))
+    return _one_sided(normal @ root.T, sign).max(axis=1, initial=-np.inf)
+
+
+def family_p(score, largest):
+    """Share of the null's largest scores that reach ``score``, counting the data as one draw."""
+    ordered = np.sort(largest)
+    reached = len(ordered) - np.searchsorted(ordered, score, side="left")
+    return (1 + reached) / (1 + len(ordered))
+
+
+def _one_sided(score, sign):
+    return np.where(sign == 0, np.abs(score), sign * score)
+
+
+def own_name(parameter):
+    """Name of a parameter without the effect and the place it belongs to."""
+    return parameter.name.rpartition(".")[2]
+
+
+def _trials(candidate, like):
+    """(latent values, sign, step in prior scales) of every direction: one effect parameter moved, shapes varied."""
+    parameters = candidate.parameters
+    shapes = [k for k, p in enumerate(parameters) if p.null is None]
+    shares = [ANGLES if parameters[k].unit == "rad" else SHAPES for k in shapes]
+    combinations = [[_latent_of(parameters[i], share) for i, share in zip(shapes, each, strict=True)]
+                    for each in list(product(*shares))[:_COMBINATIONS]]
+    if shapes and all(own_name(parameters[i]) in like for i in shapes):
+        combinations.append([float(np.clip(parameters[i].prior.latent(like[own_name(parameters[i])]), -2, 2))
+                             for i in shapes])
+    for k, parameter in enumerate(parameters):
+        if parameter.null is None:
+            continue
+        for step, shape in product(STEPS, combinations):
+            values = [p.nominal if p.null is None else p.null for p in parameters]
+            values[k] = _away(parameter, step)
+            latent = np.array([p.prior.latent(v) for p, v in zip(parameters, values, strict=True)])
+            latent[shapes] = shape
+            yield latent, int(parameter.sign != 0), step
+
+
+def _away(parameter, step):
+    """A value ``step`` prior scales from the null, towards where the prior lies."""
+    low, high = parameter.prior.support
+    direction = -1 if parameter.null == high else 1
+    return float(np.clip(parameter.null + direction * step * parameter.prior.scale, low, high))
+
+
+def _latent_of(parameter, share):
+    return parameter.prior.latent(parameter.prior.quantile(share))
+
+
+def _gathered(found, owner, score, power, largest):
+    best = [max(np.flatnonzero(owner == n), key=lambda q: score[q], default=None) for n in range(len(found))]
+    top = np.array([-np.inf if q is None else score[q] for q in best])
+    starts = tuple(np.zeros(len(f.candidate.parameters)) if q is None else f.tried[q - np.flatnonzero(owner == n)[0]]
+                   for n, (f, q) in enumerate(zip(found, best, strict=True)))
+    return Screen(tuple(f.candidate for f in found), top, family_p(top, largest),
+                  np.array([0.0 if q is None else power[q] for q in best]), starts, tuple(f.failure for f in found))

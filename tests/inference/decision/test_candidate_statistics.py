@@ -1,0 +1,150 @@
+"""The numbers that the rules see, on linear problems."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from scipy import stats
+
+from pipeline.inference.decision.candidate_statistics import (
+    _immaterial,
+    contender,
+    held_out_gains,
+    situation,
+    unexplained,
+)
+from pipeline.inference.decision.decision_rules import Rules
+from pipeline.inference.decision.evidence import evidence
+from pipeline.inference.fitting.least_squares import fit
+from pipeline.inference.fitting.parameter_drift import drift
+from pipeline.inference.priors import LATENT_LIMIT, Uniform
+from tests.inference import linear
+
+
+def fits(truth=None, seed=0, held_out=0, sizes=(2, 1, 1), runs=4):
+    whole, noise, catalogue, _ = linear.problem(sizes, runs, 60, truth, seed, held_out, 5.0)
+    noises = tuple(noise[r.name] for r in whole.training)
+    found = [fit(whole, noises, h, np.zeros(len(h.parameters)), whole.training)
+             for h in (whole.nominal, *(whole.nominal.joined(c) for c in catalogue))]
+    return whole, noise, catalogue, found
+
+
+def seen(whole, catalogue, found, k, held_out=(None, None)):
+    null = found[0]
+    return contender(null, evidence(null), catalogue[k - 1], found[k], evidence(found[k]), 0.5, 0.01, held_out,
+                     np.ones(len(null.runs)), Rules())
+
+
+@pytest.mark.exact
+def test_the_distance_from_null_is_the_value_over_its_posterior_deviation():
+    whole, _, catalogue, found = fits({"effect_1_0": 0.5})
+    told = seen(whole, catalogue, found, 1)
+    assert told.from_null == pytest.approx(found[1].values["effect_1_0"] / found[1].spread()["effect_1_0"], rel=1e-6)
+    assert told.evidence_gain > 20 and told.left_out_gain > 10 and told.unexplained == 0.0
+    assert told.held_out_errors is None and told.beats_decoy is None and told.forbidden == ""
+
+
+def test_values_that_cannot_be_are_told():
+    whole, _, catalogue, found = fits({"effect_1_0": -0.5})
+    guarded = (replace(catalogue[0], forbidden=_negative), *catalogue[1:])
+    assert seen(whole, guarded, found, 1).forbidden == "a negative friction force"
+
+
+def _negative(values):
+    return "a negative friction force" if values["effect_1_0"] < 0 else ""
+
+
+def test_the_right_effect_beats_its_decoy_on_held_out_runs():
+    whole, noise, catalogue, found = fits({"effect_1_0": 0.5}, held_out=1)
+    gains = held_out_gains(whole, noise, found[0], {0: found[1], 1: found[2]}, np.array([0.99, 0.001]))
+    assert gains[0][0].errors > 3 and gains[0][1] is True
+    assert gains[1][0].errors < 3 and gains[1][1] is None, "the only other candidate is not out of the question"
+
+
+def test_half_of_an_effect_leaves_a_quarter_of_the_excess():
+    whole, _, _, found = fits({"effect_1_0": 4.0})
+    half = fit_at(whole, found[1], found[1].latent * [1, 1, 0.5])
+    assert unexplained(found[0], half, Rules(noise_uncertainty=0.0)) == pytest.approx(0.25, abs=0.03)
+    assert unexplained(found[0], found[2], Rules()) > 0.9
+
+
+def fit_at(whole, found, latent):
+    from pipeline.inference.fitting.least_squares import linearised
+
+    return linearised(whole, found.noises, found.hypothesis, latent, found.runs)
+
+
+@pytest.mark.exact
+def test_the_given_values_are_tested_by_chi_square():
+    whole, noise, _, found = fits({"nominal_0": 0.1})
+    told = told_of(whole, noise, found[0])
+    given = sum(((r.samples / linear.STD) ** 2).sum() for r in whole.runs)
+    assert told.moved_p == pytest.approx(stats.chi2.sf(given - found[0].chi_square.sum(), 2), rel=1e-3)
+    assert told.runs == told.points == 4 and not told.coherent
+
+
+def test_the_misfit_of_a_good_model_is_small_and_of_a_bad_one_large():
+    good = [misfit({"nominal_0": 1.0}, seed) for seed in range(30)]
+    assert max(good) < 3 < misfit({"effect_1_0": 1.0}, 0)
+
+
+def misfit(truth, seed):
+    whole, noise, _, found = fits(truth, seed)
+    return told_of(whole, noise, found[0]).misfit
+
+
+@pytest.mark.exact
+def test_held_out_runs_are_off_as_chi_square_is_what_the_values_leave_open():
+    """Values that 240 samples tell, of three runs, err in the fourth: (I + J C J') whitens that."""
+    rules = replace(Rules(), noise_uncertainty=0.0)
+    off = [told_of(whole, noise, found[0], rules).held_out for whole, noise, _, found in (
+        fits({"nominal_0": 1.0}, seed, held_out=1, sizes=(20,)) for seed in range(60))]
+    assert abs(np.mean(off)) < 3.5 / np.sqrt(60) and np.std(off) == pytest.approx(1.0, abs=0.35)
+
+
+def test_held_out_runs_that_differ_from_the_fitted_ones_are_seen():
+    whole, noise, _, found = fits({"nominal_0": 1.0}, held_out=1)
+    other = tuple(replace(r, samples=r.samples + linear.STD) if r in whole.held_out else r for r in whole.runs)
+    assert told_of(whole, noise, found[0]).held_out < 3 < told_of(replace(whole, runs=other), noise, found[0]).held_out
+
+
+def told_of(whole, noise, null, rules=None):
+    return situation(whole, noise, null, np.ones(len(null.runs)), drift(null), rules or Rules())
+
+
+def test_what_has_no_optimum_is_compared_only_by_far():
+    """The recalibration did not converge: a candidate a little below it is doubted, one far below it is not."""
+    whole, _, catalogue, found = fits()
+    null = replace(fit_at(whole, found[0], found[0].latent + 0.1), converged=False)
+    doubted = seen(whole, catalogue, [null, *found[1:]], 1)
+    assert any("recalibration" in told for told in doubted.doubts) and not seen(whole, catalogue, found, 1).doubts
+    far = replace(null, residuals=tuple(10 * r for r in null.residuals))
+    assert not seen(whole, catalogue, [far, *found[1:]], 1).doubts
+
+
+def test_a_fit_or_a_recalibration_that_ended_where_its_slopes_promise_nothing_is_not_doubted():
+    whole, _, catalogue, found = fits({"effect_1_0": 4.0})
+    ended = replace(found[1], converged=False)
+    assert not seen(whole, catalogue, [replace(found[0], converged=False), ended, found[2]], 1).doubts
+    away = fit_at(whole, ended, found[1].latent * [1, 1, 0.5])
+    assert any("did not converge" in told for told in seen(whole, catalogue, [found[0], away, found[2]], 1).doubts)
+
+
+def test_another_name_for_nearly_the_same_force_is_no_decoy():
+    whole, noise, catalogue, tables = linear.problem((2, 1, 1), runs=4, held_out=1, truth={"effect_1_0": 0.6})
+    for table in tables.values():
+        table["effect_2_0"] = 0.999 * table["effect_1_0"]
+    noises = tuple(noise[r.name] for r in whole.training)
+    null = fit(whole, noises, whole.nominal, np.zeros(2), whole.training)
+    fits = {k: fit(whole, noises, whole.nominal.joined(c), np.zeros(3), whole.training)
+            for k, c in enumerate(catalogue)}
+    gains = held_out_gains(whole, noise, null, fits, np.array([0.99, 0.01]))
+    assert gains[0][1] is None and gains[0][0].errors > 3
+
+
+def test_no_change_of_a_value_at_the_end_of_its_prior_is_more_than_its_whole_range():
+    whole, _, catalogue, found = fits({"effect_1_0": 0.5})
+    own = replace(catalogue[0], parameters=(replace(catalogue[0].parameters[0], prior=Uniform(0.0, 1.0)),))
+    ended = fit_at(whole, replace(found[1], hypothesis=whole.nominal.joined(own)),
+                   np.append(found[1].latent[:-1], LATENT_LIMIT))
+    assert _immaterial(ended, len(ended.latent) - 1, Rules()) == LATENT_LIMIT

@@ -1,0 +1,101 @@
+"""The rules of the decision, one by one."""
+
+from dataclasses import replace
+
+import pytest
+
+from pipeline.inference.decision.decision_rules import VERDICTS, Contender, Rules, Situation, decide, objections
+
+GOOD = Contender("friction", "physics", 0.99, 40.0, 1e-4, 30.0, 15.0, 12.0, 0.8, 0.02, 1.2, True, 0.3, 20.0, 0.01)
+FOUR = Situation(runs=4, points=3, misfit=25.0, held_out=12.0, coherent=True, moved_p=0.0, drift_p=0.001)
+FINE = replace(FOUR, misfit=-0.2, held_out=0.3, coherent=False, moved_p=0.4, drift_p=0.3)
+
+
+def verdict(situation, *contenders):
+    told = decide(situation, contenders, Rules())
+    assert told.verdict in VERDICTS and told.reasons
+    return told.verdict
+
+
+def test_what_passes_every_rule_is_named_by_its_kind():
+    assert verdict(FOUR, GOOD) == "missing"
+    assert verdict(FOUR, replace(GOOD, kind="sensor")) == "sensor"
+    assert verdict(FOUR, replace(GOOD, kind="numerics")) == "numerics"
+
+
+def test_without_candidates_the_nominal_model_decides():
+    assert verdict(FINE) == "consistent"
+    assert verdict(replace(FINE, moved_p=1e-6)) == "parameters"
+    assert verdict(replace(FINE, misfit=3.1)) == "unknown"
+    assert verdict(replace(FINE, held_out=3.1)) == "unknown"
+    assert verdict(replace(FINE, coherent=True)) == "unknown"
+    assert verdict(replace(FINE, drift_p=5e-4)) == "unknown"
+
+
+def test_values_that_priors_exclude_are_told_where_nothing_is_named():
+    situation = replace(FOUR, excluded=("the prior of stiffness excludes the data",))
+    assert situation.excluded[0] in decide(situation, [], Rules()).reasons
+    assert situation.excluded[0] not in decide(situation, [GOOD], Rules()).reasons
+
+
+@pytest.mark.parametrize("broken, told", [
+    ({"forbidden": "its friction is negative"}, "its friction is negative"),
+    ({"doubts": ("its fit did not converge",)}, "its fit did not converge"),
+    ({"from_null": 1.9}, "1.9 standard deviations from none"),
+    ({"disagreement": 3.1}, "differs between operating points"),
+    ({"left_out_gain": -0.1}, "left-out operating points no better"),
+    ({"unfitted_errors": 2.9}, "gain on runs that were not fitted is 2.9 standard errors"),
+    ({"held_out_errors": -1.1}, "predicts held-out runs worse, by 1.1 standard errors"),
+    ({"held_out_share": 0.04}, "4.0% of the excess error"),
+    ({"held_out_left": 0.11}, "leaves 11% of the excess error on held-out runs"),
+    ({"growth": 3.1}, "squared error on held-out runs is 3.1 times that on the fitted ones"),
+    ({"beats_decoy": False}, "no better than a decoy"),
+])
+def test_a_single_broken_rule_forbids_the_name_and_is_told(broken, told):
+    contender = replace(GOOD, **broken)
+    assert any(told in why for why in objections(contender, FOUR, Rules()))
+    assert verdict(FOUR, contender) == "unknown" and verdict(FINE, contender) == "consistent"
+    assert any(told in why for why in decide(FOUR, [contender], Rules()).reasons)
+
+
+@pytest.mark.parametrize("broken", [{"p_value": 0.011}, {"evidence_gain": 4.9}])
+def test_what_is_not_significant_is_not_a_candidate(broken):
+    assert verdict(FINE, replace(GOOD, **broken)) == "consistent"
+    assert verdict(FOUR, replace(GOOD, **broken)) == "unknown"
+
+
+def test_two_that_explain_alike_are_a_tie_of_both():
+    first, second = replace(GOOD, posterior=0.6), replace(GOOD, name="gap", posterior=0.39)
+    told = decide(FOUR, [second, first], Rules())
+    assert told.verdict == "tie" and [c.name for c in told.named] == ["friction", "gap"]
+    assert verdict(FOUR, replace(first, kind="sensor"), replace(second, kind="sensor")) == "sensor"
+
+
+def test_a_rival_that_breaks_a_rule_leaves_the_other_named():
+    first, second = replace(GOOD, posterior=0.6), replace(GOOD, name="gap", posterior=0.39, held_out_errors=-2.0)
+    assert verdict(FOUR, first, second) == "missing"
+
+
+def test_what_breaks_no_rule_is_not_named_in_place_of_something_more_likely():
+    first, second = replace(GOOD, posterior=0.6, held_out_errors=-2.0), replace(GOOD, name="gap", posterior=0.39)
+    told = decide(FOUR, [first, second], Rules())
+    assert told.verdict == "unknown" and "gap: candidates that break a rule are more likely" in told.reasons
+
+
+def test_what_leaves_more_than_a_twentieth_is_unknown():
+    assert verdict(FOUR, replace(GOOD, unexplained=0.06)) == "unknown"
+    assert verdict(FOUR, replace(GOOD, unexplained=0.049)) == "missing"
+
+
+def test_one_run_names_nothing_and_says_so():
+    told = decide(replace(FOUR, runs=1, points=1), [replace(GOOD, held_out_errors=None, beats_decoy=None)], Rules())
+    assert told.verdict == "tie" and any("one run only" in why for why in told.reasons)
+
+
+def test_below_three_points_agreement_is_waived_and_told():
+    told = decide(replace(FOUR, runs=3, points=2), [replace(GOOD, disagreement=50.0)], Rules())
+    assert told.verdict == "missing" and any("values agree across them was not tested" in why for why in told.reasons)
+
+
+def test_rules_are_the_users():
+    assert decide(FOUR, [replace(GOOD, unexplained=0.15)], Rules(unexplained=0.2)).verdict == "missing"

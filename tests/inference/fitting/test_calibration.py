@@ -1,0 +1,89 @@
+"""Calibration: several starts, easier problems on the way, what stops it."""
+
+import numpy as np
+import pytest
+
+from pipeline.contract.errors import ConvergenceError
+from pipeline.inference.fitting import calibration
+from pipeline.inference.fitting.calibration import _under, begun, calibrate, paired_anew
+from pipeline.inference.fitting.least_squares import fit, linearised
+from pipeline.inference.priors import Normal, Parameter
+from tests.inference.curves import curve_problem, either_of_two, features
+
+
+def test_several_starts_find_the_better_of_two_minima():
+    parameters = (Parameter("pace", "rad/s", 20.0, Normal(20.0, 10.0)),)
+    problem, noises = curve_problem(lambda v, x: np.sin(v["pace"] * x), parameters, lambda x: np.sin(32.0 * x), 0.1)
+    alone = fit(problem, noises, problem.nominal, np.array([-0.5]), problem.runs)
+    best = calibrate(problem, noises, problem.nominal, [np.array([-0.5]), np.array([1.0])], problem.runs)
+    assert best.values["pace"] == pytest.approx(32.0, abs=0.05) and best.objective < 0.1 * alone.objective
+
+
+@pytest.mark.exact
+def test_features_under_other_standard_deviations():
+    """The Fit of features under larger ones is the one that they would have given, residuals and Jacobians."""
+    whole, noises = features(1.4, 0.05)
+    looser = features(1.4, 0.3)[1]
+    near = linearised(whole, noises, whole.nominal, np.array([0.3]), whole.runs)
+    given = linearised(whole, looser, whole.nominal, np.array([0.3]), whole.runs)
+    for state in (_under(near, noises, 6.0), _under(_under(near, noises, 30.0), noises, 6.0)):
+        np.testing.assert_allclose(np.concatenate(state.residuals), np.concatenate(given.residuals), rtol=1e-12)
+        np.testing.assert_allclose(np.vstack(state.jacobians), np.vstack(given.jacobians), rtol=1e-6)
+
+
+def test_features_far_off_are_fitted_from_the_start_that_is_best_loosely():
+    """Of x and x^2: from -1 x^2 alone is met, at -1.4."""
+    whole, noises = features(1.4, 0.05)
+    for starts in ([-1.0, 0.1], [0.1, -1.0]):
+        found = begun(whole, noises, whole.nominal, [np.array([x]) for x in starts], whole.runs)
+        assert found.latent == pytest.approx(1.4, abs=0.05)
+    assert begun(whole, noises, whole.nominal, [np.array([1.3])], whole.runs).latent == pytest.approx(1.4, abs=0.05)
+
+
+def test_features_that_end_far_off_are_tried_on_another_way(monkeypatch):
+    """From -1, without larger standard deviations, x stays below 0, where x^2 alone is met."""
+    monkeypatch.setattr(calibration, "_LOOSE", (1.0,))
+    whole, noises = features(1.4, 0.05)
+    asked = whole, noises, whole.nominal, [np.array([-1.0])], whole.runs
+    assert calibrate(*asked, settled=False).latent == pytest.approx(1.4, abs=0.05)
+    monkeypatch.setattr(calibration, "_LOOSER", (1.0,))
+    assert calibrate(*asked, settled=False).latent < 0
+
+
+def test_a_feature_paired_wrongly_is_paired_anew_where_it_drags_a_value_beyond_its_prior():
+    """A peak at 14.5 where all is 0.72 of what was stated: 20 became it, not 10 at 6.8 standard deviations."""
+    whole, noises = either_of_two(14.5, -2.8, 0.01)
+    dragged = np.array([-2.8, 6.76, 0.0])
+    alone = fit(whole, noises, whole.nominal, dragged, whole.runs)
+    found = calibrate(whole, noises, whole.nominal, [dragged], whole.runs)
+    assert alone.converged and alone.values["low"] > 6
+    assert found.values["high"] == pytest.approx(14.5 / 0.72 - 20, abs=0.05) and abs(found.values["low"]) < 1e-3
+    assert found.objective < 0.2 * alone.objective
+
+
+def test_values_that_no_other_start_betters_stay_where_they_are():
+    whole, noises = features(6.0, 0.05)
+    found = fit(whole, noises, whole.nominal, np.array([5.5]), whole.runs)
+    assert found.latent == pytest.approx(6.0, abs=0.05)
+    assert paired_anew(whole, found) is found
+
+
+def test_a_start_where_the_model_fails_is_passed_over_and_told_where_all_fail():
+    def root(values, grid):
+        if values["a"] < 0:
+            raise ConvergenceError("model", "a root", "none")
+        return np.sqrt(values["a"]) * grid
+
+    problem, noises = curve_problem(root, (Parameter("a", "1", 1.0, Normal(1.0, 1.0)),), lambda x: 1.5 * x, 0.1)
+    good, bad = np.array([0.0]), np.array([-2.0])
+    best = calibrate(problem, noises, problem.nominal, [bad, good], problem.runs)
+    assert best.values["a"] == pytest.approx(2.25, abs=0.2)
+    with pytest.raises(ConvergenceError, match="calibration of nominal: .*model: expected a root, found none"):
+        calibrate(problem, noises, problem.nominal, [bad], problem.runs)
+
+
+def test_a_model_that_cannot_settle_is_not_called_converged():
+    problem, noises = curve_problem(lambda v, x: v["a"] * x + 1e3 * (v["a"] != 1.0),
+                                    (Parameter("a", "1", 1.0, Normal(1.0, 1.0)),), lambda x: 9 * x, 0.01)
+    with pytest.raises(ConvergenceError, match="not converged after"):
+        calibrate(problem, noises, problem.nominal, [np.zeros(1)], problem.runs)

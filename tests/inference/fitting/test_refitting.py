@@ -1,0 +1,77 @@
+"""Refits of candidates: all begin where the nominal model misses the noise, rivals begin at the best one's values."""
+
+import numpy as np
+import pytest
+
+from pipeline.inference.decision.candidate_statistics import reaches_noise
+from pipeline.inference.decision.decision_rules import Rules
+from pipeline.inference.fitting import refitting
+from pipeline.inference.fitting.calibration import calibrate
+from pipeline.inference.fitting.noise import budget
+from pipeline.inference.fitting.refitting import Refits, at_odds
+from pipeline.inference.procedure import Settings, diagnose
+from tests.inference.oscillator import CATALOGUE, bench
+
+CUBIC = [c.name for c in CATALOGUE].index("cubic")
+
+
+def cubic(t, x, v):
+    return 1.5e4 * x**3
+
+
+def odd(t, x, v):
+    return 25.0 * np.sin(9.0 * t) * x
+
+
+@pytest.fixture(scope="module")
+def found():
+    problem = bench(5, 0.01, stiffness=380.0, extra=cubic)
+    noises = tuple(budget(problem)[run.name] for run in problem.training)
+    null = calibrate(problem, noises, problem.nominal, [problem.nominal.nominal], problem.training, settled=False)
+    return Refits(problem, null, CATALOGUE, Settings(kept=2), map)
+
+
+def begins(monkeypatch, name="_begun"):
+    """Names of candidates that begin, in order."""
+    seen, begun = [], getattr(refitting, name)
+    monkeypatch.setattr(refitting, name, lambda *given: seen.append(given[-1][0].name) or begun(*given))
+    return seen
+
+
+@pytest.mark.parametrize("extra, all_begin", [(cubic, False), (odd, True)])
+def test_above_the_noise_all_begin_unless_one_of_the_first_explains_enough(monkeypatch, extra, all_begin):
+    problem, seen = bench(5, 0.01, stiffness=380.0, extra=extra), begins(monkeypatch)
+    diagnose(problem, budget(problem), CATALOGUE, Settings(kept=3))
+    first = list(dict.fromkeys(seen))
+    assert len(first) == len(CATALOGUE) if all_begin else first.count("cubic") == 1 and len(first) <= 6
+
+
+def test_only_the_best_few_go_on(found):
+    starts = [np.zeros(len(c.parameters)) for c in CATALOGUE]
+    told = found.of(range(len(CATALOGUE)), starts)
+    assert sum(r.fit is not None for r in told.values()) == 2 and told[CUBIC].fit.converged
+    assert reaches_noise(told[CUBIC].fit, Rules())
+    assert not reaches_noise(found.null, Rules()) and not at_odds(found.null)
+
+
+def test_a_rival_is_found_from_the_nominal_values_of_the_best(found):
+    """Of two equal laws one was left where it began: it comes down to the other."""
+    twin = type(found)(found.problem, found.null, (CATALOGUE[CUBIC], CATALOGUE[CUBIC]), found.settings, map)
+    best = found.of([CUBIC], {CUBIC: np.zeros(1)})[CUBIC]
+    told = twin.from_best({0: best})
+    assert [told[k].fit.objective for k in (0, 1)] == pytest.approx([best.fit.objective] * 2, rel=1e-4)
+
+
+def test_where_nothing_explains_more_than_chance_nothing_is_looked_for(monkeypatch):
+    problem = bench(5, 0.1)
+    seen = begins(monkeypatch, "_begun_at")
+    diagnose(problem, budget(problem), CATALOGUE)
+    assert not seen
+
+
+def test_what_is_better_is_kept(found):
+    """A rival that ends above what was found before does not take its place."""
+    best = found.of([CUBIC], {CUBIC: np.zeros(1)})[CUBIC]
+    told = found.from_best({CUBIC: best})
+    assert told[CUBIC] is best
+    assert all(r.fit is None or r.fit.objective >= best.fit.objective - 1e-6 for r in told.values())

@@ -1,0 +1,67 @@
+"""Where tones begin: frequency, amplitude and phase of one that stands out of what the null leaves, in closed form."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from pipeline.inference.fitting.calibration import calibrate
+from pipeline.inference.fitting.noise import budget
+from pipeline.inference.fitting.tone_starts import Tone, standing_out, starts, tone_of
+from pipeline.inference.priors import HalfNormal, LogNormal, Normal, Parameter, Uniform
+from pipeline.inference.problem import Hypothesis, Observed, Problem
+
+RATE, SAMPLES, STD = 100.0, 500, 0.1
+TIME = np.arange(SAMPLES) / RATE
+RIPPLE = Hypothesis("ripple", (("ripple", "here"),), (
+    Parameter("force", "N", 0.1, HalfNormal(1.0), null=0.0), Parameter("frequency", "Hz", 2.0, LogNormal(2.0, 1.0)),
+    Parameter("phase", "rad", 0.0, Uniform(-np.pi, np.pi))))
+DRAG = Hypothesis("drag", (("drag", "here"),), (Parameter("force", "N", 0.1, HalfNormal(1.0), null=0.0),))
+TRUE = {"force": 0.7, "frequency": 3.37, "phase": -1.1}
+
+
+def predict(hypothesis, values, run):
+    """A constant and a tone; the second run shows twice of both."""
+    tone = values.get("force", 0.0) * np.cos(2 * np.pi * values.get("frequency", 1.0) * TIME - values.get("phase", 0.0))
+    return run.conditions["scale"] * (values["level"] + tone)[None]
+
+
+def null_of(true):
+    """(Problem, Fit of the constant alone) of two runs that show what is ``true``."""
+    noise = np.random.default_rng(0)
+    nominal = Hypothesis("nominal", (), (Parameter("level", "m", 1.0, Normal(1.0, 0.3)),))
+    runs = []
+    for name, scale in (("one", 1.0), ("two", 2.0)):
+        run = Observed(name, {"scale": scale}, ("x",), np.zeros((1, SAMPLES)), RATE, noise_std=np.array([STD]))
+        shown = predict(nominal, {"level": 1.2, **true}, run) + STD * noise.standard_normal((1, SAMPLES))
+        runs.append(replace(run, samples=shown))
+    problem = Problem(tuple(runs), predict, nominal)
+    noises = tuple(budget(problem)[run.name] for run in problem.training)
+    return problem, calibrate(problem, noises, nominal, [nominal.nominal], problem.training)
+
+
+def test_a_tone_has_one_size_one_frequency_and_one_phase():
+    assert tone_of(RIPPLE) == Tone(0, 1, 2) and tone_of(DRAG) is None
+    without_phase = replace(RIPPLE, parameters=RIPPLE.parameters[:2])
+    assert tone_of(without_phase) is None
+
+
+@pytest.mark.exact
+def test_a_fit_begins_at_the_tone_that_is_there():
+    problem, null = null_of(TRUE)
+    assert standing_out(null)[0] == pytest.approx(TRUE["frequency"], abs=0.25 * RATE / SAMPLES)
+    first = starts(problem, null, RIPPLE)[0]
+    found = RIPPLE.values(first)
+    assert found["frequency"] == pytest.approx(TRUE["frequency"], abs=0.25 * RATE / SAMPLES)
+    half = SAMPLES / RATE / 2       # about the middle of the run the phase is that of the frequency found
+    turned = 2 * np.pi * (found["frequency"] - TRUE["frequency"]) * half - found["phase"] + TRUE["phase"]
+    assert abs((turned + np.pi) % (2 * np.pi) - np.pi) < 0.05
+    assert found["force"] == pytest.approx(TRUE["force"], rel=0.15)
+
+
+def test_where_nothing_sounds_or_samples_have_no_order_nothing_is_promised():
+    problem, null = null_of({})
+    assert max(RIPPLE.values(latent)["force"] for latent in starts(problem, null, RIPPLE)) < 0.05
+    assert starts(problem, null, DRAG) == []
+    unordered = replace(null, noises=tuple(replace(n, ordered=False) for n in null.noises))
+    assert starts(problem, unordered, RIPPLE) == []

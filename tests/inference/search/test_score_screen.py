@@ -1,0 +1,115 @@
+"""The screen: exact scores, their family-wise null, signs, shapes, directions that parameters hide."""
+
+import numpy as np
+import pytest
+from scipy import stats
+
+from pipeline.inference.fitting.least_squares import fit
+from pipeline.inference.priors import HalfNormal, LogNormal, Parameter, Uniform
+from pipeline.inference.problem import Hypothesis
+from pipeline.inference.search.score_screen import _trials, directions, family_p, largest_scores, screen
+from tests.inference import linear
+
+
+def screened(seed=0, sizes=(2, 1, 1, 1), truth=None, draws=2000):
+    whole, noise, catalogue, tables = linear.problem(sizes, seed=seed, truth=truth)
+    null = fit(whole, tuple(noise[r.name] for r in whole.training), whole.nominal, np.zeros(sizes[0]), whole.training)
+    found = [directions(whole, null, candidate) for candidate in catalogue]
+    return whole, catalogue, tables, null, found, screen(null, found, draws=draws)
+
+
+@pytest.mark.exact
+def test_scores_are_those_of_generalised_least_squares():
+    whole, catalogue, tables, _, _, result = screened(truth={"effect_2_0": 0.3})
+    data, design = linear.dense(whole, whole.nominal, tables)
+    inverse = np.linalg.inv(np.eye(len(data)) + design @ design.T)
+    for k, candidate in enumerate(catalogue):
+        g = linear.dense(whole, candidate, tables)[1][:, 0]
+        assert result.score[k] == pytest.approx(abs(g @ inverse @ data) / np.sqrt(g @ inverse @ g), abs=1e-3)
+        assert result.power[k] == pytest.approx(np.sqrt(g @ inverse @ g), rel=1e-6)
+    assert result.order()[0] == 1 and result.p_value[1] < 0.01
+
+
+def test_family_wise_p_values_are_even_under_the_null():
+    smallest = [screened(seed, draws=500)[-1].p_value.min() for seed in range(200)]
+    assert stats.kstest(smallest, "uniform").statistic < 1.63 / np.sqrt(200)
+
+
+@pytest.mark.exact
+def test_the_largest_of_independent_scores_is_sidak():
+    largest = largest_scores(np.eye(6), np.zeros(6, int), 40000)
+    one_sided = largest_scores(np.eye(6), np.ones(6, int), 40000)
+    for bound in (1.0, 2.0, 3.0):
+        for drawn, tail in ((largest, 2 * stats.norm.sf(bound)), (one_sided, stats.norm.sf(bound))):
+            expected = 1 - (1 - tail) ** 6
+            assert family_p(bound, drawn) == pytest.approx(expected, abs=4 * np.sqrt(expected / 40000))
+
+
+@pytest.mark.exact
+def test_equal_directions_cost_nothing():
+    largest = largest_scores(np.ones((5, 5)), np.zeros(5, int), 40000)
+    assert family_p(2.0, largest) == pytest.approx(2 * stats.norm.sf(2.0), abs=4 * np.sqrt(0.05 / 40000))
+
+
+def test_a_direction_inside_the_parameters_is_never_found():
+    whole, _, tables, null, _, _ = screened()
+    hidden = Hypothesis("hidden", (("hidden", "here"),), (Parameter("hidden", "1", 0.0, HalfNormal(1e-3), 0.0),))
+    for run in whole.runs:
+        tables[run.name]["hidden"] = 1e6 * tables[run.name]["nominal_0"]
+    result = screen(null, [directions(whole, null, hidden)])
+    assert result.score[0] < 3 and result.p_value[0] > 0.01
+
+
+def test_signs_are_kept_and_shapes_are_tried():
+    whole, noise, _, tables = linear.problem((1, 1), truth={"effect_1_0": -1.0})
+    amplitude = Parameter("amount", "1", 0.5, HalfNormal(1.0), 0.0)
+    shape = Parameter("shape", "1", 0.5, Uniform(0.0, 1.0))
+
+    def predict(hypothesis, values, run):
+        grown = values.get("amount", 0.0) * values.get("shape", 0.0) * tables[run.name]["effect_1_0"]
+        return (values["nominal_0"] * tables[run.name]["nominal_0"] + grown)[None]
+
+    whole = type(whole)(whole.runs, predict, whole.nominal)
+    null = fit(whole, tuple(noise[r.name] for r in whole.training), whole.nominal, np.zeros(1), whole.training)
+    found = directions(whole, null, Hypothesis("grown", (("grown", "here"),), (amplitude, shape)))
+    assert len(found.vectors) == 4 and set(found.sign) == {1}
+    assert sorted({round(float(t[1]), 3) for t in found.tried}) == [-0.842, 0.842]
+    assert screen(null, [found]).score[0] < 0 < 0.5 < screen(null, [found]).p_value[0]
+
+
+def test_an_empty_catalogue_names_nothing():
+    assert len(screen(screened()[3], []).score) == 0
+
+
+def test_a_candidate_that_cannot_be_computed_says_why():
+    from pipeline.contract.errors import ConvergenceError
+
+    whole, catalogue, _, null, _, _ = screened()
+
+    def fail(hypothesis, values, run):
+        raise ConvergenceError("model", "a solution", "none")
+
+    broken = type(whole)(whole.runs, fail, whole.nominal)
+    found = directions(broken, null, catalogue[0])
+    assert found.failure == "model: expected a solution, found none" and len(found.vectors) == 0
+    assert screen(null, [found]).score[0] == -np.inf
+
+
+@pytest.mark.exact
+def test_shapes_of_the_same_name_are_tried_as_another_candidate_has_them():
+    speed = Parameter("wave@pad.speed", "m/s", 1.0, LogNormal(1.0, 0.5))
+    wave = Hypothesis("wave", (), (Parameter("wave@pad.height", "m", 0.0, HalfNormal(1.0), 0.0), speed))
+    tried = [speed.prior.value(latent[1]) for latent, _, _ in _trials(wave, {"speed": 1.7, "height": 3.0})]
+    assert min(abs(v - 1.7) for v in tried) < 1e-12
+    other = [latent[1] for latent, _, _ in _trials(wave, {"height": 3.0})]
+    assert len(other) == len(tried) - 2 and min(abs(speed.prior.value(v) - 1.7) for v in other) > 0.1
+
+
+@pytest.mark.exact
+def test_angles_are_tried_in_every_quarter():
+    """No phase is farther than pi / 4 from one that is tried."""
+    phase = Parameter("phase", "rad", 0.0, Uniform(-np.pi, np.pi))
+    wave = Hypothesis("wave", (), (Parameter("height", "m", 0.0, HalfNormal(1.0), 0.0), phase))
+    tried = np.array([phase.prior.value(latent[1]) for latent, _, _ in _trials(wave, {})])
+    away = np.subtract.outer(np.linspace(-np.pi, np.pi, 50), tried)
+    assert np.cos(away).max(axis=1).min() >= np.cos(np.pi / 4) - 1e-6

@@ -1,0 +1,221 @@
+"""A diagnosis end to end on a toy bench: right verdicts, no false names, pairs, one run, speed."""
+
+from concurrent.futures import ProcessPoolExecutor
+from dataclasses import replace
+from multiprocessing import get_context
+from time import process_time
+
+import numpy as np
+import pytest
+
+from pipeline.contract.errors import ConvergenceError
+from pipeline.inference import procedure as course
+from pipeline.inference.decision.decision_rules import Rules
+from pipeline.inference.fitting import refitting
+from pipeline.inference.fitting.least_squares import linearised
+from pipeline.inference.fitting.noise import budget
+from pipeline.inference.priors import Normal, Parameter
+from pipeline.inference.problem import Hypothesis
+from pipeline.inference.procedure import Settings, diagnose
+from tests.inference import linear
+from tests.inference.oscillator import CATALOGUE, SOLVER, alone, bench, predict_with_lag
+
+
+def cubic(t, x, v):
+    return 1.5e4 * x**3
+
+
+def coulomb(t, x, v):
+    return 0.6 * np.tanh(v / 0.005)
+
+
+def modulated(t, x, v):
+    return 25.0 * np.sin(9.0 * t) * x
+
+
+def gap(t, x, v):
+    return 300.0 * max(0.0, abs(x) - 0.015) * np.sign(x)
+
+
+def both(t, x, v):
+    return cubic(t, x, v) + coulomb(t, x, v)
+
+
+TRUTHS = [
+    ({}, "consistent", ()),
+    ({"stiffness": 460.0, "damping": 1.0}, "parameters", ()),
+    ({"stiffness": 380.0, "extra": cubic}, "missing", ("cubic",)),
+    ({"stiffness": 430.0, "damping": 1.0, "extra": coulomb}, "missing", ("coulomb",)),
+    ({"stiffness": 430.0, "extra": None, "gain": 1.08}, "sensor", ("sensor_gain",)),
+    ({"stiffness": 420.0, "extra": modulated}, "unknown", ()),
+    ({"stiffness": 410.0, "extra": gap}, "unknown", ()),
+]
+
+
+@pytest.mark.parametrize("noise", [0.01, 0.1])
+@pytest.mark.parametrize("truth, verdict, named", TRUTHS, ids=lambda v: v if isinstance(v, str) else "")
+def test_the_verdict_is_right(truth, verdict, named, noise):
+    problem = bench(5, noise, **truth)
+    told = diagnose(problem, budget(problem), CATALOGUE)
+    found = told.decision.verdict, tuple(c.name for c in told.decision.named)
+    assert found == (verdict, named), told.decision.reasons
+    if verdict == "parameters":
+        assert abs(told.null.values["stiffness"] - 460.0) < 4 * told.null.spread()["stiffness"]
+    if verdict == "missing":
+        best, = told.named
+        true = {"cubic": ("cubic_stiffness", 1.5e4), "coulomb": ("friction_force", 0.6)}[named[0]]
+        assert abs(best.fit.values[true[0]] - true[1]) < 4 * best.fit.spread(told.weights)[true[0]]
+
+
+def test_two_effects_are_found_one_after_the_other():
+    problem = bench(5, 0.1, stiffness=380.0, extra=both)
+    told = diagnose(problem, budget(problem), CATALOGUE)
+    effects = {effect for effect, _ in told.nominal.effects} | {c.name for c in told.decision.named}
+    assert told.decision.verdict == "missing" and effects == {"cubic", "coulomb"}
+    assert [c.name for c in told.base.decision.named] == ["cubic"], "friction is a small share of the excess"
+
+
+def test_a_second_effect_within_the_error_of_the_law_of_the_first_is_not_named():
+    problem = bench(5, 0.1, stiffness=380.0, extra=both)
+    asked = replace(Settings(), rules=replace(Rules(), second_share=0.2, second_at_noise=0.2))
+    told = diagnose(problem, budget(problem), CATALOGUE, asked)
+    assert told.base is None and [c.name for c in told.decision.named] in ([], ["cubic"])
+
+
+def test_a_smaller_second_effect_is_named_where_both_reach_the_noise():
+    problem = bench(5, 0.1, stiffness=380.0, extra=both)
+    asked = replace(Settings(), rules=replace(Rules(), second_share=0.2))
+    told = diagnose(problem, budget(problem), CATALOGUE, asked)
+    assert told.base is not None and told.decision.verdict == "missing"
+    assert not told.named[0].contender.held_out_left
+
+
+def odd_values(amount):
+    """A linear problem of a strong effect_1, and an effect_2 of this ``amount`` that 7 deviations of a value mimic."""
+    whole, noise, catalogue, tables = linear.problem((1, 1, 1), runs=4, held_out=1)
+    runs = []
+    for run in whole.runs:
+        table = tables[run.name]
+        table["effect_2_0"] = 7 * table["nominal_0"] + 0.3 * table["effect_2_0"]
+        runs.append(replace(run, samples=run.samples + 3 * table["effect_1_0"] + amount * table["effect_2_0"]))
+    return replace(whole, runs=tuple(runs)), noise, catalogue
+
+
+def test_a_second_effect_that_gives_values_back_to_their_priors_is_named():
+    asked = replace(Settings(), rules=replace(Rules(), second_share=0.9, second_at_noise=0.9))
+    told = diagnose(*odd_values(1.0), asked)
+    assert told.decision.verdict == "missing" and told.base is not None
+    assert {c.name for c in told.decision.named} == {"effect_2"} and told.nominal.effects[0][0] == "effect_1"
+
+
+def test_values_within_their_priors_ask_for_no_second_effect():
+    asked = replace(Settings(), rules=replace(Rules(), second_share=0.9, second_at_noise=0.9))
+    told = diagnose(*odd_values(0.4), asked)
+    assert told.decision.verdict == "missing" and told.base is None
+    assert [c.name for c in told.decision.named] == ["effect_1"]
+
+
+def test_a_candidate_whose_forward_model_fails_on_its_way_is_told_and_not_judged(monkeypatch):
+    def failing(*_, **__):
+        raise ConvergenceError("time stepping at t = 0.4 s", "a force that settles", "none", "take a shorter step")
+
+    problem = bench(5, 0.1, stiffness=430.0, extra=coulomb)
+    noises = tuple(budget(problem)[run.name] for run in problem.training)
+    begin = linearised(problem, noises, problem.nominal, np.zeros(len(problem.nominal.parameters)), problem.training)
+    monkeypatch.setattr(refitting, "continued", failing)
+    found = refitting._finished(problem, begin, np.inf, begin)
+    assert found.fit is begin and found.null is None and "a force that settles" in found.told
+
+
+def test_a_solver_that_lags_is_told_from_missing_physics():
+    problem = replace(bench(5, stiffness=420.0), predict=predict_with_lag)
+    told = diagnose(problem, budget(problem), (*CATALOGUE, SOLVER))
+    assert told.decision.verdict == "numerics"
+    assert told.named[0].fit.values["refinement"] == pytest.approx(1.0, abs=0.02)
+
+
+def test_one_run_alone_ends_in_a_tie_at_most():
+    problem = alone(bench(5, 0.1, stiffness=430.0, extra=coulomb))
+    told = diagnose(problem, budget(problem), CATALOGUE)
+    assert told.decision.verdict == "tie" and any("one run only" in why for why in told.decision.reasons)
+
+
+def test_two_candidates_that_do_the_same_are_a_tie():
+    whole, noise, catalogue, tables = linear.problem((2, 1, 1), runs=4, held_out=1, truth={"effect_1_0": 0.6})
+    for table in tables.values():
+        table["effect_2_0"] = table["effect_1_0"]
+    told = diagnose(whole, noise, catalogue)
+    assert told.decision.verdict == "tie" and {c.name for c in told.decision.named} == {"effect_1", "effect_2"}
+    assert sum(w.contender.posterior for w in told.named) == pytest.approx(1.0, abs=1e-6)
+
+
+def test_processes_give_the_same_bits():
+    problem = bench(5, 0.1, stiffness=430.0, extra=coulomb)
+    here = diagnose(problem, budget(problem), CATALOGUE[:3])
+    with ProcessPoolExecutor(2, get_context("spawn")) as pool:
+        there = diagnose(problem, budget(problem), CATALOGUE[:3], fan_out=pool.map)
+    assert here.decision == there.decision and np.array_equal(here.null.latent, there.null.latent)
+    assert all(np.array_equal(a.fit.latent, b.fit.latent) for a, b in zip(here.weighed, there.weighed, strict=True))
+
+
+def test_a_nominal_model_that_fails_is_told():
+    problem = bench(5, 0.1)
+    broken = replace(problem, predict=lambda h, v, r: np.full(r.samples.shape, np.nan))
+    with pytest.raises(ConvergenceError, match="calibration of nominal"):
+        diagnose(broken, budget(problem), CATALOGUE)
+
+
+def test_a_candidate_that_fails_is_reported_and_not_judged(monkeypatch):
+    monkeypatch.setattr(course, "_LIKELY", 1.0)
+    problem = bench(5, 0.1)
+    blown_up = Parameter("cubic_stiffness", "N/m^3", -1e12, Normal(-1e12, 1.0), -1e12)
+    far = Hypothesis("far", (("far", "mount"),), (blown_up,))
+    told = diagnose(problem, budget(problem), (*CATALOGUE[:1], far))
+    assert "far" in told.failures and [w.candidate.name for w in told.weighed] == ["cubic"]
+
+
+def test_no_control_of_forty_is_given_a_name():
+    verdicts = []
+    for seed in range(40):
+        whole, noise, catalogue, _ = linear.problem((3, *(1,) * 12), runs=4, samples=300, seed=seed, held_out=1,
+                                                    truth={"nominal_0": 1.5, "nominal_1": -0.7})
+        verdicts.append(diagnose(whole, noise, catalogue, Settings(draws=4000)).decision.verdict)
+    assert set(verdicts) == {"parameters"}
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("noise", [0.01, 0.1])
+def test_no_control_of_the_toy_bench_is_given_a_name(noise):
+    verdicts = []
+    for seed in range(40):
+        generator = np.random.default_rng(1000 + seed)
+        problem = bench(seed, noise, stiffness=400 * np.exp(0.2 * generator.standard_normal()),
+                        damping=1.2 * np.exp(0.3 * generator.standard_normal()))
+        verdicts.append(diagnose(problem, budget(problem), CATALOGUE).decision.verdict)
+    assert set(verdicts) <= {"parameters", "consistent"}
+
+
+@pytest.mark.slow
+def test_linearised_p_values_agree_with_full_refits_under_the_null(monkeypatch):
+    """The share of controls whose best refitted gain passes the bound of the linearised null is that of the bound."""
+    monkeypatch.setattr(course, "_LIKELY", 1.0)     # likely scores are refitted as well
+    passed, level = [], 0.2
+    for seed in range(60):
+        problem = bench(seed, 0.05, held_out=False)
+        told = diagnose(problem, budget(problem), CATALOGUE, Settings(kept=7, rules=Rules()))
+        gains = [told.null.objective - w.fit.chi_square.sum() - w.fit.latent[:2] @ w.fit.latent[:2]
+                 for w in told.weighed]
+        score = np.sqrt(max(0.0, *gains))
+        ordered = told.screen.score[told.screen.order()[0]]
+        passed.append((score, ordered, told.screen.p_value.min() <= level))
+    scores, linear_scores, small = (np.array(c) for c in zip(*passed, strict=True))
+    assert np.median(np.abs(scores - linear_scores)) < 0.3
+    assert abs(np.mean(small) - level) < 3 * np.sqrt(level * (1 - level) / 60)
+
+
+def test_twenty_five_hypotheses_take_less_than_twenty_seconds():
+    problem = bench(5, 0.1, stiffness=430.0, extra=coulomb)
+    many = tuple(replace(c, name=f"{c.name}_{k}") for k in range(4) for c in CATALOGUE)[:25]
+    start = process_time()
+    diagnose(problem, budget(problem), many)
+    assert process_time() - start < 20
