@@ -178,7 +178,7 @@ def schema(name):
 def plan(config, overrides, file):
     """Before the bench: say which planned run of CONFIG can name which effect, and the cheapest set that names all."""
     from pipeline import measured
-    from pipeline.benches import bench, effect_block
+    from pipeline.case_models import effect_block, virtual_rig
     from pipeline.console import table
     from pipeline.contract import ConfigError, case
     from pipeline.contract.store import write_companion
@@ -190,7 +190,7 @@ def plan(config, overrides, file):
     chosen = given.sections
     model = stages.load("reduced_model")(stages.load("lumped")(settings=chosen["lumped"]),
                                          settings=chosen["reduced_model"])
-    whole = effect_block.with_effects(bench.built(model, chosen["bench"]), effect_block.product(chosen["effects"]))
+    whole = effect_block.with_effects(virtual_rig.built(model, chosen["bench"]), effect_block.product(chosen["effects"]))
     found = planning.plan(whole, planning.channel_units(whole), chosen["diagnosis"])
     head, rows = planning.table(found)
     table("d: standard deviations that each effect leaves beside the nominal values", head, rows,

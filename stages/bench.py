@@ -4,10 +4,10 @@ from functools import partial
 
 import numpy as np
 
-from pipeline.benches.bench import Settings, built
-from pipeline.benches.effect_block import with_effects
-from pipeline.benches.equation import balance, started
-from pipeline.benches.runs import recorded
+from pipeline.case_models.effect_block import with_effects
+from pipeline.case_models.force_balance import balance, started
+from pipeline.case_models.runs import recorded
+from pipeline.case_models.virtual_rig import Settings, built
 from pipeline.contract import ConfigError, Context, stage, stored
 from pipeline.diagnosis.poles import features, observed, predicted
 from pipeline.diagnosis.simulation import shown

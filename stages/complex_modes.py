@@ -13,8 +13,8 @@ from functools import partial
 import numpy as np
 from scipy.linalg import eigvalsh
 
-from pipeline.benches.effect_block import conditions, physics_terms
-from pipeline.benches.steady import Posed, Steady, branch_stiffness, posed, refuse_twice
+from pipeline.case_models.effect_block import conditions, physics_terms
+from pipeline.case_models.steady_sliding import Posed, Steady, branch_stiffness, posed, refuse_twice
 from pipeline.contract import ConfigError, Context, Quantities, Quantity, Section, option, stage
 from pipeline.physics.friction.dry_friction import Friction, constant, falling
 from pipeline.physics.friction.friction_table import FrictionLaw, refuse_beyond

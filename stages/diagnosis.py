@@ -2,10 +2,10 @@
 
 from functools import partial
 
-from pipeline.benches import bench as benches
-from pipeline.benches.effect_block import with_effects
-from pipeline.benches.equation import started
-from pipeline.benches.runs import recorded
+from pipeline.case_models import virtual_rig as benches
+from pipeline.case_models.effect_block import with_effects
+from pipeline.case_models.force_balance import started
+from pipeline.case_models.runs import recorded
 from pipeline.contract import ConfigError, Context, restored, stage
 from pipeline.diagnosis import equation, forced, rubbed, self_excited
 from pipeline.diagnosis.answer import answer

@@ -1,7 +1,7 @@
 """Stage effects: physics that a case adds to its model, from the catalogue."""
 
-from pipeline.benches import effect_block
-from pipeline.benches.effect_block import Settings
+from pipeline.case_models import effect_block
+from pipeline.case_models.effect_block import Settings
 from pipeline.contract import Context, stage
 from pipeline.products import Effects
 

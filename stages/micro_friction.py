@@ -4,8 +4,8 @@ from functools import partial
 
 import numpy as np
 
-from pipeline.benches.effect_block import rubbing_with_effects
-from pipeline.benches.rubbing import Settings, cycle_distance, offsets, rough_pair, rubbing, shifted
+from pipeline.case_models.effect_block import rubbing_with_effects
+from pipeline.case_models.rough_pair import Settings, cycle_distance, offsets, rough_pair, rubbing, shifted
 from pipeline.contract import ConfigError, Context, stage, stored
 from pipeline.physics.rough.normal_contact import contact_area, solve_normal_contact
 from pipeline.physics.rough.sliding_pair import slide

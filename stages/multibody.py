@@ -7,8 +7,8 @@ from typing import Literal
 
 import numpy as np
 
-from pipeline.benches.effect_block import conditions, physics_terms
-from pipeline.benches.pads import braked, kept, refuse_idle, with_terms
+from pipeline.case_models.effect_block import conditions, physics_terms
+from pipeline.case_models.pads import braked, kept, refuse_idle, with_terms
 from pipeline.contract import ConfigError, Context, Quantities, Quantity, Section, option, stage
 from pipeline.physics.friction.friction_table import FrictionLaw
 from pipeline.physics.pads import exudyn_model, newmark

@@ -5,9 +5,9 @@ from typing import Literal
 
 import numpy as np
 
-from pipeline.benches.bench import about
-from pipeline.benches.effect_block import with_effects
-from pipeline.benches.laws import Laws
+from pipeline.case_models.effect_block import with_effects
+from pipeline.case_models.laws import Laws
+from pipeline.case_models.virtual_rig import about
 from pipeline.contract import ConfigError, Context, Quantities, Quantity, option, stage
 from pipeline.physics.friction.dry_friction import constant
 from pipeline.physics.signals.limit_cycle import cycle, harmonic_levels

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from pipeline.benches.equation import channel_names
+from pipeline.case_models.force_balance import channel_names
 from pipeline.diagnosis.latent import Description, LatentRun, dependences, regimes, sentence
 from pipeline.diagnosis.latent_law import used
 from pipeline.diagnosis.location import Axes, channel_axis, fitted, leading_place, residuals

@@ -5,7 +5,7 @@ import json
 
 import numpy as np
 
-from pipeline.benches.effect_block import written
+from pipeline.case_models.effect_block import written
 from pipeline.contract import documents as yaml
 from pipeline.diagnosis.latent_law import LABEL
 from pipeline.diagnosis.question import split_name

@@ -6,7 +6,7 @@ every coordinate.
 
 from dataclasses import dataclass, field
 
-from pipeline.benches.equation import balance, begun, channel_names
+from pipeline.case_models.force_balance import balance, begun, channel_names
 from pipeline.contract.units import to_si
 from pipeline.diagnosis.balance_latent import BalanceAxes, DescribeBalance
 from pipeline.diagnosis.forced import check_names, chosen, nominal_parameters

@@ -1,7 +1,7 @@
 """The question of forced recordings: a bench, its recorded runs, and the section ``diagnosis``."""
 
-from pipeline.benches import corrections
-from pipeline.benches.effect_block import parameters
+from pipeline.case_models import corrections
+from pipeline.case_models.effect_block import parameters
 from pipeline.contract import ConfigError
 from pipeline.contract.units import to_si
 from pipeline.diagnosis.latent import Describe

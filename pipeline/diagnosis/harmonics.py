@@ -14,8 +14,8 @@ from typing import Literal
 import numpy as np
 from scipy.special import ndtr
 
-from pipeline.benches.bench import about
-from pipeline.benches.laws import Laws
+from pipeline.case_models.laws import Laws
+from pipeline.case_models.virtual_rig import about
 from pipeline.contract import BrakechainError, ConfigError, Quantity, Section, option
 from pipeline.diagnosis.lines import Alternative, Features, lines_of, question
 from pipeline.effects import named

@@ -9,7 +9,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from pipeline.benches.equation import balance
+from pipeline.case_models.force_balance import balance
 from pipeline.contract import ConfigError
 from pipeline.diagnosis.next_run import Planned, changed, words
 from pipeline.physics.virtual_rig.force_residual import forces_missing, smoothed

@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from pipeline.benches import corrections
+from pipeline.case_models import corrections
 from pipeline.contract import BrakechainError, ConfigError
 from pipeline.contract.units import to_si
 from pipeline.inference.fitting.least_squares import linearised

@@ -10,8 +10,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from pipeline.benches.bench import only
-from pipeline.benches.runs import unit_of
+from pipeline.case_models.runs import unit_of
+from pipeline.case_models.virtual_rig import only
 from pipeline.contract import ConfigError
 from pipeline.contract.units import to_si
 from pipeline.diagnosis.forced import check_names, chosen, nominal_parameters

@@ -10,8 +10,8 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from pipeline.benches.effect_block import at_asperities, parameters
-from pipeline.benches.rubbing import Settings, offsets, rubbing, shifted
+from pipeline.case_models.effect_block import at_asperities, parameters
+from pipeline.case_models.rough_pair import Settings, offsets, rubbing, shifted
 from pipeline.contract import ConfigError, restored
 from pipeline.contract.units import to_si
 from pipeline.diagnosis.forced import check_names, chosen

@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from pipeline.benches.bench import only
+from pipeline.case_models.virtual_rig import only
 from pipeline.contract import BrakechainError
 from pipeline.diagnosis.location import fitted
 from pipeline.diagnosis.simulation import shown

@@ -4,8 +4,8 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from pipeline.benches import corrections
-from pipeline.benches.bench import only
+from pipeline.case_models import corrections
+from pipeline.case_models.virtual_rig import only
 from pipeline.contract import ConfigError
 from pipeline.diagnosis.next_run import altered
 from pipeline.diagnosis.question import label, parameter_name, split_name

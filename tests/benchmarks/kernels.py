@@ -2,9 +2,9 @@
 
 import numpy as np
 
-from pipeline.benches.bench import built
-from pipeline.benches.effect_block import with_effects
-from pipeline.benches.runs import recorded
+from pipeline.case_models.effect_block import with_effects
+from pipeline.case_models.runs import recorded
+from pipeline.case_models.virtual_rig import built
 from pipeline.contract.settings import fill
 from pipeline.diagnosis.forced import question
 from pipeline.diagnosis.settings import Settings as DiagnosisSettings

@@ -2,10 +2,10 @@
 
 import numpy as np
 
-from pipeline.benches import bench as benches
-from pipeline.benches.effect_block import Settings as EffectSettings
-from pipeline.benches.effect_block import product, with_effects
-from pipeline.benches.runs import Recorded
+from pipeline.case_models import virtual_rig as benches
+from pipeline.case_models.effect_block import Settings as EffectSettings
+from pipeline.case_models.effect_block import product, with_effects
+from pipeline.case_models.runs import Recorded
 from pipeline.contract.settings import fill
 from pipeline.physics.virtual_rig.modes import modes, motions, order_locked
 from pipeline.physics.virtual_rig.response import Run

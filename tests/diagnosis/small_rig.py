@@ -2,9 +2,9 @@
 
 import numpy as np
 
-from pipeline.benches import bench as benches
-from pipeline.benches.effect_block import Settings as EffectSettings
-from pipeline.benches.effect_block import product, with_effects
+from pipeline.case_models import virtual_rig as benches
+from pipeline.case_models.effect_block import Settings as EffectSettings
+from pipeline.case_models.effect_block import product, with_effects
 from pipeline.contract.settings import fill
 from pipeline.physics.virtual_rig.response import Run, respond
 from pipeline.products import Channel, Condition, Recording

@@ -5,8 +5,8 @@ from functools import cache
 import numpy as np
 import pytest
 
-from pipeline.benches import bench as benches
-from pipeline.benches.runs import recorded
+from pipeline.case_models import virtual_rig as benches
+from pipeline.case_models.runs import recorded
 from pipeline.contract.settings import fill
 from pipeline.diagnosis.answer import answer, located
 from pipeline.diagnosis.document import as_json, completed_name

@@ -6,10 +6,10 @@ from dataclasses import replace
 import pytest
 import yaml
 
-from pipeline.benches import bench as benches
-from pipeline.benches.effect_block import Settings as EffectSettings
-from pipeline.benches.effect_block import product, with_effects
-from pipeline.benches.runs import recorded
+from pipeline.case_models import virtual_rig as benches
+from pipeline.case_models.effect_block import Settings as EffectSettings
+from pipeline.case_models.effect_block import product, with_effects
+from pipeline.case_models.runs import recorded
 from pipeline.contract import ConfigError
 from pipeline.contract.case import CaseText
 from pipeline.contract.settings import fill, without_origins

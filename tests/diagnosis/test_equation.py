@@ -2,14 +2,14 @@
 
 import pytest
 
-from pipeline.benches import bench as benches
-from pipeline.benches.runs import recorded
+from pipeline.case_models import virtual_rig as benches
+from pipeline.case_models.runs import recorded
 from pipeline.contract import ConfigError
 from pipeline.contract.settings import fill
 from pipeline.diagnosis.equation import question
 from pipeline.diagnosis.settings import Settings
 from pipeline.inference.procedure import diagnose
-from tests.benches.test_equation import BALANCED
+from tests.case_models.test_force_balance import BALANCED
 from tests.diagnosis.small_rig import HIDDEN, laid_out, model, recording
 
 ASKED = {"parameters": {"joints.mount.stiffness": {"spread": 0.1}, "joints.mount.damping": {"spread": 0.3}},

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from pipeline.benches import bench as benches
-from pipeline.benches.runs import recorded
+from pipeline.case_models import virtual_rig as benches
+from pipeline.case_models.runs import recorded
 from pipeline.diagnosis.latent import describe, sentence
 from pipeline.diagnosis.simulation import observed
 from pipeline.inference.fitting.noise import budget

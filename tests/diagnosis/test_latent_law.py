@@ -5,8 +5,8 @@ from functools import cache
 import numpy as np
 import pytest
 
-from pipeline.benches import bench as benches
-from pipeline.benches.runs import recorded
+from pipeline.case_models import virtual_rig as benches
+from pipeline.case_models.runs import recorded
 from pipeline.contract.settings import fill
 from pipeline.diagnosis import equation, forced
 from pipeline.diagnosis.answer import answer
@@ -18,7 +18,7 @@ from pipeline.diagnosis.simulation import shown
 from pipeline.inference.procedure import Settings as Course
 from pipeline.inference.procedure import diagnose
 from pipeline.inference.search.gp_latent_force import Dependence
-from tests.benches.test_equation import BALANCED
+from tests.case_models.test_force_balance import BALANCED
 from tests.diagnosis.small_rig import HIDDEN, NOISE, laid_out, model, recording
 
 TIME = np.linspace(0, 20, 4001)

@@ -5,8 +5,8 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from pipeline.benches import bench as benches
-from pipeline.benches.runs import recorded
+from pipeline.case_models import virtual_rig as benches
+from pipeline.case_models.runs import recorded
 from pipeline.contract.settings import fill
 from pipeline.diagnosis.forced import question
 from pipeline.diagnosis.location import band_axis, place_axis, places, run_axis, stage_axis, stage_of

@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from pipeline.benches import bench as benches
-from pipeline.benches.effect_block import with_effects
-from pipeline.benches.runs import recorded
+from pipeline.case_models import virtual_rig as benches
+from pipeline.case_models.effect_block import with_effects
+from pipeline.case_models.runs import recorded
 from pipeline.contract import ConfigError
 from pipeline.contract.settings import fill
 from pipeline.diagnosis.answer import answer

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from pipeline.benches import bench as benches
+from pipeline.case_models import virtual_rig as benches
 from pipeline.contract import ConfigError
 from pipeline.contract.settings import fill
 from pipeline.diagnosis.planning import channel_units, conclusion, plan, planned_runs, table

@@ -5,7 +5,7 @@ from functools import cache
 
 import numpy as np
 
-from pipeline.benches.runs import Recorded
+from pipeline.case_models.runs import Recorded
 from pipeline.contract.settings import fill
 from pipeline.diagnosis.answer import squeal_check
 from pipeline.diagnosis.saturated_squeal import Squeals, simulated

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 from scipy.linalg import eigh
 
-from pipeline.benches import corrections
-from pipeline.benches.runs import recorded
+from pipeline.case_models import corrections
+from pipeline.case_models.runs import recorded
 from pipeline.contract.settings import fill
 from pipeline.diagnosis import forced
 from pipeline.diagnosis.settings import Settings

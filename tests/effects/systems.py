@@ -5,9 +5,9 @@ from functools import cache
 
 import yaml
 
-from pipeline.benches.bench import about, groups
-from pipeline.benches.effect_block import Settings as EffectSettings
-from pipeline.benches.effect_block import product, with_effects
+from pipeline.case_models.effect_block import Settings as EffectSettings
+from pipeline.case_models.effect_block import product, with_effects
+from pipeline.case_models.virtual_rig import about, groups
 from pipeline.contract import Context
 from pipeline.contract.settings import fill
 from pipeline.effects.typical import Typical

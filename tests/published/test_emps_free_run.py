@@ -11,8 +11,8 @@ import numpy as np
 import pytest
 from scipy.optimize import least_squares
 
-from pipeline.benches.equation import measured_start
-from pipeline.benches.runs import Recorded, held
+from pipeline.case_models.force_balance import measured_start
+from pipeline.case_models.runs import Recorded, held
 from pipeline.effects import named
 from pipeline.physics.friction.dry_friction import constant
 from pipeline.physics.time_stepping.elements import Element, Wave

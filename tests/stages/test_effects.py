@@ -1,6 +1,6 @@
 """Stage effects: the block of a case as a product."""
 
-from pipeline.benches.effect_block import terms
+from pipeline.case_models.effect_block import terms
 from pipeline.contract.settings import fill
 from stages.effects import Settings, effects
 from tests.diagnosis.small_rig import HIDDEN

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from pipeline.benches import effect_block
+from pipeline.case_models import effect_block
 from pipeline.contract import ConfigError, ConvergenceError
 from pipeline.contract.settings import fill, restored
 from stages.micro_friction import Settings, micro_friction

@@ -56,4 +56,4 @@ def test_the_wrong_value_is_friction_or_one_of_the_rig(control):
 
 def test_it_is_not_made_of_what_solves_it():
     assert not [m for m in imported("pipeline.trial.belt") if m.startswith((
-        "pipeline.effects", "pipeline.benches", "pipeline.diagnosis", "pipeline.inference", "pipeline.physics"))]
+        "pipeline.effects", "pipeline.case_models", "pipeline.diagnosis", "pipeline.inference", "pipeline.physics"))]

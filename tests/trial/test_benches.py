@@ -43,7 +43,7 @@ def test_true_values_are_told_of_every_parameter_that_is_asked_for(tmp_path, sho
 
 
 def test_true_values_are_factors_where_those_of_a_diagnosis_are(tmp_path, short):
-    """All but the arm are factors of the model (see ``pipeline.benches.corrections``), hence near to 1."""
+    """All but the arm are factors of the model (see ``pipeline.case_models.corrections``), hence near to 1."""
     known = benches.pin_on_disc(Draw(4, "pin_on_disc", "control", (), 0.0, 0.0), tmp_path)["parameters"]
     assert {name for name, value in known.items() if not 0.3 < value < 3} == {"joints.arm.stiffness"}
 

@@ -5,8 +5,8 @@ from functools import partial
 import numpy as np
 import pytest
 
-from pipeline.benches import bench as benches
-from pipeline.benches.corrections import corrected
+from pipeline.case_models import virtual_rig as benches
+from pipeline.case_models.corrections import corrected
 from pipeline.physics.virtual_rig.modes import modes
 from pipeline.physics.virtual_rig.response import Run
 from pipeline.trial import brake, brake_model, brake_parts

@@ -16,7 +16,7 @@ RIG = drawn(np.random.default_rng(2), 3)
 #: forces in proportion to their size; sliders, play and an arm vanish in other ways
 SIZED = [name for name, piece in HIDDEN.items() if piece.place in ("link", "shaker")
          and name not in ("hysteretic_joint", "backlash", "compliant_arm")]
-FORBIDDEN = ("pipeline.effects", "pipeline.physics", "pipeline.diagnosis", "pipeline.inference", "pipeline.benches")
+FORBIDDEN = ("pipeline.effects", "pipeline.physics", "pipeline.diagnosis", "pipeline.inference", "pipeline.case_models")
 
 
 def law_of(name, size):

@@ -21,7 +21,7 @@ def test_what_a_system_hides_is_sorted_into_known_classes(system):
 
 def test_no_generator_is_made_of_the_models_of_the_diagnosis():
     assert not [m for m in imported("pipeline.trial.systems") if m.startswith((
-        "pipeline.effects", "pipeline.benches", "pipeline.diagnosis", "pipeline.inference", "pipeline.physics",
+        "pipeline.effects", "pipeline.case_models", "pipeline.diagnosis", "pipeline.inference", "pipeline.physics",
         "pipeline.systems", "stages"))]
 
 

@@ -5,8 +5,8 @@ from typing import Literal
 
 import numpy as np
 
-from pipeline.benches import corrections
-from pipeline.benches.laws import Laws, friction_law, normal_law
+from pipeline.case_models import corrections
+from pipeline.case_models.laws import Laws, friction_law, normal_law
 from pipeline.contract import ConfigError, Quantity, Section, option
 from pipeline.physics.sliding.doublets import doublets
 from pipeline.physics.sliding.model import sliding_model

@@ -5,10 +5,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from pipeline.benches import bench as benches
-from pipeline.benches.effect_block import with_effects
-from pipeline.benches.equation import balance, channel_names, measured_start, started
-from pipeline.benches.runs import recorded
+from pipeline.case_models import virtual_rig as benches
+from pipeline.case_models.effect_block import with_effects
+from pipeline.case_models.force_balance import balance, channel_names, measured_start, started
+from pipeline.case_models.runs import recorded
 from pipeline.contract import ConfigError
 from tests.diagnosis.small_rig import HIDDEN, effects, laid_out, model, recording
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from pipeline.benches.runs import Recorded
+from pipeline.case_models.runs import Recorded
 from pipeline.contract import ConfigError
 from pipeline.physics.time_stepping.simulate import Start
 from pipeline.physics.virtual_rig.force_residual import applied_force, coordinates, forces_missing, smoothed, thinned

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from pipeline.benches import bench as benches
-from pipeline.benches import corrections
+from pipeline.case_models import corrections
+from pipeline.case_models import virtual_rig as benches
 from pipeline.contract import ConfigError
 from pipeline.physics.virtual_rig.response import Run, respond
 from tests.diagnosis.small_rig import RATE, force, laid_out, model

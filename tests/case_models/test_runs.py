@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from pipeline.benches.runs import check_units, held, recorded
+from pipeline.case_models.runs import check_units, held, recorded
 from pipeline.contract import ConfigError
 from tests.diagnosis import pin_rig
 from tests.diagnosis.small_rig import RATE, SAMPLES, force, laid_out, recording

@@ -5,7 +5,7 @@ from functools import cached_property, partial
 
 import numpy as np
 
-from pipeline.benches.bench import groups
+from pipeline.case_models.virtual_rig import groups
 from pipeline.contract import ConfigError
 from pipeline.effects.effect import compose
 from pipeline.physics.contact.groups import alike, read

@@ -4,7 +4,7 @@ from difflib import get_close_matches
 
 import numpy as np
 
-from pipeline.benches.bench import groups
+from pipeline.case_models.virtual_rig import groups
 from pipeline.contract import ConfigError
 from pipeline.effects import CATALOGUE
 from pipeline.effects.effect import compose

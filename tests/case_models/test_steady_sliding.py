@@ -5,8 +5,8 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from pipeline.benches.effect_block import terms
-from pipeline.benches.steady import branch_stiffness, posed, refuse_twice
+from pipeline.case_models.effect_block import terms
+from pipeline.case_models.steady_sliding import branch_stiffness, posed, refuse_twice
 from pipeline.contract import ConfigError
 from pipeline.physics.friction.dry_friction import constant
 from pipeline.physics.sliding.equilibrium import closure_response

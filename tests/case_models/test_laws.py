@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from pipeline.benches.laws import Laws, friction_law, normal_law
+from pipeline.case_models.laws import Laws, friction_law, normal_law
 from pipeline.contract import ConfigError
 from pipeline.contract.settings import fill
 from pipeline.physics.sliding.model import sliding_model

@@ -5,7 +5,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from pipeline.benches import bench as benches
+from pipeline.case_models import virtual_rig as benches
 from pipeline.contract import ConfigError
 from tests.diagnosis.small_rig import laid_out, model
 

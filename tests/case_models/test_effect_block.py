@@ -2,8 +2,8 @@
 
 import pytest
 
-from pipeline.benches import bench as benches
-from pipeline.benches.effect_block import (
+from pipeline.case_models import virtual_rig as benches
+from pipeline.case_models.effect_block import (
     Settings,
     check_places,
     conditions,
