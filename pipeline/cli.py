@@ -182,7 +182,7 @@ def plan(config, overrides, file):
     from pipeline.console import table
     from pipeline.contract import ConfigError, case
     from pipeline.contract.store import write_companion
-    from pipeline.diagnosis import planning
+    from pipeline.diagnosis import campaign_planning
 
     given = case.load(config, stages.CHAINS, stages.load, overrides, measured.path, unread=("recording",))
     if given.document["chain"] != "lumped_bench":
@@ -191,10 +191,10 @@ def plan(config, overrides, file):
     model = stages.load("reduced_model")(stages.load("lumped")(settings=chosen["lumped"]),
                                          settings=chosen["reduced_model"])
     whole = effect_block.with_effects(virtual_rig.built(model, chosen["bench"]), effect_block.product(chosen["effects"]))
-    found = planning.plan(whole, planning.channel_units(whole), chosen["diagnosis"])
-    head, rows = planning.table(found)
+    found = campaign_planning.plan(whole, campaign_planning.channel_units(whole), chosen["diagnosis"])
+    head, rows = campaign_planning.table(found)
     table("d: standard deviations that each effect leaves beside the nominal values", head, rows,
-          planning.conclusion(found))
+          campaign_planning.conclusion(found))
     if file is not None:
         write_companion(file, "\n".join(",".join(row) for row in (head, *rows)) + "\n")
 

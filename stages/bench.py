@@ -9,8 +9,8 @@ from pipeline.case_models.force_balance import balance, started
 from pipeline.case_models.runs import recorded
 from pipeline.case_models.virtual_rig import Settings, built
 from pipeline.contract import ConfigError, Context, stage, stored
-from pipeline.diagnosis.poles import features, observed, predicted
-from pipeline.diagnosis.simulation import shown
+from pipeline.diagnosis.features.poles import features, observed, predicted
+from pipeline.diagnosis.signals.forward_model import shown
 from pipeline.products import Bench, BenchRun, Effects, Recording, ReducedModel
 
 

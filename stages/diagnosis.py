@@ -7,12 +7,12 @@ from pipeline.case_models.effect_block import with_effects
 from pipeline.case_models.force_balance import started
 from pipeline.case_models.runs import recorded
 from pipeline.contract import ConfigError, Context, restored, stage
-from pipeline.diagnosis import equation, forced, rubbed, self_excited
-from pipeline.diagnosis.answer import answer
-from pipeline.diagnosis.document import companions
-from pipeline.diagnosis.published_lines import Models, published_diagnosis
+from pipeline.diagnosis import force_balance, forced_response, rough_pair, self_excited
+from pipeline.diagnosis.output.files import companions
+from pipeline.diagnosis.output.product import answer
+from pipeline.diagnosis.published_lists import Models, published_diagnosis
 from pipeline.diagnosis.settings import Settings
-from pipeline.diagnosis.substitution import substituted
+from pipeline.diagnosis.signals.substitution import substituted
 from pipeline.inference import procedure as course
 from pipeline.products import (
     Bench,
@@ -70,7 +70,7 @@ def _of_friction(recording, surface, micro, friction_map, effects, settings, con
     """Question of measured friction against the rough pair of the case."""
     if surface is None or micro is None:
         raise ConfigError("diagnosis.forward", "another forward model, in a chain without micro_friction", "friction")
-    return rubbed.question(recording, surface, micro, friction_map, effects, settings,
+    return rough_pair.question(recording, surface, micro, friction_map, effects, settings,
                            partial(context.map, label="spots of the rough pair"))
 
 
@@ -100,5 +100,5 @@ def _question(whole, runs, settings, laid_out):
     if laid_out.poles is not None:
         return self_excited.question(whole, runs, settings, laid_out.poles)
     if laid_out.forward == "equation":
-        return equation.question(whole, runs, settings, laid_out.equation)
-    return forced.question(whole, started(whole, runs, laid_out), settings)
+        return force_balance.question(whole, runs, settings, laid_out.equation)
+    return forced_response.question(whole, started(whole, runs, laid_out), settings)

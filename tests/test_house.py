@@ -54,7 +54,7 @@ MAY_IMPORT = {
     "pipeline.cli": {"pipeline.cli_options", "pipeline.cli_trial", "pipeline.contract", "pipeline.console",
                      "pipeline.inspection", "pipeline.measured", "pipeline.physics.numerics.sparse_solver",
                      "pipeline.recordings.neutral", "pipeline.schema", "stages", "pipeline.case_models",
-                     "pipeline.diagnosis.planning"},
+                     "pipeline.diagnosis.campaign_planning"},
     "pipeline.__main__": {"pipeline.cli", "pipeline.environment"},
 }
 #: third-party package -> its doors

@@ -3,13 +3,13 @@
 from dataclasses import dataclass, field, replace
 
 from pipeline.contract import BrakechainError, ConfigError
-from pipeline.diagnosis.forced import check_names, chosen, nominal_parameters
-from pipeline.diagnosis.next_features import planned_records
-from pipeline.diagnosis.next_run import altered
-from pipeline.diagnosis.poles import features, observed, predicted
+from pipeline.diagnosis.experiment_design.next_features import planned_records
+from pipeline.diagnosis.experiment_design.next_run import altered
+from pipeline.diagnosis.features.limit_cycle_check import Squeals
+from pipeline.diagnosis.features.poles import features, observed, predicted
+from pipeline.diagnosis.forced_response import check_names, chosen, nominal_parameters
 from pipeline.diagnosis.question import Question, nominal, nothing
-from pipeline.diagnosis.saturated_squeal import Squeals
-from pipeline.diagnosis.simulation import candidates, completed
+from pipeline.diagnosis.signals.forward_model import candidates, completed
 from pipeline.inference.decision.decision_rules import Rules
 from pipeline.inference.fitting.noise import budget
 from pipeline.inference.problem import Problem

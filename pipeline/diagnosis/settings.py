@@ -4,9 +4,9 @@ from typing import Literal
 
 from pipeline.contract import ConfigError, Quantity, Section, option
 from pipeline.contract.units import to_si
-from pipeline.diagnosis.harmonics import Harmonics
-from pipeline.diagnosis.mode_table import ModeTable
-from pipeline.diagnosis.squeal_lines import SquealLines
+from pipeline.diagnosis.published.harmonics import Harmonics
+from pipeline.diagnosis.published.mode_table import ModeTable
+from pipeline.diagnosis.published.squeal_frequencies import SquealLines
 from pipeline.inference.priors import HalfNormal, LogNormal, Normal, Parameter, Uniform
 
 

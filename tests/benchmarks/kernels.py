@@ -6,7 +6,7 @@ from pipeline.case_models.effect_block import with_effects
 from pipeline.case_models.runs import recorded
 from pipeline.case_models.virtual_rig import built
 from pipeline.contract.settings import fill
-from pipeline.diagnosis.forced import question
+from pipeline.diagnosis.forced_response import question
 from pipeline.diagnosis.settings import Settings as DiagnosisSettings
 from pipeline.inference.procedure import diagnose
 from pipeline.physics.fem.elasticity import assemble, isotropic

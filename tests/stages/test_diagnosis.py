@@ -8,8 +8,8 @@ from pipeline.contract import ConfigError, ConvergenceError
 from pipeline.contract.settings import fill
 from stages.bench import bench
 from stages.diagnosis import Settings, diagnosis
+from tests.diagnosis.output.test_product import ASKED
 from tests.diagnosis.small_rig import HIDDEN, effects, laid_out, model, recording
-from tests.diagnosis.test_answer import ASKED
 
 #: shaking at which the hidden effects are small: fits stay near and quick
 GENTLE = (1.0, 1.5, 2.0, 1.7)

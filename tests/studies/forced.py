@@ -18,7 +18,7 @@ from pipeline.contract import documents
 from pipeline.contract.errors import BrakechainError
 from pipeline.contract.executor import LocalProcesses
 from pipeline.contract.settings import fill
-from pipeline.diagnosis.document import as_json
+from pipeline.diagnosis.output.files import as_json
 from pipeline.products import Recording
 from pipeline.recordings.neutral import read_neutral
 from pipeline.trial import files

@@ -6,7 +6,7 @@ from pathlib import Path
 
 from pipeline.contract import documents
 from pipeline.contract.settings import without_origins
-from pipeline.diagnosis.document import as_json
+from pipeline.diagnosis.output.files import as_json
 from pipeline.products import Recording
 from pipeline.recordings.neutral import read_neutral, write_neutral
 from pipeline.trial.worn_pad import make, record

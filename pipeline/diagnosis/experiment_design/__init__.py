@@ -1,0 +1,1 @@
+"""Which recording to make next: the one that tells the remaining candidates apart."""

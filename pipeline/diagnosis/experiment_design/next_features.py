@@ -1,0 +1,96 @@
+"""What free vibrations or slow turns to record next: hammer records, growth phases and turns at other loads and speeds.
+
+A record that nobody has made shows what the most similar recorded one did, as well as that: so many poles near its own,
+each as the completed model of every hypothesis has it there.
+"""
+
+from dataclasses import replace
+
+import numpy as np
+
+from pipeline.diagnosis.experiment_design.next_run import Planned, changed, words
+from pipeline.physics.virtual_rig.response import at_begin
+
+_LIFTED = "hammer, lifted"
+#: factors on the one load or speed that was recorded, where there is only one
+_BESIDE = (0.5, 2.0)
+
+
+def planned_records(bench, seen, given, where="diagnosis.next"):
+    """Planned Features (m,) from ``seen`` {run: Features}.
+
+    ``given`` is the section ``next`` {condition or number of the bench: values}: one thing changed in the first record
+    of each kind that has it. Without it: all recorded loads at all recorded speeds, and half and twice of where only
+    one was recorded. ConfigError for names that the bench does not have, and units that do not fit.
+    """
+    kinds = {}
+    for name, one in seen.items():
+        kinds.setdefault(kind(bench, one), {})[name] = one
+    if given:
+        return tuple(_asked(bench, told, members, name, value, f"{where}.{name}") for name, values in given.items()
+                     for value in values for told, members in _of(bench, kinds, name))
+    return tuple(record for told, members in kinds.items() for record in _crossed(bench, seen, told, members))
+
+
+def kind(bench, one):
+    """How the Features of a run are recorded, in words."""
+    if one.seen is None:
+        return "slow turn"
+    speed, inputs = at_begin(bench, one.run)
+    return "growth phase" if speed else "hammer at rest" if inputs.any() else _LIFTED
+
+
+def _of(bench, kinds, name):
+    """(kind, its members) in which ``name`` can be another: a speed where it slides, a load where something presses."""
+    without = {"speed": ("hammer at rest", _LIFTED), **dict.fromkeys(bench.model.input_name, (_LIFTED,))}
+    return [(told, members) for told, members in kinds.items() if told not in without.get(name, ())]
+
+
+def _asked(bench, told, members, name, value, where):
+    like, one = next(iter(members.items()))
+    run, altered = changed(bench, one.run, name, value, where)
+    own = f"{told}, {words(name, value)}"
+    return Planned(own, like, replace(one, run=replace(run, name=own)), altered)
+
+
+def _crossed(bench, seen, told, members):
+    """Planned Features of one kind at points (speed, loads) that none of its ``members`` has."""
+    if told == _LIFTED:
+        return
+    every, own = [_point(bench, one) for one in seen.values()], {n: _point(bench, one) for n, one in members.items()}
+    for speed in _beside({speed for speed, _ in own.values()}):
+        for load in _beside({load for _, load in every if any(load)}):
+            point = speed, load
+            if point not in own.values():
+                like = min(own, key=lambda name: _apart(own[name], point))
+                yield _at(bench, told, like, members[like], point)
+
+
+def _point(bench, one):
+    """(speed in rad/s, inputs (i,) in N) of Features."""
+    speed, inputs = at_begin(bench, one.run)
+    return speed, tuple(inputs.tolist())
+
+
+def _beside(values):
+    """Sorted speeds or loads, and factors of the only one."""
+    if len(values) != 1:
+        return sorted(values)
+    only, = values
+    return sorted({only, *(tuple(f * v for v in only) if isinstance(only, tuple) else f * only for f in _BESIDE)})
+
+
+def _apart(first, second):
+    """Distance of two points, in powers of e."""
+    sizes = [(abs(speed), np.linalg.norm(load)) for speed, load in (first, second)]
+    return sum(abs(np.log(a / b)) for a, b in zip(*sizes, strict=True) if a and b)
+
+
+def _at(bench, told, like, one, point):
+    """Planned like the Features ``one`` of a run ``like`` at another point."""
+    speed, load = point
+    inputs = dict(zip(bench.model.input_name, load, strict=True))
+    said = [f"{n} = {v:g} N" for n, v in inputs.items()] + ([f"speed = {speed:g} rad/s"] if speed else [])
+    name = f"{told}, {', '.join(said)}"
+    run = replace(one.run, name=name, inputs=inputs, drive=None, conditions={**one.run.conditions, "speed": speed})
+    return Planned(name, like, replace(one, run=run), {})

@@ -1,0 +1,75 @@
+"""What motion to measure next, where measured motions are put into the equation of motion.
+
+A drive that follows its path makes the same motion whatever resists it; what the hypotheses expect differently is the
+force that it takes. A recorded motion is planned again, ``motion`` times as large about its middle or ``pace`` times as
+fast, with as many samples; or on a bench of which one number is another.
+"""
+
+from dataclasses import replace
+
+import numpy as np
+
+from pipeline.case_models.force_balance import balance
+from pipeline.contract import ConfigError
+from pipeline.diagnosis.experiment_design.next_run import Planned, changed, words
+from pipeline.physics.virtual_rig.force_residual import forces_missing, smoothed
+from pipeline.physics.virtual_rig.response import MOTIONS
+
+#: what a recorded motion is planned with: factors on its size about its middle, and on its speed
+MOTION, PACE = "motion", "pace"
+#: planned where the case says nothing: within what was recorded, smaller and slower
+WITHIN = {MOTION: (0.5, 0.25), PACE: (0.5, 0.25)}
+
+
+def planned_motions(bench, recorded, equation, given, where="diagnosis.next"):
+    """Planned Balances (m,), like ``recorded`` {name: Recorded} which moves farthest, with one thing changed each.
+
+    ``given`` is the section ``next`` {motion, pace or what else can change: values}, nothing: WITHIN. ConfigError for
+    names that neither motions nor the bench have, and units that do not fit.
+    """
+    widest = max(recorded, key=lambda name: max(map(np.ptp, _measured(bench, recorded[name]).values())))
+    found = []
+    for name, values in (given or WITHIN).items():
+        for value in values:
+            told = f"{words(name, value)}, as {widest}"
+            again, section, altered = _again(bench, recorded[widest], equation, name, value, f"{where}.{name}")
+            again = replace(again, run=replace(again.run, name=told), repeat_of="")
+            found.append(Planned(told, widest, balance(bench, _driven(bench, again, section), section), altered))
+    return tuple(found)
+
+
+def _again(bench, one, equation, name, value, where):
+    """(Recorded, section of its equation, altered) with one thing changed."""
+    if name in (MOTION, PACE) and not (isinstance(value, (int, float)) and value > 0):
+        raise ConfigError(where, "factors above 0", repr(value))
+    if name in bench.model.input_name:
+        raise ConfigError(where, f"{MOTION}, {PACE} or a number of the bench: inputs are what the motion takes", name)
+    if name == MOTION:
+        moves = np.array([_quantity(bench, channel) == MOTIONS[0] for channel in one.channels])[:, None]
+        middle = (one.samples.max(axis=1, keepdims=True) + one.samples.min(axis=1, keepdims=True)) / 2
+        return replace(one, samples=np.where(moves, middle + value * (one.samples - middle), one.samples)), equation, {}
+    if name == PACE:
+        run = one.run
+        drive = None if run.drive is None else value * np.asarray(run.drive, float)
+        run = replace(run, duration=run.duration / value, sample_rate=value * run.sample_rate, drive=drive)
+        corner = None if equation.corner is None else value * equation.corner
+        return replace(one, run=run), equation.model_copy(update={"corner": corner}), {}
+    run, altered = changed(bench, one.run, name, value, where)
+    return replace(one, run=run), equation, altered
+
+
+def _driven(bench, one, equation):
+    """The Recorded with the inputs that its motion takes on the nominal bench."""
+    names, idle = bench.model.input_name, replace(one.run, inputs=dict.fromkeys(bench.model.input_name, 0.0))
+    needed = forces_missing(bench, idle, smoothed(bench, idle, _measured(bench, one), equation.corner))
+    force = np.linalg.lstsq(bench.model.input_rows.T, needed, rcond=None)[0]
+    return replace(one, run=replace(one.run, inputs=dict(zip(names, force, strict=True))))
+
+
+def _measured(bench, one):
+    """{channel: (samples,)} of the displacements of a Recorded run."""
+    return {c: s for c, s in zip(one.channels, one.samples, strict=True) if _quantity(bench, c) == MOTIONS[0]}
+
+
+def _quantity(bench, channel):
+    return next(c.quantity for c in bench.channels if c.name == channel)

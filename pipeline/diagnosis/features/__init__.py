@@ -1,0 +1,1 @@
+"""Features extracted from recordings: poles, limit cycles and worn surfaces."""

@@ -1,0 +1,155 @@
+"""Verification by saturated squeal: features of recorded squeals beside those of simulated repeats.
+
+Nothing is fitted and no verdict hangs on it. Every recorded point that slides is simulated from several small starts,
+with the recalibrated nominal model and with the completed one; a feature agrees where its mean lies within the spread
+of both.
+"""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from pipeline.case_models.virtual_rig import only
+from pipeline.contract import BrakechainError
+from pipeline.diagnosis.signals.forward_model import shown
+from pipeline.diagnosis.signals.localisation import fitted
+from pipeline.physics.signals.squeal_features import GROWING, SATURATED, agree, means, motion_features, saturated, state
+from pipeline.physics.time_stepping.initial_state import random_kick, steady_start
+from pipeline.physics.time_stepping.modal_integrator import modal_system
+from pipeline.physics.virtual_rig.normal_load import loaded
+from pipeline.physics.virtual_rig.response import MOTIONS, Channel, at_begin, run_friction
+
+#: who squeals, in the order of the tables
+WHO = ("recorded", "recalibrated", "completed")
+#: what a model shows beside the sensors: forces of all contacts
+_NORMAL, _DRAWN = "normal force of the contacts", "friction of the contacts"
+
+
+@dataclass(frozen=True)
+class Heard:
+    """States (r,) of the records of one point, and {feature: values over all saturated stretches}, {feature: unit}."""
+
+    states: tuple
+    values: dict
+    unit: dict
+
+    @property
+    def squealing(self):
+        return self.states.count(SATURATED)
+
+    @property
+    def growing(self):
+        return self.states.count(GROWING)
+
+
+@dataclass(frozen=True)
+class Compared:
+    """One recorded point: {who: Heard}; ``agrees`` {who: {feature: bool}} of the models; ``failure`` {who: why}."""
+
+    heard: dict
+    agrees: dict
+    failure: dict
+
+    @property
+    def sentence(self):
+        """Who squeals, in words."""
+        sounds = {who: one.squealing + one.growing > 0 for who, one in self.heard.items()}
+        said = [f"{who}: {one.squealing} of {len(one.states)} saturated"
+                + (f", {one.growing} still growing" if one.growing else "") for who, one in self.heard.items()]
+        said += [f"squeals in only one of recording and {who} model" for who, one in sounds.items()
+                 if one != sounds["recorded"]]
+        return "; ".join(said + [f"{who}: {why}" for who, why in self.failure.items()])
+
+
+@dataclass(frozen=True)
+class Squeals:
+    """The ``squeal`` of a Question over {name: Recorded} of a Bench: called with the Fits of the recalibrated and the
+    completed model, gives {run: Compared}; ``told`` is the section SaturatedSqueal."""
+
+    bench: object
+    recorded: dict
+    told: object
+    seed: int = 0
+
+    def __call__(self, null, best):
+        models = {"recalibrated": null} | ({"completed": best} if best.hypothesis.effects else {})
+        benches = {who: fitted(self.bench, fit) for who, fit in models.items()}
+        return {name: self._compared(benches, records) for name, records in self._points().items()}
+
+    def _points(self):
+        """{run: its records} of runs that slide and show a motion, repeats with the run that they repeat."""
+        points = {}
+        for name, one in self.recorded.items():
+            own = one.repeat_of or name
+            wanted = not self.told.runs or {name, own} & set(self.told.runs)
+            if wanted and at_begin(self.bench, one.run)[0] and self._motions(one.channels):
+                points.setdefault(own, []).append(one)
+        return points
+
+    def _compared(self, benches, records):
+        heard, failure = {"recorded": self._heard([dict(zip(r.channels, r.samples, strict=True)) for r in records],
+                                                  records[0])}, {}
+        for who, bench in benches.items():
+            try:
+                heard[who] = self._heard(simulated(bench, records[0], self.told, self.seed), records[0])
+            except BrakechainError as error:
+                failure[who] = str(error)
+        measured = heard["recorded"].values
+        agrees = {who: {f: agree(measured[f], values, self.told.tolerance) for f, values in one.values.items()
+                        if f in measured} for who, one in heard.items() if who != "recorded"}
+        return Compared(heard, agrees, failure)
+
+    def _motions(self, channels):
+        quantity = {c.name: c.quantity for c in self.bench.channels}
+        return [name for name in channels if quantity[name] in MOTIONS]
+
+    def _heard(self, motions, like):
+        """Heard of [{channel: (n,)}] at the rate and with the units of the Recorded ``like``."""
+        rate, names = like.run.sample_rate, self._motions(like.channels)
+        size, unit = round(self.told.stretch * rate), dict(zip(like.channels, like.unit, strict=True))
+        states, found, units = [], {}, {}
+        for one in motions:
+            together = np.array([one[name] for name in names])
+            states.append(state(together, size))
+            if states[-1] == SATURATED:
+                told = _features(one, names, rate, size, saturated(together, size), self.told.lowest, unit)
+                units |= {feature: own for feature, (_, own) in told.items()}
+                for feature, (values, _) in told.items():
+                    found.setdefault(feature, []).extend(values)
+        return Heard(tuple(states), {f: np.array(v) for f, v in found.items()}, units)
+
+
+def simulated(bench, like, told, seed=0):
+    """[{channel: (n,)}] of the repeats of a Recorded run on a completed Bench, forces of its contacts beside."""
+    speed, first = at_begin(bench, like.run)
+    run = replace(like.run, duration=told.duration, drive=speed,
+                  inputs=dict(zip(bench.model.input_name, first.tolist(), strict=True)))
+    there = loaded(bench, run)
+    model = there.model.at_speed(speed)
+    steady = steady_start(model, there.law, run_friction(there, run), first)
+    system = modal_system(model)
+    rows = np.array([bench.sensor(c.source) for c in bench.channels if c.quantity in MOTIONS])
+    seen = only(bench, like.channels)
+    seen = replace(seen, channels=(*seen.channels, Channel(_NORMAL, "normal_force", "contact"),
+                                   Channel(_DRAWN, "friction_force", "contact")))
+    names = tuple(c.name for c in seen.channels)
+    found = []
+    for repeat in range(told.repeats):
+        start = steady.kicked(random_kick(system, rows, told.kick, [seed, repeat]))
+        found.append(dict(zip(names, shown(seen, replace(run, start=start), names), strict=True)))
+    return found
+
+
+def _features(one, motions, rate, size, kept, lowest, unit):
+    """{feature: (values (k,), unit)} of one motion {channel: (n,)}."""
+    found = {}
+    for name in motions:
+        told = motion_features(one[name], rate, size, kept, lowest)
+        found |= {f"frequency of {name}": (told["frequency"], "Hz"), f"level of {name}": (told["level"], unit[name])}
+        found |= {f"{feature}, {name}": (values, "dB") for feature, values in told.items() if " over " in feature}
+    found |= {f"mean of {name}": (means(one[name], size, kept), unit[name]) for name in unit if name not in motions}
+    if _NORMAL in one:
+        normal, drawn = (means(one[name], size, kept) for name in (_NORMAL, _DRAWN))
+        found["share of time open"] = means(one[_NORMAL] <= 0, size, kept), "1"
+        found["friction over normal force"] = np.abs(drawn) / np.maximum(normal, 1e-300), "1"
+    return found

@@ -1,0 +1,1 @@
+"""The result of a diagnosis as a product and as files."""

@@ -1,0 +1,1 @@
+"""Published lists of modes and squeal frequencies as evidence."""

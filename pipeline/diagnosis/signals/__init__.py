@@ -1,0 +1,1 @@
+"""Time signals: forward model, latent forces and localisation."""

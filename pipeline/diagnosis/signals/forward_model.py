@@ -1,0 +1,161 @@
+"""Runs simulated with parameters and effects: the forward model of forced recordings."""
+
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+
+from pipeline.case_models import corrections
+from pipeline.case_models.virtual_rig import only
+from pipeline.contract import ConfigError
+from pipeline.diagnosis.experiment_design.next_run import altered
+from pipeline.diagnosis.question import label, parameter_name, split_name
+from pipeline.diagnosis.settings import prior_of
+from pipeline.effects import CATALOGUE, named
+from pipeline.effects.effect import Term, compose
+from pipeline.effects.typical import CHANNEL, typical
+from pipeline.inference.priors import Normal, Parameter
+from pipeline.inference.problem import Hypothesis, Observed
+from pipeline.physics.virtual_rig.response import MOTIONS, respond
+
+#: the solver as a hypothesis: its place, and its parameter: 0 as it is, 1 with half its step (4/3: none, at order 2)
+STEP, SOLVER, REFINEMENT = "time_step", "solver", "refinement"
+#: names of all effects; the solver and the friction map are none
+NAMES = frozenset(effect.name for effect in CATALOGUE)
+
+
+def observed(recorded, noise_std=None, held_out=False):
+    """Observed of a Recorded run; ``noise_std`` {channel: SI value} where it is given, then of all its channels."""
+    one = recorded
+    lacking = [c for c in one.channels if c not in noise_std] if noise_std else []
+    if lacking:
+        raise ConfigError("diagnosis.noise.std", f"the noise of every channel of run {one.run.name}, or of none",
+                          f"none of {', '.join(lacking)}", "give it too, or leave all to the repeats of runs")
+    told = np.array([noise_std[c] for c in one.channels]) if noise_std else None
+    return Observed(one.run.name, one.run.conditions, one.channels, one.samples, one.run.sample_rate, one.valid,
+                    noise_std=told, held_out=held_out, repeat_of=one.repeat_of)
+
+
+def completed(bench, hypothesis, values):
+    """The bench with the values of a hypothesis: corrected numbers first, then its effects."""
+    numbers = {p.name: values[p.name] for p in hypothesis.parameters if not split_name(p.name)[0]}
+    return compose(corrections.corrected(bench, numbers), terms(hypothesis, values))
+
+
+def terms(hypothesis, values):
+    """Terms of a Hypothesis with its ``values``; what is no effect of the catalogue, as the solver, is none."""
+    found = {pair: {} for pair in hypothesis.effects if pair[0] in NAMES}
+    for name, value in values.items():
+        effect, place, own = split_name(name)
+        if (effect, place) in found:
+            found[effect, place][own] = value
+    return tuple(Term(named(effect), place, given) for (effect, place), given in found.items())
+
+
+@dataclass(frozen=True)
+class Simulated:
+    """Picklable prediction, of cut runs too: ``runs`` {name: Run}.
+
+    ``altered`` {name: changes}: runs on another bench, see ``next_run``; ``built`` holds the last bench.
+    """
+
+    bench: object
+    runs: dict
+    altered: dict = field(default_factory=dict)
+    built: dict = field(default_factory=dict, compare=False)
+
+    def __call__(self, hypothesis, values, run):
+        own, kept = self.runs[run.name], run.samples.shape[1]
+        own = own.until(kept) if kept < own.samples else own
+        bench = altered(self._completed(hypothesis, values), self.altered.get(run.name, {}))
+        predicted = shown(bench, own, run.channels)
+        refinement = values.get(parameter_name(STEP, SOLVER, REFINEMENT), 0.0)
+        return predicted + refinement * halved(bench, own, run.channels, predicted) if refinement else predicted
+
+    def _completed(self, hypothesis, values):
+        """The bench of a hypothesis, kept as long as run after run asks for the same values."""
+        key = (hypothesis.effects, tuple(values.items()))
+        if key not in self.built:
+            self.built.clear()
+            self.built[key] = completed(self.bench, hypothesis, values)
+        return self.built[key]
+
+
+def shown(bench, run, channels):
+    """Samples (c, n) of ``channels`` in one run; coordinates that an effect adds start at rest."""
+    if run.start is not None and len(run.start.displacement) < bench.model.size:
+        rest = np.zeros(bench.model.size - len(run.start.displacement))
+        run = replace(run, start=replace(run.start, displacement=np.append(run.start.displacement, rest),
+                                         velocity=np.append(run.start.velocity, rest)))
+    answer = respond(only(bench, channels), run)
+    return np.array([answer[c] for c in channels])
+
+
+def halved(bench, run, channels, predicted):
+    """(c, n) what half the step changes in what is ``predicted`` (c, n) of one run."""
+    return shown(replace(bench, step=bench.step / 2), run, channels) - predicted
+
+
+def reach(bench, recorded):
+    """Root mean square of recorded over nominal motion, over all displacement, velocity and acceleration channels.
+
+    A resonance that missing physics limits moves much less than its nominal model: priors follow the recording.
+    """
+    ratios = []
+    for one in recorded:
+        for channel, samples, valid, found in zip(one.channels, one.samples, one.valid,
+                                                  shown(bench, one.run, one.channels), strict=True):
+            quantity = next(c.quantity for c in bench.channels if c.name == channel)
+            if quantity in MOTIONS and valid.any() and found[valid].any():
+                ratios.append(np.sqrt(np.mean(samples[valid] ** 2) / np.mean(found[valid] ** 2)))
+    return float(np.exp(np.mean(np.log(ratios)))) if ratios and min(ratios) > 0 else 1.0
+
+
+def largest(recorded):
+    """{channel: largest recorded size of a sample} over [Recorded]."""
+    found = {}
+    for one in recorded:
+        for channel, samples, valid in zip(one.channels, one.samples, one.valid, strict=True):
+            found[channel] = max(found.get(channel, 0.0), float(np.abs(samples[valid]).max(initial=0.0)))
+    return found
+
+
+def candidates(bench, runs, catalogue, places=(), scale=1.0, priors=(), peaks=()):
+    """Hypotheses of every effect at each of its places (of ``places`` where given), with priors of nominal sizes.
+
+    ``scale``: recorded over nominal motion (see ``reach``); ``peaks``: what channels showed at most (see ``largest``);
+    ``priors`` {effect.parameter: section Prior} that are known otherwise.
+    """
+    found, sizes = [], {}
+    for effect in catalogue:
+        for place in effect.places(bench) if effect.told_by(runs) else ():
+            if places and place not in places:
+                continue
+            kind = effect.kind_at(place), place
+            if kind not in sizes:       # nominal runs are simulated once for all effects of a place
+                own = typical(kind[0], bench, place, runs).scaled(scale)
+                peak = kind[0] == CHANNEL and dict(peaks).get(place)
+                sizes[kind] = replace(own, shown=peak) if peak else own
+            parameters = tuple(_named(p, effect, place, dict(priors)) for p in effect.parameters(sizes[kind]))
+            found.append(Hypothesis(label(((effect.name, place),)), ((effect.name, place),), parameters, effect.kind))
+    return tuple(found)
+
+
+def _named(own, effect, place, priors):
+    """The parameter of an effect under its name at a place, with the prior that the case states for it, if any.
+
+    The size that recordings suggest gives way to the middle of a stated prior that excludes it.
+    """
+    key, name = f"{effect.name}.{own.name}", parameter_name(effect.name, place, own.name)
+    if key not in priors:
+        return replace(own, name=name)
+    prior = prior_of(own.unit, own.nominal, priors[key], f"diagnosis.priors.{key}")
+    low, high = prior.support
+    size = own.nominal if low <= own.nominal <= high else prior.quantile(0.5)
+    return Parameter(name, own.unit, size, prior, own.null)
+
+
+def solver_candidate():
+    """The hypothesis that the time step is too long."""
+    name = parameter_name(STEP, SOLVER, REFINEMENT)
+    return Hypothesis(label(((STEP, SOLVER),)), ((STEP, SOLVER),),
+                      (Parameter(name, "1", 0.0, Normal(0.0, 1.0), 0.0),), "numerics")

@@ -1,0 +1,143 @@
+"""The stage of a mismatch by substitution: what was measured between two stages, in place of what is modelled there.
+
+Where the recordings hold a measured friction curve, it takes the place of the friction of all contacts; where they
+hold identified modes of the bodies without contact, their frequencies and damping ratios take the place of those of the
+model.
+The recalibrated nominal model is simulated again with either; the mismatch lies in a stage that takes it away, block by
+block of the fitted runs.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+import numpy as np
+from scipy.interpolate import NearestNDInterpolator
+from scipy.linalg import eigh
+from scipy.optimize import linear_sum_assignment
+
+from pipeline.contract import BrakechainError
+from pipeline.diagnosis.signals.forward_model import Simulated, shown
+from pipeline.diagnosis.signals.localisation import fitted
+from pipeline.inference.search import localisation
+from pipeline.physics.friction.friction_table import FrictionLaw
+from pipeline.physics.signals.pole_identification import likeness
+
+#: name of the axis, and stages that can be measured
+AXIS, FRICTION, STRUCTURE = "substitution", "friction", "structure"
+#: blocks of a run whose errors are compared
+_BLOCKS = 8
+#: how far a measured frequency may lie from that of a mode, as a share, before it costs as much as another shape
+_NEAR = 0.05
+
+
+@dataclass(frozen=True)
+class Substituted:
+    """The ``axes`` of a Question, and one over the stages in ``swaps`` {stage: Bench -> Bench} of ``runs``
+    {name: Run}."""
+
+    axes: Callable
+    bench: object
+    runs: dict
+    problem: object
+    budget: dict
+    swaps: dict
+    draws: int = 2000
+    seed: int = 0
+
+    def __call__(self, found):
+        bench = fitted(self.bench, (found.base or found).null)
+        before, decrease = self._squares(bench), {}
+        for stage, swap in self.swaps.items():
+            try:
+                decrease[stage] = before - self._squares(swap(bench))
+            except BrakechainError:     # what cannot be simulated takes nothing away
+                continue
+        if not decrease:
+            return self.axes(found)
+        return self.axes(found) | {AXIS: (localisation.stages(tuple(decrease), decrease, self.draws, self.seed), "", None)}
+
+    def _squares(self, bench):
+        """Squared whitened error (blocks,) of the fitted runs."""
+        found = []
+        for run in self.problem.training:
+            left = run.samples - shown(bench, self.runs[run.name], run.channels)
+            found += [part @ part for part in np.array_split(self.budget[run.name].whiten(left), _BLOCKS)]
+        return np.array(found)
+
+
+def substituted(asked, recording, settings):
+    """The Question ``asked`` of simulated runs, with the axis where its product Recording holds what it takes."""
+    forward = asked.problem.predict
+    if not isinstance(forward, Simulated) or not (found := swaps(recording, forward.bench, settings.held_out)):
+        return asked
+    return replace(asked, axes=Substituted(asked.axes, forward.bench, forward.runs, asked.problem, asked.budget, found,
+                                           seed=settings.seed))
+
+
+def swaps(recording, bench, held_out=()):
+    """{stage: Bench -> Bench} of what a product Recording holds, runs ``held_out`` left aside."""
+    runs = [run for name, run in recording.runs.items() if name not in held_out]
+    curves, modes = ([one for run in runs for one in getattr(run, kind).values()] for kind in ("friction", "modes"))
+    found = {FRICTION: MeasuredCurve(measured_law(curves))} if curves and len(bench.model.contacts.area) else {}
+    return found | ({STRUCTURE: MeasuredShapes(tuple(modes))} if modes else {})
+
+
+@dataclass(frozen=True)
+class MeasuredCurve:
+    """Puts a measured FrictionLaw in place of the friction of all contacts, memory and conditions included."""
+
+    law: FrictionLaw
+
+    def __call__(self, bench):
+        return bench.with_friction("contact", lambda own: replace(own, law=self.law, backward=1.0, states=(),
+                                                                  conditions=()))
+
+
+def measured_law(curves):
+    """FrictionLaw over pressure and speed of products MeasuredFriction, means over all else; where a pressure lacks a
+    speed, its nearest neighbour counts."""
+    pressure, speed, friction = (np.concatenate([getattr(one, key) for one in curves])
+                                 for key in ("pressure", "speed", "friction"))
+    (p, i), (v, j) = (np.unique(values, return_inverse=True) for values in (pressure, speed))
+    count, total = np.zeros((2, len(p), len(v)))
+    np.add.at(count, (i, j), 1.0)
+    np.add.at(total, (i, j), friction)
+    known = count > 0
+    table = np.divide(total, count, out=np.zeros(total.shape), where=known)
+    if not known.all():
+        index = np.indices(table.shape)
+        near = NearestNDInterpolator(index[:, known].T, table[known])
+        table = np.where(known, table, near(*index))
+    return FrictionLaw(p, v, [0.0], table[:, :, None])
+
+
+@dataclass(frozen=True)
+class MeasuredShapes:
+    """Puts frequencies and damping ratios of products MeasuredModes in place of those of the modes of the bodies that
+    they are nearest to, by frequency and, at the sensors that they share, by shape."""
+
+    measured: tuple
+
+    def __call__(self, bench):
+        mass, damping, stiffness = bench.model.supported()
+        squared, shape = eigh((stiffness + stiffness.T) / 2, mass)
+        own, stiff, lossy = mass @ shape, np.zeros(mass.shape), np.zeros(mass.shape)
+        for one in self.measured:
+            for k, mode in self._pairs(bench, one, np.sqrt(np.maximum(squared, 0.0)), shape):
+                outer, rate = np.outer(own[:, mode], own[:, mode]), 2 * np.pi * one.frequency[k]
+                stiff += (rate**2 - squared[mode]) * outer
+                if one.damping_ratio[k] > 0:
+                    modal = shape[:, mode] @ damping @ shape[:, mode]
+                    lossy += (2 * one.damping_ratio[k] * rate - modal) * outer
+        model = bench.model
+        return replace(bench, model=replace(model, stiffness=model.stiffness + stiff, damping=model.damping + lossy))
+
+    @staticmethod
+    def _pairs(bench, one, rate, shape):
+        """[(measured mode, mode of the model)]."""
+        cost = abs(np.log(np.maximum(rate, 1e-300) / (2 * np.pi * one.frequency[:, None]))) / _NEAR
+        known = [k for k, name in enumerate(one.place) if name in bench.model.sensor_name]
+        if len(known) > 1:
+            rows = np.array([bench.sensor(str(one.place[k])) for k in known])
+            cost = cost + 1 - likeness(np.asarray(one.shape)[:, known], (rows @ shape).T)
+        return list(zip(*linear_sum_assignment(cost), strict=True))
