@@ -114,7 +114,7 @@ def show(folder, markdown):
     from pipeline.concealed.sets import TrialSet
     from pipeline.concealed.summary import as_markdown
     from pipeline.contract.store import write_companion
-    from pipeline.views.trial import page
+    from pipeline.views.pages.trial import page
 
     found = TrialSet(folder).read("result.json")
     if markdown:

@@ -19,8 +19,8 @@ def report(products: Products, settings: Settings, context: Context) -> Report:
     Pictures are drawn from the data products alone ({dots_per_inch} dots per inch, up to {mode_pictures} mode shapes
     of a kind); every number on this page is read from a product or from the settings.
     """
-    from pipeline.views.chapter import Look
-    from pipeline.views.page import page, plan
+    from pipeline.views.chapters.chapter import Look
+    from pipeline.views.pages.report import page, plan
 
     look = Look(settings.dots_per_inch, settings.mode_pictures)
     chapters = []

@@ -50,7 +50,7 @@ MAY_IMPORT = {
     "pipeline.console": {"pipeline.contract"},
     "pipeline.cli_options": set(),
     "pipeline.cli_trial": {"pipeline.cli_options", "pipeline.concealed", "pipeline.contract",
-                           "pipeline.trial.systems.SYSTEMS", "pipeline.views.trial"},
+                           "pipeline.trial.systems.SYSTEMS", "pipeline.views.pages.trial"},
     "pipeline.cli": {"pipeline.cli_options", "pipeline.cli_trial", "pipeline.contract", "pipeline.console",
                      "pipeline.inspection", "pipeline.measured", "pipeline.physics.numerics.sparse_solver",
                      "pipeline.recordings.neutral", "pipeline.schema", "stages", "pipeline.case_models",

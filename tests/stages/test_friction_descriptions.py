@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from pipeline.products import InterfaceLaw
-from pipeline.views.chapter import Look
+from pipeline.views.chapters.chapter import Look
 from pipeline.views.chapters.friction_descriptions import chapter
 from stages.friction_descriptions import Settings, friction_descriptions
 from tests.views.products_for_views import filled

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from pipeline.products import BeamGeometry, BeamOnBeam, Comparison, ComplexModes, MotionScatter
-from pipeline.views.chapter import Look
-from pipeline.views.chapters import beam_on_beam as chapters
+from pipeline.views.chapters.chapter import Look
+from pipeline.views.chapters.models import beam_on_beam as chapters
 from tests.views.products_for_views import filled
 
 LOOK = Look(dpi=50)

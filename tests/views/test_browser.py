@@ -9,7 +9,7 @@ from urllib.parse import urlsplit
 import pytest
 
 from pipeline.contract import Context
-from pipeline.views.trial import page
+from pipeline.views.pages.trial import page
 from stages.report import Settings, report
 from tests.views import products_for_views as small
 from tests.views.trial_for_views import drawn

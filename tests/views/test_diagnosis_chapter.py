@@ -3,12 +3,12 @@
 import numpy as np
 import pytest
 
-from pipeline.views import diagnosis as pictures
-from pipeline.views.chapter import Look
-from pipeline.views.chapters import bench as bench_chapter
-from pipeline.views.chapters.diagnosis import chapter, headline, note
-from pipeline.views.page import page, plan
-from pipeline.views.verdict import verdict
+from pipeline.views.chapters.bench import bench as bench_chapter
+from pipeline.views.chapters.bench.diagnosis import chapter, headline, note
+from pipeline.views.chapters.chapter import Look
+from pipeline.views.figures.bench import diagnosis as pictures
+from pipeline.views.pages.report import page, plan
+from pipeline.views.pages.summary import verdict
 from tests.views import products_for_views as products
 from tests.views.diagnosis_for_views import bench, changed, diagnosis
 

@@ -6,9 +6,9 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from pipeline.views import lumped as pictures
-from pipeline.views.chapter import Look
-from pipeline.views.chapters.lumped import chapter
+from pipeline.views.chapters.chapter import Look
+from pipeline.views.chapters.models.lumped import chapter
+from pipeline.views.figures.models import lumped as pictures
 from tests.views import products_for_views as small
 
 

@@ -5,19 +5,17 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from pipeline.views import (
+from pipeline.views.figures import (
     agreement,
-    complex_mode_map,
+    complex_modes,
     contact_spots,
     friction,
-    lock_in,
     pad_motion,
     preload,
-    rupture,
-    sound,
     surfaces,
-    transient,
+    vibration,
 )
+from pipeline.views.figures.models import lock_in, rupture, transient
 from tests.views import products_for_views as small
 
 LINES = (16600.0, 17800.0)
@@ -42,18 +40,18 @@ PICTURES = {
     "preload": (lambda p: preload.contact_pressure(p, preload.loads(p), 60), small.structure, "preload"),
     "sliding load": (lambda p: preload.contact_pressure(small.structure(), preload.loads(small.structure(), p), 60),
                      small.complex_modes, "operating_force"),
-    "roots": (lambda p: complex_mode_map.growth_over_frequency(p, LINES, 60), small.complex_modes, "root"),
-    "growth sweep": (complex_mode_map.growth_over_friction, small.complex_modes, "root"),
-    "lock in": (complex_mode_map.lock_in, small.complex_modes, "root"),
-    "operating roots": (lambda p: complex_mode_map.operating_growth(p, 60), small.complex_modes, "operating_root"),
+    "roots": (lambda p: complex_modes.growth_over_frequency(p, LINES, 60), small.complex_modes, "root"),
+    "growth sweep": (complex_modes.growth_over_friction, small.complex_modes, "root"),
+    "lock in": (complex_modes.lock_in, small.complex_modes, "root"),
+    "operating roots": (lambda p: complex_modes.operating_growth(p, 60), small.complex_modes, "operating_root"),
     "motion": (lambda p: pad_motion.pad_motion(p, 8, 60), small.multibody, "pad_motion"),
     "forces": (lambda p: pad_motion.patch_forces(p, 8, 0, 60), small.multibody, "patch_force"),
     "growth": (lambda p: pad_motion.growth(p, 60), small.multibody, "growth_rate"),
     "stability": (lambda p: pad_motion.stability_map(p, 8, 60), small.multibody, "stability"),
-    "spectra": (lambda p: sound.spectra(p, [0, 8], 0, LINES, 60), small.response, "velocity_spectrum"),
-    "occurrence": (lambda p: sound.occurrence(p, 60), small.squeal, "peak_level"),
-    "levels": (lambda p: sound.level_frequency(p, LINES), small.squeal, "event_level"),
-    "bands": (lambda p: sound.band_levels(p, [0, 8], 0), small.squeal, "band_level"),
+    "spectra": (lambda p: vibration.spectra(p, [0, 8], 0, LINES, 60), small.response, "velocity_spectrum"),
+    "occurrence": (lambda p: vibration.occurrence(p, 60), small.squeal, "peak_level"),
+    "levels": (lambda p: vibration.level_frequency(p, LINES), small.squeal, "event_level"),
+    "bands": (lambda p: vibration.band_levels(p, [0, 8], 0), small.squeal, "band_level"),
     "velocities": (lambda p: transient.velocities(p, 1, 60), small.transient, "velocity"),
     "portrait": (lambda p: transient.phase_portrait(p, 1, 0, 60), small.transient, "displacement"),
     "force and slip": (lambda p: transient.force_and_slip(p, 1, 0, 60), small.transient, "normal_force"),
@@ -88,8 +86,8 @@ def test_a_line_drawing_says_neither_when_nor_by_whom_it_was_drawn():
 
 def test_harmonics_look_different_from_own_tones():
     own, above = small.squeal(), small.squeal(harmonic=True)
-    assert sound.level_frequency(own, LINES) != sound.level_frequency(above, LINES)
-    assert sound.occurrence(own, 60) != sound.occurrence(above, 60)
+    assert vibration.level_frequency(own, LINES) != vibration.level_frequency(above, LINES)
+    assert vibration.occurrence(own, 60) != vibration.occurrence(above, 60)
 
 
 def test_fields_of_nothing_are_drawn():
@@ -97,8 +95,8 @@ def test_fields_of_nothing_are_drawn():
     empty = replace(worn, contact_pressure_new=0 * worn.contact_pressure_new, pad_wear=0 * worn.pad_wear)
     assert contact_spots.contact_spots(empty, "new", 40)
     assert contact_spots.wear_map(empty, "pad", 40)
-    assert sound.level_frequency(small.squeal(quiet=True), ())
-    assert complex_mode_map.growth_over_friction(small.complex_modes(stable=True))
+    assert vibration.level_frequency(small.squeal(quiet=True), ())
+    assert complex_modes.growth_over_friction(small.complex_modes(stable=True))
 
 
 @pytest.mark.exact
@@ -121,7 +119,7 @@ def test_an_open_patch_is_crossed():
 
 @pytest.mark.exact
 def test_operating_points_find_their_tile():
-    from pipeline.views.style import operating_grid
+    from pipeline.views.figures.style import operating_grid
 
     pressures, speeds, grid = operating_grid([1.0, 3.0, 1.0], [8.0, 8.0, 12.0], [10.0, 20.0, 30.0])
     assert pressures.tolist() == [1.0, 3.0]
@@ -131,7 +129,7 @@ def test_operating_points_find_their_tile():
 
 @pytest.mark.exact
 def test_an_envelope_keeps_every_peak():
-    from pipeline.views.style import envelope
+    from pipeline.views.figures.style import envelope
 
     time = np.linspace(0, 1, 100_000)
     signal = np.sin(2 * np.pi * 400 * time)

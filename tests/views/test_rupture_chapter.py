@@ -5,9 +5,9 @@ from dataclasses import replace
 import numpy as np
 
 from pipeline.contract.context import Case
-from pipeline.views.chapter import Look
-from pipeline.views.chapters.rupture import CLAIM, INFERRED, TABLE_2, chapter, headline
-from pipeline.views.page import page, plan
+from pipeline.views.chapters.chapter import Look
+from pipeline.views.chapters.models.rupture import CLAIM, INFERRED, TABLE_2, chapter, headline
+from pipeline.views.pages.report import page, plan
 from tests.views import products_for_views as small
 
 LOOK = Look(dpi=50, shapes=0)

@@ -4,8 +4,8 @@ from dataclasses import replace
 
 import pytest
 
-from pipeline.views.chapter import Look
 from pipeline.views.chapters import surface
+from pipeline.views.chapters.chapter import Look
 from tests.views import products_for_views as small
 
 

@@ -4,9 +4,9 @@ from dataclasses import replace
 
 import numpy as np
 
-from pipeline.views.chapter import Look
-from pipeline.views.chapters.transient import chapter
-from pipeline.views.transient import PERIODS, close_look
+from pipeline.views.chapters.chapter import Look
+from pipeline.views.chapters.models.transient import chapter
+from pipeline.views.figures.models.transient import PERIODS, close_look
 from tests.views import products_for_views as small
 
 LOOK = Look(dpi=50)

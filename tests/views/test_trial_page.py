@@ -4,8 +4,8 @@ import re
 
 import pytest
 
-from pipeline.views.chapters import trial as chapters
-from pipeline.views.trial import page
+from pipeline.views.chapters.bench import trial as chapters
+from pipeline.views.pages.trial import page
 from tests.views.trial_for_views import ABOUT, drawn
 
 

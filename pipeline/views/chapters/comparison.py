@@ -1,8 +1,8 @@
 """Chapter: the paper's numbers beside ours."""
 
-from pipeline.views.agreement import agreement, comparable, judged
-from pipeline.views.chapter import Chapter, Figure, Table
-from pipeline.views.readable import THIN, number, plural
+from pipeline.views.chapters.chapter import Chapter, Figure, Table
+from pipeline.views.figures.agreement import agreement, comparable, judged
+from pipeline.views.figures.number_format import THIN, number, plural
 
 HEAD = ("quantity", "paper", "ours", "tolerance", "verdict", "tuned", "doubt", "source", "how ours was formed")
 WIDE = (0, 6, 8)

@@ -1,8 +1,8 @@
 """Chapters: friction and wear of the rough pair, and the friction map."""
 
-from pipeline.views import contact_spots, friction
-from pipeline.views.chapter import Chapter, Figure
-from pipeline.views.readable import number, percent, quantity, span
+from pipeline.views.chapters.chapter import Chapter, Figure
+from pipeline.views.figures import contact_spots, friction
+from pipeline.views.figures.number_format import number, percent, quantity, span
 
 
 def micro(product, look):

@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from pipeline.views.chapter import Chapter, Table
-from pipeline.views.readable import number, percent, quantity
+from pipeline.views.chapters.chapter import Chapter, Table
+from pipeline.views.figures.number_format import number, percent, quantity
 
 WITHOUT, WITH = 0, 1
 

@@ -2,10 +2,10 @@
 
 import numpy as np
 
-from pipeline.views import preload, shapes
-from pipeline.views.chapter import Chapter, Figure, Table
-from pipeline.views.readable import number, percent, quantity, span
-from pipeline.views.scene import render
+from pipeline.views.chapters.chapter import Chapter, Figure, Table
+from pipeline.views.figures import mode_shapes, preload
+from pipeline.views.figures.number_format import number, percent, quantity, span
+from pipeline.views.figures.scene import render
 
 COLOURS = "In the pictures of modes orange and purple move in opposite directions along the axis; white is at rest."
 NO_PICTURES = "Pictures of meshes and mode shapes need OpenGL (on Linux: libEGL), which this machine does not offer."
@@ -14,8 +14,8 @@ NO_PICTURES = "Pictures of meshes and mode shapes need OpenGL (on Linux: libEGL)
 def chapter(structure, modes, look):
     """Chapter of the product Structure; ``modes`` are ComplexModes, for the load in steady sliding, or None."""
     loads = preload.loads(structure, modes)
-    chosen = shapes.distinct(structure.disc.frequency, look.shapes)
-    pictures = render([shapes.assembly(structure), *(shapes.disc_mode(structure.disc, mode) for mode in chosen)])
+    chosen = mode_shapes.distinct(structure.disc.frequency, look.shapes)
+    pictures = render([mode_shapes.assembly(structure), *(mode_shapes.disc_mode(structure.disc, mode) for mode in chosen)])
     figures = (_pads(structure, modes, loads, look),)
     if pictures:
         figures = (_assembly(structure, pictures[0]), *figures, *(
@@ -40,7 +40,7 @@ def _assembly(structure, picture):
 
 def _mode(disc, mode, picture):
     return Figure(picture, f"Disc on its mount, {quantity(disc.frequency[mode], 'Hz')}, mostly"
-                  f" {shapes.diameters(disc, mode)} nodal diameters.", small=True)
+                  f" {mode_shapes.diameters(disc, mode)} nodal diameters.", small=True)
 
 
 def _pads(structure, modes, loads, look):

@@ -1,8 +1,8 @@
 """Chapter: the two rough surfaces."""
 
-from pipeline.views import surfaces
-from pipeline.views.chapter import Chapter, Figure, Table
-from pipeline.views.readable import number, percent, quantity, span
+from pipeline.views.chapters.chapter import Chapter, Figure, Table
+from pipeline.views.figures import surfaces
+from pipeline.views.figures.number_format import number, percent, quantity, span
 
 
 def chapter(surface, look):

@@ -18,7 +18,7 @@ from pipeline.diagnosis.signals.forward_model import shown
 from pipeline.inference.fitting.noise import normalised_error
 from tests.diagnosis.output.test_product import told
 from tests.diagnosis.small_rig import BENCH, HIDDEN, laid_out, model, recording
-from tests.views.test_squeal_check import CHECK
+from tests.views.chapters.test_squeal_check import CHECK
 
 CASE = CaseText("rig", {"chain": "lumped_bench", "title": "Rig", "bench": BENCH})
 

@@ -1,0 +1,1 @@
+"""Chapters on recordings, diagnoses and trials."""

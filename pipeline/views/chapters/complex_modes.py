@@ -1,0 +1,100 @@
+"""Chapter: complex modes in steady sliding."""
+
+import numpy as np
+
+from pipeline.views.chapters.chapter import Chapter, Figure, Table
+from pipeline.views.chapters.structure import COLOURS, NO_PICTURES
+from pipeline.views.figures import complex_modes as pictures
+from pipeline.views.figures import mode_shapes
+from pipeline.views.figures.number_format import number, quantity, span
+from pipeline.views.figures.scene import render
+
+TWO_PI = 2.0 * np.pi
+NEUTRAL = 1e-6     # growth rates below this share of the angular frequency are rounding
+
+
+def chapter(modes, model, published, look):
+    """Chapter of the product ComplexModes; ``model`` gives the surface for the shapes, or is None."""
+    drawable = model is not None and len(model.visible_face)
+    chosen = distinct_unstable(modes, look.shapes) if drawable else []
+    drawn = render([mode_shapes.unstable_mode(model, modes, index) for index in chosen])
+    figures = _maps(modes, published, look)
+    figures += tuple(Figure(picture, _shape_caption(modes, index), small=True)
+                     for index, picture in zip(chosen, drawn or (), strict=False))
+    return Chapter(
+        "complex_modes", "Stability of steady sliding",
+        "Complex modes with sliding friction: a mode with positive growth rate grows by itself until"
+        f" something limits it. Friction is swept over {span(modes.friction, '1')} at"
+        f" {span(modes.pressure, 'Pa')}; {modes.corrections.item()} static friction corrections complete the modal"
+        f" base.{f' {COLOURS}' if drawable else ''}",
+        _conclusion(modes), figures, _table(modes),
+        (NO_PICTURES,) if drawn is None else ())
+
+
+def onset(modes):
+    """Lowest friction of the sweep with an unstable root, per pressure; None where all are stable."""
+    unstable = (modes.root.real > NEUTRAL * np.abs(modes.root)).any(axis=2)
+    return [modes.friction[np.argmax(row)] if row.any() else None for row in unstable]
+
+
+def distinct_unstable(modes, count):
+    """Indices of unstable modes, strongest first, each frequency once (within 0.5 %)."""
+    chosen = []
+    for index, root in enumerate(modes.unstable_root):
+        if len(chosen) < count and all(abs(root.imag / modes.unstable_root[k].imag - 1) > 5e-3 for k in chosen):
+            chosen.append(index)
+    return chosen
+
+
+def _conclusion(modes):
+    unstable = distinct_unstable(modes, len(modes.unstable_root))
+    if not unstable:
+        return "At every operating point all modes are damped: no squeal from mode coupling with the friction computed."
+    strongest = modes.unstable_root[0]
+    starts = [f"{number(mu, 3)} at {quantity(p, 'Pa', 3)}" for mu, p in zip(onset(modes), modes.pressure, strict=True)
+              if mu is not None]
+    amount = "One frequency is" if len(unstable) == 1 else f"{len(unstable)} different frequencies are"
+    return (f"{amount} unstable at the operating points; the strongest,"
+            f" {quantity(strongest.imag / TWO_PI, 'Hz')}, grows with {quantity(strongest.real, '1/s', 3)}. In the sweep"
+            f" the first instability appears at friction {', '.join(starts) or 'beyond the sweep'}. A growth rate says"
+            " that squeal can start, not how loud it becomes.")
+
+
+def _maps(modes, published, look):
+    note = " Dotted: squeal frequencies measured in the paper." if len(published) else ""
+    pressure = quantity(modes.pressure[-1], "Pa", 3)
+    return (
+        Figure(pictures.growth_over_frequency(modes, published, look.dpi),
+               f"All modes of the friction sweep at {pressure}; colour: friction. Above zero: unstable;"
+               f" strongly damped modes lie below the frame.{note}"),
+        Figure(pictures.operating_growth(modes, look.dpi),
+               "Largest growth rate at each operating point, with its friction"
+               f" ({span(modes.operating_friction, '1')})."),
+        Figure(pictures.growth_over_friction(modes),
+               f"Growth rate over friction of the least stable modes at {pressure}: where a line crosses zero, that"
+               " mode begins to squeal."),
+        Figure(pictures.lock_in(modes),
+               "Frequencies around the strongest of them; large red dots: unstable. Two lines that run into each other"
+               " and stay together are two modes that friction couples."))
+
+
+def _shape_caption(modes, index):
+    root, point = modes.unstable_root[index], modes.unstable_operating[index]
+    return (f"Unstable mode at {quantity(root.imag / TWO_PI, 'Hz')}, growth {quantity(root.real, '1/s', 3)}, at"
+            f" {quantity(modes.operating_pressure[point], 'Pa', 3)},"
+            f" {quantity(modes.operating_speed[point], 'rad/s')}.")
+
+
+def _table(modes, most=12):
+    chosen = distinct_unstable(modes, most)
+    if not chosen:
+        return ()
+    rows = []
+    for index in chosen:
+        root, point = modes.unstable_root[index], modes.unstable_operating[index]
+        rows.append((quantity(root.imag / TWO_PI, "Hz", 5), quantity(root.real, "1/s", 3),
+                     number(-root.real / abs(root) * 100, 2), quantity(modes.operating_pressure[point], "Pa", 3),
+                     quantity(modes.operating_speed[point], "rad/s"), number(modes.operating_friction[point], 3),
+                     str(modes.operating_open[point])))
+    head = "frequency", "growth rate", "damping ratio / %", "pressure", "speed", "friction", "open contacts"
+    return (Table(head, tuple(rows), "Unstable modes, strongest first, each frequency once", tuple(range(7))),)

@@ -1,0 +1,1 @@
+"""Chapters on the systems other than the disc brake."""

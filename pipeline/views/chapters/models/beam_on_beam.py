@@ -1,0 +1,162 @@
+"""Chapters: coalescing modes of the two beams, and the scatter of their motion."""
+
+import numpy as np
+
+from pipeline.views.chapters.chapter import Chapter, Figure, Table
+from pipeline.views.figures.models import beam_on_beam as pictures
+from pipeline.views.figures.number_format import number, percent, plural, quantity, span
+
+
+def beams(product, modes, comparison, look):
+    """Chapter of the product BeamOnBeam; ``modes`` are its ComplexModes, ``comparison`` its Comparison, or None."""
+    printed = _printed(comparison, "coalescence, critical friction"), _printed(comparison, "coalescence, frequency")
+    figures = [Figure(pictures.frequencies_over_friction(product, modes, printed, look.dpi),
+                      "Modes of sliding over friction (the picture of Figure 3, computed here); grey: complex"
+                      f" modes with damping{_stars(printed[0])}.")]
+    if modes is not None:
+        alone = _printed(comparison, "without friction")
+        figures.append(Figure(pictures.complex_plane(modes, alone, look.dpi),
+                              "Roots between 2 and 3.5 kHz over friction, with damping (the picture of Figure"
+                              f" 4){_stars(alone)}."))
+    onsets = tuple((quantity(f, "Hz"), number(mu, 3)) for f, mu in
+                   zip(product.onset_frequency, product.onset_friction, strict=True))
+    other = "Timoshenko beams" if str(product.element) == "plane" else "plane elements"
+    return Chapter(
+        "beam_on_beam", "Two beams that touch",
+        f"Both beams as {product.element} elements, {plural(len(product.mode_frequency), 'mode')} in all. Each"
+        " frequency is a mode of sliding at one friction coefficient; where that curve has a maximum two modes meet.",
+        f"Modes coalesce at {', '.join(f'{f} (friction {mu})' for f, mu in onsets) or 'no friction'}. By {other}:"
+        f" {_others(product)}.", tuple(figures),
+        (Table(("frequency", "friction"), onsets, "Coalescences, without damping", (0, 1)),
+         Table(("mode", "frequency"), tuple((str(k), quantity(f, "Hz")) for k, f in
+                                            enumerate(product.closed_frequency, 1)),
+               "Modes without friction that move the contact along its normal", (0, 1), folded=True),
+         *_findings(product)))
+
+
+def _printed(comparison, ending):
+    """Values of the paper, in the unit of their rows, of all rows whose name ends so."""
+    if comparison is None:
+        return []
+    return [comparison.published[k] for k, name in enumerate(map(str, comparison.row))
+            if name.endswith(ending) and comparison.published_known[k]]
+
+
+def _stars(values):
+    return "; stars: numbers in the text of the paper" if len(values) else ""
+
+
+def _findings(product):
+    if len(product.finding):
+        rows = tuple(zip(map(str, product.finding), map(str, product.finding_text), strict=True))
+        yield Table(("question", "found"), rows, "What the search for one geometry found", wide=(1,))
+
+
+def _others(product):
+    found = zip(product.check_onset_frequency, product.check_onset_friction, strict=True)
+    return ", ".join(f"{quantity(f, 'Hz')} ({number(mu, 3)})" for f, mu in found) or "none"
+
+
+def scatter(product, comparison, look):
+    """Chapter of the product MotionScatter; ``comparison`` is its Comparison, or None."""
+    printed = (np.divide(_printed(comparison, "fundamental of the velocity of B"), 1e3),
+               _printed(comparison, "force that the text names"), _printed(comparison, "slip that the text names"))
+    runs = len(product.seed)
+    vibrates = product.vibrating_share
+    return Chapter(
+        "motion_scatter", "What a chaotic motion keeps",
+        f"The same motion, {plural(runs, 'time')}: formulations, steps and seeds differ. Waveforms cannot be compared;"
+        f" lines, peaks and shares can, as ranges. Energy balances within {percent(product.imbalance.max(), 2)}.",
+        f"Strongest line {span(product.fundamental, 'Hz')}, largest force {span(product.peak_force, 'N')}, largest slip"
+        f" {span(product.peak_slip, 'm/s')}; it vibrates {percent(vibrates.min(), 2)} to {percent(vibrates.max(), 2)}"
+        f" of the time, in bursts of {span(product.burst_length, 's')} between pauses of"
+        f" {span(product.pause_length, 's')}. Between 250 and 650 Hz the highest line lies"
+        f" {number(-np.median(product.low_level), 2)} dB below the strongest (median).",
+        (Figure(pictures.scatter(product, printed, look.dpi), "Strongest line, largest force and largest slip of each"
+                f" run{'; dotted: numbers in the text of the paper' if len(printed[1]) else ''}."),
+         Figure(pictures.status_shares(product, look.dpi),
+                "Shares of open, sticking and sliding contact in each run; dotted: one tenth.")),
+        (_runs(product),))
+
+
+def _runs(product):
+    rows = []
+    for k in range(len(product.seed)):
+        level, height = product.harmonic_level[k], product.harmonic_height[k]
+        rows.append((product.formulation[k], quantity(product.step[k], "s", 2), str(product.seed[k]),
+                     quantity(product.fundamental[k], "Hz"), f"{number(level[1], 2)} ({number(height[1], 2)})",
+                     f"{number(level[2], 2)} ({number(height[2], 2)})", quantity(product.peak_force[k], "N", 3),
+                     quantity(product.peak_slip[k], "m/s", 3),
+                     " / ".join(percent(s, 2) for s in product.status_share[k]),
+                     percent(product.vibrating_share[k], 2)))
+    head = ("formulation", "step", "seed", "line", "2f / dB (above floor)", "3f / dB (above floor)", "force", "slip",
+            "open / stick / slip", "vibrates")
+    return Table(head, tuple(rows), "All runs", tuple(range(1, 10)), folded=len(rows) > 8)
+
+
+def geometry(product, look):
+    """Chapter of the product BeamGeometry."""
+    onsets = ", ".join(f"{quantity(f, 'Hz')} ({number(mu, 3)})" for f, mu in
+                       zip(product.onset_frequency, product.onset_friction, strict=True))
+    inside = (product.motion >= product.lower) & (product.motion <= product.upper)
+    silent = product.damping_low_level < -6.0
+    return Chapter(
+        "beam_geometry", "One geometry for everything that is printed",
+        f"{int(product.evaluations)} geometries were evaluated. The cost is"
+        " the sum of squared distances from the bands of the published numbers: 0 means that all are met."
+        f" Rigid supports reach {number(product.rigid_cost.min(), 3)} on the linear facts, supports that yield"
+        f" {number(product.yielding_cost, 3)}, the best geometry {number(product.linear_cost, 3)}, with its motion"
+        f" {number(product.cost, 3)}.",
+        f"The best geometry coalesces at {onsets}; in {percent(inside.mean(), 3)} of the judged values its motions lie"
+        f" inside the bands. {_why_unheard(product, silent)}",
+        (Figure(pictures.spread(product, look.dpi),
+                "What the linear facts leave open: 5 to 95 % of the geometries that they allow; a wide bar is a"
+                " parameter that they do not determine."),),
+        (_judged(product), _damping(product), _rigid(product)))
+
+
+def _why_unheard(product, silent):
+    """What the sweep of damping says about the unstable mode near 400 Hz."""
+    grows = product.low_growth > 0
+    if np.any(silent & grows):
+        k = int(np.flatnonzero(silent & grows)[0])
+        return (f"The mode near 400 Hz is unstable and yet unheard from a damping per mass of"
+                f" {quantity(product.damping[k], '1/s', 3)} on: it grows with"
+                f" {quantity(product.low_growth[k], '1/s', 3)} against"
+                f" {quantity(product.middle_growth[k], '1/s', 3)} of the faster one, whose cycle of sticking and"
+                " lifting takes its place.")
+    if np.any(silent):
+        return "The mode near 400 Hz is unheard only where damping makes it stable."
+    return "The mode near 400 Hz is heard at every damping that was tried."
+
+
+def _judged(product):
+    rows = []
+    for k, name in enumerate(product.quantity_name):
+        values = product.motion[:, k]
+        ends = [number(v, 3) if abs(v) < 1e8 else "none" for v in (product.lower[k], product.upper[k])]
+        met = np.mean((values >= product.lower[k]) & (values <= product.upper[k]))
+        rows.append((str(name).replace("_", " "), " to ".join(ends), span(values, "1"), percent(met, 3)))
+    return Table(("quantity (SI, dB)", "band", "ours", "runs inside"), tuple(rows),
+                 "What one geometry can do: its motions against their bands", (1, 2, 3))
+
+
+def _damping(product):
+    rows = [(quantity(d, "1/s", 3), quantity(low, "1/s", 3), quantity(middle, "1/s", 3), number(level, 3),
+             quantity(line, "Hz"), percent(share, 2))
+            for d, low, middle, level, line, share in
+            zip(product.damping, product.low_growth, product.middle_growth, product.damping_low_level,
+                product.damping_fundamental, product.damping_vibrating, strict=True)]
+    head = ("damping per mass", "growth near 400 Hz", "growth near 2.8 kHz", "highest low line / dB", "strongest line",
+            "vibrates")
+    return Table(head, tuple(rows), "Why the mode near 400 Hz is not heard: growth and motion over damping",
+                 tuple(range(6)))
+
+
+def _rigid(product):
+    rows = [(f"{number(np.degrees(tilt), 3)}°", number(cost, 3),
+             ", ".join(f"{name} {number(value, 4)}" for name, value in
+                       zip(product.rigid_parameter, vector, strict=True)))
+            for tilt, cost, vector in zip(product.rigid_tilt, product.rigid_cost, product.rigid_best, strict=True)]
+    return Table(("tilt", "linear cost", "geometry"), tuple(rows), "Rigid supports, linear facts alone", (0, 1),
+                 wide=(2,))

@@ -1,0 +1,47 @@
+"""Pictures of a recording: the channels of a run over time, gaps shaded."""
+
+import numpy as np
+
+from pipeline.views.figures.number_format import scale
+from pipeline.views.figures.style import COLOURS, FAINT, MARKERS, drawing, envelope, legend, png, svg
+
+#: channels that one picture shows
+MOST = 4
+
+
+def channels(run, dpi):
+    """PNG of the first channels of a run over time, one below the other; grey where samples are missing."""
+    shown = list(run.channels.items())[:MOST]
+    with drawing(0.9 + 1.1 * len(shown), left=0.9, top=0.25) as figure:
+        grid = figure.subplots(len(shown), sharex=True, squeeze=False)[:, 0]
+        for axes, (name, channel), colour in zip(grid, shown, COLOURS, strict=False):
+            _channel(axes, name, channel, colour)
+        grid[-1].set_xlabel("time / s")
+        return png(figure, dpi)
+
+
+def friction(product):
+    """SVG: measured coefficients of friction over the sliding distance, a curve each run; bars: standard error."""
+    tables = [(name, table) for name, run in product.runs.items() for table in run.friction.values()]
+    with drawing(top=0.2 + 0.17 * -(-len(tables) // 3)) as figure:
+        axes = figure.subplots()
+        for k, (name, table) in enumerate(tables):
+            way, place = np.unique(table.distance, return_inverse=True)
+            count = np.bincount(place)
+            mean = np.bincount(place, table.friction) / count
+            error = np.sqrt(np.bincount(place, table.friction_std**2)) / count
+            axes.errorbar(1e3 * way, mean, error, color=COLOURS[k % len(COLOURS)], marker=MARKERS[k % len(MARKERS)],
+                          ms=3, lw=1, label=name)
+        axes.set(xlabel="sliding distance / mm", ylabel="coefficient of friction")
+        legend(axes)
+        return svg(figure)
+
+
+def _channel(axes, name, channel, colour):
+    rate, begin = float(channel.rate), float(channel.begin)
+    time = begin + np.arange(len(channel.samples)) / rate
+    unit, size = scale(np.abs(channel.samples).max(initial=0.0), str(channel.unit))
+    axes.plot(*envelope(time, channel.samples / size), color=colour, lw=0.7)
+    for first, last in channel.missing:
+        axes.axvspan(begin + first / rate, begin + last / rate, color=FAINT, alpha=0.4, lw=0)
+    axes.set(ylabel=name if unit == "1" else f"{name} / {unit}", xlim=(time[0], max(time[-1], time[0] + 1 / rate)))

@@ -1,0 +1,99 @@
+"""Curves of the micro study over sliding distance and pressure, its convergence, and the friction map."""
+
+import numpy as np
+
+from pipeline.views.figures.style import COLOURS, LINES, MARKERS, ORANGE, SEQUENTIAL, colour_bar, drawing, legend, svg
+
+
+def over_distance(micro, what):
+    """SVG of 'real_area', 'wear_depth' or 'friction' over sliding distance, one line per pressure, middle speed."""
+    values, label, factor = {
+        "real_area": (micro.real_area, "real contact area / % of nominal", 100.0),
+        "wear_depth": (micro.wear_depth, "wear depth / µm", 1e6),
+        "friction": (micro.friction, "coefficient of friction", 1.0),
+    }[what]
+    middle = len(micro.speed) // 2
+    with drawing() as figure:
+        axes = figure.subplots()
+        for p, pressure in enumerate(micro.pressure):
+            axes.plot(1e3 * micro.distance, factor * values[p, middle], color=COLOURS[p % 6], ls=LINES[p % 6],
+                      label=f"{pressure / 1e6:.3g} MPa")
+            if what == "friction":
+                half = micro.friction_std[p, middle]
+                axes.fill_between(1e3 * micro.distance, values[p, middle] - half, values[p, middle] + half,
+                                  color=COLOURS[p % 6], alpha=0.2, lw=0)
+        axes.set(xlabel="sliding distance / mm", ylabel=label, xlim=(0, None))
+        legend(axes)
+        return svg(figure)
+
+
+def over_pressure(micro):
+    """SVG of mu over pressure after short, middle and long sliding, with standard errors, middle speed."""
+    middle = len(micro.speed) // 2
+    with drawing() as figure:
+        axes = figure.subplots()
+        for line, s in enumerate(_distances(micro)):
+            axes.errorbar(micro.pressure / 1e6, micro.friction[:, middle, s], micro.friction_std[:, middle, s],
+                          color=COLOURS[line], ls=LINES[line], marker=MARKERS[line], capsize=3,
+                          label=f"{1e3 * micro.distance[s]:.2g} mm")
+        axes.set(xlabel="pressure / MPa", ylabel="coefficient of friction", xticks=micro.pressure / 1e6)
+        legend(axes)
+        return svg(figure)
+
+
+def convergence(micro):
+    """SVG of the real contact area over nodes per shortest wavelength."""
+    with drawing(2.6, top=0.12) as figure:
+        axes = figure.subplots()
+        axes.plot(micro.refinement, 100 * micro.refinement_area, marker="o", color=COLOURS[0])
+        axes.set(xlabel="nodes per shortest wavelength", ylabel="real contact area / %",
+                 ylim=(0, 115 * micro.refinement_area.max()))
+        axes.set_xticks(micro.refinement, [f"{n:.3g}" for n in micro.refinement])
+        return svg(figure)
+
+
+def friction_map(product):
+    """SVG of mu over speed and pressure at the largest distance: orange lines computed, hatched extrapolated."""
+    pressure, speed = _widened(product.pressure, product.computed_pressure), _widened(
+        product.speed, product.computed_speed)
+    rows = np.searchsorted(product.pressure, np.clip(pressure, product.pressure[0], product.pressure[-1]))
+    columns = np.searchsorted(product.speed, np.clip(speed, product.speed[0], product.speed[-1]))
+    values = product.friction[:, :, -1][np.ix_(rows, columns)]
+    with drawing(3.5, bar=True) as figure:
+        axes = figure.subplots()
+        shown = axes.contourf(speed, pressure / 1e6, values, levels=_levels(values), cmap=SEQUENTIAL)
+        _mark_computed(axes, product, speed, pressure)
+        axes.set(xlabel="sliding speed / m/s", ylabel="pressure / MPa")
+        axes.grid(False)
+        colour_bar(axes, shown, "coefficient of friction", format="%.3f")
+        return svg(figure)
+
+
+def _mark_computed(axes, product, speed, pressure):
+    from matplotlib.patches import Rectangle
+
+    left, right = product.computed_speed.min(), product.computed_speed.max()
+    low, high = product.computed_pressure.min() / 1e6, product.computed_pressure.max() / 1e6
+    first, last, bottom, top = speed[0], speed[-1], pressure[0] / 1e6, pressure[-1] / 1e6
+    outside = ((first, bottom, last - first, low - bottom), (first, high, last - first, top - high),
+               (first, low, left - first, high - low), (right, low, last - right, high - low))
+    for x, y, width, height in outside:
+        axes.add_patch(Rectangle((x, y), width, height, facecolor="none", edgecolor="white", hatch="///", lw=0))
+    axes.hlines(product.computed_pressure / 1e6, left, right, color=ORANGE, lw=2)
+    axes.vlines(product.computed_speed, low, high, color=ORANGE, lw=2)
+
+
+def _widened(axis, computed):
+    """The axis of the map, with a rim outside the computed range to show the constant extrapolation."""
+    rim = 0.2 * max(np.ptp(computed), 0.2 * computed.max())
+    return np.unique(np.concatenate([[max(computed.min() - rim, 0.0)], axis, [computed.max() + rim]]))
+
+
+def _levels(values):
+    low, high = values.min(), values.max()
+    spread = max(high - low, 1e-3)
+    return np.linspace(low - 0.02 * spread, high + 0.02 * spread, 13)
+
+
+def _distances(micro):
+    return sorted({0, (len(micro.distance) - 1) // 2, len(micro.distance) - 1})

@@ -1,0 +1,52 @@
+"""Scenes of the brake: assembled mesh, mode shapes of the disc, unstable complex modes."""
+
+import numpy as np
+
+from pipeline.views.figures.scene import Scene, Solid
+from pipeline.views.figures.style import BLUE, GREEN, ORANGE, SKY
+
+BODY_COLOURS = {"disc": "#b8bec6", "pad_outer": ORANGE, "pad_inner": GREEN, "caliper": BLUE}
+
+
+def assembly(structure):
+    """Scene of all bodies with the edges of their elements."""
+    bodies = [(str(name), getattr(structure, str(name))) for name in structure.body_name]
+    return Scene(tuple(
+        Solid(body.node, body.element, body.kind.item(), colour=BODY_COLOURS.get(name, SKY), edges=True,
+              opacity=0.35 if name == "caliper" else 1.0) for name, body in bodies), direction=(0.7, -1.0, 1.0))
+
+
+def disc_mode(disc, mode):
+    """Scene of one real mode of the disc, displaced; colour = axial displacement."""
+    return Scene((_displaced(disc.node, disc.element, disc.kind.item(), disc.shape[mode]),), size=(640, 480))
+
+
+def unstable_mode(model, modes, index):
+    """Scene of one unstable complex mode at its instant of largest displacement; colour = axial displacement."""
+    shape = modes.unstable_shape[index]
+    phase = np.exp(-0.5j * np.angle(np.sum(shape**2)))
+    return Scene((_displaced(model.visible_position, model.visible_face, "quad", (shape * phase).real),))
+
+
+def diameters(disc, mode):
+    """Dominant number of nodal diameters of the axial motion of a disc mode."""
+    axial = disc.shape[mode][:, 2]
+    angle = np.arctan2(disc.node[:, 1], disc.node[:, 0])
+    orders = np.arange(25)
+    content = np.abs(np.exp(-1j * orders[:, None] * angle) @ axial)
+    content[0] /= np.sqrt(2.0)
+    return int(np.argmax(content))
+
+
+def distinct(frequency, count):
+    """First ``count`` modes, rigid motions and the second of each pair of equal frequencies left out."""
+    elastic = np.flatnonzero(frequency > 1.0)
+    apart = np.diff(frequency[elastic], prepend=0.0) > 5e-3 * frequency[elastic]
+    return elastic[apart][:count]
+
+
+def _displaced(points, cells, kind, displacement):
+    size = np.ptp(points, axis=0).max()
+    largest = max(np.linalg.norm(displacement, axis=1).max(), 1e-300)
+    axial = displacement[:, 2] / max(np.percentile(np.abs(displacement[:, 2]), 92), 1e-300)
+    return Solid(points + 0.06 * size / largest * displacement, cells, kind, scalar=axial)

@@ -1,0 +1,1 @@
+"""Figures of the systems other than the disc brake."""

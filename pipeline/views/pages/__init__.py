@@ -1,0 +1,1 @@
+"""Whole pages: the report, its summary, the page of a trial."""

@@ -1,0 +1,189 @@
+"""The first screen: does it squeal, where, how sure, what is tuned. Every number comes from a product."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from pipeline.views.chapters.bench import diagnosis
+from pipeline.views.chapters.complex_modes import distinct_unstable
+from pipeline.views.chapters.models.rupture import headline as rupture_headline
+from pipeline.views.chapters.pad_motion import extremes, point, rate_in_words
+from pipeline.views.chapters.vibration import origin
+from pipeline.views.figures.agreement import judged
+from pipeline.views.figures.number_format import number, percent, plural, quantity, span
+
+TWO_PI = 2.0 * np.pi
+NEAR = 0.02     # an unstable mode explains an event when their frequencies agree within 2 %
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """Headline, answers in plain words, and the numbers behind them as (name, value) pairs."""
+
+    headline: str
+    tone: str       # squeal, warning or quiet: the colour of the page's head
+    answers: tuple
+    facts: tuple
+
+
+def verdict(products, tuned_settings):
+    """Verdict over ``products`` (name -> product or None); ``tuned_settings`` are (name, value) pairs."""
+    if products.get("diagnosis") is not None:
+        return _diagnosed(products["diagnosis"], products, tuned_settings)
+    headline, tone = _headline(products)
+    answers = [("Where", _where(products)), ("Why", _why(products)), ("How sure", _sure(products)),
+               ("Tuned", _tuned(products, tuned_settings))]
+    return Verdict(headline, tone, tuple(a for a in answers if a[1]), tuple(_facts(products)))
+
+
+def _diagnosed(found, products, tuned_settings):
+    """Verdict of a case with recordings: what they say is missing."""
+    headline, tone = diagnosis.headline(found)
+    answers = (*diagnosis.note(found), ("Tuned", _tuned(products, tuned_settings)))
+    return Verdict(headline, tone, tuple(a for a in answers if a[1]), tuple(_facts(products)))
+
+
+def published_squeal(comparison):
+    """Squeal frequencies of the paper in Hz, from the rows of the comparison."""
+    if comparison is None:
+        return ()
+    size = {"Hz": 1.0, "kHz": 1e3}
+    rows = range(len(comparison.row))
+    return tuple(sorted({comparison.published[r] * size[str(comparison.unit[r])] for r in rows
+                         if comparison.section[r] == "squeal" and comparison.published_known[r]
+                         and str(comparison.unit[r]) in size}))
+
+
+def _headline(products):
+    squeal, modes = products.get("squeal"), products.get("complex_modes")
+    if products.get("rupture") is not None:
+        return rupture_headline(products["rupture"]), "warning"
+    unstable = 0 if modes is None else len(distinct_unstable(modes, len(modes.unstable_root)))
+    if squeal is not None and len(squeal.event_level):
+        if len(squeal.pressure) == 1:
+            return f"It squeals at {quantity(squeal.event_frequency[np.argmax(squeal.event_level)], 'Hz', 3)}", "squeal"
+        where = len(np.unique(squeal.event_operating))
+        return f"It squeals at {where} of {len(squeal.pressure)} operating points", "squeal"
+    if unstable:
+        start = "No peak exceeds the squeal threshold, but " if squeal is not None else ""
+        text = f"{start}{plural(unstable, 'mode')} {'is' if unstable == 1 else 'are'} unstable"
+        return text[0].upper() + text[1:], "warning"
+    if products.get("recording") is not None and squeal is None and modes is None:
+        return f"{plural(len(products['recording'].runs), 'run')} of a bench, not compared yet", "quiet"
+    if squeal is None and modes is None:
+        return "No verdict: this case ends before the stability of the system", "warning"
+    if squeal is None and (cycle := _settled_cycle(products.get("transient"))):
+        return f"It vibrates at {quantity(cycle, 'Hz', 3)} although no mode is unstable", "warning"
+    return "No squeal predicted", "quiet"
+
+
+def _settled_cycle(transient):
+    """Frequency in Hz of the strongest settled cycle; 0 without any."""
+    if transient is None:
+        return 0.0
+    moves = np.where(transient.settled > 0, transient.cycle_amplitude, 0.0)
+    return float(transient.cycle_frequency.flat[np.argmax(moves)]) if moves.any() else 0.0
+
+
+def _where(products):
+    squeal = products.get("squeal")
+    if squeal is None:
+        return ""
+    operating, sensor = np.unravel_index(np.argmax(squeal.peak_level), squeal.peak_level.shape)
+    return (f"Loudest at {point(squeal, operating)}: {number(squeal.peak_level[operating, sensor], 3)} dB"
+            f" re {quantity(squeal.reference, 'm/s', 3)} at {quantity(squeal.peak_frequency[operating, sensor], 'Hz')},"
+            f" sensor {squeal.sensor_name[sensor]}; threshold {number(squeal.threshold, 3)} dB."
+            f"{_harmonics(squeal, squeal.peak_frequency[operating, sensor])}")
+
+
+def _harmonics(squeal, peak):
+    """What the loudest peak is a harmonic of, and how many events are none."""
+    above = squeal.event_order > 1
+    if not above.any():
+        return ""
+    loudest = int(np.argmax(squeal.event_level))
+    there = above[loudest] and abs(squeal.event_frequency[loudest] / peak - 1) <= NEAR
+    told = f" It is the {origin(squeal, loudest)}." if there else ""
+    return f"{told} Among {plural(len(above), 'event')}: {plural(np.count_nonzero(above), 'harmonic')} of a lower tone."
+
+
+def _why(products):
+    modes, squeal = products.get("complex_modes"), products.get("squeal")
+    if modes is None:
+        return ""
+    if not len(modes.unstable_root):
+        forced = ": what the sensors feel is forced by the rotating friction patches"
+        return f"No mode is unstable{forced if products.get('multibody') is not None else ''}."
+    frequencies = modes.unstable_root.imag / TWO_PI
+    strongest = (f"The strongest unstable mode, {quantity(frequencies[0], 'Hz')}, grows with"
+                 f" {quantity(modes.unstable_root[0].real, '1/s', 3)}.")
+    if squeal is None:
+        return strongest
+    peak = squeal.peak_frequency.flat[np.argmax(squeal.peak_level)]
+    nearest = frequencies[np.argmin(np.abs(frequencies - peak))]
+    apart = abs(nearest / peak - 1)
+    if apart <= NEAR:
+        return f"{strongest} The loudest peak has an unstable mode at its side: {quantity(nearest, 'Hz')}."
+    forced = ": it is forced by the pads, whose motion the multi-body simulation computes on a rigid disc"
+    return (f"{strongest} The loudest peak has none within {percent(NEAR)} (nearest {quantity(nearest, 'Hz')})"
+            f"{forced if products.get('multibody') is not None else ''}.")
+
+
+def _compared(products):
+    """The comparison, None where nothing published stands beside the products."""
+    found = products.get("comparison")
+    return found if found is not None and len(found.row) else None
+
+
+def _sure(products):
+    comparison = _compared(products)
+    if comparison is None:
+        return "Nothing published was compared."
+    within = judged(comparison, "within")
+    tuned = sum(bool(comparison.tuned[row]) for row in within)
+    return (f"Of {len(comparison.row)} published facts, {len(judged(comparison))} can be judged by this chain;"
+            f" {len(within)} hold within their tolerance, {tuned or 'none'} of them because something was tuned to"
+            f" reach them. At most {len(within) - tuned} can count as evidence for the model.")
+
+
+def _tuned(products, tuned_settings):
+    comparison = _compared(products)
+    rows = [] if comparison is None else list(dict.fromkeys(t for t in map(str, comparison.tuned) if t))
+    settings = [f"{name} = {value}" for name, value in tuned_settings]
+    shown = rows or settings[:6]
+    more = f" ({plural(len(settings), 'setting')} marked tuned; all below)" if settings else ""
+    if settings and comparison is not None and not rows:
+        more += ". The comparison does not say which facts they were tuned on, so part of what holds is no evidence"
+    return f"{'; '.join(shown)}{more}." if shown else "Nothing in this case is marked as tuned."
+
+
+def _facts(products):
+    for name, describe in (("friction_map", _friction), ("micro_friction", _contact), ("complex_modes", _modes),
+                           ("multibody", _motion), ("squeal", _level)):
+        if products.get(name) is not None:
+            yield describe(products[name])
+
+
+def _friction(product):
+    error = f", ± {number(product.friction_std.max(), 2)}" if product.friction_std.any() else ""
+    return "friction", f"{span(product.friction, '1', 2)}{error}"
+
+
+def _contact(product):
+    return "real contact", f"{span(100 * product.real_area, '1', 2)} % of nominal"
+
+
+def _modes(product):
+    frequencies = np.sort([product.unstable_root[i].imag / TWO_PI for i in distinct_unstable(product, 99)])
+    shown = f": {span(frequencies, 'Hz')}" if len(frequencies) else ""
+    return "unstable modes", f"{len(frequencies)}{shown}"
+
+
+def _motion(product):
+    high = extremes(product)[1]
+    return "pad growth rate, highest load", (f"{rate_in_words(product, high)} at"
+                                             f" {quantity(product.oscillation_frequency[high], 'Hz', 3)}")
+
+
+def _level(product):
+    return "loudest", f"{number(product.peak_level.max(), 3)} dB (threshold {number(product.threshold, 3)})"

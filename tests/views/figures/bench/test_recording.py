@@ -1,0 +1,49 @@
+"""The chapter of a recording."""
+
+import numpy as np
+
+from pipeline.products import MeasuredFriction, Recording, Run
+from pipeline.recordings.samples import channel
+from pipeline.views.chapters.bench.recording import chapter
+from pipeline.views.chapters.chapter import Look
+from pipeline.views.figures.bench import recording
+
+KINDS = ("conditions", "frf", "modes", "lines", "topography", "friction")
+
+
+def run(values, repeat_of=""):
+    signal = channel(values, "kN", "force", 100.0, 0.0, "test", role="excitation")
+    return Run(description="hammer", repeat_of=repeat_of, channels={"force": signal}, **{k: {} for k in KINDS})
+
+
+def test_the_chapter_tells_every_channel_and_what_is_missing():
+    values = np.sin(np.arange(200) / 5)
+    values[50:100] = np.nan
+    made = chapter(Recording(source=["a.mat 0123"], runs={"first": run(values), "again": run(values, "first")}), Look())
+    assert made.see == "2 runs from a.mat." and made.conclude.startswith("1 run repeats another")
+    assert made.tables[0].rows[0][:4] == ("first", "force", "force", "excitation") and len(made.figures) == 2
+    assert made.tables[0].rows[0][4].startswith("1") and "25" in made.tables[0].rows[0][7]
+
+
+def test_the_picture_shows_samples_and_gaps():
+    whole, gap = np.sin(np.arange(200) / 5), np.sin(np.arange(200) / 5)
+    gap[50:100] = np.nan
+    first = recording.channels(run(whole), 60)
+    assert recording.channels(run(whole), 60) == first != recording.channels(run(gap), 60)
+    assert recording.channels(run(2 * whole), 60) != first
+
+
+def rubbed(scale=1.0):
+    told = MeasuredFriction(friction=scale * np.array([0.4, 0.42, 0.5, 0.52]), friction_std=np.full(4, 0.01),
+                            pressure=np.full(4, 1e6), speed=[1.0, 2.0, 1.0, 2.0], distance=[0.0, 0.0, 0.01, 0.01],
+                            temperature=np.full(4, 293.15))
+    empty = {k: {} for k in (*KINDS, "channels") if k != "friction"}
+    return Recording(source=["pad.h5 0123"], runs={"drag": Run(description="", repeat_of="", friction={"cell": told},
+                                                               **empty)})
+
+
+def test_measured_friction_is_drawn_and_no_empty_table_of_channels_shown():
+    made = chapter(rubbed(), Look())
+    assert "mean over speeds; runs drag" in made.figures[0].caption and not made.conclude
+    assert [t.title for t in made.tables] == ["Other measurements"]
+    assert recording.friction(rubbed()) == made.figures[0].image != recording.friction(rubbed(1.2))

@@ -1,0 +1,105 @@
+"""The page: every section, the case's settings, nothing from outside."""
+
+import re
+from pathlib import Path
+
+import pytest
+
+from pipeline.contract.context import Case
+from pipeline.views.chapters import vibration
+from pipeline.views.chapters.chapter import Look
+from pipeline.views.pages import case_settings as case_view
+from pipeline.views.pages.limits import limits
+from pipeline.views.pages.report import page
+from tests.views import products_for_views as small
+
+LOOK = Look(dpi=50, shapes=0)
+
+
+def test_every_section_is_there_in_the_order_of_the_chain(html):
+    anchors = re.findall(r'<section id="(\w+)">', html)
+    assert anchors == ["table", "surface", "micro_friction", "friction_map", "structure", "lumped", "complex_modes",
+                       "multibody", "transient", "response", "squeal", "comparison", "limits", "settings", "methods"]
+    assert set(re.findall(r'<a href="#(\w+)">', html)) == set(anchors)
+
+
+def test_nothing_is_loaded_from_outside(html):
+    sources = re.findall(r'(?:src|href|srcset|action|data)="([^"]*)"', html)
+    assert sources
+    assert all(source.startswith(("data:", "#")) for source in sources)
+    assert "url(" not in html
+    assert "@import" not in html
+    assert "<script" not in html
+
+
+def test_figures_are_numbered_without_gaps(html):
+    numbers = [int(n) for n in re.findall(r"<b>Figure (\d+)\.</b>", html)]
+    assert numbers == list(range(1, len(numbers) + 1))
+    assert len(numbers) > 20
+
+
+def test_settings_show_value_origin_and_source(html):
+    assert "13.5\u202fMPa" in html
+    assert "Figure 10c" in html
+    assert "largest shear stress of a spot" in html
+    assert "1 tuned" in html
+    assert "1, 2, 3\u202fMPa" in html
+
+
+def test_the_load_of_the_pads_is_told_without_friction_and_in_steady_sliding(html):
+    """The first patch goes from 560 to 880 N, the last from 240 to 0 N; the largest force without friction is 560 N."""
+    assert "without friction, nominal 2\u202fMPa" in html and "none of 12 patches open. Beside it" in html
+    assert "steady sliding at 10.25\u202frad/s with friction 0.46" in html and "1 of 12 patches open." in html
+    assert "by up to 57\u202f% of the largest force without friction" in html
+
+
+def test_the_table_shows_every_row_of_the_comparison(html):
+    for row in small.comparison().row:
+        assert f"<td>{row}</td>" in html
+    assert "prints 337.3 Hz" in html
+
+
+def test_the_squeal_chapter_tells_harmonics_from_own_tones():
+    chapter = vibration.squeal(small.squeal(harmonic=True), (), LOOK)
+    assert [row[3] for row in chapter.tables[0].rows] == ["20th harmonic of 0.83\u202fkHz", "own tone"]
+    assert "1 harmonic of a lower tone (0.83\u202fkHz), 1 own tone." in chapter.conclude
+    assert "hollow: harmonics" in chapter.figures[0].caption
+    assert "None is a harmonic" in vibration.squeal(small.squeal(), (), LOOK).conclude
+
+
+def test_text_of_the_case_cannot_break_the_page():
+    wicked = Case(name="x", title='<img src="//example.org/a.png">', methods={"surface": "a < b & c"})
+    text = page([], {}, wicked, LOOK)
+    assert "<img src" not in text
+    assert "a &lt; b &amp; c" in text
+
+
+def test_a_case_without_settings_has_no_such_section():
+    text = page([], {}, Case(name="bare"), LOOK)
+    assert 'id="settings"' not in text
+    assert 'id="methods"' not in text
+    assert 'id="table"' not in text
+
+
+def test_limits_follow_the_products():
+    assert limits({}) == ()
+    assert any("dB(A)" in text for text in limits({"squeal": 1}))
+    assert not any("dB(A)" in text for text in limits({"response": 1}))
+
+
+def test_limits_tell_the_size_of_what_the_interface_leaves_out():
+    """Uniform compliance 3.5 um/MPa against an interface of 2 MPa/um; the last grid lowers the area from 3.1 to 3 %."""
+    told = "\n".join(limits({"micro_friction": small.micro_friction()}))
+    assert "blocks, 3.5 µm/MPa" in told and "keeps 0.5 µm/MPa at 1\u202fMPa and" in told
+    assert "lowers the real contact area by 3.2\u202f%" in told
+
+
+@pytest.mark.exact
+def test_settings_are_written_for_reading():
+    assert case_view.written(True, "") == "yes"
+    assert case_view.written(None, "") == "—"
+    assert case_view.written(7, "") == "7"
+    assert case_view.written("turned", "") == "turned"
+    assert case_view.written(Path("/somewhere/plu-1.plu"), "") == "plu-1.plu"
+    assert case_view.written((1e6, 2.5e6), "Pa") == "1, 2.5\u202fMPa"
+    assert case_view.tuned(small.case()) == (("micro_friction.shear_limit", "13.5\u202fMPa"),)

@@ -1,0 +1,90 @@
+"""The first screen says what the products say."""
+
+from dataclasses import fields, replace
+
+import numpy as np
+
+from pipeline.views.pages.summary import published_squeal, verdict
+from tests.views import products_for_views as small
+
+
+def words(given):
+    return " ".join(answer for _, answer in given.answers)
+
+
+def test_squeal_is_told_with_place_level_and_frequency():
+    told = verdict(small.products(), (("micro_friction.shear_limit", "13.5 MPa"),))
+    assert told.tone == "squeal"
+    assert told.headline == "It squeals at 2 of 9 operating points"
+    assert "3\u202fMPa, 12\u202frad/s" in words(told)
+    assert "92 dB" in words(told)
+    assert "16.6\u202fkHz" in words(told)
+
+
+def test_agreement_counts_only_what_was_not_tuned():
+    told = words(verdict(small.products(), ()))
+    assert "Of 7 published facts, 5 can be judged" in told
+    assert "4 hold within their tolerance, 3 of them because something was tuned" in told
+    assert "At most 1 can count as evidence" in told
+
+
+def test_a_peak_without_unstable_mode_is_called_forced():
+    squeal = small.squeal()
+    moved = replace(squeal, peak_frequency=0.8 * squeal.peak_frequency)
+    assert "it is forced by the pads" in words(verdict(small.products(squeal=moved), ()))
+    assert "it is forced by the pads" not in words(verdict(small.products(), ()))
+    stable = verdict(small.products(complex_modes=small.complex_modes(stable=True)), ())
+    assert "No mode is unstable" in words(stable)
+
+
+def test_a_loudest_peak_that_is_a_harmonic_is_told_as_one():
+    told = words(verdict(small.products(squeal=small.squeal(harmonic=True)), ()))
+    assert "It is the 20th harmonic of 0.83\u202fkHz. Among 2 events: 1 harmonic of a lower tone." in told
+    assert "harmonic" not in words(verdict(small.products(), ()))
+
+
+def test_quiet_and_unstable_brakes_are_told_apart():
+    quiet = small.products(squeal=small.squeal(quiet=True))
+    assert verdict(quiet, ()).headline == "No peak exceeds the squeal threshold, but 1 mode is unstable"
+    still = small.products(squeal=small.squeal(quiet=True), complex_modes=small.complex_modes(stable=True))
+    assert verdict(still, ()).headline == "No squeal predicted"
+    assert verdict(still, ()).tone == "quiet"
+
+
+def test_a_cycle_without_an_unstable_mode_is_told():
+    """Stick-slip: steady sliding is stable, the motion is not quiet. A motion that has not settled is no cycle."""
+    stable = {"complex_modes": small.complex_modes(stable=True)}
+    told = verdict({**stable, "transient": small.transient()}, ())
+    assert told.headline == "It vibrates at 2.2\u202fkHz although no mode is unstable" and told.tone == "warning"
+    assert verdict({**stable, "transient": small.transient(settled=False)}, ()).headline == "No squeal predicted"
+    assert verdict(stable, ()).headline == "No squeal predicted"
+
+
+def test_a_case_that_ends_early_gets_no_verdict():
+    told = verdict({"surface": small.surface()}, ())
+    assert told.headline.startswith("No verdict")
+    assert told.facts == ()
+
+
+def test_published_squeal_lines_come_from_the_comparison_in_hertz():
+    np.testing.assert_allclose(published_squeal(small.comparison()), [16600.0, 17800.0])
+    assert published_squeal(None) == ()
+
+
+def test_a_comparison_with_nothing_is_none():
+    """A brake of one's own: comparison: {reference: null}."""
+    comparison = small.comparison()
+    none = replace(comparison, **{f.name: getattr(comparison, f.name)[:0] for f in fields(comparison)
+                                  if f.metadata.get("dims", ("",))[0] == "row"})
+    told = words(verdict(small.products(comparison=none), (("a.b", "1"),)))
+    assert "Nothing published was compared" in told and "published facts" not in told
+    assert "does not say which facts" not in told
+
+
+def test_tuned_settings_without_tuned_facts_are_told():
+    comparison = small.comparison()
+    untold = replace(comparison, tuned=[""] * len(comparison.row))
+    settings = (("micro_friction.shear_limit", "13.5 MPa"),)
+    assert "does not say which facts" in words(verdict(small.products(comparison=untold), settings))
+    assert "does not say which facts" not in words(verdict(small.products(), settings))
+    assert "Nothing in this case is marked as tuned" in words(verdict(small.products(comparison=untold), ()))
