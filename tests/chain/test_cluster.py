@@ -10,9 +10,9 @@ from contextlib import contextmanager
 
 import pytest
 
-from pipeline.concealed.sets import TrialSet
+from pipeline.blind_trial.protocol.case_set import TrialSet
+from tests.blind_trial.protocol.their_set import their_set
 from tests.chain.conftest import QUICK, ROOT, brakechain, contents
-from tests.concealed.their_set import their_set
 
 pytest.importorskip("distributed")
 

@@ -2,9 +2,9 @@
 
 from pathlib import Path
 
-from pipeline.concealed.sets import TrialSet
-from pipeline.concealed.summary import as_markdown
-from pipeline.concealed.verifying import verify
+from pipeline.blind_trial.protocol.case_set import TrialSet
+from pipeline.blind_trial.protocol.summary import as_markdown
+from pipeline.blind_trial.protocol.verify import verify
 
 ROOT = Path(__file__).parents[2]
 PUBLISHED = sorted(path.parent for path in ROOT.glob("data/trial/*/result.json"))

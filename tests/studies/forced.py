@@ -12,8 +12,12 @@ from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 
-from pipeline.concealed.judging import class_of, judged
-from pipeline.concealed.rates import line, rate
+from pipeline.blind_trial.generators import case_files
+from pipeline.blind_trial.generators.spring_mass.hidden_laws import HIDDEN
+from pipeline.blind_trial.generators.spring_mass.placement import places
+from pipeline.blind_trial.generators.spring_mass.rig_case import made
+from pipeline.blind_trial.protocol.criteria import class_of, judged
+from pipeline.blind_trial.protocol.intervals import line, rate
 from pipeline.contract import documents
 from pipeline.contract.errors import BrakechainError
 from pipeline.contract.executor import LocalProcesses
@@ -21,10 +25,6 @@ from pipeline.contract.settings import fill
 from pipeline.diagnosis.output.files import as_json
 from pipeline.products import Recording
 from pipeline.recordings.neutral import read_neutral
-from pipeline.trial import files
-from pipeline.trial.case import made
-from pipeline.trial.hidden import HIDDEN
-from pipeline.trial.hiding import places
 from stages.bench import bench
 from stages.diagnosis import diagnosis
 from stages.lumped import lumped
@@ -40,7 +40,7 @@ ROOT = Path(__file__).parents[2]
 
 @dataclass(frozen=True)
 class Plan:
-    """What to make: see ``pipeline.trial.case.made``."""
+    """What to make: see ``pipeline.blind_trial.generators.spring_mass.rig_case.made``."""
 
     seed: int
     hidden: str
@@ -112,8 +112,8 @@ def run(plan, folder, **asked):
     """(truth, answer) of one Plan, from its files where they are there."""
     if not (folder / "truth.json").exists():
         case = drawn(plan)
-        files.write(case, folder)
-        (folder / "truth.json").write_text(json.dumps(files.truth(case), indent=1) + "\n")
+        case_files.write(case, folder)
+        (folder / "truth.json").write_text(json.dumps(case_files.truth(case), indent=1) + "\n")
     return json.loads((folder / "truth.json").read_text()), answered(folder, partial(solved, folder, **asked))
 
 

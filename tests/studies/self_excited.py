@@ -12,11 +12,11 @@ from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 
-from pipeline.concealed.judging import judged
-from pipeline.concealed.rates import line, rate
+from pipeline.blind_trial.generators.benches.pin_bench import DECOYS, HIDDEN, make, record
+from pipeline.blind_trial.protocol.criteria import judged
+from pipeline.blind_trial.protocol.intervals import line, rate
 from pipeline.contract import documents
 from pipeline.recordings.neutral import write_neutral
-from pipeline.trial.pin_bench import DECOYS, HIDDEN, make, record
 from tests.studies.forced import answered, by_stages, shared_out
 
 ROOT = Path(__file__).parents[2]

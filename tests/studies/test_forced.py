@@ -2,8 +2,8 @@
 
 import pytest
 
-from pipeline.concealed.judging import judged
-from pipeline.trial.hidden import HIDDEN
+from pipeline.blind_trial.generators.spring_mass.hidden_laws import HIDDEN
+from pipeline.blind_trial.protocol.criteria import judged
 from tests.studies.forced import Plan, plans, run, table
 
 

@@ -2,7 +2,7 @@
 
 import pytest
 
-from pipeline.trial.pin_bench import HIDDEN
+from pipeline.blind_trial.generators.benches.pin_bench import HIDDEN
 from tests.studies.self_excited import Plan, plans, run, scored, table
 
 

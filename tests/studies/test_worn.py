@@ -4,7 +4,7 @@ import json
 
 import pytest
 
-from pipeline.trial import worn_pad
+from pipeline.blind_trial.generators.benches import worn_pad
 from tests.studies import worn
 
 #: what is hidden -> verdict, effects named

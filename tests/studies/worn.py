@@ -4,12 +4,12 @@ import json
 from functools import partial
 from pathlib import Path
 
+from pipeline.blind_trial.generators.benches.worn_pad import make, record
 from pipeline.contract import documents
 from pipeline.contract.settings import without_origins
 from pipeline.diagnosis.output.files import as_json
 from pipeline.products import Recording
 from pipeline.recordings.neutral import read_neutral, write_neutral
-from pipeline.trial.worn_pad import make, record
 from stages.diagnosis import diagnosis
 from stages.friction_map import friction_map
 from stages.micro_friction import micro_friction

@@ -1,0 +1,1 @@
+"""Blind trials of the diagnosis: generators of cases, the sealed protocol, and baseline methods."""

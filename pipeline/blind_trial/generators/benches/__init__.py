@@ -1,0 +1,1 @@
+"""Practice benches: flutter rigs, a pin on a disc and a worn pad."""

@@ -1,0 +1,1 @@
+"""Brake rigs: an annulus between two pads."""

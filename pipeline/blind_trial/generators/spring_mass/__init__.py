@@ -1,0 +1,1 @@
+"""Spring-mass rigs: linear chains with an effect inserted at one location."""

@@ -1,0 +1,86 @@
+"""Cases made again from their truth: of a sealed set whose cases were lost, or of a published one to be tried anew."""
+
+import shutil
+from functools import partial
+from pathlib import Path
+
+from pipeline.blind_trial.generators.systems import SYSTEMS, Draw
+from pipeline.blind_trial.protocol import seal
+from pipeline.blind_trial.protocol.case_set import TrialSet
+from pipeline.blind_trial.protocol.make import described
+from pipeline.blind_trial.protocol.score import unsealed
+from pipeline.contract.errors import ConfigError
+from pipeline.contract.runner import locked
+
+#: where cases lie until they are whole
+_HALF = ".remaking"
+
+
+def restore(folder, work, key_file=None, tell=lambda done, total: None):
+    """Make the cases of a set again in its own folder, from the truth that lies there or the one that its key opens.
+
+    Refused where they are not, byte for byte, those that the set was committed with. work, tell : see ``making.make``.
+    """
+    found = TrialSet(folder)
+    with locked(folder):
+        _make_cases(found.folder, _truth(found, key_file), work, tell)
+        shutil.rmtree(found.folder / _HALF)
+    if found.digest() != found.about["digest"]:
+        raise ConfigError(found.folder / "cases", f"files of digest {found.about['digest'][:16]}...", "other files",
+                          f"check out commit {found.about.get('commit') or '(none recorded)'} with the packages "
+                          "of set.yaml, remove cases/, and run this again")
+
+
+def repeat(folder, into, work, tell=lambda done, total: None):
+    """Make the cases of a published set again as the open set ``into``; whether they are the same byte for byte.
+
+    Other packages or another processor may change last digits: what is hidden, and how well it shows, stay the same.
+    """
+    found, into = TrialSet(folder), Path(into)
+    if (into / "set.yaml").exists() or (not (into / _HALF).exists() and (
+            (into / "cases").exists() or (into / "truth.json").exists())):
+        raise ConfigError(into, "a folder without a set", "a set of cases", "name a new folder")
+    truth = _truth(found, None)
+    into.mkdir(parents=True, exist_ok=True)
+    with locked(into):
+        _make_cases(into, truth, work, tell)
+        made = TrialSet(into)
+        made.write("truth.json", truth)
+        made.write("set.yaml", described(made, truth, "open"))
+        shutil.rmtree(into / _HALF)
+    return made.digest() == found.about.get("digest")
+
+
+def _truth(found, key_file):
+    """Truth of a set, each case with the draw that makes it again."""
+    if found.has("truth.json"):
+        truth = found.read("truth.json")
+    elif found.has("truth.sealed") and key_file:
+        truth = unsealed(found, seal.read_key(key_file))["truth"]
+    else:
+        raise ConfigError(found.folder, "a published set, with its truth.json", "none",
+                          "a sealed set is published once it is scored")
+    strange = [number for number, one in truth.items() if one.get("draw", {}).get("system") not in SYSTEMS]
+    if strange:
+        raise ConfigError(found.folder / "truth.json", "draws of the generators of this program",
+                          f"{len(strange)} cases without, such as {strange[0]}",
+                          "only sets that 'brakechain trial make' made can be made again")
+    return truth
+
+
+def _make_cases(folder, truth, work, tell):
+    """Cases of a truth in a folder, each whole or not at all; those that are there stay."""
+    done = iter(range(1, len(truth) + 1))
+    half = folder / _HALF
+    half.mkdir(exist_ok=True)
+    (folder / "cases").mkdir(exist_ok=True)
+    work.map(partial(_make_case, folder / "cases", half), [(n, one["draw"]) for n, one in truth.items()],
+             lambda: tell(next(done), len(truth)))
+
+
+def _make_case(cases, half, item):
+    number, draw = item
+    if not (cases / number).exists():
+        shutil.rmtree(half / number, ignore_errors=True)
+        SYSTEMS[draw["system"]].write(Draw.read(draw), half / number)
+        (half / number).rename(cases / number)
