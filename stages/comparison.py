@@ -3,14 +3,14 @@
 from dataclasses import fields
 from fnmatch import fnmatch
 
-from pipeline.computed.beam_on_beam import beam_on_beam_rows
-from pipeline.computed.disc_brake import disc_brake_rows
-from pipeline.computed.lumped import lumped_rows
-from pipeline.computed.pin_on_disc import pin_on_disc_rows
-from pipeline.computed.rupture import rupture_rows
 from pipeline.contract import ConfigError, Context, InputFile, Products, Section, option, stage
 from pipeline.products import Comparison
-from pipeline.published import load
+from pipeline.validation.beam_on_beam import beam_on_beam_rows
+from pipeline.validation.disc_brake import disc_brake_rows
+from pipeline.validation.lumped import lumped_rows
+from pipeline.validation.pin_on_disc import pin_on_disc_rows
+from pipeline.validation.published_facts import load
+from pipeline.validation.rupture import rupture_rows
 
 #: product that only one system has -> rows (products, facts, known) -> {key: Ours}; the first that is there counts
 SYSTEMS = {"structure": disc_brake_rows, "pin_on_disc": pin_on_disc_rows, "beam_on_beam": beam_on_beam_rows,

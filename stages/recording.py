@@ -6,12 +6,12 @@ from typing import Literal
 from pipeline.contract import ConfigError, Context, InputFile, OneOf, Quantity, Section, option, stage
 from pipeline.contract.units import in_si
 from pipeline.products import Condition, Recording, Run
-from pipeline.published import load
 from pipeline.recordings.columns import read_matlab, read_table
 from pipeline.recordings.lines import line_list
 from pipeline.recordings.neutral import read_neutral
 from pipeline.recordings.samples import channel, even_rate, on_grid, stretch
 from pipeline.recordings.uff import read_uff
+from pipeline.validation.published_facts import load
 
 
 class Column(Section):

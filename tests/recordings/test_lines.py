@@ -3,8 +3,8 @@
 import pytest
 
 from pipeline.contract import ConfigError
-from pipeline.published import Published
 from pipeline.recordings.lines import line_list
+from pipeline.validation.published_facts import Published
 
 
 def fact(key, value=100.0, **more):

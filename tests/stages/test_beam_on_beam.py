@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
-from pipeline.computed.beam_on_beam import beam_on_beam_rows
 from pipeline.contract import ConfigError
 from pipeline.physics.sliding.model import sliding_model
 from pipeline.physics.stability.constrained_modes import critical_friction
+from pipeline.validation.beam_on_beam import beam_on_beam_rows
 from stages.beam_on_beam import beam_on_beam
 from stages.complex_modes import Settings as Modes
 from stages.complex_modes import complex_modes

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from pipeline.contract import ConfigError
-from pipeline.published import load
+from pipeline.validation.published_facts import load
 from stages.comparison import Settings, comparison
 from tests.views.products_for_views import complex_modes, micro_friction, multibody, squeal, structure
 

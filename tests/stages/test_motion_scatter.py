@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from pipeline.computed.beam_on_beam import beam_on_beam_rows
 from pipeline.contract import ConfigError
+from pipeline.validation.beam_on_beam import beam_on_beam_rows
 from stages.motion_scatter import Settings, motion_scatter
 from tests.stages.small_beams import model
 

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from pipeline.computed import ours
+from pipeline.validation import ours
 
 #: a mode moves out of the plane of the disc with more than this share of its modal mass
 _OUT_OF_PLANE = 0.5

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from pipeline.computed import ours, ratio
+from pipeline.validation import ours, ratio
 
 _STICKS = 1
 #: growth below this share of the largest root is rounding

@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from pipeline.computed.beam_on_beam import coalescence_rows, motion_rows, stability_rows
 from pipeline.products import ComplexModes
+from pipeline.validation.beam_on_beam import coalescence_rows, motion_rows, stability_rows
 from tests.views.products_for_views import filled
 from tests.views.test_beam_on_beam_chapter import beams, scatter
 

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from pipeline.computed.friction import friction_rows
 from pipeline.products import MicroFriction
+from pipeline.validation.friction import friction_rows
 from tests.views.products_for_views import filled
 
 KNOWN = {"pressure_lowest": 1e6, "pressure_highest": 3e6, "speed_lowest": 8.0, "speed_highest": 12.0,

@@ -5,8 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from pipeline.computed.rupture import rupture_rows
-from pipeline.published import load
+from pipeline.validation.published_facts import load
+from pipeline.validation.rupture import rupture_rows
 from tests.views.products_for_views import rupture
 
 

@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from pipeline.computed.modes import disc_mode_rows, squeal_rows, system_mode_rows
 from pipeline.products import ComplexModes, Squeal, Structure
-from pipeline.published import Published
+from pipeline.validation.modes import disc_mode_rows, squeal_rows, system_mode_rows
+from pipeline.validation.published_facts import Published
 from tests.views.products_for_views import filled
 
 

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from pipeline.computed import ours, ratio
+from pipeline.validation import ours, ratio
 
 LEFT, RIGHT = 0, 1
 UPPER, LOWER = 0, 1

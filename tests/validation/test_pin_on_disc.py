@@ -5,8 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from pipeline.computed.pin_on_disc import pin_on_disc_rows
 from pipeline.products import InterfaceLaw, LockIn, PinOnDisc, Transient
+from pipeline.validation.pin_on_disc import pin_on_disc_rows
 from tests.views.products_for_views import filled
 
 pytestmark = pytest.mark.exact

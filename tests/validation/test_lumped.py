@@ -5,13 +5,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from pipeline.computed.lumped import lumped_rows
 from pipeline.contract.documents import read_yaml
 from pipeline.contract.settings import fill
 from pipeline.contract.units import to_si
 from pipeline.physics.closed_form import stick_slip, two_mode_flutter, wobbling_disc
 from pipeline.products import ComplexModes, Transient
-from pipeline.published import load
+from pipeline.validation.lumped import lumped_rows
+from pipeline.validation.published_facts import load
 from stages.complex_modes import Settings as Modes
 from stages.lumped import Settings, lumped
 from tests.views.products_for_views import filled

@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from pipeline.contract import ConfigError
-from pipeline.published import Published, load
+from pipeline.validation.published_facts import Published, load
 
 FILE = Path(__file__).parents[1] / "data" / "reference" / "disc_brake.yaml"
 FACTS = {fact.key: fact for fact in load(FILE)}

@@ -3,7 +3,7 @@
 import numpy as np
 from scipy.optimize import linear_sum_assignment
 
-from pipeline.computed import ours
+from pipeline.validation import ours
 
 #: modes further apart than this factor are not the same mode
 _FARTHEST = 1.25

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from pipeline.computed import correlation, index_of, ours, ratio
+from pipeline.validation import correlation, index_of, ours, ratio
 
 _TWO_PI = 2 * np.pi
 

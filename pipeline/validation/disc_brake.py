@@ -1,8 +1,8 @@
 """Our numbers for the facts of the disc brake, from the products that a case has."""
 
-from pipeline.computed.friction import friction_rows
-from pipeline.computed.modes import disc_mode_rows, squeal_rows, system_mode_rows
-from pipeline.computed.motion import motion_rows
+from pipeline.validation.friction import friction_rows
+from pipeline.validation.modes import disc_mode_rows, squeal_rows, system_mode_rows
+from pipeline.validation.motion import motion_rows
 
 #: product -> (product, facts, known) -> rows
 _ROWS = {

@@ -4,7 +4,7 @@ from dataclasses import fields
 
 import numpy as np
 
-from pipeline.computed import SAME, Ours, correlation, index_of, ours, ratio
+from pipeline.validation import SAME, Ours, correlation, index_of, ours, ratio
 
 #: rows of new surfaces
 _START_ROWS = ("real_area_start", "real_area_rises_with_pressure", "largest_wear_first",

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from pipeline.computed import ours
+from pipeline.validation import ours
 
 #: names of the three coalescences, in rising order
 _COALESCENCES = ("low", "middle", "high")

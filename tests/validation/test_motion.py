@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from pipeline.computed.motion import motion_rows
 from pipeline.products import Multibody
+from pipeline.validation.motion import motion_rows
 from tests.views.products_for_views import filled
 
 KNOWN = {"pressure_lowest": 1e6, "pressure_highest": 3e6, "speed_lowest": 8.5, "speed_highest": 12.0}
