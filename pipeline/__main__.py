@@ -8,7 +8,7 @@ from pipeline.environment import ONE_THREAD
 def main():
     """Fix the numerical environment, then hand over to the command line (numpy loads after this)."""
     os.environ.update(ONE_THREAD)
-    from pipeline.cli import main as command_line
+    from pipeline.cli.main import main as command_line
 
     command_line()
 

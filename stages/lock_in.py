@@ -5,7 +5,6 @@ from functools import partial
 
 import numpy as np
 
-from pipeline.assembled import elastic_body
 from pipeline.contract import ConfigError, Context, Quantities, Quantity, Section, option, stage
 from pipeline.physics.contact.static_preload import normal_force
 from pipeline.physics.fem.supports import held_modes
@@ -22,6 +21,7 @@ from pipeline.physics.time_stepping.initial_state import steady_start
 from pipeline.physics.time_stepping.modal_integrator import modal_system
 from pipeline.physics.time_stepping.simulate import Penalty, simulate
 from pipeline.products import Effects, LockIn, PinOnDisc, ReducedModel
+from pipeline.systems.fem_bodies import elastic_body
 from pipeline.systems.pin_on_disc import reshaped
 
 _GRAVITY = 9.81

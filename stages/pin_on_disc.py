@@ -6,13 +6,13 @@ from typing import Literal
 
 import numpy as np
 
-from pipeline.assembled import assembly_fields, body_product, incidence
 from pipeline.contract import ConfigError, Context, Quantities, Quantity, Section, option, stage
 from pipeline.physics.contact.static_preload import contact_law, normal_force
 from pipeline.physics.fem.supports import held_modes
 from pipeline.physics.friction.tangential_law import TangentialLaw
 from pipeline.physics.modal.disc_modes import describe
 from pipeline.products import InterfaceLaw, PinOnDisc
+from pipeline.systems.fem_bodies import assembly_fields, body_product, incidence
 from pipeline.systems.pin_on_disc import BODIES, SENSORS, build, pin, sliding_flexibility
 
 _GRAVITY = 9.81

@@ -9,10 +9,10 @@ from functools import partial
 import numpy as np
 from scipy.linalg import block_diag
 
-from pipeline.assembled import INPUTS, elastic_body, row_fields
 from pipeline.contract import Context, Quantity, Section, option, stage
 from pipeline.physics.reduction.body import reduce_body
 from pipeline.products import BeamOnBeam, Lumped, PinOnDisc, ReducedModel, Structure
+from pipeline.systems.fem_bodies import INPUTS, elastic_body, row_fields
 
 #: the tangential law of a system that has none: its friction comes from a map or from settings
 NO_SHEAR = {f"shear_{name}": [] for name in ("pressure", "friction", "stiffness", "elastic_stiffness", "exponent")}

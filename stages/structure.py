@@ -6,7 +6,6 @@ from typing import Literal
 import numpy as np
 import scipy.sparse as sp
 
-from pipeline.assembled import assembly_fields, body_product, incidence
 from pipeline.contract import Context, ConvergenceError, InputFile, Quantities, Quantity, Section, option, stage
 from pipeline.physics.contact.static_preload import condense, contact_law, solve_preload
 from pipeline.physics.fem.supports import free_freedoms, held_modes
@@ -14,6 +13,7 @@ from pipeline.physics.friction.friction_table import refuse_beyond
 from pipeline.physics.modal.disc_modes import describe
 from pipeline.products import FrictionMap, Structure
 from pipeline.systems.disc_brake import BODIES, build
+from pipeline.systems.fem_bodies import assembly_fields, body_product, incidence
 
 #: the contact law is tabulated up to so many times the largest nominal pressure
 _LAW_RANGE = 20

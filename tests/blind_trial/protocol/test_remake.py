@@ -9,7 +9,7 @@ from pipeline.blind_trial.generators.systems import System
 from pipeline.blind_trial.protocol import make as making
 from pipeline.blind_trial.protocol import remake, seal
 from pipeline.blind_trial.protocol.case_set import TrialSet
-from pipeline.cli import cli
+from pipeline.cli.main import cli
 from pipeline.contract.errors import ConfigError
 from pipeline.contract.executor import InProcess
 from tests.blind_trial.protocol.small_set import small_set

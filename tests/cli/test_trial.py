@@ -6,7 +6,7 @@ from click.testing import CliRunner
 from pipeline.blind_trial.generators.systems import System
 from pipeline.blind_trial.protocol import make
 from pipeline.blind_trial.protocol.case_set import TrialSet
-from pipeline.cli import cli
+from pipeline.cli.main import cli
 
 
 def trial(*arguments):

@@ -10,8 +10,8 @@ import click
 
 import stages
 from pipeline import __version__
-from pipeline.cli_options import options
-from pipeline.cli_trial import trial
+from pipeline.cli.options import options
+from pipeline.cli.trial import trial
 from pipeline.contract.errors import BrakechainError
 
 RUNS = Path("data/runs")
@@ -63,7 +63,7 @@ def _stage_command(name):
 
 
 def _run(config, folder, overrides, first, last, force, dry_run, workers, scheduler):
-    from pipeline.console import Bars, RunContext
+    from pipeline.cli.console import Bars, RunContext
     from pipeline.contract import executor
 
     job = _job(config, folder, overrides)
@@ -92,11 +92,11 @@ def _run(config, folder, overrides, first, last, force, dry_run, workers, schedu
 
 def _job(config, folder, overrides):
     """The case and its run folder, checked, with the sparse solver resolved."""
-    from pipeline import measured
     from pipeline.contract import case, runner
     from pipeline.physics.numerics import sparse_solver
+    from pipeline.recordings import registry
 
-    chosen = case.load(config, stages.CHAINS, stages.load, overrides, measured.path)
+    chosen = case.load(config, stages.CHAINS, stages.load, overrides, registry.path)
     solver = sparse_solver.available()[0] if chosen.solver == "auto" else chosen.solver
     if solver not in sparse_solver.available():
         raise click.BadParameter(f"{config}: solver: expected one of {', '.join(sparse_solver.available())} on this"
@@ -151,7 +151,7 @@ def chain(config, folder, overrides, dot):
 @options("debug")
 def inspect(file):
     """Show what is in a product FILE: tree, dimensions, units, ranges, provenance."""
-    from pipeline.inspection import describe
+    from pipeline.cli.inspect import describe
 
     for line in describe(file):
         click.echo(line)
@@ -162,7 +162,7 @@ def inspect(file):
 @options("debug")
 def schema(name):
     """Print the JSON schema of the YAML of chain NAME, for editors  [default: all chains]."""
-    from pipeline.schema import case_schema
+    from pipeline.cli.schema import case_schema
 
     names = [name] if name else list(stages.CHAINS)
     if name and name not in stages.CHAINS:
@@ -177,14 +177,14 @@ def schema(name):
 @click.option("--csv", "file", metavar="FILE", type=click.Path(path_type=Path), help="write the table there too")
 def plan(config, overrides, file):
     """Before the bench: say which planned run of CONFIG can name which effect, and the cheapest set that names all."""
-    from pipeline import measured
     from pipeline.case_models import effect_block, virtual_rig
-    from pipeline.console import table
+    from pipeline.cli.console import table
     from pipeline.contract import ConfigError, case
     from pipeline.contract.store import write_companion
     from pipeline.diagnosis import campaign_planning
+    from pipeline.recordings import registry
 
-    given = case.load(config, stages.CHAINS, stages.load, overrides, measured.path, unread=("recording",))
+    given = case.load(config, stages.CHAINS, stages.load, overrides, registry.path, unread=("recording",))
     if given.document["chain"] != "lumped_bench":
         raise ConfigError(f"{config}: chain", "lumped_bench, of which runs can be planned", given.document["chain"])
     chosen = given.sections
@@ -208,9 +208,9 @@ def data():
 @options("debug")
 def list_data():
     """List the registered files: name, licence, what they hold and what they do not say."""
-    from pipeline import measured
+    from pipeline.recordings import registry
 
-    for entry in measured.entries().values():
+    for entry in registry.entries().values():
         click.echo(f"{entry.name}\n    {entry.content}\n    lacks: {entry.lacks}\n    licence: {entry.licence}")
 
 
@@ -219,9 +219,9 @@ def list_data():
 @options("debug")
 def data_path(name):
     """Print where the registered file NAME lies; it is downloaded where BRAKECHAIN_DATA names no folder."""
-    from pipeline import measured
+    from pipeline.recordings import registry
 
-    click.echo(measured.path(name))
+    click.echo(registry.path(name))
 
 
 @data.command("format")

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 import scipy.sparse as sp
 
-from pipeline.assembled import body_product, body_rows, elastic_body, incidence, row_fields
 from pipeline.physics.fem.supports import free_freedoms
 from pipeline.products import PinOnDisc, Structure
+from pipeline.systems.fem_bodies import body_product, body_rows, elastic_body, incidence, row_fields
 from pipeline.systems.solids import Rows
 from tests.stages.small_structure import small_structure
 from tests.systems.test_solids import solid

@@ -19,7 +19,7 @@ def test_help_lists_every_stage_and_imports_none():
     assert done.returncode == 0
     for name in stages.NAMES:
         assert name.replace("_", "-") in done.stdout and stages.summary(name)[:30] in done.stdout
-    script = ("import sys, pipeline.cli as c\nfrom click.testing import CliRunner\n"
+    script = ("import sys, pipeline.cli.main as c\nfrom click.testing import CliRunner\n"
               "CliRunner().invoke(c.cli, ['--help'])\n"
               "heavy = {'skfem', 'pyvista', 'exudyn', 'numba', 'matplotlib', 'scipy', 'SurfaceTopography'}"
               " & set(sys.modules)\n"

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import click
 
-from pipeline.cli_options import options
+from pipeline.cli.options import options
 
 _SET = click.argument("folder", metavar="SET", type=click.Path(path_type=Path))
 _KEY = click.option("--key", "key_file", metavar="FILE", type=click.Path(path_type=Path),
