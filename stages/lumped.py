@@ -11,7 +11,7 @@ import numpy as np
 from pipeline.contract import ConfigError, Context, InputFile, Quantities, Quantity, Section, option, stage
 from pipeline.contract.units import to_si
 from pipeline.physics.contact.static_forces import static_forces
-from pipeline.physics.signals import input_histories as histories
+from pipeline.physics.signals import input_histories
 from pipeline.products import Lumped
 from pipeline.recordings.columns import read_columns
 from pipeline.systems import lumped as system
@@ -293,17 +293,17 @@ def _shape(history, time, where):
         raise ConfigError("lumped.histories.interval", f"at most {1 / (_SAMPLES * highest):.3g} s, {_SAMPLES} samples a"
                           f" period at {highest:g} Hz", f"{time[1]:g} s", f"lower it, or the frequency of {where}")
     if isinstance(history, Harmonic):
-        return histories.harmonic(time, history.frequency, history.phase)
+        return input_histories.harmonic(time, history.frequency, history.phase)
     if isinstance(history, Chirp):
-        return histories.chirp(time, history.first, history.last, history.sweep)
+        return input_histories.chirp(time, history.first, history.last, history.sweep)
     if isinstance(history, Step):
-        return histories.step(time, history.begin, history.rise)
+        return input_histories.step(time, history.begin, history.rise)
     table = read_columns(history.file)
     values = _column(table, history.column, f"{where}.column")
     instants = history.interval * np.arange(len(values))
     if history.time is not None:
         instants = _column(table, history.time, f"{where}.time")
-    return histories.resampled(time, instants, values, f"{where}.file")
+    return input_histories.resampled(time, instants, values, f"{where}.file")
 
 
 def _column(table, name, where):

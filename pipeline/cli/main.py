@@ -190,7 +190,8 @@ def plan(config, overrides, file):
     chosen = given.sections
     model = stages.load("reduced_model")(stages.load("lumped")(settings=chosen["lumped"]),
                                          settings=chosen["reduced_model"])
-    whole = effect_block.with_effects(virtual_rig.built(model, chosen["bench"]), effect_block.product(chosen["effects"]))
+    whole = effect_block.with_effects(virtual_rig.built(model, chosen["bench"]),
+                                      effect_block.product(chosen["effects"]))
     found = campaign_planning.plan(whole, campaign_planning.channel_units(whole), chosen["diagnosis"])
     head, rows = campaign_planning.table(found)
     table("d: standard deviations that each effect leaves beside the nominal values", head, rows,

@@ -31,8 +31,7 @@ def trial():
 def make(folder, cases, systems, seed, sealed, key_file, workers, scheduler):
     """Make SET: an open one whose truth lies beside it, or a sealed one. Goes on where it was stopped."""
     from pipeline.blind_trial.generators.systems import SYSTEMS
-    from pipeline.blind_trial.protocol import make as making
-    from pipeline.blind_trial.protocol import seal as sealing
+    from pipeline.blind_trial.protocol import making, sealing
 
     if sealed and seed is not None:
         raise click.UsageError("--seed belongs to open sets: seeds of a sealed one are secret")
@@ -56,8 +55,7 @@ def make(folder, cases, systems, seed, sealed, key_file, workers, scheduler):
 @options("debug")
 def seal(folder, key_file):
     """Seal an open SET that nobody has solved: encrypt its truth.json and commit to it."""
-    from pipeline.blind_trial.protocol import make as making
-    from pipeline.blind_trial.protocol import seal as sealing
+    from pipeline.blind_trial.protocol import making, sealing
 
     path = sealing.key_path(folder, key_file)
     making.seal(folder, lambda: sealing.new_key(path))
@@ -72,7 +70,7 @@ def seal(folder, key_file):
 @options("workers", "scheduler", "debug")
 def solve(folder, methods, limit, workers, scheduler):
     """Solve SET, each case in a process that sees nothing but its two files. Goes on where it was stopped."""
-    from pipeline.blind_trial.protocol import solve as solving
+    from pipeline.blind_trial.protocol import solving
 
     names = tuple(methods.split(",")) if methods else solving.METHODS
     with _working(workers, scheduler) as work:
@@ -88,10 +86,9 @@ def solve(folder, methods, limit, workers, scheduler):
 @options("debug")
 def score(folder, key_file, truth_file):
     """Score a solved SET: open its truth, once, and publish it with the key and the result."""
-    from pipeline.blind_trial.protocol import score as scoring
-    from pipeline.blind_trial.protocol import seal as sealing
+    from pipeline.blind_trial.metrics.summary import lines
+    from pipeline.blind_trial.protocol import scoring, sealing
     from pipeline.blind_trial.protocol.case_set import TrialSet
-    from pipeline.blind_trial.protocol.summary import lines
 
     key = sealing.key_path(folder, key_file) if TrialSet(folder).sealed else None
     click.echo("\n".join(lines(scoring.score(folder, key, truth_file))))
@@ -102,7 +99,7 @@ def score(folder, key_file, truth_file):
 @options("debug")
 def verify(folder):
     """Verify a published SET: truth, key, commitment, answers and result belong together."""
-    from pipeline.blind_trial.protocol.verify import verify as checked
+    from pipeline.blind_trial.protocol.verifying import verify as checked
 
     for sentence in checked(folder):
         click.echo(sentence)
@@ -114,8 +111,8 @@ def verify(folder):
 @options("debug")
 def show(folder, markdown):
     """Write the page of a scored SET, trial.html, and tell where it is."""
+    from pipeline.blind_trial.metrics.summary import as_markdown
     from pipeline.blind_trial.protocol.case_set import TrialSet
-    from pipeline.blind_trial.protocol.summary import as_markdown
     from pipeline.contract.store import write_companion
     from pipeline.views.pages.trial import page
 
@@ -137,8 +134,7 @@ def remake(folder, into, key_file, workers, scheduler):
 
     NEW is made of a published set. Only sets that 'trial make' made can be made again. Goes on where it was stopped.
     """
-    from pipeline.blind_trial.protocol import remake as remaking
-    from pipeline.blind_trial.protocol import seal as sealing
+    from pipeline.blind_trial.protocol import remaking, sealing
 
     if into and key_file:
         raise click.UsageError("NEW shows its truth: it is made of a published set, which needs no --key")

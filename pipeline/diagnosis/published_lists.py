@@ -158,7 +158,8 @@ def _harmonics(recording, models, told, context):
 def _squeal(recording, models, told, context):
     found = squeal_frequencies.claims(recording, told, models.needed("modes", "complex_modes"))
     asked = squeal_frequencies.squeal_question(recording, told, found)
-    names = tuple(label(((found[k].effect, found[k].place),)) for k in squeal_frequencies.undecided(found, recording, told))
+    names = tuple(label(((found[k].effect, found[k].place),))
+                  for k in squeal_frequencies.undecided(found, recording, told))
     conditions = (
         "growth phases = at three speeds and one load: falling friction makes growth depend on the speed, flutter"
         " does not",

@@ -14,7 +14,7 @@ from pipeline.contract.documents import read_yaml
 from pipeline.contract.errors import ConfigError
 from pipeline.contract.settings import fill
 
-REGISTRY = Path(__file__).parents[1] / "data" / "measured"
+REGISTRY = Path(__file__).parents[2] / "data" / "measured"
 
 
 class Entry(BaseModel):

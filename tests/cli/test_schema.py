@@ -12,7 +12,7 @@ from pipeline.contract import documents
 from stages import CHAINS
 from tests.json_schema import faults
 
-ROOT = Path(__file__).parents[1]
+ROOT = Path(__file__).parents[2]
 CASES = sorted((ROOT / "configs").glob("*.yaml"))
 
 

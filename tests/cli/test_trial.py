@@ -4,7 +4,7 @@ import pytest
 from click.testing import CliRunner
 
 from pipeline.blind_trial.generators.systems import System
-from pipeline.blind_trial.protocol import make
+from pipeline.blind_trial.protocol import making
 from pipeline.blind_trial.protocol.case_set import TrialSet
 from pipeline.cli.main import cli
 
@@ -22,7 +22,7 @@ def toy(monkeypatch):
             (folder / name).write_text(str(draw.seed))
         return {"class": draw.kind, "effects": [], "system": "toy"}
 
-    monkeypatch.setattr(make, "SYSTEMS", {"toy": System("toy", write, {"control": ((),)}, (0.0,), (0.01,))})
+    monkeypatch.setattr(making, "SYSTEMS", {"toy": System("toy", write, {"control": ((),)}, (0.0,), (0.01,))})
 
 
 def test_help_tells_the_course_of_a_trial():

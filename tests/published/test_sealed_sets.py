@@ -2,9 +2,9 @@
 
 from pathlib import Path
 
+from pipeline.blind_trial.metrics.summary import as_markdown
 from pipeline.blind_trial.protocol.case_set import TrialSet
-from pipeline.blind_trial.protocol.summary import as_markdown
-from pipeline.blind_trial.protocol.verify import verify
+from pipeline.blind_trial.protocol.verifying import verify
 
 ROOT = Path(__file__).parents[2]
 PUBLISHED = sorted(path.parent for path in ROOT.glob("data/trial/*/result.json"))

@@ -16,8 +16,8 @@ from pipeline.blind_trial.generators import case_files
 from pipeline.blind_trial.generators.spring_mass.hidden_laws import HIDDEN
 from pipeline.blind_trial.generators.spring_mass.placement import places
 from pipeline.blind_trial.generators.spring_mass.rig_case import made
-from pipeline.blind_trial.protocol.criteria import class_of, judged
-from pipeline.blind_trial.protocol.intervals import line, rate
+from pipeline.blind_trial.metrics.criteria import class_of, judged
+from pipeline.blind_trial.metrics.rates import line, rate
 from pipeline.contract import documents
 from pipeline.contract.errors import BrakechainError
 from pipeline.contract.executor import LocalProcesses

@@ -13,8 +13,8 @@ from functools import partial
 from pathlib import Path
 
 from pipeline.blind_trial.generators.benches.pin_bench import DECOYS, HIDDEN, make, record
-from pipeline.blind_trial.protocol.criteria import judged
-from pipeline.blind_trial.protocol.intervals import line, rate
+from pipeline.blind_trial.metrics.criteria import judged
+from pipeline.blind_trial.metrics.rates import line, rate
 from pipeline.contract import documents
 from pipeline.recordings.neutral import write_neutral
 from tests.studies.forced import answered, by_stages, shared_out

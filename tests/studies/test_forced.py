@@ -3,7 +3,7 @@
 import pytest
 
 from pipeline.blind_trial.generators.spring_mass.hidden_laws import HIDDEN
-from pipeline.blind_trial.protocol.criteria import judged
+from pipeline.blind_trial.metrics.criteria import judged
 from tests.studies.forced import Plan, plans, run, table
 
 

@@ -7,7 +7,7 @@ import pytest
 from pipeline.contract import ConfigError
 from pipeline.validation.published_facts import Published, load
 
-FILE = Path(__file__).parents[1] / "data" / "reference" / "disc_brake.yaml"
+FILE = Path(__file__).parents[2] / "data" / "reference" / "disc_brake.yaml"
 FACTS = {fact.key: fact for fact in load(FILE)}
 GOOD = {"key": "a", "part": "modes", "role": "test", "quantity": "q", "value": 2.0, "tolerance": 1.0, "why": "w",
         "source": "s"}

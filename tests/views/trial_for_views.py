@@ -2,7 +2,7 @@
 
 import random
 
-from pipeline.blind_trial.protocol.result import result
+from pipeline.blind_trial.metrics.result import result
 
 EFFECTS, PLACES = ("coulomb", "cubic_stiffness", "joint_damping", "falling_friction"), ("link_0", "link_1", "contact")
 SHARES = (("control", 40), ("effect", 40), ("foreign", 16), ("pair", 6), ("sensor", 6), ("solver", 2), ("below", 6),

@@ -10,7 +10,7 @@ from pipeline.blind_trial.generators.spring_mass.reported_values import alike, p
 from pipeline.blind_trial.generators.spring_mass.rig_case import CORNER, DELAY, GAIN_ERROR, LEVELS, SPREAD
 from pipeline.contract.errors import ConfigError
 
-_CONFIGS = Path(__file__).parents[2] / "configs"
+_CONFIGS = Path(__file__).parents[3] / "configs"
 
 
 def leave(folder, document, runs):
@@ -63,7 +63,7 @@ def channels(force, shown, rate):
 def truth(case):
     """What is opened only for the score: see ``pipeline.blind_trial.generators.systems``.
 
-    ``left`` is d of ``pipeline.blind_trial.generators.spring_mass.detectability``: of the weaker of a pair, the other refitted; of physics that no
+    ``left`` is d of ``spring_mass.detectability``: of the weaker of a pair, the other refitted; of physics that no
     catalogue holds, beside the nearest known law. Laws that leave less than can be told are alike.
     """
     near = rivals(case) if case.kind in ("effect", "foreign") else []

@@ -130,11 +130,13 @@ def _on_belts():
 SYSTEMS = {system.name: system for system in (
     System("forced_rig", _forced, _classes(HIDDEN.values()), sizes=(0.03, 0.1, 0.3), noises=(0.01, 0.03, 0.1)),
     System("belt_rig", _belt, _on_belts(), sizes=(0.03, 0.1, 0.2), noises=(0.03, 0.1), weight=0.03),
-    System("pin_on_disc", bench_cases.pin_on_disc, bench_cases.hides(pin_bench.HIDDEN, pin_bench.DECOYS), (0.0,), (0.0,),
+    System("pin_on_disc", bench_cases.pin_on_disc, bench_cases.hides(pin_bench.HIDDEN, pin_bench.DECOYS), (0.0,),
+           (0.0,),
            "self_excited", weight=0.5),
     System("shoe_on_drum", bench_cases.shoe_on_drum, bench_cases.hides(flutter.HIDDEN, flutter.DECOYS), (0.0,), (0.0,),
            "self_excited", weight=0.1),
-    System("worn_pads", bench_cases.worn_pads, bench_cases.hides(bench_cases.worn_names()), (0.0,), (0.0,), "micro", weight=0.03),
+    System("worn_pads", bench_cases.worn_pads, bench_cases.hides(bench_cases.worn_names()), (0.0,), (0.0,), "micro",
+           weight=0.03),
     System("disc_brake", brake_files.write, brake_files.hides(), (0.0,), (0.0,), "disc_brake", weight=0.14),
     System("coarse_rig", _forced, {"solver": ((),)}, sizes=(0.0,), noises=(0.003, 0.01)),
 )}

@@ -10,12 +10,11 @@ from pipeline.contract.fingerprint import digest
 from pipeline.contract.runner import git_commit
 from pipeline.inference.decision.decision_rules import Rules
 
-_ROOT = Path(__file__).parents[2]
+_ROOT = Path(__file__).parents[3]
 #: what only makes truths, or shows what was found
-_APART = ("pipeline/trial/", "pipeline/views/", "pipeline/cli", "pipeline/console", "pipeline/inspection",
-          "pipeline/schema")
+_APART = ("pipeline/blind_trial/generators/", "pipeline/views/", "pipeline/cli/")
 #: what comes after the answers
-_AFTER = ("pipeline/concealed/",)
+_AFTER = ("pipeline/blind_trial/protocol/", "pipeline/blind_trial/metrics/")
 _PACKAGES = ("numpy", "scipy", "numba", "h5py")
 
 

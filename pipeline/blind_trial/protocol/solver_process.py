@@ -27,7 +27,7 @@ _ENDED = (signal.SIGKILL, signal.SIGTERM, signal.SIGINT, signal.SIGHUP)
 _LONGEST = 500
 #: bytes of address space that a process may take, where the system keeps to it: what asks for more is refused
 MEMORY = 8 << 30
-_ROOT = Path(__file__).parents[2]
+_ROOT = Path(__file__).parents[3]
 
 
 def command(method):

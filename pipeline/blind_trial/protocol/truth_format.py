@@ -2,7 +2,7 @@
 
 from numbers import Real
 
-from pipeline.blind_trial.protocol.criteria import CLASSES
+from pipeline.blind_trial.metrics.criteria import CLASSES
 from pipeline.contract.errors import ConfigError
 
 _NUMBERS = ("size", "noise", "left", "visible")

@@ -54,7 +54,8 @@ class Substituted:
                 continue
         if not decrease:
             return self.axes(found)
-        return self.axes(found) | {AXIS: (localisation.stages(tuple(decrease), decrease, self.draws, self.seed), "", None)}
+        stages = localisation.stages(tuple(decrease), decrease, self.draws, self.seed)
+        return self.axes(found) | {AXIS: (stages, "", None)}
 
     def _squares(self, bench):
         """Squared whitened error (blocks,) of the fitted runs."""

@@ -15,7 +15,8 @@ def chapter(structure, modes, look):
     """Chapter of the product Structure; ``modes`` are ComplexModes, for the load in steady sliding, or None."""
     loads = preload.loads(structure, modes)
     chosen = mode_shapes.distinct(structure.disc.frequency, look.shapes)
-    pictures = render([mode_shapes.assembly(structure), *(mode_shapes.disc_mode(structure.disc, mode) for mode in chosen)])
+    scenes = [mode_shapes.assembly(structure), *(mode_shapes.disc_mode(structure.disc, mode) for mode in chosen)]
+    pictures = render(scenes)
     figures = (_pads(structure, modes, loads, look),)
     if pictures:
         figures = (_assembly(structure, pictures[0]), *figures, *(

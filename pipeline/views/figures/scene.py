@@ -46,7 +46,7 @@ def render(scenes):
     """PNG bytes of each scene, or None where this machine cannot draw (no OpenGL)."""
     if not scenes:
         return []
-    root = Path(__file__).resolve().parents[2]
+    root = Path(__file__).resolve().parents[3]
     environment = {**os.environ, "PYTHONPATH": os.pathsep.join([str(root), os.environ.get("PYTHONPATH", "")])}
     child = subprocess.run([sys.executable, "-m", "pipeline.views.figures.scene"], input=pickle.dumps(scenes),
                            capture_output=True, env=environment, check=False)

@@ -2,7 +2,7 @@
 
 import json
 
-from pipeline.blind_trial.protocol import solve, solver_process
+from pipeline.blind_trial.protocol import solver_process, solving
 from pipeline.contract.executor import InProcess
 
 COULOMB = {"name": "coulomb", "place": "link_0", "parameters": {}}
@@ -37,8 +37,8 @@ def small_set(folder, truth=TRUTH):
 
 def solved(folder, monkeypatch, told=TOLD, **asked):
     """Solve a set in this process with the answers ``told``; returns how many were asked for."""
-    monkeypatch.setattr(solve, "answered", lambda case, method, limit: {**told[case.name], "cpu_seconds": 1.0})
-    return solve.solve(folder, InProcess(), **asked)
+    monkeypatch.setattr(solving, "answered", lambda case, method, limit: {**told[case.name], "cpu_seconds": 1.0})
+    return solving.solve(folder, InProcess(), **asked)
 
 
 def refusing(case, method, limit):

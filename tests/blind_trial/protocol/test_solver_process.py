@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from pipeline.blind_trial.protocol import seal, solver_process
+from pipeline.blind_trial.protocol import sealing, solver_process
 from pipeline.contract.errors import BrakechainError
 from tests.blind_trial.protocol.small_set import small_set
 
@@ -34,7 +34,7 @@ def running(monkeypatch, script):
 
 def test_a_solver_sees_two_files_a_clean_environment_and_no_path_of_the_set(tmp_path, monkeypatch):
     folder = small_set(tmp_path / "telling_name")
-    key = seal.new_key(tmp_path / "secret.key")
+    key = sealing.new_key(tmp_path / "secret.key")
     monkeypatch.setenv("BRAKECHAIN_TRIAL_KEY", key.decode())
     monkeypatch.setenv("XDG_DATA_HOME", str(tmp_path))
     running(monkeypatch, SPY)
@@ -64,7 +64,8 @@ def test_the_diagnosis_is_the_released_command_and_a_baseline_has_its_own_door()
     ("import time; time.sleep(60)", "no answer within 1 s")])
 def test_a_case_that_is_not_answered_is_refused_with_the_reason(tmp_path, monkeypatch, script, reason):
     running(monkeypatch, script)
-    answer = solver_process.answered(small_set(tmp_path / "a") / "cases" / "001", "diagnosis", 1 if "sleep" in script else 60)
+    case = small_set(tmp_path / "a") / "cases" / "001"
+    answer = solver_process.answered(case, "diagnosis", 1 if "sleep" in script else 60)
     assert (answer["verdict"], answer["effects"], answer["reasons"]) == ("refused", [], [reason])
 
 
@@ -84,4 +85,5 @@ def test_a_process_that_was_ended_from_outside_is_no_answer(tmp_path, monkeypatc
 def test_the_environment_starts_the_program_from_anywhere(tmp_path):
     done = subprocess.run([sys.executable, "-m", "pipeline", "--version"], cwd=tmp_path, capture_output=True, text=True,
                           env=solver_process.environment(tmp_path), timeout=60)
-    assert done.returncode == 0 and "brakechain" in done.stdout and os.environ["PATH"] == solver_process.environment("")["PATH"]
+    assert done.returncode == 0 and "brakechain" in done.stdout
+    assert os.environ["PATH"] == solver_process.environment("")["PATH"]

@@ -4,7 +4,7 @@ import json
 
 import pytest
 
-from pipeline.blind_trial.protocol import make
+from pipeline.blind_trial.protocol import making
 from pipeline.contract.errors import ConfigError
 from tests.blind_trial.protocol.small_set import TRUTH, small_set
 
@@ -19,7 +19,7 @@ def test_a_truth_in_other_words_is_refused(tmp_path, change, said):
     folder = small_set(tmp_path / "set")
     (folder / "truth.json").write_text(json.dumps({**TRUTH, "002": {**TRUTH["002"], **change}}))
     with pytest.raises(ConfigError, match=said):
-        make.seal(folder, lambda: b"")
+        making.seal(folder, lambda: b"")
     assert not (folder / "set.yaml").exists() and not (folder / "truth.sealed").exists()
 
 
@@ -27,4 +27,4 @@ def test_a_truth_without_effects_is_refused(tmp_path):
     folder = small_set(tmp_path / "set")
     (folder / "truth.json").write_text(json.dumps({**TRUTH, "002": {"class": "effect"}}))
     with pytest.raises(ConfigError, match="002: effects: expected a list of .*, found None"):
-        make.seal(folder, lambda: b"")
+        making.seal(folder, lambda: b"")

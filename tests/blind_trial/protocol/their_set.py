@@ -4,7 +4,7 @@ import contextlib
 import re
 from pathlib import Path
 
-DOCUMENT = (Path(__file__).parents[2] / "docs" / "trial_sets.md").read_text()
+DOCUMENT = (Path(__file__).parents[3] / "docs" / "trial_sets.md").read_text()
 
 
 def block(language):

@@ -28,7 +28,8 @@ def test_harmonic_and_step():
 @pytest.mark.exact
 def test_a_recording_is_read_linearly():
     instants = np.array([0.0, 0.7, 2.0])
-    np.testing.assert_allclose(input_histories.resampled(TIME, instants, 3 * instants - 1, "here"), 3 * TIME - 1, atol=1e-12)
+    resampled = input_histories.resampled(TIME, instants, 3 * instants - 1, "here")
+    np.testing.assert_allclose(resampled, 3 * TIME - 1, atol=1e-12)
 
 
 @pytest.mark.parametrize(("instants", "values", "said"), [

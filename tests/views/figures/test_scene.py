@@ -12,8 +12,8 @@ from tests.views import products_for_views as small
 @pytest.fixture(scope="module")
 def pictures():
     structure, model, modes = small.structure(), small.reduced_model(), small.complex_modes()
-    scenes = [mode_shapes.assembly(structure), mode_shapes.disc_mode(structure.disc, 0), mode_shapes.disc_mode(structure.disc, 0),
-              mode_shapes.disc_mode(structure.disc, 1), mode_shapes.unstable_mode(model, modes, 0)]
+    scenes = [mode_shapes.assembly(structure), *(mode_shapes.disc_mode(structure.disc, n) for n in (0, 0, 1)),
+              mode_shapes.unstable_mode(model, modes, 0)]
     drawn = render(scenes)
     if drawn is None:
         pytest.skip("this machine offers no OpenGL")

@@ -84,7 +84,7 @@ class Seen:
             :, None, None])
 
     def left(self, hidden):
-        """d of ``pipeline.blind_trial.generators.spring_mass.detectability``: what other values leave of the change of all poles by ``hidden``."""
+        """d of ``spring_mass.detectability``: what other values leave of the change of all poles by ``hidden``."""
         change = self._change(built(self.values, self.shape, hidden=hidden))
         return self.explained.left(change[None, None], np.ones(1))
 

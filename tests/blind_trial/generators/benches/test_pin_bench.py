@@ -13,7 +13,8 @@ from tests.blind_trial.generators.imported import imported
 
 def test_it_uses_nothing_of_this_project():
     """Neither itself nor anything that it imports: no effect, no diagnosis, no engine; but the form of its errors."""
-    assert imported("pipeline.blind_trial.generators.benches.pin_bench") == {"pipeline.blind_trial.generators.benches.pin_bench", "pipeline.contract.errors"}
+    name = "pipeline.blind_trial.generators.benches.pin_bench"
+    assert imported(name) == {name, "pipeline.contract.errors"}
 
 
 @pytest.mark.exact

@@ -13,7 +13,8 @@ from tests.blind_trial.generators.imported import imported
 
 def test_it_uses_nothing_of_the_diagnosis():
     """Neither itself nor anything that it imports: no effect, no diagnosis, no solver of the chain."""
-    assert imported("pipeline.blind_trial.generators.benches.worn_pad") == {"pipeline.blind_trial.generators.benches.worn_pad", "pipeline.contract.errors"}
+    name = "pipeline.blind_trial.generators.benches.worn_pad"
+    assert imported(name) == {name, "pipeline.contract.errors"}
 
 
 def small(hidden="", **changes):

@@ -42,7 +42,8 @@ def exact(disc, order):
 
 
 def test_it_uses_nothing_of_this_project():
-    assert imported("pipeline.blind_trial.generators.brake.annulus") == {"pipeline.blind_trial.generators.brake.annulus"}
+    name = "pipeline.blind_trial.generators.brake.annulus"
+    assert imported(name) == {name}
 
 
 @pytest.mark.exact

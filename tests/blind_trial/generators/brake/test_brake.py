@@ -36,9 +36,10 @@ def roots(bench, run=SLIDING):
 
 
 def test_it_uses_nothing_of_the_diagnosis():
-    assert imported("pipeline.blind_trial.generators.brake.brake") == {"pipeline.blind_trial.generators.brake.brake", "pipeline.blind_trial.generators.brake.brake_parts",
-                                                "pipeline.blind_trial.generators.brake.annulus", "pipeline.blind_trial.generators.spring_mass.sensors",
-                                                "pipeline.contract.errors"}
+    here = "pipeline.blind_trial.generators"
+    assert imported(f"{here}.brake.brake") == {f"{here}.brake.brake", f"{here}.brake.brake_parts",
+                                               f"{here}.brake.annulus", f"{here}.spring_mass.sensors",
+                                               "pipeline.contract.errors"}
 
 
 @pytest.mark.exact

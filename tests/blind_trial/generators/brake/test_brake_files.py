@@ -8,7 +8,7 @@ import yaml
 
 from pipeline.blind_trial.generators.brake import brake, brake_files, brake_model, brake_parts
 from pipeline.blind_trial.generators.systems import Draw
-from pipeline.blind_trial.protocol.criteria import judged
+from pipeline.blind_trial.metrics.criteria import judged
 from pipeline.effects import CATALOGUE
 from pipeline.effects.typical import Typical
 from pipeline.recordings.neutral import read_neutral

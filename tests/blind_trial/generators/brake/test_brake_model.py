@@ -30,7 +30,8 @@ def reduced():
 
 
 def test_it_uses_nothing_of_the_diagnosis():
-    assert not [m for m in imported("pipeline.blind_trial.generators.brake.brake_model") if not m.startswith("pipeline.blind_trial.generators") and (
+    here = "pipeline.blind_trial.generators"
+    assert not [m for m in imported(f"{here}.brake.brake_model") if not m.startswith(here) and (
         m.startswith("pipeline") and not m.startswith("pipeline.contract.errors"))]
 
 

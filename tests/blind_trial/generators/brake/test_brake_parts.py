@@ -24,7 +24,8 @@ def nearest(bench, wanted):
 
 
 def test_they_use_nothing_of_the_diagnosis():
-    assert imported("pipeline.blind_trial.generators.brake.brake_parts") == {"pipeline.blind_trial.generators.brake.brake_parts", "pipeline.blind_trial.generators.brake.annulus"}
+    here = "pipeline.blind_trial.generators.brake"
+    assert imported(f"{here}.brake_parts") == {f"{here}.brake_parts", f"{here}.annulus"}
 
 
 @pytest.mark.exact

@@ -69,7 +69,8 @@ def test_places_are_those_of_the_rig():
 
 
 def test_nothing_that_solves_a_trial_is_loaded_by_what_makes_it():
-    code = f"import sys, pipeline.blind_trial.generators.case_files; print([m for m in sys.modules if m.startswith({FORBIDDEN!r})])"
+    code = ("import sys, pipeline.blind_trial.generators.case_files; "
+            f"print([m for m in sys.modules if m.startswith({FORBIDDEN!r})])")
     told = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert told.stdout.strip() == "[]"
 

@@ -5,10 +5,10 @@ from functools import partial
 from pathlib import Path
 
 from pipeline.blind_trial.generators.systems import SYSTEMS, Draw
-from pipeline.blind_trial.protocol import seal
+from pipeline.blind_trial.protocol import sealing
 from pipeline.blind_trial.protocol.case_set import TrialSet
-from pipeline.blind_trial.protocol.make import described
-from pipeline.blind_trial.protocol.score import unsealed
+from pipeline.blind_trial.protocol.making import described
+from pipeline.blind_trial.protocol.scoring import unsealed
 from pipeline.contract.errors import ConfigError
 from pipeline.contract.runner import locked
 
@@ -56,7 +56,7 @@ def _truth(found, key_file):
     if found.has("truth.json"):
         truth = found.read("truth.json")
     elif found.has("truth.sealed") and key_file:
-        truth = unsealed(found, seal.read_key(key_file))["truth"]
+        truth = unsealed(found, sealing.read_key(key_file))["truth"]
     else:
         raise ConfigError(found.folder, "a published set, with its truth.json", "none",
                           "a sealed set is published once it is scored")

@@ -1,7 +1,7 @@
 """The table in the terminal and as Markdown."""
 
-from pipeline.blind_trial.protocol.result import result
-from pipeline.blind_trial.protocol.summary import as_markdown, lines
+from pipeline.blind_trial.metrics.result import result
+from pipeline.blind_trial.metrics.summary import as_markdown, lines
 from tests.blind_trial.protocol.small_set import TOLD, TRUTH
 
 FOUND = result({"name": "small", "kind": "open"}, TRUTH, {"diagnosis": TOLD, "largest_residual": TOLD})

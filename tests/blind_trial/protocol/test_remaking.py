@@ -6,15 +6,14 @@ import pytest
 from click.testing import CliRunner
 
 from pipeline.blind_trial.generators.systems import System
-from pipeline.blind_trial.protocol import make as making
-from pipeline.blind_trial.protocol import remake, seal
+from pipeline.blind_trial.protocol import making, remaking, sealing
 from pipeline.blind_trial.protocol.case_set import TrialSet
 from pipeline.cli.main import cli
 from pipeline.contract.errors import ConfigError
 from pipeline.contract.executor import InProcess
 from tests.blind_trial.protocol.small_set import small_set
 
-KEY = seal.Fernet.generate_key()
+KEY = sealing.Fernet.generate_key()
 
 
 def write(draw, folder, told="{}"):
@@ -29,7 +28,7 @@ def generators(monkeypatch):
     def put(how=write):
         found = {"toy": System("toy", how, {"control": ((),), "effect": (("a",), ("b",))}, (0.3,), (0.01,))}
         monkeypatch.setattr(making, "SYSTEMS", found)
-        monkeypatch.setattr(remake, "SYSTEMS", found)
+        monkeypatch.setattr(remaking, "SYSTEMS", found)
     put()
     return put
 
@@ -57,12 +56,12 @@ def test_lost_cases_of_a_sealed_set_come_back_with_its_key_alone_and_its_truth_s
     shutil.rmtree(found.folder / "cases" / "002")
     shutil.rmtree(found.folder / "cases" / "004")
     heard = []
-    remake.restore(found.folder, InProcess(), key_file, lambda done, total: heard.append((done, total)))
+    remaking.restore(found.folder, InProcess(), key_file, lambda done, total: heard.append((done, total)))
     assert contents(found.folder) == before and heard[-1] == (5, 5)
     assert not found.has("truth.json") and not found.has(".remaking")
-    key_file.write_bytes(seal.Fernet.generate_key())
+    key_file.write_bytes(sealing.Fernet.generate_key())
     with pytest.raises(ConfigError, match="what this key opens"):
-        remake.restore(found.folder, InProcess(), key_file)
+        remaking.restore(found.folder, InProcess(), key_file)
 
 
 def test_cases_that_come_out_otherwise_are_refused(tmp_path, generators, key_file):
@@ -70,36 +69,36 @@ def test_cases_that_come_out_otherwise_are_refused(tmp_path, generators, key_fil
     shutil.rmtree(found.folder / "cases")
     generators(lambda draw, folder: write(draw, folder, "{changed: 1}"))
     with pytest.raises(ConfigError, match="found other files"):
-        remake.restore(found.folder, InProcess(), key_file)
+        remaking.restore(found.folder, InProcess(), key_file)
 
 
 def test_a_folder_that_somebody_filled_is_left_as_it_is(tmp_path, generators):
     found, theirs = make(tmp_path / "a", seed=3), small_set(tmp_path / "b")
     before = (theirs / "truth.json").read_text(), contents(theirs)
     with pytest.raises(ConfigError, match="a folder without a set, found a set of cases"):
-        remake.repeat(found.folder, theirs, InProcess())
+        remaking.repeat(found.folder, theirs, InProcess())
     assert ((theirs / "truth.json").read_text(), contents(theirs)) == before
 
 
 def test_a_published_set_is_repeated_as_an_open_one(tmp_path, generators):
     found = make(tmp_path / "a", seed=3)
-    assert remake.repeat(found.folder, tmp_path / "b", InProcess())
+    assert remaking.repeat(found.folder, tmp_path / "b", InProcess())
     again = TrialSet(tmp_path / "b")
     assert contents(again.folder) == contents(found.folder) and again.read("truth.json") == found.read("truth.json")
     assert again.about["kind"] == "open" and again.about["name"] == "b" and "commitment" not in again.about
     with pytest.raises(ConfigError, match="a folder without a set"):
-        remake.repeat(found.folder, tmp_path / "b", InProcess())
+        remaking.repeat(found.folder, tmp_path / "b", InProcess())
     generators(lambda draw, folder: write(draw, folder, "{changed: 1}"))
-    assert not remake.repeat(found.folder, tmp_path / "c", InProcess())
+    assert not remaking.repeat(found.folder, tmp_path / "c", InProcess())
 
 
 def test_a_sealed_truth_is_not_laid_open_and_sets_of_others_cannot_be_made_again(tmp_path, generators):
     make(tmp_path / "a", key=lambda begun: KEY)
     with pytest.raises(ConfigError, match="a published set, with its truth.json"):
-        remake.repeat(tmp_path / "a", tmp_path / "b", InProcess())
+        remaking.repeat(tmp_path / "a", tmp_path / "b", InProcess())
     assert not (tmp_path / "b").exists()
     with pytest.raises(ConfigError, match="3 cases without, such as 001"):
-        remake.repeat(small_set(tmp_path / "mine"), tmp_path / "b", InProcess())
+        remaking.repeat(small_set(tmp_path / "mine"), tmp_path / "b", InProcess())
 
 
 def test_from_the_command_line(tmp_path, generators):

@@ -4,18 +4,18 @@ import json
 
 import pytest
 
-from pipeline.blind_trial.protocol import make, seal
+from pipeline.blind_trial.protocol import making, sealing
 from pipeline.blind_trial.protocol.case_set import TrialSet, canonical, sha256
-from pipeline.blind_trial.protocol.score import score, scored_as
-from pipeline.blind_trial.protocol.verify import verify
+from pipeline.blind_trial.protocol.scoring import score, scored_as
+from pipeline.blind_trial.protocol.verifying import verify
 from pipeline.contract.errors import BrakechainError
 from tests.blind_trial.protocol.small_set import TRUTH, small_set, solved
 
 
 @pytest.fixture
 def published(tmp_path, monkeypatch):
-    seal.new_key(tmp_path / "a.key")
-    make.seal(small_set(tmp_path / "set"), lambda: seal.read_key(tmp_path / "a.key"))
+    sealing.new_key(tmp_path / "a.key")
+    making.seal(small_set(tmp_path / "set"), lambda: sealing.read_key(tmp_path / "a.key"))
     solved(tmp_path / "set", monkeypatch)
     score(tmp_path / "set", tmp_path / "a.key")
     (tmp_path / "a.key").unlink()

@@ -2,7 +2,7 @@
 
 import pytest
 
-from pipeline.blind_trial.protocol.intervals import calibration, line, rate, wilson
+from pipeline.blind_trial.metrics.rates import calibration, line, rate, wilson
 
 
 @pytest.mark.exact

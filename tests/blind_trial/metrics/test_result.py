@@ -4,7 +4,7 @@ import json
 
 import pytest
 
-from pipeline.blind_trial.protocol.result import claims, confusion, detection, parameters, result, visible
+from pipeline.blind_trial.metrics.result import claims, confusion, detection, parameters, result, visible
 from tests.blind_trial.protocol.small_set import TOLD, TRUTH
 
 

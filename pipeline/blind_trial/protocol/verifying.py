@@ -1,8 +1,8 @@
 """Verifying a published set: that truth, key, commitment, answers and result belong together."""
 
-from pipeline.blind_trial.protocol import code_digest, seal
+from pipeline.blind_trial.protocol import code_digest, sealing
 from pipeline.blind_trial.protocol.case_set import TrialSet, canonical, sha256
-from pipeline.blind_trial.protocol.score import check_commitment, scored_as
+from pipeline.blind_trial.protocol.scoring import check_commitment, scored_as
 from pipeline.contract.errors import ConfigError
 
 
@@ -30,7 +30,7 @@ def verify(folder):
 def _sealing(found, truth):
     """Sentences on key, ciphertext, commitment and code of a sealed set."""
     opened = found.read_yaml("opened.yaml")
-    content = seal.unlocked(found.path("truth.sealed").read_bytes(), opened["key"].encode(),
+    content = sealing.unlocked(found.path("truth.sealed").read_bytes(), opened["key"].encode(),
                                found.path("truth.sealed"))
     _check(content == {"salt": opened["salt"], "truth": truth}, found, "truth.json is not what was sealed")
     yield "the published key opens truth.sealed, which holds truth.json"

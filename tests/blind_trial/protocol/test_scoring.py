@@ -5,23 +5,22 @@ import stat
 
 import pytest
 
-from pipeline.blind_trial.protocol import code_digest, make, seal
-from pipeline.blind_trial.protocol import score as scoring
+from pipeline.blind_trial.protocol import code_digest, making, scoring, sealing
 from pipeline.blind_trial.protocol.case_set import TrialSet
-from pipeline.blind_trial.protocol.score import score
+from pipeline.blind_trial.protocol.scoring import score
 from pipeline.contract.errors import BrakechainError
 from tests.blind_trial.protocol.small_set import TRUTH, small_set, solved
 
 
 @pytest.fixture
 def key(tmp_path):
-    seal.new_key(tmp_path / "a.key")
+    sealing.new_key(tmp_path / "a.key")
     return tmp_path / "a.key"
 
 
 @pytest.fixture
 def sealed_set(tmp_path, key, monkeypatch):
-    make.seal(small_set(tmp_path / "set"), lambda: seal.read_key(key))
+    making.seal(small_set(tmp_path / "set"), lambda: sealing.read_key(key))
     solved(tmp_path / "set", monkeypatch)
     return tmp_path / "set"
 
@@ -36,7 +35,7 @@ def test_a_score_publishes_truth_key_salt_and_result(sealed_set, key):
     assert found.read("truth.json") == TRUTH and found.read("result.json") == scored
     opened = found.read_yaml("opened.yaml")
     assert opened["key"] == key.read_text().strip()
-    assert seal.commitment(opened["salt"], TRUTH) == found.about["commitment"]
+    assert sealing.commitment(opened["salt"], TRUTH) == found.about["commitment"]
     assert scored["methods"]["diagnosis"]["rates"]["type and place, one effect"]["hits"] == 1
     assert scored["cases"]["003"]["answers"]["diagnosis"]["why"][0] == "another effect was named"
     assert scored["set"]["commitment"] == found.about["commitment"]
@@ -51,7 +50,7 @@ def test_a_set_is_scored_once(sealed_set, key):
 def test_no_key_and_another_key_are_refused(sealed_set, key, tmp_path):
     with pytest.raises(BrakechainError, match="the key of the set at"):
         score(sealed_set, tmp_path / "none.key")
-    seal.new_key(tmp_path / "b.key")
+    sealing.new_key(tmp_path / "b.key")
     with pytest.raises(BrakechainError, match="what this key opens"):
         score(sealed_set, tmp_path / "b.key")
     assert not (sealed_set / "truth.json").exists() and not (sealed_set / "opened.yaml").exists()
@@ -68,14 +67,15 @@ def test_a_commitment_that_does_not_match_is_refused_and_nothing_is_opened(seale
 
 def test_a_truth_that_was_sealed_anew_does_not_match(sealed_set, key):
     other = {**TRUTH, "003": TRUTH["001"]}
-    content, _ = seal.sealed(other, seal.read_key(key))
+    content, _ = sealing.sealed(other, sealing.read_key(key))
     (sealed_set / "truth.sealed").write_bytes(content)
     with pytest.raises(BrakechainError, match="truth or commitment was changed"):
         score(sealed_set, key)
 
 
 def test_code_that_changed_between_commitment_and_score_is_refused(sealed_set, key, monkeypatch):
-    monkeypatch.setattr(code_digest, "files", lambda real=code_digest.files: {**real(), "pipeline/blind_trial/protocol/criteria.py": "0"})
+    changed = {**code_digest.files(), "pipeline/blind_trial/metrics/criteria.py": "0"}
+    monkeypatch.setattr(code_digest, "files", lambda: changed)
     with pytest.raises(BrakechainError, match=r"changed before it was scored: pipeline/concealed/judging\.py"):
         score(sealed_set, key)
 
@@ -94,7 +94,7 @@ def test_cases_and_answers_that_were_changed_are_refused(sealed_set, key):
 
 
 def test_a_set_that_is_not_solved_is_not_scored(tmp_path, key):
-    make.seal(small_set(tmp_path / "set"), lambda: seal.read_key(key))
+    making.seal(small_set(tmp_path / "set"), lambda: sealing.read_key(key))
     with pytest.raises(BrakechainError, match="answers of all cases, found 0 of 3"):
         score(tmp_path / "set", key)
     assert not (tmp_path / "set" / "truth.json").exists()

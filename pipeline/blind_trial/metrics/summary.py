@@ -1,6 +1,6 @@
 """The table of a result, for the terminal and for a README."""
 
-from pipeline.blind_trial.protocol.intervals import line
+from pipeline.blind_trial.metrics.rates import line
 
 #: method whose rates name the rows
 _FIRST = "diagnosis"

@@ -6,15 +6,14 @@ import secrets
 import pytest
 
 from pipeline.blind_trial.generators.systems import System
-from pipeline.blind_trial.protocol import make as making
-from pipeline.blind_trial.protocol import seal
+from pipeline.blind_trial.metrics.criteria import VISIBLE
+from pipeline.blind_trial.protocol import making, sealing
 from pipeline.blind_trial.protocol.case_set import TrialSet
-from pipeline.blind_trial.protocol.criteria import VISIBLE
 from pipeline.contract.errors import BrakechainError, ConfigError
 from pipeline.contract.executor import InProcess
 from tests.blind_trial.protocol.small_set import small_set
 
-KEY = seal.Fernet.generate_key()
+KEY = sealing.Fernet.generate_key()
 
 
 class Generator:
@@ -111,8 +110,8 @@ def test_a_sealed_set_shows_nothing_of_its_truth_and_its_seeds_come_from_the_sys
     first, second = (make(tmp_path / name, seed=None, key=lambda begun: KEY) for name in "ab")
     assert len(asked) == 2 * (5 + 1) and first.digest() != second.digest()
     assert sorted(p.name for p in first.folder.iterdir()) == [".lock", "cases", "code.json", "set.yaml", "truth.sealed"]
-    opened = seal.unlocked(first.path("truth.sealed").read_bytes(), KEY, "")
-    assert seal.commitment(opened["salt"], opened["truth"]) == first.about["commitment"]
+    opened = sealing.unlocked(first.path("truth.sealed").read_bytes(), KEY, "")
+    assert sealing.commitment(opened["salt"], opened["truth"]) == first.about["commitment"]
     assert opened["truth"]["001"]["draw"]["seed"] == int((first.cases["001"] / "recordings.h5").read_text())
 
 
@@ -131,7 +130,7 @@ def test_a_set_of_others_is_sealed(tmp_path):
     making.seal(folder, lambda: KEY)
     found = TrialSet(folder)
     assert found.sealed and not found.has("truth.json")
-    assert seal.unlocked(found.path("truth.sealed").read_bytes(), KEY, "")["truth"] == truth
+    assert sealing.unlocked(found.path("truth.sealed").read_bytes(), KEY, "")["truth"] == truth
     with pytest.raises(BrakechainError, match="an open set, found a sealed one"):
         making.seal(folder, lambda: KEY)
 

@@ -9,10 +9,9 @@ from pathlib import Path
 import numpy as np
 
 from pipeline.blind_trial.generators.systems import SYSTEMS, Draw
-from pipeline.blind_trial.protocol import code_digest
-from pipeline.blind_trial.protocol import seal as sealing
+from pipeline.blind_trial.metrics.criteria import VISIBLE
+from pipeline.blind_trial.protocol import code_digest, sealing
 from pipeline.blind_trial.protocol.case_set import FORMAT, TrialSet, canonical, read_json
-from pipeline.blind_trial.protocol.criteria import VISIBLE
 from pipeline.blind_trial.protocol.stratification import drawn
 from pipeline.blind_trial.protocol.truth_format import check_truth
 from pipeline.contract.errors import BrakechainError, ConfigError

@@ -5,27 +5,27 @@ import shutil
 
 import pytest
 
-from pipeline.blind_trial.protocol import code_digest, make, seal, solve, solver_process
+from pipeline.blind_trial.protocol import code_digest, making, sealing, solver_process, solving
 from pipeline.blind_trial.protocol.case_set import TrialSet
 from pipeline.contract.errors import BrakechainError
 from pipeline.contract.executor import InProcess, LocalProcesses
 from tests.blind_trial.protocol.small_set import TOLD, TRUTH, refusing, small_set, solved
 
-KEY = seal.Fernet.generate_key()
+KEY = sealing.Fernet.generate_key()
 
 
 @pytest.fixture
 def sealed_set(tmp_path):
-    make.seal(small_set(tmp_path / "set"), lambda: KEY)
+    making.seal(small_set(tmp_path / "set"), lambda: KEY)
     return tmp_path / "set"
 
 
 def test_answers_are_kept_case_by_case_and_together(tmp_path, monkeypatch):
     folder, heard = small_set(tmp_path / "set"), []
     count = solved(folder, monkeypatch, tell=lambda done, total: heard.append((done, total)))
-    assert count == 3 * len(solve.METHODS) == len(heard)
+    assert count == 3 * len(solving.METHODS) == len(heard)
     kept = TrialSet(folder).read("answers.json")["answers"]
-    assert set(kept) == set(solve.METHODS) and set(kept["diagnosis"]) == set(TOLD)
+    assert set(kept) == set(solving.METHODS) and set(kept["diagnosis"]) == set(TOLD)
     assert kept["diagnosis"]["002"]["verdict"] == "missing" and len(kept["diagnosis"]["002"]["code"]) == 64
 
 
@@ -37,9 +37,9 @@ def test_what_was_stopped_goes_on_and_what_is_answered_stays(tmp_path, monkeypat
             raise KeyboardInterrupt
         return refusing(case, method, limit)
 
-    monkeypatch.setattr(solve, "answered", stopped)
+    monkeypatch.setattr(solving, "answered", stopped)
     with pytest.raises(KeyboardInterrupt):
-        solve.solve(folder, InProcess(), ("diagnosis",))
+        solving.solve(folder, InProcess(), ("diagnosis",))
     assert not (folder / "answers.json").exists()
     assert solved(folder, monkeypatch, methods=("diagnosis",)) == 2
     kept = TrialSet(folder).read("answers.json")["answers"]["diagnosis"]
@@ -49,7 +49,7 @@ def test_what_was_stopped_goes_on_and_what_is_answered_stays(tmp_path, monkeypat
 
 def test_a_method_that_answered_some_cases_alone_is_left_out(tmp_path, monkeypatch):
     folder = small_set(tmp_path / "set")
-    monkeypatch.setattr(solve, "METHODS", ("diagnosis", "other"))
+    monkeypatch.setattr(solving, "METHODS", ("diagnosis", "other"))
     TrialSet(folder).write("answers/other/001.json", {"verdict": "unknown"})
     solved(folder, monkeypatch, methods=("diagnosis",))
     assert list(TrialSet(folder).read("answers.json")["answers"]) == ["diagnosis"]
@@ -58,7 +58,7 @@ def test_a_method_that_answered_some_cases_alone_is_left_out(tmp_path, monkeypat
 def test_cases_are_shared_out_over_processes(tmp_path):
     folder, work = small_set(tmp_path / "set", {n: TRUTH[n] for n in ("001", "002")}), LocalProcesses(2)
     try:
-        assert solve.solve(folder, work, ("diagnosis",)) == 2
+        assert solving.solve(folder, work, ("diagnosis",)) == 2
     finally:
         work.close()
     kept = TrialSet(folder).read("answers.json")["answers"]["diagnosis"]
@@ -74,7 +74,7 @@ def test_answers_of_other_code_are_renewed_in_an_open_set_alone(tmp_path, monkey
 
 
 def test_a_sealed_set_is_solved_once(sealed_set, monkeypatch):
-    assert solved(sealed_set, monkeypatch) == 3 * len(solve.METHODS)
+    assert solved(sealed_set, monkeypatch) == 3 * len(solving.METHODS)
     with pytest.raises(BrakechainError, match="a sealed set is solved once"):
         solved(sealed_set, monkeypatch)
 

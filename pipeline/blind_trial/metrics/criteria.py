@@ -1,4 +1,4 @@
-"""What of an answer is right, case by case. Truth as ``pipeline.blind_trial.generators.systems`` writes it, answer as diagnosis.json."""
+"""What of an answer is right, case by case. Truth as ``generators.systems`` writes it, answer as diagnosis.json."""
 
 import numpy as np
 

@@ -2,8 +2,8 @@
 
 import pytest
 
-from pipeline.blind_trial.protocol.criteria import judged
-from pipeline.blind_trial.protocol.failure_reasons import why
+from pipeline.blind_trial.metrics.criteria import judged
+from pipeline.blind_trial.metrics.failure_reasons import why
 
 COULOMB, CUBIC = {"name": "coulomb", "place": "a"}, {"name": "cubic_stiffness", "place": "b"}
 

@@ -2,10 +2,10 @@
 
 from datetime import UTC, datetime
 
-from pipeline.blind_trial.protocol import code_digest, seal
+from pipeline.blind_trial.metrics.result import result
+from pipeline.blind_trial.protocol import code_digest, sealing
 from pipeline.blind_trial.protocol.case_set import TrialSet, canonical, read_json, sha256
-from pipeline.blind_trial.protocol.result import result
-from pipeline.blind_trial.protocol.solve import METHODS, check_cases, check_code, digest_of_case
+from pipeline.blind_trial.protocol.solving import METHODS, check_cases, check_code, digest_of_case
 from pipeline.blind_trial.protocol.truth_format import check_truth
 from pipeline.contract.errors import ConfigError
 
@@ -61,7 +61,7 @@ def _opened(found, key_file):
     if found.has("result.json"):
         raise ConfigError(found.folder, "a sealed set that was not scored", "its result",
                           "check it with: brakechain trial verify SET")
-    key = seal.read_key(key_file)
+    key = sealing.read_key(key_file)
     check_code(found, code_digest.files(), "before it was scored")
     check_cases(found)
     return unsealed(found, key), key
@@ -69,21 +69,22 @@ def _opened(found, key_file):
 
 def unsealed(found, key):
     """{salt, truth} that a ``key`` opens; ConfigError where it is not the set's, or they are not what was committed."""
-    opened = seal.unlocked(found.path("truth.sealed").read_bytes(), key, found.path("truth.sealed"))
+    opened = sealing.unlocked(found.path("truth.sealed").read_bytes(), key, found.path("truth.sealed"))
     check_commitment(found, opened["salt"], opened["truth"])
     return opened
 
 
 def check_commitment(found, salt, truth):
     """Refuse a truth other than the one that was committed."""
-    if seal.commitment(salt, truth) != found.about.get("commitment"):
-        raise ConfigError(found.folder / "set.yaml", f"commitment {seal.commitment(salt, truth)}",
+    if sealing.commitment(salt, truth) != found.about.get("commitment"):
+        raise ConfigError(found.folder / "set.yaml", f"commitment {sealing.commitment(salt, truth)}",
                           found.about.get("commitment"), "truth or commitment was changed after the set was made")
 
 
 def _check_current(found, answers):
     """Refuse to score answers of an open set that other code gave, or to other files."""
-    now, files = code_digest.of_answers(code_digest.files()), {number: digest_of_case(case) for number, case in found.cases.items()}
+    now = code_digest.of_answers(code_digest.files())
+    files = {number: digest_of_case(case) for number, case in found.cases.items()}
     told = [(number, answer) for own in answers.values() for number, answer in own.items()]
     for what, apart in (("of other code", sum(answer["code"] != now for _, answer in told)),
                         ("to other files", sum(answer["files"] != files.get(number) for number, answer in told))):

@@ -2,9 +2,9 @@
 
 import numpy as np
 
-from pipeline.blind_trial.protocol.criteria import EMPTY, class_of, judged, same, threshold
-from pipeline.blind_trial.protocol.failure_reasons import why
-from pipeline.blind_trial.protocol.intervals import calibration, rate
+from pipeline.blind_trial.metrics.criteria import EMPTY, class_of, judged, same, threshold
+from pipeline.blind_trial.metrics.failure_reasons import why
+from pipeline.blind_trial.metrics.rates import calibration, rate
 
 FORMAT = "brakechain-trial-result/1"
 #: held-out error over the noise floor that a completed model may have

@@ -1,0 +1,1 @@
+"""How an answer is judged: criteria, rates with confidence intervals, the table of a result."""
