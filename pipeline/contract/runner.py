@@ -13,6 +13,8 @@ from functools import partial
 from importlib import metadata
 from pathlib import Path
 
+from threadpoolctl import threadpool_info
+
 from pipeline import __version__
 from pipeline.contract import fingerprint, store
 from pipeline.contract.errors import ConfigError, ProductError
@@ -162,8 +164,8 @@ class Run:
             "stage": stage.name, "brakechain": __version__, "git_commit": git_commit(),
             "settings": json.dumps(self.case.given(stage), default=str), "fingerprint": json.dumps(asdict(now)),
             "companions": json.dumps(sorted(companions)), "packages": json.dumps(_packages()),
-            "python": platform.python_version(), "machine": platform.machine(), "wall_seconds": seconds,
-            "cpu_seconds": _cpu_seconds(context) - cpu})
+            "kernels": json.dumps(_kernels()), "python": platform.python_version(), "machine": platform.machine(),
+            "wall_seconds": seconds, "cpu_seconds": _cpu_seconds(context) - cpu})
         for name, content in companions.items():
             store.write_companion(self.folder / name, content)
         return seconds
@@ -238,6 +240,13 @@ def _packages():
         except metadata.PackageNotFoundError:
             continue
     return found
+
+
+def _kernels():
+    """Linear algebra libraries that are loaded, each with the processor that it computes for."""
+    loaded = {f"{library['internal_api']} {library.get('architecture') or ''}".strip() for library in threadpool_info()
+              if library["user_api"] == "blas"}
+    return sorted(loaded)
 
 
 def git_commit():

@@ -148,4 +148,4 @@ def test_provenance_says_how_it_was_made(config):
     job(config).execute(Context())
     told = store.provenance(config.parent / "run" / "source.h5")
     assert told["stage"] == "source" and '"duration": "3 s"' in told["settings"] and told["wall_seconds"] >= 0
-    assert {"git_commit", "packages", "python", "cpu_seconds", "brakechain"} <= set(told)
+    assert {"git_commit", "packages", "kernels", "python", "cpu_seconds", "brakechain"} <= set(told)
