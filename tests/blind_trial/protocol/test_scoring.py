@@ -76,7 +76,8 @@ def test_a_truth_that_was_sealed_anew_does_not_match(sealed_set, key):
 def test_code_that_changed_between_commitment_and_score_is_refused(sealed_set, key, monkeypatch):
     changed = {**code_digest.files(), "pipeline/blind_trial/metrics/criteria.py": "0"}
     monkeypatch.setattr(code_digest, "files", lambda: changed)
-    with pytest.raises(BrakechainError, match=r"changed before it was scored: pipeline/blind_trial/metrics/criteria\.py"):
+    name = r"changed before it was scored: pipeline/blind_trial/metrics/criteria\.py"
+    with pytest.raises(BrakechainError, match=name):
         score(sealed_set, key)
 
 
