@@ -5,16 +5,15 @@ from fnmatch import fnmatch
 
 from pipeline.contract import ConfigError, Context, InputFile, Products, Section, option, stage
 from pipeline.products import Comparison
-from pipeline.validation.beam_on_beam import beam_on_beam_rows
-from pipeline.validation.disc_brake import disc_brake_rows
-from pipeline.validation.lumped import lumped_rows
-from pipeline.validation.pin_on_disc import pin_on_disc_rows
+from pipeline.validation import beam_on_beam, disc_brake, field_of, lumped, pin_on_disc, rupture
 from pipeline.validation.published_facts import load
-from pipeline.validation.rupture import rupture_rows
 
-#: product that only one system has -> rows (products, facts, known) -> {key: Ours}; the first that is there counts
-SYSTEMS = {"structure": disc_brake_rows, "pin_on_disc": pin_on_disc_rows, "beam_on_beam": beam_on_beam_rows,
-           "lumped": lumped_rows, "rupture": rupture_rows}
+#: product that only one system has -> rows (products, facts, known) -> {key: Ours}, and the product field of each
+#: fact key; the first product that is present counts
+SYSTEMS = {"structure": (disc_brake.disc_brake_rows, disc_brake.FIELDS),
+           "pin_on_disc": (pin_on_disc.pin_on_disc_rows, pin_on_disc.FIELDS),
+           "beam_on_beam": (beam_on_beam.beam_on_beam_rows, beam_on_beam.FIELDS),
+           "lumped": (lumped.lumped_rows, lumped.FIELDS), "rupture": (rupture.rupture_rows, rupture.FIELDS)}
 
 #: size in SI of the printed units that the chains compute
 _SIZE = {"1": 1.0, "%": 0.01, "um": 1e-6, "mm": 1e-3, "m": 1.0, "us": 1e-6, "ms": 1e-3, "s": 1.0, "1/s": 1.0, "Hz": 1.0,
@@ -22,7 +21,7 @@ _SIZE = {"1": 1.0, "%": 0.01, "um": 1e-6, "mm": 1e-3, "m": 1.0, "us": 1e-6, "ms"
          "deg": 0.017453292519943295}
 _REASON = {"condition": "a condition of the authors' work, not a result", "derived": "follows from other rows",
            "input": "an input of the authors, not a result"}
-_UNCOMPUTED = "the chain does not compute it"
+_UNCOMPUTED = "not computed by this chain"
 
 
 class Settings(Section):
@@ -33,7 +32,7 @@ class Settings(Section):
 
 
 def _check(sections):
-    """Refuse an unreadable reference, or tuned keys that it does not hold, before anything is computed."""
+    """Refuse an unreadable reference, or tuned keys that are not in it, before anything is computed."""
     settings = sections["comparison"]
     _tuned(settings.tuned or {}, load(settings.reference) if settings.reference else ())
 
@@ -43,8 +42,9 @@ def comparison(products: Products, settings: Settings, context: Context) -> Comp
     """Put the published numbers beside ours.
 
     A statement without a number is compared where it puts bounds on a number of ours. Inputs are shown
-    and not compared: to choose as the authors did is no evidence. A printed value that is read as
-    another one is shown as printed, and the row is not counted.
+    and not compared: choosing as the authors did is no evidence. A printed value that is read as
+    another one is shown as printed, and the row is not counted. Every row carries its fact key and the
+    product field that our value comes from.
 
     Method:
     Published facts come from {reference}; each of our values is computed from the products of this case. Modes in
@@ -53,17 +53,18 @@ def comparison(products: Products, settings: Settings, context: Context) -> Comp
     facts = load(settings.reference) if settings.reference else ()
     tuned = _tuned(settings.tuned or {}, facts)
     known = {fact.key: fact.value * _SIZE[fact.unit] for fact in facts if fact.value is not None and fact.unit in _SIZE}
-    ours = _rows_of(products)(products, facts, known)
+    rows_of, fields_by_key = _system_of(products)
+    ours = rows_of(products, facts, known)
     for fact in facts:
         if fact.key in ours and fact.unit not in _SIZE:
             raise ConfigError(f"{settings.reference}: {fact.key}.unit", f"one of {', '.join(_SIZE)}", repr(fact.unit))
-    rows = [_row(fact, ours.get(fact.key), tuned.get(fact.key, "")) for fact in facts]
+    rows = [_row(fact, ours.get(fact.key), fields_by_key, tuned.get(fact.key, "")) for fact in facts]
     return Comparison(**{field.name: [row[field.name] for row in rows] for field in fields(Comparison)})
 
 
-def _rows_of(products):
-    """The function that computes the rows of the system whose product is there; no rows for an unknown one."""
-    return next((rows for name, rows in SYSTEMS.items() if name in products), lambda *_: {})
+def _system_of(products):
+    """Function that computes the rows, and their product fields, of the system of ``products``; none if unknown."""
+    return next((system for name, system in SYSTEMS.items() if name in products), (lambda *_: {}, {}))
 
 
 def _tuned(patterns, facts):
@@ -71,20 +72,22 @@ def _tuned(patterns, facts):
     for pattern in patterns:
         if facts and not any(fnmatch(fact.key, pattern) for fact in facts):
             raise ConfigError(f"comparison.tuned.{pattern}", "a key of the reference file, or a pattern of keys",
-                              "none that fits", f"keys are such as {', '.join(fact.key for fact in facts[:3])}")
+                              "no match", f"examples of keys: {', '.join(fact.key for fact in facts[:3])}")
     return {fact.key: what for pattern, what in patterns.items() for fact in facts if fnmatch(fact.key, pattern)}
 
 
-def _row(fact, ours, tuned):
+def _row(fact, ours, fields_by_key, tuned):
     """The fields of one row."""
     value = None if ours is None or ours.value is None else ours.value / _SIZE[fact.unit]
     verdict, counted = _verdict(fact, value)
-    said = f"the paper says: {fact.statement}{_bounds(fact)}" if fact.statement else ""
-    formed = _REASON.get(fact.role, _UNCOMPUTED) if ours is None else ours.note
-    return {"row": fact.quantity, "section": fact.part, "unit": fact.unit, "published": fact.value or 0.0,
-            "published_known": int(fact.value is not None), "ours": value or 0.0, "ours_known": int(value is not None),
-            "tolerance": (fact.tolerance or 0.0) * counted, "verdict": verdict, "tuned": tuned, "source": fact.source,
-            "doubt": fact.doubt, "note": "; ".join(filter(None, (said, formed, _reading(fact, value))))}
+    statement = f"the paper says: {fact.statement}" if fact.statement else ""
+    origin = _REASON.get(fact.role, _UNCOMPUTED) if ours is None else ours.note
+    field = "" if ours is None else ours.field or field_of(fact.key, fields_by_key)
+    return {"row": fact.quantity, "key": fact.key, "field": field, "section": fact.part, "unit": fact.unit,
+            "published": fact.value or 0.0, "published_known": int(fact.value is not None), "ours": value or 0.0,
+            "ours_known": int(value is not None), "tolerance": (fact.tolerance or 0.0) * counted,
+            "bounds": _bounds(fact), "verdict": verdict, "tuned": tuned, "source": fact.source, "doubt": fact.doubt,
+            "note": "; ".join(filter(None, (statement, origin, _reading(fact, value))))}
 
 
 def _verdict(fact, value):
@@ -96,12 +99,11 @@ def _verdict(fact, value):
 
 def _bounds(fact):
     bounds = (("at least", fact.lower), ("at most", fact.upper))
-    told = " and ".join(f"{word} {bound:g}" for word, bound in bounds if bound is not None)
-    return f" (holds for {told})" if told else ""
+    return " and ".join(f"{word} {bound:g}" for word, bound in bounds if bound is not None)
 
 
 def _reading(fact, value):
     if fact.read_as is None or value is None:
         return ""
     return (f"not counted, because the printed value is doubted; {'within' if fact.met_by(value) else 'outside'} the"
-            f" tolerance of {fact.tolerance:g} {fact.unit} about {fact.read_as:g} {fact.unit}, as which it is read")
+            f" tolerance of {fact.tolerance:g} {fact.unit} about {fact.read_as:g} {fact.unit}, the value it is read as")

@@ -1,16 +1,17 @@
 """Our numbers for the facts of the disc brake, from the products that a case has."""
 
-from pipeline.validation.friction import friction_rows
-from pipeline.validation.modes import disc_mode_rows, squeal_rows, system_mode_rows
-from pipeline.validation.motion import motion_rows
+from pipeline.validation import friction, modes, motion
+
+#: fact key or pattern -> product field
+FIELDS = {**friction.FIELDS, **motion.FIELDS, **modes.FIELDS}
 
 #: product -> (product, facts, known) -> rows
 _ROWS = {
-    "micro_friction": lambda micro, facts, known: friction_rows(micro, known),
-    "multibody": lambda multibody, facts, known: motion_rows(multibody, known),
-    "structure": lambda structure, facts, known: disc_mode_rows(structure, facts),
-    "complex_modes": lambda modes, facts, known: system_mode_rows(modes, known),
-    "squeal": lambda squeal, facts, known: squeal_rows(squeal, known),
+    "micro_friction": lambda micro_friction, facts, known: friction.friction_rows(micro_friction, known),
+    "multibody": lambda multibody, facts, known: motion.motion_rows(multibody, known),
+    "structure": lambda structure, facts, known: modes.disc_mode_rows(structure, facts),
+    "complex_modes": lambda complex_modes, facts, known: modes.system_mode_rows(complex_modes, known),
+    "squeal": lambda squeal, facts, known: modes.squeal_rows(squeal, known),
 }
 
 

@@ -6,6 +6,17 @@ import numpy as np
 
 from pipeline.validation import SAME, Ours, correlation, index_of, ours, ratio
 
+_AREA, _FRICTION, _WEAR, _LARGEST = (f"micro_friction.{name}" for name in ("real_area", "friction", "wear_depth",
+                                                                          "largest_wear"))
+#: fact key -> product field
+FIELDS = {
+    "micro_pressures": "micro_friction.pressure", "micro_speeds": "micro_friction.speed",
+    "distance_last": "micro_friction.distance", "real_area_start": _AREA, "real_area_rises_with_pressure": _AREA,
+    "real_area_growth": _AREA, "real_area_growth_rises_with_pressure": _AREA, "wear_depth": _WEAR,
+    "wear_depth_over_pressure": _WEAR, "largest_wear_first": _LARGEST, "largest_wear_last": _LARGEST,
+    "friction_follows_real_area": f"{_FRICTION}, {_AREA}", "friction_*": _FRICTION,
+}
+
 #: rows of new surfaces
 _START_ROWS = ("real_area_start", "real_area_rises_with_pressure", "largest_wear_first",
                "friction_pressure_difference_start", "friction_speed_over_pressure")
@@ -20,7 +31,7 @@ _RUN_ROWS = ("real_area_growth", "real_area_growth_rises_with_pressure", "wear_d
 def friction_rows(micro, known):
     """Rows of the product MicroFriction at its middle speed; ``known`` = published values in SI by key.
 
-    Only pressures and speeds within the paper's range are looked at: the table may reach farther.
+    Only pressures and speeds within the paper's range count: the table may extend beyond it.
     """
     settings, micro = _settings(micro), _published_points(micro, known)
     if not micro.friction.size:
@@ -37,13 +48,13 @@ def friction_rows(micro, known):
 def _published_points(micro, known):
     """The product at its pressures and disc speeds within the paper's range."""
     axes = {"pressure": micro.pressure, "speed": micro.disc_speed}
-    kept = {name: _within(axis, known.get(f"{name}_lowest", 0.0), known.get(f"{name}_highest", np.inf))
-            for name, axis in axes.items()}
+    selected = {name: _within(axis, known.get(f"{name}_lowest", 0.0), known.get(f"{name}_highest", np.inf))
+                for name, axis in axes.items()}
     values = {field.name: getattr(micro, field.name) for field in fields(micro)}
     for field in fields(micro):
         for axis, dimension in enumerate(field.metadata["dims"]):
-            if dimension in kept:
-                values[field.name] = values[field.name].compress(kept[dimension], axis)
+            if dimension in selected:
+                values[field.name] = values[field.name].compress(selected[dimension], axis)
     return type(micro)(**values)
 
 
@@ -53,9 +64,9 @@ def _within(axis, low, high):
 
 
 def _settings(micro):
-    return {"micro_pressures": ours(micro.pressure.size, "our setting, no result"),
-            "micro_speeds": ours(micro.speed.size, "our setting, no result"),
-            "distance_last": ours(micro.distance[-1], "our setting, no result: the last distance recorded")}
+    return {"micro_pressures": ours(micro.pressure.size, "a setting of this case, not a result"),
+            "micro_speeds": ours(micro.speed.size, "a setting of this case, not a result"),
+            "distance_last": ours(micro.distance[-1], "a setting of this case, not a result: last recorded distance")}
 
 
 def _new_surfaces(micro, known):
@@ -71,7 +82,7 @@ def _new_surfaces(micro, known):
         "real_area_rises_with_pressure": ours(_smallest(area[1:] / area[:-1]), "middle speed, new surfaces"),
         "largest_wear_first": ours(largest, f"largest of the paper's operating points after {1e6 * cycle:.3g} um, the"
                                    " distance of one of the paper's iterations, by interpolation from new"),
-        "friction_pressure_difference_start": ours(_spread(friction), "middle speed, new surfaces"),
+        "friction_pressure_difference_start": ours(_range(friction), "middle speed, new surfaces"),
         "friction_speed_over_pressure": ours(influence, "largest differences, all else equal"),
     }
 
@@ -87,7 +98,7 @@ def _area_and_wear(micro, known, end):
         "real_area_growth": ours(None if low is None else growth[low], f"lowest pressure, {note}"),
         "real_area_growth_rises_with_pressure": ours(steeper, f"highest over lowest pressure, {note}"),
         "wear_depth": ours(depth.mean(), f"mean over pressure, {note}"),
-        "wear_depth_over_pressure": ours(ratio(_spread(depth), depth.mean()), note),
+        "wear_depth_over_pressure": ours(ratio(_range(depth), depth.mean()), note),
         "largest_wear_last": ours(_at(micro, micro.largest_wear, end).max(), "largest of the paper's operating points"),
     }
 
@@ -101,7 +112,7 @@ def _friction(micro, known, end):
     note = f"middle speed, {1e3 * end:.3g} mm"
     influence = ratio(np.ptp(curves, axis=0).max(), np.ptp(curves, axis=1).max())
     return {
-        "friction_pressure_difference_end": ours(_spread(curves[-1]), note),
+        "friction_pressure_difference_end": ours(_range(curves[-1]), note),
         "friction_lowest": ours(micro.friction.min(), "smallest of the paper's operating points"),
         "friction_highest": ours(micro.friction.max(), "largest of the paper's operating points"),
         "friction_rises_with_pressure": ours(_smallest(np.diff(curves)), "middle speed, the paper's three distances"),
@@ -116,7 +127,7 @@ def _at(micro, values, distance):
     return np.apply_along_axis(lambda curve: np.interp(distance, micro.distance, curve), 2, values)
 
 
-def _spread(values):
+def _range(values):
     return np.ptp(values) if values.size > 1 else np.nan
 
 

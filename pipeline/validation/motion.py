@@ -4,6 +4,20 @@ import numpy as np
 
 from pipeline.validation import correlation, index_of, ours, ratio
 
+#: fact key or pattern -> product field
+FIELDS = {
+    "pressure_lowest": "multibody.pressure", "pressure_middle": "multibody.pressure",
+    "pressure_highest": "multibody.pressure", "operating_points": "multibody.pressure", "speed_*": "multibody.speed",
+    "sub_discs": "multibody.patch_force", "patch_phase_shift": "multibody.patch_force",
+    "forces_rise_with_pressure": "multibody.patch_force", "pads_in_phase": "multibody.pad_motion",
+    "amplitude_rises_with_pressure": "multibody.pad_motion",
+    "pads_and_forces_not_correlated": "multibody.pad_motion, multibody.patch_force",
+    "damped_at_low_load": "multibody.growth_rate", "critically_stable_at_high_load": "multibody.growth_rate",
+    "pressure_damps_at_low_speed": "multibody.growth_rate",
+    "pressure_destabilises_at_high_speed": "multibody.growth_rate", "caliper_decides": "multibody.stability",
+    "oscillation_not_from_patches": "multibody.oscillation_frequency",
+}
+
 _TWO_PI = 2 * np.pi
 
 
@@ -28,7 +42,7 @@ def _settings(multibody):
     values = {"pressure_lowest": pressure[0], "pressure_middle": np.median(pressure), "pressure_highest": pressure[-1],
               "speed_lowest": speed[0], "speed_highest": speed[-1], "operating_points": multibody.pressure.size,
               "sub_discs": multibody.patch_force.shape[2]}
-    return {key: ours(value, "our setting, no result") for key, value in values.items()}
+    return {key: ours(value, "a setting of this case, not a result") for key, value in values.items()}
 
 
 def _low_load(multibody, low):

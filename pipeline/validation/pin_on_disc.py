@@ -4,14 +4,22 @@ import numpy as np
 
 from pipeline.validation import ours
 
-#: a mode moves out of the plane of the disc with more than this share of its modal mass
+#: fact key or pattern -> product field
+FIELDS = {"lock_in_181": "lock_in.root", "lock_in_*": "lock_in.base", "vibrations_grow": "lock_in.root",
+          "gap_range": "interface_law.gap", "full_slip": "interface_law.displacement",
+          "disc_harmonics*": "transient.harmonic_amplitude",
+          "pin_harmonics*": "transient.harmonic_amplitude", "disc_rocking_*": "pin_on_disc.disc_frequency",
+          "disc_20_*": "pin_on_disc.disc_frequency", "disc_30_*": "pin_on_disc.disc_frequency",
+          "pin_first_*": "pin_on_disc.pin_frequency", "pin_second_*": "pin_on_disc.pin_frequency"}
+
+#: an out-of-plane mode of the disc has more than this fraction of its modal mass out of plane
 _OUT_OF_PLANE = 0.5
 #: lines of the pin and of the disc count within these ranges, dB below the base
 _PIN_RANGE, _DISC_RANGE = 50.0, 60.0
 #: base and harmonics that are compared
 _LINES = 5
 _SAME_LENGTH = 1e-4
-#: share of the limit that counts as full slip
+#: fraction of the limit that counts as full slip
 _FULL_SLIP = 0.99
 
 
@@ -33,10 +41,10 @@ def _disc_rows(system):
     rows = {}
     for name, diameters in (("disc_rocking", 1), ("disc_20", 2), ("disc_30", 3)):
         chosen = (system.disc_diameters == diameters) & (system.disc_out_of_plane > _OUT_OF_PLANE)
-        found = ours(system.disc_frequency[chosen].min() if chosen.any() else None,
-                     f"lowest mode with {diameters} nodal diameters, {chosen.sum()} such modes below"
-                     f" {system.disc_frequency.max():.0f} Hz")
-        rows |= {f"{name}_test": found, f"{name}_simulation": found}
+        lowest = ours(system.disc_frequency[chosen].min() if chosen.any() else None,
+                      f"lowest mode with {diameters} nodal diameters, {chosen.sum()} such modes below"
+                      f" {system.disc_frequency.max():.0f} Hz")
+        rows |= {f"{name}_test": lowest, f"{name}_simulation": lowest}
     return rows
 
 
@@ -47,9 +55,9 @@ def _pin_rows(system, known):
                                (("pin_second_test", "pin_second_simulation"), 0.1465, 1),
                                (("pin_second_151",), known.get("test_length"), 1),
                                (("pin_second_181",), known.get("further_length"), 1)):
-        place = _at(system.pin_length, length)
-        value = None if place is None else system.pin_frequency[place, 2 * pair]
-        rows |= {key: ours(value, "clamped pin with accelerometer, not touching") for key in keys}
+        index = _index_of_length(system.pin_length, length)
+        value = None if index is None else system.pin_frequency[index, 2 * pair]
+        rows |= {key: ours(value, "clamped pin with accelerometer, out of contact") for key in keys}
     return rows
 
 
@@ -65,14 +73,14 @@ def _interface_rows(law):
 
 def _harmonic_rows(transient):
     """Base and harmonics of the settled motion, at the first operating point."""
-    names, cautious = list(transient.sensor_name), "" if transient.settled[0].all() else "; the motion has not settled"
+    names, caveat = list(transient.sensor_name), "" if transient.settled[0].all() else "; the motion has not settled"
     if not {"pin", "disc"} <= set(names) or not transient.cycle_amplitude[0].all():
         return {}
     levels = {}
     for name in ("pin", "disc"):
         amplitude = transient.harmonic_amplitude[0, names.index(name), :_LINES]
         levels[name] = 20 * np.log10(np.maximum(amplitude / amplitude[0], 1e-12))
-    note = "velocity at multiples of the dominant frequency" + cautious
+    note = "velocity at multiples of the dominant frequency" + caveat
     falls = {name: -np.diff(level).max() for name, level in levels.items()}
     acceleration = levels["pin"] + 20 * np.log10(np.arange(1, _LINES + 1))
     return {"pin_harmonics": ours(_unbroken(acceleration, _PIN_RANGE), f"acceleration within {_PIN_RANGE:g} dB;"
@@ -82,14 +90,15 @@ def _harmonic_rows(transient):
 
 
 def _growing_rows(system, transient, known):
-    """A motion that has not settled shows what a short window shows: the line of the disc at that moment."""
+    """A motion that has not settled has the dominant line of the disc that a short window shows."""
     names = list(transient.sensor_name)
-    other_length = _at(system.pin_length[:1], known.get("test_length")) is None
+    other_length = _index_of_length(system.pin_length[:1], known.get("test_length")) is None
     if "disc" not in names or other_length or transient.settled[0].any():
         return {}
-    return {"lock_in_151": ours(transient.cycle_frequency[0, names.index("disc")] or None,
-                                f"dominant line of the disc in the last {1e3 * float(transient.window):.3g} ms, stepped"
-                                f" by {1e6 * float(transient.step):.3g} us; still growing", "nothing moves")}
+    line = ours(transient.cycle_frequency[0, names.index("disc")] or None,
+                f"dominant line of the disc in the last {1e3 * float(transient.window):.3g} ms, time step"
+                f" {1e6 * float(transient.step):.3g} us; still growing", "no motion")
+    return {"lock_in_151": line._replace(field="transient.cycle_frequency")}
 
 
 def _unbroken(levels, below):
@@ -102,20 +111,20 @@ def _lock_in_rows(lock_in, known):
     rows = {}
     case = np.array([scan == "case" for scan in lock_in.scan])
     for keys, length in ((("lock_in_matched",), 0.1465), (("lock_in_test", "lock_in_151"), known.get("test_length"))):
-        place = _at(np.where(case, lock_in.length, np.nan), length)
-        if place is not None:
-            root = lock_in.root[place]
-            found = ours(lock_in.base[place] or None, f"base of the motion, {_state(lock_in, place)};"
-                         f" growing mode at {_hertz(root):.0f} Hz{_as_stepped(root, known)}", "nothing grows")
-            rows |= dict.fromkeys(keys, found)
-    place = _at(np.where(case, lock_in.length, np.nan), known.get("test_length"))
-    if place is not None:
-        rows["vibrations_grow"] = ours(lock_in.root[place].real, "fastest growing mode")
+        index = _index_of_length(np.where(case, lock_in.length, np.nan), length)
+        if index is not None:
+            root = lock_in.root[index]
+            base = ours(lock_in.base[index] or None, f"base frequency of the motion, {_state(lock_in, index)};"
+                        f" growing mode at {_hertz(root):.0f} Hz{_as_stepped(root, known)}", "nothing grows")
+            rows |= dict.fromkeys(keys, base)
+    index = _index_of_length(np.where(case, lock_in.length, np.nan), known.get("test_length"))
+    if index is not None:
+        rows["vibrations_grow"] = ours(lock_in.root[index].real, "fastest growing mode")
     return rows | _further(lock_in, case, known)
 
 
-def _state(lock_in, place):
-    return f"{lock_in.kind[place]}, {'settled' if lock_in.settled[place] else 'NOT settled in the window'}"
+def _state(lock_in, index):
+    return f"{lock_in.kind[index]}, {'settled' if lock_in.settled[index] else 'NOT settled in the window'}"
 
 
 def _hertz(root):
@@ -123,12 +132,12 @@ def _hertz(root):
 
 
 def _as_stepped(root, known):
-    """What the paper's step shows of a root: the trapezoidal rule turns w into 2 / h arctan(w h / 2)."""
+    """The frequency of a root at the paper's time step: the trapezoidal rule turns w into 2 / h arctan(w h / 2)."""
     step = known.get("time_step")
     if not step:
         return ""
-    shown = np.arctan(np.pi * _hertz(root) * step) / (np.pi * step)
-    return f", which the trapezoidal rule at the paper's step shows at {shown:.0f} Hz"
+    shifted = np.arctan(np.pi * _hertz(root) * step) / (np.pi * step)
+    return f", which the trapezoidal rule at the paper's step shows at {shifted:.0f} Hz"
 
 
 def _further(lock_in, case, known):
@@ -136,17 +145,16 @@ def _further(lock_in, case, known):
     near = case & (np.abs(lock_in.length - known.get("further_length", np.nan)) < _SAME_LENGTH)
     if not near.any():
         return {}
-    place = np.flatnonzero(near)[np.argmax(lock_in.base_mass[near])]
-    return {"lock_in_181": ours(_hertz(lock_in.root[place]) or None,
-                                f"fastest growing mode with {lock_in.base_mass[place]:g} kg moving with the clamp, a"
-                                f" fit;"
-                                f" its motion at large has its base at {lock_in.base[place]:.0f} Hz"
-                                f" ({_state(lock_in, place)})",
+    index = np.flatnonzero(near)[np.argmax(lock_in.base_mass[near])]
+    return {"lock_in_181": ours(_hertz(lock_in.root[index]) or None,
+                                f"fastest growing mode with {lock_in.base_mass[index]:g} kg moving with the clamp"
+                                f" (fitted); the base frequency of the large motion is {lock_in.base[index]:.0f} Hz"
+                                f" ({_state(lock_in, index)})",
                                 "nothing grows")}
 
 
-def _at(lengths, wanted):
-    """Row whose length is ``wanted``, None where there is none."""
+def _index_of_length(lengths, wanted):
+    """Index of the length ``wanted``, None where there is none."""
     if wanted is None:
         return None
     near = np.flatnonzero(np.abs(lengths - wanted) < _SAME_LENGTH)

@@ -57,7 +57,7 @@ def test_mode_of_table_1(compared):
 def test_statement_with_bounds(compared):
     found = row(compared, "damped_at_low_load")
     assert found["published_known"] == 0 and found["tolerance"] == 0
-    assert found["verdict"] == "within" and "at least 0.005" in found["note"]
+    assert (found["verdict"], found["bounds"], found["field"]) == ("within", "at least 0.005", "multibody.growth_rate")
 
 
 def test_inputs_are_shown_and_not_counted(compared):

@@ -71,10 +71,10 @@ def test_harmonics_are_no_squeal_frequencies():
     assert rows["squeal_line_1"].value == 15000.0
     assert (rows["squeal_lines"].value, rows["no_mode_excited"].value) == (2, 2)
     assert rows["no_squeal_at_constant_load"].value == 4
-    assert "2 harmonics of lower tones left out" in rows["squeal_lines"].note
+    assert "2 harmonics of lower tones excluded" in rows["squeal_lines"].note
     only = squeal_rows(squealing([1620.0], order=[2]), known)
     assert (only["squeal_lines"].value, only["squeal_line_1"].value) == (0, None)
-    assert "1 harmonic of lower tones left out" in only["squeal_line_1"].note
+    assert "1 harmonic of lower tones excluded" in only["squeal_line_1"].note
 
 
 def test_squeal_lines():

@@ -48,7 +48,7 @@ def test_modes_by_their_shape():
 def test_cases_of_the_map_count_and_the_heaviest_base_gives_the_fit():
     found = rows(lock_in=lock_in())
     assert found["lock_in_test"].value == found["lock_in_151"].value == 2216
-    assert found["lock_in_181"].value == pytest.approx(1440, abs=1) and "a fit" in found["lock_in_181"].note
+    assert found["lock_in_181"].value == pytest.approx(1440, abs=1) and "(fitted)" in found["lock_in_181"].note
     assert "NOT settled" in found["lock_in_181"].note and "classical, settled" in found["lock_in_test"].note
     assert "lock_in_matched" not in found, "146.5 mm is only a point of the map"
     assert found["vibrations_grow"].value == pytest.approx(100)

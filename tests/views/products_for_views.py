@@ -271,7 +271,12 @@ def comparison():
     columns = {name: list(column) for name, column in zip(names, zip(*rows, strict=True), strict=True)}
     for name in ("published", "ours", "tolerance"):
         columns[name] = np.array(columns[name], dtype=float)
-    return filled(Comparison, **columns, note=["read from the product"] * len(rows))
+    keys = ("friction_lowest", "real_area_start", "mode_01_02_test", "mode_18_test", "damped_at_low_load",
+            "squeal_line_1", "squeal_line_2")
+    sources = ("micro_friction.friction", "micro_friction.real_area", "structure.free_frequency",
+               "structure.free_frequency", "multibody.growth_rate", "squeal.event_frequency", "")
+    columns |= {"key": list(keys), "field": list(sources), "note": ["read from the product"] * len(rows)}
+    return filled(Comparison, **columns)
 
 
 def rupture():

@@ -14,7 +14,7 @@ class Look:
 
 @dataclass(frozen=True)
 class Figure:
-    """A picture (PNG bytes or SVG text) and the caption that tells its numbers."""
+    """A picture (PNG bytes or SVG text) and a caption that states its numbers."""
 
     image: bytes | str
     caption: str
@@ -30,7 +30,10 @@ class Figure:
 
 @dataclass(frozen=True)
 class Table:
-    """Rows of text under a head; ``numeric`` columns are set to the right, ``wide`` ones hold sentences."""
+    """Rows of text under a head; ``numeric`` columns are right-aligned, ``wide`` ones hold sentences.
+
+    ``subtitles`` are small second lines below the first cell of each row, none if empty.
+    """
 
     head: tuple
     rows: tuple
@@ -38,11 +41,12 @@ class Table:
     numeric: tuple = ()
     wide: tuple = ()
     folded: bool = False
+    subtitles: tuple = ()
 
 
 @dataclass(frozen=True)
 class Chapter:
-    """One step of the chain on the page: what you see, what to conclude."""
+    """One step of the chain on the page: what is shown, what follows from it."""
 
     anchor: str
     title: str

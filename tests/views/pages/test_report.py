@@ -53,9 +53,11 @@ def test_the_load_of_the_pads_is_told_without_friction_and_in_steady_sliding(htm
     assert "by up to 57\u202f% of the largest force without friction" in html
 
 
-def test_the_table_shows_every_row_of_the_comparison(html):
-    for row in small.comparison().row:
-        assert f"<td>{row}</td>" in html
+def test_the_table_shows_every_row_of_the_comparison_with_its_key_and_product_field(html):
+    facts = small.comparison()
+    for row, key, field in zip(facts.row, facts.key, facts.field, strict=True):
+        below = f"{key} ← {field}" if field else key
+        assert f'<td>{row}<small class="address">{below}</small></td>' in html
     assert "prints 337.3 Hz" in html
 
 
