@@ -52,9 +52,11 @@ class Pad(Section):
     angle: Quantity("rad", gt=0, lt=3) = option("50 deg", "angle that the pad spans")
     lining_thickness: Quantity("m", gt=0) = option("11 mm", "thickness of the friction lining")
     backplate_thickness: Quantity("m", gt=0) = option("5.5 mm", "thickness of the backplate")
-    lining_young_radial: Quantity("Pa", gt=0) = option("6 GPa", "Young's modulus of the lining, radial")
-    lining_young_tangential: Quantity("Pa", gt=0) = option("6 GPa", "Young's modulus of the lining, along sliding")
-    lining_young_normal: Quantity("Pa", gt=0) = option("1.5 GPa", "Young's modulus of the lining, through thickness")
+    lining_young_radial: Quantity("Pa", gt=0) = option("6 GPa", "bulk Young's modulus of the lining, radial")
+    lining_young_tangential: Quantity("Pa", gt=0) = option("6 GPa", "bulk Young's modulus of the lining, along sliding")
+    lining_young_normal: Quantity("Pa", gt=0) = option("1.5 GPa", "bulk Young's modulus of the lining through its"
+                                                       " thickness; not the asperity modulus"
+                                                       " micro_friction.pad.youngs_modulus")
     lining_poisson: float = option(0.2, "Poisson's ratios of the lining", gt=-0.5, lt=0.5)
     lining_shear_normal: Quantity("Pa", gt=0) = option("1.2 GPa", "shear moduli with the thickness direction")
     lining_shear_in_plane: Quantity("Pa", gt=0) = option("2.5 GPa", "in-plane shear modulus")

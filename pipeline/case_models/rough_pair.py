@@ -23,10 +23,11 @@ class Iron(Section):
 
 
 class Lining(Section):
-    """Pad on the scale of its roughness; modulus and wear are tuned to the published contact area and approach."""
+    """Pad at the scale of its roughness; modulus and wear are tuned to the published contact area and approach."""
 
-    youngs_modulus: Quantity("Pa", gt=0) = option("0.235 GPa", "effective Young's modulus of the asperities, tuned to"
-                                                  " the real contact area; the bulk of the lining has its own")
+    youngs_modulus: Quantity("Pa", gt=0) = option("0.235 GPa", "Young's modulus of the pad asperities (micrometre"
+                                                  " scale), an effective value tuned to the real contact area; not the"
+                                                  " bulk modulus structure.pad.lining_young_normal")
     poisson_ratio: float = option(0.25, "Poisson ratio", ge=0, lt=0.5)
     conductivity: Quantity("W/m/K", gt=0) = option("1 W/m/K", "thermal conductivity")
     density: Quantity("kg/m^3", gt=0) = option("2200 kg/m^3", "density")
@@ -45,7 +46,7 @@ class Settings(Section):
         "disc speeds, rising; they span the range that the slip of the contact patches reaches")
     effective_radius: Quantity("m", gt=0) = option("128 mm", "radius at which the disc speed is the sliding speed")
     disc: Iron = option(Iron(), "cast iron of the disc")
-    pad: Lining = option(Lining(), "pad on the scale of its roughness")
+    pad: Lining = option(Lining(), "pad at the scale of its roughness")
     disc_strength: Quantity("Pa", gt=0) = option("234 MPa", "sigma_e of the disc in tau_max = factor sigma_e / sqrt(3)")
     third_body_factor: float = option(0.1, "shear strength of the third body over that of the disc", gt=0, le=1)
     rate_coefficient: float = option(0.015, "relative rise of the shear limit per unit of ln(speed)", ge=0)
