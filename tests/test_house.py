@@ -53,6 +53,7 @@ MAY_IMPORT = {
                "pipeline.inference.procedure"},
     "pipeline.cli": {"pipeline.contract"},
     "pipeline.cli.options": set(),
+    "pipeline.cli.facts": {"pipeline.cli", "pipeline.contract", "pipeline.products", "pipeline.views.pages.facts"},
     "pipeline.cli.trial": {"pipeline.cli.options", "pipeline.blind_trial.protocol", "pipeline.contract",
                            "pipeline.blind_trial.metrics.summary",
                            "pipeline.blind_trial.generators.systems.SYSTEMS", "pipeline.views.pages.trial"},
@@ -67,7 +68,8 @@ DOORS = {
              "pipeline.recordings.neutral", "pipeline.blind_trial.generators.case_files"},
     "pyuff": {"pipeline.recordings.uff"},
     "yaml": {"pipeline.contract.documents", "pipeline.blind_trial.generators.case_files"},
-    "click": {"pipeline.cli.main", "pipeline.cli.options", "pipeline.cli.trial"}, "rich": {"pipeline.cli.console"},
+    "click": {"pipeline.cli.facts", "pipeline.cli.main", "pipeline.cli.options", "pipeline.cli.trial"},
+    "rich": {"pipeline.cli.console"},
     "cryptography": {"pipeline.blind_trial.protocol.sealing"}, "pint": {"pipeline.contract.units"},
     "pydantic": {"pipeline.contract.settings", "pipeline.validation.published_facts", "pipeline.recordings.registry"},
     "pooch": {"pipeline.recordings.registry"}, "distributed": {"pipeline.contract.executor"},
@@ -225,7 +227,7 @@ def test_every_product_is_exported():
 
 
 def test_no_measured_bytes_are_part_of_the_project():
-    allowed = {".py", ".yaml", ".md", ".toml", ".j2", ".lock", ".png", ".svg", ""}
+    allowed = {".py", ".yaml", ".json", ".md", ".toml", ".j2", ".lock", ".png", ".svg", ""}
     folders = ("configs", "data/reference", "data/measured", "tests")
     files = [p for folder in folders for p in (ROOT / folder).rglob("*") if p.is_file()]
     foreign = [p for p in files if p.suffix not in allowed and "__pycache__" not in p.parts]

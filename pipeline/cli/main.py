@@ -10,6 +10,7 @@ import click
 
 import stages
 from pipeline import __version__
+from pipeline.cli.facts import facts
 from pipeline.cli.options import options
 from pipeline.cli.trial import trial
 from pipeline.contract.errors import BrakechainError
@@ -236,6 +237,7 @@ def data_format():
     click.echo(source.cleandoc(read_neutral.__doc__))
 
 
+cli.add_command(facts)
 cli.add_command(trial)
 
 

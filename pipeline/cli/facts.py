@@ -1,0 +1,78 @@
+"""The command that shows the computed numbers of published facts, and records them."""
+
+import json
+from pathlib import Path
+
+import click
+
+from pipeline.cli.options import options
+from pipeline.contract.errors import ConfigError
+
+
+@click.command()
+@click.argument("sources", metavar="RUN...", nargs=-1, required=True, type=click.Path(exists=True, path_type=Path))
+@click.option("--only", metavar="A,B", help="keys of the facts to show, in this order  [default: all testable ones]")
+@click.option("--markdown", is_flag=True, help="print the table as Markdown, as in README.md")
+@click.option("--record", "file", metavar="FILE", type=click.Path(path_type=Path),
+              help="write the numbers to FILE, e.g. data/reference/computed/disc_brake.json")
+@options("debug")
+def facts(sources, only, markdown, file):
+    """Show published facts beside the numbers of RUN, with the product field that each comes from.
+
+    RUN is a run folder, or a record written with --record. Several folders of one case, e.g. computed on different
+    processors, give ranges.
+    """
+    from pipeline.cli.console import table
+    from pipeline.contract.store import write_companion
+    from pipeline.views.pages import facts as page
+
+    record = _record(sources)
+    if file is not None:
+        write_companion(file, json.dumps(record, indent=1, ensure_ascii=False) + "\n")
+        click.echo(f"{len(record['facts'])} facts of {len(record['runs'])} runs: {file}")
+        return
+    keys = only.split(",") if only else ()
+    for key in keys:
+        if key not in record["facts"]:
+            raise ConfigError(f"--only {key}", "the key of a testable fact", "none of this name",
+                              f"keys are {', '.join(record['facts'])}")
+    if markdown:
+        click.echo(page.markdown(record["facts"], keys))
+        return
+    table("published facts", *page.table(record["facts"], keys))
+
+
+def _record(sources):
+    """The record that ``sources`` are, or give."""
+    from pipeline.views.pages import facts as page
+
+    if sources[0].is_file():
+        if len(sources) > 1:
+            raise click.UsageError("one record, or run folders: they cannot be mixed")
+        return _stored(sources[0])
+    comparisons, runs = zip(*map(_read, sources), strict=True)
+    keys = [list(map(str, comparison.key)) for comparison in comparisons]
+    for source, those in zip(sources, keys, strict=True):
+        if those != keys[0]:
+            raise ConfigError(source, f"the facts of {sources[0]}", "others", "give run folders of one case")
+    return page.record(comparisons, list(runs))
+
+
+def _stored(file):
+    try:
+        record = json.loads(file.read_text(encoding="utf-8"))
+        return {"runs": record["runs"], "facts": record["facts"]}
+    except (ValueError, KeyError, TypeError, UnicodeDecodeError):
+        raise ConfigError(file, "a record of facts (JSON)", "something else", "write one with 'facts RUN --record FILE'"
+                          ) from None
+
+
+def _read(folder):
+    """(Comparison, commits and kernels that the products of the folder were computed with) of a run folder."""
+    from pipeline.contract import store
+    from pipeline.products import Comparison
+
+    comparison = store.read(Comparison, folder / f"{Comparison.name}.h5")
+    origins = [store.provenance(path) for path in sorted(folder.glob("*.h5"))]
+    kernels = {kernel for origin in origins for kernel in json.loads(origin.get("kernels", "[]"))}
+    return comparison, {"commits": sorted({origin["git_commit"] for origin in origins}), "kernels": sorted(kernels)}
