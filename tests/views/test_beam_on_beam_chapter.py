@@ -65,9 +65,8 @@ def test_scatter_is_told_as_ranges():
 
 def test_numbers_of_the_text_are_marks():
     """And only they: rows without a printed value leave no mark."""
-    rows = ["first coalescence, frequency", "first coalescence, critical friction", "mode 5 without friction",
-            "largest normal force that the text names", "largest slip that the text names", "share that sticks"]
-    facts = filled(Comparison, row=rows, published=[400.0, 0.16, 2500.0, 40.0, 50.0, 0.0],
+    keys = ["coalescence_low", "coalescence_low_friction", "mode_5", "force_named", "slip_named", "share_stick"]
+    facts = filled(Comparison, key=keys, published=[400.0, 0.16, 2500.0, 40.0, 50.0, 0.0],
                    published_known=[1, 1, 1, 1, 1, 0])
     bare, told = chapters.beams(beams(), modes(), None, LOOK), chapters.beams(beams(), modes(), facts, LOOK)
     for figure, plain in zip(told.figures, bare.figures, strict=True):

@@ -53,7 +53,7 @@ def table(facts, keys=()):
 
 def _cells(fact):
     unit, digit = unit_text(fact["unit"]), last_digit(fact)
-    paper = "" if fact["paper"] is None else f"{number(fact['paper'])}{unit}"
+    paper = "—" if fact["paper"] is None else f"{number(fact['paper'])}{unit}"
     tuned = f", tuned: {fact['tuned']}" if fact["tuned"] else ""
     return (fact["quantity"], paper, f"{_ours(fact['ours'], digit)}{unit}", fact["allowed"],
             f"{fact['verdict']}{tuned}", fact["field"])
@@ -68,10 +68,12 @@ def markdown(facts, keys=()):
 
 
 def last_digit(fact):
-    """Size of the last printed digit of our value: about a tenth of the tolerance, or three significant digits."""
+    """Size of the last printed digit of our value: a tenth of the tolerance or less, three digits without one."""
     largest = max(map(abs, fact["ours"]))
+    if fact["unit"] == "1" and all(value.is_integer() for value in map(float, fact["ours"])):
+        return 1.0      # a count
     if fact["tolerance"] > 0:
-        return 10.0 ** floor(log10(fact["tolerance"] / 5) + 1e-9)
+        return 10.0 ** floor(log10(fact["tolerance"] / 10) + 1e-9)
     return 10.0 ** (floor(log10(largest)) + 1 - _DIGITS) if largest else 1.0
 
 

@@ -1,5 +1,7 @@
 """Chapters: coalescing modes of the two beams, and the scatter of their motion."""
 
+from fnmatch import fnmatchcase
+
 import numpy as np
 
 from pipeline.views.chapters.chapter import Chapter, Figure, Table
@@ -9,15 +11,16 @@ from pipeline.views.figures.number_format import number, percent, plural, quanti
 
 def beams(product, modes, comparison, look):
     """Chapter of the product BeamOnBeam; ``modes`` are its ComplexModes, ``comparison`` its Comparison, or None."""
-    printed = _printed(comparison, "coalescence, critical friction"), _printed(comparison, "coalescence, frequency")
+    printed = (_published(comparison, "coalescence_*_friction"),
+               _published(comparison, "coalescence_low", "coalescence_middle", "coalescence_high"))
     figures = [Figure(pictures.frequencies_over_friction(product, modes, printed, look.dpi),
                       "Modes of sliding over friction (the picture of Figure 3, computed here); grey: complex"
                       f" modes with damping{_stars(printed[0])}.")]
     if modes is not None:
-        alone = _printed(comparison, "without friction")
-        figures.append(Figure(pictures.complex_plane(modes, alone, look.dpi),
+        frictionless = _published(comparison, "mode_*")
+        figures.append(Figure(pictures.complex_plane(modes, frictionless, look.dpi),
                               "Roots between 2 and 3.5 kHz over friction, with damping (the picture of Figure"
-                              f" 4){_stars(alone)}."))
+                              f" 4){_stars(frictionless)}."))
     onsets = tuple((quantity(f, "Hz"), number(mu, 3)) for f, mu in
                    zip(product.onset_frequency, product.onset_friction, strict=True))
     other = "Timoshenko beams" if str(product.element) == "plane" else "plane elements"
@@ -34,12 +37,12 @@ def beams(product, modes, comparison, look):
          *_findings(product)))
 
 
-def _printed(comparison, ending):
-    """Values of the paper, in the unit of their rows, of all rows whose name ends so."""
+def _published(comparison, *keys):
+    """Values of the paper, in the unit of their rows, of the facts with one of ``keys`` (or patterns of keys)."""
     if comparison is None:
         return []
-    return [comparison.published[k] for k, name in enumerate(map(str, comparison.row))
-            if name.endswith(ending) and comparison.published_known[k]]
+    return [comparison.published[k] for k, key in enumerate(map(str, comparison.key))
+            if comparison.published_known[k] and any(fnmatchcase(key, pattern) for pattern in keys)]
 
 
 def _stars(values):
@@ -59,8 +62,8 @@ def _others(product):
 
 def scatter(product, comparison, look):
     """Chapter of the product MotionScatter; ``comparison`` is its Comparison, or None."""
-    printed = (np.divide(_printed(comparison, "fundamental of the velocity of B"), 1e3),
-               _printed(comparison, "force that the text names"), _printed(comparison, "slip that the text names"))
+    printed = (np.divide(_published(comparison, "simulated_fundamental"), 1e3),
+               _published(comparison, "force_named"), _published(comparison, "slip_named"))
     runs = len(product.seed)
     vibrates = product.vibrating_share
     return Chapter(
