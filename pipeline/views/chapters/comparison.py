@@ -2,7 +2,7 @@
 
 from pipeline.views.chapters.chapter import Chapter, Figure, Table
 from pipeline.views.figures.agreement import agreement, comparable, judged
-from pipeline.views.figures.number_format import THIN, number, plural
+from pipeline.views.figures.number_format import MINUS, THIN, number, plural
 
 HEAD = ("quantity", "paper", "ours", "tolerance", "verdict", "tuned", "doubt", "source", "how our value was obtained")
 WIDE = (0, 6, 8)
@@ -72,7 +72,8 @@ def tolerance(comparison, row):
     unit = unit_text(comparison.unit[row])
     if comparison.tolerance[row] > 0:
         return f"± {number(comparison.tolerance[row], 3)}{unit}"
-    return f"{comparison.bounds[row]}{unit}" if comparison.bounds[row] else "—"
+    bounds = str(comparison.bounds[row]).replace("-", MINUS)
+    return f"{bounds}{unit}" if bounds else "—"
 
 
 def unit_text(unit):
