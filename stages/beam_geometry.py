@@ -4,7 +4,7 @@ from functools import partial
 from types import SimpleNamespace
 
 import numpy as np
-from scipy.optimize import differential_evolution
+import scipy
 
 from pipeline.contract import BrakechainError, Context, Quantities, Quantity, Section, option, stage
 from pipeline.physics.friction.dry_friction import constant
@@ -92,7 +92,7 @@ def beam_geometry(settings: Settings, context: Context) -> BeamGeometry:
 
 
 def _linear_search(settings, size, tilt, generations):
-    return differential_evolution(
+    return scipy.optimize.differential_evolution(
         lambda vector: linear(vector, tilt).cost, list(zip(LOWER[:size], UPPER[:size], strict=True)), init="sobol",
         popsize=settings.population, maxiter=generations, seed=settings.seed, polish=False, tol=1e-6,
         mutation=(0.4, 0.9), recombination=0.8)

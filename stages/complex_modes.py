@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 from functools import partial
 
 import numpy as np
-from scipy.linalg import eigvalsh
+import scipy
 
 from pipeline.case_models.effect_block import conditions, physics_terms
 from pipeline.case_models.steady_sliding import Posed, Steady, branch_stiffness, posed, refuse_twice
@@ -268,7 +268,7 @@ def _lowest_frequencies(state, count, centrifugal):
     if is_hard(state.model):
         return state.basis.frequency[:count]
     mass, _, stiffness = state.still.about(state.model).frictionless(gyroscopic=False, centrifugal=centrifugal)
-    return _frequencies(eigvalsh(stiffness, mass)[:count])
+    return _frequencies(scipy.linalg.eigvalsh(stiffness, mass)[:count])
 
 
 def _frequencies(squared):

@@ -7,7 +7,7 @@ from dataclasses import fields
 from functools import partial
 
 import numpy as np
-from scipy.linalg import block_diag
+import scipy
 
 from pipeline.contract import Context, Quantity, Section, option, stage
 from pipeline.physics.reduction.body import reduce_body
@@ -50,7 +50,7 @@ def _from_solids(structure, settings, context):
     sizes = [len(t.mass) for t in terms]
     told = (f"{name} {size}" for name, size in zip(structure.body_name, sizes, strict=True))
     context.log(f"reduced coordinates: {', '.join(told)}")
-    matrices = {name: block_diag(*(getattr(t, name) for t in terms))
+    matrices = {name: scipy.linalg.block_diag(*(getattr(t, name) for t in terms))
                 for name in ("mass", "damping", "gyroscopic", "stiffness", "centrifugal")}
     rows = _split_rows(structure, np.hstack([t.rows for t in terms]))
     return ReducedModel(

@@ -4,7 +4,7 @@ from functools import partial
 from typing import Literal
 
 import numpy as np
-import scipy.sparse as sp
+import scipy
 
 from pipeline.contract import Context, ConvergenceError, InputFile, Quantities, Quantity, Section, option, stage
 from pipeline.physics.contact.static_preload import condense, contact_law, solve_preload
@@ -192,9 +192,9 @@ def _law(friction_map, settings):
 
 def _preload(brake, law, settings, context):
     """Contact force, stiffness and status at every pressure."""
-    stiffness = sp.block_diag([body.matrices()[0] for body in brake.bodies], format="csr")
+    stiffness = scipy.sparse.block_diag([body.matrices()[0] for body in brake.bodies], format="csr")
     joints = brake.joints.rows.matrix
-    stiffness = stiffness + joints.T @ sp.diags(brake.joints.stiffness) @ joints
+    stiffness = stiffness + joints.T @ scipy.sparse.diags(brake.joints.stiffness) @ joints
     sizes = np.cumsum([0, *(3 * len(b.mesh.node) for b in brake.bodies)])
     free = np.concatenate([first + free_freedoms(len(b.mesh.node), b.supported)
                            for first, b in zip(sizes, brake.bodies, strict=False)])

@@ -1,6 +1,5 @@
 """The command line, derived from the stages. The door of click."""
 
-import json
 import os
 import sys
 import traceback
@@ -163,13 +162,15 @@ def inspect(file):
 @options("debug")
 def schema(name):
     """Print the JSON schema of the YAML of chain NAME, for editors  [default: all chains]."""
+    from pydantic_core import to_json
+
     from pipeline.cli.schema import case_schema
 
     names = [name] if name else list(stages.CHAINS)
     if name and name not in stages.CHAINS:
         raise click.BadParameter(f"expected one of {', '.join(stages.CHAINS)}, found {name!r}", param_hint="NAME")
     chains = {n: [stages.load(s) for s in stages.CHAINS[n]] for n in names}
-    click.echo(json.dumps(case_schema(chains), indent=2))
+    click.echo(to_json(case_schema(chains), indent=2))
 
 
 @cli.command()

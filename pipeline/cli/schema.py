@@ -8,25 +8,27 @@ _DRAFT = "https://json-schema.org/draft/2020-12/schema"
 
 def case_schema(chains):
     """Schema of a case of one of ``chains`` (name -> stages)."""
-    found = [_chain_schema(name, stages) for name, stages in chains.items()]
-    definitions = {k: v for schema in found for k, v in schema.pop("$defs").items()}
-    body = found[0] if len(found) == 1 else {"anyOf": found}
+    chain_schemas = [_chain_schema(name, stages) for name, stages in chains.items()]
+    body = chain_schemas[0] if len(chain_schemas) == 1 else {"anyOf": chain_schemas}
+    distinct = {stage.name: stage for stages in chains.values() for stage in stages}
+    definitions = {key: value for stage in distinct.values() for key, value in _definitions(stage).items()}
     return {"$schema": _DRAFT, "title": "brakechain case", **body, "$defs": definitions}
 
 
 def _chain_schema(name, stages):
-    sections, definitions = {}, {}
-    for stage in stages:
-        section = stage.settings.model_json_schema(ref_template=f"#/$defs/{stage.name}.{{model}}")
-        inner = section.pop("$defs", {})
-        definitions.update({f"{stage.name}.{key}": _annotated(value) for key, value in inner.items()})
-        sections[stage.name] = {**_annotated(section), "title": stage.name, "description": stage.summary}
+    sections = {stage.name: {"$ref": f"#/$defs/{stage.name}"} for stage in stages}
     head = {"chain": {"const": name}, "title": {"type": "string"}, "description": {"type": "string"},
             "based_on": {"type": "string", "description": "another case, whose values hold where this one is silent"},
             "solver": {"enum": list(SOLVERS), "default": "auto"}}
     named = [{"required": ["chain"]}, {"required": ["based_on"]}]
-    return {"type": "object", "properties": {**head, **sections}, "anyOf": named, "additionalProperties": False,
-            "$defs": definitions}
+    return {"type": "object", "properties": {**head, **sections}, "anyOf": named, "additionalProperties": False}
+
+
+def _definitions(stage):
+    """{name: schema} of the section of ``stage`` and of the sections in it, as they stand under $defs."""
+    section = stage.settings.model_json_schema(ref_template=f"#/$defs/{stage.name}.{{model}}")
+    inner = {f"{stage.name}.{key}": _annotated(value) for key, value in section.pop("$defs", {}).items()}
+    return {**inner, stage.name: {**_annotated(section), "title": stage.name, "description": stage.summary}}
 
 
 def _annotated(section):

@@ -11,7 +11,7 @@ _MERGE = "tag:yaml.org,2002:merge"
 _LONGEST = 200
 
 
-class _StrictLoader(yaml.SafeLoader):
+class _StrictLoader(getattr(yaml, "CSafeLoader", yaml.SafeLoader)):
     """SafeLoader that refuses a key given twice."""
 
     def construct_mapping(self, node, deep=False):

@@ -1,7 +1,7 @@
 """What decides whether a stage must run again: settings, inputs' content, solver and code."""
 
-import ast
 import hashlib
+import re
 from dataclasses import dataclass
 from functools import cache
 from importlib.util import find_spec
@@ -10,6 +10,11 @@ from pathlib import Path
 from pipeline.contract.settings import leaves
 
 _PROJECT = ("pipeline", "stages")
+_ROOT = Path(__file__).parents[2]
+#: an import statement of project modules, wherever it stands; names may go on over lines in parentheses
+_IMPORT = re.compile(rf"^[ \t]*(?:import[ \t]+(?P<plain>(?:{'|'.join(_PROJECT)})\b[^\n#]*)|"
+                     rf"from[ \t]+(?P<module>(?:{'|'.join(_PROJECT)})\b[\w.]*)[ \t]+import[ \t]*"
+                     r"(?:\((?P<lines>[^)]*)\)|(?P<line>[^\n#]*)))", re.MULTILINE)
 
 
 @dataclass(frozen=True)
@@ -88,7 +93,7 @@ def _reach(module):
             path = _file(name)
             if path:
                 found.update({name: path, **_package_data(name, path)})
-                waiting += _imports(path)
+                waiting += _imports(path) + _listed(name, path)
     return found
 
 
@@ -102,6 +107,9 @@ def _package_data(name, path):
 
 @cache
 def _file(name):
+    if name.split(".")[0] in _PROJECT:
+        module = _ROOT.joinpath(*name.split("."))
+        return next((p for p in (module / "__init__.py", module.with_suffix(".py")) if p.is_file()), None)
     try:
         spec = find_spec(name)
     except (ModuleNotFoundError, AttributeError):
@@ -109,16 +117,30 @@ def _file(name):
     return Path(spec.origin) if spec and spec.origin and spec.has_location else None
 
 
+def _listed(name, path):
+    """Modules of a package that loads them by name: a catalogue, of which no import statement tells."""
+    if path.name != "__init__.py" or name == "stages" or "import_module(" not in path.read_text(encoding="utf-8"):
+        return []
+    files = (f.relative_to(path.parent).with_suffix("") for f in sorted(path.parent.rglob("*.py")))
+    return [".".join((name, *f.parts)).removesuffix(".__init__") for f in files]
+
+
 @cache
 def _imports(path):
     """Project modules named in the import statements of a file, wherever they stand in it."""
     names = set()
-    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
-        if isinstance(node, ast.Import):
-            names.update(a.name for a in node.names)
-        elif isinstance(node, ast.ImportFrom) and node.module:
-            names.update({node.module, *(f"{node.module}.{a.name}" for a in node.names)})
+    for match in _IMPORT.finditer(path.read_text(encoding="utf-8")):
+        if match["plain"]:
+            names.update(_words(match["plain"]))
+        else:
+            listed = re.sub(r"#[^\n]*", "", match["line"] if match["lines"] is None else match["lines"])
+            names.update({match["module"], *(f"{match['module']}.{n}" for n in _words(listed))})
     return [n for n in sorted(names) if n.split(".")[0] in _PROJECT and n != "stages"]
+
+
+def _words(listed):
+    """Names in ``a, b as c``: what is imported, not what it is called here."""
+    return [part.split()[0] for part in listed.split(",") if part.split()]
 
 
 def project_digest():

@@ -37,7 +37,8 @@ ANNOTATION = {"value", "origin", "source", "doubt", "choose"}
 class Section(BaseModel):
     """One YAML section; unknown keys are refused and values are frozen."""
 
-    model_config = ConfigDict(extra="forbid", frozen=True, validate_default=True, allow_inf_nan=False)
+    model_config = ConfigDict(extra="forbid", frozen=True, validate_default=True, allow_inf_nan=False,
+                              defer_build=True)
 
 
 def section(name, meaning, fields):

@@ -1,8 +1,10 @@
 """SI everywhere; other units exist only in YAML, and are converted once, here."""
 
+import math
 import numbers
 import re
 import tokenize
+from collections import Counter
 from functools import cache
 
 from pipeline.contract.errors import ConfigError
@@ -26,6 +28,13 @@ _OF_UNIT = re.compile(r"(\^|\*\*)\s*\(?\s*[-+]?\d+(\.\d+)?(\s*/\s*\d+)?\s*\)?|(?
 _STRAY = re.compile(r"[,±]|(?<![A-Za-z_\d.])\d")
 
 
+#: units and prefixes that are read without loading pint, with the same bits as pint gives
+_PLAIN = frozenset({"m", "s", "kg", "rad", "Hz", "N", "Pa", "J", "W", "K", "V", "A"})
+_EXPONENT = {"": 0, "G": 9, "M": 6, "k": 3, "c": -2, "m": -3, "u": -6, "n": -9}
+_ANGLES = {("deg", "rad"): math.pi / 180, ("rpm", "rad/s"): math.pi / 30}
+_ATOM = re.compile(r"(?P<name>[A-Za-z]+)(\^(?P<power>[23]))?")
+
+
 def to_si(value, unit, where):
     """Convert ``"12 mm"`` (or a bare number, where ``unit`` is "1") to a float in ``unit``.
 
@@ -41,7 +50,45 @@ def to_si(value, unit, where):
         raise ConfigError(where, expected, repr(value))
     if _STRAY.search(_OF_UNIT.sub("", spelt["unit"])):
         raise ConfigError(where, expected, repr(value), "write one number, with a decimal point, and its unit")
-    return _convert(value, unit, lambda: ConfigError(where, expected, repr(value)))
+    plain = _plainly(value.removesuffix(spelt["unit"]), spelt["unit"], unit)
+    return _convert(value, unit, lambda: ConfigError(where, expected, repr(value))) if plain is None else plain
+
+
+def _plainly(number, spelt, unit):
+    """``number spelt`` in ``unit`` where both are products of plain units; None where pint has to read it."""
+    if (spelt, unit) in _ANGLES:
+        return float(number) * _ANGLES[spelt, unit]
+    if spelt == "g" and unit == "kg":
+        return float(number) / 1000
+    given, wanted = _factors(spelt), _factors("" if unit == "1" else unit)
+    if given is None or wanted is None or given[0] != wanted[0]:
+        return None
+    return float(number) * 10.0 ** given[1]
+
+
+@cache
+def _factors(spelt):
+    """({plain unit: power}, decimal exponent) of ``N s/m`` and the like; None where it is more than that."""
+    powers, exponent = Counter(), 0
+    numerator, *denominators = spelt.split("/")
+    atoms = [(atom, 1) for atom in numerator.split() if atom != "1"] + [(atom, -1) for atom in denominators]
+    for atom, sign in atoms:
+        match = _ATOM.fullmatch(atom)
+        name = match and _named(match["name"])
+        if not name:
+            return None
+        power = sign * int(match["power"] or 1)
+        powers[name[0]] += power
+        exponent += power * name[1]
+    return {name: power for name, power in powers.items() if power}, exponent
+
+
+def _named(name):
+    """(plain unit, decimal exponent of its prefix); None for any other name."""
+    if name in _PLAIN:
+        return name, 0
+    prefix, base = name[0], name[1:]
+    return (base, _EXPONENT[prefix]) if prefix in _EXPONENT and base in _PLAIN - {"kg"} else None
 
 
 def in_si(values, unit, where):

@@ -8,7 +8,7 @@ bounds hold for every u, and the prior's term of a least-squares problem is |u|^
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.special import ndtr, ndtri
+import scipy
 
 from pipeline.contract.errors import ConfigError
 
@@ -22,7 +22,7 @@ class _Prior:
 
     def quantile(self, share):
         """The value below which ``share`` of the prior lies."""
-        return self.value(ndtri(share))
+        return self.value(scipy.special.ndtri(share))
 
     def sample(self, generator, size=None):
         """Draws with a numpy Generator."""
@@ -110,10 +110,10 @@ class HalfNormal(_Prior):
         return np.where(np.asarray(value) < 0, -np.inf, inside)[()]
 
     def value(self, latent):
-        return -self.scale * ndtri(0.5 * ndtr(-np.asarray(latent, float)))[()]
+        return -self.scale * scipy.special.ndtri(0.5 * scipy.special.ndtr(-np.asarray(latent, float)))[()]
 
     def latent(self, value):
-        return _limited(-ndtri(2 * ndtr(-np.maximum(value, 0.0) / self.scale)))
+        return _limited(-scipy.special.ndtri(2 * scipy.special.ndtr(-np.maximum(value, 0.0) / self.scale)))
 
 
 @dataclass(frozen=True)
@@ -139,10 +139,10 @@ class Uniform(_Prior):
         return np.where(inside, -np.log(self.high - self.low), -np.inf)[()]
 
     def value(self, latent):
-        return self.low + (self.high - self.low) * ndtr(latent)
+        return self.low + (self.high - self.low) * scipy.special.ndtr(latent)
 
     def latent(self, value):
-        return _limited(ndtri(np.clip((value - self.low) / (self.high - self.low), 0.0, 1.0)))
+        return _limited(scipy.special.ndtri(np.clip((value - self.low) / (self.high - self.low), 0.0, 1.0)))
 
 
 @dataclass(frozen=True)

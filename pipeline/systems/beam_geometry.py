@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from types import SimpleNamespace
 
 import numpy as np
-from scipy.linalg import eigh
+import scipy
 
 from pipeline.contract.errors import ConfigError
 from pipeline.physics.stability.coalescence import coalescences
@@ -73,7 +73,7 @@ def described(vector, tilt=TILT):
 
 def modes_of(bodies):
     """(ContactModes, sensor row, load row) of all modes of both beams."""
-    squared, shapes = zip(*(eigh(b.stiffness.toarray(), b.mass.toarray()) for b in bodies), strict=True)
+    squared, shapes = zip(*(scipy.linalg.eigh(b.stiffness.toarray(), b.mass.toarray()) for b in bodies), strict=True)
     return joined(bodies, [np.maximum(own, 0.0) for own in squared], shapes)
 
 

@@ -14,7 +14,7 @@ supports, and the contact sees the mean motion of the end face of the slider and
 from dataclasses import dataclass
 
 import numpy as np
-import scipy.sparse as sp
+import scipy
 
 from pipeline.contract.errors import ConfigError
 from pipeline.physics.fem.plane_stress import sheet
@@ -38,8 +38,8 @@ class Body:
     """
 
     name: str
-    stiffness: sp.csr_matrix
-    mass: sp.csr_matrix
+    stiffness: "scipy.sparse.csr_matrix"
+    mass: "scipy.sparse.csr_matrix"
     contact: np.ndarray
     sensor: np.ndarray
     load: np.ndarray
@@ -193,7 +193,7 @@ def _with_rigid_end(part, end, direction):
     free = np.setdiff1d(np.arange(2 * count), (2 * nodes[:, None] + np.arange(2)).ravel())
     centre = part.node[nodes].mean(axis=0)
     size = len(free) + 3
-    basis = sp.lil_matrix((2 * count, size))
+    basis = scipy.sparse.lil_matrix((2 * count, size))
     basis[free, np.arange(len(free))] = 1.0
     for node, (x, y) in zip(nodes, part.node[nodes] - centre, strict=True):
         basis[2 * node, size - 3], basis[2 * node, size - 1] = 1.0, -y
@@ -249,5 +249,5 @@ def _supported(stiffness, rows, springs):
 def _body(name, strip, stiffness, mass, held, contact, sensor, load):
     free = np.setdiff1d(np.arange(len(contact[0])), held)
     quads = np.arange(0, len(strip.position) - 2, 2)[:, None] + np.array([0, 2, 3, 1])
-    return Body(name, *(sp.csr_matrix(a)[free][:, free] for a in (stiffness, mass)),
+    return Body(name, *(scipy.sparse.csr_matrix(a)[free][:, free] for a in (stiffness, mass)),
                 *(rows[:, free] for rows in (contact, sensor, load)), strip.position, strip.shape[..., free], quads)

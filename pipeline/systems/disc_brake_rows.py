@@ -7,7 +7,7 @@ their abutments, guide pins.
 from dataclasses import dataclass
 
 import numpy as np
-import scipy.sparse as sp
+import scipy
 
 from pipeline.physics.fem.face_averages import along, face_points, surface_rows
 from pipeline.physics.fem.mesh import boundary_faces, face_normals
@@ -24,7 +24,7 @@ class _Spot:
     """Mean displacement (1, n) of a small area of one body."""
 
     body: int
-    mean: sp.csr_matrix
+    mean: "scipy.sparse.csr_matrix"
 
 
 def contacts(meshes, parameters):
@@ -36,9 +36,9 @@ def contacts(meshes, parameters):
     rows = []
     for direction in (normal, np.cross((0, 0, 1), radial), radial):
         own = [along(r[3], direction[pad == p]) for r, p in zip(read, (OUTER, INNER), strict=True)]
-        parts = [sp.csr_matrix((len(pad), 3 * len(m.node))) for m in meshes]
+        parts = [scipy.sparse.csr_matrix((len(pad), 3 * len(m.node))) for m in meshes]
         parts[OUTER], parts[INNER] = _diagonal_blocks(*own)
-        parts[DISC] = -along(sp.vstack([r[4] for r in read]), direction)
+        parts[DISC] = -along(scipy.sparse.vstack([r[4] for r in read]), direction)
         rows.append(Rows(tuple(parts)))
     return Contacts(pad, position, area, *rows)
 
@@ -84,7 +84,7 @@ def piston_rows(meshes, parameters):
     """One row: mean distance of inner backplate and cylinder; a unit force pushes the pad onto the disc."""
     relative = [_relative(meshes, pad, body, 2) for _, pad, body in
                 _clamping_spots(meshes, parameters, "piston", INNER)]
-    return Rows(tuple(sp.csr_matrix(sum(parts) / len(relative)) for parts in zip(*relative, strict=True)))
+    return Rows(tuple(scipy.sparse.csr_matrix(sum(parts) / len(relative)) for parts in zip(*relative, strict=True)))
 
 
 def sensor_rows(meshes, parameters):
@@ -96,7 +96,7 @@ def sensor_rows(meshes, parameters):
         unit = {"axial": (0, 0, 1), "radial": (c, z, 0), "tangential": (-z, c, 0)}[s.direction]
         mean = surface_rows(meshes[DISC].node, faces_towards(meshes[DISC], side), point[None], np.ones(1),
                             np.zeros(1, int), f"structure.sensors: {s.name}")
-        row = [sp.csr_matrix((1, 3 * len(m.node))) for m in meshes]
+        row = [scipy.sparse.csr_matrix((1, 3 * len(m.node))) for m in meshes]
         row[DISC] = along(mean, np.array([unit], float))
         parts.append(row)
         position.append(point)
@@ -163,7 +163,7 @@ def _spot(meshes, body, point, where):
 
 def _relative(meshes, one, other, axis):
     """Displacement of one spot less that of the other (or of the ground) along an axis, per body."""
-    row = [sp.csr_matrix((1, 3 * len(m.node))) for m in meshes]
+    row = [scipy.sparse.csr_matrix((1, 3 * len(m.node))) for m in meshes]
     row[one.body] = along(one.mean, np.eye(3)[[axis]])
     if other is not None:
         row[other.body] = -along(other.mean, np.eye(3)[[axis]])
@@ -172,10 +172,10 @@ def _relative(meshes, one, other, axis):
 
 def _diagonal_blocks(first, second):
     """The rows of both, one after the other, each padded with zero rows in place of the other's."""
-    below = sp.csr_matrix((second.shape[0], first.shape[1]))
-    above = sp.csr_matrix((first.shape[0], second.shape[1]))
-    return sp.vstack((first, below), format="csr"), sp.vstack((above, second), format="csr")
+    below = scipy.sparse.csr_matrix((second.shape[0], first.shape[1]))
+    above = scipy.sparse.csr_matrix((first.shape[0], second.shape[1]))
+    return scipy.sparse.vstack((first, below), format="csr"), scipy.sparse.vstack((above, second), format="csr")
 
 
 def _stacked(rows):
-    return Rows(tuple(sp.vstack(parts, format="csr") for parts in zip(*rows, strict=True)))
+    return Rows(tuple(scipy.sparse.vstack(parts, format="csr") for parts in zip(*rows, strict=True)))

@@ -1,7 +1,7 @@
 """Systems of finite-element bodies as products, and back: what brake and pin on disc share between their stages."""
 
 import numpy as np
-import scipy.sparse as sp
+import scipy
 
 from pipeline.physics.reduction.body import ElasticBody
 from pipeline.products import Body, Incidence, PinOnDisc, Structure
@@ -52,7 +52,7 @@ def elastic_body(system, name):
     """ElasticBody of the body ``name`` of a product, with its part of every row; modes only where it is supported."""
     body, index = getattr(system, name), list(system.body_name).index(name)
     incidences = [getattr(system, field) for field in row_fields(system)]
-    rows = sp.vstack([body_rows(i, index, len(body.node)) for i in incidences], format="csr")
+    rows = scipy.sparse.vstack([body_rows(i, index, len(body.node)) for i in incidences], format="csr")
     count = len(body.frequency) if len(body.supported) else 0
     return ElasticBody(
         name=name, node=body.node, element=body.element, kind=str(body.kind), material=body.element_material,
@@ -66,4 +66,4 @@ def body_rows(incidence, body, nodes):
     """(rows, 3 nodes) sparse: the part of an Incidence that one body, by its number, moves."""
     chosen = incidence.body == body
     place = incidence.row[chosen], 3 * incidence.node[chosen] + incidence.axis[chosen]
-    return sp.csr_matrix((incidence.weight[chosen], place), (int(incidence.rows), 3 * nodes))
+    return scipy.sparse.csr_matrix((incidence.weight[chosen], place), (int(incidence.rows), 3 * nodes))

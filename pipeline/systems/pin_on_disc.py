@@ -12,7 +12,7 @@ the guide along z. The accelerometer is a mass on the last cell of the pin.
 from dataclasses import dataclass
 
 import numpy as np
-import scipy.sparse as sp
+import scipy
 
 from pipeline.contract.errors import ConfigError
 from pipeline.physics.fem.elasticity import assemble, isotropic
@@ -175,9 +175,9 @@ def _clamp(meshes, parameters):
              for end, mean in (("front", front), ("rear", rear)) for axis, name in enumerate(("radial", "tangential"))]
     found.append(("clamp_twist", (along(sides[1], along_tilt) - along(sides[0], along_tilt)) / 2, p.clamp_stiffness))
     name, rows, stiffness = zip(*found, strict=True)
-    nothing = sp.csr_matrix((len(name), 3 * len(meshes[DISC].node)))
+    nothing = scipy.sparse.csr_matrix((len(name), 3 * len(meshes[DISC].node)))
     stiffness = np.array(stiffness)
-    return Joints(name, stiffness, stiffness * p.loss_time, Rows((nothing, sp.vstack(rows, format="csr"))))
+    return Joints(name, stiffness, stiffness * p.loss_time, Rows((nothing, scipy.sparse.vstack(rows, format="csr"))))
 
 
 def sliding_flexibility(model, friction, solver):
@@ -194,7 +194,7 @@ def sliding_flexibility(model, friction, solver):
         if number == PIN:
             held.append((model.load.parts[number], model.joints.stiffness.max()))
         for rows, springs in held:
-            stiffness = stiffness + rows.T @ sp.diags(np.broadcast_to(springs, rows.shape[0])) @ rows
+            stiffness = stiffness + rows.T @ scipy.sparse.diags(np.broadcast_to(springs, rows.shape[0])) @ rows
         free = free_freedoms(len(body.mesh.node), body.supported)
         normal, tangent = (rows.parts[number].toarray()[0, free] for rows in (model.contacts.normal,
                                                                               model.contacts.tangent))
@@ -217,7 +217,7 @@ def _load(meshes):
     end = np.unique(face[np.argmax(face_normals(mesh.node, face)[1][:, 2])])
     middle = mesh.node[end].mean(axis=0, keepdims=True)
     mean = _mean(mesh, middle, "pin_on_disc.pin: end of the clamp")
-    return Rows((sp.csr_matrix((1, 3 * len(meshes[DISC].node))), -along(mean, np.eye(3)[[2]])))
+    return Rows((scipy.sparse.csr_matrix((1, 3 * len(meshes[DISC].node))), -along(mean, np.eye(3)[[2]])))
 
 
 def _sensors(meshes, parameters):
@@ -227,12 +227,12 @@ def _sensors(meshes, parameters):
     on_disc = np.array([[s.disc_radius * np.cos(s.disc_angle), s.disc_radius * np.sin(s.disc_angle), half]])
     parts, places, directions = [], [], []
     for body, point, axis in ((PIN, on_pin, 2), (DISC, on_disc, 2), (PIN, on_pin, 1)):
-        row = [sp.csr_matrix((1, 3 * len(m.node))) for m in meshes]
+        row = [scipy.sparse.csr_matrix((1, 3 * len(m.node))) for m in meshes]
         row[body] = along(_mean(meshes[body], point, "pin_on_disc.sensors"), np.eye(3)[[axis]])
         parts.append(row)
         places.append(point[0])
         directions.append(np.eye(3)[axis])
-    stacked = Rows(tuple(sp.vstack(column, format="csr") for column in zip(*parts, strict=True)))
+    stacked = Rows(tuple(scipy.sparse.vstack(column, format="csr") for column in zip(*parts, strict=True)))
     return stacked, np.array(places), np.array(directions)
 
 

@@ -6,7 +6,7 @@ A row holds one weight per body and degree of freedom (3 node + axis).
 from dataclasses import dataclass
 
 import numpy as np
-import scipy.sparse as sp
+import scipy
 
 from pipeline.physics.fem.elasticity import assemble
 from pipeline.physics.fem.mesh import Mesh
@@ -39,7 +39,7 @@ class Rows:
     @property
     def matrix(self):
         """All bodies side by side."""
-        return sp.hstack(self.parts, format="csr")
+        return scipy.sparse.hstack(self.parts, format="csr")
 
 
 @dataclass(frozen=True)

@@ -1,7 +1,7 @@
 """Modes and squeal frequencies as the paper's sections 3.3 and Table 1 state them."""
 
 import numpy as np
-from scipy.optimize import linear_sum_assignment
+import scipy
 
 from pipeline.validation import ours
 
@@ -39,7 +39,7 @@ def _paired(structure, facts):
     wanted = np.array([fact.value if fact.read_as is None else fact.read_as for fact in facts])
     apart = np.abs(np.log(wanted[:, None] / structure.free_frequency))
     apart[~np.array([_fits(fact, structure.free_diameters) for fact in facts])] = _NEVER
-    chosen = dict(zip(*linear_sum_assignment(np.minimum(apart, _NEVER)), strict=True))
+    chosen = dict(zip(*scipy.optimize.linear_sum_assignment(np.minimum(apart, _NEVER)), strict=True))
     return {fact.key: _pair(structure, fact, chosen[i]) if i in chosen and apart[i, chosen[i]] < np.log(_FARTHEST)
             else ours(np.nan, "", _unpaired(structure, fact)) for i, fact in enumerate(facts)}
 

@@ -83,7 +83,8 @@ def test_files_have_their_own_exit_code(tmp_path):
 
 def test_schema_is_json_and_knows_units_and_origins():
     schema = json.loads(brakechain("schema", "disc_brake").stdout)
-    duration = schema["properties"]["multibody"]["properties"]["duration"]
+    assert schema["properties"]["multibody"] == {"$ref": "#/$defs/multibody"}
+    duration = schema["$defs"]["multibody"]["properties"]["duration"]
     assert '"x-unit": "s"' in json.dumps(duration) and "origin" in json.dumps(duration)
     assert schema["additionalProperties"] is False
     assert brakechain("schema", "none").returncode == 2

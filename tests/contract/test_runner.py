@@ -1,5 +1,6 @@
 """Resume: what is up to date stays; what changed runs again and says why."""
 
+import ast
 import multiprocessing
 import os
 from pathlib import Path
@@ -9,6 +10,8 @@ import pytest
 from pipeline.contract import ConfigError, Context, ProductError, case, fingerprint, runner, store
 from tests.contract.toy import CHAINS, load
 from tests.contract.toy.products import Doubled
+
+ROOT = Path(__file__).parents[2]
 
 
 @pytest.fixture
@@ -62,6 +65,23 @@ def test_code_is_followed_through_imports():
     code = fingerprint.code_of("tests.contract.toy.doubled")
     assert {"tests.contract.toy.doubled", "pipeline.contract.units", "pipeline.contract.stage"} <= set(code)
     assert "pipeline.cli.main" not in code and "pipeline.contract.runner" not in code
+
+
+def test_code_of_a_catalogue_holds_every_effect():
+    """Effects are loaded by name, not by an import statement; what has them runs again when one of them changes."""
+    code = fingerprint.code_of("stages.transient")
+    names = ("joint.coulomb", "friction.moisture", "sensor.clipping")
+    assert {f"pipeline.effects.{name}" for name in names} <= set(code)
+
+
+def test_imports_are_those_of_the_syntax_tree():
+    for path in [*(ROOT / "pipeline").rglob("*.py"), *(ROOT / "stages").rglob("*.py")]:
+        nodes = list(ast.walk(ast.parse(path.read_text())))
+        names = {a.name for n in nodes if isinstance(n, ast.Import) for a in n.names}
+        for node in (n for n in nodes if isinstance(n, ast.ImportFrom)):
+            names |= {node.module, *(f"{node.module}.{a.name}" for a in node.names)}
+        project = {n for n in names if n.split(".")[0] in ("pipeline", "stages") and n != "stages"}
+        assert project == set(fingerprint._imports(path)), path
 
 
 def test_code_that_changes_while_it_runs_is_refused(config, monkeypatch):

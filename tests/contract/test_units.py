@@ -3,13 +3,33 @@
 import pint
 import pytest
 
-from pipeline.contract import ConfigError
+from pipeline.contract import ConfigError, units
 from pipeline.contract.units import SI, to_si
+
+#: spelt -> unit: what is read without pint
+PLAIN = {**{f"{prefix}{unit}": unit for unit in ("m", "s", "rad", "Hz", "N", "Pa", "J", "W", "K", "V", "A")
+            for prefix in ("", "G", "M", "k", "c", "m", "u", "n")},
+         "g": "kg", "deg": "rad", "rpm": "rad/s", "mm^2": "m^2", "um^2": "m^2", "mm^3": "m^3", "mm^2/N": "m^2/N",
+         "N/mm": "N/m", "kN/mm": "N/m", "1/um": "1/m", "km/s": "m/s", "mm/s": "m/s", "N s/mm": "N s/m",
+         "um/MPa": "m/Pa",
+         "1/GPa": "1/Pa", "MPa/mm": "Pa/m", "N mm": "N m", "mm/s^2": "m/s^2", "kg/m^3": "kg/m^3", "1/ms": "1/s"}
+
+
+@pytest.fixture(scope="module")
+def registry():
+    return pint.UnitRegistry()
+
+
+def test_plain_quantities_are_read_with_the_bits_of_pint(registry, monkeypatch):
+    monkeypatch.setattr(units, "_convert", None)        # pint is not asked
+    for spelt, unit in PLAIN.items():
+        for number in ("1", "3", "12", "0.1", "0.3", "17.25", "210", "1e-3", "7.1e9", "-4"):
+            exact = registry.Quantity(f"{number} {spelt}").to(unit).magnitude
+            assert to_si(f"{number} {spelt}", unit, "x") == float(exact), f"{number} {spelt}"
 
 
 @pytest.mark.parametrize("unit", sorted(SI - {"1"}))
-def test_every_unit_is_coherent_si(unit):
-    registry = pint.UnitRegistry()
+def test_every_unit_is_coherent_si(unit, registry):
     quantity = registry.Quantity(1.0, unit.replace("1/kg^0.5", "kg^(-0.5)"))
     assert quantity.to_base_units().magnitude == pytest.approx(1.0, rel=1e-15)
 

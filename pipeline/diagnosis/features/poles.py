@@ -8,7 +8,7 @@ slow turns: they give cosine and sine of the first orders. Every operating point
 from dataclasses import dataclass, replace
 
 import numpy as np
-from scipy.optimize import linear_sum_assignment
+import scipy
 
 from pipeline.contract import ConfigError
 from pipeline.inference.problem import Observed
@@ -195,7 +195,7 @@ def assigned(seen, root, shape):
     apart = abs(np.subtract.outer(seen.root, root)) / (_NEAR * abs(seen.root))[:, None]
     cost = apart / np.sqrt(1 + (apart / _FAR) ** 2) + 1 - likeness(seen.shape, shape)
     found = cost.argmin(axis=1)
-    peaks, roots = linear_sum_assignment(cost)
+    peaks, roots = scipy.optimize.linear_sum_assignment(cost)
     found[peaks] = roots
     return found
 

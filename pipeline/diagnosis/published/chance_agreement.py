@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.optimize import linear_sum_assignment
+import scipy
 
 from pipeline.contract import ConfigError
 
@@ -31,7 +31,7 @@ def assigned(measured, model):
     """
     measured, model = np.asarray(measured, float), np.asarray(model, float)
     partner = np.full(len(measured), -1)
-    rows, columns = linear_sum_assignment(np.abs(np.log(measured[:, None] / model)))
+    rows, columns = scipy.optimize.linear_sum_assignment(np.abs(np.log(measured[:, None] / model)))
     partner[rows] = columns
     return partner
 

@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 from functools import partial
 
 import numpy as np
-from scipy.stats import chi2, norm
+import scipy
 
 from pipeline.contract import ConfigError
 from pipeline.diagnosis.question import Question, label, nominal, parameter_name
@@ -119,9 +119,10 @@ def differing(problem, diagnosis):
     tried = [(latent[:own], whitened(problem, best.noises, problem.nominal, latent[:own], best.runs)[0])
              for latent in (problem.nominal.nominal, diagnosis.null.latent, best.latent)]
     _, residuals = min(tried, key=lambda t: t[0] @ t[0] + sum(np.minimum(r**2, _OUTLYING**2).sum() for r in t[1]))
-    single = np.array([np.clip(chi2.sf(r @ r, len(r)), 1e-300, 1 - 1e-12) for r in residuals])
+    single = np.array([np.clip(scipy.stats.chi2.sf(r @ r, len(r)), 1e-300, 1 - 1e-12) for r in residuals])
     p_value = holm(single)
-    return {"run": (Location(tuple(r.name for r in best.runs), norm.isf(single), p_value, p_value <= _LEVEL),)}
+    deviation = scipy.stats.norm.isf(single)
+    return {"run": (Location(tuple(r.name for r in best.runs), deviation, p_value, p_value <= _LEVEL),)}
 
 
 def lines_of(recording, run, name):

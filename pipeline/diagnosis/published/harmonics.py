@@ -12,7 +12,7 @@ from functools import partial
 from typing import Literal
 
 import numpy as np
-from scipy.special import ndtr
+import scipy
 
 from pipeline.case_models.laws import Laws
 from pipeline.case_models.virtual_rig import about
@@ -195,7 +195,8 @@ def _stands(lines, base, count):
 
 
 def _features(motion, told):
-    found = {name: ndtr((level + told.spectra[name].range) / _SOFT) for name, level in motion.levels.items()}
+    found = {name: scipy.special.ndtr((level + told.spectra[name].range) / _SOFT)
+             for name, level in motion.levels.items()}
     return {**found, BASE: np.array([motion.base])}
 
 

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
-from scipy.stats import chi2
+import scipy
 
 from pipeline.contract import ConfigError, Section, option
 from pipeline.diagnosis.experiment_design.next_lists import Check
@@ -171,11 +171,12 @@ def mode_reasons(rows, found):
 
 def _of_factor(rows, null):
     before = float(np.sum(((rows.test - rows.model) / rows.std) ** 2))
+    enough = null.chi_square.sum() <= scipy.stats.chi2.isf(_RARE, len(rows.name))
     factor, std, left = null.values[FACTOR], null.spread()[FACTOR], null.chi_square.sum()
     return (f"one factor on all frequencies, as a wrong modulus or density gives, is fitted as {factor:.3f} +-"
             f" {std:.3f} and takes the squared deviations from {before:.1f} to {left:.1f} over"
             f" {len(rows.name)} rows:"
-            f" {'enough' if left <= chi2.isf(_RARE, len(rows.name)) else 'it does not explain the rows that differ'}")
+            f" {'enough' if enough else 'it does not explain the rows that differ'}")
 
 
 def _of_pair(rows, i, mode):

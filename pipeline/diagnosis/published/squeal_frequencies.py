@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
-from scipy.optimize import brentq
+import scipy
 
 from pipeline.contract import ConfigError, Quantity, Section, option
 from pipeline.diagnosis.published.chance_agreement import Match, covered, match
@@ -123,7 +123,7 @@ def _within(lines, band):
 
 def needed_tolerance(lines, band, count, level=0.01):
     """Tolerance [Hz] at which ``count`` lines at random are all met with probability ``level``."""
-    return float(brentq(lambda t: covered(lines, t, band) ** count - level, 0.0, band[1] - band[0]))
+    return float(scipy.optimize.brentq(lambda t: covered(lines, t, band) ** count - level, 0.0, band[1] - band[0]))
 
 
 def _of_shapes(seen, tolerance, structure):

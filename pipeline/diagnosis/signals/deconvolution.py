@@ -11,8 +11,7 @@ its answer to F.
 from dataclasses import dataclass, replace
 
 import numpy as np
-from scipy.signal import savgol_filter
-from scipy.signal.windows import tukey
+import scipy
 
 from pipeline.contract import BrakechainError
 from pipeline.diagnosis.signals.forward_model import shown
@@ -48,7 +47,7 @@ def deconvolved(bench, row, run, observed, noise):
         own, seen_by = receptances(bench, run, row, observed.channels, frequency)
     except BrakechainError:
         return None
-    fade = tukey(count, 2 * FADE)
+    fade = scipy.signal.windows.tukey(count, 2 * FADE)
     spectrum, precision = np.fft.rfft(residual * fade, axis=1), 1 / noise.std[:, None] ** 2
     seen = np.sum(np.abs(seen_by) ** 2 * precision, axis=0)
     force = np.sum(seen_by.conj() * spectrum * precision, axis=0) / np.maximum(seen, 1e-300)
@@ -77,7 +76,7 @@ def motion(bench, row, run, observed, noise):
     if seen and np.allclose(weight @ rows, row, atol=1e-6 * np.abs(row).max()) and observed.valid[seen].all():
         gain = np.array([known[observed.channels[k]].gain for k in seen])
         x = weight @ (observed.samples[seen] / gain[:, None])
-        return x, savgol_filter(x, _SMOOTHING, 3, deriv=1, delta=1 / run.sample_rate)
+        return x, scipy.signal.savgol_filter(x, _SMOOTHING, 3, deriv=1, delta=1 / run.sample_rate)
     found = deconvolved(bench, row, run, observed, noise)
     return moved(bench, run, row) if found is None else (found.displacement, found.velocity)
 

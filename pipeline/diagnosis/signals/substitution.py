@@ -11,9 +11,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
-from scipy.interpolate import NearestNDInterpolator
-from scipy.linalg import eigh
-from scipy.optimize import linear_sum_assignment
+import scipy
 
 from pipeline.contract import BrakechainError
 from pipeline.diagnosis.signals.forward_model import Simulated, shown
@@ -107,7 +105,7 @@ def measured_law(curves):
     table = np.divide(total, count, out=np.zeros(total.shape), where=known)
     if not known.all():
         index = np.indices(table.shape)
-        near = NearestNDInterpolator(index[:, known].T, table[known])
+        near = scipy.interpolate.NearestNDInterpolator(index[:, known].T, table[known])
         table = np.where(known, table, near(*index))
     return FrictionLaw(p, v, [0.0], table[:, :, None])
 
@@ -121,7 +119,7 @@ class MeasuredShapes:
 
     def __call__(self, bench):
         mass, damping, stiffness = bench.model.supported()
-        squared, shape = eigh((stiffness + stiffness.T) / 2, mass)
+        squared, shape = scipy.linalg.eigh((stiffness + stiffness.T) / 2, mass)
         own, stiff, lossy = mass @ shape, np.zeros(mass.shape), np.zeros(mass.shape)
         for one in self.measured:
             for k, mode in self._pairs(bench, one, np.sqrt(np.maximum(squared, 0.0)), shape):
@@ -141,4 +139,4 @@ class MeasuredShapes:
         if len(known) > 1:
             rows = np.array([bench.sensor(str(one.place[k])) for k in known])
             cost = cost + 1 - likeness(np.asarray(one.shape)[:, known], (rows @ shape).T)
-        return list(zip(*linear_sum_assignment(cost), strict=True))
+        return list(zip(*scipy.optimize.linear_sum_assignment(cost), strict=True))

@@ -1,7 +1,7 @@
 """The numbers that the rules see: of each refitted candidate, and of the recalibrated nominal model."""
 
 import numpy as np
-from scipy.stats import chi2
+import scipy
 
 from pipeline.contract.errors import BrakechainError
 from pipeline.inference.decision.decision_rules import Contender, Situation
@@ -164,4 +164,4 @@ def _moved_p(problem, null, weights):
     if error:
         return 0.0
     square = np.array([r @ r for r in given])
-    return float(chi2.sf(weights @ (square - null.chi_square), len(null.latent)))
+    return float(scipy.stats.chi2.sf(weights @ (square - null.chi_square), len(null.latent)))

@@ -11,7 +11,7 @@ share are left out.
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.special import ndtri
+import scipy
 
 from pipeline.inference.fitting.least_squares import from_prior_mean, whitened
 from pipeline.inference.problem import operating_points
@@ -87,7 +87,7 @@ def nested(problem, fit, sampler, weights=None):
             return -np.inf
         return -0.5 * sum(w * (r @ r) for w, r in zip(weights, residuals, strict=True))
 
-    return sampler(log_likelihood, ndtri, len(fit.latent))
+    return sampler(log_likelihood, scipy.special.ndtri, len(fit.latent))
 
 
 def _moments(fit, weights):

@@ -7,8 +7,7 @@ filter of that order (Yule-Walker) whitens residuals: w_t = sum_k a_k r_(t-k) / 
 from dataclasses import dataclass, replace
 
 import numpy as np
-from scipy.linalg import solve_toeplitz
-from scipy.signal import periodogram
+import scipy
 
 from pipeline.contract.errors import ConfigError
 
@@ -95,7 +94,7 @@ def _beyond(run, k, above):
         raise ConfigError(f"run {run.name}: {run.channels[k]}",
                           f"samples without a gap to tell noise beyond {above:g} Hz", f"{end - begin} at most",
                           "give the noise, or repeats of the run")
-    frequency, density = periodogram(run.samples[k, begin:end], run.rate, "hann")
+    frequency, density = scipy.signal.periodogram(run.samples[k, begin:end], run.rate, "hann")
     return density[frequency > above].mean() * 0.5 * run.rate
 
 
@@ -167,7 +166,8 @@ def _masked_mean(values, valid):
 def _prediction_error_filter(covariance):
     if len(covariance) == 1:
         return np.array([1 / np.sqrt(covariance[0])])
-    predictor = solve_toeplitz(covariance[:-1] * (1 + 1e-12 * (np.arange(len(covariance) - 1) == 0)), covariance[1:])
+    column = covariance[:-1] * (1 + 1e-12 * (np.arange(len(covariance) - 1) == 0))
+    predictor = scipy.linalg.solve_toeplitz(column, covariance[1:])
     innovation = covariance[0] - predictor @ covariance[1:]
     return np.concatenate(([1.0], -predictor)) / np.sqrt(innovation)
 

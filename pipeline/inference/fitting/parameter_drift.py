@@ -9,7 +9,7 @@ nothing to Q. The null of Q is drawn from the same linear model, prior included.
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.stats import chi2, norm
+import scipy
 
 from pipeline.inference.problem import operating_points
 
@@ -75,8 +75,8 @@ def agreement(fit, index, weights=None, tolerance=0.0):
         return 0.0, value, std
     std = np.hypot(std, tolerance)
     mean = np.average(value[seen], weights=1 / std[seen] ** 2)
-    chance = chi2.sf(np.sum(((value - mean)[seen] / std[seen]) ** 2), seen.sum() - 1)
-    return float(norm.isf(max(chance, _RAREST) / 2)), value, std
+    chance = scipy.stats.chi2.sf(np.sum(((value - mean)[seen] / std[seen]) ** 2), seen.sum() - 1)
+    return float(scipy.stats.norm.isf(max(chance, _RAREST) / 2)), value, std
 
 
 def trend(drift, index, condition):

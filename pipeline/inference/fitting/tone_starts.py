@@ -7,7 +7,7 @@ from two predictions a quarter of a turn apart, as the tone is linear in its cos
 from typing import NamedTuple
 
 import numpy as np
-from scipy.signal import find_peaks
+import scipy
 
 from pipeline.inference.fitting.least_squares import from_prior_mean, orthogonal, whitened
 
@@ -46,7 +46,7 @@ def standing_out(fit, count=_TRIED):
     length = max(len(part) / rate for rate, part in ordered)
     grid = np.arange(1, int(_FINER * length * min(rate for rate, _ in ordered) / 2)) / (_FINER * length)
     power = sum(_power(part, rate, grid) for rate, part in ordered)
-    peaks, _ = find_peaks(np.concatenate(([0.0], power, [0.0])), distance=_FINER)
+    peaks, _ = scipy.signal.find_peaks(np.concatenate(([0.0], power, [0.0])), distance=_FINER)
     return grid[peaks - 1][np.argsort(-power[peaks - 1])[:count]]
 
 

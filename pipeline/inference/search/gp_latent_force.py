@@ -9,8 +9,8 @@ its own correlation.
 from dataclasses import dataclass
 
 import numpy as np
+import scipy
 from numba import njit
-from scipy.optimize import minimize
 
 from pipeline.contract.errors import ConvergenceError
 
@@ -57,8 +57,8 @@ def latent_force(residual, rate, valid=None):
     sizes = [share * spread for share in _SPREADS]
     bounds = np.log([sizes, [0.3 / rate, max(len(residual), 1000) / rate], sizes])
     options = {"xatol": 1e-3, "fatol": 1e-3, "maxiter": 600}
-    found = min((minimize(loss, s, method="Nelder-Mead", bounds=bounds, options=options) for s in starts),
-                key=lambda r: r.fun)
+    fits = (scipy.optimize.minimize(loss, s, method="Nelder-Mead", bounds=bounds, options=options) for s in starts)
+    found = min(fits, key=lambda fit: fit.fun)
     if not found.success:
         raise ConvergenceError("latent force: hyperparameters", "convergence in 600 steps", found.message)
     return smooth(residual, rate, *(float(x) for x in np.exp(found.x)), valid)

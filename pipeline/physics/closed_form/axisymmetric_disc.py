@@ -6,7 +6,7 @@ Finite Element Method, volume 2, semi-analytical method).
 """
 
 import numpy as np
-from scipy.linalg import eigh
+import scipy
 
 from pipeline.physics.fem.elasticity import isotropic, quadrature, shape_functions
 
@@ -31,7 +31,7 @@ def section_frequencies(radius, height, mask, young, poisson, density, diameters
     scalar = np.einsum("eq,qa,qb->eab", volume * density, shape, shape, optimize=True)
     mass = np.einsum("eab,ij->eaibj", scalar, np.eye(3)).reshape(stiffness.shape)
     freedom = (3 * element[..., None] + np.arange(3)).reshape(len(element), -1)
-    square = eigh(*(_sum(m, freedom, 3 * len(node)) for m in (stiffness, mass)), eigvals_only=True,
+    square = scipy.linalg.eigh(*(_sum(m, freedom, 3 * len(node)) for m in (stiffness, mass)), eigvals_only=True,
                   subset_by_index=(0, count - 1))
     return np.sqrt(np.maximum(square, 0)) / (2 * np.pi)
 

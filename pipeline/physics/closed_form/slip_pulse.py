@@ -13,7 +13,7 @@ singular at the leading edge (0 < a < 1/2) and zero at the trailing edge: Adams'
 from typing import NamedTuple
 
 import numpy as np
-from scipy.optimize import brentq
+import scipy
 
 #: directions in which a pulse runs: with the slip of the lower solid, or against it
 WITH_LOWER, AGAINST_LOWER = 1, -1
@@ -58,7 +58,7 @@ def intersonic_pulse_speeds(upper, lower, friction):
 
     speeds = highest - (highest - lowest) * np.geomspace(1e-9, 1.0, 400)
     below = next((speed for speed in speeds if hilbert(speed) < 0.0), None)
-    return (lowest, highest) if below is None else (brentq(hilbert, below, top), highest)
+    return (lowest, highest) if below is None else (scipy.optimize.brentq(hilbert, below, top), highest)
 
 
 def _acting(speed, upper, lower, friction, direction):

@@ -9,8 +9,7 @@ symmetric eigenproblem; its least W grows with s. At s = 0 it is the limit of st
 """
 
 import numpy as np
-from scipy.linalg import eigh
-from scipy.special import jv
+import scipy
 
 from pipeline.physics.closed_form.wave_speeds import rayleigh_function
 
@@ -24,7 +23,7 @@ def growing_weakening(rate, solid, half_length):
     if rate > 0.0:
         stiffness += _inertia(rate * half_length / solid.shear_speed, solid)
     overlap = _overlap(_TERMS[:, None] - _TERMS) - _overlap(_TERMS[:, None] + _TERMS)
-    return float(eigh(stiffness, overlap, eigvals_only=True)[0]) * solid.shear_modulus / half_length
+    return float(scipy.linalg.eigh(stiffness, overlap, eigvals_only=True)[0]) * solid.shear_modulus / half_length
 
 
 def _still(solid):
@@ -42,6 +41,6 @@ def _inertia(rate, solid):
     ratio = rate / _WAVENUMBERS
     response = rayleigh_function(1j * ratio * solid.shear_speed, solid).real / (-(ratio**2) * np.sqrt(1.0 + ratio**2))
     signs = (-1.0) ** (_TERMS // 2)
-    slip = (signs * _TERMS)[:, None] * np.pi * jv(_TERMS[:, None], _WAVENUMBERS) / _WAVENUMBERS
+    slip = (signs * _TERMS)[:, None] * np.pi * scipy.special.jv(_TERMS[:, None], _WAVENUMBERS) / _WAVENUMBERS
     weight = _WAVENUMBERS**2 * np.log(_WAVENUMBERS[1] / _WAVENUMBERS[0]) * (response - _still(solid))
     return 0.5 / np.pi * (slip * weight) @ slip.T

@@ -5,8 +5,7 @@ over the length is an exponential, and the free end asks for M = Q = 0 (Huang, J
 """
 
 import numpy as np
-from scipy.linalg import expm
-from scipy.optimize import brentq
+import scipy
 
 #: samples of the frequency axis in which roots are bracketed, per frequency wanted
 _SAMPLES = 400
@@ -18,9 +17,9 @@ def cantilever_frequencies(length, area, inertia, young, shear_stiffness, densit
         squared = density * (2 * np.pi * frequency) ** 2
         rate = np.array([[0, 1, 0, 1 / shear_stiffness], [0, 0, 1 / (young * inertia), 0],
                          [0, -inertia * squared, 0, -1], [-area * squared, 0, 0, 0]])
-        return np.linalg.det(expm(rate * length)[2:, 2:])
+        return np.linalg.det(scipy.linalg.expm(rate * length)[2:, 2:])
 
     tried = np.linspace(below / _SAMPLES, below, _SAMPLES)
     values = [mismatch(f) for f in tried]
-    return np.array([brentq(mismatch, low, high, xtol=1e-9, rtol=1e-13) for low, high, first, last in
+    return np.array([scipy.optimize.brentq(mismatch, low, high, xtol=1e-9, rtol=1e-13) for low, high, first, last in
                      zip(tried[:-1], tried[1:], values[:-1], values[1:], strict=True) if first * last < 0])

@@ -10,7 +10,7 @@ Achenbach and Epstein, ASCE J. Eng. Mech. 93 (1967) EM5 27). It exists while its
 from typing import NamedTuple
 
 import numpy as np
-from scipy.optimize import brentq
+import scipy
 
 from pipeline.contract.errors import ConfigError
 
@@ -65,8 +65,8 @@ def rayleigh_function(speed, solid):
 
 def rayleigh_speed(solid):
     """Speed in m/s of the surface wave of ``solid``."""
-    return brentq(rayleigh_function, 0.2 * solid.shear_speed, (1.0 - 1e-13) * solid.shear_speed, args=(solid,),
-                  xtol=1e-12 * solid.shear_speed)
+    slowest, fastest = 0.2 * solid.shear_speed, (1.0 - 1e-13) * solid.shear_speed
+    return scipy.optimize.brentq(rayleigh_function, slowest, fastest, args=(solid,), xtol=1e-12 * solid.shear_speed)
 
 
 def sliding_function(speed, first, second):
@@ -88,7 +88,7 @@ def generalised_rayleigh_speed(first, second):
         return None
     if abs(rayleigh_speed(first) - rayleigh_speed(second)) < 1e-12 * low:
         return low
-    return brentq(sliding_function, low * (1.0 - 1e-12), high, args=(first, second), xtol=1e-12 * slower)
+    return scipy.optimize.brentq(sliding_function, low * (1.0 - 1e-12), high, args=(first, second), xtol=1e-12 * slower)
 
 
 def _decay(speed, solid):

@@ -8,7 +8,7 @@ xx yy zz yz xz xy (shear as engineering strain); vertices in the order of meshio
 from functools import cache
 
 import numpy as np
-import scipy.sparse as sp
+import scipy
 
 from pipeline.contract.errors import ConfigError
 
@@ -216,7 +216,7 @@ def _products(left, right, weight):
 
 def _sum_scalars(matrix, element, nodes):
     """Sum (e, v, v) node matrices; the same for each axis."""
-    return sp.kron(_summed(matrix, element, nodes), sp.identity(3), format="csr")
+    return scipy.sparse.kron(_summed(matrix, element, nodes), scipy.sparse.identity(3), format="csr")
 
 
 def sum_blocks(matrix, element, nodes):
@@ -237,5 +237,5 @@ def _summed(entries, element, nodes):
     indptr = np.searchsorted(rows[order][first], np.arange(nodes + 1))
     indices = columns[order][first]
     if entries.ndim == 3:
-        return sp.csr_matrix((data[:, 0], indices, indptr), (nodes, nodes))
-    return sp.bsr_matrix((data.reshape(-1, 3, 3), indices, indptr), (3 * nodes, 3 * nodes)).tocsr()
+        return scipy.sparse.csr_matrix((data[:, 0], indices, indptr), (nodes, nodes))
+    return scipy.sparse.bsr_matrix((data.reshape(-1, 3, 3), indices, indptr), (3 * nodes, 3 * nodes)).tocsr()

@@ -5,8 +5,7 @@ functions of the faces they carry a force to the nodes with the force's resultan
 """
 
 import numpy as np
-import scipy.sparse as sp
-from scipy.spatial import cKDTree
+import scipy
 
 from pipeline.contract.errors import ConfigError
 from pipeline.physics.fem.elasticity import quadrature, shape_functions, sum_blocks
@@ -34,7 +33,7 @@ def interpolation(node, face, point, where="surface point", distance=1e-6, slack
     ``distance`` [m] is how far off the surface a point may lie, ``slack`` how far beside its face, in sizes of the
     face; farther raises ConfigError.
     """
-    kind, tree = face_kind(face), cKDTree(node[face[:, :4]].mean(axis=1))
+    kind, tree = face_kind(face), scipy.spatial.cKDTree(node[face[:, :4]].mean(axis=1))
     found = np.full(len(point), -1)
     local = np.zeros((len(point), 2))
     candidates = tree.query(point, k=min(_CANDIDATES, len(face)))[1].reshape(len(point), -1)
@@ -64,7 +63,7 @@ def surface_rows(node, face, point, weight, group, where="surface point", distan
     found, shape = interpolation(node, face, point, where, distance)
     share = weight / np.bincount(group, weight)[group]
     rows = np.repeat(group, face.shape[1])
-    return sp.csr_matrix(((share[:, None] * shape).ravel(), (rows, face[found].ravel())),
+    return scipy.sparse.csr_matrix(((share[:, None] * shape).ravel(), (rows, face[found].ravel())),
                          (group.max() + 1, len(node)))
 
 
@@ -72,8 +71,8 @@ def along(mean, direction):
     """(rows, 3n): means (rows, n) of the displacement component along ``direction`` (rows, 3)."""
     mean = mean.tocoo()
     column = (3 * mean.col[:, None] + np.arange(3)).ravel()
-    return sp.csr_matrix(((mean.data[:, None] * direction[mean.row]).ravel(), (np.repeat(mean.row, 3), column)),
-                         (mean.shape[0], 3 * mean.shape[1]))
+    weight = (mean.data[:, None] * direction[mean.row]).ravel()
+    return scipy.sparse.csr_matrix((weight, (np.repeat(mean.row, 3), column)), (mean.shape[0], 3 * mean.shape[1]))
 
 
 def foundation(node, face, stiffness):

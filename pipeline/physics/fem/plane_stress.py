@@ -7,7 +7,7 @@ freedom = 2 node + axis.
 from dataclasses import dataclass
 
 import numpy as np
-import scipy.sparse as sp
+import scipy
 
 from pipeline.contract.errors import ConfigError
 from pipeline.physics.fem.elasticity import quadrature, reference_vertices, shape_functions
@@ -21,8 +21,8 @@ class Sheet:
 
     node: np.ndarray
     lattice: np.ndarray
-    stiffness: sp.csr_matrix
-    mass: sp.csr_matrix
+    stiffness: "scipy.sparse.csr_matrix"
+    mass: "scipy.sparse.csr_matrix"
 
 
 def sheet(start, direction, along, across, section):
@@ -75,4 +75,4 @@ def _element_matrices(corner, section):
 def _summed(matrix, element, nodes):
     dof = (2 * element[..., None] + np.arange(2)).reshape(len(element), -1)
     rows, columns = np.repeat(dof, dof.shape[1], axis=1).ravel(), np.tile(dof, dof.shape[1]).ravel()
-    return sp.csr_matrix((matrix.ravel(), (rows, columns)), (2 * nodes, 2 * nodes))
+    return scipy.sparse.csr_matrix((matrix.ravel(), (rows, columns)), (2 * nodes, 2 * nodes))

@@ -7,8 +7,8 @@ table with the scalar kernel ``friction_at``, which also gives the slopes that i
 from dataclasses import dataclass
 
 import numpy as np
+import scipy
 from numba import njit
-from scipy.interpolate import PchipInterpolator
 
 from pipeline.contract.errors import ConfigError
 
@@ -90,7 +90,7 @@ def refine(axes, values, subdivisions):
         axis = np.asarray(axis, dtype=float)
         fine = np.interp(np.arange((axis.size - 1) * parts + 1) / parts, np.arange(axis.size), axis)
         if axis.size > 1:
-            values = PchipInterpolator(axis, values, axis=number)(fine)
+            values = scipy.interpolate.PchipInterpolator(axis, values, axis=number)(fine)
         fine_axes.append(fine)
     return fine_axes, np.array(values, dtype=float)
 

@@ -9,9 +9,8 @@ shifts 16.6 kHz by -2.2 %. Forces that were sampled from a smooth signal are to 
 from dataclasses import dataclass
 
 import numpy as np
+import scipy
 from numba import njit
-from scipy.fft import irfft, rfft, rfftfreq
-from scipy.linalg import eigh, expm
 
 from pipeline.contract.errors import ConfigError
 
@@ -46,7 +45,7 @@ def undamped_modes(mass, stiffness, limit):
     Returns angular frequency (mode,) [rad/s], ascending, and mass-normalised shapes (coordinate, mode).
     Raises ConfigError where the stiffness is indefinite: such a structure has no real modes.
     """
-    square, shape = eigh(stiffness, mass, check_finite=True)
+    square, shape = scipy.linalg.eigh(stiffness, mass, check_finite=True)
     if square[0] < -_ROUNDING * square[-1]:
         raise ConfigError("undamped modes", "a stiffness without negative eigenvalues",
                           f"omega^2 = {square[0]:.3g} 1/s^2", "check joints and contact stiffness")
@@ -94,8 +93,8 @@ def sharpened(samples, axis=0):
     """
     samples = np.moveaxis(np.asarray(samples, dtype=float), axis, -1)
     trend = samples[..., :1] + (samples[..., -1:] - samples[..., :1]) * np.linspace(0, 1, samples.shape[-1])
-    lines = rfft(samples - trend, axis=-1) / np.sinc(rfftfreq(samples.shape[-1]))**2
-    return np.moveaxis(trend + irfft(lines, samples.shape[-1], axis=-1), -1, axis)
+    lines = scipy.fft.rfft(samples - trend, axis=-1) / np.sinc(scipy.fft.rfftfreq(samples.shape[-1]))**2
+    return np.moveaxis(trend + scipy.fft.irfft(lines, samples.shape[-1], axis=-1), -1, axis)
 
 
 def step_matrices(angular_frequency, damping, step):
@@ -108,7 +107,7 @@ def step_matrices(angular_frequency, damping, step):
     oscillator[:, 0, 1] = oscillator[:, 1, 2] = oscillator[:, 2, 3] = 1
     oscillator[:, 1, 0] = -(np.asarray(angular_frequency) * step)**2
     oscillator[:, 1, 1] = -np.asarray(damping) * step
-    grown = expm(oscillator)[:, :2]        # of (q, step q', step^2 f, step^2 (f next - f))
+    grown = scipy.linalg.expm(oscillator)[:, :2]        # of (q, step q', step^2 f, step^2 (f next - f))
     matrix = grown @ np.array([[1, 0, 0, 0], [0, step, 0, 0], [0, 0, step**2, 0], [0, 0, -step**2, step**2]])
     matrix[:, 1] /= step
     return matrix

@@ -1,7 +1,7 @@
 """Lowest natural modes of large undamped structures: shift-invert Lanczos with a completeness check."""
 
 import numpy as np
-from scipy.linalg import cholesky, eigh, solve_triangular
+import scipy
 
 from pipeline.contract.errors import ConfigError, ConvergenceError
 from pipeline.physics.numerics.sparse_solver import factorise
@@ -79,7 +79,7 @@ def _solve(stiffness, mass, solver, count, offset):
     if count == 0:
         return np.zeros(0), np.zeros((size, 0))
     if size < _DENSE or count > size // 8:
-        square, shape = eigh(stiffness.toarray(), mass.toarray())
+        square, shape = scipy.linalg.eigh(stiffness.toarray(), mass.toarray())
         return square[:count], shape[:, :count]
     factor = factorise(stiffness + offset * mass, solver)
     shifted, shape = _lanczos(factor, mass, count)
@@ -108,7 +108,8 @@ def _lanczos(factor, mass, count):
         image -= basis[:, :done] @ (inertia[:, :done].T @ image)
         basis[:, after], inertia[:, after], rest = _orthonormal(image, mass)
         if done >= count and (done - count) // _BLOCK % _CHECK_EVERY == 0:
-            value, vector = eigh(inverse[:done, :done], subset_by_index=(done - count, done - 1), lower=False)
+            value, vector = scipy.linalg.eigh(inverse[:done, :done], subset_by_index=(done - count, done - 1),
+                                              lower=False)
             error = np.linalg.norm(rest @ vector[-_BLOCK:], axis=0) / value
             if error.max() < _LANCZOS_TOLERANCE:
                 return 1 / value[::-1], basis[:, :done] @ vector[:, ::-1]
@@ -120,8 +121,8 @@ def _orthonormal(block, mass):
     """Mass-orthonormal basis Q of the columns, M Q, and R with block = Q R; Cholesky twice."""
     inertia, upper = mass @ block, np.eye(block.shape[1])
     for _ in range(2):
-        factor = cholesky(block.T @ inertia)
-        block, inertia = (solve_triangular(factor, b.T, trans="T").T for b in (block, inertia))
+        factor = scipy.linalg.cholesky(block.T @ inertia)
+        block, inertia = (scipy.linalg.solve_triangular(factor, b.T, trans="T").T for b in (block, inertia))
         upper = factor @ upper
     return block, inertia, upper
 

@@ -9,8 +9,7 @@ with the force B z (a Settling of ``small_motion``), joins it as further rows.
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.linalg import LinAlgError, cholesky, eig, eigvals, solve_triangular
-from scipy.optimize import linear_sum_assignment
+import scipy
 
 from pipeline.contract.errors import ConfigError
 
@@ -28,7 +27,7 @@ class QuadraticModes:
 def quadratic_roots(mass, damping, stiffness, beside=None):
     """All 2 n roots s (1/s) of det(s^2 M + s C + K) = 0, by rising imaginary part; arguments as ``quadratic_modes``."""
     companion, _ = _companion(mass, damping, stiffness, beside)
-    roots = eigvals(companion, overwrite_a=True, check_finite=False)
+    roots = scipy.linalg.eigvals(companion, overwrite_a=True, check_finite=False)
     return roots[_order(roots)]
 
 
@@ -40,7 +39,7 @@ def quadratic_modes(mass, damping, stiffness, left=False, beside=None):
     Raises ConfigError for a mass matrix that is not positive definite.
     """
     companion, factor = _companion(mass, damping, stiffness, beside)
-    roots, *vectors = eig(companion, left=left, right=True, overwrite_a=True, check_finite=False)
+    roots, *vectors = scipy.linalg.eig(companion, left=left, right=True, overwrite_a=True, check_finite=False)
     order, n = _order(roots), len(mass)
     right = _physical(vectors[-1][:n, order], factor)
     return QuadraticModes(roots[order], right, _physical(vectors[0][n:2 * n, order], factor) if left else None)
@@ -67,7 +66,7 @@ def follow_roots(roots):
     for step in range(1, len(followed)):
         back = max(step - 2, 0)
         expected = followed[step - 1] + (followed[step - 1] - followed[back])
-        _, chosen = linear_sum_assignment(abs(expected[:, None] - followed[step][None, :]))
+        _, chosen = scipy.optimize.linear_sum_assignment(abs(expected[:, None] - followed[step][None, :]))
         followed[step] = followed[step, chosen]
     return followed
 
@@ -76,12 +75,12 @@ def _companion(mass, damping, stiffness, beside):
     """(companion matrix, W): W^T M W = I takes unit-mass coordinates to physical ones."""
     n, balance = len(mass), np.sqrt(np.maximum(np.diag(mass), np.finfo(float).tiny))
     try:
-        lower = cholesky(mass / np.outer(balance, balance), lower=True)
-    except LinAlgError:
+        lower = scipy.linalg.cholesky(mass / np.outer(balance, balance), lower=True)
+    except scipy.linalg.LinAlgError:
         raise ConfigError("complex modes: mass", "a symmetric positive definite matrix",
                           f"smallest diagonal entry {np.min(np.diag(mass)):.3g}",
                           "give every coordinate a mass, or condense the massless ones") from None
-    to_physical = solve_triangular(lower, np.eye(n), lower=True).T / balance[:, None]
+    to_physical = scipy.linalg.solve_triangular(lower, np.eye(n), lower=True).T / balance[:, None]
     unit_damping = to_physical.T @ damping @ to_physical
     unit_stiffness = to_physical.T @ stiffness @ to_physical
     pace = np.sqrt(np.linalg.norm(unit_stiffness)) or 1.0

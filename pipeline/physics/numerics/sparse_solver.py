@@ -1,13 +1,15 @@
 """Direct sparse solvers behind one door: PARDISO of MKL where installed, SuperLU otherwise."""
 
 import ctypes
+import os
+import sys
 import weakref
 from functools import cache
 from importlib.util import find_spec
+from pathlib import Path
 
 import numpy as np
-import scipy.sparse as sp
-from scipy.sparse.linalg import splu
+import scipy
 
 from pipeline.contract.errors import ConfigError, ConvergenceError
 
@@ -23,7 +25,7 @@ _ACCURATE = 1e-8
 
 def available():
     """Names of the solvers installed here, fastest first."""
-    return (*(("pypardiso",) if find_spec("pypardiso") and _library() else ()), "superlu")
+    return (*(("pypardiso",) if find_spec("pypardiso") and (_runtime() or _library()) else ()), "superlu")
 
 
 def factorise(matrix, solver, symmetric=True):
@@ -44,7 +46,7 @@ def factorise(matrix, solver, symmetric=True):
     """
     if solver not in _BACKENDS:
         raise ConfigError("linear solver", f"one of {', '.join(_BACKENDS)}", repr(solver))
-    matrix = sp.csr_matrix(matrix)
+    matrix = scipy.sparse.csr_matrix(matrix)
     matrix.sort_indices()
     if not np.isfinite(matrix.data).all():
         raise ConvergenceError("factorisation", "finite matrix entries", "NaN or infinity")
@@ -96,8 +98,8 @@ class _SuperLU(_Factor):
 
 def _lu(columns, symmetric, threshold):
     try:
-        return splu(columns, permc_spec="MMD_AT_PLUS_A" if symmetric else "COLAMD", diag_pivot_thresh=threshold,
-                    options={"SymmetricMode": symmetric})
+        return scipy.sparse.linalg.splu(columns, permc_spec="MMD_AT_PLUS_A" if symmetric else "COLAMD",
+                                        diag_pivot_thresh=threshold, options={"SymmetricMode": symmetric})
     except RuntimeError as error:
         raise _singular(columns, str(error)) from None
 
@@ -119,9 +121,9 @@ class _Pardiso(_Factor):
 
 def _upper_triangle(matrix):
     """Upper triangle in CSR with every diagonal entry stored, zero or not, as PARDISO wants it."""
-    upper, diagonal = sp.triu(matrix, format="coo"), np.arange(matrix.shape[0])
+    upper, diagonal = scipy.sparse.triu(matrix, format="coo"), np.arange(matrix.shape[0])
     rows, columns = np.r_[upper.row, diagonal], np.r_[upper.col, diagonal]
-    return sp.csr_matrix((np.r_[upper.data, 0 * diagonal], (rows, columns)), matrix.shape)
+    return scipy.sparse.csr_matrix((np.r_[upper.data, 0 * diagonal], (rows, columns)), matrix.shape)
 
 
 class _PardisoCall:
@@ -160,8 +162,16 @@ def _pointer(array):
 
 
 @cache
+def _runtime():
+    """The file of MKL where its wheel puts it, or None: a look at start, without loading it."""
+    return max((Path(sys.prefix) / "lib").glob("libmkl_rt.*"), default=None)
+
+
+@cache
 def _library():
     """MKL, told to run one thread and the same instructions at every call; None where it cannot load."""
+    if _runtime():      # pypardiso would look through the whole environment for it
+        os.environ.setdefault("PYPARDISO_MKL_RT", str(_runtime()))
     try:
         from pypardiso.scipy_aliases import pypardiso_solver
     except (ImportError, OSError):

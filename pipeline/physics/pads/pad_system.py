@@ -3,8 +3,8 @@
 from typing import NamedTuple
 
 import numpy as np
+import scipy
 from numba import njit
-from scipy.linalg import cho_factor, cho_solve
 
 from pipeline.contract.errors import ConfigError, ConvergenceError
 from pipeline.physics.pads.patch_contact import SUB_DISCS, PatchContact, contact_force, contact_tangent
@@ -141,7 +141,7 @@ def static_start(system, where="static start"):
     rise = contact.pressure[first + 1] - contact.pressure[first]
     slope = contact.area * rise / (contact.closure[1] - contact.closure[0])
     closed = system.stiffness + (normal.T * slope) @ normal
-    guess = cho_solve(cho_factor(closed), system.load - normal.T @ (slope * contact.opening))
+    guess = scipy.linalg.cho_solve(scipy.linalg.cho_factor(closed), system.load - normal.T @ (slope * contact.opening))
     return _equilibrium(frictionless, guess, where)
 
 

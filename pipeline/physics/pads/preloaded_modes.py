@@ -7,7 +7,7 @@ themselves, so they get a damping ratio of their own.
 """
 
 import numpy as np
-from scipy.linalg import eigh
+import scipy
 
 from pipeline.physics.pads.pad_system import PadSystem, linearised, without_friction
 
@@ -25,7 +25,7 @@ def preloaded_modes(system, start, highest_frequency=np.inf, correction_damping=
     """
     stiffness, _ = linearised(without_friction(system), start)
     stiffness = (stiffness + stiffness.T) / 2
-    square, modes = eigh(stiffness, system.mass)
+    square, modes = scipy.linalg.eigh(stiffness, system.mass)
     kept = square <= (2 * np.pi * highest_frequency) ** 2
     corrections, pace = _corrections(system, stiffness, modes[:, kept])
     basis = np.ascontiguousarray(np.hstack((modes[:, kept], corrections)))

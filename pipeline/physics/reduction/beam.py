@@ -5,7 +5,7 @@ slowly, which serve as Ritz vectors as well.
 """
 
 import numpy as np
-import scipy.sparse as sp
+import scipy
 
 from pipeline.physics.modal.natural_modes import lowest_modes
 from pipeline.physics.numerics.sparse_solver import factorise
@@ -21,6 +21,6 @@ def beam_modes(stiffness, mass, rows, below, residual_below, solver):
     ``rows`` (r, n) carry the forces; pseudo-modes above ``residual_below`` Hz are left out.
     """
     frequency, modes = lowest_modes(stiffness, mass, solver, below=below)
-    slow = factorise(sp.csr_matrix(stiffness + (2 * np.pi * _SLOW * below) ** 2 * mass), solver)
+    slow = factorise(scipy.sparse.csr_matrix(stiffness + (2 * np.pi * _SLOW * below) ** 2 * mass), solver)
     reduced = attachment(stiffness, mass, rows, frequency, modes, residual_below, slow)
     return np.diag(reduced.stiffness).copy(), reduced.shape

@@ -8,7 +8,7 @@ that turns about z gets gyroscopic and centrifugal terms.
 from dataclasses import dataclass
 
 import numpy as np
-import scipy.sparse as sp
+import scipy
 
 from pipeline.contract.errors import ConfigError
 from pipeline.physics.fem.elasticity import assemble, centrifugal_load, geometric_stiffness, gyroscopic
@@ -41,7 +41,7 @@ class ElasticBody:
     elasticity: np.ndarray
     damping_ratio: float
     supported: np.ndarray
-    rows: sp.csr_matrix
+    rows: "scipy.sparse.csr_matrix"
     interface: np.ndarray
     turns: bool
     frequency: np.ndarray
@@ -75,7 +75,7 @@ def reduce_body(body, fixed_below, residual_below, solver):
     """
     stiffness, mass = body.matrices()
     free = free_freedoms(len(body.node), body.supported)
-    stiffness, mass, rows = stiffness[free][:, free], mass[free][:, free], sp.csr_matrix(body.rows)[:, free]
+    stiffness, mass, rows = stiffness[free][:, free], mass[free][:, free], scipy.sparse.csr_matrix(body.rows)[:, free]
     interface = rows[body.interface]
     interface = interface[independent_rows(interface)]
     if len(body.supported):

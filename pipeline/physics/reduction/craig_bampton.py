@@ -11,9 +11,7 @@ and is the textbook method where R selects nodes. The body may be free as long a
 from dataclasses import dataclass
 
 import numpy as np
-import scipy.sparse as sp
-from scipy.linalg import eigh, qr
-from scipy.sparse.linalg import ArpackError, LinearOperator, eigsh
+import scipy
 
 from pipeline.contract.errors import ConfigError, ConvergenceError
 from pipeline.physics.numerics.sparse_solver import factorise
@@ -52,7 +50,7 @@ def craig_bampton(stiffness, mass, rows, below, solver, residual_below=None):
 
     Raises ConfigError where the rows leave a rigid motion free or depend on one another.
     """
-    rows = sp.csr_matrix(rows)
+    rows = scipy.sparse.csr_matrix(rows)
     if rows.shape[0] == 0:
         raise ConfigError("Craig-Bampton reduction", "at least one interface row", "none",
                           "reduce a body without interfaces to its modes")
@@ -73,7 +71,7 @@ def attachment(stiffness, mass, rows, frequency, modes, below, factor):
     turned into mass-orthonormal pseudo-modes, of which those below the frequency ``below`` [Hz] are kept. With all of
     them the static response to interface forces is exact. ``factor`` is that of the stiffness.
     """
-    static = factor.solve(sp.csr_matrix(rows).T.toarray())
+    static = factor.solve(scipy.sparse.csr_matrix(rows).T.toarray())
     pseudo_frequency, pseudo = _pseudo_modes(stiffness, mass, _without(modes, mass, static), below)
     shape, frequency = np.hstack((modes, pseudo)), np.concatenate((frequency, pseudo_frequency))
     return ReducedBody(shape, np.eye(len(frequency)), np.diag((2 * np.pi * frequency) ** 2), 0, frequency)
@@ -84,14 +82,14 @@ def independent_rows(rows, tolerance=1e-6):
 
     A row counts as dependent when its part outside the others is below ``tolerance`` of its length.
     """
-    rows = sp.csr_matrix(rows)
+    rows = scipy.sparse.csr_matrix(rows)
     used = np.unique(rows.indices)
     dense = rows[:, used].toarray()
     length = np.linalg.norm(dense, axis=1)
     dense = dense[length > 0] / length[length > 0, None]
     if not len(dense):
         return np.empty(0, int)
-    triangle, order = qr(dense.T, mode="r", pivoting=True)
+    triangle, order = scipy.linalg.qr(dense.T, mode="r", pivoting=True)
     rank = int((abs(np.diag(triangle)) > tolerance).sum())
     return np.flatnonzero(length > 0)[np.sort(order[:rank])]
 
@@ -109,7 +107,7 @@ def projected(matrix, shape):
 
 def modal_damping(mass, stiffness, ratio):
     """C = M V diag(2 ratio w) V^T M (k, k): damping ratio ``ratio`` of every mode, none of rigid motions."""
-    square, modes = eigh(stiffness, mass)
+    square, modes = scipy.linalg.eigh(stiffness, mass)
     inertia = mass @ modes
     return inertia * (2 * ratio * np.sqrt(np.maximum(square, 0.0))) @ inertia.T
 
@@ -118,10 +116,10 @@ def modal_damping(mass, stiffness, ratio):
 class _HeldBody:
     """The body with R u = 0, through A = K + k R^T R, which is regular and gives the same motions as K on R u = 0."""
 
-    stiffness: sp.csr_matrix    # A
+    stiffness: "scipy.sparse.csr_matrix"    # A
     factor: object              # of A
     constraint: np.ndarray      # Psi = A^-1 R^T (R A^-1 R^T)^-1, the static shapes of unit interface coordinates
-    rows: sp.csr_matrix
+    rows: "scipy.sparse.csr_matrix"
 
     def solve(self, force):
         """u of K u + R^T l = force, R u = 0."""
@@ -162,10 +160,10 @@ def _fixed_modes(held, mass, rows, below, solver):
 def _lowest_held(held, mass, count):
     """Squared angular frequencies (m,), ascending, and shapes (n, m), by Lanczos from a seeded start."""
     start = held.solve(np.random.default_rng(0).standard_normal(mass.shape[0]))
-    inverse = LinearOperator(mass.shape, held.solve, dtype=float)
+    inverse = scipy.sparse.linalg.LinearOperator(mass.shape, held.solve, dtype=float)
     try:
-        square, shape = eigsh(held.stiffness, count, mass, sigma=0.0, OPinv=inverse, v0=start)
-    except ArpackError as error:
+        square, shape = scipy.sparse.linalg.eigsh(held.stiffness, count, mass, sigma=0.0, OPinv=inverse, v0=start)
+    except scipy.sparse.linalg.ArpackError as error:
         raise ConvergenceError("fixed-interface modes", f"{count} modes", str(error)) from None
     order = np.argsort(square)
     square, shape = square[order], shape[:, order]
@@ -198,9 +196,9 @@ def _pseudo_modes(stiffness, mass, residual, below):
     """Mass-orthonormal combinations of the residual shapes that diagonalise the stiffness, below a frequency [Hz]."""
     residual = residual / np.sqrt((residual * (stiffness @ residual)).sum(axis=0))
     energy, inertia = projected(stiffness, residual), projected(mass, residual)
-    size, direction = eigh(energy)
+    size, direction = scipy.linalg.eigh(energy)
     kept = direction[:, size > 1e-10 * size[-1]] / np.sqrt(size[size > 1e-10 * size[-1]])
-    flexibility, combination = eigh(kept.T @ inertia @ kept)
+    flexibility, combination = scipy.linalg.eigh(kept.T @ inertia @ kept)
     combination, flexibility = (kept @ combination)[:, ::-1], flexibility[::-1]
     wanted = flexibility > 1 / (2 * np.pi * below) ** 2
     pseudo = residual @ combination[:, wanted] / np.sqrt(flexibility[wanted])

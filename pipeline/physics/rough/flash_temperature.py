@@ -8,7 +8,7 @@ root^2 = k^2 + i kx speed / diffusivity (Carslaw & Jaeger's moving source in Fou
 from dataclasses import dataclass
 
 import numpy as np
-from scipy import fft
+import scipy
 
 
 @dataclass(frozen=True)
@@ -30,9 +30,9 @@ def surface_rise(flux, spacing, solid, speed):
     wave_y = 2 * np.pi * np.fft.fftfreq(flux.shape[0], spacing[0])[:, None]
     wave_x = 2 * np.pi * np.fft.rfftfreq(flux.shape[1], spacing[1])[None, :]
     root = np.sqrt(wave_y ** 2 + wave_x ** 2 + 1j * wave_x * speed / solid.diffusivity)
-    heat = fft.rfft2(flux)
+    heat = scipy.fft.rfft2(flux)
     root[0, 0], heat[0, 0] = 1.0, 0.0
-    return fft.irfft2(heat / (solid.conductivity * root), s=flux.shape)
+    return scipy.fft.irfft2(heat / (solid.conductivity * root), s=flux.shape)
 
 
 def spot_heating(contact, spacing, resting, passing, speed):

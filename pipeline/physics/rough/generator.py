@@ -6,7 +6,7 @@ the solid, have zero mean and the rms asked for; x (last axis) is the sliding di
 """
 
 import numpy as np
-from scipy import fft
+import scipy
 
 from pipeline.contract.errors import ConfigError
 
@@ -59,14 +59,15 @@ def self_affine(random, size, length, shortest, roll_off, hurst):
     wave = _wavenumber((size, size), length)
     knee = 2 * np.pi / roll_off
     amplitude = np.maximum(wave, knee) ** (-1.0 - hurst) * (wave <= 2 * np.pi / shortest)
-    return _standard(fft.irfft2(amplitude * fft.rfft2(random.standard_normal((size, size))), s=(size, size)))
+    noise = random.standard_normal((size, size))
+    return _standard(scipy.fft.irfft2(amplitude * scipy.fft.rfft2(noise), s=(size, size)))
 
 
 def band_limit(heights, length, shortest, longest=np.inf):
     """Periodic map with wavelengths from ``shortest`` to ``longest`` (m) only, zero mean; ``length`` is (y, x) in m."""
     wave = _wavenumber(heights.shape, length)
     keep = (wave <= 2 * np.pi / shortest * (1 + 1e-12)) & (wave >= 2 * np.pi / longest * (1 - 1e-12)) & (wave > 0)
-    return fft.irfft2(keep * fft.rfft2(heights), s=heights.shape)
+    return scipy.fft.irfft2(keep * scipy.fft.rfft2(heights), s=heights.shape)
 
 
 def resample(heights, shape):

@@ -7,7 +7,7 @@ pressure and no gap, the others a gap and no pressure (frictionless, no adhesion
 from dataclasses import dataclass
 
 import numpy as np
-from scipy import fft
+import scipy
 
 from pipeline.contract.errors import ConfigError, ConvergenceError
 
@@ -26,7 +26,7 @@ class NormalContact:
 
 def apply(compliance, traction):
     """Surface displacement (ny, nx) in m by a traction map; ``compliance`` is one array of a SurfaceCompliance."""
-    return fft.irfft2(compliance * fft.rfft2(traction), s=traction.shape)
+    return scipy.fft.irfft2(compliance * scipy.fft.rfft2(traction), s=traction.shape)
 
 
 def solve_normal_contact(gap, compliance, mean_pressure, start=None, tolerance=1e-6, max_iterations=2000):

@@ -7,7 +7,7 @@ then it slips. The coefficient of friction is the outcome, the sum of shear over
 from dataclasses import dataclass
 
 import numpy as np
-from scipy import fft
+import scipy
 
 from pipeline.contract.errors import ConvergenceError
 
@@ -74,10 +74,10 @@ def film_factor(film, pressure, distance):
 
 
 def _apply(compliance, traction):
-    along, across = fft.rfft2(traction)
+    along, across = scipy.fft.rfft2(traction)
     image = np.stack([compliance.along * along + compliance.cross * across,
                       compliance.cross * along + compliance.across * across])
-    return fft.irfft2(image, s=traction.shape[1:])
+    return scipy.fft.irfft2(image, s=traction.shape[1:])
 
 
 def _project(traction, limit):

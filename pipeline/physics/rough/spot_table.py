@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
-from scipy.interpolate import RectBivariateSpline
+import scipy
 
 from pipeline.physics.rough.sliding_pair import passed, spot_limit, spots, states
 
@@ -54,7 +54,7 @@ class SpotTable:
     def _splines(self):
         """Of ln area, then of ln heating at every speed: one spline for each of the RATIOS."""
         axes = np.log(self.pressure), self._wear(self.worn)
-        return [[RectBivariateSpline(*axes, np.log(table[..., k])) for k in range(len(RATIOS))]
+        return [[scipy.interpolate.RectBivariateSpline(*axes, np.log(table[..., k])) for k in range(len(RATIOS))]
                 for table in (self.area, *self.heating)]
 
     def _wear(self, worn):

@@ -17,13 +17,12 @@ curvature is Gaussian too and correlated with the height. Lengths m, stresses Pa
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.optimize import brentq
-from scipy.stats import expon, norm
+import scipy
 
 from pipeline.contract.errors import ConfigError
 
-#: density of standardised heights, and the height above which none are counted
-_HEIGHTS = {"gaussian": (norm.pdf, 7.0), "exponential": (expon.pdf, 40.0)}
+#: distribution of standardised heights (SciPy's name), and the height above which none are counted
+_HEIGHTS = {"gaussian": ("norm", 7.0), "exponential": ("expon", 40.0)}
 _HEIGHT_POINTS, _CURVATURE_POINTS = 60, 12
 #: a summit stands higher than its eight neighbours
 _NEIGHBOURS = [(y, x) for y in (-1, 0, 1) for x in (-1, 0, 1) if (y, x) != (0, 0)]
@@ -119,8 +118,8 @@ def gap_at(summits, modulus, pressure):
         if not ends[0] < wanted < ends[1]:
             raise ConfigError("interface law: pressure", f"between {ends[0]:.3g} and {ends[1]:.3g} Pa",
                               f"{wanted:.3g} Pa")
-        found.append(brentq(lambda d, p=wanted: np.log(normal_law(summits, modulus, [d])[0][0] / p), low, high,
-                            xtol=1e-12 * summits.spread, rtol=1e-14))
+        found.append(scipy.optimize.brentq(lambda d, p=wanted: np.log(normal_law(summits, modulus, [d])[0][0] / p),
+                                           low, high, xtol=1e-12 * summits.spread, rtol=1e-14))
     return np.array(found)
 
 
@@ -128,7 +127,8 @@ def _meeting(summits, gap):
     """(overlap, curvature, weight), each (g, heights, curvatures): Gauss points of the summits that meet the plane."""
     point, height_weight = np.polynomial.legendre.leggauss(_HEIGHT_POINTS)
     gap = np.atleast_1d(np.asarray(gap, float))
-    shape, highest = _HEIGHTS[summits.heights]
+    name, highest = _HEIGHTS[summits.heights]
+    shape = getattr(scipy.stats, name).pdf
     deepest = np.maximum(summits.mean + highest * summits.spread - gap, 0.0)
     root = 0.5 * (point + 1)
     overlap = deepest[:, None] * root**2            # the square takes the root at x = 0 out of the integrand

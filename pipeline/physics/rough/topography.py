@@ -10,7 +10,7 @@ import warnings
 from dataclasses import dataclass
 
 import numpy as np
-from scipy import ndimage
+import scipy
 
 from pipeline.contract.errors import ConfigError
 from pipeline.physics.rough.generator import band_limit, resample
@@ -63,9 +63,9 @@ def remove_outliers(heights, threshold, window=5):
     median with it and stays, however deep; a spike does not.
     """
     missing = np.isnan(heights)
-    nearest = ndimage.distance_transform_edt(missing, return_distances=False, return_indices=True)
+    nearest = scipy.ndimage.distance_transform_edt(missing, return_distances=False, return_indices=True)
     complete = heights[tuple(nearest)]
-    difference = np.abs(complete - ndimage.median_filter(complete, window, mode="nearest"))
+    difference = np.abs(complete - scipy.ndimage.median_filter(complete, window, mode="nearest"))
     scatter = MAD_TO_RMS * np.median(difference[~missing])
     if scatter == 0.0:
         scatter = difference[~missing].std()

@@ -5,7 +5,7 @@ there is a plane, and no wear.
 """
 
 import numpy as np
-from scipy.ndimage import maximum_filter1d
+import scipy
 
 from pipeline.contract.errors import ConfigError
 
@@ -25,7 +25,7 @@ def worn_depth(new, worn, against=None, stroke=0):
                           "record both with the same pixels")
     height = without_plane(new)
     if against is not None:
-        height = height + maximum_filter1d(without_plane(against), 2 * stroke + 1, axis=1, mode="wrap")
+        height = height + scipy.ndimage.maximum_filter1d(without_plane(against), 2 * stroke + 1, axis=1, mode="wrap")
     deep = height < np.quantile(height, UNTOUCHED)
     left = without_plane(new - worn, deep)
     basis = _planes(new.shape)

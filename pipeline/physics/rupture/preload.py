@@ -9,7 +9,7 @@ The plates stick from the first contact on: the shear at every node comes from t
 from typing import NamedTuple
 
 import numpy as np
-import scipy.sparse as sp
+import scipy
 
 from pipeline.contract.errors import ConfigError, ConvergenceError
 from pipeline.physics.numerics.sparse_solver import factorise
@@ -110,7 +110,8 @@ class _System:
         self.parts = places[:, :lower.rows], places[:, lower.rows - 1:]
         self.free = places[:, 1:-1].ravel()
         matrix = sum((_spread(_stiffness(grid), part.ravel(), 2 * nodes)
-                      for grid, part in zip((lower, upper), self.parts, strict=True)), sp.csr_matrix((2 * nodes,) * 2))
+                      for grid, part in zip((lower, upper), self.parts, strict=True)),
+                     scipy.sparse.csr_matrix((2 * nodes,) * 2))
         self.size, self.factor = 2 * nodes, factorise(matrix[self.free][:, self.free], solver)
 
     def shifted(self, along, across):
@@ -143,23 +144,23 @@ class _System:
 
 def _spread(matrix, places, size):
     found = matrix.tocoo()
-    return sp.csr_matrix((found.data, (places[found.row], places[found.col])), (size, size))
+    return scipy.sparse.csr_matrix((found.data, (places[found.row], places[found.col])), (size, size))
 
 
 def _stiffness(grid):
     """Sparse stiffness of one plate from products of one-dimensional matrices."""
     (k_y, m_y, d_y), (k_x, m_x, d_x) = (_line(count) for count in (grid.rows, grid.columns))
     p, g = grid.first_modulus + 2.0 * grid.shear_modulus, grid.shear_modulus
-    along = p * sp.kron(m_y, k_x) + g * sp.kron(k_y, m_x)
-    across = g * sp.kron(m_y, k_x) + p * sp.kron(k_y, m_x)
-    mixed = grid.first_modulus * sp.kron(d_y.T, d_x) + g * sp.kron(d_y, d_x.T)
-    return sp.bmat([[along, mixed], [mixed.T, across]], format="csr")
+    along = p * scipy.sparse.kron(m_y, k_x) + g * scipy.sparse.kron(k_y, m_x)
+    across = g * scipy.sparse.kron(m_y, k_x) + p * scipy.sparse.kron(k_y, m_x)
+    mixed = grid.first_modulus * scipy.sparse.kron(d_y.T, d_x) + g * scipy.sparse.kron(d_y, d_x.T)
+    return scipy.sparse.bmat([[along, mixed], [mixed.T, across]], format="csr")
 
 
 def _line(count):
     """K, M, D of a line of unit elements, (count, count) sparse."""
     ends, inner = 2.0 * nodal_share(count), np.ones(count - 1)
-    stiffness = sp.diags([-inner, ends, -inner], [-1, 0, 1])
-    mass = sp.diags([inner / 6.0, ends / 3.0, inner / 6.0], [-1, 0, 1])
-    slope = sp.diags([0.5 * inner, np.r_[-0.5, np.zeros(count - 2), 0.5], -0.5 * inner], [-1, 0, 1])
+    stiffness = scipy.sparse.diags([-inner, ends, -inner], [-1, 0, 1])
+    mass = scipy.sparse.diags([inner / 6.0, ends / 3.0, inner / 6.0], [-1, 0, 1])
+    slope = scipy.sparse.diags([0.5 * inner, np.r_[-0.5, np.zeros(count - 2), 0.5], -0.5 * inner], [-1, 0, 1])
     return stiffness, mass, slope

@@ -11,8 +11,7 @@ first, so that its end, where saturation begins, counts no more than its begin.
 from dataclasses import dataclass, replace
 
 import numpy as np
-from scipy.optimize import linear_sum_assignment
-from scipy.signal import firwin, lfilter
+import scipy
 
 from pipeline.contract.errors import ConfigError
 
@@ -122,7 +121,8 @@ def matched(first, second, within=0.008, alike=0.8):
     apart = abs(np.subtract.outer(first.root.imag, second.root.imag)) / first.root.imag[:, None]
     same = likeness(first.shape, second.shape)
     cost = np.where((apart < within) & (same > alike), apart / within + (1 - same), 1e3)
-    return [(int(i), int(j)) for i, j in zip(*linear_sum_assignment(cost), strict=True) if cost[i, j] < 1e3]
+    pairs = zip(*scipy.optimize.linear_sum_assignment(cost), strict=True)
+    return [(int(i), int(j)) for i, j in pairs if cost[i, j] < 1e3]
 
 
 def confirmed(first, second):
@@ -166,8 +166,8 @@ def _band(samples, rate, low, high):
     taps = int(_TAPS * rate / width) | 1
     middle = np.pi * (low + high)
     time = np.arange(samples.shape[1]) / rate
-    low_pass = firwin(taps, width, window=("kaiser", _KAISER), fs=rate)
-    shifted = lfilter(low_pass, [1.0], samples * np.exp(-1j * middle * time))
+    low_pass = scipy.signal.firwin(taps, width, window=("kaiser", _KAISER), fs=rate)
+    shifted = scipy.signal.lfilter(low_pass, [1.0], samples * np.exp(-1j * middle * time))
     signal = shifted[:, taps:][:, ::thin]
     if signal.shape[1] < 12:
         raise ConfigError("poles", f"records of at least {(taps + 12 * thin) / rate:.3g} s", f"{time[-1]:.3g} s",

@@ -1,7 +1,7 @@
 """Power spectra, third-octave bands and levels of vibration signals."""
 
 import numpy as np
-from scipy.signal import welch
+import scipy
 
 #: base-ten octave ratio of IEC 61260-1
 _OCTAVE = 10**0.3
@@ -16,7 +16,7 @@ def power_spectrum(signal, rate, resolution):
     segment. Returns frequency (line,) [Hz] and density (..., line) [unit^2/Hz].
     """
     segment = min(signal.shape[-1], round(rate / resolution))
-    return welch(signal, rate, "hann", segment)
+    return scipy.signal.welch(signal, rate, "hann", segment)
 
 
 def third_octave_bands(lowest, highest):

@@ -8,8 +8,8 @@ Events that are whole multiples of a lower tone, in the band or below it, say so
 from dataclasses import dataclass
 
 import numpy as np
+import scipy
 from numpy.lib.stride_tricks import sliding_window_view
-from scipy.signal import find_peaks
 
 from pipeline.contract.errors import ConfigError
 from pipeline.physics.signals.harmonic_ladder import ladders
@@ -170,7 +170,7 @@ def _related_tones(found, frame, detector):
 def _tones(found, frame, detector, band):
     """Frequencies and levels of the tones of one frame in a band (lowest, highest) [Hz], strongest first."""
     levels = level(found.spectrum[frame]**2, detector.reference)
-    lines = find_peaks(levels, detector.threshold - _BETWEEN_LINES, prominence=detector.prominence)[0]
+    lines = scipy.signal.find_peaks(levels, detector.threshold - _BETWEEN_LINES, prominence=detector.prominence)[0]
     lines = lines[_inside(found, band)[lines]]
     frequency, root_mean_square = _refine(found, frame, lines)
     levels = level(root_mean_square**2, detector.reference)

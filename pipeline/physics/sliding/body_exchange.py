@@ -3,7 +3,7 @@
 from dataclasses import replace
 
 import numpy as np
-from scipy.linalg import block_diag
+import scipy
 
 
 def exchanged(model, body, terms):
@@ -14,7 +14,7 @@ def exchanged(model, body, terms):
     """
     index = model.body_name.index(body)
     kept = np.flatnonzero(model.coordinate_body != index)
-    matrices = {name: block_diag(getattr(model, name)[np.ix_(kept, kept)], getattr(terms, name))
+    matrices = {name: scipy.linalg.block_diag(getattr(model, name)[np.ix_(kept, kept)], getattr(terms, name))
                 for name in ("mass", "damping", "gyroscopic", "stiffness", "centrifugal")}
     contacts = model.contacts
     old = (model.joints.rows, contacts.normal, contacts.tangent, contacts.lateral, model.input_rows, model.sensor_rows)

@@ -14,7 +14,7 @@ n M^-1 h is no longer positive, the contact jams: a force would press the bodies
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.linalg import cho_factor, cho_solve, eigh, null_space, solve
+import scipy
 
 from pipeline.contract.errors import ConfigError
 from pipeline.physics.modal.quadratic_eigenproblem import quadratic_roots
@@ -54,12 +54,12 @@ def allowed_motions(model):
     Raises ConfigError where there is none.
     """
     mass, _, stiffness = model.supported()
-    basis = null_space(model.contacts.normal)
+    basis = scipy.linalg.null_space(model.contacts.normal)
     if not basis.shape[1]:
         raise ConfigError("hard contacts", "motions that keep them closed", "no motion at all",
                           "give the contacts a stiffness")
     symmetric = (stiffness + stiffness.T) / 2
-    _, shape = eigh(basis.T @ symmetric @ basis, basis.T @ mass @ basis)
+    _, shape = scipy.linalg.eigh(basis.T @ symmetric @ basis, basis.T @ mass @ basis)
     return basis @ shape
 
 
@@ -76,10 +76,10 @@ def hard_sliding(model, friction, basis=None, friction_damping=True):
     contacts = model.contacts
     coupling = model.direction() * (state.coefficient + contacts.pressure * state.pressure_slope)
     pushed = contacts.normal.T + contacts.tangent.T * coupling
-    through = cho_solve(cho_factor(mass), contacts.normal.T).T
+    through = scipy.linalg.cho_solve(scipy.linalg.cho_factor(mass), contacts.normal.T).T
     mobility = through @ pushed
     _refuse_jamming(mobility, through @ contacts.normal.T)
-    left = (basis - through.T @ solve(mobility.T, pushed.T @ basis)).T
+    left = (basis - through.T @ scipy.linalg.solve(mobility.T, pushed.T @ basis)).T
     return HardSliding(left @ damping @ basis, left @ stiffness @ basis, basis, left)
 
 

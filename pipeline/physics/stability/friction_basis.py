@@ -13,7 +13,7 @@ are orthonormalised in the mass; their singular values are amplitudes per unit o
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.linalg import eigh
+import scipy
 
 from pipeline.contract.errors import ConfigError
 from pipeline.physics.sliding.model import spread
@@ -39,7 +39,7 @@ def friction_basis(model, below, friction_damping=True, smallest=1e-3, contact_s
     Raises ConfigError where no mode lies below the frequency.
     """
     mass, damping, stiffness = model.frictionless(gyroscopic=False, centrifugal=centrifugal)
-    square, modes = eigh(stiffness, mass)
+    square, modes = scipy.linalg.eigh(stiffness, mass)
     low = square < (2 * np.pi * below) ** 2
     frequency = np.sqrt(np.maximum(square, 0.0)) / (2 * np.pi)
     if not low.any():

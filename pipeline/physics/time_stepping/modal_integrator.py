@@ -10,8 +10,7 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
-from scipy.linalg import eigh, expm
-from scipy.sparse.csgraph import connected_components
+import scipy
 
 from pipeline.contract.errors import ConfigError
 
@@ -80,7 +79,7 @@ def modal_system(model, damping="full", highest=np.inf):
 def _modal_system(mass, drag, stiffness, size, damping, highest):
     mass, drag, stiffness = (np.frombuffer(m).reshape(size, size) for m in (mass, drag, stiffness))
     try:
-        squared, shape = eigh((stiffness + stiffness.T) / 2, mass)
+        squared, shape = scipy.linalg.eigh((stiffness + stiffness.T) / 2, mass)
     except np.linalg.LinAlgError:
         raise ConfigError("time stepping: mass", "a positive definite matrix", "a massless motion",
                           "give every coordinate a mass") from None
@@ -108,7 +107,7 @@ def _step_matrices(blocks, coupled, step):
     augmented = np.zeros((count, 6, 6))
     augmented[:, :2, :2] = step * blocks * scale[:, None, :] / scale[:, :, None]
     augmented[:, [0, 1, 2, 3], [2, 3, 4, 5]] = 1.0
-    grown = expm(augmented)[:, :2] if count else augmented[:, :2]
+    grown = scipy.linalg.expm(augmented)[:, :2] if count else augmented[:, :2]
     back = scale[:, :, None] / scale[:, None, :]
     once, ramp = step * grown[..., 2:4] * back, step * grown[..., 4:6] * back
     return grown[..., :2] * back, once - ramp, ramp
@@ -147,7 +146,7 @@ def _pairs(squared, damping):
         unit[own, 0, 0, own] = unit[own, 1, 1, own] = 1.0
         state = unit.swapaxes(0, 1).reshape(2 * count, 2, count)
         return blocks, state, np.ascontiguousarray(state.transpose(1, 2, 0)), False
-    groups, label = connected_components(linked, directed=False)
+    groups, label = scipy.sparse.csgraph.connected_components(linked, directed=False)
     for group in range(groups):
         own = np.flatnonzero(label == group)
         both = np.concatenate((own, own + count))

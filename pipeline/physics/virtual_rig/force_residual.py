@@ -11,9 +11,8 @@ Technol. 21 (2013) 428).
 from functools import lru_cache
 
 import numpy as np
+import scipy
 from numba import njit
-from scipy.integrate import cumulative_trapezoid
-from scipy.signal import butter, cheby1, sosfiltfilt
 
 from pipeline.contract.errors import ConfigError
 from pipeline.physics.contact.groups import read
@@ -44,7 +43,7 @@ def smoothed(bench, run, measured, corner=None, order=4):
         if not 0 < corner < run.sample_rate / 2:
             raise ConfigError("equation residual: corner", f"between 0 and {run.sample_rate / 2:g} Hz",
                               f"{corner:g} Hz")
-        motion = sosfiltfilt(_low_pass(order, 2 * corner / run.sample_rate), motion, axis=1)
+        motion = scipy.signal.sosfiltfilt(_low_pass(order, 2 * corner / run.sample_rate), motion, axis=1)
     return motion
 
 
@@ -56,18 +55,18 @@ def applied_force(bench, run, decimation=1, trim=0):
 def thinned(values, decimation, trim):
     """Every ``decimation``-th of the samples (n, samples) behind a low pass, ``trim`` left out at both ends first."""
     values = values[:, trim:values.shape[1] - trim]
-    return sosfiltfilt(_before(decimation), values, axis=1)[:, ::decimation] if decimation > 1 else values
+    return scipy.signal.sosfiltfilt(_before(decimation), values, axis=1)[:, ::decimation] if decimation > 1 else values
 
 
 @lru_cache
 def _low_pass(order, corner):
-    return butter(order, corner, output="sos")
+    return scipy.signal.butter(order, corner, output="sos")
 
 
 @lru_cache
 def _before(decimation):
     """The filter of scipy.signal.decimate: Chebyshev's first kind, order 8, 0.05 dB up to 0.8 of the new range."""
-    return cheby1(8, 0.05, 0.8 / decimation, output="sos")
+    return scipy.signal.cheby1(8, 0.05, 0.8 / decimation, output="sos")
 
 
 def coordinates(bench, run, measured):
@@ -96,7 +95,7 @@ def forces_missing(bench, run, motion):
     inertia = np.gradient(speed, interval, axis=1, edge_order=2)
     inertia[:, 1:-1] = (motion[:, 2:] - 2 * motion[:, 1:-1] + motion[:, :-2]) / interval**2
     residual = mass @ inertia + damping @ speed + stiffness @ motion
-    angle = cumulative_trapezoid(turning, dx=interval, initial=0.0)
+    angle = scipy.integrate.cumulative_trapezoid(turning, dx=interval, initial=0.0)
     instants = np.column_stack((run.time, angle, turning))
     normal, drawn, slip = _contacts(bench, run, motion, speed, instants)
     residual = residual + _elements(model, motion, speed, instants, drawn, slip)

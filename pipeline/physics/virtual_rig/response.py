@@ -9,7 +9,7 @@ as means over steps, are brought to instants, so that nothing is late by half a 
 from dataclasses import dataclass, field, replace
 
 import numpy as np
-from scipy.signal import lfilter
+import scipy
 
 from pipeline.contract.errors import ConfigError
 from pipeline.physics.contact.groups import Grouped, changed
@@ -193,7 +193,7 @@ def low_pass(values, step, corner):
     keep = np.exp(-reach)
     ramp = 1 - (1 - keep) / reach
     first, last = 1 - keep - ramp, ramp
-    filtered, _ = lfilter([last, first], [1.0, -keep], values, zi=[(1 - last) * values[0]])
+    filtered, _ = scipy.signal.lfilter([last, first], [1.0, -keep], values, zi=[(1 - last) * values[0]])
     return filtered
 
 
