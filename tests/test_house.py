@@ -19,9 +19,10 @@ FILES = sorted([*ROOT.glob("pipeline/**/*.py"), *ROOT.glob("stages/**/*.py")])
 #: layer -> layers of the house it may import
 MAY_IMPORT = {
     "pipeline.environment": set(),
-    "pipeline.contract": {"pipeline.contract", "pipeline.environment"},
+    "pipeline.sources": set(),
+    "pipeline.contract": {"pipeline.contract", "pipeline.environment", "pipeline.sources"},
     "pipeline.products": {"pipeline.products", "pipeline.contract"},
-    "pipeline.physics": {"pipeline.physics", "pipeline.contract.errors", "pipeline.environment"},
+    "pipeline.physics": {"pipeline.physics", "pipeline.contract.errors", "pipeline.environment", "pipeline.sources"},
     "pipeline.inference.priors": {"pipeline.contract.errors"},
     "pipeline.inference": {"pipeline.inference", "pipeline.physics", "pipeline.contract.errors",
                            "pipeline.environment"},

@@ -1,20 +1,12 @@
 """What decides whether a stage must run again: settings, inputs' content, solver and code."""
 
 import hashlib
-import re
 from dataclasses import dataclass
-from functools import cache
-from importlib.util import find_spec
 from pathlib import Path
 
+from pipeline import sources
 from pipeline.contract.settings import leaves
-
-_PROJECT = ("pipeline", "stages")
-_ROOT = Path(__file__).parents[2]
-#: an import statement of project modules, wherever it stands; names may go on over lines in parentheses
-_IMPORT = re.compile(rf"^[ \t]*(?:import[ \t]+(?P<plain>(?:{'|'.join(_PROJECT)})\b[^\n#]*)|"
-                     rf"from[ \t]+(?P<module>(?:{'|'.join(_PROJECT)})\b[\w.]*)[ \t]+import[ \t]*"
-                     r"(?:\((?P<lines>[^)]*)\)|(?P<line>[^\n#]*)))", re.MULTILINE)
+from pipeline.sources import digest
 
 
 @dataclass(frozen=True)
@@ -69,32 +61,11 @@ def _plain(value):
     return value
 
 
-def digest(path):
-    """SHA-256 of one file."""
-    stat = Path(path).stat()
-    return _digest(Path(path), stat.st_mtime_ns, stat.st_size)
-
-
-@cache
-def _digest(path, _modified, _size):
-    return hashlib.sha256(path.read_bytes()).hexdigest()
-
-
 def code_of(module):
     """{module: SHA-256} of ``module`` and of every project module that it imports, transitively."""
-    return dict(sorted((name, digest(path)) for name, path in _reach(module).items()))
-
-
-def _reach(module):
-    found, waiting = {}, [module]
-    while waiting:
-        name = waiting.pop()
-        if name not in found:
-            path = _file(name)
-            if path:
-                found.update({name: path, **_package_data(name, path)})
-                waiting += _imports(path) + _listed(name, path)
-    return found
+    files = sources.files_of(module)
+    data = {name: path for module, file in files.items() for name, path in _package_data(module, file).items()}
+    return {name: digest(path) for name, path in sorted((files | data).items())}
 
 
 def _package_data(name, path):
@@ -105,45 +76,7 @@ def _package_data(name, path):
     return {f"{name}/{f.name}": f for f in files}
 
 
-@cache
-def _file(name):
-    if name.split(".")[0] in _PROJECT:
-        module = _ROOT.joinpath(*name.split("."))
-        return next((p for p in (module / "__init__.py", module.with_suffix(".py")) if p.is_file()), None)
-    try:
-        spec = find_spec(name)
-    except (ModuleNotFoundError, AttributeError):
-        return None
-    return Path(spec.origin) if spec and spec.origin and spec.has_location else None
-
-
-def _listed(name, path):
-    """Modules of a package that loads them by name: a catalogue, of which no import statement tells."""
-    if path.name != "__init__.py" or name == "stages" or "import_module(" not in path.read_text(encoding="utf-8"):
-        return []
-    files = (f.relative_to(path.parent).with_suffix("") for f in sorted(path.parent.rglob("*.py")))
-    return [".".join((name, *f.parts)).removesuffix(".__init__") for f in files]
-
-
-@cache
-def _imports(path):
-    """Project modules named in the import statements of a file, wherever they stand in it."""
-    names = set()
-    for match in _IMPORT.finditer(path.read_text(encoding="utf-8")):
-        if match["plain"]:
-            names.update(_words(match["plain"]))
-        else:
-            listed = re.sub(r"#[^\n]*", "", match["line"] if match["lines"] is None else match["lines"])
-            names.update({match["module"], *(f"{match['module']}.{n}" for n in _words(listed))})
-    return [n for n in sorted(names) if n.split(".")[0] in _PROJECT and n != "stages"]
-
-
-def _words(listed):
-    """Names in ``a, b as c``: what is imported, not what it is called here."""
-    return [part.split()[0] for part in listed.split(",") if part.split()]
-
-
 def project_digest():
     """SHA-256 over all Python files of the project: two machines with the same value run the same code."""
-    sources = sorted(f for name in _PROJECT for f in _file(name).parent.rglob("*.py"))
-    return hashlib.sha256("".join(digest(f) for f in sources).encode()).hexdigest()
+    files = sorted(f for name in sources.PROJECT for f in (sources.ROOT / name).rglob("*.py"))
+    return hashlib.sha256("".join(digest(f) for f in files).encode()).hexdigest()

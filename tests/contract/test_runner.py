@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 
+from pipeline import sources
 from pipeline.contract import ConfigError, Context, ProductError, case, fingerprint, runner, store
 from tests.contract.toy import CHAINS, load
 from tests.contract.toy.products import Doubled
@@ -81,7 +82,7 @@ def test_imports_are_those_of_the_syntax_tree():
         for node in (n for n in nodes if isinstance(n, ast.ImportFrom)):
             names |= {node.module, *(f"{node.module}.{a.name}" for a in node.names)}
         project = {n for n in names if n.split(".")[0] in ("pipeline", "stages") and n != "stages"}
-        assert project == set(fingerprint._imports(path)), path
+        assert project == set(sources.imports(path)), path
 
 
 def test_code_that_changes_while_it_runs_is_refused(config, monkeypatch):

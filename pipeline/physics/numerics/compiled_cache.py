@@ -1,0 +1,54 @@
+"""Where numba keeps the code that it compiles: beside the digest of everything that the code was compiled from.
+
+numba compiles a function again when its own file changes, but not when a function or a constant changes that it takes
+from another file. Here the folder of a file is named after its content and that of all project files it imports: a
+change reaches what depends on it, and nothing else.
+"""
+
+import hashlib
+from pathlib import Path
+
+from numba import config
+from numba.core.caching import _CacheLocator
+
+from pipeline import sources
+
+
+def state_of(path):
+    """Digest of the file ``path`` and of all project files that it imports."""
+    module = ".".join(Path(path).relative_to(sources.ROOT).with_suffix("").parts)
+    files = sources.files_of(module)
+    content = "".join(f"{name} {sources.digest(file)}\n" for name, file in sorted(files.items()))
+    return hashlib.sha256(content.encode()).hexdigest()[:16]
+
+
+class SourceLocator(_CacheLocator):
+    """Locator of numba (NUMBA_CACHE_LOCATOR_CLASSES) for functions of this project."""
+
+    def __init__(self, py_func, py_file):
+        self._py_file, self._line = py_file, py_func.__code__.co_firstlineno
+        self._state = state_of(py_file)
+
+    def get_cache_path(self):
+        """Folder of the compiled functions of one file in one state."""
+        return str(Path(config.CACHE_DIR) / f"{Path(self._py_file).stem}-{self._state}")
+
+    def get_source_stamp(self):
+        """What the code was compiled from."""
+        return self._state
+
+    def get_disambiguator(self):
+        """The line at which the function begins."""
+        return str(self._line)
+
+    @classmethod
+    def from_function(cls, py_func, py_file):
+        """The locator; None for functions of others, or where no folder can be written."""
+        if not config.CACHE_DIR or not Path(py_file).is_relative_to(sources.ROOT / "pipeline"):
+            return None
+        locator = cls(py_func, py_file)
+        try:
+            locator.ensure_cache_path()
+        except OSError:
+            return None
+        return locator

@@ -1,0 +1,77 @@
+"""Which files of the project a module is made of: itself, and all that its import statements name, however far."""
+
+import hashlib
+import re
+from functools import cache
+from importlib.util import find_spec
+from pathlib import Path
+
+PROJECT = ("pipeline", "stages")
+ROOT = Path(__file__).parents[1]
+#: an import statement of project modules, wherever it stands; names may go on over lines in parentheses
+_IMPORT = re.compile(rf"^[ \t]*(?:import[ \t]+(?P<plain>(?:{'|'.join(PROJECT)})\b[^\n#]*)|"
+                     rf"from[ \t]+(?P<module>(?:{'|'.join(PROJECT)})\b[\w.]*)[ \t]+import[ \t]*"
+                     r"(?:\((?P<lines>[^)]*)\)|(?P<line>[^\n#]*)))", re.MULTILINE)
+
+
+def files_of(module):
+    """{module: path} of ``module`` and of every project module that it imports, transitively."""
+    files, waiting = {}, [module]
+    while waiting:
+        name = waiting.pop()
+        if name not in files:
+            path = file_of(name)
+            if path:
+                files[name] = path
+                waiting += [*imports(path), *listed(name, path)]
+    return files
+
+
+@cache
+def file_of(module):
+    """Path of a module or of the ``__init__`` of a package; None where there is none."""
+    if module.split(".")[0] in PROJECT:
+        path = ROOT.joinpath(*module.split("."))
+        return next((p for p in (path / "__init__.py", path.with_suffix(".py")) if p.is_file()), None)
+    try:
+        spec = find_spec(module)
+    except (ModuleNotFoundError, AttributeError):
+        return None
+    return Path(spec.origin) if spec and spec.origin and spec.has_location else None
+
+
+@cache
+def imports(path):
+    """Project modules that the import statements of a file name, wherever they stand in it; names in modules too."""
+    names = set()
+    for match in _IMPORT.finditer(path.read_text(encoding="utf-8")):
+        if match["plain"]:
+            names.update(_words(match["plain"]))
+        else:
+            listed_names = re.sub(r"#[^\n]*", "", match["line"] if match["lines"] is None else match["lines"])
+            names.update({match["module"], *(f"{match['module']}.{n}" for n in _words(listed_names))})
+    return tuple(n for n in sorted(names) if n != "stages")
+
+
+def _words(names):
+    """Names in ``a, b as c``: what is imported, not what it is called here."""
+    return [part.split()[0] for part in names.split(",") if part.split()]
+
+
+def listed(name, path):
+    """Modules of a package that loads them by name: a catalogue, of which no import statement tells."""
+    if path.name != "__init__.py" or name == "stages" or "import_module(" not in path.read_text(encoding="utf-8"):
+        return ()
+    files = (f.relative_to(path.parent).with_suffix("") for f in sorted(path.parent.rglob("*.py")))
+    return tuple(".".join((name, *f.parts)).removesuffix(".__init__") for f in files)
+
+
+def digest(path):
+    """SHA-256 of one file."""
+    stat = Path(path).stat()
+    return _digest(Path(path), stat.st_mtime_ns, stat.st_size)
+
+
+@cache
+def _digest(path, _modified, _size):
+    return hashlib.sha256(path.read_bytes()).hexdigest()

@@ -1,0 +1,64 @@
+"""Compiled code is found again as long as all that it was compiled from is as it was, and only then."""
+
+import os
+import subprocess
+import sys
+
+import pytest
+
+from pipeline import sources
+from pipeline.environment import CACHE, LOCATORS
+from pipeline.physics.numerics.compiled_cache import state_of
+
+CALLEE = "FACTOR = 2.0\n"
+CALLER = "from numba import njit\nfrom pipeline.callee import FACTOR\n\n\n@njit(cache=True)\ndef twice(x):\n" \
+         "    return FACTOR * x\n"
+ASK = "from pipeline import caller; print(caller.twice(1.0), sum(caller.twice.stats.cache_hits.values()))"
+
+
+@pytest.fixture
+def project(tmp_path, monkeypatch):
+    """A project of three files: ``caller`` compiles what ``callee`` gives it; ``other`` has nothing to do with it."""
+    folder = tmp_path / "pipeline"
+    folder.mkdir()
+    for name, text in (("__init__", ""), ("callee", CALLEE), ("caller", CALLER), ("other", "")):
+        (folder / f"{name}.py").write_text(text)
+    for name in ("sources.py", "environment.py"):
+        (folder / name).write_text((sources.ROOT / "pipeline" / name).read_text())
+    numerics = folder / "physics" / "numerics"
+    numerics.mkdir(parents=True)
+    for name in ("__init__.py", "numerics/__init__.py"):
+        (folder / "physics" / name).write_text("")
+    source = sources.ROOT / "pipeline" / "physics" / "numerics" / "compiled_cache.py"
+    (numerics / source.name).write_text(source.read_text())
+    return folder
+
+
+def answer(project):
+    """(value, cache hits) of the compiled function in a process of its own."""
+    home = project.parent / "compiled"
+    home.mkdir(exist_ok=True)
+    locators = "pipeline.physics.numerics.compiled_cache.SourceLocator"
+    done = subprocess.run([sys.executable, "-c", ASK], cwd=project.parent, capture_output=True, text=True, check=True,
+                          env={**os.environ, CACHE: str(home), LOCATORS: locators, "PYTHONPATH": str(project.parent)})
+    value, hits = done.stdout.split()
+    return float(value), int(hits)
+
+
+def test_code_is_compiled_again_when_what_it_uses_changes_and_not_for_anything_else(project):
+    assert answer(project) == (2.0, 0)
+    assert answer(project) == (2.0, 1)
+    (project / "other.py").write_text("x = 1\n")
+    assert answer(project) == (2.0, 1), "an unrelated file changes nothing"
+    (project / "callee.py").write_text(CALLEE.replace("2.0", "3.0"))
+    assert answer(project) == (3.0, 0), "a constant of another file"
+    (project / "callee.py").write_text(CALLEE)
+    assert answer(project) == (2.0, 1), "the first state is still there"
+
+
+def test_the_state_of_a_kernel_holds_the_kernels_that_it_calls():
+    loop = sources.ROOT / "pipeline" / "physics" / "time_stepping" / "step_loop.py"
+    files = sources.files_of("pipeline.physics.time_stepping.step_loop")
+    assert "pipeline.physics.time_stepping.contact_solver" in files
+    assert "pipeline.physics.rupture.plate_step" not in files
+    assert len(state_of(loop)) == 16
