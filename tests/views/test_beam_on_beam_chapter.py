@@ -58,7 +58,7 @@ def test_coalescences_are_told_by_both_kinds_of_elements():
 
 def test_scatter_is_told_as_ranges():
     told = chapters.scatter(scatter(), None, LOOK)
-    assert "Energy balances within 0.2\u202f%" in told.see
+    assert "The energy balance closes within 0.2\u202f%" in told.see
     assert "2.68\u20132.7\u202fkHz" in told.conclude and "40\u202f% to 60\u202f%" in told.conclude
     assert len(told.tables[0].rows) == 4 and "20\u202f% / 50\u202f% / 30\u202f%" in told.tables[0].rows[0]
 
@@ -76,7 +76,8 @@ def test_numbers_of_the_text_are_marks():
 
 
 @pytest.mark.parametrize("level, said", [
-    ([0.0, -30.0], "unstable and yet unheard from a damping per mass of 400"), ([0.0, -2.0], "heard at every damping")])
+    ([0.0, -30.0], "unstable but not observed from a damping per mass of 400"),
+    ([0.0, -2.0], "observed at every damping")])
 def test_geometry_tells_why_a_mode_is_unheard(level, said):
     told = chapters.geometry(geometry(level), LOOK)
     assert said in told.conclude and "75\u202f%" in told.conclude
@@ -86,4 +87,4 @@ def test_geometry_tells_why_a_mode_is_unheard(level, said):
 def test_a_mode_that_damping_makes_stable():
     product = geometry([0.0, -30.0])
     told = chapters.geometry(replace(product, low_growth=np.array([900.0, -10.0])), LOOK)
-    assert "only where damping makes it stable" in told.conclude
+    assert "only where damping stabilises it" in told.conclude

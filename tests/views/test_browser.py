@@ -52,7 +52,7 @@ def _requests(log):
 
 def test_the_page_opens_without_message_and_without_request(html, tmp_path):
     document, console, requests = opened(tmp_path, html)
-    assert "It squeals at 2 of 9" in document
+    assert "Squeal at 2 of 9" in document
     assert console == []
     assert requests == []
 
@@ -61,7 +61,7 @@ def test_the_page_opens_without_message_and_without_request(html, tmp_path):
 def test_every_picture_loads_and_nothing_is_wider_than_the_screen(html, width, tmp_path):
     document, console, requests = opened(tmp_path, SCREEN.format(width=width, page=escape(html)))
     found = json.loads(unescape(document.partition("<title>")[2].partition("</title>")[0]))
-    assert found["text"] == "It squeals at 2 of 9 operating points"
+    assert found["text"] == "Squeal at 2 of 9 operating points"
     assert found["wide"] == width
     assert found["images"] > 30
     assert found["broken"] == 0
@@ -82,7 +82,7 @@ def test_the_page_of_a_rupture_is_no_wider_than_the_screen(width, tmp_path):
 def test_the_page_of_a_trial_opens_quietly_and_is_no_wider_than_the_screen(width, tmp_path):
     document, console, requests = opened(tmp_path, SCREEN.format(width=width, page=escape(page(drawn()))))
     found = json.loads(unescape(document.partition("<title>")[2].partition("</title>")[0]))
-    assert "hidden effects named at their place" in found["text"] and found["wide"] == width
+    assert "hidden effects correctly named and located" in found["text"] and found["wide"] == width
     assert found["images"] == 9 and found["broken"] == 0 and not console and not requests
 
 

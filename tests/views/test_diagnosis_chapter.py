@@ -15,11 +15,11 @@ from tests.views.diagnosis_for_views import bench, changed, diagnosis
 
 @pytest.mark.parametrize("kind, said, tone", [
     ("missing", "Coulomb at guide is missing (97\u202f%)", "warning"),
-    ("tie", "Missing, but not told apart: coulomb at guide or quadratic damping at arm", "warning"),
+    ("tie", "Missing effect identified up to ambiguity: coulomb at guide or quadratic damping at arm", "warning"),
     ("sensor", "The measurement, not the physics: coulomb at guide (97\u202f%)", "warning"),
-    ("parameters", "Values are off, no physics is missing", "warning"),
+    ("parameters", "Parameter values are off; no physics is missing", "warning"),
     ("consistent", "Nothing is missing: the model explains the recordings", "quiet"),
-    ("unknown", "Something is missing at guide that the catalogue does not hold", "squeal"),
+    ("unknown", "Unmodelled physics at guide, outside the catalogue", "squeal"),
     ("numerics", "The solver, not the physics", "warning")])
 def test_every_verdict_has_its_headline(kind, said, tone):
     found = diagnosis(kind)
@@ -30,7 +30,8 @@ def test_every_verdict_has_its_headline(kind, said, tone):
 
 @pytest.mark.parametrize("kind, rows, said, kinds", [
     ("missing", ([1], [2]), "Coulomb at guide and quadratic damping at arm are missing", ()),
-    ("tie", ([1], [2, 3]), "Missing, but not told apart: coulomb at guide, and quadratic damping at arm or sensor", ()),
+    ("tie", ([1], [2, 3]), "Missing effect identified up to ambiguity: coulomb at guide, and quadratic damping at arm"
+     " or sensor", ()),
     ("tie", ([], [1]), "Proposed, not confirmed: coulomb at guide", ()),
     ("sensor", ([], [1, 2]), "The measurement, not the physics: coulomb at guide or quadratic damping at arm",
      ("sensor", "sensor")),
@@ -52,12 +53,12 @@ def test_only_rules_that_were_applied_are_told():
 
 def test_values_that_moved_together_name_the_one_that_moved_most():
     told = dict(note(diagnosis("parameters", parameter_nominal=[211.0, 20.3])))
-    assert told["What is missing"].endswith("others: joints.guide.damping 215 ± 4\u202fN s/m (given 211\u202fN s/m).")
+    assert told["What is missing"].endswith("differ: joints.guide.damping 215 ± 4\u202fN s/m (given 211\u202fN s/m).")
 
 
 def test_the_note_answers_what_a_colleague_would_ask():
     told = dict(note(diagnosis()))
-    assert "never fitted the nominal model misses the recordings by 60\u202f%" in told["What differs"]
+    assert "held-out runs the error of the nominal model is 60\u202f%" in told["What differs"]
     assert "at guide; amplitudes 1 to 5\u202fmm" in told["Where"]
     assert told["What is missing"] == "Coulomb at guide: force 20.4 ± 0.3\u202fN."
     assert "0.0005" in told["How sure"] or "10" in told["How sure"]
@@ -121,7 +122,7 @@ def test_the_page_begins_with_the_map():
 
 def test_the_bench_shows_prediction_beside_measurement():
     made = bench_chapter.chapter(bench(), Look())
-    assert "by 0\u202f% to 20\u202f%" in made.conclude and len(made.figures) == 2
+    assert "is 0\u202f% to 20\u202f%" in made.conclude and len(made.figures) == 2
     assert made.tables[0].rows[1] == ("second", "position", "20\u202f%", "140\u202fmm")
 
 

@@ -32,7 +32,7 @@ def test_a_system_without_contacts_says_so():
                    contact_lever=[], contact_gap=[], contact_normal=none, contact_tangent=none, contact_lateral=none,
                    preload=np.empty((1, 0)), contact_stiffness=np.empty((1, 0)), drive_history=[0.0, 1.0])
     found = chapter(bare, None, Look())
-    assert "Nothing touches" in found.conclude and "varies over time" in found.see and len(found.tables) == 3
+    assert "There are no contacts" in found.conclude and "varies over time" in found.see and len(found.tables) == 3
 
 
 @pytest.mark.parametrize("kind, reads, largest", [

@@ -31,7 +31,7 @@ def test_a_body_at_rest_and_one_without_contact():
     still = replace(product, velocity=0 * product.velocity, cycle_amplitude=0 * product.cycle_amplitude,
                     cycle_frequency=0 * product.cycle_frequency, harmonic_amplitude=0 * product.harmonic_amplitude,
                     grew=0 * product.grew)
-    assert "No sensor moves" in chapter(still, LOOK).see
+    assert "No sensor signal moves" in chapter(still, LOOK).see
     none = {name: np.zeros((2, 0, len(product.time))) for name in ("gap", "normal_force", "friction_force", "slip")}
     free = replace(product, **none, status=np.zeros((2, 0, len(product.time)), int), status_share=np.zeros((2, 0, 3)))
     assert len(chapter(free, LOOK).figures) == 6

@@ -10,7 +10,7 @@ from pipeline.views.figures.number_format import number, quantity, span
 from pipeline.views.figures.scene import render
 
 TWO_PI = 2.0 * np.pi
-NEUTRAL = 1e-6     # growth rates below this share of the angular frequency are rounding
+NEUTRAL = 1e-6     # growth rates below this fraction of the angular frequency are rounding
 
 
 def chapter(modes, model, published, look):
@@ -23,10 +23,10 @@ def chapter(modes, model, published, look):
                      for index, picture in zip(chosen, drawn or (), strict=False))
     return Chapter(
         "complex_modes", "Stability of steady sliding",
-        "Complex modes with sliding friction: a mode with positive growth rate grows by itself until"
-        f" something limits it. Friction is swept over {span(modes.friction, '1')} at"
+        "Complex modes with sliding friction: a mode with a positive growth rate grows until a nonlinearity"
+        f" limits it. Friction is swept over {span(modes.friction, '1')} at"
         f" {span(modes.pressure, 'Pa')}; {modes.corrections.item()} static friction corrections complete the modal"
-        f" base.{f' {COLOURS}' if drawable else ''}",
+        f" basis.{f' {COLOURS}' if drawable else ''}",
         _conclusion(modes), figures, _table(modes),
         (NO_PICTURES,) if drawn is None else ())
 
@@ -38,7 +38,7 @@ def onset(modes):
 
 
 def distinct_unstable(modes, count):
-    """Indices of unstable modes, strongest first, each frequency once (within 0.5 %)."""
+    """Indices of unstable modes, most unstable first, each frequency once (within 0.5 %)."""
     chosen = []
     for index, root in enumerate(modes.unstable_root):
         if len(chosen) < count and all(abs(root.imag / modes.unstable_root[k].imag - 1) > 5e-3 for k in chosen):
@@ -49,15 +49,15 @@ def distinct_unstable(modes, count):
 def _conclusion(modes):
     unstable = distinct_unstable(modes, len(modes.unstable_root))
     if not unstable:
-        return "At every operating point all modes are damped: no squeal from mode coupling with the friction computed."
+        return "All modes are damped at every operating point: no squeal from mode coupling at the computed friction."
     strongest = modes.unstable_root[0]
     starts = [f"{number(mu, 3)} at {quantity(p, 'Pa', 3)}" for mu, p in zip(onset(modes), modes.pressure, strict=True)
               if mu is not None]
     amount = "One frequency is" if len(unstable) == 1 else f"{len(unstable)} different frequencies are"
-    return (f"{amount} unstable at the operating points; the strongest,"
-            f" {quantity(strongest.imag / TWO_PI, 'Hz')}, grows with {quantity(strongest.real, '1/s', 3)}. In the sweep"
-            f" the first instability appears at friction {', '.join(starts) or 'beyond the sweep'}. A growth rate says"
-            " that squeal can start, not how loud it becomes.")
+    return (f"{amount} unstable at the operating points; the most unstable,"
+            f" {quantity(strongest.imag / TWO_PI, 'Hz')}, has a growth rate of {quantity(strongest.real, '1/s', 3)}. In"
+            f" the sweep the first instability appears at friction {', '.join(starts) or 'beyond its range'}. A growth"
+            " rate shows that squeal can start, not how loud it becomes.")
 
 
 def _maps(modes, published, look):
@@ -66,16 +66,16 @@ def _maps(modes, published, look):
     return (
         Figure(pictures.growth_over_frequency(modes, published, look.dpi),
                f"All modes of the friction sweep at {pressure}; colour: friction. Above zero: unstable;"
-               f" strongly damped modes lie below the frame.{note}"),
+               f" strongly damped modes lie below the axis.{note}"),
         Figure(pictures.operating_growth(modes, look.dpi),
                "Largest growth rate at each operating point, with its friction"
                f" ({span(modes.operating_friction, '1')})."),
         Figure(pictures.growth_over_friction(modes),
-               f"Growth rate over friction of the least stable modes at {pressure}: where a line crosses zero, that"
-               " mode begins to squeal."),
+               f"Growth rate over friction of the least stable modes at {pressure}: a mode becomes"
+               " unstable where its line crosses zero."),
         Figure(pictures.lock_in(modes),
-               "Frequencies around the strongest of them; large red dots: unstable. Two lines that run into each other"
-               " and stay together are two modes that friction couples."))
+               "Frequencies around the most unstable of them; large red dots: unstable. Two lines that merge and stay"
+               " together are modes coupled by friction."))
 
 
 def _shape_caption(modes, index):
@@ -97,4 +97,4 @@ def _table(modes, most=12):
                      quantity(modes.operating_speed[point], "rad/s"), number(modes.operating_friction[point], 3),
                      str(modes.operating_open[point])))
     head = "frequency", "growth rate", "damping ratio / %", "pressure", "speed", "friction", "open contacts"
-    return (Table(head, tuple(rows), "Unstable modes, strongest first, each frequency once", tuple(range(7))),)
+    return (Table(head, tuple(rows), "Unstable modes, most unstable first, each frequency once", tuple(range(7))),)

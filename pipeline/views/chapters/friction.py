@@ -14,12 +14,12 @@ def micro(product, look):
     return Chapter(
         "micro_friction", "Friction and wear of the rough pair",
         f"Both rough solids pressed and slid against each other over {quantity(product.distance[-1], 'm', 3)} at"
-        f" {span(product.pressure, 'Pa')} and {span(product.speed, 'm/s')}. A contact spot shears at no more than"
-        f" {quantity(product.shear_limit, 'Pa', 3)}; friction is the sum of shear over the sum of normal force.",
+        f" {span(product.pressure, 'Pa')} and {span(product.speed, 'm/s')}. The shear stress of a contact spot is"
+        f" limited to {quantity(product.shear_limit, 'Pa', 3)}; friction is total shear force over total normal force.",
         f"Friction lies between {span(product.friction, '1')}; wear flattens the peaks, the real contact area grows,"
         f" and friction {'rises' if gain > 0 else 'falls'} by {number(abs(gain), 2)} on average. In full slip"
-        " friction is shear limit times real contact area over pressure: the shear limit sets its level and is the"
-        " first value to measure.",
+        " friction is shear limit times real contact area over pressure: the shear limit sets its level and should be"
+        " measured first.",
         (*_spots(product, look, point, new, worn), *_curves(product)))
 
 
@@ -27,7 +27,7 @@ def _spots(product, look, point, new, worn):
     wear = product.largest_wear.max()
     return (
         Figure(contact_spots.contact_spots(product, "new", look.dpi),
-               f"Contact spots, new surfaces, {point}: {percent(new)} of the area carries all load."),
+               f"Contact spots, new surfaces, {point}: {percent(new)} of the area carries the whole load."),
         Figure(contact_spots.contact_spots(product, "worn", look.dpi),
                f"The same after {quantity(product.distance[-1], 'm', 3)} of sliding: {percent(worn)}."),
         Figure(contact_spots.wear_map(product, "pad", look.dpi),
@@ -47,10 +47,10 @@ def _curves(product):
         Figure(friction.over_distance(product, "wear_depth"),
                f"Approach of the two bodies by wear: {span(product.wear_depth[:, :, -1], 'm')} at the end."),
         Figure(friction.over_distance(product, "friction"),
-               "Coefficient of friction over sliding distance; band: standard error over positions of the patches, at"
-               f" most {number(scatter.max(), 2)}, at {quantity(product.pressure[scatter.argmax()], 'Pa', 3)}."),
+               "Coefficient of friction over sliding distance; band: standard error over positions of the patches, up"
+               f" to {number(scatter.max(), 2)}, at {quantity(product.pressure[scatter.argmax()], 'Pa', 3)}."),
         Figure(friction.over_pressure(product),
-               "Coefficient of friction over pressure at three sliding distances. Over the speeds computed it changes"
+               "Coefficient of friction over pressure at three sliding distances. Over the computed speeds it varies"
                f" by at most {number(speed, 2)}."),
         *_convergence(product))
 
@@ -60,9 +60,9 @@ def _convergence(product):
     if len(area) < 2:
         return ()
     change = abs(area[-1] / area[-2] - 1)
-    return (Figure(friction.convergence(product), "Real contact area at the middle pressure when the grid is refined:"
-                   f" the last refinement changes it by {percent(change, 2)}. Friction is proportional to it: the grid"
-                   f" adds an error of up to {number(change * product.friction.max(), 2)} to the standard error of"
+    return (Figure(friction.convergence(product), "Real contact area at the middle pressure over grid refinement:"
+                   f" the last refinement changes it by {percent(change, 2)}. Friction is proportional to it: the"
+                   f" grid error adds up to {number(change * product.friction.max(), 2)} to the standard error of"
                    " friction."),)
 
 
@@ -72,10 +72,10 @@ def friction_map(product, look):
     return Chapter(
         "friction_map", "Friction map",
         f"Coefficient of friction over sliding speed and pressure after {quantity(product.distance[-1], 'm', 3)} of"
-        " sliding. Orange lines: computed. Hatched: outside the computed range, continued as a constant.",
-        f"The brake model reads this map patch by patch: {span(last, '1')} here, standard error up to"
+        " sliding. Orange lines: computed. Hatched: outside the computed range, extrapolated as a constant.",
+        f"The brake model evaluates this map patch by patch: {span(last, '1')} here, standard error up to"
         f" {number(product.friction_std.max(), 2)}. Interface stiffness {span(product.normal_stiffness, 'Pa/m')}."
-        " Trust nothing that rests on the hatched part; the share of evaluations that fell there is told with the"
-        " pad motion.",
+        " Results that rest on the hatched part are not reliable; the chapter on pad motion states the fraction of"
+        " evaluations that fell there.",
         (Figure(friction.friction_map(product), f"Friction map: {span(last, '1')} over"
                 f" {span(product.computed_pressure, 'Pa')} and {span(product.computed_speed, 'm/s')}."),))

@@ -1,4 +1,4 @@
-"""Chapter: motion of the pads under friction that changes from patch to patch."""
+"""Chapter: motion of the pads under friction that varies from patch to patch."""
 
 import numpy as np
 
@@ -19,16 +19,16 @@ def chapter(multibody, look):
     figures += [_stability(multibody, operating, look) for operating in (low, high)]
     return Chapter(
         "multibody", "Pad motion on the patchy disc",
-        "Flexible pads on a disc made of four rigid sub-discs of friction patches; each patch takes its friction from"
-        f" the map. {len(multibody.pressure)} operating points, {quantity(multibody.time[-1], 's', 3)} each; shown are"
-        " the lowest and the highest load, as in Figures 13 to 16 of the paper.",
-        f"The oscillation is damped at {decided.sum() - growing}, growing at {growing} and undecided (within two"
+        "Flexible pads on a disc made of four rigid sub-discs of friction patches; the friction of each patch"
+        f" comes from the map. {len(multibody.pressure)} operating points, {quantity(multibody.time[-1], 's', 3)} each;"
+        " shown are the lowest and the highest load, as in Figures 13 to 16 of the paper.",
+        f"The oscillation is damped at {decided.sum() - growing}, grows at {growing} and is undecided (within two"
         f" standard errors of zero) at {points - decided.sum()} of {points} operating points."
         f" The mean friction was {span(multibody.mean_friction, '1')};"
         f" contact was lost for {span(100 * multibody.separated_share, '1', 2)} % of the samples, and"
         f" {span(100 * multibody.outside_map_share, '1', 2)} % of the friction evaluations fell outside the computed"
-        " map. How firmly the caliper and the abutments hold the pads decides the result: see the stability map,"
-        f" whose fastest roots lie at {span(multibody.stability_root, 'Hz')}.",
+        " map. The support stiffnesses of caliper and abutments decide the result: see the stability map, whose most"
+        f" unstable roots lie at {span(multibody.stability_root, 'Hz')}.",
         tuple(figures))
 
 
@@ -64,7 +64,7 @@ def _forces(multibody, operating, look):
     return Figure(pictures.patch_forces(multibody, operating, 0, look.dpi),
                   f"Normal forces of the four sub-discs on the {multibody.pad_name[0]} pad at"
                   f" {point(multibody, operating)}; together {quantity(mean, 'N', 3)} on average. A sub-disc carries"
-                  " while its patches pass under the pad.")
+                  " load while its patches pass under the pad.")
 
 
 def _stability(multibody, operating, look):

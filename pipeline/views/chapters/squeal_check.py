@@ -1,4 +1,4 @@
-"""Tables of saturated squeal: features of what was recorded beside those of simulated repeats."""
+"""Tables of saturated squeal: features of the recordings beside those of simulated repeats."""
 
 from pipeline.views.chapters.chapter import Table
 from pipeline.views.figures.number_format import number
@@ -8,38 +8,42 @@ _ROWS = 14
 
 
 def squeal_tables(product):
-    """Tables of the product Diagnosis: who squeals at each recorded point, and what the saturated stretches show."""
+    """Tables of the product Diagnosis: which models squeal at each recorded point, and features of saturated squeal."""
     if not product.squeal:
         return ()
-    who = tuple(dict.fromkeys(str(w) for one in product.squeal.values() for w in one.who))
-    rows = tuple((run, *(_states(one, w) for w in who), one.sentence.item()) for run, one in product.squeal.items())
-    squealing = Table(("run", *who, "in words"), rows, "Saturated squeal: records and simulated repeats that reach it",
+    who = tuple(dict.fromkeys(str(w) for check in product.squeal.values() for w in check.who))
+    rows = tuple((run, *(_states(check, w) for w in who), check.sentence.item())
+                 for run, check in product.squeal.items())
+    squealing = Table(("run", *who, "in words"), rows, "Saturated squeal: recordings and simulated repeats that reach"
+                                                       " it",
                       wide=(1 + len(who),))
-    features = tuple((run, f"{name} / {unit}", *(_value(one, w, k) for w in who), _agreement(one, k))
-                     for run, one in product.squeal.items()
-                     for k, (name, unit) in enumerate(zip(one.feature, one.unit, strict=True)) if one.known[0, k])
-    shown = Table(("run", "feature", *who, "agrees within the spread"), features,
-                  "Features of saturated stretches, mean ± spread: for verification only, never by waveform",
+    features = tuple((run, f"{name} / {unit}", *(_value(check, w, k) for w in who), _agreement(check, k))
+                     for run, check in product.squeal.items()
+                     for k, (name, unit) in enumerate(zip(check.feature, check.unit, strict=True)) if check.known[0, k])
+    shown = Table(("run", "feature", *who, "agrees within the scatter"), features,
+                  "Features of saturated segments, mean ± standard deviation: for verification only, never by waveform",
                   tuple(range(2, 2 + len(who))), folded=len(features) > _ROWS)
     return (squealing, shown) if features else (squealing,)
 
 
-def _row(one, who):
-    names = [str(w) for w in one.who]
+def _row(check, who):
+    names = [str(w) for w in check.who]
     return names.index(who) if who in names else None
 
 
-def _states(one, who):
-    i = _row(one, who)
-    return "not simulated" if i is None else f"{one.squealing[i]} of {one.records[i]}"
+def _states(check, who):
+    i = _row(check, who)
+    return "not simulated" if i is None else f"{check.squealing[i]} of {check.records[i]}"
 
 
-def _value(one, who, k):
-    i = _row(one, who)
-    return f"{number(one.mean[i, k], 3)} ± {number(one.spread[i, k], 2)}" if i is not None and one.known[i, k] else "—"
+def _value(check, who, k):
+    i = _row(check, who)
+    if i is None or not check.known[i, k]:
+        return "—"
+    return f"{number(check.mean[i, k], 3)} ± {number(check.spread[i, k], 2)}"
 
 
-def _agreement(one, k):
+def _agreement(check, k):
     """Which models agree with the recording in feature ``k``."""
-    return ", ".join(f"{w}: {'yes' if one.agrees[i, k] else 'no'}" for i, w in enumerate(one.who)
-                     if i and one.known[i, k]) or "—"
+    return ", ".join(f"{w}: {'yes' if check.agrees[i, k] else 'no'}" for i, w in enumerate(check.who)
+                     if i and check.known[i, k]) or "—"

@@ -7,29 +7,29 @@ from pipeline.views.figures import mode_shapes, preload
 from pipeline.views.figures.number_format import number, percent, quantity, span
 from pipeline.views.figures.scene import render
 
-COLOURS = "In the pictures of modes orange and purple move in opposite directions along the axis; white is at rest."
-NO_PICTURES = "Pictures of meshes and mode shapes need OpenGL (on Linux: libEGL), which this machine does not offer."
+COLOURS = "In pictures of modes, orange and purple move in opposite axial directions; white is at rest."
+NO_PICTURES = "Pictures of meshes and mode shapes need OpenGL (on Linux: libEGL), which this machine does not provide."
 
 
 def chapter(structure, modes, look):
     """Chapter of the product Structure; ``modes`` are ComplexModes, for the load in steady sliding, or None."""
     loads = preload.loads(structure, modes)
-    chosen = mode_shapes.distinct(structure.disc.frequency, look.shapes)
-    scenes = [mode_shapes.assembly(structure), *(mode_shapes.disc_mode(structure.disc, mode) for mode in chosen)]
+    selected = mode_shapes.distinct(structure.disc.frequency, look.shapes)
+    scenes = [mode_shapes.assembly(structure), *(mode_shapes.disc_mode(structure.disc, mode) for mode in selected)]
     pictures = render(scenes)
     figures = (_pads(structure, modes, loads, look),)
     if pictures:
         figures = (_assembly(structure, pictures[0]), *figures, *(
-            _mode(structure.disc, mode, picture) for mode, picture in zip(chosen, pictures[1:], strict=True)))
+            _mode(structure.disc, mode, picture) for mode, picture in zip(selected, pictures[1:], strict=True)))
     return Chapter(
         "structure", "The brake: meshes, preload, modes",
         f"Finite-element bodies {', '.join(str(n).replace('_', ' ') for n in structure.body_name)}, pressed together"
         f" by the piston at {span(structure.pressure, 'Pa')}; {len(structure.contact_area)} contact patches."
         f" {COLOURS}",
         f"The free disc has {len(structure.free_frequency)} modes up to"
-        f" {quantity(structure.free_frequency.max(), 'Hz')}; squeal needs two modes of the assembled brake"
-        " close together, so the frequencies below decide where it can appear. The pressure on the pads"
-        f" {'in steady sliding ' * (modes is not None)}shows where they would wear first.",
+        f" {quantity(structure.free_frequency.max(), 'Hz')}; squeal by mode coupling needs two"
+        " closely spaced modes of the assembled brake, so these frequencies decide where it can appear. The pad"
+        f" pressure {'in steady sliding ' * (modes is not None)}shows where the pads wear first.",
         figures, (_bodies(structure), _free_modes(structure)), () if pictures else (NO_PICTURES,))
 
 
@@ -46,28 +46,28 @@ def _mode(disc, mode, picture):
 
 def _pads(structure, modes, loads, look):
     nominal = quantity(structure.pressure[len(structure.pressure) // 2], "Pa", 3)
-    told = f"Contact pressure of the pads without friction, nominal {nominal}: {_told(structure, loads[0])}."
+    text = f"Contact pressure on the pads without friction, nominal {nominal}: {_told(structure, loads[0])}."
     if modes is not None:
         point = preload.sliding_point(modes, structure.pressure[len(structure.pressure) // 2])
         moved = abs(loads[1].force - loads[0].force).max() / loads[0].force.max()
-        told += (f" Beside it the same brake in steady sliding at {quantity(modes.operating_speed[point], 'rad/s')}"
-                 f" with friction {number(modes.operating_friction[point], 2)} from the map, about which its stability"
+        text += (f" Right: the same brake in steady sliding at {quantity(modes.operating_speed[point], 'rad/s')}"
+                 f" with friction {number(modes.operating_friction[point], 2)} from the map, the state whose stability"
                  f" is computed: {_told(structure, loads[1])}. Friction tilts the pads; it changes the force on a patch"
                  f" by up to {percent(moved, 2)} of the largest force without friction.")
     return Figure(preload.contact_pressure(structure, loads, look.dpi),
-                  f"{told} Seen from the pad, the disc moves to the right; crosses: patches off the disc (open).")
+                  f"{text} Seen from the pad, the disc moves to the right; crosses: patches off the disc (open).")
 
 
 def _told(structure, load):
     """Range of pressure and resultant of each pad, and how many patches are open."""
-    told = []
+    parts = []
     for pad in np.unique(structure.contact_body):
-        here = structure.contact_body == pad
-        told.append(f"{str(structure.body_name[pad]).replace('_', ' ')}"
-                    f" {span(load.force[here] / structure.contact_area[here], 'Pa')}, resultant"
-                    f" {quantity(load.force[here].sum(), 'N', 3)}")
+        of_pad = structure.contact_body == pad
+        parts.append(f"{str(structure.body_name[pad]).replace('_', ' ')}"
+                    f" {span(load.force[of_pad] / structure.contact_area[of_pad], 'Pa')}, resultant"
+                    f" {quantity(load.force[of_pad].sum(), 'N', 3)}")
     open_ = np.sum(~load.closed)
-    return f"{'; '.join(told)}; {open_ or 'none'} of {len(load.force)} patches open"
+    return f"{'; '.join(parts)}; {open_ or 'none'} of {len(load.force)} patches open"
 
 
 def _bodies(structure):
@@ -85,4 +85,4 @@ def _free_modes(structure, most=20):
     rows = tuple((quantity(f, "Hz"), str(d), number(out, 2)) for f, d, out in zip(
         structure.free_frequency[:most], structure.free_diameters, structure.free_out_of_plane, strict=False))
     title = f"Free disc, first {len(rows)} of {len(structure.free_frequency)} elastic modes"
-    return Table(("frequency", "nodal diameters", "axial share of modal mass"), rows, title, (0, 1, 2), folded=True)
+    return Table(("frequency", "nodal diameters", "axial fraction of modal mass"), rows, title, (0, 1, 2), folded=True)

@@ -12,22 +12,22 @@ def chapter(surface, look):
                for i, body in enumerate(surface.body)]
     side = f"{quantity(surface.x[-1], 'm', 3)} × {quantity(surface.y[-1], 'm', 3)}"
     figures += [
-        Figure(surfaces.profile(surface), f"Middle section along sliding, {upper} above {lower}; heights are drawn"
-               " enlarged, so real slopes are much gentler."),
-        Figure(surfaces.height_distribution(surface), "Heights about the mean plane. A tail to the right means peaks"
-               " that carry load first."),
+        Figure(surfaces.profile(surface), f"Middle section along sliding, {upper} above {lower}; heights are"
+               " exaggerated, so real slopes are much gentler."),
+        Figure(surfaces.height_distribution(surface), "Heights about the mean plane. A tail to the right means"
+               " peaks, which carry load first."),
         Figure(surfaces.power_spectrum(surface), "Isotropic power spectrum. Roughness right of the dotted line"
-               f" (wavelength {span(surface.shortest_wavelength, 'm')}) is filtered out on purpose: the real contact"
-               " area depends on it."),
+               f" (wavelength {span(surface.shortest_wavelength, 'm')}) is deliberately filtered out: the real"
+               " contact area depends on it."),
     ]
     return Chapter(
         "surface", "The rough surfaces",
         f"Height maps of {lower} and {upper}, {side}, {len(surface.x)} × {len(surface.y)} nodes."
         f" Sources: {', '.join(f'{b}: {s}' for b, s in zip(surface.body, surface.source, strict=True))}.",
         "These heights enter the contact computation node by node; everything below follows from them. With"
-        f" {number(surface.nodes_per_wavelength.min(), 3)} nodes on the shortest wavelength"
+        f" {number(surface.nodes_per_wavelength.min(), 3)} nodes per shortest wavelength"
         + (" the contact spots are resolved." if surface.nodes_per_wavelength.min() >= 8 else
-           " the contact spots are coarse: see the convergence of the contact area below."),
+           " the contact spots are coarsely resolved: see the convergence of the contact area below."),
         tuple(figures), (_statistics(surface),))
 
 
@@ -47,7 +47,7 @@ def _statistics(surface):
             ("outliers removed", surface.outlier_share, percent),
             ("samples filled", surface.filled_share, percent),
             ("shortest wavelength", surface.shortest_wavelength, lambda v: quantity(v, "m")),
-            ("nodes on it", surface.nodes_per_wavelength, lambda v: number(v, 3)))
+            ("nodes per shortest wavelength", surface.nodes_per_wavelength, lambda v: number(v, 3)))
     shown = tuple((name, *(write(v) for v in values)) for name, values, write in rows)
     return Table(("statistic", *map(str, surface.body)), shown, "Statistics of the surfaces",
                  tuple(range(1, len(surface.body) + 1)))

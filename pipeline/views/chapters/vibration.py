@@ -23,8 +23,8 @@ def response(product, published, look):
         f" {quantity(product.mode_frequency.max(), 'Hz')} (superposed exactly); forces enter the {product.coupling}."
         f" Spectra at lowest and highest load, resolution"
         f" {quantity(product.frequency[1] - product.frequency[0], 'Hz', 3)}.",
-        f"Effective velocities lie between {span(effective, 'm/s')}. A narrow peak that stands out of the forced level"
-        " is a squeal candidate; a forest of equal peaks is only the modal density of the brake.",
+        f"Effective velocities lie between {span(effective, 'm/s')}. A narrow peak that rises above the forced"
+        " response is a squeal candidate; many peaks of equal height only reflect the modal density of the brake.",
         figures)
 
 
@@ -37,7 +37,7 @@ def squeal(product, published, look):
                f"Level over frequency of {plural(len(product.event_level), 'event')}"
                + (f", {span(product.event_frequency, 'Hz')}, {span(product.event_level, '1')} dB"
                   if len(product.event_level) else "")
-               + ("; hollow: harmonics of a lower tone" if (product.event_order > 1).any() else "")
+               + ("; hollow: harmonics of a lower fundamental" if (product.event_order > 1).any() else "")
                + "; grey dots: highest peak of each sensor; dashed: threshold."
                + _dotted(published)),
         Figure(pictures.band_levels(product, points, loudest),
@@ -46,26 +46,26 @@ def squeal(product, published, look):
         "squeal", "Squeal",
         f"The detector calls a spectral peak above {number(product.threshold, 3)} dB (velocity, re"
         f" {quantity(product.reference, 'm/s', 3)}) in the squeal band an event, sensor by sensor."
-        " An event that is a whole multiple of a lower tone, in the band or below it, is told as its harmonic: it is no"
-        " squeal frequency of its own. Figure 1 shows where it squeals.",
+        " An event at a whole multiple of a lower fundamental, inside the band or below it, is reported as its"
+        " harmonic, not as a separate squeal frequency. Figure 1 shows where it squeals.",
         _conclusion(product), figures, _table(product))
 
 
 def occurrence_caption(product):
     """Where the loudest peak lies and how it compares with the threshold."""
     harmonics = (product.event_order > 1).any()
-    among = ", and of those that are no harmonics of a lower tone ('own')" if harmonics else ""
+    among = " (of which fundamentals, not harmonics of a lower one)" if harmonics else ""
     return ("Highest velocity level in the squeal band at each operating point, its frequency and number of events"
             f"{among}."
-            f" Framed: squeal. Loudest {number(product.peak_level.max(), 3)} dB; line in the colour bar: threshold,"
-            f" {number(product.threshold, 3)} dB re {quantity(product.reference, 'm/s', 3)}.")
+            f" Framed: squeal. Highest level {number(product.peak_level.max(), 3)} dB; line in the colour bar:"
+            f" threshold, {number(product.threshold, 3)} dB re {quantity(product.reference, 'm/s', 3)}.")
 
 
 def origin(product, event):
-    """'2nd harmonic of 0.81 kHz', or 'own tone'."""
+    """'2nd harmonic of 0.81 kHz', or 'fundamental'."""
     order = int(product.event_order[event])
     if order == 1:
-        return "own tone"
+        return "fundamental"
     return f"{ordinal(order)} harmonic of {number(product.event_fundamental[event] / 1e3, 2)}{THIN}kHz"
 
 
@@ -73,7 +73,7 @@ def _conclusion(product):
     where = np.unique(product.event_operating)
     if not len(where):
         short = float(product.threshold) - product.peak_level.max()
-        return f"No event: the loudest peak stays {number(short, 2)} dB below the threshold."
+        return f"No event: the loudest peak is {number(short, 2)} dB below the threshold."
     return (f"{plural(len(product.event_level), 'event')} at {len(where)} of {len(product.pressure)} operating points:"
             f" {'; '.join(point(product, o) for o in where)}.{_harmonics(product)}")
 
@@ -82,9 +82,9 @@ def _harmonics(product):
     """How many events are harmonics, and of what."""
     above = product.event_order > 1
     if not above.any():
-        return " None is a harmonic of a lower tone."
-    of = f"of a lower tone ({span(product.event_fundamental[above] / 1e3, '1', 2)}{THIN}kHz)"
-    return f" {plural(np.count_nonzero(above), 'harmonic')} {of}, {plural(np.count_nonzero(~above), 'own tone')}."
+        return " None is a harmonic of a lower fundamental."
+    of = f"of a lower fundamental ({span(product.event_fundamental[above] / 1e3, '1', 2)}{THIN}kHz)"
+    return f" {plural(np.count_nonzero(above), 'harmonic')} {of}, {plural(np.count_nonzero(~above), 'fundamental')}."
 
 
 def _table(product, most=15):
@@ -95,7 +95,7 @@ def _table(product, most=15):
                   quantity(product.event_frequency[e], "Hz"), origin(product, e), number(product.event_level[e], 3),
                   quantity(product.event_start[e], "s", 3), quantity(product.event_duration[e], "s", 3)) for e in order)
     title = f"Loudest {len(rows)} of {plural(len(product.event_level), 'event')}"
-    return (Table(("operating point", "sensor", "frequency", "origin", "level / dB", "begin", "duration"), rows, title,
+    return (Table(("operating point", "sensor", "frequency", "origin", "level / dB", "start", "duration"), rows, title,
                   (2, 4, 5, 6), folded=True),)
 
 

@@ -7,7 +7,7 @@ import numpy as np
 from pipeline.views.figures.number_format import number
 from pipeline.views.figures.style import INK, SEQUENTIAL, colour_bar, drawing, png
 
-#: drawn side of a patch, as a share of the side of a square of its area
+#: drawn side of a patch, as a fraction of the side of a square of its area
 _SIDE = 0.88
 #: colour of a patch without pressure, beneath its cross
 _EMPTY = "#e3e6ea"
@@ -38,8 +38,8 @@ def loads(structure, modes=None):
 
 def sliding_point(modes, pressure):
     """Operating point at ``pressure`` with the middle one of its disc speeds."""
-    here = np.flatnonzero(np.isclose(modes.operating_pressure, pressure))
-    return here[len(here) // 2]
+    candidates = np.flatnonzero(np.isclose(modes.operating_pressure, pressure))
+    return candidates[len(candidates) // 2]
 
 
 def contact_pressure(structure, states, dpi):
@@ -63,18 +63,18 @@ def contact_pressure(structure, states, dpi):
         return png(figure, dpi)
 
 
-def _patches(axes, structure, here, load, largest):
+def _patches(axes, structure, selected, load, largest):
     """Squares of the size of the patches ``here``, coloured by pressure up to ``largest`` MPa."""
     from matplotlib import colormaps
     from matplotlib.collections import PatchCollection
     from matplotlib.patches import Rectangle
 
-    along, radius = _unrolled(structure.contact_position[here])
-    side, closed = 1e3 * _SIDE * np.sqrt(structure.contact_area[here]), load.closed[here]
+    along, radius = _unrolled(structure.contact_position[selected])
+    side, closed = 1e3 * _SIDE * np.sqrt(structure.contact_area[selected]), load.closed[selected]
     corners = zip(along - side / 2, radius - side / 2, side, strict=True)
     squares = PatchCollection([Rectangle((x, y), size, size) for x, y, size in corners], lw=0,
                               cmap=colormaps[SEQUENTIAL].with_extremes(bad=_EMPTY))
-    squares.set(array=np.ma.masked_where(~closed, 1e-6 * load.force[here] / structure.contact_area[here]),
+    squares.set(array=np.ma.masked_where(~closed, 1e-6 * load.force[selected] / structure.contact_area[selected]),
                 clim=(0.0, largest))
     axes.add_collection(squares)
     axes.scatter(along[~closed], radius[~closed], marker="x", color=INK, s=30, lw=1.2)
@@ -85,5 +85,5 @@ def _patches(axes, structure, here, load, largest):
 
 def _unrolled(position):
     """(Arc length from the middle, radius), both (contact,) mm, of positions (contact, 3) m."""
-    place = position[:, 0] + 1j * position[:, 1]
-    return 1e3 * abs(place) * np.angle(place / place.sum()), 1e3 * abs(place)
+    plane = position[:, 0] + 1j * position[:, 1]
+    return 1e3 * abs(plane) * np.angle(plane / plane.sum()), 1e3 * abs(plane)

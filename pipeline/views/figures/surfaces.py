@@ -47,16 +47,17 @@ def height_distribution(surface):
 
 
 def power_spectrum(surface):
-    """SVG of the isotropic power spectra, with the shortest wavelength kept."""
-    kept = surface.wavenumber > 0
+    """SVG of the isotropic power spectra; dotted: shortest wavelength retained."""
+    positive = surface.wavenumber > 0
     with drawing() as figure:
         axes = figure.subplots()
         for index, body in enumerate(surface.body):
             spectrum = np.where(surface.power_spectrum[index] > 0, surface.power_spectrum[index], np.nan)
-            axes.loglog(surface.wavenumber[kept], spectrum[kept], color=COLOURS[index], ls=LINES[index], label=body)
+            axes.loglog(surface.wavenumber[positive], spectrum[positive], color=COLOURS[index], ls=LINES[index],
+                        label=body)
         shortest = 2 * np.pi / surface.shortest_wavelength.min()
         axes.axvline(shortest, color=INK, lw=0.9, ls=":")
-        axes.annotate("shortest wavelength kept", (shortest, 1), xycoords=("data", "axes fraction"), fontsize=8,
+        axes.annotate("shortest wavelength retained", (shortest, 1), xycoords=("data", "axes fraction"), fontsize=8,
                       xytext=(4, -2), textcoords="offset points", rotation=90, va="top")
         axes.set(xlabel="wavenumber / rad/m", ylabel="power spectral density / m$^4$", ylim=_decades(surface))
         legend(axes)
@@ -69,7 +70,7 @@ def _heights(surface):
 
 
 def _decades(surface):
-    """Limits of the spectra over the wavelengths that are kept."""
-    kept = surface.wavenumber[None, :] < 2 * np.pi / surface.shortest_wavelength[:, None]
-    shown = surface.power_spectrum[kept & (surface.power_spectrum > 0)]
+    """Limits of the spectra over the retained wavelengths."""
+    resolved = surface.wavenumber[None, :] < 2 * np.pi / surface.shortest_wavelength[:, None]
+    shown = surface.power_spectrum[resolved & (surface.power_spectrum > 0)]
     return (shown.min() / 5, 3 * shown.max()) if shown.size else (None, None)

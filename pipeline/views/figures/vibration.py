@@ -37,21 +37,22 @@ def spectra(response, operatings, sensor, published, dpi):
 
 
 def highest_frequency(response):
-    """End of the frequency axis in Hz: a little above the highest mode that can answer."""
+    """End of the frequency axis in Hz: a little above the highest mode that can respond."""
     return min(1.1 * response.mode_frequency.max(), response.frequency[-1])
 
 
 def occurrence(squeal, dpi):
     """PNG of the highest level in the squeal band at each operating point, with its frequency; frame = squeal.
 
-    Harmonics of a lower tone are counted among the events, and told.
+    Harmonics of a lower fundamental count as events; the number of fundamentals is shown beside.
     """
     sensor = np.argmax(squeal.peak_level, axis=1)
     row = np.arange(len(sensor))
     level, frequency = squeal.peak_level[row, sensor], squeal.peak_frequency[row, sensor]
     events = np.bincount(squeal.event_operating, minlength=len(level))
     harmonics = np.bincount(squeal.event_operating[squeal.event_order > 1], minlength=len(level))
-    texts = [f"{lv:.0f} dB\n{f / 1e3:.2f} kHz\n{plural(n, 'event')}" + (f"\n{n - h} own" if h else "")
+    texts = [f"{lv:.0f} dB\n{f / 1e3:.2f} kHz\n{plural(n, 'event')}"
+             + (f"\n{plural(n - h, 'fundamental')}" if h else "")
              for lv, f, n, h in zip(level, frequency, events, harmonics, strict=True)]
     low, high = min(level.min(), squeal.threshold - 3.0), max(level.max(), squeal.threshold + 3.0)
     with drawing(3.3, bar=True) as figure:
@@ -67,7 +68,7 @@ def occurrence(squeal, dpi):
 def level_frequency(squeal, published):
     """SVG of level over frequency: every event, one marker per pressure; highest peaks as grey dots; the threshold.
 
-    Markers are hollow for harmonics of a lower tone.
+    Markers are hollow for harmonics of a lower fundamental.
     """
     pressures = np.unique(squeal.pressure)
     with drawing() as figure:
@@ -77,10 +78,10 @@ def level_frequency(squeal, published):
         axes.axhline(float(squeal.threshold), color=INK, lw=0.9, ls="--")
         axes.plot(squeal.peak_frequency.ravel() / 1e3, squeal.peak_level.ravel(), ".", color=FAINT, ms=3)
         for index, pressure in enumerate(pressures):
-            here = squeal.pressure[squeal.event_operating] == pressure
+            at_pressure = squeal.pressure[squeal.event_operating] == pressure
             look = {"ls": "none", "marker": MARKERS[index % 6], "color": COLOURS[index % 6]}
-            for shown, edge in ((here & (squeal.event_order == 1), {"mec": "white", "mew": 0.4}),
-                                (here & (squeal.event_order > 1), {"mfc": "none", "mew": 1.1})):
+            for shown, edge in ((at_pressure & (squeal.event_order == 1), {"mec": "white", "mew": 0.4}),
+                                (at_pressure & (squeal.event_order > 1), {"mfc": "none", "mew": 1.1})):
                 axes.plot(squeal.event_frequency[shown] / 1e3, squeal.event_level[shown], **look, **edge)
             axes.plot([], [], **look, label=f"{pressure / 1e6:.3g} MPa")
         axes.set(xlabel="frequency / kHz", ylabel="velocity level / dB", xlim=(0, None))
@@ -96,8 +97,8 @@ def band_levels(squeal, operatings, sensor):
             axes.step(squeal.band, squeal.band_level[operating, sensor], where="mid", color=COLOURS[line % 6],
                       ls=LINES[line % 6], label=_operating(squeal, operating))
         axes.set_xscale("log")
-        kept = squeal.band[:: max(1, len(squeal.band) // 6)]
-        axes.set_xticks(kept, [f"{f / 1e3:.3g}" for f in kept])
+        labelled = squeal.band[:: max(1, len(squeal.band) // 6)]
+        axes.set_xticks(labelled, [f"{f / 1e3:.3g}" for f in labelled])
         axes.set_xticks([], minor=True)
         axes.set(xlabel="third-octave band / kHz", ylabel="velocity level / dB")
         legend(axes)

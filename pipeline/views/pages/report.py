@@ -44,10 +44,10 @@ def plan(products, look):
 
 def page(chapters, products, case, look):
     """HTML text of the report; the same arguments give the same bytes."""
-    found = products.get("comparison")
+    facts = products.get("comparison")
     return template().render(
         case=case, chapters=chapters, verdict=verdict(products, case_view.tuned(case)),
-        key_figure=_key_figure(products, look), key_tables=comparison.tables(found) if found is not None else (),
+        key_figure=_key_figure(products, look), key_tables=() if facts is None else comparison.tables(facts),
         stages=case_view.stages(case), methods=case_view.methods(case), limits=limits(products))
 
 

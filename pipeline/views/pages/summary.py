@@ -1,4 +1,4 @@
-"""The first screen: does it squeal, where, how sure, what is tuned. Every number comes from a product."""
+"""The first screen: does it squeal, where, how certain, what is tuned. Every number comes from a product."""
 
 from dataclasses import dataclass
 
@@ -18,7 +18,7 @@ NEAR = 0.02     # an unstable mode explains an event when their frequencies agre
 
 @dataclass(frozen=True)
 class Verdict:
-    """Headline, answers in plain words, and the numbers behind them as (name, value) pairs."""
+    """Headline, answers in plain words, and key figures as (name, value) pairs."""
 
     headline: str
     tone: str       # squeal, warning or quiet: the colour of the page's head
@@ -31,15 +31,15 @@ def verdict(products, tuned_settings):
     if products.get("diagnosis") is not None:
         return _diagnosed(products["diagnosis"], products, tuned_settings)
     headline, tone = _headline(products)
-    answers = [("Where", _where(products)), ("Why", _why(products)), ("How sure", _sure(products)),
+    answers = [("Where", _where(products)), ("Why", _why(products)), ("How certain", _sure(products)),
                ("Tuned", _tuned(products, tuned_settings))]
     return Verdict(headline, tone, tuple(a for a in answers if a[1]), tuple(_facts(products)))
 
 
-def _diagnosed(found, products, tuned_settings):
-    """Verdict of a case with recordings: what they say is missing."""
-    headline, tone = diagnosis.headline(found)
-    answers = (*diagnosis.note(found), ("Tuned", _tuned(products, tuned_settings)))
+def _diagnosed(product, products, tuned_settings):
+    """Verdict of a case with recordings: what they show to be missing."""
+    headline, tone = diagnosis.headline(product)
+    answers = (*diagnosis.note(product), ("Tuned", _tuned(products, tuned_settings)))
     return Verdict(headline, tone, tuple(a for a in answers if a[1]), tuple(_facts(products)))
 
 
@@ -61,19 +61,19 @@ def _headline(products):
     unstable = 0 if modes is None else len(distinct_unstable(modes, len(modes.unstable_root)))
     if squeal is not None and len(squeal.event_level):
         if len(squeal.pressure) == 1:
-            return f"It squeals at {quantity(squeal.event_frequency[np.argmax(squeal.event_level)], 'Hz', 3)}", "squeal"
+            return f"Squeal at {quantity(squeal.event_frequency[np.argmax(squeal.event_level)], 'Hz', 3)}", "squeal"
         where = len(np.unique(squeal.event_operating))
-        return f"It squeals at {where} of {len(squeal.pressure)} operating points", "squeal"
+        return f"Squeal at {where} of {len(squeal.pressure)} operating points", "squeal"
     if unstable:
         start = "No peak exceeds the squeal threshold, but " if squeal is not None else ""
         text = f"{start}{plural(unstable, 'mode')} {'is' if unstable == 1 else 'are'} unstable"
         return text[0].upper() + text[1:], "warning"
     if products.get("recording") is not None and squeal is None and modes is None:
-        return f"{plural(len(products['recording'].runs), 'run')} of a bench, not compared yet", "quiet"
+        return f"{plural(len(products['recording'].runs), 'run')} from a bench, not yet compared with a model", "quiet"
     if squeal is None and modes is None:
-        return "No verdict: this case ends before the stability of the system", "warning"
+        return "No verdict: this case ends before the stability analysis", "warning"
     if squeal is None and (cycle := _settled_cycle(products.get("transient"))):
-        return f"It vibrates at {quantity(cycle, 'Hz', 3)} although no mode is unstable", "warning"
+        return f"Vibration at {quantity(cycle, 'Hz', 3)} although no mode is unstable", "warning"
     return "No squeal predicted", "quiet"
 
 
@@ -97,14 +97,17 @@ def _where(products):
 
 
 def _harmonics(squeal, peak):
-    """What the loudest peak is a harmonic of, and how many events are none."""
+    """The fundamental of the loudest peak, and the number of harmonics among the events."""
     above = squeal.event_order > 1
     if not above.any():
         return ""
     loudest = int(np.argmax(squeal.event_level))
-    there = above[loudest] and abs(squeal.event_frequency[loudest] / peak - 1) <= NEAR
-    told = f" It is the {origin(squeal, loudest)}." if there else ""
-    return f"{told} Among {plural(len(above), 'event')}: {plural(np.count_nonzero(above), 'harmonic')} of a lower tone."
+    is_loudest = above[loudest] and abs(squeal.event_frequency[loudest] / peak - 1) <= NEAR
+    sentence = f" It is the {origin(squeal, loudest)}." if is_loudest else ""
+    harmonics = np.count_nonzero(above)
+    if harmonics == len(above):
+        return f"{sentence} Every event is a harmonic of a lower fundamental."
+    return f"{sentence} Harmonics of a lower fundamental: {harmonics} of {plural(len(above), 'event')}."
 
 
 def _why(products):
@@ -112,10 +115,10 @@ def _why(products):
     if modes is None:
         return ""
     if not len(modes.unstable_root):
-        forced = ": what the sensors feel is forced by the rotating friction patches"
+        forced = ": the response at the sensors is forced by the rotating friction patches"
         return f"No mode is unstable{forced if products.get('multibody') is not None else ''}."
     frequencies = modes.unstable_root.imag / TWO_PI
-    strongest = (f"The strongest unstable mode, {quantity(frequencies[0], 'Hz')}, grows with"
+    strongest = (f"The most unstable mode, {quantity(frequencies[0], 'Hz')}, has a growth rate of"
                  f" {quantity(modes.unstable_root[0].real, '1/s', 3)}.")
     if squeal is None:
         return strongest
@@ -123,27 +126,29 @@ def _why(products):
     nearest = frequencies[np.argmin(np.abs(frequencies - peak))]
     apart = abs(nearest / peak - 1)
     if apart <= NEAR:
-        return f"{strongest} The loudest peak has an unstable mode at its side: {quantity(nearest, 'Hz')}."
-    forced = ": it is forced by the pads, whose motion the multi-body simulation computes on a rigid disc"
-    return (f"{strongest} The loudest peak has none within {percent(NEAR)} (nearest {quantity(nearest, 'Hz')})"
+        return f"{strongest} The loudest peak coincides (within {percent(NEAR)}) with an unstable mode at" \
+               f" {quantity(nearest, 'Hz')}."
+    forced = ": it is forced by the pads, whose motion is computed on a rigid disc"
+    return (f"{strongest} No unstable mode lies within {percent(NEAR)} of the loudest peak (nearest"
+            f" {quantity(nearest, 'Hz')})"
             f"{forced if products.get('multibody') is not None else ''}.")
 
 
 def _compared(products):
-    """The comparison, None where nothing published stands beside the products."""
-    found = products.get("comparison")
-    return found if found is not None and len(found.row) else None
+    """The comparison, None where there are no published facts."""
+    comparison = products.get("comparison")
+    return comparison if comparison is not None and len(comparison.row) else None
 
 
 def _sure(products):
     comparison = _compared(products)
     if comparison is None:
-        return "Nothing published was compared."
+        return "There is no published result to compare with."
     within = judged(comparison, "within")
     tuned = sum(bool(comparison.tuned[row]) for row in within)
-    return (f"Of {len(comparison.row)} published facts, {len(judged(comparison))} can be judged by this chain;"
-            f" {len(within)} hold within their tolerance, {tuned or 'none'} of them because something was tuned to"
-            f" reach them. At most {len(within) - tuned} can count as evidence for the model.")
+    return (f"Of {len(comparison.row)} published facts, {len(judged(comparison))} are testable with this"
+            f" chain; {len(within)} are met within tolerance, {tuned or 'none'} of them because the model was tuned to"
+            f" them. At most {len(within) - tuned} are independent evidence for the model.")
 
 
 def _tuned(products, tuned_settings):
@@ -153,7 +158,7 @@ def _tuned(products, tuned_settings):
     shown = rows or settings[:6]
     more = f" ({plural(len(settings), 'setting')} marked tuned; all below)" if settings else ""
     if settings and comparison is not None and not rows:
-        more += ". The comparison does not say which facts they were tuned on, so part of what holds is no evidence"
+        more += ". The comparison does not state on which facts, so some of the agreement is not evidence"
     return f"{'; '.join(shown)}{more}." if shown else "Nothing in this case is marked as tuned."
 
 
@@ -166,11 +171,11 @@ def _facts(products):
 
 def _friction(product):
     error = f", ± {number(product.friction_std.max(), 2)}" if product.friction_std.any() else ""
-    return "friction", f"{span(product.friction, '1', 2)}{error}"
+    return "friction coefficient", f"{span(product.friction, '1', 2)}{error}"
 
 
 def _contact(product):
-    return "real contact", f"{span(100 * product.real_area, '1', 2)} % of nominal"
+    return "real contact area", f"{span(100 * product.real_area, '1', 2)} % of nominal"
 
 
 def _modes(product):
@@ -186,4 +191,4 @@ def _motion(product):
 
 
 def _level(product):
-    return "loudest", f"{number(product.peak_level.max(), 3)} dB (threshold {number(product.threshold, 3)})"
+    return "highest level", f"{number(product.peak_level.max(), 3)} dB (threshold {number(product.threshold, 3)})"

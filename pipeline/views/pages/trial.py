@@ -16,11 +16,11 @@ _FIRST = ("type and place, one effect", "both of a pair", "false alarms", "not i
 def page(result):
     """HTML text of the page of a result.json; the same result gives the same bytes."""
     about, main = result["set"], result["methods"]["diagnosis"]
-    names = [name for name, one in main["rates"].items() if one["goal"]]
-    figure = Figure(rates(result["methods"], names),
-                    "Rates with their 95 % intervals (Wilson); upright bars: what was to be reached.")
+    names = [name for name, rate in main["rates"].items() if rate["goal"]]
+    figure = Figure(rates(result["methods"], names, [chapters.rate_in_words(name) for name in names]),
+                    "Rates with their 95 % Wilson confidence intervals; vertical bars: goals.")
     case = Case(about["name"], f"Concealed trial {about['name']}",
-                "Cases with hidden physics, solved without their truth and scored once")
+                "Cases with hidden physics, solved without access to the truth and scored once")
     return template().render(case=case, chapters=chapters.all_of(result), verdict=_verdict(result), key_figure=figure,
                              key_tables=(), stages=(), methods=(), limits=chapters.not_proven(result),
                              limits_name="not proven")
@@ -28,32 +28,34 @@ def page(result):
 
 def _verdict(result):
     main = result["methods"]["diagnosis"]["rates"]
-    missed = [name for name, one in main.items() if one["goal"] and not chapters.reached(one)]
+    missed = [name for name, rate in main.items() if rate["goal"] and not chapters.reached(rate)]
     return Verdict(_headline(main), "warning" if missed else "quiet", tuple(_answers(result, missed)),
                    tuple(_facts(result)))
 
 
 def _headline(main):
-    told = []
-    if one := main.get("type and place, one effect"):
-        told.append(f"{one['hits']} of {one['count']} hidden effects named at their place")
-    if one := main.get("false alarms"):
-        told.append(f"{plural(one['hits'], 'false alarm')} in {plural(one['count'], 'control')}")
-    return ", ".join(told) or "No case of this set is scored by name"
+    parts = []
+    if rate := main.get("type and place, one effect"):
+        parts.append(f"{rate['hits']} of {rate['count']} hidden effects correctly named and located")
+    if rate := main.get("false alarms"):
+        parts.append(f"{plural(rate['hits'], 'false alarm')} in {plural(rate['count'], 'control')}")
+    return ", ".join(parts) or "No case of this set contains a single effect"
 
 
 def _answers(result, missed):
     about = result["set"]
     sealed = about["kind"] == "sealed"
-    yield "What was tried", (
-        f"{plural(len(result['cases']), 'case')}, each a nominal model with wrong values and recordings of something"
-        " else; the diagnosis saw these two files only. " + (
-            f"The truth was sealed under the commitment {about['commitment']} before anything was solved." if sealed
-            else "This is an open set: whoever makes the method may look at its truth. It proves nothing by itself."))
+    yield "What was tested", (
+        f"{plural(len(result['cases']), 'case')}, each a deliberately inaccurate nominal model and recordings of a"
+        " different system; the diagnosis was given these two files only. " + (
+            f"The truth was sealed under the commitment {about['commitment']} before any case was solved." if sealed
+            else "This is an open set: its truth is visible to the authors of the method. It proves nothing by"
+                 " itself."))
     for name in _FIRST:
-        if one := result["methods"]["diagnosis"]["rates"].get(name):
-            yield name[0].upper() + name[1:], chapters.in_words(one)
-    yield "Short of its goal", "; ".join(missed) if missed else "No rate."
+        if rate := result["methods"]["diagnosis"]["rates"].get(name):
+            label = chapters.rate_in_words(name)
+            yield label[0].upper() + label[1:], chapters.in_words(rate)
+    yield "Goals missed", "; ".join(map(chapters.rate_in_words, missed)) if missed else "None."
     yield "What it does not prove", chapters.not_proven(result)[0]
 
 
@@ -65,5 +67,5 @@ def _facts(result):
         yield "Code", f"{about['version']}, commit {about['commit'][:10]}"
     yield "Catalogue", plural(len(about.get("catalogue", ())), "effect") if "catalogue" in about else "not recorded"
     yield "Diagnosis", f"{number(cost['total'] / 3600, 3)} CPU hours"
-    wrong = sum("why" in one["answers"]["diagnosis"] for one in result["cases"].values())
-    yield "Cases not right", f"{wrong} of {len(result['cases'])} ({percent(wrong / len(result['cases']), 2)})"
+    wrong = sum("why" in case["answers"]["diagnosis"] for case in result["cases"].values())
+    yield "Cases not correct", f"{wrong} of {len(result['cases'])} ({percent(wrong / len(result['cases']), 2)})"

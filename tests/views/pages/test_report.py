@@ -48,7 +48,7 @@ def test_settings_show_value_origin_and_source(html):
 
 def test_the_load_of_the_pads_is_told_without_friction_and_in_steady_sliding(html):
     """The first patch goes from 560 to 880 N, the last from 240 to 0 N; the largest force without friction is 560 N."""
-    assert "without friction, nominal 2\u202fMPa" in html and "none of 12 patches open. Beside it" in html
+    assert "without friction, nominal 2\u202fMPa" in html and "none of 12 patches open. Right: the same" in html
     assert "steady sliding at 10.25\u202frad/s with friction 0.46" in html and "1 of 12 patches open." in html
     assert "by up to 57\u202f% of the largest force without friction" in html
 
@@ -61,10 +61,10 @@ def test_the_table_shows_every_row_of_the_comparison_with_its_key_and_product_fi
     assert "prints 337.3 Hz" in html
 
 
-def test_the_squeal_chapter_tells_harmonics_from_own_tones():
+def test_the_squeal_chapter_distinguishes_harmonics_from_fundamentals():
     chapter = vibration.squeal(small.squeal(harmonic=True), (), LOOK)
-    assert [row[3] for row in chapter.tables[0].rows] == ["20th harmonic of 0.83\u202fkHz", "own tone"]
-    assert "1 harmonic of a lower tone (0.83\u202fkHz), 1 own tone." in chapter.conclude
+    assert [row[3] for row in chapter.tables[0].rows] == ["20th harmonic of 0.83\u202fkHz", "fundamental"]
+    assert "1 harmonic of a lower fundamental (0.83\u202fkHz), 1 fundamental." in chapter.conclude
     assert "hollow: harmonics" in chapter.figures[0].caption
     assert "None is a harmonic" in vibration.squeal(small.squeal(), (), LOOK).conclude
 
@@ -92,7 +92,7 @@ def test_limits_follow_the_products():
 def test_limits_tell_the_size_of_what_the_interface_leaves_out():
     """Uniform compliance 3.5 um/MPa against an interface of 2 MPa/um; the last grid lowers the area from 3.1 to 3 %."""
     told = "\n".join(limits({"micro_friction": small.micro_friction()}))
-    assert "blocks, 3.5 µm/MPa" in told and "keeps 0.5 µm/MPa at 1\u202fMPa and" in told
+    assert "blocks, 3.5 µm/MPa" in told and "compliance after wear is 0.5 µm/MPa at 1\u202fMPa and" in told
     assert "lowers the real contact area by 3.2\u202f%" in told
 
 

@@ -15,7 +15,7 @@ def words(given):
 def test_squeal_is_told_with_place_level_and_frequency():
     told = verdict(small.products(), (("micro_friction.shear_limit", "13.5 MPa"),))
     assert told.tone == "squeal"
-    assert told.headline == "It squeals at 2 of 9 operating points"
+    assert told.headline == "Squeal at 2 of 9 operating points"
     assert "3\u202fMPa, 12\u202frad/s" in words(told)
     assert "92 dB" in words(told)
     assert "16.6\u202fkHz" in words(told)
@@ -23,9 +23,9 @@ def test_squeal_is_told_with_place_level_and_frequency():
 
 def test_agreement_counts_only_what_was_not_tuned():
     told = words(verdict(small.products(), ()))
-    assert "Of 7 published facts, 5 can be judged" in told
-    assert "4 hold within their tolerance, 3 of them because something was tuned" in told
-    assert "At most 1 can count as evidence" in told
+    assert "Of 7 published facts, 5 are testable" in told
+    assert "4 are met within tolerance, 3 of them because the model was tuned" in told
+    assert "At most 1 are independent evidence" in told
 
 
 def test_a_peak_without_unstable_mode_is_called_forced():
@@ -39,7 +39,7 @@ def test_a_peak_without_unstable_mode_is_called_forced():
 
 def test_a_loudest_peak_that_is_a_harmonic_is_told_as_one():
     told = words(verdict(small.products(squeal=small.squeal(harmonic=True)), ()))
-    assert "It is the 20th harmonic of 0.83\u202fkHz. Among 2 events: 1 harmonic of a lower tone." in told
+    assert "It is the 20th harmonic of 0.83\u202fkHz. Harmonics of a lower fundamental: 1 of 2 events." in told
     assert "harmonic" not in words(verdict(small.products(), ()))
 
 
@@ -55,7 +55,7 @@ def test_a_cycle_without_an_unstable_mode_is_told():
     """Stick-slip: steady sliding is stable, the motion is not quiet. A motion that has not settled is no cycle."""
     stable = {"complex_modes": small.complex_modes(stable=True)}
     told = verdict({**stable, "transient": small.transient()}, ())
-    assert told.headline == "It vibrates at 2.2\u202fkHz although no mode is unstable" and told.tone == "warning"
+    assert told.headline == "Vibration at 2.2\u202fkHz although no mode is unstable" and told.tone == "warning"
     assert verdict({**stable, "transient": small.transient(settled=False)}, ()).headline == "No squeal predicted"
     assert verdict(stable, ()).headline == "No squeal predicted"
 
@@ -77,14 +77,14 @@ def test_a_comparison_with_nothing_is_none():
     none = replace(comparison, **{f.name: getattr(comparison, f.name)[:0] for f in fields(comparison)
                                   if f.metadata.get("dims", ("",))[0] == "row"})
     told = words(verdict(small.products(comparison=none), (("a.b", "1"),)))
-    assert "Nothing published was compared" in told and "published facts" not in told
-    assert "does not say which facts" not in told
+    assert "no published result to compare with" in told and "published facts" not in told
+    assert "does not state on which facts" not in told
 
 
 def test_tuned_settings_without_tuned_facts_are_told():
     comparison = small.comparison()
     untold = replace(comparison, tuned=[""] * len(comparison.row))
     settings = (("micro_friction.shear_limit", "13.5 MPa"),)
-    assert "does not say which facts" in words(verdict(small.products(comparison=untold), settings))
-    assert "does not say which facts" not in words(verdict(small.products(), settings))
+    assert "does not state on which facts" in words(verdict(small.products(comparison=untold), settings))
+    assert "does not state on which facts" not in words(verdict(small.products(), settings))
     assert "Nothing in this case is marked as tuned" in words(verdict(small.products(comparison=untold), ()))

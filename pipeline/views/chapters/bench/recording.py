@@ -6,36 +6,36 @@ from pipeline.views.chapters.chapter import Chapter, Figure, Table
 from pipeline.views.figures.bench import recording as pictures
 from pipeline.views.figures.number_format import percent, plural, quantity
 
-#: runs that are drawn
+#: runs that are plotted
 MOST = 6
 
 
 def chapter(product, look):
     """Chapter of the product Recording."""
-    drawn = [(name, run) for name, run in product.runs.items() if run.channels][:MOST]
-    figures = [Figure(pictures.channels(run, look.dpi), _caption(name, run)) for name, run in drawn]
+    shown = [(name, run) for name, run in product.runs.items() if run.channels][:MOST]
+    figures = [Figure(pictures.channels(run, look.dpi), _caption(name, run)) for name, run in shown]
     rubbed = [name for name, run in product.runs.items() if run.friction]
     if rubbed:
         figures.append(Figure(pictures.friction(product), "Measured friction over the sliding distance, mean over"
                               f" speeds; runs {', '.join(rubbed)}."))
     files = ", ".join(str(line).split(" ")[0] for line in product.source)
     return Chapter("recording", "What the bench recorded", f"{plural(len(product.runs), 'run')} from {files}.",
-                   _noise(product) if drawn else "",
+                   _noise(product) if shown else "",
                    tuple(figures), (*_channels(product), *_others(product)))
 
 
 def _noise(product):
     repeats = sum(bool(str(run.repeat_of)) for run in product.runs.values())
     if not repeats:
-        return "No run repeats another: the noise must come from the signals themselves."
-    return (f"{plural(repeats, 'run')} {'repeats' if repeats == 1 else 'repeat'} another: their difference is the"
-            " noise.")
+        return "No run repeats another: the noise has to be estimated from the signals themselves."
+    return (f"{plural(repeats, 'run')} {'repeats' if repeats == 1 else 'repeat'} another: their difference gives"
+            " the noise.")
 
 
 def _caption(name, run):
-    told = str(run.description)
+    description = str(run.description)
     conditions = ", ".join(f"{key} {_condition(c)}" for key, c in run.conditions.items())
-    return f"Run {name}{': ' + told if told else ''}{' (' + conditions + ')' if conditions else ''}."
+    return f"Run {name}{': ' + description if description else ''}{' (' + conditions + ')' if conditions else ''}."
 
 
 def _condition(condition):
@@ -45,7 +45,7 @@ def _condition(condition):
 
 
 def _channels(product):
-    """The table of sampled signals, where there is any."""
+    """The table of sampled signals, if any."""
     rows = []
     for name, run in product.runs.items():
         for key, channel in run.channels.items():
@@ -59,9 +59,9 @@ def _channels(product):
 
 
 def _others(product):
-    """A table of what is not a sampled signal, where there is any."""
+    """The table of measurements other than sampled signals, if any."""
     kinds = {"frf": "frequency response", "modes": "modes", "lines": "peak list", "topography": "height map",
              "friction": "friction"}
-    rows = tuple((name, key, told) for name, run in product.runs.items() for kind, told in kinds.items()
+    rows = tuple((name, key, label) for name, run in product.runs.items() for kind, label in kinds.items()
                  for key in getattr(run, kind))
     return (Table(("run", "name", "what"), rows, "Other measurements", folded=len(rows) > 12),) if rows else ()

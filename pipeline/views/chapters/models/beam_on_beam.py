@@ -14,22 +14,22 @@ def beams(product, modes, comparison, look):
     printed = (_published(comparison, "coalescence_*_friction"),
                _published(comparison, "coalescence_low", "coalescence_middle", "coalescence_high"))
     figures = [Figure(pictures.frequencies_over_friction(product, modes, printed, look.dpi),
-                      "Modes of sliding over friction (the picture of Figure 3, computed here); grey: complex"
+                      "Frequencies of the sliding modes over friction (compare Figure 3 of the paper); grey: complex"
                       f" modes with damping{_stars(printed[0])}.")]
     if modes is not None:
         frictionless = _published(comparison, "mode_*")
         figures.append(Figure(pictures.complex_plane(modes, frictionless, look.dpi),
-                              "Roots between 2 and 3.5 kHz over friction, with damping (the picture of Figure"
-                              f" 4){_stars(frictionless)}."))
+                              "Roots between 2 and 3.5 kHz over friction, with damping (compare Figure 4 of the"
+                              f" paper){_stars(frictionless)}."))
     onsets = tuple((quantity(f, "Hz"), number(mu, 3)) for f, mu in
                    zip(product.onset_frequency, product.onset_friction, strict=True))
     other = "Timoshenko beams" if str(product.element) == "plane" else "plane elements"
     return Chapter(
-        "beam_on_beam", "Two beams that touch",
+        "beam_on_beam", "Two beams in contact",
         f"Both beams as {product.element} elements, {plural(len(product.mode_frequency), 'mode')} in all. Each"
-        " frequency is a mode of sliding at one friction coefficient; where that curve has a maximum two modes meet.",
-        f"Modes coalesce at {', '.join(f'{f} (friction {mu})' for f, mu in onsets) or 'no friction'}. By {other}:"
-        f" {_others(product)}.", tuple(figures),
+        " frequency is a sliding mode at one friction coefficient; two modes coalesce at a maximum of that curve.",
+        f"Modes coalesce at {', '.join(f'{f} (friction {mu})' for f, mu in onsets) or 'no friction coefficient'}. By"
+        f" {other}: {_others(product)}.", tuple(figures),
         (Table(("frequency", "friction"), onsets, "Coalescences, without damping", (0, 1)),
          Table(("mode", "frequency"), tuple((str(k), quantity(f, "Hz")) for k, f in
                                             enumerate(product.closed_frequency, 1)),
@@ -52,12 +52,12 @@ def _stars(values):
 def _findings(product):
     if len(product.finding):
         rows = tuple(zip(map(str, product.finding), map(str, product.finding_text), strict=True))
-        yield Table(("question", "found"), rows, "What the search for one geometry found", wide=(1,))
+        yield Table(("question", "result"), rows, "Results of the search for one geometry", wide=(1,))
 
 
 def _others(product):
-    found = zip(product.check_onset_frequency, product.check_onset_friction, strict=True)
-    return ", ".join(f"{quantity(f, 'Hz')} ({number(mu, 3)})" for f, mu in found) or "none"
+    onsets = zip(product.check_onset_frequency, product.check_onset_friction, strict=True)
+    return ", ".join(f"{quantity(f, 'Hz')} ({number(mu, 3)})" for f, mu in onsets) or "none"
 
 
 def scatter(product, comparison, look):
@@ -67,18 +67,19 @@ def scatter(product, comparison, look):
     runs = len(product.seed)
     vibrates = product.vibrating_share
     return Chapter(
-        "motion_scatter", "What a chaotic motion keeps",
-        f"The same motion, {plural(runs, 'time')}: formulations, steps and seeds differ. Waveforms cannot be compared;"
-        f" lines, peaks and shares can, as ranges. Energy balances within {percent(product.imbalance.max(), 2)}.",
+        "motion_scatter", "Reproducible features of a chaotic motion",
+        f"{plural(runs, 'run')} of the same motion with different formulations, time steps and seeds. Waveforms cannot"
+        " be compared; spectral lines, peaks and fractions of time can, as ranges. The energy balance closes within"
+        f" {percent(product.imbalance.max(), 2)}.",
         f"Strongest line {span(product.fundamental, 'Hz')}, largest force {span(product.peak_force, 'N')}, largest slip"
-        f" {span(product.peak_slip, 'm/s')}; it vibrates {percent(vibrates.min(), 2)} to {percent(vibrates.max(), 2)}"
-        f" of the time, in bursts of {span(product.burst_length, 's')} between pauses of"
-        f" {span(product.pause_length, 's')}. Between 250 and 650 Hz the highest line lies"
+        f" {span(product.peak_slip, 'm/s')}; the beams vibrate {percent(vibrates.min(), 2)} to"
+        f" {percent(vibrates.max(), 2)} of the time, in bursts of {span(product.burst_length, 's')} between pauses of"
+        f" {span(product.pause_length, 's')}. The highest line between 250 and 650 Hz is"
         f" {number(-np.median(product.low_level), 2)} dB below the strongest (median).",
         (Figure(pictures.scatter(product, printed, look.dpi), "Strongest line, largest force and largest slip of each"
                 f" run{'; dotted: numbers in the text of the paper' if len(printed[1]) else ''}."),
          Figure(pictures.status_shares(product, look.dpi),
-                "Shares of open, sticking and sliding contact in each run; dotted: one tenth.")),
+                "Fractions of time with open, sticking and sliding contact in each run; dotted: one tenth.")),
         (_runs(product),))
 
 
@@ -104,33 +105,33 @@ def geometry(product, look):
     inside = (product.motion >= product.lower) & (product.motion <= product.upper)
     silent = product.damping_low_level < -6.0
     return Chapter(
-        "beam_geometry", "One geometry for everything that is printed",
+        "beam_geometry", "One geometry for all published numbers",
         f"{int(product.evaluations)} geometries were evaluated. The cost is"
-        " the sum of squared distances from the bands of the published numbers: 0 means that all are met."
-        f" Rigid supports reach {number(product.rigid_cost.min(), 3)} on the linear facts, supports that yield"
+        " the sum of squared distances from the tolerance bands of the published numbers: 0 means that all are met."
+        f" Rigid supports reach {number(product.rigid_cost.min(), 3)} on the linear facts, compliant supports"
         f" {number(product.yielding_cost, 3)}, the best geometry {number(product.linear_cost, 3)}, with its motion"
         f" {number(product.cost, 3)}.",
-        f"The best geometry coalesces at {onsets}; in {percent(inside.mean(), 3)} of the judged values its motions lie"
+        f"The best geometry coalesces at {onsets}; {percent(inside.mean(), 3)} of the values of its motions lie"
         f" inside the bands. {_why_unheard(product, silent)}",
         (Figure(pictures.spread(product, look.dpi),
-                "What the linear facts leave open: 5 to 95 % of the geometries that they allow; a wide bar is a"
+                "Parameters left open by the linear facts: 5 to 95 % of the admissible geometries; a wide bar marks a"
                 " parameter that they do not determine."),),
         (_judged(product), _damping(product), _rigid(product)))
 
 
 def _why_unheard(product, silent):
-    """What the sweep of damping says about the unstable mode near 400 Hz."""
+    """Result of the damping sweep for the unstable mode near 400 Hz."""
     grows = product.low_growth > 0
     if np.any(silent & grows):
         k = int(np.flatnonzero(silent & grows)[0])
-        return (f"The mode near 400 Hz is unstable and yet unheard from a damping per mass of"
-                f" {quantity(product.damping[k], '1/s', 3)} on: it grows with"
-                f" {quantity(product.low_growth[k], '1/s', 3)} against"
-                f" {quantity(product.middle_growth[k], '1/s', 3)} of the faster one, whose cycle of sticking and"
-                " lifting takes its place.")
+        return (f"The mode near 400 Hz is unstable but not observed from a damping per mass of"
+                f" {quantity(product.damping[k], '1/s', 3)} on: its growth rate is"
+                f" {quantity(product.low_growth[k], '1/s', 3)}, against"
+                f" {quantity(product.middle_growth[k], '1/s', 3)} of the faster mode, whose stick and lift-off cycle"
+                " suppresses it.")
     if np.any(silent):
-        return "The mode near 400 Hz is unheard only where damping makes it stable."
-    return "The mode near 400 Hz is heard at every damping that was tried."
+        return "The mode near 400 Hz is absent only where damping stabilises it."
+    return "The mode near 400 Hz is observed at every damping value tried."
 
 
 def _judged(product):
@@ -141,7 +142,7 @@ def _judged(product):
         met = np.mean((values >= product.lower[k]) & (values <= product.upper[k]))
         rows.append((str(name).replace("_", " "), " to ".join(ends), span(values, "1"), percent(met, 3)))
     return Table(("quantity (SI, dB)", "band", "ours", "runs inside"), tuple(rows),
-                 "What one geometry can do: its motions against their bands", (1, 2, 3))
+                 "Motions of the best geometry against their bands", (1, 2, 3))
 
 
 def _damping(product):
@@ -152,7 +153,7 @@ def _damping(product):
                 product.damping_fundamental, product.damping_vibrating, strict=True)]
     head = ("damping per mass", "growth near 400 Hz", "growth near 2.8 kHz", "highest low line / dB", "strongest line",
             "vibrates")
-    return Table(head, tuple(rows), "Why the mode near 400 Hz is not heard: growth and motion over damping",
+    return Table(head, tuple(rows), "Mode near 400 Hz: growth and motion over damping",
                  tuple(range(6)))
 
 

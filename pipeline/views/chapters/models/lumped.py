@@ -1,4 +1,4 @@
-"""Chapter: a lumped system, its parts and its loads."""
+"""Chapter: a lumped system, its parts and loads."""
 
 import numpy as np
 
@@ -21,13 +21,13 @@ def chapter(lumped, motion, look):
         _load(lumped),
         (Figure(diagram(lumped), "Boxes: coordinates; black bar: ground. Zigzag: spring; square: damper; thick orange:"
                 " contact or friction joint; red triangles: input, in its direction; grey dots: sensor. Dots mark the"
-                " coordinates that a part meets."),),
+                " coordinates that a part is attached to."),),
         tuple(filter(None, (_joints(lumped), _contacts(lumped), _inputs(lumped), _sensors(lumped, motion)))))
 
 
 def _load(lumped):
     if not lumped.preload.size:
-        return "Nothing touches: without contacts the motion is that of the masses on their springs."
+        return "There are no contacts: the masses move on their springs."
     return f"At rest the contacts carry {span(lumped.preload, 'N')}."
 
 
@@ -50,12 +50,12 @@ def _contacts(lumped):
     rows = tuple((str(name), _combination(lumped, lumped.contact_tangent[i]), opens[i],
                   span(lumped.preload[:, i], "N"), quantity(lumped.contact_stiffness[:, i].max(), "N/m"),
                   quantity(lumped.contact_gap[i], "m")) for i, name in enumerate(lumped.contact_name))
-    head = ("name", "slides along", "opens along", "force at rest", "stiffness (0: hard)", "gap")
+    head = ("name", "slides along", "opens along", "preload", "stiffness (0: hard)", "gap")
     return Table(head, rows, "Contacts", (3, 4, 5)) if rows else None
 
 
 def _inputs(lumped):
-    largest = [quantity(abs(own).max(), "N") if own.size else "\u2014" for own in lumped.input_history.T]
+    largest = [quantity(abs(history).max(), "N") if history.size else "\u2014" for history in lumped.input_history.T]
     rows = tuple((str(name), _combination(lumped, lumped.input_rows[i]), quantity(lumped.input_area[i], "N"),
                   largest[i]) for i, name in enumerate(lumped.input_name))
     head = ("name", "acts along", "constant", "largest over time")
@@ -69,12 +69,12 @@ def _sensors(lumped, motion):
         reads = f"{number(gain, 4)} {unit} per {_SI[kind]}"
         largest = "\u2014" if motion is None else f"{number(abs(gain) * _largest(motion, k, kind), 3)} {unit}"
         rows.append((str(name), _combination(lumped, lumped.sensor_rows[k]), kind, reads, largest))
-    head = ("name", "sees", "quantity", "reads", "largest reading")
+    head = ("name", "measures", "quantity", "sensitivity", "largest reading")
     return Table(head, tuple(rows), "Sensors", (3, 4)) if rows else None
 
 
 def _largest(motion, sensor, kind):
-    """Largest amount of what a sensor measures, SI; displacements count from the start of the motion."""
+    """Largest magnitude of what a sensor measures, SI; displacements are relative to the start of the motion."""
     if kind == "acceleration":
         return abs(np.gradient(motion.velocity[:, sensor].astype(float), motion.time, axis=-1)).max()
     return abs(getattr(motion, kind)[:, sensor]).max()

@@ -13,26 +13,26 @@ def chapter(product, look):
     points = list(dict.fromkeys(extremes(product)))
     figures = tuple(figure for operating in points for figure in _figures(product, operating, look))
     sensors, settled = product.settled.size, int(product.settled.sum())
-    cycle = "No sensor moves in the window." if not product.cycle_amplitude.any() else (
+    cycle = "No sensor signal moves in the window." if not product.cycle_amplitude.any() else (
         f"Velocity amplitudes in the last {quantity(float(product.window), 's', 3)}:"
         f" {span(product.cycle_amplitude, 'm/s')}.")
     return Chapter(
-        "transient", "Motion with contact and friction",
+        "transient", "Transient motion with contact and friction",
         f"{plural(len(product.pressure), 'operating point')}, {quantity(product.time[-1], 's', 3)} each in steps of"
         f" {quantity(float(product.step), 's', 3)}, {plural(product.normal_force.shape[1], 'contact')}. {cycle}"
-        f" Energy balances within {percent(product.imbalance.max(), 2)}.",
+        f" The energy balance closes within {percent(product.imbalance.max(), 2)}.",
         _conclusion(product, sensors, settled), figures, (_cycles(product),))
 
 
 def _conclusion(product, sensors, settled):
     unsettled = sensors - settled
-    told = ("All signals have settled in the window." if not unsettled else
-            f"{unsettled} of {sensors} signals have NOT settled in the window: their amplitudes and frequencies are"
-            " those of a motion on its way, or of one that wanders, not of a limit cycle.")
+    state = ("All signals have settled in the window." if not unsettled else
+            f"{unsettled} of {sensors} signals have NOT settled in the window: their amplitudes and frequencies belong"
+            " to a transient or irregular motion, not to a limit cycle.")
     grew = product.grew > 0
-    growth = (f" Where a small motion grew, it did so with {span(product.growth_rate[grew], '1/s')}." if grew.any()
-              else " No small motion was seen to grow.")
-    return told + growth
+    growth = (f" Small motions grew at rates of {span(product.growth_rate[grew], '1/s')}." if grew.any()
+              else " No growth from small motion was observed.")
+    return state + growth
 
 
 def _figures(product, operating, look):
@@ -72,7 +72,7 @@ def _harmonics(product, operating, sensor):
     """'2.215 kHz; 2f -18 dB, 3f -31 dB' with the harmonics within 60 dB."""
     base, levels = product.cycle_frequency[operating, sensor], product.harmonic_amplitude[operating, sensor]
     if not base > 0 or not levels[0] > 0:
-        return "nothing moves"
+        return "no motion"
     heard = [f"{k}f {number(20 * np.log10(a / levels[0]), 2)} dB" for k, a in enumerate(levels, 1)
              if k > 1 and a > 1e-3 * levels[0]]
     return "; ".join([quantity(base, "Hz"), ", ".join(heard)]) if heard else f"{quantity(base, 'Hz')}, no harmonics"
@@ -84,9 +84,9 @@ def _cycles(product):
         for sensor, name in enumerate(product.sensor_name):
             at = operating, sensor
             growth = (f"{number(product.growth_rate[at], 3)} ± {quantity(product.growth_rate_std[at], '1/s', 2)}"
-                      if product.grew[at] else "none seen")
+                      if product.grew[at] else "none observed")
             rows.append((point(product, operating), name, quantity(product.cycle_frequency[at], "Hz"),
                          quantity(product.cycle_amplitude[at], "m/s", 3), percent(product.cycle_drift[at], 2),
                          "yes" if product.settled[at] else "NO", growth))
-    head = ("operating point", "sensor", "frequency", "velocity amplitude", "drift", "settled", "growth before")
+    head = ("operating point", "sensor", "frequency", "velocity amplitude", "drift", "settled", "initial growth")
     return Table(head, tuple(rows), "Cycles in the window", numeric=(2, 3, 4), folded=len(rows) > 8)

@@ -1,4 +1,4 @@
-"""Pictures of a diagnosis: where the mismatch lies, what explains it, how sure, and what is left."""
+"""Pictures of a diagnosis: location of the mismatch, its explanation, probabilities and residuals."""
 
 import numpy as np
 
@@ -22,7 +22,7 @@ from pipeline.views.figures.style import (
 MODELS = (("nominal", FAINT, ":"), ("recalibrated", ORANGE, "--"), ("completed", BLUE, "-"))
 #: bands of the mismatch map, octaves below half the sampling rate
 OCTAVES = 8
-#: runs of at most so many samples hold features
+#: runs with at most this many samples hold features
 FEATURES = 64
 #: bars of the picture of hypotheses, and panels of that of parameters
 BARS, PANELS = 8, 6
@@ -66,9 +66,9 @@ def by_channel(product, model):
 def mismatch_map(product):
     """SVG: residual over noise of every run in every octave, before (recalibrated) and after (completed)."""
     table_of = mismatch if all(map(sampled, product.runs.values())) else by_channel
-    edges, before = table_of(product, "recalibrated")
-    tables = (("best values of the nominal model", before), ("completed model", table_of(product, "completed")[1]))
-    top = max(2.0, float(np.nanmax(before)))
+    edges, recalibrated = table_of(product, "recalibrated")
+    tables = (("recalibrated nominal model", recalibrated), ("completed model", table_of(product, "completed")[1]))
+    top = max(2.0, float(np.nanmax(recalibrated)))
     with drawing(1.35 + 0.56 * len(product.runs), left=1.1, top=0.3, bar=True) as figure:
         from matplotlib.colors import LogNorm
 
@@ -93,11 +93,12 @@ def points(product, most=6):
     with drawing(0.9 + 1.25 * ((len(runs) + 1) // 2), left=0.6, top=0.5) as figure:
         grid = figure.subplots((len(runs) + 1) // 2, 2, sharey=True, squeeze=False).ravel()
         for axes, (name, run) in zip(grid, runs, strict=False):
-            kept = run.valid[0] > 0
-            at = np.arange(1, kept.sum() + 1)
-            axes.errorbar(at, run.measured[0, kept], run.noise[0], fmt="o", ms=2.5, color=INK, lw=0.8, label="measured")
+            valid = run.valid[0] > 0
+            at = np.arange(1, valid.sum() + 1)
+            axes.errorbar(at, run.measured[0, valid], run.noise[0], fmt="o", ms=2.5, color=INK, lw=0.8,
+                          label="measured")
             for model, colour, line in MODELS[1:]:
-                axes.plot(at, getattr(run, model)[0, kept], line, color=colour, lw=1.2, label=model)
+                axes.plot(at, getattr(run, model)[0, valid], line, color=colour, lw=1.2, label=model)
             axes.set_title(_run_label(name, run).replace("\n", " "), loc="left", fontsize=8.5, pad=2)
         for axes in grid[len(runs):]:
             axes.set_visible(False)
@@ -108,7 +109,7 @@ def points(product, most=6):
 
 
 def stage_place(product):
-    """SVG: probability of each stage of the chain at each place, all hypotheses of the catalogue summed."""
+    """SVG: probability of each stage of the chain at each location, summed over hypotheses."""
     rows = [k for k in range(len(product.hypothesis)) if product.stage[k]]
     stages = list(dict.fromkeys(str(product.stage[k]) for k in rows))
     places = list(dict.fromkeys(str(product.place[k]) for k in rows))
@@ -148,7 +149,7 @@ def hypotheses(product):
 
 
 def parameters(product):
-    """SVG: what the recordings say of each fitted value, beside the value given."""
+    """SVG: density of each fitted value, and the given value."""
     shown = range(min(len(product.parameter), PANELS))
     rows = (len(shown) + 1) // 2
     with drawing(0.45 + 1.25 * rows, left=0.3, top=0.3) as figure:
@@ -163,7 +164,7 @@ def parameters(product):
 
 
 def spectra(product, name, channel):
-    """SVG: spectrum of what each model leaves of one channel of a run, and the noise."""
+    """SVG: residual spectrum of each model in one channel of a run, and the noise."""
     run = product.runs[name]
     unit, size = scale(np.abs(run.measured[channel]).max(), str(product.channel_unit[channel]))
     with drawing(3.5, top=0.58) as figure:
@@ -179,7 +180,7 @@ def spectra(product, name, channel):
 
 
 def trace(product, name, channel):
-    """SVG: an excerpt of one channel about its largest motion: measured and predicted, and below what is left."""
+    """SVG: an excerpt of one channel about its largest motion: measured and predicted, and below the residuals."""
     run = product.runs[name]
     return excerpt(product, name, channel, [(key, getattr(run, key), colour, line) for key, colour, line in MODELS])
 
@@ -196,11 +197,11 @@ def excerpt(product, name, channel, curves, count=400):
         above, below = figure.subplots(2, sharex=True, height_ratios=(3, 2))
         above.plot(time, measured, color=INK, lw=2.6, alpha=0.35, label="measured")
         for label, predicted, colour, line in curves:
-            told = predicted[channel, part] / size
-            above.plot(time, told, color=colour, ls=line, lw=1.2, label=label)
-            below.plot(time, measured - told, color=colour, ls=line, lw=1.0)
+            values = predicted[channel, part] / size
+            above.plot(time, values, color=colour, ls=line, lw=1.2, label=label)
+            below.plot(time, measured - values, color=colour, ls=line, lw=1.0)
         above.set_ylabel(f"{product.channel[channel]} / {unit}")
-        below.set(xlabel="time / s", ylabel=f"left / {unit}")
+        below.set(xlabel="time / s", ylabel=f"residual / {unit}")
         legend(above, 2)
         return svg(figure)
 
@@ -293,6 +294,6 @@ def _smooth(frequency, amplitude, bins=140):
     edges = np.geomspace(frequency[0], frequency[-1] * 1.0001, bins + 1)
     index = np.searchsorted(edges, frequency, side="right") - 1
     count = np.bincount(index, minlength=bins)
-    kept = count > 0
-    mean = np.bincount(index, amplitude**2, bins)[kept] / count[kept]
-    return np.bincount(index, frequency, bins)[kept] / count[kept], np.sqrt(mean)
+    filled = count > 0
+    mean = np.bincount(index, amplitude**2, bins)[filled] / count[filled]
+    return np.bincount(index, frequency, bins)[filled] / count[filled], np.sqrt(mean)

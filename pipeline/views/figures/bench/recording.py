@@ -26,12 +26,12 @@ def friction(product):
     with drawing(top=0.2 + 0.17 * -(-len(tables) // 3)) as figure:
         axes = figure.subplots()
         for k, (name, table) in enumerate(tables):
-            way, place = np.unique(table.distance, return_inverse=True)
-            count = np.bincount(place)
-            mean = np.bincount(place, table.friction) / count
-            error = np.sqrt(np.bincount(place, table.friction_std**2)) / count
-            axes.errorbar(1e3 * way, mean, error, color=COLOURS[k % len(COLOURS)], marker=MARKERS[k % len(MARKERS)],
-                          ms=3, lw=1, label=name)
+            distance, index = np.unique(table.distance, return_inverse=True)
+            count = np.bincount(index)
+            mean = np.bincount(index, table.friction) / count
+            error = np.sqrt(np.bincount(index, table.friction_std**2)) / count
+            axes.errorbar(1e3 * distance, mean, error, color=COLOURS[k % len(COLOURS)],
+                          marker=MARKERS[k % len(MARKERS)], ms=3, lw=1, label=name)
         axes.set(xlabel="sliding distance / mm", ylabel="coefficient of friction")
         legend(axes)
         return svg(figure)

@@ -20,8 +20,8 @@ from pipeline.views.figures.style import (
 )
 
 
-def rates(methods, names):
-    """Dot and 95 % interval of every rate in ``names``, one marker a method; a bar where the goal is."""
+def rates(methods, names, labels):
+    """Dot and 95 % interval of every rate in ``names`` (shown as ``labels``), a marker per method; bars: goals."""
     rows = (len(methods) + 1) // 2 if len(methods) > 1 else 0
     with drawing(0.75 + 0.22 * rows + 0.42 * len(names), left=2.1, top=0.1 + 0.22 * rows) as figure:
         axes = figure.subplots()
@@ -33,8 +33,7 @@ def rates(methods, names):
         for y, name in enumerate(names):
             if first[name]["goal"]:
                 axes.plot([first[name]["goal"][1]] * 2, [y - 0.42, y + 0.42], color=INK, lw=1.6)
-        axes.set_yticks(range(len(names)), [fill(name, 27) for name in names], fontsize=8,
-                        linespacing=1.0)
+        axes.set_yticks(range(len(names)), [fill(label, 27) for label in labels], fontsize=8, linespacing=1.0)
         axes.set(xlim=(-0.02, 1.02), ylim=(len(names) - 0.4, -0.6), xlabel="rate")
         if rows:
             figure.legend(*axes.get_legend_handles_labels(), loc="upper left", ncols=2, borderaxespad=0.2)
@@ -43,14 +42,14 @@ def rates(methods, names):
 
 def _with_intervals(axes, rows, colour, marker, label):
     """Dots at (rate, y) with their intervals along x."""
-    share, bars = _shares([found for _, found in rows])
-    axes.errorbar(share, [y for y, _ in rows], xerr=bars, fmt=marker, color=colour, lw=1.2, capsize=2, label=label)
+    values, bars = _shares([rate for _, rate in rows])
+    axes.errorbar(values, [y for y, _ in rows], xerr=bars, fmt=marker, color=colour, lw=1.2, capsize=2, label=label)
 
 
-def _shares(found):
+def _shares(rates):
     """Shares (n,) of rates, and how far their intervals reach below and above (2, n)."""
-    share, low, high = np.array([[f["hits"] / f["count"], f["low"], f["high"]] for f in found]).reshape(-1, 3).T
-    return share, np.maximum([share - low, high - share], 0)
+    values, low, high = np.array([[f["hits"] / f["count"], f["low"], f["high"]] for f in rates]).reshape(-1, 3).T
+    return values, np.maximum([values - low, high - values], 0)
 
 
 def table(counted, row_label, column_label):
@@ -58,12 +57,12 @@ def table(counted, row_label, column_label):
     columns = sorted({c for row in counted.values() for c in row}, key=lambda c: (-sum(
         row.get(c, 0) for row in counted.values()), c))
     grid = np.array([[row.get(c, 0) for c in columns] for row in counted.values()], float)
-    share = grid / grid.sum(axis=1, keepdims=True)
+    fraction = grid / grid.sum(axis=1, keepdims=True)
     below = 0.5 + 0.06 * max(map(len, columns))
     with drawing(0.1 + below + 0.25 * len(counted), left=2.05, top=0.1) as figure:
         figure.subplots_adjust(bottom=below / figure.get_figheight())
         axes = figure.subplots()
-        axes.imshow(np.where(grid > 0, share, np.nan), aspect="auto", vmin=0, vmax=1, cmap=SEQUENTIAL)
+        axes.imshow(np.where(grid > 0, fraction, np.nan), aspect="auto", vmin=0, vmax=1, cmap=SEQUENTIAL)
         axes.set_xticks(range(len(columns)), [c.replace("_", " ") for c in columns], rotation=60, ha="right",
                         rotation_mode="anchor", fontsize=8)
         axes.set_yticks(range(len(counted)), [r.replace("_", " ") for r in counted], fontsize=8)
@@ -72,52 +71,52 @@ def table(counted, row_label, column_label):
         for (y, x), count in np.ndenumerate(grid):
             if count:
                 axes.text(x, y, f"{count:.0f}", ha="center", va="center", fontsize=8,
-                          color="white" if share[y, x] < 0.6 else INK)
+                          color="white" if fraction[y, x] < 0.6 else INK)
         return svg(figure)
 
 
 def detection(points):
-    """Rate of what is named at its place over the size of its effect, a line for every noise level."""
+    """Fraction correctly named and located over the size of the effect, one line per noise level."""
     with drawing(right=0.3) as figure:
         axes = figure.subplots()
         for k, noise in enumerate(sorted({p["noise"] for p in points})):
             _curve(axes, [p for p in points if p["noise"] == noise], 0.02, k, f"noise {percent(noise, 2)}")
         axes.set_xticks([0.02, 0.05, 0.1, 0.2, 0.4, 1], ["2 %", "5 %", "10 %", "20 %", "40 %", "100 %"])
-        axes.set(xlabel="change of what sensors show", ylabel="named at its place")
+        axes.set(xlabel="change of the sensor signals", ylabel="correctly named and located")
         legend(axes)
         return svg(figure)
 
 
 def visible(points, thresholds):
-    """Rate of what is named at its place over what it leaves beside the nominal values; lines at ``thresholds``."""
+    """Fraction correctly named and located over the residual after refitting; lines at ``thresholds``."""
     with drawing() as figure:
         axes = figure.subplots()
         _curve(axes, points, 1.0, 0, None)
-        for one in thresholds:
-            axes.axvline(one, color=FAINT, lw=1)
+        for threshold in thresholds:
+            axes.axvline(threshold, color=FAINT, lw=1)
         axes.set_xticks([1, 2, 4, 8, 16, 32, 64], ["0", "2", "4", "8", "16", "32", ""])
-        axes.set(xlabel="left beside the nominal values, standard deviations", ylabel="named at its place")
+        axes.set(xlabel="residual after refitting, standard deviations", ylabel="correctly named and located")
         return svg(figure)
 
 
 def _curve(axes, points, first, k, label):
     """Rates with 95 % intervals over bins in the logarithm; the lowest bin begins at ``first``."""
     x = np.sqrt([max(p["low"], first) * p["high"] for p in points]) * 1.04**k
-    share, bars = _shares([p["right"] for p in points])
-    axes.errorbar(x, share, yerr=bars, fmt=MARKERS[k % 6], ls=LINES[k % 6], color=COLOURS[k % 6], lw=1.2, capsize=2,
+    values, bars = _shares([p["right"] for p in points])
+    axes.errorbar(x, values, yerr=bars, fmt=MARKERS[k % 6], ls=LINES[k % 6], color=COLOURS[k % 6], lw=1.2, capsize=2,
                   label=label)
     axes.set(xscale="log", ylim=(-0.03, 1.03))
     axes.minorticks_off()
 
 
 def reliability(bins):
-    """How often what was stated with a probability is so; on the line it would be calibrated."""
+    """Reliability diagram: fraction correct over stated probability; calibrated on the diagonal."""
     with drawing() as figure:
         axes = figure.subplots()
         axes.plot([0, 1], [0, 1], color=FAINT, lw=1)
-        share, bars = _shares([b["so"] for b in bins])
-        axes.errorbar([b["stated"] for b in bins], share, yerr=bars, fmt="o", color=BLUE, capsize=2)
-        axes.set(xlim=(-0.03, 1.03), ylim=(-0.03, 1.03), xlabel="stated probability", ylabel="share that is so")
+        values, bars = _shares([b["so"] for b in bins])
+        axes.errorbar([b["stated"] for b in bins], values, yerr=bars, fmt="o", color=BLUE, capsize=2)
+        axes.set(xlim=(-0.03, 1.03), ylim=(-0.03, 1.03), xlabel="stated probability", ylabel="fraction correct")
         return svg(figure)
 
 
@@ -129,8 +128,8 @@ def held_out(rows):
         axes.plot([0.8, top], [0.8, top], color=FAINT, lw=1)
         axes.axhline(1.2, color=INK, lw=0.9, ls="--")
         for right, colour, marker in ((True, BLUE, "o"), (False, ORANGE, "D")):
-            own = np.array([r[:2] for r in rows if r[2] is right]).reshape(-1, 2)
-            axes.plot(*own.T, marker, color=colour, mfc="none", label="right" if right else "wrong")
+            selected = np.array([r[:2] for r in rows if r[2] is right]).reshape(-1, 2)
+            axes.plot(*selected.T, marker, color=colour, mfc="none", label="correct" if right else "wrong")
         axes.set(xscale="log", yscale="log", xlim=(0.8, top), ylim=(0.8, top), xlabel="recalibrated / noise floor",
                  ylabel="completed / noise floor")
         legend(axes)

@@ -19,14 +19,14 @@ from pipeline.views.figures.style import (
 )
 
 TWO_PI = 2.0 * np.pi
-#: share of the axis of friction that the sweep of the paper spans
+#: upper end of the friction sweep in the paper
 MOST_FRICTION = 0.5
 
 
 def frequencies_over_friction(beams, modes, printed, dpi):
-    """PNG in the manner of Figure 3: modes of sliding over friction; rings where they are unstable (with damping).
+    """PNG in the manner of Figure 3: sliding modes over friction; rings where they are unstable (with damping).
 
-    ``printed`` (friction, frequency in Hz) are the coalescences that the text of the paper names.
+    ``printed`` (friction, frequency in Hz) are the coalescences given in the text of the paper.
     """
     with drawing(4.2, top=0.62) as figure:
         axes = figure.subplots()
@@ -54,7 +54,7 @@ def frequencies_over_friction(beams, modes, printed, dpi):
 def complex_plane(modes, printed, dpi):
     """PNG in the manner of Figure 4: the two roots that meet between 2 and 3.5 kHz, growth over frequency.
 
-    ``printed`` Hz are the two modes without friction that the text of the paper names.
+    ``printed`` Hz are the two modes without friction given in the text of the paper.
     """
     root = modes.root[0]
     start = root[0].imag / TWO_PI
@@ -73,19 +73,19 @@ def complex_plane(modes, printed, dpi):
 
 
 def scatter(product, printed, dpi):
-    """PNG of fundamental, peak force and peak slip of every run: colour and marker tell formulation and step.
+    """PNG of fundamental, peak force and peak slip of every run: colour and marker denote formulation and step.
 
     ``printed`` are the three values (kHz, N, mm/s; each a list, empty where unknown) of the paper's text: dotted.
     """
     kinds = list(dict.fromkeys(zip(product.formulation, product.step, strict=True)))
-    told = ((product.fundamental / 1e3, "line / kHz"), (product.peak_force, "force / N"),
+    quantities = ((product.fundamental / 1e3, "line / kHz"), (product.peak_force, "force / N"),
             (1e3 * product.peak_slip, "slip / mm/s"))
     with drawing(4.6, top=0.75) as figure:
         panels = figure.subplots(3, 1, sharex=True)
         for number, (formulation, step) in enumerate(kinds):
-            own = (product.formulation == formulation) & (product.step == step)
-            for axes, (values, label) in zip(panels, told, strict=True):
-                axes.plot(product.seed[own], values[own], MARKERS[number % 6], color=COLOURS[number % 6],
+            same_kind = (product.formulation == formulation) & (product.step == step)
+            for axes, (values, label) in zip(panels, quantities, strict=True):
+                axes.plot(product.seed[same_kind], values[same_kind], MARKERS[number % 6], color=COLOURS[number % 6],
                           label=f"{formulation}, {1e6 * step:.3g} µs")
                 axes.set(ylabel=label)
         for axes, values in zip(panels, printed, strict=True):
@@ -98,7 +98,7 @@ def scatter(product, printed, dpi):
 
 
 def status_shares(product, dpi):
-    """PNG of the shares of open, sticking and sliding contact in every run."""
+    """PNG of the fractions of time with open, sticking and sliding contact in every run."""
     with drawing(2.8, top=0.4) as figure:
         axes = figure.subplots()
         base = np.zeros(len(product.seed))
@@ -106,7 +106,7 @@ def status_shares(product, dpi):
             axes.bar(np.arange(len(base)), product.status_share[:, kind], bottom=base, color=colour, label=name)
             base = base + product.status_share[:, kind]
         axes.axhline(0.1, color=INK, lw=0.8, ls=LINES[3])
-        axes.set(xlabel="run", ylabel="share of the time", ylim=(0, 1))
+        axes.set(xlabel="run", ylabel="fraction of time", ylim=(0, 1))
         legend(axes)
         return png(figure, dpi)
 
@@ -120,10 +120,10 @@ def spread(geometry, dpi):
                        (*np.quantile(geometry.samples, [0.05, 0.95], axis=0), geometry.best[:len(size)]))
     with drawing(0.9 + 0.3 * len(low), left=1.9) as figure:
         axes = figure.subplots()
-        place = np.arange(len(low))[::-1]
-        axes.hlines(place, low, high, color=GREEN, lw=4)
-        axes.plot(best, place, "D", color=INK, ms=4)
-        axes.set_yticks(place, [f"{name} = {number(value, 3)}" for name, value in
+        rows = np.arange(len(low))[::-1]
+        axes.hlines(rows, low, high, color=GREEN, lw=4)
+        axes.plot(best, rows, "D", color=INK, ms=4)
+        axes.set_yticks(rows, [f"{name} = {number(value, 3)}" for name, value in
                                 zip(geometry.sampled_parameter, geometry.best[:len(size)], strict=True)])
-        axes.set(xlabel="place within the bounds of the search", xlim=(0, 1))
+        axes.set(xlabel="position within the search bounds", xlim=(0, 1))
         return png(figure, dpi)

@@ -48,24 +48,24 @@ def descriptions(law):
         return svg(figure)
 
 
-def length_map(found):
-    """Base of the motion over pin length by kind, own modes of both bodies as lines, the paper's numbers as crosses."""
-    rows = np.array([scan == "length" for scan in found.scan])
-    length, base, settled = 1e3 * found.length[rows], found.base[rows] / 1e3, found.settled[rows] > 0
+def length_map(lock_in):
+    """Base of the motion over pin length by kind, the paper's numbers as crosses."""
+    rows = np.array([scan == "length" for scan in lock_in.scan])
+    length, base, settled = 1e3 * lock_in.length[rows], lock_in.base[rows] / 1e3, lock_in.settled[rows] > 0
     with drawing(height=4.7, top=1.25) as figure:
         axes = figure.add_subplot()
-        grown = np.abs(found.root[rows].imag) / (2e3 * np.pi)
-        axes.plot(length, np.where(found.root[rows].real > 0, grown, np.nan), ".", color=FAINT, ms=4,
+        grown = np.abs(lock_in.root[rows].imag) / (2e3 * np.pi)
+        axes.plot(length, np.where(lock_in.root[rows].real > 0, grown, np.nan), ".", color=FAINT, ms=4,
                   label="fastest growing mode")
         for kind, colour, marker in zip(_KINDS, COLOURS, MARKERS, strict=False):
-            chosen = np.array([k == kind for k in found.kind])[rows]
-            if chosen.any():
-                axes.plot(length[chosen], base[chosen], marker, color=colour, mfc="none", label=kind)
-                steady = chosen & settled
+            of_kind = np.array([k == kind for k in lock_in.kind])[rows]
+            if of_kind.any():
+                axes.plot(length[of_kind], base[of_kind], marker, color=colour, mfc="none", label=kind)
+                steady = of_kind & settled
                 axes.plot(length[steady], base[steady], marker, color=colour)
-        for where, frequency, source in _PAPER:
+        for free_length, frequency, source in _PAPER:
             mark = "+" if source == "measured" else "x"
-            axes.plot(1e3 * where, frequency / 1e3, mark, color="black", ms=9, mew=1.3, zorder=3)
+            axes.plot(1e3 * free_length, frequency / 1e3, mark, color="black", ms=9, mew=1.3, zorder=3)
         for mark, source in (("+", "paper, measured"), ("x", "paper, simulated")):
             axes.plot([], [], mark, color="black", ms=9, mew=1.3, label=source)
         axes.set(xlabel="free length of the pin / mm", ylabel="base frequency / kHz", ylim=(0, None))
@@ -73,18 +73,19 @@ def length_map(found):
         return svg(figure)
 
 
-def case_motion(found, case):
+def case_motion(lock_in, case):
     """Figures 11 to 15: the last milliseconds and the spectra of disc and pin; lines: the paper's numbers."""
     with drawing(height=4.9, top=0.62) as figure:
         above, below = figure.subplots(2, 1)
         for body, (name, colour, line) in enumerate((("disc", BLUE, "-"), ("pin", RED, "--"))):
-            above.plot(1e3 * found.trace_time, 1e3 * found.trace[case, body], color=colour, ls=line, lw=1.0, label=name)
-            below.plot(found.frequency / 1e3, found.spectrum[case, body], color=colour, ls=line, lw=0.8)
-        for where, frequency, source in _PAPER:
-            if abs(where - found.length[case]) < _SAME_LENGTH:
+            above.plot(1e3 * lock_in.trace_time, 1e3 * lock_in.trace[case, body], color=colour, ls=line, lw=1.0,
+                       label=name)
+            below.plot(lock_in.frequency / 1e3, lock_in.spectrum[case, body], color=colour, ls=line, lw=0.8)
+        for free_length, frequency, source in _PAPER:
+            if abs(free_length - lock_in.length[case]) < _SAME_LENGTH:
                 below.axvline(frequency / 1e3, color="black", lw=0.9, ls="-" if source == "measured" else ":", zorder=0)
-        above.set(xlabel="time / ms", ylabel="velocity / mm/s", xlim=1e3 * found.trace_time[[0, -1]])
-        below.set(xlabel="frequency / kHz", ylabel="level / dB", xlim=(0, found.frequency[-1] / 1e3), ylim=(-90, 5))
+        above.set(xlabel="time / ms", ylabel="velocity / mm/s", xlim=1e3 * lock_in.trace_time[[0, -1]])
+        below.set(xlabel="frequency / kHz", ylabel="level / dB", xlim=(0, lock_in.frequency[-1] / 1e3), ylim=(-90, 5))
         legend(above, 2)
         return svg(figure)
 

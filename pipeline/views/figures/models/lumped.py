@@ -16,9 +16,9 @@ def diagram(lumped):
     with drawing(1.25 + 0.34 * len(parts), left=0.3, right=1.45, top=0.55) as figure:
         axes = figure.subplots()
         axes.plot([_GROUND] * 2, [0.4, -len(parts)], color=INK, lw=4)
-        for place, name in enumerate(names):
-            axes.plot([place] * 2, [0, -len(parts)], color=FAINT, lw=0.8, zorder=0)
-            axes.text(place, 0.2, name, ha="center", va="bottom", fontsize=9,
+        for column, name in enumerate(names):
+            axes.plot([column] * 2, [0, -len(parts)], color=FAINT, lw=0.8, zorder=0)
+            axes.text(column, 0.2, name, ha="center", va="bottom", fontsize=9,
                       bbox={"boxstyle": "square,pad=0.3", "fc": "white", "ec": INK})
         for number, (kind, name, row) in enumerate(parts, 1):
             _part(axes, kind, -number + 0.4, row)
@@ -52,6 +52,6 @@ def _part(axes, kind, height, row):
     axes.plot(along, height + wave, color=colour, lw=4 if kind == "contact" else 1.4, solid_capstyle="butt")
     if kind == "damper":
         axes.plot([(begin + end) / 2], [height], "s", color=colour, ms=8, mfc="white")
-    for place in met:
-        marker = {"input": ">" if row[place] > 0 else "<"}.get(kind, "o")
-        axes.plot([place], [height], marker, color=colour, ms=8 if kind == "input" else 5)
+    for column in met:
+        marker = {"input": ">" if row[column] > 0 else "<"}.get(kind, "o")
+        axes.plot([column], [height], marker, color=colour, ms=8 if kind == "input" else 5)

@@ -152,10 +152,10 @@ def speed_over_x(rupture):
         known = rupture.front_speed > 0.0
         axes.plot(1e3 * rupture.x[known], rupture.front_speed[known], ".", color=INK, ms=3)
         highest = 1.2 * float(rupture.dilatational_speed.max())
-        places = _apart([float(speed) for _, speed in waves], _APART * highest)
-        for number, ((name, speed), place) in enumerate(zip(waves, places, strict=True)):
+        heights = _apart([float(speed) for _, speed in waves], _APART * highest)
+        for number, ((name, speed), height) in enumerate(zip(waves, heights, strict=True)):
             axes.axhline(speed, color=COLOURS[number % 6], ls=LINES[number % 6], lw=1.0)
-            axes.annotate(name, (1.01, place), xycoords=("axes fraction", "data"), fontsize=8, va="center",
+            axes.annotate(name, (1.01, height), xycoords=("axes fraction", "data"), fontsize=8, va="center",
                           color=COLOURS[number % 6])
         axes.set(xlabel="x / mm", ylabel="front speed / m/s", ylim=(0, highest))
         return svg(figure)
@@ -163,35 +163,35 @@ def speed_over_x(rupture):
 
 def _apart(values, least):
     """Places near ``values``, in their order, pushed apart until no two are much closer than ``least``."""
-    places = np.array(values)
-    order = np.argsort(places)
+    positions = np.array(values)
+    order = np.argsort(positions)
     for _ in range(_PUSHES):
         for low, high in zip(order, order[1:], strict=False):
-            push = 0.5 * max(least - (places[high] - places[low]), 0.0)
-            places[low], places[high] = places[low] - push, places[high] + push
-    return places
+            push = 0.5 * max(least - (positions[high] - positions[low]), 0.0)
+            positions[low], positions[high] = positions[low] - push, positions[high] + push
+    return positions
 
 
 def phase_diagram(rupture):
     """SVG over the stress ratio: how far both fronts run, how fast, and what becomes of them."""
-    chosen = rupture.study == "stress"
-    order = np.argsort(rupture.study_ratio[chosen])
-    ratio, centre = rupture.study_ratio[chosen][order], 0.5 * (rupture.x[0] + rupture.x[-1])
+    stress_runs = rupture.study == "stress"
+    order = np.argsort(rupture.study_ratio[stress_runs])
+    ratio, centre = rupture.study_ratio[stress_runs][order], 0.5 * (rupture.x[0] + rupture.x[-1])
     with drawing(5.2, top=0.8) as figure:
         figure.subplots_adjust(hspace=0.45)
         above, below = figure.subplots(2, sharex=True)
         for side, name in enumerate(rupture.side):
-            far = 1e3 * np.abs(rupture.study_stop[chosen][order, side] - centre)
-            outcome = rupture.study_outcome[chosen][order, side]
-            speed = rupture.study_speed[chosen][order, side]
-            kind = rupture.study_kind[chosen][order, side]
+            far = 1e3 * np.abs(rupture.study_stop[stress_runs][order, side] - centre)
+            outcome = rupture.study_outcome[stress_runs][order, side]
+            speed = rupture.study_speed[stress_runs][order, side]
+            kind = rupture.study_kind[stress_runs][order, side]
             above.plot(ratio, far, color=_SIDES[side], ls=LINES[side], lw=1.0)
             for mark, wanted in (("x", ("died",)), ("s", ("stopped",)), (">", ("running", "edge"))):
-                here = np.isin(outcome, wanted)
-                above.plot(ratio[here], far[here], mark, color=_SIDES[side], label=f"{name}: {wanted[0]}")
+                selected = np.isin(outcome, wanted)
+                above.plot(ratio[selected], far[selected], mark, color=_SIDES[side], label=f"{name}: {wanted[0]}")
             for fill, wanted in ((_SIDES[side], "pulse"), ("none", "crack")):
-                here = (kind == wanted) & (speed > 0.0)
-                below.plot(ratio[here], speed[here], MARKERS[side], color=_SIDES[side], mfc=fill,
+                selected = (kind == wanted) & (speed > 0.0)
+                below.plot(ratio[selected], speed[selected], MARKERS[side], color=_SIDES[side], mfc=fill,
                            label=f"{name} {wanted}")
         above.set(ylabel="run / mm")
         below.set(xlabel="shear over pressure", ylabel="speed / m/s")
@@ -202,13 +202,13 @@ def phase_diagram(rupture):
 
 def mesh_study(rupture):
     """SVG of speed and pulse width over the spacing, with and without memory of the pressure, per Poisson ratio."""
-    chosen = rupture.study == "mesh"
+    mesh_runs = rupture.study == "mesh"
     with drawing(5.4, top=0.6) as figure:
         panels = figure.subplots(3, sharex=True)
-        groups = sorted(set(zip(rupture.study_poisson[chosen], rupture.study_memory[chosen], strict=True)))
+        groups = sorted(set(zip(rupture.study_poisson[mesh_runs], rupture.study_memory[mesh_runs], strict=True)))
         for number, (poisson, memory) in enumerate(groups):
-            here = chosen & (rupture.study_poisson == poisson) & (rupture.study_memory == memory)
-            order = np.flatnonzero(here)[np.argsort(rupture.study_spacing[here])]
+            selected = mesh_runs & (rupture.study_poisson == poisson) & (rupture.study_memory == memory)
+            order = np.flatnonzero(selected)[np.argsort(rupture.study_spacing[selected])]
             label = f"ν {poisson:g}, " + (f"memory {1e9 * memory:.0f} ns" if memory else "Coulomb")
             look = {"color": COLOURS[number % 6], "ls": LINES[number % 6], "marker": MARKERS[number % 6],
                     "label": label}
@@ -220,7 +220,7 @@ def mesh_study(rupture):
             panels[0].axhline(float(rupture.generalised_rayleigh_speed), color=FAINT, lw=1.0, ls=":")
         for axes, name in zip(panels, ("right / m/s", "left / m/s", "width right / µm"), strict=True):
             axes.set(ylabel=name, xscale="log")
-        ticks = 1e6 * np.unique(rupture.study_spacing[chosen])
+        ticks = 1e6 * np.unique(rupture.study_spacing[mesh_runs])
         panels[2].set_xticks(ticks, [f"{tick:.4g}" for tick in ticks])
         panels[2].set_xticks([], minor=True)
         panels[2].set(xlabel="spacing / µm")

@@ -19,14 +19,14 @@ from pipeline.views.figures.style import (
 
 #: colours of the status 0, 1, 2
 STATUS = (("open", FAINT), ("sticking", BLUE), ("sliding", ORANGE))
-#: periods of the dominant frequency that a close look shows
+#: periods of the dominant frequency in a close-up
 PERIODS = 6
 #: most steps between labels of a short time axis, whose numbers are long
 TICKS = 6
 
 
 def velocities(transient, operating, dpi):
-    """PNG of the velocity of up to four sensors over the whole time; grey: the window that is judged."""
+    """PNG of the velocity of up to four sensors over the whole time; grey: the evaluated window."""
     with drawing(3.4, top=0.55) as figure:
         axes = figure.subplots()
         for sensor, name in enumerate(transient.sensor_name[:4]):
@@ -42,11 +42,11 @@ def velocities(transient, operating, dpi):
 def phase_portrait(transient, operating, sensor, dpi):
     """PNG of velocity over displacement at one sensor, in the window."""
     late = transient.time >= transient.time[-1] - float(transient.window)
-    place = transient.displacement[operating, sensor, late].astype(float)
+    displacement = transient.displacement[operating, sensor, late].astype(float)
     speed = transient.velocity[operating, sensor, late].astype(float)
     with drawing() as figure:
         axes = figure.subplots()
-        axes.plot(1e6 * (place - place.mean()), 1e3 * speed, color=BLUE, lw=0.5)
+        axes.plot(1e6 * (displacement - displacement.mean()), 1e3 * speed, color=BLUE, lw=0.5)
         axes.set(xlabel="displacement about its mean / µm", ylabel="velocity / mm/s")
         return png(figure, dpi)
 
@@ -108,7 +108,7 @@ def spectrum(transient, operating, sensor, dpi):
 def close_look(transient, operating):
     """Slice of the samples of a few periods of the fastest sensor about the largest slip in the window.
 
-    The whole window where nothing moves; a motion that pauses is thus shown where it does not.
+    The whole window if nothing moves; intermittent motion is thus shown during a burst.
     """
     frequency = transient.cycle_frequency[operating].max(initial=0.0)
     time, window = transient.time, float(transient.window)

@@ -33,11 +33,11 @@ def test_the_page_tells_the_errors_and_labels_them(predicted):
     told = chapter(predicted, Look())
     table, = (t for t in told.tables if LABEL in t.title)
     assert table.rows == (("pulses", "30\u202f%", "2\u202f%", "1.4\u202f%"),)
-    assert any("never fitted" in f.caption and "latent force" in f.caption and "Description" in f.caption
+    assert any("Held-out run" in f.caption and "latent force" in f.caption and "A description" in f.caption
                for f in told.figures)
-    assert predicted.latent_use.item() in told.notes and any("because this was asked" in n for n in told.notes)
+    assert predicted.latent_use.item() in told.notes and any("as requested" in n for n in told.notes)
 
 
 def test_without_asking_the_page_says_that_no_prediction_uses_it():
     told = chapter(diagnosis("unknown"), Look())
-    assert any("no prediction uses it" in n for n in told.notes) and not any(LABEL in t.title for t in told.tables)
+    assert any("not used in any prediction" in n for n in told.notes) and not any(LABEL in t.title for t in told.tables)

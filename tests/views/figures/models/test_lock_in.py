@@ -20,7 +20,7 @@ def test_interface_law_tells_friction_and_source():
 
 def test_pin_and_disc_tell_how_the_pin_leans():
     assert "upstream" in chapters.pin_on_disc(small.pin_on_disc(), Look()).see
-    assert "against the motion" in chapters.pin_on_disc(replace(small.pin_on_disc(), tilt=-0.07), Look()).see
+    assert "the tip digs in" in chapters.pin_on_disc(replace(small.pin_on_disc(), tilt=-0.07), Look()).see
     disc, pin = chapters.pin_on_disc(small.pin_on_disc(), Look()).tables
     assert ("3", "2250", "93 %") in disc.rows and pin.rows == (("146.5", "362", "2245"),)
 
