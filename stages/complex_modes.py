@@ -19,7 +19,13 @@ from pipeline.contract import ConfigError, Context, Quantities, Quantity, Sectio
 from pipeline.physics.friction.dry_friction import Friction, constant, falling
 from pipeline.physics.friction.friction_table import FrictionLaw, refuse_beyond
 from pipeline.physics.friction.tangential_law import tangential_law
-from pipeline.physics.modal.quadratic_eigenproblem import follow_roots, quadratic_modes, quadratic_roots, upper_half
+from pipeline.physics.modal.quadratic_eigenproblem import (
+    by_frequency,
+    follow_roots,
+    quadratic_modes,
+    quadratic_roots,
+    upper_half,
+)
 from pipeline.physics.sliding.equilibrium import ClosureResponse, closure_response, falling_with_speed, from_map
 from pipeline.physics.sliding.model import SlidingModel
 from pipeline.physics.stability.constrained_modes import allowed_motions, hard_sliding, is_hard
@@ -260,7 +266,7 @@ def _normalised(shape):
 
 def _lowest(roots, count):
     """The ``count`` smallest."""
-    return roots[np.argsort(abs(roots), kind="stable")[:count]]
+    return roots[by_frequency(roots.real + 1j * abs(roots))[:count]]
 
 
 def _lowest_frequencies(state, count, centrifugal):

@@ -13,6 +13,9 @@ import scipy
 
 from pipeline.contract.errors import ConfigError
 
+#: part of the largest root below which two frequencies differ by rounding alone
+_ROUNDING = 1e-10
+
 
 @dataclass(frozen=True)
 class QuadraticModes:
@@ -28,7 +31,7 @@ def quadratic_roots(mass, damping, stiffness, beside=None):
     """All 2 n roots s (1/s) of det(s^2 M + s C + K) = 0, by rising imaginary part; arguments as ``quadratic_modes``."""
     companion, _ = _companion(mass, damping, stiffness, beside)
     roots = scipy.linalg.eigvals(companion, overwrite_a=True, check_finite=False)
-    return roots[_order(roots)]
+    return roots[by_frequency(roots)]
 
 
 def quadratic_modes(mass, damping, stiffness, left=False, beside=None):
@@ -40,9 +43,22 @@ def quadratic_modes(mass, damping, stiffness, left=False, beside=None):
     """
     companion, factor = _companion(mass, damping, stiffness, beside)
     roots, *vectors = scipy.linalg.eig(companion, left=left, right=True, overwrite_a=True, check_finite=False)
-    order, n = _order(roots), len(mass)
+    order, n = by_frequency(roots), len(mass)
     right = _physical(vectors[-1][:n, order], factor)
     return QuadraticModes(roots[order], right, _physical(vectors[0][n:2 * n, order], factor) if left else None)
+
+
+def by_frequency(roots):
+    """Indices that put complex ``roots`` in order of rising imaginary part, those of one frequency by real part.
+
+    Frequencies that differ by rounding alone are one: no last bit decides which of a growing and a decaying root of
+    the same frequency comes first.
+    """
+    roots = np.asarray(roots)
+    order = np.argsort(roots.imag, kind="stable")
+    apart = np.diff(roots.imag[order]) > _ROUNDING * np.abs(roots).max(initial=0.0)
+    group = np.concatenate(([0], np.cumsum(apart)))[:len(roots)]
+    return order[np.lexsort((roots.real[order], group))]
 
 
 def upper_half(roots, count=None):
@@ -51,9 +67,7 @@ def upper_half(roots, count=None):
     Of real roots, which come in an even number, the half that lies to the right is taken. ``count``: n where others
     stand beside them, of states that settle.
     """
-    roots = np.asarray(roots)
-    half = np.lexsort((roots.real, roots.imag))[len(roots) - (len(roots) // 2 if count is None else count):]
-    return half[np.argsort(roots[half].imag, kind="stable")]
+    return by_frequency(roots)[len(roots) - (len(roots) // 2 if count is None else count):]
 
 
 def follow_roots(roots):
@@ -97,7 +111,3 @@ def _companion(mass, damping, stiffness, beside):
 def _physical(vectors, to_physical):
     size = np.linalg.norm(vectors, axis=0)      # 0 where a state settles that moves nothing
     return to_physical @ (vectors / np.where(size > 0, size, 1.0))
-
-
-def _order(roots):
-    return np.lexsort((roots.real, roots.imag))

@@ -10,6 +10,7 @@ import numpy as np
 
 from pipeline.contract.errors import ConfigError
 from pipeline.physics.friction.dry_friction import constant
+from pipeline.physics.modal.quadratic_eigenproblem import by_frequency
 from pipeline.physics.sliding.model import Joints
 from pipeline.physics.time_stepping.initial_state import steady_start
 from pipeline.physics.virtual_rig.response import MOTIONS, at_begin, run_friction
@@ -29,7 +30,7 @@ def modes(bench, run):
     matrix = small_motion(held, run).matrix()
     values, vectors = _eigen(matrix.tobytes(), len(matrix))
     kept = np.flatnonzero(values.imag > 0)
-    kept = kept[np.argsort(values[kept].imag)]
+    kept = kept[by_frequency(values[kept])]
     root, place = values[kept], vectors[:held.model.size, kept].T
     shown = [root * (place @ held.sensor(c.source, f"channel {c.name}: sensor")) * c.gain * np.exp(-root * c.delay)
              for c in motions(bench)]

@@ -15,6 +15,7 @@ import numpy as np
 
 from pipeline.contract.errors import ConfigError
 from pipeline.physics.friction.state_variables import shapeless
+from pipeline.physics.modal.quadratic_eigenproblem import by_frequency
 from pipeline.physics.sliding.model import spread
 from pipeline.physics.stability.linearisation import (
     Settling,
@@ -55,7 +56,8 @@ def roots(bench, run):
     Each of the k Maxwell branches, F' = k v - F / tau, and states of friction adds one.
     """
     found = np.linalg.eigvals(small_motion(bench, run).matrix())
-    return found[np.lexsort((found.imag, abs(found.imag)))]
+    found = found[np.argsort(found.imag, kind="stable")]
+    return found[by_frequency(found.real + 1j * abs(found.imag))]
 
 
 def linearised(bench, run):

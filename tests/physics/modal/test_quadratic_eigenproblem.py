@@ -5,7 +5,13 @@ import pytest
 
 from pipeline.contract.errors import ConfigError
 from pipeline.physics.closed_form.two_mode_flutter import onset_friction, roots_over_friction
-from pipeline.physics.modal.quadratic_eigenproblem import follow_roots, quadratic_modes, quadratic_roots, upper_half
+from pipeline.physics.modal.quadratic_eigenproblem import (
+    by_frequency,
+    follow_roots,
+    quadratic_modes,
+    quadratic_roots,
+    upper_half,
+)
 from pipeline.physics.stability.linearisation import Settling
 
 
@@ -73,6 +79,14 @@ def test_upper_half_takes_one_root_of_every_pair():
 
 
 @pytest.mark.exact
+@pytest.mark.parametrize("noise", [0.0, 1e-12, -1e-12])
+def test_no_last_bit_decides_the_order_of_roots_of_one_frequency(noise):
+    """A growing and a decaying root of one frequency, whichever of them is higher by rounding."""
+    roots = np.array([135 + 3165j, -135 + (3165 + noise) * 1j, -3 + 100j, 20 + 4000j])
+    np.testing.assert_array_equal(by_frequency(roots), [2, 1, 0, 3])
+    assert by_frequency(np.array([])).size == 0
+
+
 def test_flutter_threshold_of_two_modes():
     k11, k22, k12, k_friction = 1.3e6, 1.0e6, 2.0e5, 1.0e6
     onset = onset_friction(k11, k22, k12, k_friction)
