@@ -98,8 +98,12 @@ def _verdict(fact, value):
 
 
 def _bounds(fact):
-    bounds = (("at least", fact.lower), ("at most", fact.upper))
-    return " and ".join(f"{word} {bound:g}" for word, bound in bounds if bound is not None)
+    """'at least 1', 'at most 0.2', '-0.005 to 0.005' or 'exactly 4'; '' for a fact without bounds."""
+    if not fact.bounded:
+        return ""
+    if None in (fact.lower, fact.upper):
+        return f"at most {fact.upper:g}" if fact.lower is None else f"at least {fact.lower:g}"
+    return f"exactly {fact.lower:g}" if fact.lower == fact.upper else f"{fact.lower:g} to {fact.upper:g}"
 
 
 def _reading(fact, value):

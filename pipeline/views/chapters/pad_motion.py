@@ -44,17 +44,17 @@ def point(product, operating):
 
 
 def rate_in_words(multibody, operating):
-    """'grows with 8 ± 2 1/s', or 'undecided, 3 ± 4 1/s'."""
+    """'8 ± 2 1/s', or '3 ± 4 1/s (sign undecided)'."""
     rate, deviation = multibody.growth_rate[operating], multibody.growth_rate_std[operating]
-    if not multibody.growth_decided[operating]:
-        return f"undecided, {number(rate, 3)} ± {quantity(deviation, '1/s', 2)}"
-    return f"{'grows' if rate > 0 else 'decays'} with {number(abs(rate), 3)} ± {quantity(deviation, '1/s', 2)}"
+    undecided = "" if multibody.growth_decided[operating] else " (sign undecided)"
+    return f"{number(rate, 3)} ± {quantity(deviation, '1/s', 2)}{undecided}"
 
 
 def _motion(multibody, operating, look):
     second = multibody.pad_motion[operating, :, 0, len(multibody.time) // 2:]
     return Figure(pictures.pad_motion(multibody, operating, look.dpi),
-                  f"Pads along sliding at {point(multibody, operating)}: {rate_in_words(multibody, operating)} at"
+                  f"Pad motion along sliding at {point(multibody, operating)}: growth rate"
+                  f" {rate_in_words(multibody, operating)} at"
                   f" {quantity(multibody.oscillation_frequency[operating], 'Hz')};"
                   f" {quantity(np.ptp(second, axis=1).max(), 'm', 3)} peak to peak in the second half.")
 

@@ -159,7 +159,8 @@ def _tuned(products, tuned_settings):
     more = f" ({plural(len(settings), 'setting')} marked tuned; all below)" if settings else ""
     if settings and comparison is not None and not rows:
         more += ". The comparison does not state on which facts, so some of the agreement is not evidence"
-    return f"{'; '.join(shown)}{more}." if shown else "Nothing in this case is marked as tuned."
+    text = "; ".join(shown)
+    return f"{text[:1].upper() if rows else text[:1]}{text[1:]}{more}." if shown else "Nothing in this case is marked as tuned."
 
 
 def _facts(products):
