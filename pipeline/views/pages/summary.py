@@ -159,8 +159,10 @@ def _tuned(products, tuned_settings):
     more = f" ({plural(len(settings), 'setting')} marked tuned; all below)" if settings else ""
     if settings and comparison is not None and not rows:
         more += ". The comparison does not state on which facts, so some of the agreement is not evidence"
+    if not shown:
+        return "Nothing in this case is marked as tuned."
     text = "; ".join(shown)
-    return f"{text[:1].upper() if rows else text[:1]}{text[1:]}{more}." if shown else "Nothing in this case is marked as tuned."
+    return f"{text[:1].upper()}{text[1:]}{more}." if rows else f"{text}{more}."
 
 
 def _facts(products):
