@@ -54,7 +54,7 @@ def squeal(product, published, look):
 def occurrence_caption(product):
     """Where the loudest peak lies and how it compares with the threshold."""
     harmonics = (product.event_order > 1).any()
-    among = " (and how many of them are harmonics of a lower fundamental)" if harmonics else ""
+    among = " (in parentheses: harmonics of a lower fundamental)" if harmonics else ""
     return ("Highest velocity level in the squeal band at each operating point, its frequency and number of events"
             f"{among}."
             f" Framed: squeal. Highest level {number(product.peak_level.max(), 3)} dB; line in the colour bar:"

@@ -52,7 +52,7 @@ def occurrence(squeal, dpi):
     events = np.bincount(squeal.event_operating, minlength=len(level))
     harmonics = np.bincount(squeal.event_operating[squeal.event_order > 1], minlength=len(level))
     texts = [f"{lv:.0f} dB\n{f / 1e3:.2f} kHz\n{plural(n, 'event')}"
-             + (f"\n{plural(h, 'harmonic')}" if h else "")
+             + (f"\n({h} harm.)" if h else "")
              for lv, f, n, h in zip(level, frequency, events, harmonics, strict=True)]
     low, high = min(level.min(), squeal.threshold - 3.0), max(level.max(), squeal.threshold + 3.0)
     with drawing(3.3, bar=True) as figure:
