@@ -15,7 +15,7 @@ def chapter(comparison, look):
                " match; arrows mark values beyond the axis.")
     figures = (Figure(agreement(comparison), caption),) if len(comparable(comparison)) else ()
     return Chapter(
-        "comparison", "Paper against ours",
+        "comparison", "Comparison with the paper",
         f"{len(comparison.row)} published facts, of which {len(judged(comparison))} are testable with this chain.",
         f"Outside tolerance: {'; '.join(outside)}." if outside else "Every testable fact is met within tolerance.",
         figures)

@@ -16,8 +16,8 @@ def micro(product, look):
         f"Both rough solids pressed and slid against each other over {quantity(product.distance[-1], 'm', 3)} at"
         f" {span(product.pressure, 'Pa')} and {span(product.speed, 'm/s')}. The shear stress of a contact spot is"
         f" limited to {quantity(product.shear_limit, 'Pa', 3)}; friction is total shear force over total normal force.",
-        f"Friction lies between {span(product.friction, '1')}; wear flattens the peaks, the real contact area grows,"
-        f" and friction {'rises' if gain > 0 else 'falls'} by {number(abs(gain), 2)} on average. In full slip"
+        f"The coefficient of friction is {span(product.friction, '1')}; wear flattens the peaks, the real contact area"
+        f" grows, and friction {'rises' if gain > 0 else 'falls'} by {number(abs(gain), 2)} on average. In full slip"
         " friction is shear limit times real contact area over pressure: the shear limit sets its level and should be"
         " measured first.",
         (*_spots(product, look, point, new, worn), *_curves(product)))

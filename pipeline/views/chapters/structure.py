@@ -4,7 +4,7 @@ import numpy as np
 
 from pipeline.views.chapters.chapter import Chapter, Figure, Table
 from pipeline.views.figures import mode_shapes, preload
-from pipeline.views.figures.number_format import number, percent, quantity, span
+from pipeline.views.figures.number_format import number, percent, plural, quantity, span
 from pipeline.views.figures.scene import render
 
 COLOURS = "In pictures of modes, orange and purple move in opposite axial directions; white is at rest."
@@ -41,7 +41,7 @@ def _assembly(structure, picture):
 
 def _mode(disc, mode, picture):
     return Figure(picture, f"Disc on its mount, {quantity(disc.frequency[mode], 'Hz')}, mostly"
-                  f" {mode_shapes.diameters(disc, mode)} nodal diameters.", small=True)
+                  f" {plural(int(mode_shapes.diameters(disc, mode)), 'nodal diameter')}.", small=True)
 
 
 def _pads(structure, modes, loads, look):

@@ -23,7 +23,7 @@ def response(product, published, look):
         f" {quantity(product.mode_frequency.max(), 'Hz')} (superposed exactly); forces enter the {product.coupling}."
         f" Spectra at lowest and highest load, resolution"
         f" {quantity(product.frequency[1] - product.frequency[0], 'Hz', 3)}.",
-        f"Effective velocities lie between {span(effective, 'm/s')}. A narrow peak that rises above the forced"
+        f"RMS velocities are {span(effective, 'm/s')}. A narrow peak that rises above the forced"
         " response is a squeal candidate; many peaks of equal height only reflect the modal density of the brake.",
         figures)
 
