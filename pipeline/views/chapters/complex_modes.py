@@ -17,10 +17,10 @@ def chapter(modes, model, published, look):
     """Chapter of the product ComplexModes; ``model`` gives the surface for the shapes, or is None."""
     drawable = model is not None and len(model.visible_face)
     chosen = distinct_unstable(modes, look.shapes) if drawable else []
-    drawn = render([mode_shapes.unstable_mode(model, modes, index) for index in chosen])
+    rendered = render([mode_shapes.unstable_mode(model, modes, index) for index in chosen])
     figures = _maps(modes, published, look)
     figures += tuple(Figure(picture, _shape_caption(modes, index), small=True)
-                     for index, picture in zip(chosen, drawn or (), strict=False))
+                     for index, picture in zip(chosen, rendered or (), strict=False))
     return Chapter(
         "complex_modes", "Stability of steady sliding",
         "Complex modes with sliding friction: a mode with a positive growth rate grows until a nonlinearity"
@@ -28,7 +28,7 @@ def chapter(modes, model, published, look):
         f" {span(modes.pressure, 'Pa')}; {modes.corrections.item()} static friction corrections complete the modal"
         f" basis.{f' {COLOURS}' if drawable else ''}",
         _conclusion(modes), figures, _table(modes),
-        (NO_PICTURES,) if drawn is None else ())
+        (NO_PICTURES,) if rendered is None else ())
 
 
 def onset(modes):

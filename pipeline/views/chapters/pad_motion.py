@@ -69,9 +69,9 @@ def _forces(multibody, operating, look):
 
 def _stability(multibody, operating, look):
     values = multibody.stability[operating]
-    share = percent((values > 0).mean(), 2)
+    unstable = percent((values > 0).mean(), 2)
     return Figure(pictures.stability_map(multibody, operating, look.dpi),
                   f"Stability of the linearised pads over caliper and abutment stiffness at"
                   f" {point(multibody, operating)}: largest growth rates {number(values.min(), 3)} to"
-                  f" {number(values.max(), 3)}{THIN}1/s, {share} of the map unstable (orange). Star: this case;"
+                  f" {number(values.max(), 3)}{THIN}1/s, {unstable} of the map unstable (orange). Star: this case;"
                   " black line: the limit.")

@@ -46,19 +46,19 @@ def _mode(disc, mode, picture):
 
 def _pads(structure, modes, loads, look):
     nominal = quantity(structure.pressure[len(structure.pressure) // 2], "Pa", 3)
-    text = f"Contact pressure on the pads without friction, nominal {nominal}: {_told(structure, loads[0])}."
+    text = f"Contact pressure on the pads without friction, nominal {nominal}: {_load_in_words(structure, loads[0])}."
     if modes is not None:
         point = preload.sliding_point(modes, structure.pressure[len(structure.pressure) // 2])
         moved = abs(loads[1].force - loads[0].force).max() / loads[0].force.max()
         text += (f" Right: the same brake in steady sliding at {quantity(modes.operating_speed[point], 'rad/s')}"
                  f" with friction {number(modes.operating_friction[point], 2)} from the map, the state whose stability"
-                 f" is computed: {_told(structure, loads[1])}. Friction tilts the pads; it changes the force on a patch"
-                 f" by up to {percent(moved, 2)} of the largest force without friction.")
+                 f" is computed: {_load_in_words(structure, loads[1])}. Friction tilts the pads; it changes the force"
+                 f" on a patch by up to {percent(moved, 2)} of the largest force without friction.")
     return Figure(preload.contact_pressure(structure, loads, look.dpi),
                   f"{text} Seen from the pad, the disc moves to the right; crosses: patches off the disc (open).")
 
 
-def _told(structure, load):
+def _load_in_words(structure, load):
     """Range of pressure and resultant of each pad, and how many patches are open."""
     parts = []
     for pad in np.unique(structure.contact_body):

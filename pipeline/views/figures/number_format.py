@@ -63,9 +63,9 @@ def span(values, unit, digits=3):
     return text if name == "1" else f"{text}{THIN}{name}"
 
 
-def percent(share, digits=3):
+def percent(fraction, digits=3):
     """'4.9 %' for 0.049."""
-    return f"{number(100.0 * float(share), digits)}{THIN}%"
+    return f"{number(100.0 * float(fraction), digits)}{THIN}%"
 
 
 def ordinal(order):

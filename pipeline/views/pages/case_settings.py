@@ -5,7 +5,7 @@ from pathlib import Path
 
 from pipeline.views.figures.number_format import quantity
 
-#: origins that a reader should doubt first
+#: origins to be questioned first
 SOFT = ("tuned", "assumed", "inferred")
 
 
@@ -21,10 +21,10 @@ def stages(case):
 
 def methods(case):
     """(stage, sentence) with every {setting} of the sentence in its convenient unit."""
-    return tuple((stage, _told(case, stage, sentence)) for stage, sentence in case.methods.items())
+    return tuple((stage, _filled_in(case, stage, sentence)) for stage, sentence in case.methods.items())
 
 
-def _told(case, stage, sentence):
+def _filled_in(case, stage, sentence):
     settings, units = case.settings.get(stage, {}), case.units.get(stage, {})
     return sentence.format(**{key: written(value, units.get(key, "")) for key, value in settings.items()})
 
@@ -52,7 +52,7 @@ def written(value, unit):
 
 
 def _row(case, stage, key, value):
-    said = case.origins.get(stage, {}).get(key, {})
+    origin = case.origins.get(stage, {}).get(key, {})
     return {"key": key, "meaning": case.meanings.get(stage, {}).get(key, ""),
-            "value": written(value, case.units.get(stage, {}).get(key, "")), "origin": said.get("origin", "default"),
-            "source": "; ".join(filter(None, (said.get("source", ""), said.get("doubt", ""))))}
+            "value": written(value, case.units.get(stage, {}).get(key, "")), "origin": origin.get("origin", "default"),
+            "source": "; ".join(filter(None, (origin.get("source", ""), origin.get("doubt", ""))))}

@@ -147,8 +147,8 @@ def _judged(product):
 
 def _damping(product):
     rows = [(quantity(d, "1/s", 3), quantity(low, "1/s", 3), quantity(middle, "1/s", 3), number(level, 3),
-             quantity(line, "Hz"), percent(share, 2))
-            for d, low, middle, level, line, share in
+             quantity(line, "Hz"), percent(vibrating, 2))
+            for d, low, middle, level, line, vibrating in
             zip(product.damping, product.low_growth, product.middle_growth, product.damping_low_level,
                 product.damping_fundamental, product.damping_vibrating, strict=True)]
     head = ("damping per mass", "growth near 400 Hz", "growth near 2.8 kHz", "highest low line / dB", "strongest line",

@@ -45,11 +45,11 @@ def _figures(product, operating, look):
                      f"Phase portrait of sensor {name} in the window, {where}.")
         yield _spectrum(product, operating, sensor, look)
     if product.normal_force.shape[1]:
-        share = product.status_share[operating].mean(axis=0)
+        fractions = product.status_share[operating].mean(axis=0)
         yield Figure(pictures.status_band(product, operating, look.dpi),
                      f"Status of the contacts at {where} about the largest slip; over the whole motion open"
-                     f" {percent(share[0], 2)}, sticking {percent(share[1], 2)}, sliding {percent(share[2], 2)} of the"
-                     " time.")
+                     f" {percent(fractions[0], 2)}, sticking {percent(fractions[1], 2)}, sliding"
+                     f" {percent(fractions[2], 2)} of the time.")
         force = product.normal_force[operating, 0]
         yield Figure(pictures.force_and_slip(product, operating, 0, look.dpi),
                      f"Forces and slip of contact 1 at {where} about the largest slip; normal force"
