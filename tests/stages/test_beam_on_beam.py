@@ -77,4 +77,4 @@ def test_rows_of_the_comparison(modes):
     assert rows["coalescence_count"].value == 3 and rows["unstable_at_friction"].value == 2
     assert rows["coalescence_high_friction"].value == beams().onset_friction[2]
     far = beam_on_beam_rows({"beam_on_beam": beams()}, (), {**known, "coalescence_low": 40.0})
-    assert far["coalescence_low"].value is None and "none" in far["coalescence_low"].note
+    assert far["coalescence_low"].value is None and "no modes coalesce" in far["coalescence_low"].note
