@@ -16,6 +16,8 @@ from pipeline.contract.errors import ConfigError
 
 #: share of the largest eigenvalue below which a negative one is rounding
 _ROUNDING = 1e-9
+#: sums over modes may be reordered to use the width of the processor; nothing else is relaxed
+_REORDERED = {"reassoc", "contract", "nsz"}
 
 
 @dataclass(frozen=True)
@@ -76,10 +78,11 @@ def modal_response(angular_frequency, damping, time_step, forces, force_points, 
     linear between the angles of the table.
     """
     matrices = step_matrices(angular_frequency, damping, time_step)
+    coefficients = np.ascontiguousarray(matrices.transpose(1, 2, 0)).reshape(8, -1)
     forces = np.ascontiguousarray(forces, dtype=float)
     shape = len(forces), len(sensor_points.circle)
     displacement, velocity = np.zeros(shape), np.zeros(shape)
-    _march(matrices, forces, _rows(force_points), _rows(sensor_points), -turning * time_step, displacement, velocity)
+    _march(coefficients, forces, _rows(force_points), _rows(sensor_points), -turning * time_step, displacement, velocity)
     return displacement, velocity
 
 
@@ -121,20 +124,28 @@ def _rows(points):
 
 
 @njit(cache=True)
-def _march(matrices, forces, force_points, sensor_points, turn, displacement, velocity):
-    """Fill displacement and velocity; ``turn`` is the angle of the points per step."""
-    modes = len(matrices)
+def _march(coefficients, forces, force_points, sensor_points, turn, displacement, velocity):
+    """Fill displacement and velocity; ``coefficients`` (8, mode), ``turn`` is the angle of the points per step."""
+    modes = coefficients.shape[1]
     position, speed = np.zeros(modes), np.zeros(modes)
     now, following = np.zeros(modes), np.zeros(modes)
     _modal_force(forces[0], force_points, 0.0, now)
     for k in range(1, len(forces)):
         _modal_force(forces[k], force_points, k * turn, following)
-        for m in range(modes):
-            a, q, v = matrices[m], position[m], speed[m]
-            position[m] = a[0, 0] * q + a[0, 1] * v + a[0, 2] * now[m] + a[0, 3] * following[m]
-            speed[m] = a[1, 0] * q + a[1, 1] * v + a[1, 2] * now[m] + a[1, 3] * following[m]
+        _step(coefficients, position, speed, now, following)
         now, following = following, now
         _observe(position, speed, sensor_points, k * turn, displacement[k], velocity[k])
+
+
+@njit(cache=True)
+def _step(coefficients, position, speed, now, following):
+    """One array for each coefficient: the loop over the modes then uses the width of the processor."""
+    qq, qv, qf, qg = coefficients[0], coefficients[1], coefficients[2], coefficients[3]
+    vq, vv, vf, vg = coefficients[4], coefficients[5], coefficients[6], coefficients[7]
+    for m in range(len(position)):
+        q, v = position[m], speed[m]
+        position[m] = qq[m] * q + qv[m] * v + qf[m] * now[m] + qg[m] * following[m]
+        speed[m] = vq[m] * q + vv[m] * v + vf[m] * now[m] + vg[m] * following[m]
 
 
 @njit(cache=True)
@@ -145,11 +156,15 @@ def _modal_force(force, points, turned, modal):
         first, second, share = _between(row[i], turned, table.shape[1])
         near, far = table[circle[i], first], table[circle[i], second]
         a, b = force[i] * (1.0 - share), force[i] * share
-        for m in range(len(modal)):
-            modal[m] += a * near[m] + b * far[m]
+        if share == 0.0:
+            for m in range(len(modal)):
+                modal[m] += a * near[m]
+        else:
+            for m in range(len(modal)):
+                modal[m] += a * near[m] + b * far[m]
 
 
-@njit(cache=True)
+@njit(cache=True, fastmath=_REORDERED)
 def _observe(position, speed, points, turned, displacement, velocity):
     table, circle, row = points
     for s in range(len(displacement)):
@@ -157,9 +172,9 @@ def _observe(position, speed, points, turned, displacement, velocity):
         near, far = table[circle[s], first], table[circle[s], second]
         moved, fast = 0.0, 0.0
         for m in range(len(position)):
-            seen = (1.0 - share) * near[m] + share * far[m]
-            moved += seen * position[m]
-            fast += seen * speed[m]
+            participation = (1.0 - share) * near[m] + share * far[m]
+            moved += participation * position[m]
+            fast += participation * speed[m]
         displacement[s], velocity[s] = moved, fast
 
 
