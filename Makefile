@@ -42,7 +42,7 @@ test-slow: $(READY)  ## the slow studies: full cases, kill-and-resume in every s
 test-study: $(READY)  ## the long diagnoses: every case of its kind, samples of the studies
 	$(BIN)/python -m pytest -q -m study $(ARGS) $(TESTS)
 
-bench: $(READY)  ## benchmarks: seconds and memory of every stage and kernel (the stage: brakechain bench CONFIG)
+bench: $(READY)  ## benchmarks: wall and CPU seconds of kernels, peers, stages and diagnoses; ARGS="--compare COMMIT" sets an earlier run beside them
 	$(BIN)/python -m tests.benchmarks $(ARGS)
 
 trial: $(READY)  ## the open practice trial: made, solved and scored in at most half an hour on two cores; resumes

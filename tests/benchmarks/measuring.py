@@ -1,0 +1,43 @@
+"""Wall and CPU seconds of repeated calls."""
+
+import os
+import statistics
+import time
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class Timing:
+    """Wall and CPU seconds of calls, which count child processes.
+
+    ``first``: CPU seconds of the call before them, which compiles where nothing is cached.
+    """
+
+    first: float
+    wall: tuple
+    cpu: tuple
+
+    @property
+    def median(self):
+        """Median wall and CPU seconds of a call."""
+        return statistics.median(self.wall), statistics.median(self.cpu)
+
+
+def timed(call):
+    """(wall seconds, CPU seconds) of one call."""
+    wall, cpu = time.perf_counter(), cpu_seconds()
+    call()
+    return time.perf_counter() - wall, cpu_seconds() - cpu
+
+
+def measured(call, runs):
+    """Timing of one first call and ``runs`` more."""
+    _, first = timed(call)
+    wall, cpu = zip(*(timed(call) for _ in range(runs)), strict=True)
+    return Timing(first, wall, cpu)
+
+
+def cpu_seconds():
+    """CPU seconds of this process and of the children that it has waited for."""
+    children = os.times()
+    return time.process_time() + children.children_user + children.children_system
