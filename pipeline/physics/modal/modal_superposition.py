@@ -82,7 +82,8 @@ def modal_response(angular_frequency, damping, time_step, forces, force_points, 
     forces = np.ascontiguousarray(forces, dtype=float)
     shape = len(forces), len(sensor_points.circle)
     displacement, velocity = np.zeros(shape), np.zeros(shape)
-    _march(coefficients, forces, _rows(force_points), _rows(sensor_points), -turning * time_step, displacement, velocity)
+    _march(coefficients, forces, _rows(force_points), _rows(sensor_points), -turning * time_step, displacement,
+           velocity)
     return displacement, velocity
 
 
