@@ -32,5 +32,5 @@ def test_friction_of_the_interface_moves_the_block(counted):
 
 def test_the_chapter_sets_the_claims_beside_the_counts(counted):
     made = chapter(counted, Look())
-    assert len(made.tables[0].rows) == 12 and "Nearest to the curve of one contact: evolution" in made.conclude
+    assert len(made.tables[0].rows) == 12 and "Closest to the curve of a single contact: evolution" in made.conclude
     assert "Steady sliding differs by" in made.conclude and "loses contact by" in made.conclude
