@@ -1,12 +1,16 @@
 """The page of a trial: every rate beside its interval, every failure with its reason, what is not proven."""
 
+import json
 import re
+from pathlib import Path
 
 import pytest
 
 from pipeline.views.chapters.bench import trial as chapters
 from pipeline.views.pages.trial import page
 from tests.views.trial_for_views import ABOUT, drawn
+
+PUBLISHED = sorted(Path(__file__).parents[2].glob("data/trial/*/result.json"))
 
 
 @pytest.fixture(scope="module")
@@ -69,3 +73,9 @@ def test_a_set_with_little_in_it_and_nothing_sealed_still_has_a_page():
                                              (["interval around", 0.2], 5, False)])
 def test_goals_are_reached_from_their_side(goal, share, so):
     assert chapters.reached({"goal": goal, "hits": share, "count": 10, "low": 0.24, "high": 0.76}) is so
+
+
+def test_every_rate_of_a_published_result_is_shown_in_words():
+    """But for the two whose names in the record are plain words already."""
+    names = {name for path in PUBLISHED for name in json.loads(path.read_text())["methods"]["diagnosis"]["rates"]}
+    assert {name for name in names if chapters.rate_in_words(name) == name} == {"false alarms", "refused"}
