@@ -71,7 +71,9 @@ class Refitted(Explained):
             rows, before = np.vstack((self._rows(directions, noise, colour), others)), r @ r + u @ u
             if before < enough**2:
                 break
-            moved = self._nearer(u, self._step(rows, r, u), before, change, noise, colour, others) or (u, r, seen)
+            asked = change, noise, colour, others
+            moved = (self._nearer(u, self._step(rows, r, u), before, *asked)
+                     or self._corrected(rows, u, self._step(rows, r, u), before, *asked) or (u, r, seen))
             way, shift = (moved[0] - u)[:self.size], moved[2] - seen
             u, r, seen = moved
             gained = before - r @ r - u @ u
@@ -91,6 +93,19 @@ class Refitted(Explained):
             r, seen = self._residual(u + share * step, *asked)
             if r @ r + (u + share * step) @ (u + share * step) < before:
                 return u + share * step, r, seen
+        return None
+
+    def _corrected(self, rows, u, step, before, *asked):
+        """The same where shares of a straight step leave a valley that bends: each is led back by a further step."""
+        for share in _SHARES:
+            moved = u + share * step
+            r, _ = self._residual(moved, *asked)
+            if not np.isfinite(r).all():
+                continue
+            moved = moved + self._step(rows, r, moved)
+            r, seen = self._residual(moved, *asked)
+            if r @ r + moved @ moved < before:
+                return moved, r, seen
         return None
 
     def _updated(self, directions, way, change):

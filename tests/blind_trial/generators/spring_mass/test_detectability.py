@@ -102,3 +102,17 @@ def test_a_value_towards_which_the_model_cannot_stays_as_it_is(lost, left):
 
     found = Refitted(model, 2, costly=True)
     assert found.left(np.ones((1, 1, 9)), [1.0]) == left
+
+
+def test_a_fit_goes_on_along_a_valley_that_bends():
+    """d^2 = K^2 (v - u^2)^2 + u^2 + v^2 from (1.5, 1.5^2): every share of a straight step leaves the parabola."""
+    steep = 3e4
+    fit = Refitted(lambda u: np.array([[[steep * (u[1] - u[0] ** 2)]]]), 2)
+    asked = np.zeros((1, 1, 1)), np.ones(1), 0.0, np.zeros((0, 1))
+    u = np.array([1.5, 1.5**2])
+    r, shown = fit._residual(u, *asked)
+    rows, before = fit._rows(fit._slopes(u, shown), *asked[1:3]), r @ r + u @ u
+    step = fit._step(rows, r, u)
+    assert fit._nearer(u, step, before, *asked) is None
+    moved, r, _ = fit._corrected(rows, u, step, before, *asked)
+    assert r @ r + moved @ moved < before and moved[1] == pytest.approx(moved[0] ** 2, abs=0.01)
