@@ -46,9 +46,9 @@ def test_what_is_known_is_told_apart_from_what_may_be(kind, rows, said, kinds):
 
 def test_only_rules_that_were_applied_are_told():
     found = diagnosis(reason=["2 operating point(s): whether values agree across them was not tested"])
-    assert "held-out gain, bounds" in dict(note(found))["How sure"]
+    assert "held-out gain, bounds" in dict(note(found))["How certain"]
     fitted = {name: changed(run, held_out=0) for name, run in diagnosis().runs.items()}
-    assert "false alarms, agreement over runs, bounds" in dict(note(changed(diagnosis(), runs=fitted)))["How sure"]
+    assert "false alarms, agreement over runs, bounds" in dict(note(changed(diagnosis(), runs=fitted)))["How certain"]
 
 
 def test_values_that_moved_together_name_the_one_that_moved_most():
@@ -59,9 +59,9 @@ def test_values_that_moved_together_name_the_one_that_moved_most():
 def test_the_note_answers_what_a_colleague_would_ask():
     told = dict(note(diagnosis()))
     assert "held-out runs the error of the nominal model is 60\u202f%" in told["What differs"]
-    assert "at guide; amplitudes 1 to 5\u202fmm" in told["Where"]
+    assert "lies at guide, at amplitudes 1 to 5\u202fmm" in told["Where"]
     assert told["What is missing"] == "Coulomb at guide: force 20.4 ± 0.3\u202fN."
-    assert "0.0005" in told["How sure"] or "10" in told["How sure"]
+    assert "0.0005" in told["How certain"] or "10" in told["How certain"]
     assert "within 1.5\u202f%" in told["What it changes"] and "1\u202f% of the excess" in told["What it changes"]
     assert "level = 8 N" in told["Measure next"] and "quadratic damping at arm" in told["Measure next"]
 

@@ -36,7 +36,7 @@ def headline(product):
 def note(product):
     """(question, answer) pairs that the first screen shows."""
     return (("What differs", _differs(product)), ("Where", _where(product)), ("What is missing", _missing(product)),
-            ("How sure", _how_sure(product)), ("What it changes", _changes(product)),
+            ("How certain", _how_certain(product)), ("What it changes", _changes(product)),
             ("Measure next", _next(product)))
 
 
@@ -101,15 +101,15 @@ def _differs(product):
 
 def _where(product):
     parts = []
-    for axis, phrase in (("stage", "stage {}"), ("substitution", "stage {}, by substituting measurements for it"),
-                      ("place", "at {}"), ("run", "most in run {}"), ("band", "in {}"),
-                      ("amplitude", "amplitudes {}"), ("velocity", "velocities {}"), ("time", "times {}")):
+    for axis, phrase in (("stage", "in stage {}"), ("substitution", "in stage {} (by substituting measurements)"),
+                      ("place", "at {}"), ("run", "mainly in run {}"), ("band", "in {}"),
+                      ("amplitude", "at amplitudes {}"), ("velocity", "at velocities {}"), ("time", "at times {}")):
         located = product.location.get(axis)
         if located is not None and (located.p_value[located.member > 0] <= 0.05).any():
             parts.append(phrase.format(_items(located)))
     if not parts:
         return "No stage, location, run or band is significant above the noise."
-    return f"The mismatch lies in {'; '.join(parts)} (95 % confidence sets, each significant family-wise)."
+    return f"The mismatch lies {', '.join(parts)} (95 % confidence sets, each significant family-wise)."
 
 
 def _items(axis):
@@ -159,7 +159,7 @@ def _distance(product, k):
     return abs(product.parameter_value[k] - product.parameter_nominal[k]) / std if std > 0 else 0.0
 
 
-def _how_sure(product):
+def _how_certain(product):
     if product.verdict.item() not in ("missing", "sensor", "numerics"):
         return " ".join(_sentence(r) for r in product.reason)
     first = product.named[0]
