@@ -73,7 +73,7 @@ class Refitted(Explained):
                 break
             asked = change, noise, colour, others
             moved = (self._nearer(u, self._step(rows, r, u), before, *asked)
-                     or self._corrected(rows, u, self._step(rows, r, u), before, *asked) or (u, r, seen))
+                     or self._corrected(rows, u, r, self._step(rows, r, u), before, *asked) or (u, r, seen))
             way, shift = (moved[0] - u)[:self.size], moved[2] - seen
             u, r, seen = moved
             gained = before - r @ r - u @ u
@@ -95,17 +95,17 @@ class Refitted(Explained):
                 return u + share * step, r, seen
         return None
 
-    def _corrected(self, rows, u, step, before, *asked):
-        """The same where shares of a straight step leave a valley that bends: each is led back by a further step."""
+    def _corrected(self, rows, u, r, step, before, *asked):
+        """The same where shares of a straight step leave a valley that bends: what was not foreseen is taken back."""
         for share in _SHARES:
             moved = u + share * step
-            r, _ = self._residual(moved, *asked)
-            if not np.isfinite(r).all():
+            unforeseen = self._residual(moved, *asked)[0] - r + share * step @ rows
+            if not np.isfinite(unforeseen).all():
                 continue
-            moved = moved + self._step(rows, r, moved)
-            r, seen = self._residual(moved, *asked)
-            if r @ r + moved @ moved < before:
-                return moved, r, seen
+            moved = moved + np.linalg.solve(np.eye(len(u)) + rows @ rows.T, rows @ unforeseen)
+            left, seen = self._residual(moved, *asked)
+            if left @ left + moved @ moved < before:
+                return moved, left, seen
         return None
 
     def _updated(self, directions, way, change):

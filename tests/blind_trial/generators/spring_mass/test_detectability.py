@@ -114,5 +114,5 @@ def test_a_fit_goes_on_along_a_valley_that_bends():
     rows, before = fit._rows(fit._slopes(u, shown), *asked[1:3]), r @ r + u @ u
     step = fit._step(rows, r, u)
     assert fit._nearer(u, step, before, *asked) is None
-    moved, r, _ = fit._corrected(rows, u, step, before, *asked)
+    moved, r, _ = fit._corrected(rows, u, r, step, before, *asked)
     assert r @ r + moved @ moved < before and moved[1] == pytest.approx(moved[0] ** 2, abs=0.01)
