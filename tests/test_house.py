@@ -48,6 +48,8 @@ MAY_IMPORT = {
                                       "pipeline.blind_trial.generators.systems", "pipeline.effects",
                                       "pipeline.inference.decision.decision_rules", "pipeline.contract",
                                       "pipeline.environment"},
+    "pipeline.views.chapters.bench.trial": {"pipeline.views", "pipeline.blind_trial.metrics.wording"},
+    "pipeline.views.pages.trial": {"pipeline.views", "pipeline.contract", "pipeline.blind_trial.metrics.wording"},
     "pipeline.views": {"pipeline.views", "pipeline.products", "pipeline.contract"},
     "stages": {"pipeline.contract", "pipeline.products", "pipeline.physics", "pipeline.systems", "pipeline.validation",
                "pipeline.views", "pipeline.recordings", "pipeline.case_models", "pipeline.diagnosis",

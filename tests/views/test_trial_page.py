@@ -6,6 +6,7 @@ from pathlib import Path
 
 import pytest
 
+from pipeline.blind_trial.metrics.wording import rate_in_words
 from pipeline.views.chapters.bench import trial as chapters
 from pipeline.views.pages.trial import page
 from tests.views.trial_for_views import ABOUT, drawn
@@ -34,7 +35,7 @@ def test_the_first_screen_says_what_was_reached_missed_and_not_proven(result, ht
     assert f"false alarm in {alarms['count']} controls" in first and ABOUT["commitment"] in first
     assert "No recording of a real squealing brake was available" in first
     missed = [n for n, r in result["methods"]["diagnosis"]["rates"].items() if r["goal"] and not chapters.reached(r)]
-    assert missed and all(chapters.rate_in_words(name) in first for name in missed)
+    assert missed and all(rate_in_words(name) in first for name in missed)
 
 
 def test_every_case_that_is_wrong_has_its_page_with_the_reason_and_no_other_has(result, html):
@@ -78,4 +79,4 @@ def test_goals_are_reached_from_their_side(goal, share, so):
 def test_every_rate_of_a_published_result_is_shown_in_words():
     """But for the two whose names in the record are plain words already."""
     names = {name for path in PUBLISHED for name in json.loads(path.read_text())["methods"]["diagnosis"]["rates"]}
-    assert {name for name in names if chapters.rate_in_words(name) == name} == {"false alarms", "refused"}
+    assert {name for name in names if rate_in_words(name) == name} == {"false alarms", "refused"}

@@ -1,29 +1,23 @@
 """Rates of a trial with their intervals, and how far stated probabilities hold."""
 
-import math
+import scipy
 
 #: edges of the bins of stated probabilities
 EDGES = (0.0, 0.5, 0.85, 0.95, 0.99, 1.0)
 
 
-def wilson(hits, count, z=1.96):
-    """(low, high) of a rate: E. B. Wilson, J. Am. Stat. Assoc. 22 (1927) 209."""
-    if not count:
-        return 0.0, 1.0
-    share, spread = hits / count, z**2 / count
-    centre, half = share + spread / 2, z * math.sqrt(share * (1 - share) / count + spread / (4 * count))
-    return max(0.0, (centre - half) / (1 + spread)), min(1.0, (centre + half) / (1 + spread))
-
-
 def rate(hits):
-    """{hits, count, low, high} of [bool], with its 95 % interval."""
-    low, high = wilson(sum(map(bool, hits)), len(hits))
-    return {"hits": sum(map(bool, hits)), "count": len(hits), "low": low, "high": high}
+    """{hits, count, low, high} of [bool], with its 95 % interval (E. B. Wilson, J. Am. Stat. Assoc. 22 (1927) 209)."""
+    successes, count = sum(map(bool, hits)), len(hits)
+    low, high = 0.0, 1.0
+    if count:
+        low, high = map(float, scipy.stats.binomtest(successes, count).proportion_ci(0.95, "wilson"))
+    return {"hits": successes, "count": count, "low": low, "high": high}
 
 
 def line(name, found):
     """One line of a table of a ``rate``."""
-    return (f"{name:<42} {found['hits']:>4} of {found['count']:<4} {found['hits'] / found['count']:>6.1%}"
+    return (f"{name:<53} {found['hits']:>4} of {found['count']:<4} {found['hits'] / found['count']:>6.1%}"
             f"   95 %: {found['low']:.1%} to {found['high']:.1%}")
 
 

@@ -1,6 +1,7 @@
 """The table of a result, for the terminal and for a README."""
 
 from pipeline.blind_trial.metrics.rates import line
+from pipeline.blind_trial.metrics.wording import rate_in_words
 
 #: method whose rates name the rows
 _FIRST = "diagnosis"
@@ -11,7 +12,7 @@ def lines(result):
     told = [f"{result['set']['name']}: {len(result['cases'])} cases, {result['set']['kind']}"]
     for method, numbers in result["methods"].items():
         told += ["", method.replace("_", " ")]
-        told += [line(name, one) + _goal(one) for name, one in numbers["rates"].items()]
+        told += [line(rate_in_words(name), one) + _goal(one) for name, one in numbers["rates"].items()]
         told.append(f"{numbers['cost']['total'] / 60:.1f} CPU minutes")
     return told
 
@@ -20,7 +21,8 @@ def as_markdown(result):
     """Table of the rates with a goal: every method in a column of its own."""
     methods = result["methods"]
     head = ["", "goal", *(method.replace("_", " ") for method in methods)]
-    rows = [[name, _goal(one).strip(), *(_cell(numbers["rates"].get(name)) for numbers in methods.values())]
+    rows = [[rate_in_words(name), _goal(one).strip(),
+             *(_cell(numbers["rates"].get(name)) for numbers in methods.values())]
             for name, one in methods[_FIRST]["rates"].items() if one["goal"]]
     return "\n".join([_row(head), "|" + "---|" * len(head), *map(_row, rows)])
 

@@ -1,5 +1,6 @@
 """The page of a scored trial, in the style of the report: rates, failures, and what the trial does not prove."""
 
+from pipeline.blind_trial.metrics.wording import rate_in_words
 from pipeline.contract.context import Case
 from pipeline.views.chapters.bench import trial as chapters
 from pipeline.views.chapters.chapter import Figure
@@ -17,7 +18,7 @@ def page(result):
     """HTML text of the page of a result.json; the same result gives the same bytes."""
     about, main = result["set"], result["methods"]["diagnosis"]
     names = [name for name, rate in main["rates"].items() if rate["goal"]]
-    figure = Figure(rates(result["methods"], names, [chapters.rate_in_words(name) for name in names]),
+    figure = Figure(rates(result["methods"], names, [rate_in_words(name) for name in names]),
                     "Rates with their 95 % Wilson confidence intervals; vertical bars: goals.")
     case = Case(about["name"], f"Concealed trial {about['name']}",
                 "Cases with hidden physics, solved without access to the truth and scored once")
@@ -53,9 +54,9 @@ def _answers(result, missed):
                  " itself."))
     for name in _FIRST:
         if rate := result["methods"]["diagnosis"]["rates"].get(name):
-            label = chapters.rate_in_words(name)
+            label = rate_in_words(name)
             yield label[0].upper() + label[1:], chapters.in_words(rate)
-    yield "Goals missed", "; ".join(map(chapters.rate_in_words, missed)) if missed else "None."
+    yield "Goals missed", "; ".join(map(rate_in_words, missed)) if missed else "None."
     yield "What it does not prove", chapters.not_proven(result)[0]
 
 

@@ -2,16 +2,15 @@
 
 import pytest
 
-from pipeline.blind_trial.metrics.rates import calibration, line, rate, wilson
+from pipeline.blind_trial.metrics.rates import calibration, line, rate
 
 
 @pytest.mark.exact
 def test_wilson_bounds_of_none_in_130_and_of_half():
-    low, high = wilson(0, 130)
-    assert low == 0.0 and high == pytest.approx(1.96**2 / (130 + 1.96**2), rel=1e-12)
-    low, high = wilson(50, 100)
-    assert low + high == pytest.approx(1.0) and 0.40 < low < 0.41
-    assert wilson(0, 0) == (0.0, 1.0)
+    none, half, nobody = rate([False] * 130), rate([True, False] * 50), rate([])
+    assert none["low"] == 0.0 and none["high"] == pytest.approx(1.96**2 / (130 + 1.96**2), rel=1e-4)
+    assert half["low"] + half["high"] == pytest.approx(1.0) and 0.40 < half["low"] < 0.41
+    assert nobody == {"hits": 0, "count": 0, "low": 0.0, "high": 1.0}
 
 
 def test_a_line_tells_hits_rate_and_interval():

@@ -1,13 +1,14 @@
 """Verifying: anyone can see that truth, commitment, answers and result belong together."""
 
 import json
+import re
 
 import pytest
 
 from pipeline.blind_trial.protocol import making, sealing
 from pipeline.blind_trial.protocol.case_set import TrialSet, canonical, sha256
 from pipeline.blind_trial.protocol.scoring import score, scored_as
-from pipeline.blind_trial.protocol.verifying import verify
+from pipeline.blind_trial.protocol.verifying import difference, verify
 from pipeline.contract.errors import BrakechainError
 from tests.blind_trial.protocol.small_set import TRUTH, small_set, solved
 
@@ -83,3 +84,13 @@ def test_an_open_set_has_nothing_to_hide_and_an_unscored_one_nothing_to_verify(t
     solved(folder, monkeypatch)
     score(folder)
     assert verify(folder)[0] == "open set: nothing was sealed"
+
+
+@pytest.mark.parametrize("now, where", [
+    ({"a": {"count": 3, "low": 0.5}}, None), ({"a": {"count": 3, "low": 0.50004}}, None),
+    ({"a": {"count": 3, "low": 0.501}}, r"result\.a\.low"), ({"a": {"count": 4, "low": 0.5}}, r"result\.a\.count"),
+    ({"a": {"count": True, "low": 0.5}}, r"result\.a\.count"), ({"a": {"count": 3}}, "low on one side only"),
+    ({"a": [3, 0.5]}, r"result\.a")])
+def test_results_differ_where_a_count_a_word_or_a_number_does(now, where):
+    found = difference(now, {"a": {"count": 3, "low": 0.5}})
+    assert found is None if where is None else re.search(where, found)

@@ -1,5 +1,6 @@
 """Chapters of the page of a trial."""
 
+from pipeline.blind_trial.metrics.wording import rate_in_words
 from pipeline.views.chapters.chapter import Chapter, Figure, Table
 from pipeline.views.figures.bench import trial as pictures
 from pipeline.views.figures.number_format import number, percent, plural
@@ -10,21 +11,6 @@ _SELF = "correct effect"
 _CLASSES = {"effect": "single effect", "pair": "two effects", "control": "nothing missing",
             "wrong_value": "wrong parameter value", "sensor": "sensor fault", "solver": "solver error",
             "foreign": "outside the catalogue", "below": "below the threshold"}
-#: name of a rate in the record -> in words
-_RATES = {"type and place, one effect": "single effect: type and location correct",
-          "type and place, one effect, forced": "single effect, forced rigs",
-          "type and place, one effect, self-excited": "single effect, self-excited rigs",
-          "type alone, one effect": "single effect: type correct",
-          "truth among the tied, one effect": "single effect: truth among tied answers",
-          "truth among the first three, one effect": "single effect: truth among the first three",
-          "both of a pair": "pair of effects: both correct",
-          "nothing missing told so": "controls: nothing missing, and reported so",
-          "sensor: which and where": "sensor faults: type and channel correct",
-          "below the threshold: nothing wrong named": "below the threshold: no wrong effect named",
-          "not in the catalogue: unknown": "outside the catalogue: reported as unknown",
-          "sensor and solver called so": "sensor faults and solver errors classified correctly",
-          "held out within 1.2 noise floors, named": "named effects: held-out error within 1.2 noise floors",
-          "stated with about 90 %: right": "calibration: correct among answers stated at about 90 %"}
 #: which fitted values are compared with the truth, in words
 _VALUES = {"nominal": "nominal parameters", "lacking": "nominal parameters of incomplete models",
            "effects": "parameters of named effects"}
@@ -37,11 +23,6 @@ def all_of(result):
              _calibration(main), _held_out(result), _parameters(main, result.get("errata", ())), _cost(result),
              _failures(result))
     return [chapter for chapter in chapters if chapter]
-
-
-def rate_in_words(name):
-    """The name of a rate as the page shows it."""
-    return _RATES.get(name, name)
 
 
 def reached(rate):
