@@ -82,6 +82,8 @@ DOORS = {
     "meshio": {"pipeline.physics.fem.mesh"}, "exudyn": {"pipeline.physics.pads.exudyn_model"},
     "pypardiso": {"pipeline.physics.numerics.sparse_solver"},
     "SurfaceTopography": {"pipeline.physics.rough.topography"},
+    "numba": {"pipeline.physics.numerics.compiled", "pipeline.physics.numerics.compiled_cache",
+              "pipeline.blind_trial.generators.benches.pin_bench"},
     "pyvista": {"pipeline.views"}, "matplotlib": {"pipeline.views"}, "jinja2": {"pipeline.views"},
 }
 #: packages that must not be loaded before they are needed

@@ -1,5 +1,6 @@
 """The command line: derived, quick to answer, its errors one sentence with an exit code."""
 
+import ast
 import json
 import subprocess
 import sys
@@ -14,18 +15,32 @@ def brakechain(*args, cwd=None):
                           timeout=120)
 
 
+HEAVY = {"skfem", "pyvista", "exudyn", "numba", "matplotlib", "SurfaceTopography", "pypardiso"}
+
+
+def loaded_by(*args, modules):
+    """Those of ``modules`` that are loaded once a command has run."""
+    script = ("import sys, pipeline.cli.main as c\nfrom click.testing import CliRunner\n"
+              f"done = CliRunner().invoke(c.cli, {args})\n"
+              f"print(sorted({modules} & set(sys.modules))); sys.exit(done.exit_code)")
+    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, timeout=60)
+    assert done.returncode == 0, done.stderr
+    return ast.literal_eval(done.stdout)
+
+
 def test_help_lists_every_stage_and_imports_none():
     done = brakechain("--help")
     assert done.returncode == 0
     for name in stages.NAMES:
         assert name.replace("_", "-") in done.stdout and stages.summary(name)[:30] in done.stdout
-    script = ("import sys, pipeline.cli.main as c\nfrom click.testing import CliRunner\n"
-              "CliRunner().invoke(c.cli, ['--help'])\n"
-              "heavy = {'skfem', 'pyvista', 'exudyn', 'numba', 'matplotlib', 'scipy', 'SurfaceTopography'}"
-              " & set(sys.modules)\n"
-              "sys.exit(str(heavy) if heavy else 0)")
-    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, timeout=60)
-    assert done.returncode == 0, done.stderr
+    assert not loaded_by("--help", modules=HEAVY | {"scipy"})
+
+
+@pytest.mark.parametrize("command", [("chain", "configs/disc_brake_quick.yaml"), ("schema",),
+                                     ("run", "configs/disc_brake_quick.yaml", "--dry-run")], ids=lambda c: c[0])
+def test_what_computes_nothing_loads_nothing_heavy(command, tmp_path):
+    folder = ("--run", str(tmp_path)) if "schema" not in command else ()
+    assert not loaded_by(*command, *folder, modules=HEAVY | {"scipy.signal", "scipy.linalg", "scipy.sparse", "pint"})
 
 
 @pytest.mark.parametrize("name", stages.NAMES)

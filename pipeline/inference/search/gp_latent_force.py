@@ -10,9 +10,9 @@ from dataclasses import dataclass
 
 import numpy as np
 import scipy
-from numba import njit
 
 from pipeline.contract.errors import ConvergenceError
+from pipeline.physics.numerics.compiled import njit
 
 DRAWS = 999
 #: smallest and largest size of a force and of its noise, in standard deviations of the residual
@@ -164,7 +164,7 @@ def _p_value(share):
     return float(np.mean(share >= share[0] * (1 - 1e-12)))
 
 
-@njit(cache=True)
+@njit
 def _filtered(residual, valid, step, size, length, noise):
     """Before and after each sample (n, 5): force, rate, covariance (p, q), (q, r); the transition, log likelihood."""
     n, decay = len(residual), 1 / length
@@ -193,7 +193,7 @@ def _filtered(residual, valid, step, size, length, noise):
     return before, after, move, log
 
 
-@njit(cache=True)
+@njit
 def _smoothed(residual, valid, step, size, length, noise):
     """Posterior mean and variance (n,) of the force, and the log likelihood of the record."""
     before, after, move, log = _filtered(residual, valid, step, size, length, noise)
@@ -207,6 +207,6 @@ def _smoothed(residual, valid, step, size, length, noise):
     return means, variances, log
 
 
-@njit(cache=True)
+@njit
 def _covariance(row):
     return np.array([[row[2], row[3]], [row[3], row[4]]])

@@ -15,11 +15,11 @@ from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 
 from pipeline.contract.errors import ConfigError
 from pipeline.physics.contact.groups import Grouped, parts, read
 from pipeline.physics.friction.friction_table import AXES, FrictionLaw, friction_at
+from pipeline.physics.numerics.compiled import njit
 
 RIGID, ELASTIC, EVOLUTION = 0, 1, 2
 DESCRIPTIONS = {"rigid": RIGID, "elastic": ELASTIC, "evolution": EVOLUTION}
@@ -176,7 +176,7 @@ def coefficients(friction, speed, pressure):
     return found
 
 
-@njit(cache=True)
+@njit
 def coefficient(friction, i, pressure, speed, sign):
     """mu of contact ``i`` at a pressure and a slip speed whose sign counts as ``sign``."""
     contact = friction.contact
@@ -190,7 +190,7 @@ def coefficient(friction, i, pressure, speed, sign):
     return mu * contact[i, BACKWARD] if sign < 0 else mu
 
 
-@njit(cache=True)
+@njit
 def elastic_stick(force, slip, limit, stiffness):
     """(T, dT/ds) after a slip increment from ``force``: a spring that slides at the limit."""
     trial = force + stiffness * slip
@@ -199,7 +199,7 @@ def elastic_stick(force, slip, limit, stiffness):
     return np.sign(trial) * limit, 0.0
 
 
-@njit(cache=True)
+@njit
 def evolution_rule(force, slip, limit, stiffness, exponent):
     """(T, dT/ds) after a slip increment from ``force``: dT/ds = k (1 - T sgn(s) / L)^m integrated exactly.
 

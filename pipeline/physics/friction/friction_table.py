@@ -8,9 +8,9 @@ from dataclasses import dataclass
 
 import numpy as np
 import scipy
-from numba import njit
 
 from pipeline.contract.errors import ConfigError
+from pipeline.physics.numerics.compiled import njit
 
 AXES = ("pressure", "speed", "distance")
 
@@ -95,7 +95,7 @@ def refine(axes, values, subdivisions):
     return fine_axes, np.array(values, dtype=float)
 
 
-@njit(cache=True)
+@njit
 def _locate(axis, value):
     """Interval (low, high), weight of its end, 1 / length, and 1 if the value was clipped."""
     last = axis.size - 1
@@ -108,7 +108,7 @@ def _locate(axis, value):
     return low, low + 1, (value - axis[low]) / length, 1.0 / length, 0
 
 
-@njit(cache=True)
+@njit
 def friction_at(pressure, speed, distance, pressures, speeds, distances, table, first=0):
     """(mu, dmu/dpressure in 1/Pa, dmu/dspeed in s/m, outside) at one state.
 
@@ -131,7 +131,7 @@ def friction_at(pressure, speed, distance, pressures, speeds, distances, table, 
     return low * (1.0 - wp) + high * wp, (high - low) * ip, slope_v, outside
 
 
-@njit(cache=True)
+@njit
 def _evaluate(states, pressures, speeds, distances, table):
     size = states.shape[1]
     friction, outside = np.empty(size), np.zeros(size, dtype=np.bool_)

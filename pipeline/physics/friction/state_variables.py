@@ -15,7 +15,6 @@ A of the contact:
 from dataclasses import astuple, dataclass, replace
 
 import numpy as np
-from numba import njit
 
 from pipeline.contract.errors import ConfigError
 from pipeline.physics.contact.groups import Grouped, parts
@@ -35,6 +34,7 @@ from pipeline.physics.friction.state_kernels import (
     settle,
     source_and_rate,
 )
+from pipeline.physics.numerics.compiled import njit
 
 
 @dataclass(frozen=True)
@@ -165,7 +165,7 @@ def friction_along(friction, area, load, slip, angle, interval):
     return _along(states, value, kernel(friction, len(area)), load, slip, np.array(angle, float), float(interval))
 
 
-@njit(cache=True)
+@njit
 def _along(states, value, friction, load, slip, angle, interval):
     drawn, forces, last = np.zeros_like(load), np.zeros(load.shape[0]), load.shape[1] - 1
     for s in range(last + 1):

@@ -10,9 +10,9 @@ from dataclasses import dataclass
 
 import numpy as np
 import scipy
-from numba import njit
 
 from pipeline.contract.errors import ConfigError
+from pipeline.physics.numerics.compiled import njit
 
 #: share of the largest eigenvalue below which a negative one is rounding
 _ROUNDING = 1e-9
@@ -124,7 +124,7 @@ def _rows(points):
     return table, np.asarray(points.circle, dtype=np.int64), row
 
 
-@njit(cache=True)
+@njit
 def _march(coefficients, forces, force_points, sensor_points, turn, displacement, velocity):
     """Fill displacement and velocity; ``coefficients`` (8, mode), ``turn`` is the angle of the points per step."""
     modes = coefficients.shape[1]
@@ -138,7 +138,7 @@ def _march(coefficients, forces, force_points, sensor_points, turn, displacement
         _observe(position, speed, sensor_points, k * turn, displacement[k], velocity[k])
 
 
-@njit(cache=True)
+@njit
 def _step(coefficients, position, speed, now, following):
     """One array for each coefficient: the loop over the modes then uses the width of the processor."""
     qq, qv, qf, qg = coefficients[0], coefficients[1], coefficients[2], coefficients[3]
@@ -149,7 +149,7 @@ def _step(coefficients, position, speed, now, following):
         speed[m] = vq[m] * q + vv[m] * v + vf[m] * now[m] + vg[m] * following[m]
 
 
-@njit(cache=True)
+@njit
 def _modal_force(force, points, turned, modal):
     table, circle, row = points
     modal[:] = 0.0
@@ -165,7 +165,7 @@ def _modal_force(force, points, turned, modal):
                 modal[m] += a * near[m] + b * far[m]
 
 
-@njit(cache=True, fastmath=_REORDERED)
+@njit(fastmath=_REORDERED)
 def _observe(position, speed, points, turned, displacement, velocity):
     table, circle, row = points
     for s in range(len(displacement)):
@@ -179,7 +179,7 @@ def _observe(position, speed, points, turned, displacement, velocity):
         displacement[s], velocity[s] = moved, fast
 
 
-@njit(cache=True)
+@njit
 def _between(row, turned, angles):
     """The two rows of the table around a point, and the share of the second."""
     place = (row + turned * angles / (2.0 * np.pi)) % angles

@@ -3,9 +3,9 @@
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 
 from pipeline.physics.friction.friction_table import friction_at
+from pipeline.physics.numerics.compiled import njit
 from pipeline.physics.pads.patch_contact import SUB_DISCS, contact_state
 
 
@@ -19,7 +19,7 @@ class ContactHistory(NamedTuple):
     outside: float          # share of the friction evaluations outside the friction table
 
 
-@njit(cache=True)
+@njit
 def contact_history(contact, pad, pads, time, displacement, velocity):
     """ContactHistory of the motion ``displacement``, ``velocity`` (m, n) at ``time`` (m,).
 

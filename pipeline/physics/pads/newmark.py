@@ -6,9 +6,9 @@ method with a kept inverse, renewed when it stops contracting.
 """
 
 import numpy as np
-from numba import njit
 
 from pipeline.contract.errors import ConvergenceError
+from pipeline.physics.numerics.compiled import njit
 from pipeline.physics.pads.pad_system import force, tangent
 
 ITERATIONS = 30
@@ -32,7 +32,7 @@ def integrate(system, start, step, steps, record_every=1, scale=None):
     return np.arange(len(displacement)) * (step * record_every), displacement, velocity
 
 
-@njit(cache=True)
+@njit
 def _integrate(system, start, step, steps, record_every, tolerance):
     n, kept = start.size, steps // record_every + 1
     displacements, velocities = np.zeros((kept, n)), np.zeros((kept, n))
@@ -62,7 +62,7 @@ def _integrate(system, start, step, steps, record_every, tolerance):
     return displacements, velocities, 0, 0.0
 
 
-@njit(cache=True)
+@njit
 def _inverse(system, time, q, v, step):
     stiffness, damping = tangent(system, time, q, v)
     return np.linalg.inv(system.mass + 0.5 * step * damping + 0.25 * step**2 * stiffness)

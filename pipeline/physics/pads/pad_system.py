@@ -4,9 +4,9 @@ from typing import NamedTuple
 
 import numpy as np
 import scipy
-from numba import njit
 
 from pipeline.contract.errors import ConfigError, ConvergenceError
+from pipeline.physics.numerics.compiled import njit
 from pipeline.physics.pads.patch_contact import SUB_DISCS, PatchContact, contact_force, contact_tangent
 from pipeline.physics.time_stepping.element_forces import LawKernel, element_force
 from pipeline.physics.time_stepping.elements import alone
@@ -97,7 +97,7 @@ def _check(closure, pressure, bedding, sectors):
         raise ConfigError("multibody.sectors", f"a multiple of {SUB_DISCS}", f"{sectors}")
 
 
-@njit(cache=True)
+@njit
 def force(system, time, displacement, velocity):
     """M q'' (n,): load and contact force less elastic and damping forces, and those of elements."""
     inner = system.stiffness @ displacement + system.damping @ velocity
@@ -107,7 +107,7 @@ def force(system, time, displacement, velocity):
     return found
 
 
-@njit(cache=True)
+@njit
 def tangent(system, time, displacement, velocity):
     """(stiffness, damping), both (n, n): minus the exact derivatives of ``force``."""
     stiffness, damping = contact_tangent(system.contact, time, displacement, velocity)
@@ -120,7 +120,7 @@ def tangent(system, time, displacement, velocity):
     return stiffness, damping
 
 
-@njit(cache=True)
+@njit
 def _drawn(system, k, time, displacement, velocity):
     """(F, dF/de, dF/dv) of element ``k``."""
     elements, speed, nothing = system.elements, system.contact.disc_speed, np.zeros(0)

@@ -18,9 +18,9 @@ vanishes with the pressure, so that no force jumps where contact opens.
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 
 from pipeline.physics.friction.friction_table import friction_at
+from pipeline.physics.numerics.compiled import njit
 from pipeline.physics.time_stepping.coupled_solver import surface_shift
 
 SUB_DISCS = 4
@@ -66,7 +66,7 @@ class ContactState(NamedTuple):
     share: np.ndarray           # (c, 4) part of the patch on each sub-disc
 
 
-@njit(cache=True)
+@njit
 def normal_law(closure, closures, pressures):
     """(pressure in Pa, slope in Pa/m) of a piecewise linear law: zero in separation, last slope beyond the table."""
     if closure <= 0.0:
@@ -76,7 +76,7 @@ def normal_law(closure, closures, pressures):
     return pressures[low] + slope * (closure - closures[low]), slope
 
 
-@njit(cache=True)
+@njit
 def patch_shares(angle, half_angle, turned, sectors):
     """(c, 4) share of each patch on each sub-disc after the disc has turned by ``turned`` rad; rows sum to one."""
     shares = np.empty((angle.size, SUB_DISCS))
@@ -89,14 +89,14 @@ def patch_shares(angle, half_angle, turned, sectors):
     return shares
 
 
-@njit(cache=True)
+@njit
 def _length_on(sub_disc, position):
     """Sectors of one sub-disc between 0 and ``position`` sectors."""
     cycles = np.floor(position / SUB_DISCS)
     return cycles + min(max(position - SUB_DISCS * cycles - sub_disc, 0.0), 1.0)
 
 
-@njit(cache=True)
+@njit
 def sliding_part(slip, stick_speed):
     """(g, dg/dslip in s/m): 1 from the stick speed on, a cubic without kinks below it; slip >= 0."""
     x = slip / stick_speed
@@ -105,7 +105,7 @@ def sliding_part(slip, stick_speed):
     return x * (3.0 - x * x) / 2.0, 1.5 * (1.0 - x * x) / stick_speed
 
 
-@njit(cache=True)
+@njit
 def friction_share(time, ramp):
     """Part of the friction that acts ``time`` seconds after the friction-free start; smooth, from 0 to 1."""
     if time >= ramp:
@@ -113,7 +113,7 @@ def friction_share(time, ramp):
     return 0.5 * (1.0 - np.cos(np.pi * max(time, 0.0) / ramp))
 
 
-@njit(cache=True)
+@njit
 def sub_disc_friction(pressure, slip, share, distance, pressures, speeds, distances, table, first):
     """(mu, dmu/dpressure, dmu/dslip) of a patch with ``share`` (4,) on sub-discs that have slid ``distance`` (4,).
 
@@ -130,7 +130,7 @@ def sub_disc_friction(pressure, slip, share, distance, pressures, speeds, distan
     return mu, over_pressure, over_slip
 
 
-@njit(cache=True)
+@njit
 def surface(contact, time):
     """(2, c): what waves of the surface add to the opening of each contact, in m, and to its rate, in m/s."""
     shift = np.zeros((2, contact.area.size))
@@ -139,7 +139,7 @@ def surface(contact, time):
     return shift
 
 
-@njit(cache=True)
+@njit
 def scattered(contact, time):
     """(c,) factor on the friction of each contact after ``time`` s of turning."""
     factor = np.ones(contact.area.size)
@@ -149,7 +149,7 @@ def scattered(contact, time):
     return factor
 
 
-@njit(cache=True)
+@njit
 def contact_state(contact, time, displacement, velocity):
     """ContactState at generalised ``displacement`` (n,) and ``velocity`` (n,)."""
     size, n = contact.rows.shape[1:]
@@ -186,7 +186,7 @@ def contact_state(contact, time, displacement, velocity):
     return ContactState(normal, friction, stiffness, damping, coupling, drag, shares)
 
 
-@njit(cache=True)
+@njit
 def contact_force(contact, time, displacement, velocity):
     """Generalised force (n,) of all contacts on the pads."""
     state = contact_state(contact, time, displacement, velocity)
@@ -196,7 +196,7 @@ def contact_force(contact, time, displacement, velocity):
     return forces.reshape(3 * size) @ contact.rows.reshape(3 * size, n)
 
 
-@njit(cache=True)
+@njit
 def contact_tangent(contact, time, displacement, velocity):
     """(stiffness, damping), both (n, n): minus the derivatives of ``contact_force``; exact, unsymmetric."""
     state = contact_state(contact, time, displacement, velocity)

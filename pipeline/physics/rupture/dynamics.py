@@ -16,9 +16,9 @@ law of Prakash and Clifton (Cochard and Rice, J. Geophys. Res. 105 (2000) 25891)
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 
 from pipeline.contract.errors import ConfigError, ConvergenceError
+from pipeline.physics.numerics.compiled import njit
 from pipeline.physics.rupture.plate_grid import largest_step, nodal_share
 from pipeline.physics.rupture.plate_step import rims, step_plate
 
@@ -123,7 +123,7 @@ def advance(lower, upper, interface, motion, step, steps, start=0.0):
     return record
 
 
-@njit(cache=True, error_model="numpy")
+@njit(error_model="numpy")
 def _advance(lower, upper, lower_rim, upper_rim, interface, motion, step, record):
     below, above = np.empty((3, 2, lower.columns)), np.empty((3, 2, upper.columns))
     matched = np.all((interface.weight == 0.0) | (interface.weight == 1.0))      # every node has its own: diagonal
@@ -145,7 +145,7 @@ def _advance(lower, upper, lower_rim, upper_rim, interface, motion, step, record
     return 0
 
 
-@njit(cache=True, error_model="numpy")
+@njit(error_model="numpy")
 def _contact(interface, motion, slave, slave_gain, master, master_gain, side, step, matched, pressure, shear, strength):
     """Multipliers at the new time, applied to both plates; ``side`` = 1 where the slave is above. True = converged."""
     pressure[:], shear[:] = interface.pressure, interface.shear
@@ -180,7 +180,7 @@ def _contact(interface, motion, slave, slave_gain, master, master_gain, side, st
     return False
 
 
-@njit(cache=True, error_model="numpy", inline="always")
+@njit(error_model="numpy", inline="always")
 def _push(slave, slave_gain, master, master_gain, i, m, w, length, along, across, step):
     """Tractions (along x, across = pressure) on the slave node and, turned round, on its master segment."""
     for axis in range(2):
@@ -197,7 +197,7 @@ def _push(slave, slave_gain, master, master_gain, i, m, w, length, along, across
             master[0, axis, m + 1] -= step * change
 
 
-@njit(cache=True, error_model="numpy")
+@njit(error_model="numpy")
 def _remember(interface, motion, slave, master, side, step, pressure, shear, strength, record, count):
     """Slip, memory of the pressure and the record after the contact is solved."""
     for i in range(pressure.size):

@@ -7,8 +7,8 @@ gain = dt / mass inside; absorbing edges add their impedance in the middle of th
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 
+from pipeline.physics.numerics.compiled import njit
 from pipeline.physics.rupture.plate_grid import edge_impedance, elastic_force, held, lumped_mass
 
 
@@ -46,7 +46,7 @@ def plain_step(grid, rim, displacement, velocity, step):
     displacement += step * velocity
 
 
-@njit(cache=True, error_model="numpy", fastmath={"contract"})
+@njit(error_model="numpy", fastmath={"contract"})
 def step_plate(grid, rim, displacement, velocity, step, window):
     """Advance ``displacement`` and ``velocity`` (2, rows, columns) in place; ``window`` (3, 2, columns) is scratch."""
     rows, columns = grid.rows, grid.columns
@@ -73,7 +73,7 @@ def step_plate(grid, rim, displacement, velocity, step, window):
                            rim.row_keep[side, :, column], rim.row_gain[side, :, column], step)
 
 
-@njit(cache=True, error_model="numpy", fastmath={"contract"}, inline="always")
+@njit(error_model="numpy", fastmath={"contract"}, inline="always")
 def _mix(displacement, velocity, row, damping, mixed):
     """u + beta v of one row."""
     for axis in range(2):
@@ -82,7 +82,7 @@ def _mix(displacement, velocity, row, damping, mixed):
             target[i] = source[i] + damping * rate[i]
 
 
-@njit(cache=True, error_model="numpy", fastmath={"contract"})
+@njit(error_model="numpy", fastmath={"contract"})
 def _inner_row(low, here, high, ux, uy, vx, vy, centre, beside, above, corner, cross, gain, step):
     """All nodes of a row but its ends, by the nine-point stencil."""
     xl, xh, xu, yl, yh, yu = low[0], here[0], high[0], low[1], here[1], high[1]
@@ -99,7 +99,7 @@ def _inner_row(low, here, high, ux, uy, vx, vy, centre, beside, above, corner, c
         uy[i] += step * vy[i]
 
 
-@njit(cache=True, error_model="numpy")
+@njit(error_model="numpy")
 def _edge_node(grid, low, here, high, row, column, displacement, velocity, keep, gain, step):
     """One node of the rim, by the products of one-dimensional matrices that end there."""
     force_x, force_y = 0.0, 0.0
@@ -124,7 +124,7 @@ def _edge_node(grid, low, here, high, row, column, displacement, velocity, keep,
     displacement[1, row, column] += step * velocity[1, row, column]
 
 
-@njit(cache=True, error_model="numpy", inline="always")
+@njit(error_model="numpy", inline="always")
 def _line_element(place, count, offset):
     """Entries (place, place + offset) of K, M, D and D^T of a line of unit elements."""
     if offset != 0:

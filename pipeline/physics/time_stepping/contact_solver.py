@@ -16,7 +16,6 @@ has a normal force of its own that never changes.
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 
 from pipeline.physics.friction.dry_friction import (
     DELAYED,
@@ -31,6 +30,7 @@ from pipeline.physics.friction.dry_friction import (
     coefficient,
     evolution_rule,
 )
+from pipeline.physics.numerics.compiled import njit
 
 HARD, PENALTY, TABLE, LAGRANGE = 0, 1, 2, 3
 OPEN, STICK, SLIP = 0, 1, 2
@@ -57,7 +57,7 @@ class NormalKernel(NamedTuple):
     newmark: bool               # the linear part is stepped by Newmark's rule, contact and friction forces with it
 
 
-@njit(cache=True)
+@njit
 def table_force(law, i, closure, rate):
     """(N, dN/dclosure, dN/drate) of contact i; beyond its last row the table goes on along its last slope."""
     if closure <= 0.0:
@@ -73,7 +73,7 @@ def table_force(law, i, closure, rate):
     return force * factor, law.area[i] * slope * factor, force / law.damping_speed[i]
 
 
-@njit(cache=True)
+@njit
 def solve_contacts(law, friction, response, free, past, held, drive, way, force, status, before):
     """(code, contact) after filling ``force`` (2, c) N and ``status`` (c,), which enter with those of the last step.
 
@@ -116,14 +116,14 @@ def solve_contacts(law, friction, response, free, past, held, drive, way, force,
     return UNCONVERGED, where
 
 
-@njit(cache=True)
+@njit
 def _own_response(response, i):
     """Pairs (to N, to T) of the four observables of contact i: tuples, which cost nothing to pass."""
     return ((response[0, 0, i, i], response[0, 1, i, i]), (response[1, 0, i, i], response[1, 1, i, i]),
             (response[2, 0, i, i], response[2, 1, i, i]), (response[3, 0, i, i], response[3, 1, i, i]))
 
 
-@njit(cache=True)
+@njit
 def _one_contact(law, friction, i, y, r, past, held, drive, way, guess, before, active):
     """(N, T, status, code) of contact i, its observables without its own forces being ``y``."""
     if law.kind == HARD and not active:
@@ -133,7 +133,7 @@ def _one_contact(law, friction, i, y, r, past, held, drive, way, guess, before, 
     return _yielding(law, friction, i, y, r, past, held, drive, way, guess, before)
 
 
-@njit(cache=True)
+@njit
 def _rigid(law, friction, i, y, r, past, held, drive, way, guess, before):
     """Sticks if the force that ends the slip (forward increments: allows none) stays below the limit, else slides."""
     share, kept = _mean_load(law, friction, i, held)
@@ -171,7 +171,7 @@ def _rigid(law, friction, i, y, r, past, held, drive, way, guess, before):
     return 0.0, 0.0, OPEN, UNCONVERGED
 
 
-@njit(cache=True)
+@njit
 def _mean_load(law, friction, i, held):
     """(share, kept): the normal force that carries rigid friction over the step is kept + share N."""
     if friction.contact[i, DELAYED] > 0.0:
@@ -181,7 +181,7 @@ def _mean_load(law, friction, i, held):
     return 0.5, 0.5 * held[0]
 
 
-@njit(cache=True)
+@njit
 def _yielding(law, friction, i, y, r, past, held, drive, way, guess, before):
     """Friction that is a function of the slip of the step, by Newton's method on T, N following T."""
     stiffness, tangent = friction.contact[i, STIFFNESS], guess[1]
@@ -210,7 +210,7 @@ def _yielding(law, friction, i, y, r, past, held, drive, way, guess, before):
     return 0.0, 0.0, OPEN, UNCONVERGED
 
 
-@njit(cache=True)
+@njit
 def _drawn(friction, i, begin, slip, load, pressure, speed, before):
     """(T, dT/dslip, slides) of the elastic or the evolution description."""
     stiffness = friction.contact[i, STIFFNESS]
@@ -227,7 +227,7 @@ def _drawn(friction, i, begin, slip, load, pressure, speed, before):
     return np.sign(trial) * coefficient(friction, i, pressure, speed, trial) * load, 0.0, True
 
 
-@njit(cache=True)
+@njit
 def _normal(law, i, y, r, past, fixed, slope, guess):
     """(N, code) of the normal law where the friction force is fixed + slope N."""
     if law.fixed[i] >= 0.0:

@@ -6,8 +6,8 @@ the gap of its contact.
 """
 
 import numpy as np
-from numba import njit
 
+from pipeline.physics.numerics.compiled import njit
 from pipeline.physics.time_stepping.contact_solver import SOLVED, solve_contacts
 from pipeline.physics.time_stepping.element_forces import (
     MAXWELL,
@@ -22,7 +22,7 @@ from pipeline.physics.time_stepping.element_forces import (
 ROUNDS = 200
 
 
-@njit(cache=True)
+@njit
 def surface_shift(waviness, instant, shift):
     """Fill ``shift`` (2, c): what waviness adds to the gap and the opening rate of each contact."""
     shift[:] = 0.0
@@ -37,7 +37,7 @@ def surface_shift(waviness, instant, shift):
         shift[1, contact] += grown * speed + growing * place
 
 
-@njit(cache=True)
+@njit
 def recede(worn, pace, step, shift):
     """Add to ``shift`` (2, c) the depth ``worn`` (c,) m that a step (s) begins with, going on at ``pace`` (c,) m/s."""
     for i in range(pace.size):
@@ -45,7 +45,7 @@ def recede(worn, pace, step, shift):
         shift[1, i] += pace[i]
 
 
-@njit(cache=True)
+@njit
 def wear_on(wear, force, drive, speed, step, worn, pace):
     """Wear over a step, by the trapezoidal rule: fill ``worn`` (c,) m and ``pace`` (c,) m/s = wear N |slip| at its end.
 
@@ -57,7 +57,7 @@ def wear_on(wear, force, drive, speed, step, worn, pace):
         pace[i] = last
 
 
-@njit(cache=True)
+@njit
 def first_forces(elements, place, memory, force, instant):
     """Fill ``force`` (e,) for elongation and rate ``place`` (2, e) at time 0; memory is as it stands there."""
     unchanged = memory.copy()
@@ -65,7 +65,7 @@ def first_forces(elements, place, memory, force, instant):
         force[k] = element_force(elements, k, place[0, k], place[1, k], place[0, k], memory, unchanged, instant)[0]
 
 
-@njit(cache=True)
+@njit
 def solve_together(law, friction, response, elements, alone, free, seen, held, sliding, way, force, status, earlier,
                    before, lonely, place, begin, remembered, memory, drawn, instant):
     """(code, number): forces of contacts and elements at the end of a step, as ``solve_contacts``.
@@ -111,7 +111,7 @@ def solve_together(law, friction, response, elements, alone, free, seen, held, s
     return UNSETTLED, 0
 
 
-@njit(cache=True)
+@njit
 def pulled(own, loose, drawn, place):
     """Fill ``place`` (2, e): elongation and rate ``loose`` (2, e) with the element forces ``drawn`` (e,)."""
     for k in range(drawn.size):
@@ -121,7 +121,7 @@ def pulled(own, loose, drawn, place):
                 place[o, k] += own[o, k, j] * drawn[j]
 
 
-@njit(cache=True)
+@njit
 def settle_element_books(now, after, drawn_before, drawn):
     """Work (J) of the elements on the bodies over a step: mean force times way."""
     total = 0.0
@@ -130,7 +130,7 @@ def settle_element_books(now, after, drawn_before, drawn):
     return total
 
 
-@njit(cache=True)
+@njit
 def shift_work(shift_before, shift, held, force, holds):
     """What the moving surface adds to the work of the normal forces over a step; it does not reach the bodies."""
     total = 0.0
@@ -140,7 +140,7 @@ def shift_work(shift_before, shift, held, force, holds):
     return total
 
 
-@njit(cache=True)
+@njit
 def middle_angle(angle, before, turning, step):
     """Angle of the drive after a step over which its speed is linear."""
     return angle + 0.5 * step * (before + turning)

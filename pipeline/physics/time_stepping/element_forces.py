@@ -19,8 +19,8 @@ they remember from there:
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 
+from pipeline.physics.numerics.compiled import njit
 from pipeline.physics.time_stepping.contact_solver import LARGEST_STIFFNESS, SOLVED
 
 POLYNOMIAL, POWER, SLIDERS, DRY, BOUC_WEN, GAP, SOFTENING, WAVE, MAXWELL, TURNING = range(10)
@@ -65,13 +65,13 @@ class LawKernel(NamedTuple):
     own: np.ndarray
 
 
-@njit(cache=True)
+@njit
 def laws_of(kernel):
     """LawKernel of an ElementKernel."""
     return LawKernel(kernel.kind, kernel.parameter, kernel.first, kernel.stiffness, kernel.limit, kernel.own)
 
 
-@njit(cache=True)
+@njit
 def wave(amplitude, order, frequency, phase, instant):
     """(u, u') at ``instant``: (time s, angle rad and speed rad/s of the drive)."""
     time, angle, turning = instant
@@ -80,7 +80,7 @@ def wave(amplitude, order, frequency, phase, instant):
             -amplitude * (order * turning + 2 * np.pi * frequency) * np.sin(argument))
 
 
-@njit(cache=True)
+@njit
 def element_force(kernel, k, elongation, rate, begin, remembered, memory, instant):
     """(F, dF/de, dF/dv) of element ``k``; ``memory`` (s,) is filled with what it remembers at the end.
 
@@ -126,7 +126,7 @@ def element_force(kernel, k, elongation, rate, begin, remembered, memory, instan
     return -(p[0] * place + p[1] * speed), 0.0, 0.0
 
 
-@njit(cache=True)
+@njit
 def turn(kernel, friction, slip, rate):
     """Set the damping of all ``turning`` elements by friction forces and slip speeds (c,), and their own rates (e,).
 
@@ -143,7 +143,7 @@ def turn(kernel, friction, slip, rate):
                 p[2] = STRONGEST_TURNING / mobile
 
 
-@njit(cache=True)
+@njit
 def _maxwell(kernel, one, clock, moved, remembered, memory, time):
     """(F, dF/de) of the branches ``one:clock`` after ``moved`` m; exact where the rate is constant over the step."""
     passed, force, slope = time - remembered[clock], 0.0, 0.0
@@ -157,12 +157,12 @@ def _maxwell(kernel, one, clock, moved, remembered, memory, time):
     return force, slope
 
 
-@njit(cache=True)
+@njit
 def _bouc_wen_slope(z, way, size, exponent, shape):
     return 1.0 - (abs(z) / size) ** exponent * (shape + (1.0 - shape) * np.sign(z * way))
 
 
-@njit(cache=True)
+@njit
 def _bouc_wen(z, way, size, exponent, shape):
     """(z, dz/de) after ``way`` m, by classical Runge-Kutta steps over a quarter of the size at most."""
     way = min(max(way, -FORGOTTEN * size), FORGOTTEN * size)
@@ -177,7 +177,7 @@ def _bouc_wen(z, way, size, exponent, shape):
     return z, _bouc_wen_slope(z, way, size, exponent, shape)
 
 
-@njit(cache=True)
+@njit
 def solve_elements(kernel, free, begin, remembered, memory, force, grain, instant):
     """(code, element) after filling ``force`` (e,) N, from a guess, and ``memory``, at the end of the step.
 
@@ -208,7 +208,7 @@ def solve_elements(kernel, free, begin, remembered, memory, force, grain, instan
     return UNSETTLED, where
 
 
-@njit(cache=True)
+@njit
 def _one_element(kernel, k, place, rate, begin, remembered, memory, guess, instant):
     """(F, its rounding, code) of element ``k``; ``place``, ``rate``: elongation and rate without its own force."""
     give, mobile, force = kernel.own[0, k, k], kernel.own[1, k, k], guess

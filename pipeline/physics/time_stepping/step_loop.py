@@ -10,10 +10,10 @@ saw-teeth, by Simpson's.
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 
 from pipeline.physics.friction.dry_friction import RIGID
 from pipeline.physics.friction.state_kernels import expect, settle
+from pipeline.physics.numerics.compiled import njit
 from pipeline.physics.time_stepping.contact_solver import SOLVED, solve_contacts
 from pipeline.physics.time_stepping.coupled_solver import (
     first_forces,
@@ -81,7 +81,7 @@ class Record(NamedTuple):
     worn: np.ndarray            # (c,) m that the contacts have receded by, at time 0, then after the last step
 
 
-@njit(cache=True)
+@njit
 def read(history, time, found):
     """Fill ``found`` (n,) with the values at ``time``."""
     last = history.value.shape[0] - 1
@@ -94,7 +94,7 @@ def read(history, time, found):
             found[i] += share * (history.value[k + 1, i] - history.value[k, i])
 
 
-@njit(cache=True, fastmath=_FAST)
+@njit(fastmath=_FAST)
 def _advance(step, steady, now, after):
     for b in range(now.shape[1]):
         one, other = now[0, b], now[1, b]
@@ -102,7 +102,7 @@ def _advance(step, steady, now, after):
         after[1, b] = step[1, 0, b] * one + step[1, 1, b] * other + steady[1, b]
 
 
-@njit(cache=True, fastmath=_FAST)
+@njit(fastmath=_FAST)
 def _push(columns, first, factors, pairs):
     """Add ``columns`` (from number ``first`` on) times ``factors`` to the pairs."""
     for k in range(factors.size):
@@ -113,7 +113,7 @@ def _push(columns, first, factors, pairs):
                 pairs[1, b] += factor * columns[first + k, 1, b]
 
 
-@njit(cache=True, fastmath=_FAST)
+@njit(fastmath=_FAST)
 def _see(rows, pairs, seen):
     """Fill ``seen`` (r,) with the rows (r, 2, m) of the pairs."""
     for k in range(seen.size):
@@ -123,7 +123,7 @@ def _see(rows, pairs, seen):
         seen[k] = total
 
 
-@njit(cache=True, fastmath=_FAST)
+@njit(fastmath=_FAST)
 def _loss_rate(power, drag, pairs):
     """Power of the dampers, W."""
     if power.size:
@@ -135,7 +135,7 @@ def _loss_rate(power, drag, pairs):
     return total
 
 
-@njit(cache=True)
+@njit
 def stored_energy(energy, pull, pairs):
     """Kinetic and strain energy, J."""
     if energy.size:
@@ -147,7 +147,7 @@ def stored_energy(energy, pull, pairs):
     return 0.5 * total
 
 
-@njit(cache=True)
+@njit
 def _keep(kept, gap, stored, record, row, seen, force, drive, status, steps, work):
     for s in range(kept.size // 2):
         record.displacement[s, row], record.velocity[s, row] = kept[s], kept[kept.size // 2 + s]
@@ -161,13 +161,13 @@ def _keep(kept, gap, stored, record, row, seen, force, drive, status, steps, wor
         record.work[k, row] = work[k]
 
 
-@njit(cache=True)
+@njit
 def _keep_elements(elongation, element_force, row, place, drawn):
     for k in range(drawn.size):
         elongation[k, row], element_force[k, row] = place[0, k], drawn[k]
 
 
-@njit(cache=True)
+@njit
 def march(linear, law, friction, elements, states, lever, drive, inputs, pairs, force, status, memory, value, age, step,
           steps, every, book, record):
     """(code, step number, contact or element): fills ``record`` from what stands at time 0, ``pairs`` to ``value``.
@@ -329,7 +329,7 @@ def march(linear, law, friction, elements, states, lever, drive, inputs, pairs, 
     return SOLVED, 0, 0
 
 
-@njit(cache=True)
+@njit
 def _account(response, jump, holds, held, force, free, seen, way, status, share, summed, work):
     """Observables at the end of the step into ``seen``; mean forces, their work, the status of the step.
 

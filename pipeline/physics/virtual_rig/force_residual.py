@@ -12,11 +12,11 @@ from functools import lru_cache
 
 import numpy as np
 import scipy
-from numba import njit
 
 from pipeline.contract.errors import ConfigError
 from pipeline.physics.contact.groups import read
 from pipeline.physics.friction.state_variables import friction_along
+from pipeline.physics.numerics.compiled import njit
 from pipeline.physics.time_stepping.coupled_solver import no_memory, surface_shift, wear_on
 from pipeline.physics.time_stepping.element_forces import element_force, turn
 from pipeline.physics.time_stepping.elements import alone, wave_table
@@ -115,7 +115,7 @@ def _elements(model, motion, speed, instants, drawn, slip):
     return rows.T @ _along(kernel, rows @ motion, rows @ speed, instants, no_memory(kernel), drawn, slip)
 
 
-@njit(cache=True)
+@njit
 def _along(kernel, place, rate, instants, memory, drawn, slip):
     """Forces (e, samples) along elongations ``place`` and their ``rate`` (e, samples)."""
     force, after = np.zeros_like(place), memory.copy()

@@ -10,9 +10,21 @@ from pipeline import sources
 from pipeline.environment import CACHE, LOCATORS
 from pipeline.physics.numerics.compiled_cache import state_of
 
-CALLEE = "FACTOR = 2.0\n"
-CALLER = "from numba import njit\nfrom pipeline.callee import FACTOR\n\n\n@njit(cache=True)\ndef twice(x):\n" \
-         "    return FACTOR * x\n"
+CALLEE = """
+from pipeline.physics.numerics.compiled import njit
+
+@njit
+def scaled(x):
+    return 2.0 * x
+"""
+CALLER = """
+from pipeline.callee import scaled
+from pipeline.physics.numerics.compiled import njit
+
+@njit
+def twice(x):
+    return scaled(x)
+"""
 ASK = "from pipeline import caller; print(caller.twice(1.0), sum(caller.twice.stats.cache_hits.values()))"
 
 
@@ -29,8 +41,8 @@ def project(tmp_path, monkeypatch):
     numerics.mkdir(parents=True)
     for name in ("__init__.py", "numerics/__init__.py"):
         (folder / "physics" / name).write_text("")
-    source = sources.ROOT / "pipeline" / "physics" / "numerics" / "compiled_cache.py"
-    (numerics / source.name).write_text(source.read_text())
+    for name in ("compiled.py", "compiled_cache.py"):
+        (numerics / name).write_text((sources.ROOT / "pipeline" / "physics" / "numerics" / name).read_text())
     return folder
 
 
@@ -51,7 +63,7 @@ def test_code_is_compiled_again_when_what_it_uses_changes_and_not_for_anything_e
     (project / "other.py").write_text("x = 1\n")
     assert answer(project) == (2.0, 1), "an unrelated file changes nothing"
     (project / "callee.py").write_text(CALLEE.replace("2.0", "3.0"))
-    assert answer(project) == (3.0, 0), "a constant of another file"
+    assert answer(project) == (3.0, 0), "a kernel of another file"
     (project / "callee.py").write_text(CALLEE)
     assert answer(project) == (2.0, 1), "the first state is still there"
 

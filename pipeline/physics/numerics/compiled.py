@@ -1,0 +1,47 @@
+"""Compiled kernels: numba's ``njit``, with numba loaded and the kernel made when it is first called.
+
+Modules with kernels are then imported in no time, and what is never called is never compiled. Code is always cached
+(see ``compiled_cache``).
+"""
+
+from functools import cache, cached_property, update_wrapper
+
+
+def njit(function=None, **options):
+    """Decorator: ``@njit`` or ``@njit(error_model="numpy")``, with the options of ``numba.njit``."""
+    if function is None:
+        return lambda kernel: Kernel(kernel, options)
+    return Kernel(function, options)
+
+
+class Kernel:
+    """A function that numba compiles, at its first call, for the types of the arguments."""
+
+    def __init__(self, function, options):
+        update_wrapper(self, function)
+        self._function, self._options = function, options
+
+    @cached_property
+    def dispatcher(self):
+        """numba's object: what another kernel calls, and what holds the compiled code."""
+        return _numba().njit(cache=True, **self._options)(self._function)
+
+    def __call__(self, *arguments):
+        return self.dispatcher(*arguments)
+
+    def __getattr__(self, name):
+        if name.startswith("_"):        # copy and pickle ask for these before there is a function
+            raise AttributeError(name)
+        return getattr(self.dispatcher, name)
+
+    def __reduce__(self):
+        return self.__qualname__
+
+
+@cache
+def _numba():
+    """numba, told that a Kernel named in another kernel stands for its dispatcher."""
+    import numba
+
+    numba.extending.typeof_impl.register(Kernel)(lambda kernel, _: numba.types.Dispatcher(kernel.dispatcher))
+    return numba
