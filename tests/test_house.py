@@ -12,6 +12,7 @@ import pytest
 import stages
 from pipeline import products
 from pipeline.contract.product import is_product
+from pipeline.views.pages.report import CHAPTERS, NO_CHAPTER
 
 ROOT = Path(__file__).parents[1]
 FILES = sorted([*ROOT.glob("pipeline/**/*.py"), *ROOT.glob("stages/**/*.py")])
@@ -222,6 +223,13 @@ def test_every_stage_file_stands_in_a_chain_and_has_a_make_target():
     assert {p.stem for p in ROOT.glob("stages/*.py")} - {"__init__"} == set(stages.NAMES)
     listed = re.search(r"^STAGES := (.*)$", (ROOT / "Makefile").read_text(), re.MULTILINE)[1].split()
     assert listed == list(stages.NAMES)
+
+
+def test_every_stage_has_a_chapter_of_the_report():
+    """A new stage needs a chapter; one whose product is shown elsewhere on the page says where, in NO_CHAPTER."""
+    missing = [name for name in stages.NAMES if name not in {**CHAPTERS, **NO_CHAPTER}]
+    assert not missing, f"no chapter in pipeline/views/pages/report.py: {', '.join(missing)}"
+    assert set(CHAPTERS).isdisjoint(NO_CHAPTER) and {*CHAPTERS, *NO_CHAPTER} <= set(stages.NAMES)
 
 
 def test_every_product_says_what_it_is():

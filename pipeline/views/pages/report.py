@@ -21,24 +21,45 @@ from pipeline.views.pages import case_settings as case_view
 from pipeline.views.pages.limits import limits
 from pipeline.views.pages.summary import published_squeal, verdict
 
+#: what a chapter may be given besides products: the squeal frequencies among the published facts
+_PUBLISHED = "published squeal"
+#: product -> what writes its chapter, and which other products that reads
+CHAPTERS = {
+    "surface": (surface.chapter, ()),
+    "micro_friction": (friction.micro, ()),
+    "friction_map": (friction.friction_map, ()),
+    "interface_law": (lock_in.interface_law, ()),
+    "friction_descriptions": (friction_descriptions.chapter, ()),
+    "structure": (structure.chapter, ("complex_modes",)),
+    "pin_on_disc": (lock_in.pin_on_disc, ()),
+    "beam_on_beam": (beam_on_beam.beams, ("complex_modes", "comparison")),
+    "lumped": (lumped.chapter, ("transient",)),
+    "complex_modes": (complex_modes.chapter, ("reduced_model", _PUBLISHED)),
+    "multibody": (pad_motion.chapter, ()),
+    "transient": (transient.chapter, ()),
+    "lock_in": (lock_in.lock_in, ()),
+    "motion_scatter": (beam_on_beam.scatter, ("comparison",)),
+    "beam_geometry": (beam_on_beam.geometry, ()),
+    "response": (vibration.response, (_PUBLISHED,)),
+    "squeal": (vibration.squeal, (_PUBLISHED,)),
+    "rupture": (rupture.chapter, ()),
+    "recording": (recording.chapter, ()),
+    "bench": (bench.chapter, ()),
+    "diagnosis": (diagnosis.chapter, ()),
+    "comparison": (comparison.chapter, ()),
+}
+#: products without a chapter, and where the page shows what they hold
+NO_CHAPTER = {"effects": "the settings", "reduced_model": "the chapter of complex_modes", "report": "the page itself"}
+
 
 def plan(products, look):
     """Functions without arguments, one per chapter whose product is there, in chain order."""
-    lines = published_squeal(products.get("comparison"))
-    model, modes, moved, facts = map(products.get, ("reduced_model", "complex_modes", "transient", "comparison"))
-    known = (("surface", surface.chapter, ()), ("micro_friction", friction.micro, ()),
-             ("friction_map", friction.friction_map, ()), ("interface_law", lock_in.interface_law, ()),
-             ("friction_descriptions", friction_descriptions.chapter, ()),
-             ("structure", structure.chapter, (modes,)), ("pin_on_disc", lock_in.pin_on_disc, ()),
-             ("beam_on_beam", beam_on_beam.beams, (modes, facts)), ("lumped", lumped.chapter, (moved,)),
-             ("complex_modes", complex_modes.chapter, (model, lines)), ("multibody", pad_motion.chapter, ()),
-             ("transient", transient.chapter, ()), ("lock_in", lock_in.lock_in, ()),
-             ("motion_scatter", beam_on_beam.scatter, (facts,)), ("beam_geometry", beam_on_beam.geometry, ()),
-             ("response", vibration.response, (lines,)), ("squeal", vibration.squeal, (lines,)),
-             ("rupture", rupture.chapter, ()), ("recording", recording.chapter, ()),
-             ("bench", bench.chapter, ()), ("diagnosis", diagnosis.chapter, ()),
-             ("comparison", comparison.chapter, ()))
-    return [partial(write, products[name], *more, look) for name, write, more in known
+    published = published_squeal(products.get("comparison"))
+
+    def given(name):
+        return published if name == _PUBLISHED else products.get(name)
+
+    return [partial(write, products[name], *map(given, others), look) for name, (write, others) in CHAPTERS.items()
             if products.get(name) is not None]
 
 
