@@ -6,13 +6,13 @@ Every task runs with one BLAS thread; results come back in the order of the item
 import multiprocessing
 import os
 import threading
-import time
 from concurrent.futures import ProcessPoolExecutor, as_completed
 from concurrent.futures.process import BrokenProcessPool
 
 from threadpoolctl import threadpool_limits
 
 from pipeline import __version__
+from pipeline.contract.cpu_time import cpu_seconds
 from pipeline.contract.errors import BrakechainError, ConfigError
 from pipeline.contract.fingerprint import project_digest
 from pipeline.contract.following import follow
@@ -23,7 +23,7 @@ _ONE_TASK = threading.Lock()
 
 
 def run_task(function, item, code=None):
-    """One task, as every executor runs it: its result and the CPU seconds it took.
+    """One task, as every executor runs it: its result and the CPU seconds it took, child processes included.
 
     ``code`` is the digest of the project that the task belongs to; a worker with another one refuses.
     """
@@ -32,8 +32,8 @@ def run_task(function, item, code=None):
                           "install the same version there and restart the worker")
     os.environ.update(ONE_THREAD)
     with _ONE_TASK, threadpool_limits(1):
-        begin = time.process_time()
-        return function(item), time.process_time() - begin
+        begin = cpu_seconds()
+        return function(item), cpu_seconds() - begin
 
 
 class InProcess:

@@ -17,6 +17,7 @@ from threadpoolctl import threadpool_info
 
 from pipeline import __version__
 from pipeline.contract import fingerprint, store
+from pipeline.contract.cpu_time import cpu_seconds
 from pipeline.contract.errors import ConfigError, ProductError
 from pipeline.contract.stage import Products
 
@@ -150,7 +151,7 @@ class Run:
         for product in self.filled(stage).values():     # also those that a stage which reads all might never read
             if now is None and product and store.identity(self.path(product)) is None:
                 store.read(product, self.path(product))     # says what is wrong with it
-        wall, cpu = time.perf_counter(), _cpu_seconds(context)
+        wall, cpu = time.perf_counter(), cpu_seconds() + context.spent_elsewhere()
         with context.stage(stage):
             output = stage(**inputs, settings=self.case.sections[stage.name], context=context)
         seconds = time.perf_counter() - wall
@@ -165,7 +166,7 @@ class Run:
             "settings": json.dumps(self.case.given(stage), default=str), "fingerprint": json.dumps(asdict(now)),
             "companions": json.dumps(sorted(companions)), "packages": json.dumps(_packages()),
             "kernels": json.dumps(_kernels()), "python": platform.python_version(), "machine": platform.machine(),
-            "wall_seconds": seconds, "cpu_seconds": _cpu_seconds(context) - cpu})
+            "wall_seconds": seconds, "cpu_seconds": cpu_seconds() + context.spent_elsewhere() - cpu})
         for name, content in companions.items():
             store.write_companion(self.folder / name, content)
         return seconds
@@ -226,10 +227,6 @@ def _sweep(folder):
     """Remove what a killed run left half-written."""
     for half in folder.glob(".*.partial"):
         half.unlink()
-
-
-def _cpu_seconds(context):
-    return time.process_time() + context.spent_elsewhere()
 
 
 def _packages():
