@@ -3,6 +3,8 @@ CASE   ?= disc_brake
 PYTHON ?= python3
 ARGS   ?=
 TESTS  ?= tests
+KERNELS ?= Haswell Nehalem
+ROUNDING ?= tests/physics tests/systems tests/stages tests/inference tests/diagnosis tests/chain/test_every_case.py
 PRACTICE ?= data/runs/trial_practice
 SEALED ?= data/trial/sealed_3
 AGAIN ?= data/runs/trial_again
@@ -13,7 +15,7 @@ READY  := .venv/.ready
 BIN    := .venv/bin
 
 .DEFAULT_GOAL := help
-.PHONY: help setup run test test-slow test-study bench trial trial_sealed trial_again study_diagnosis study_squeal pin_bench worn_bench lint clean $(STAGES)
+.PHONY: help setup run test coverage test-kernels test-slow test-study bench trial trial_sealed trial_again study_diagnosis study_squeal pin_bench worn_bench lint clean $(STAGES)
 
 help:            ## show this list
 	@echo "usage: make TARGET [CASE=disc_brake] [ARGS=...]      cases: $(basename $(notdir $(wildcard configs/*.yaml)))"
@@ -33,8 +35,16 @@ $(READY): requirements.lock pyproject.toml
 run: $(READY)    ## run the chain of CASE; what is up to date is kept
 	$(BIN)/brakechain run $(CONFIG) $(ARGS)
 
-test: $(READY)   ## all tests but the slow studies
-	$(BIN)/python -m pytest -q -m "not slow" -n auto --dist loadfile $(ARGS) $(TESTS)
+test: $(READY)   ## all tests but the slow studies; says what it skipped and why
+	$(BIN)/python -m pytest -q -rs -m "not slow" -n auto --dist loadfile $(ARGS) $(TESTS)
+
+coverage: $(READY)  ## the same tests with the lines of pipeline/ and stages/ that they run
+	$(BIN)/python -m pytest -q -rs -m "not slow" -n auto --dist loadfile --cov=pipeline --cov=stages --cov-report=term:skip-covered $(ARGS) $(TESTS)
+
+test-kernels: $(READY)  ## what rounding could move, as other processors round: KERNELS of OpenBLAS, old paths of MKL and numba
+	@for kernel in $(KERNELS); do echo "OpenBLAS kernel $$kernel"; \
+		OPENBLAS_CORETYPE=$$kernel MKL_ENABLE_INSTRUCTIONS=SSE4_2 NUMBA_CPU_NAME=generic \
+		$(BIN)/python -m pytest -q -rs -m "not slow" -n auto --dist loadfile $(ARGS) $(ROUNDING) || exit 1; done
 
 test-slow: $(READY)  ## the slow studies: full cases, kill-and-resume in every stage
 	$(BIN)/python -m pytest -q -m "slow and not study" $(ARGS) $(TESTS)
