@@ -28,6 +28,8 @@ def contact_history(contact, pad, pads, time, displacement, velocity):
     size, samples = pad.size, time.size
     normal, friction = np.empty((size, samples)), np.empty((size, samples))
     patch, separated, outside, evaluations = np.zeros((pads, SUB_DISCS, samples)), 0, 0, 0
+    pressures, speeds = contact.friction_pressure, contact.friction_speed
+    distances, table = contact.friction_distance, contact.friction
     for k in range(samples):
         state = contact_state(contact, time[k], displacement[k], velocity[k])
         along, aside = contact.rows[1] @ velocity[k], contact.rows[2] @ velocity[k]
@@ -43,6 +45,5 @@ def contact_history(contact, pad, pads, time, displacement, velocity):
                     evaluations += 1
                     outside += friction_at(
                         state.normal[i] / contact.area[i], slip, contact.bedding[d] + contact.bedding_speed * time[k],
-                        contact.friction_pressure, contact.friction_speed, contact.friction_distance,
-                        contact.friction)[3]
+                        pressures, speeds, distances, table, contact.friction_first[i])[3]
     return ContactHistory(normal, friction, patch, separated / (size * samples), outside / max(evaluations, 1))

@@ -9,9 +9,8 @@ trapezoidal rule with modified Newton iterations and a fixed step.
 import numpy as np
 
 from pipeline.contract.errors import ConvergenceError
-from pipeline.physics.pads.pad_system import force, tangent
+from pipeline.physics.pads.pad_system import STEP_TOLERANCE, force, tangent
 
-TOLERANCE = 1e-8
 #: the Jacobian is renewed when an iteration leaves more than this part of the residual
 CONTRACTION = 0.1
 
@@ -19,8 +18,9 @@ CONTRACTION = 0.1
 def integrate(system, start, step, steps, record_every=1, scale=None):
     """(time (m,), displacement (m, n), velocity (m, n)) at every ``record_every``-th step from rest at ``start``.
 
-    ``system`` is a PadSystem, ``step`` in s. Every step ends with a residual below 1e-8 of ``scale`` (N in the
-    system's coordinates; default the load). Raises ConvergenceError naming the time and the residual otherwise.
+    ``system`` is a PadSystem, ``step`` in s. Every step ends with a residual below STEP_TOLERANCE times ``scale``
+    (N in the system's coordinates; default the load). Raises ConvergenceError naming the time and the residual
+    otherwise.
     """
     import exudyn
 
@@ -30,10 +30,10 @@ def integrate(system, start, step, steps, record_every=1, scale=None):
     multibody.Assemble()
     states = _record(multibody, start, step, steps, record_every)
     solver = exudyn.MainSolverImplicitSecondOrder()
-    if not _solve(exudyn, solver, multibody, _settings(exudyn, step, steps, TOLERANCE * scale)):
+    if not _solve(exudyn, solver, multibody, _settings(exudyn, step, steps, STEP_TOLERANCE * scale)):
         raise ConvergenceError(f"multibody: exudyn at t = {solver.it.currentTime:.6g} s",
-                               f"a residual below {TOLERANCE:g} of the load", f"{solver.conv.residual / scale:.3g}",
-                               "take a shorter step")
+                               f"a residual below {STEP_TOLERANCE:g} of the load",
+                               f"{solver.conv.residual / scale:.3g}", "take a shorter step")
     return np.arange(states.shape[1]) * (step * record_every), *states
 
 

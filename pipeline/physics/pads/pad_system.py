@@ -7,10 +7,12 @@ import scipy
 
 from pipeline.contract.errors import ConfigError, ConvergenceError
 from pipeline.physics.numerics.compiled import njit
-from pipeline.physics.pads.patch_contact import SUB_DISCS, PatchContact, contact_force, contact_tangent
+from pipeline.physics.pads.patch_contact import SUB_DISCS, PatchContact, add, contact_force, contact_tangent
 from pipeline.physics.time_stepping.element_forces import LawKernel, element_force
 from pipeline.physics.time_stepping.elements import alone
 
+#: residual of a time step, as a share of the load
+STEP_TOLERANCE = 1e-8
 STATIC_ITERATIONS = 100
 STATIC_TOLERANCE = 1e-12
 STATIC_HALVINGS = 20
@@ -100,28 +102,35 @@ def _check(closure, pressure, bedding, sectors):
 @njit
 def force(system, time, displacement, velocity):
     """M q'' (n,): load and contact force less elastic and damping forces, and those of elements."""
-    inner = system.stiffness @ displacement + system.damping @ velocity
-    found = system.load + contact_force(system.contact, time, displacement, velocity) - inner
+    result = contact_force(system.contact, time, displacement, velocity)
+    elastic, viscous = system.stiffness @ displacement, system.damping @ velocity
+    for i in range(result.size):
+        result[i] = system.load[i] + result[i] - (elastic[i] + viscous[i])
     for k in range(system.elements.offset.size):
-        found -= _drawn(system, k, time, displacement, velocity)[0] * system.elements.rows[k]
-    return found
+        element = _element(system, k, time, displacement, velocity)[0]
+        for i in range(result.size):
+            result[i] -= element * system.elements.rows[k, i]
+    return result
 
 
 @njit
 def tangent(system, time, displacement, velocity):
     """(stiffness, damping), both (n, n): minus the exact derivatives of ``force``."""
     stiffness, damping = contact_tangent(system.contact, time, displacement, velocity)
-    stiffness, damping = system.stiffness + stiffness, system.damping + damping
+    add(stiffness, system.stiffness)
+    add(damping, system.damping)
     for k in range(system.elements.offset.size):
+        _, slope, drag = _element(system, k, time, displacement, velocity)
         row = system.elements.rows[k]
-        _, slope, drag = _drawn(system, k, time, displacement, velocity)
-        stiffness += slope * np.outer(row, row)
-        damping += drag * np.outer(row, row)
+        for i in range(row.size):
+            for j in range(row.size):
+                stiffness[i, j] += slope * (row[i] * row[j])
+                damping[i, j] += drag * (row[i] * row[j])
     return stiffness, damping
 
 
 @njit
-def _drawn(system, k, time, displacement, velocity):
+def _element(system, k, time, displacement, velocity):
     """(F, dF/de, dF/dv) of element ``k``."""
     elements, speed, nothing = system.elements, system.contact.disc_speed, np.zeros(0)
     row = elements.rows[k]
