@@ -27,14 +27,14 @@ class CaseText:
 
 @dataclass(frozen=True)
 class CaseFile:
-    """The YAML of a case, checked whole before anything is computed."""
+    """The YAML of a case, checked completely before anything is computed."""
 
     path: Path
     document: dict      # as read, overrides applied, origins included
     stages: tuple       # the stages of its chain, in order
-    folders: tuple      # where a file is looked for that is not beside the YAML that names it: here, then the bases
+    folders: tuple      # where files are searched for that are not beside the YAML that names them
     measured: object = None     # name of a public recording -> its local file
-    unread: tuple = ()          # names of stages that will not run, whose sections are not looked at
+    unread: tuple = ()          # names of stages that will not run, whose sections are not checked
 
     @property
     def name(self):
@@ -60,20 +60,20 @@ class CaseFile:
         section = self.document.get(stage.name)
         return {} if section is None else section
 
-    def seen_from(self, folder):
-        """CaseText for a file in ``folder``: as run, with the files that it names as seen from there."""
+    def moved_to(self, folder):
+        """CaseText for a file in ``folder``: as run, with paths of files relative to that folder."""
         document = {key: value for key, value in self.document.items() if key != "based_on"}
-        return CaseText(self.name, settings.seen_from(document, self.folders, folder))
+        return CaseText(self.name, settings.moved_to(document, self.folders, folder))
 
     @property
     def digest(self):
-        """SHA-256 of all that a stage may tell about the case."""
+        """SHA-256 of everything that a report may say about the case."""
         return hashlib.sha256(json.dumps(asdict(self.card(__version__)), default=str).encode()).hexdigest()
 
     def card(self, version):
-        """What the report may tell about the case."""
-        told = {s.name: list(settings.leaves(self.sections[s.name])) for s in self.stages}
-        values, units, meanings = ({name: {row[0]: row[i] for row in rows} for name, rows in told.items()}
+        """What the report may say about the case."""
+        leaves = {s.name: list(settings.leaves(self.sections[s.name])) for s in self.stages}
+        values, units, meanings = ({name: {row[0]: row[i] for row in rows} for name, rows in leaves.items()}
                                    for i in (1, 2, 3))
         values = {name: {key: _file_name(value) for key, value in rows.items()} for name, rows in values.items()}
         origins = {s.name: {key: _origin(self.given(s), key.split(".")) for key in values[s.name]} for s in self.stages}
@@ -83,25 +83,25 @@ class CaseFile:
 
 
 def _file_name(value):
-    """A file by its name: where it lies on this machine is nobody's business."""
+    """A file by its name: reports do not publish paths of this machine."""
     return value.name if isinstance(value, Path) else value
 
 
 def _origin(given, steps):
-    """What the YAML says of one setting: its annotation, or that of what holds it; 'user' of a bare value; else {}."""
-    said = {}
+    """Annotation of one setting in the YAML, or of the section that holds it; 'user' for a bare value; else {}."""
+    annotation = {}
     for step in steps:
         if settings.annotated(given):
-            said, given = {k: v for k, v in given.items() if k != "value"}, given["value"]
+            annotation, given = {k: v for k, v in given.items() if k != "value"}, given["value"]
         if isinstance(given, dict) and step in given:
             given = given[step]
         elif isinstance(given, list) and step.isdigit() and int(step) < len(given):
             given = given[int(step)]
         else:
-            return said
+            return annotation
     if settings.annotated(given):
-        said = {k: v for k, v in given.items() if k != "value"}
-    return {"origin": "user", **said}
+        annotation = {k: v for k, v in given.items() if k != "value"}
+    return {"origin": "user", **annotation}
 
 
 def load(path, chains, stage_of, overrides=(), measured=None, unread=()):
@@ -111,7 +111,7 @@ def load(path, chains, stage_of, overrides=(), measured=None, unread=()):
     stage_of : function, stage name -> Stage
     overrides : strings 'stage.key=value', as given to --set
     measured : function, name of a public recording -> its local file
-    unread : names of stages that will not run, whose sections are not looked at
+    unread : names of stages that will not run, whose sections are not checked
     """
     path = Path(path)
     document, folders = _read(path, chains)
@@ -132,7 +132,7 @@ def load(path, chains, stage_of, overrides=(), measured=None, unread=()):
 def _read(path, chains, readers=()):
     """The document at ``path`` laid over the one that its key ``based_on`` names, and the folders of both.
 
-    A case of another chain takes from that one what its own chain has, and leaves the sections of other stages.
+    Sections of stages that the chain of this case does not have are not inherited.
     """
     document = documents.read_yaml(path)
     if not isinstance(document, dict):
@@ -143,21 +143,21 @@ def _read(path, chains, readers=()):
     file = path.parent / str(base)
     if file.resolve() in [reader.resolve() for reader in (*readers, path)]:
         raise ConfigError(f"{path}: based_on", "a file that does not lead back here", repr(base))
-    below, folders = _read(file, chains, (*readers, path))
-    whose, own = (str(name) for name in (below.get("chain"), document.get("chain", below.get("chain"))))
-    foreign = set(chains.get(whose, ())) - set(chains.get(own, ()))
-    kept = {key: value for key, value in below.items() if key not in foreign}
-    return _laid_over(kept, document), (path.parent, *folders)
+    inherited, folders = _read(file, chains, (*readers, path))
+    base_chain, chain = (str(name) for name in (inherited.get("chain"), document.get("chain", inherited.get("chain"))))
+    foreign = set(chains.get(base_chain, ())) - set(chains.get(chain, ()))
+    inherited = {key: value for key, value in inherited.items() if key not in foreign}
+    return _laid_over(inherited, document), (path.parent, *folders)
 
 
-def _laid_over(base, own):
-    """``own`` where it speaks, ``base`` elsewhere; a mapping of another ``kind`` replaces the whole mapping."""
-    if own is None and isinstance(base, dict) and not settings.annotated(base):
+def _laid_over(base, overlay):
+    """``overlay`` where it has values, ``base`` elsewhere; a mapping of another ``kind`` replaces the whole mapping."""
+    if overlay is None and isinstance(base, dict) and not settings.annotated(base):
         return base
-    plain = all(isinstance(d, dict) and not settings.annotated(d) for d in (base, own))
-    if not plain or own.get("kind", base.get("kind")) != base.get("kind"):
-        return own
-    return {**base, **{key: _laid_over(base.get(key), value) for key, value in own.items()}}
+    plain = all(isinstance(d, dict) and not settings.annotated(d) for d in (base, overlay))
+    if not plain or overlay.get("kind", base.get("kind")) != base.get("kind"):
+        return overlay
+    return {**base, **{key: _laid_over(base.get(key), value) for key, value in overlay.items()}}
 
 
 def _override(document, item):
@@ -165,27 +165,27 @@ def _override(document, item):
     steps = key.split(".")
     if not equals or len(steps) < 2:
         raise ConfigError(f"--set {item}", "stage.key=value", repr(item))
-    place = document
+    node = document
     for step in steps[:-1]:
-        inner = _step(place, step, item)
+        inner = _step(node, step, item)
         if settings.annotated(inner):       # what is overridden is no longer what was annotated
-            inner = place[int(step) if isinstance(place, list) else step] = inner["value"]
-        place = inner
-    last = int(steps[-1]) if isinstance(place, list) and steps[-1].isdigit() else steps[-1]
+            inner = node[int(step) if isinstance(node, list) else step] = inner["value"]
+        node = inner
+    last = int(steps[-1]) if isinstance(node, list) and steps[-1].isdigit() else steps[-1]
     try:
-        place[last] = documents.parse_value(text)
+        node[last] = documents.parse_value(text)
     except (IndexError, TypeError):
-        raise ConfigError(f"--set {item}", f"a place for '{steps[-1]}'", repr(place)[:60]) from None
+        raise ConfigError(f"--set {item}", f"a mapping that can hold '{steps[-1]}'", repr(node)[:60]) from None
 
 
-def _step(place, step, item):
-    if isinstance(place, dict):
-        if place.get(step) is None:
-            place[step] = {}
-        return place[step]
-    if isinstance(place, list) and step.isdigit() and int(step) < len(place):
-        return place[int(step)]
-    raise ConfigError(f"--set {item}", f"a mapping that holds '{step}'", repr(place)[:60])
+def _step(node, step, item):
+    if isinstance(node, dict):
+        if node.get(step) is None:
+            node[step] = {}
+        return node[step]
+    if isinstance(node, list) and step.isdigit() and int(step) < len(node):
+        return node[int(step)]
+    raise ConfigError(f"--set {item}", f"a mapping that holds '{step}'", repr(node)[:60])
 
 
 def _check_keys(path, document, stages):

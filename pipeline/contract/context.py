@@ -8,7 +8,7 @@ class Progress:
     """Counts steps of one piece of work; this base class is silent."""
 
     def advance(self, steps=1):
-        """Tell that ``steps`` more of the announced total are done."""
+        """Count ``steps`` more of the announced total as done."""
 
 
 @dataclass(frozen=True)
@@ -28,7 +28,7 @@ class Case:
 
 @dataclass(frozen=True)
 class Context:
-    """The default context runs in this process and says nothing: fit for tests and notebooks."""
+    """The default context runs in this process, silently: for tests and notebooks."""
 
     solver: str = "superlu"
     case: Case = Case()
@@ -44,7 +44,7 @@ class Context:
         return results
 
     def spent_elsewhere(self):
-        """CPU seconds that tasks of ``map`` have spent in other processes so far."""
+        """CPU seconds that tasks of ``map`` have used in other processes so far."""
         return 0.0
 
     @contextmanager

@@ -7,7 +7,7 @@ import yaml
 from pipeline.contract.errors import ConfigError
 
 _MERGE = "tag:yaml.org,2002:merge"
-#: characters that are told of an error of a library
+#: characters shown of an error of a library
 _LONGEST = 200
 
 
@@ -48,7 +48,7 @@ def read_yaml(path):
 
 
 def _unshared(value):
-    """``value`` with a list or mapping of its own wherever the document repeats one by an alias."""
+    """``value`` with a copy of each list or mapping that the document repeats by an alias."""
     if isinstance(value, dict):
         return {key: _unshared(inner) for key, inner in value.items()}
     return [_unshared(inner) for inner in value] if isinstance(value, list) else value
@@ -60,7 +60,7 @@ def yaml_text(document):
 
 
 def _plain(value):
-    """``value`` of plain types alone."""
+    """``value`` in plain types only."""
     if isinstance(value, dict):
         return {str(key): _plain(inner) for key, inner in value.items()}
     if isinstance(value, list | tuple):

@@ -1,19 +1,18 @@
 """Errors say where, what was expected, what was found and what to do.
 
-The exit code of the command line belongs to the class: 2 for input, 3 for
-non-convergence, 4 for files.
+Each class has its exit code: 2 for input, 3 for non-convergence, 4 for files.
 """
 
 
 class BrakechainError(Exception):
-    """Base of every error that a user can mend; ``str(error)`` is the whole message."""
+    """Base of every error that a user can correct; ``str(error)`` is the complete message."""
 
     exit_code = 1
 
     def __init__(self, where, expected=None, found=None, remedy=None):
         self.where, self.expected, self.found, self.remedy = where, expected, found, remedy
-        told = [f"expected {expected}" * bool(expected), f"found {found}" * bool(found)]
-        sentence = ", ".join(t for t in told if t)
+        parts = [f"expected {expected}" * bool(expected), f"found {found}" * bool(found)]
+        sentence = ", ".join(part for part in parts if part)
         message = f"{where}: {sentence}" if sentence else str(where)
         super().__init__(f"{message}; {remedy}" if remedy else message)
 
@@ -28,7 +27,7 @@ class ConfigError(BrakechainError):
 
 
 class ConvergenceError(BrakechainError):
-    """An iteration stopped before its tolerance; results are never returned."""
+    """An iteration stopped short of its tolerance; unconverged results are never returned."""
 
     exit_code = 3
 

@@ -18,7 +18,7 @@ from pipeline.contract.fingerprint import project_digest
 from pipeline.contract.following import follow
 from pipeline.environment import ONE_THREAD
 
-#: solvers with global state: one task at a time in a process, also in a worker with several threads
+#: solvers have global state: one task at a time per process, also in a worker with several threads
 _ONE_TASK = threading.Lock()
 
 
@@ -71,8 +71,8 @@ class LocalProcesses:
                 self.spent_elsewhere += future.result()[1]
                 done()
         except BrokenProcessPool:
-            raise BrakechainError("local processes", "workers that live until the end", "one ended from outside",
-                                  "most often memory ran out: try --workers 1") from None
+            raise BrakechainError("local processes", "workers that run to the end", "one that was killed",
+                                  "usually memory ran out: try --workers 1") from None
         except BaseException:
             for future in futures:
                 future.cancel()
@@ -89,7 +89,7 @@ _CODE_THERE = "__import__('pipeline.contract.fingerprint', fromlist=['project_di
 
 
 class DaskCluster:
-    """The workers of the Dask scheduler at ``address``; it and they must run the same brakechain."""
+    """The workers of the Dask scheduler at ``address``; all must run the same brakechain as this process."""
 
     def __init__(self, address):
         self.spent_elsewhere, self._code = 0.0, project_digest()
@@ -116,7 +116,7 @@ class DaskCluster:
             raise
 
     def _check_code(self):
-        """Refuse a cluster with other code or none: Dask itself would wait for its workers without an end."""
+        """Refuse a cluster with other code or none: Dask itself would wait for its workers forever."""
         answers = self._client.run(eval, _CODE_THERE, on_error="return")
         try:
             answers["the scheduler"] = self._client.run_on_scheduler(eval, _CODE_THERE)

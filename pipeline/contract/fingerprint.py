@@ -21,33 +21,34 @@ class Fingerprint:
     case: str           # SHA-256 of the whole YAML for a stage that reads it, else ""
 
 
-def reasons(before, now):
-    """Why ``now`` differs from the stored ``before`` (a dict or None), one phrase each."""
-    if before is None:
+def reasons(stored, current):
+    """What differs between the ``stored`` fingerprint (a dict or None) and the ``current`` one, one phrase each."""
+    if stored is None:
         return ["not computed yet"]
-    told = [f"{name} {before.get(name)} -> {getattr(now, name)}" for name in ("version", "solver")
-            if before.get(name) != getattr(now, name)]
-    settings, code = before.get("settings", {}), before.get("code", {})
-    told += [_setting(key, settings.get(key), now.settings.get(key)) for key in _changed(settings, now.settings)]
-    told += [f"input {key} changed" for key in _changed(before.get("inputs", {}), now.inputs)]
-    told += [f"code {', '.join(_changed(code, now.code))} changed"] if code != now.code else []
-    if before.get("case") != now.case and not told:
-        told.append("the case file changed")
-    return told
+    changes = [f"{name} {stored.get(name)} -> {getattr(current, name)}" for name in ("version", "solver")
+               if stored.get(name) != getattr(current, name)]
+    settings, code = stored.get("settings", {}), stored.get("code", {})
+    changes += [_setting(key, settings.get(key), current.settings.get(key))
+                for key in _changed(settings, current.settings)]
+    changes += [f"input {key} changed" for key in _changed(stored.get("inputs", {}), current.inputs)]
+    changes += [f"code {', '.join(_changed(code, current.code))} changed"] if code != current.code else []
+    if stored.get("case") != current.case and not changes:
+        changes.append("the case file changed")
+    return changes
 
 
-def _changed(before, now):
-    return [key for key in {**before, **now} if before.get(key) != now.get(key)]
+def _changed(stored, current):
+    return [key for key in {**stored, **current} if stored.get(key) != current.get(key)]
 
 
-def _setting(key, before, now, most=60):
-    """'setting duration: 0.3 -> 0.1', or only that it changed where the values are long."""
-    values = f"{before} -> {now}"
-    return f"setting {key}: {values}" if len(values) <= most else f"setting {key} changed"
+def _setting(key, stored, current, longest=60):
+    """'setting duration: 0.3 -> 0.1', or only that it changed if the values are long."""
+    values = f"{stored} -> {current}"
+    return f"setting {key}: {values}" if len(values) <= longest else f"setting {key} changed"
 
 
 def settings_of(section):
-    """Dotted settings in JSON form; a file stands as the digest of its content."""
+    """Dotted settings in JSON form; a file is represented by the digest of its content."""
     return {key: _plain(value) for key, value, _, _ in leaves(section)}
 
 
@@ -69,7 +70,7 @@ def code_of(module):
 
 
 def _package_data(name, path):
-    """Files that belong to a package and are no Python: templates, tables."""
+    """Files of a package that are not Python: templates, tables."""
     if path.name != "__init__.py":
         return {}
     files = [f for f in path.parent.glob("templates/*") if f.is_file()]

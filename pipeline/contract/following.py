@@ -1,7 +1,7 @@
-"""Processes that end with their parent, however it went.
+"""Processes that end with their parent, however it ended.
 
 ``python -m pipeline.contract.following PARENT MODULE ARGUMENTS`` runs a module as ``python -m MODULE ARGUMENTS`` does,
-until the process of the id PARENT is its parent no more.
+until the process with the id PARENT is no longer its parent.
 """
 
 import os
@@ -10,12 +10,12 @@ import sys
 import threading
 import time
 
-#: seconds between two looks at the parent
+#: seconds between two checks of the parent
 _PERIOD = 0.5
 
 
 def follow(parent):
-    """End this process once the process of the id ``parent`` is its parent no more."""
+    """End this process once the process with the id ``parent`` is no longer its parent."""
 
     def watch():
         while os.getppid() == parent:

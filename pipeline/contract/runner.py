@@ -1,4 +1,4 @@
-"""Run a chain on a run folder: what is up to date stays, what is not is computed and published whole."""
+"""Run a chain in a run folder: stages that are up to date are skipped, the others computed and published atomically."""
 
 import errno
 import fcntl
@@ -26,10 +26,10 @@ _PACKAGES = ("numpy", "scipy", "scikit-fem", "exudyn", "h5py", "numba", "pypardi
 
 @dataclass(frozen=True)
 class State:
-    """Where one stage of a run folder stands."""
+    """State of one stage in a run folder."""
 
     stage: object
-    reasons: tuple      # why it must run; empty = up to date
+    reasons: tuple      # why it must run; empty if up to date
     path: Path
 
 
@@ -56,11 +56,11 @@ class Run:
     def filled(self, stage):
         """argument -> product class that fills it in this chain (None for an absent optional one).
 
-        A stage that reads all has the names of the products before it for arguments.
+        The arguments of a stage that reads all products are the names of all previous ones.
         """
         if stage.reads_all:
-            before = self.case.stages[:self.case.stages.index(stage)]
-            return {s.output.name: s.output for s in before}
+            previous = self.case.stages[:self.case.stages.index(stage)]
+            return {s.output.name: s.output for s in previous}
         chosen = {}
         for name, products in stage.inputs.items():
             writer = self.producer(products)
@@ -70,15 +70,15 @@ class Run:
         return chosen
 
     def fingerprint(self, stage):
-        """What the output of ``stage`` depends on now; None while an input is missing."""
+        """What the output of ``stage`` currently depends on; None while an input is missing."""
         inputs = {}
         for name, product in self.filled(stage).items():
             if product is None:
                 continue
-            found = store.identity(self.path(product))
-            if found is None or found[:2] != (product.name, product.version):
+            identity = store.identity(self.path(product))
+            if identity is None or identity[:2] != (product.name, product.version):
                 return None
-            inputs[name] = [product.name, found[2]]
+            inputs[name] = [product.name, identity[2]]
         settings = fingerprint.settings_of(self.case.sections[stage.name])
         digest = self.case.digest if stage.reads_case else ""
         code = self.code[stage.name]
@@ -87,21 +87,20 @@ class Run:
     def state(self, stage, stale=frozenset()):
         """State of ``stage``; ``stale`` names the products that would be computed before it."""
         path = self.path(stage.output)
-        before = _stored(path)
-        now = self.fingerprint(stage)
-        told = [] if now is None else fingerprint.reasons(before and before["fingerprint"], now)
-        if before is None:
-            told = [_unreadable(path)]
-        elif before["companions"] and not all((self.folder / name).exists() for name in before["companions"]):
-            told.append("a companion file is missing")
-        changed = [p.name for p in self.filled(stage).values() if p and p.name in stale]
-        told += [f"input {name} is computed anew" for name in changed if f"input {name} changed" not in told]
-        if now is None and not told:
-            told = ["an input is missing"]
-        return State(stage, tuple(told), path)
+        stored, current = _stored(path), self.fingerprint(stage)
+        reasons = [] if current is None else fingerprint.reasons(stored and stored["fingerprint"], current)
+        if stored is None:
+            reasons = [_unreadable(path)]
+        elif stored["companions"] and not all((self.folder / name).exists() for name in stored["companions"]):
+            reasons.append("a companion file is missing")
+        renewed = [p.name for p in self.filled(stage).values() if p and p.name in stale]
+        reasons += [f"input {name} is computed anew" for name in renewed if f"input {name} changed" not in reasons]
+        if current is None and not reasons:
+            reasons = ["an input is missing"]
+        return State(stage, tuple(reasons), path)
 
     def plan(self, first=None, last=None, force=frozenset()):
-        """States of the stages from ``first`` to ``last``, as a run would find them."""
+        """States of the stages from ``first`` to ``last`` in a run that starts now."""
         stale, states = set(), []
         for stage in self._span(first, last):
             state = self.state(stage, stale)
@@ -112,10 +111,10 @@ class Run:
         return states
 
     def stale_before(self, first):
-        """States of the stages before ``first`` whose products are there and out of date."""
-        taken = len(self.case.stages) - len(self._span(first, None))
-        earlier = self.plan()[:taken] if taken else []
-        return [state for state in earlier if state.reasons and state.path.exists()]
+        """States of the stages before ``first`` whose products exist but are out of date."""
+        skipped = len(self.case.stages) - len(self._span(first, None))
+        states = self.plan()[:skipped] if skipped else []
+        return [state for state in states if state.reasons and state.path.exists()]
 
     def _span(self, first, last):
         names = [s.name for s in self.case.stages]
@@ -128,8 +127,8 @@ class Run:
             raise ConfigError("--from/--until", "a stage at or after --from", f"--from {first} --until {last}")
         return self.case.stages[begin:end]
 
-    def execute(self, context, first=None, last=None, force=frozenset(), tell=lambda state, seconds: None):
-        """Compute what must be computed; ``tell`` hears (state, seconds or None) after each stage.
+    def execute(self, context, first=None, last=None, force=frozenset(), report=lambda state, seconds: None):
+        """Compute what must be computed; ``report`` is called with (state, seconds or None) after each stage.
 
         Returns the number of stages computed.
         """
@@ -141,29 +140,29 @@ class Run:
                     state = State(stage, ("forced", *state.reasons), state.path)
                 seconds = self._compute(stage, context) if state.reasons else None
                 computed += bool(state.reasons)
-                tell(state, seconds)
+                report(state, seconds)
         return computed
 
     def _compute(self, stage, context):
-        if not os.access(self.folder, os.W_OK | os.X_OK):      # now, not after minutes of computing
+        if not os.access(self.folder, os.W_OK | os.X_OK):      # at once, not after minutes of computing
             raise _closed(self.folder, os.strerror(errno.EACCES))
-        inputs, now = self._inputs(stage), self.fingerprint(stage)
+        inputs, current = self._inputs(stage), self.fingerprint(stage)
         for product in self.filled(stage).values():     # also those that a stage which reads all might never read
-            if now is None and product and store.identity(self.path(product)) is None:
+            if current is None and product and store.identity(self.path(product)) is None:
                 store.read(product, self.path(product))     # says what is wrong with it
         wall, cpu = time.perf_counter(), cpu_seconds() + context.spent_elsewhere()
         with context.stage(stage):
             output = stage(**inputs, settings=self.case.sections[stage.name], context=context)
         seconds = time.perf_counter() - wall
         if fingerprint.code_of(stage.run.__module__) != self.code[stage.name]:
-            raise ProductError(f"stage {stage.name}", "the same code from begin to end", "code that changed meanwhile",
+            raise ProductError(f"stage {stage.name}", "the same code from start to end", "code that changed meanwhile",
                                "run again")
-        companions = stage.companions(output, self.case.seen_from(self.folder)) if stage.companions else {}
-        for name in companions:     # gone first: a product never stands beside the companions of another one
+        companions = stage.companions(output, self.case.moved_to(self.folder)) if stage.companions else {}
+        for name in companions:     # removed first: a product never lies beside companions of another one
             (self.folder / name).unlink(missing_ok=True)
         store.write(output, self.path(stage.output), {
             "stage": stage.name, "brakechain": __version__, "git_commit": git_commit(),
-            "settings": json.dumps(self.case.given(stage), default=str), "fingerprint": json.dumps(asdict(now)),
+            "settings": json.dumps(self.case.given(stage), default=str), "fingerprint": json.dumps(asdict(current)),
             "companions": json.dumps(sorted(companions)), "packages": json.dumps(_packages()),
             "kernels": json.dumps(_kernels()), "python": platform.python_version(), "machine": platform.machine(),
             "wall_seconds": seconds, "cpu_seconds": cpu_seconds() + context.spent_elsewhere() - cpu})
@@ -172,7 +171,7 @@ class Run:
         return seconds
 
     def _inputs(self, stage):
-        """The arguments of ``stage`` that are products, read now, or when asked for where it reads all."""
+        """The arguments of ``stage`` that are products; read at once, or at their first use if it reads all."""
         readers = {name: partial(store.read, product, self.path(product)) if product else lambda: None
                    for name, product in self.filled(stage).items()}
         if stage.reads_all:
@@ -185,8 +184,8 @@ def _stored(path):
     if store.identity(path) is None:
         return None
     try:
-        told = store.provenance(path)
-        return {"fingerprint": json.loads(told["fingerprint"]), "companions": json.loads(told["companions"])}
+        provenance = store.provenance(path)
+        return {name: json.loads(provenance[name]) for name in ("fingerprint", "companions")}
     except (ProductError, KeyError, ValueError, OSError, RuntimeError):
         return None
 
@@ -197,12 +196,12 @@ def _unreadable(path):
 
 def _closed(folder, why):
     return ProductError(folder, "a run folder that can be written", why,
-                        "choose another with --run, or mend its permissions")
+                        "choose another with --run, or correct its permissions")
 
 
 @contextmanager
 def locked(folder):
-    """Hold the run folder for this process alone; it is freed however the process ends."""
+    """Lock the run folder for this process; the lock is released however the process ends."""
     try:
         folder.mkdir(parents=True, exist_ok=True)
         handle = os.open(folder / ".lock", os.O_RDWR | os.O_CREAT, 0o644)
@@ -224,23 +223,23 @@ def locked(folder):
 
 
 def _sweep(folder):
-    """Remove what a killed run left half-written."""
+    """Remove files that a killed run left half-written."""
     for half in folder.glob(".*.partial"):
         half.unlink()
 
 
 def _packages():
-    found = {}
+    versions = {}
     for name in _PACKAGES:
         try:
-            found[name] = metadata.version(name)
+            versions[name] = metadata.version(name)
         except metadata.PackageNotFoundError:
             continue
-    return found
+    return versions
 
 
 def _kernels():
-    """Linear algebra libraries that are loaded, each with the processor that it computes for."""
+    """Linear algebra libraries that are loaded, each with the processor kernel that it uses."""
     loaded = {f"{library['internal_api']} {library.get('architecture') or ''}".strip() for library in threadpool_info()
               if library["user_api"] == "blas"}
     return sorted(loaded)

@@ -29,7 +29,7 @@ from pydantic import (
 from pipeline.contract.errors import BrakechainError, ConfigError
 from pipeline.contract.units import example, to_si
 
-#: what an annotated YAML value may say beside its value
+#: keys of an annotated YAML value
 ORIGINS = ("stated", "inferred", "measured", "tuned", "assumed", "user")
 ANNOTATION = {"value", "origin", "source", "doubt", "choose"}
 
@@ -66,7 +66,7 @@ def Quantities(unit, **bounds):  # noqa: N802
 
 
 def OneOf(*sections):  # noqa: N802
-    """One of several sections, told apart by their key ``kind``."""
+    """One of several sections, distinguished by their key ``kind``."""
     return Annotated[Union[sections], Field(discriminator="kind")]  # noqa: UP007
 
 
@@ -95,7 +95,7 @@ def _in_si(value, unit, info):
 
 
 class Written(str):
-    """Text of a YAML document that knows the ``folder`` of the file it stands in: what it may name lies there."""
+    """Text of a YAML document with the ``folder`` of its file, to which paths in the text refer."""
 
     folder: Path
 
@@ -112,21 +112,21 @@ def written_in(folder, value):
     return value
 
 
-def seen_from(value, folders, place):
-    """The document ``value`` for a file in the folder ``place``: names of files as seen from there.
+def moved_to(value, folders, destination):
+    """The document ``value`` for a file in the folder ``destination``: paths of files relative to it.
 
-    ``folders``: where else the files of the case are looked for.
+    ``folders``: where else the files of the case are searched for.
     """
     if isinstance(value, dict):
-        return {key: seen_from(inner, folders, place) for key, inner in value.items()}
+        return {key: moved_to(inner, folders, destination) for key, inner in value.items()}
     if isinstance(value, list):
-        return [seen_from(inner, folders, place) for inner in value]
+        return [moved_to(inner, folders, destination) for inner in value]
     if not isinstance(value, str) or "/" not in value and "." not in value:
         return value
     beside = (value.folder,) if isinstance(value, Written) else ()
     candidates = [Path(folder) / value for folder in (*beside, *folders)]
-    found = next((path for path in candidates if os.path.isfile(path)), None)
-    return str(value) if found is None else os.path.relpath(found, place)
+    file = next((path for path in candidates if os.path.isfile(path)), None)
+    return str(value) if file is None else os.path.relpath(file, destination)
 
 
 def _existing(value, info: ValidationInfo):
@@ -140,18 +140,18 @@ def _existing(value, info: ValidationInfo):
     beside = (value.folder,) if isinstance(value, Written) else ()
     folders = (*beside, *context.get("folders", ()), ".")
     candidates = dict.fromkeys(Path(folder) / str(value) for folder in folders)
-    found = next((path for path in candidates if path.is_file()), None)
-    if found is None:
+    file = next((path for path in candidates if path.is_file()), None)
+    if file is None:
         raise ValueError(f"expected a file, found none at {' or '.join(repr(str(c)) for c in candidates)}")
-    return found
+    return file
 
 
-#: a path whose content joins the hash of the stage that reads it
+#: a path; the content of the file joins the hash of its stage
 InputFile = Annotated[Path, BeforeValidator(_existing), WithJsonSchema({"type": "string", "description": "a file"})]
 
 
 def annotated(values):
-    """Whether a mapping of a case is a value with its origin; one that tells its unit is a section of its own."""
+    """Whether a mapping of a case is a value with its origin; with a key ``unit`` it is a section instead."""
     return isinstance(values, dict) and "value" in values and "unit" not in values
 
 
@@ -180,7 +180,7 @@ def _check_annotation(values, where):
 def fill(cls, values, where, context=None):
     """Build section ``cls`` from a plain mapping; ``where`` is 'file.yaml: stage' for messages.
 
-    ``context`` tells how files are found: {"folders": Paths, "measured": name -> Path}.
+    ``context``: how to find files, {"folders": Paths, "measured": name -> Path}.
     """
     if not isinstance(values, dict):
         raise ConfigError(where, "a mapping of settings", repr(values))
@@ -213,17 +213,17 @@ def _unit(info):
 
 
 def _sentence(cls, error, where):
-    place = ".".join([where, *(str(step) for step in error["loc"] if not _is_tag(cls, error["loc"], step))])
+    location = ".".join([where, *(str(step) for step in error["loc"] if not _is_tag(cls, error["loc"], step))])
     if error["type"] == "extra_forbidden":
         known = sorted(_known_keys(cls, error["loc"][:-1]))
         near = get_close_matches(str(error["loc"][-1]), known, 1)
         remedy = f"did you mean '{near[0]}'?" if near else f"known: {', '.join(known)}"
-        return f"{place}: unknown key; {remedy}"
+        return f"{location}: unknown key; {remedy}"
     if error["type"] == "missing":
-        return f"{place}: expected a value, found none; add it to the YAML"
+        return f"{location}: expected a value, found none; add it to the YAML"
     message = error["msg"].removeprefix("Value error, ")
-    found = "" if "found" in message else f", found {error['input']!r}"
-    return f"{place}: {message[0].lower()}{message[1:]}{found}"
+    value = "" if "found" in message else f", found {error['input']!r}"
+    return f"{location}: {message[0].lower()}{message[1:]}{value}"
 
 
 def _is_tag(cls, location, step):
@@ -237,14 +237,14 @@ def _known_keys(cls, location):
 
 
 def _within(cls, location):
-    """The sections that may stand at ``location`` of section ``cls``."""
+    """The sections that are allowed at ``location`` of section ``cls``."""
     options = [cls]
     for step in location:
         if step in _kinds(options):
             options = [o for o in options if o.model_fields["kind"].default == step]
         else:
-            found = [o.model_fields[step].annotation for o in options if step in o.model_fields]
-            options = [s for annotation in found for s in _sections(annotation)] or options
+            annotations = [o.model_fields[step].annotation for o in options if step in o.model_fields]
+            options = [s for annotation in annotations for s in _sections(annotation)] or options
     return options
 
 

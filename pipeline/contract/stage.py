@@ -13,7 +13,7 @@ from pipeline.contract.settings import Section
 
 
 class Products(Mapping):
-    """Every product of the stages before, by name, each read when it is first asked for."""
+    """Products of all previous stages by name, each read at its first use."""
 
     def __init__(self, readers):
         """``readers``: product name -> function without arguments that reads it."""
@@ -45,8 +45,8 @@ class Stage:
     summary: str        # first docstring line: the CLI help
     method: str         # docstring paragraph after 'Method:': the sentence of the report
     companions: Callable | None     # (product, CaseText) -> {file name: str or bytes}, written beside it
-    reads_case: bool    # True for the report: all it may tell about the case joins its hash
-    check: Callable     # {stage: settings} -> None; refuses settings that do not fit those of other stages
+    reads_case: bool    # True for the report: everything that it may say about the case joins its hash
+    check: Callable     # {stage: settings} -> None; raises for settings that contradict those of other stages
 
     def __call__(self, *args, **kwargs):
         """Run the pure function; ``context`` and optional inputs may be left out.
@@ -63,9 +63,9 @@ class Stage:
             raise ConfigError(setting, error.expected, error.found, error.remedy) from error
 
     def _setting(self, where):
-        """'transient.step (time stepping)' for 'time stepping: step', 'steps' where it holds several; else None."""
-        part, _, found = str(where).rpartition(": ")
-        key = next((k for k in (found, f"{found}s") if part and k in self.settings.model_fields), None)
+        """'transient.step (time stepping)' for 'time stepping: step', 'steps' if it holds several; else None."""
+        part, _, name = str(where).rpartition(": ")
+        key = next((k for k in (name, f"{name}s") if part and k in self.settings.model_fields), None)
         return key and f"{self.name}.{key} ({part})"
 
 

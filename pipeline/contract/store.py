@@ -18,7 +18,7 @@ from pipeline.contract.product import held_by, is_product
 
 
 class DamagedFile(ProductError):
-    """An HDF5 file that is not whole."""
+    """An HDF5 file that is truncated or damaged."""
 
 
 _NO_COORDINATE = "This is a netCDF dimension but not a netCDF variable."
@@ -41,7 +41,7 @@ def content_hash(item):
 
 
 def write(item, path, provenance, content=None):
-    """Write ``item`` to ``path`` whole or not at all: temporary name, sync, rename."""
+    """Write ``item`` to ``path`` completely or not at all: temporary name, sync, rename."""
     path = Path(path)
     partial = path.with_name(f".{path.name}.partial")
     try:
@@ -55,7 +55,7 @@ def write(item, path, provenance, content=None):
 
 
 def write_companion(path, content):
-    """Write text or bytes beside a product, whole or not at all."""
+    """Write text or bytes beside a product, completely or not at all."""
     path = Path(path)
     partial = path.with_name(f".{path.name}.partial")
     try:
@@ -167,15 +167,15 @@ def _unwritable(path, error):
 
 
 def _damaged(path, error):
-    return DamagedFile(path, "a whole HDF5 product", f"a truncated or damaged file ({error})",
+    return DamagedFile(path, "a complete HDF5 product", f"a truncated or damaged file ({error})",
                        "rerun the stage that writes it")
 
 
 def _check_identity(h5, cls, path):
-    found = (h5.attrs.get("product"), h5.attrs.get("version"))
-    if found != (cls.name, cls.version):
-        told = f"{found[0]} version {found[1]}" if found[0] else "a file without product name"
-        raise ProductError(path, f"{cls.name} version {cls.version}", told, "rerun the stage that writes it")
+    name, version = h5.attrs.get("product"), h5.attrs.get("version")
+    if (name, version) != (cls.name, cls.version):
+        content = f"{name} version {version}" if name else "a file without product name"
+        raise ProductError(path, f"{cls.name} version {cls.version}", content, "rerun the stage that writes it")
 
 
 def _read_group(group, cls, path):

@@ -1,4 +1,4 @@
-"""SI everywhere; other units exist only in YAML, and are converted once, here."""
+"""SI everywhere; other units occur only in YAML and recordings, and are converted once, here."""
 
 import math
 import numbers

@@ -57,8 +57,8 @@ def end(item):
     os.kill(os.getpid(), 9)
 
 
-def test_a_worker_that_dies_is_told():
-    with running(LocalProcesses(1)) as pool, pytest.raises(BrakechainError, match="most often memory ran out"):
+def test_a_worker_that_dies_is_reported():
+    with running(LocalProcesses(1)) as pool, pytest.raises(BrakechainError, match="usually memory ran out"):
         pool.map(end, [1], lambda: None)
 
 

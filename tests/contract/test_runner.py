@@ -45,7 +45,7 @@ def test_a_changed_setting_reruns_its_stage_and_what_follows(config):
     changed = job(config, "source.level=2 kPa")
     assert why(changed)["doubled"] == ("input source is computed anew",)
     told = []
-    assert changed.execute(Context(), tell=lambda state, seconds: told.append((state.stage.name, state.reasons))) == 2
+    assert changed.execute(Context(), report=lambda state, seconds: told.append((state.stage.name, state.reasons))) == 2
     assert told == [("source", ("setting level: 1000.0 -> 2000.0",)), ("doubled", ("input given changed",))]
 
 
