@@ -1,4 +1,4 @@
-"""What fixes the bits: one thread per process, one code path of MKL, and compiled code that belongs to its source."""
+"""What makes results reproducible to the bit: one thread per process, one code path of MKL; the cache of kernels."""
 
 import os
 from pathlib import Path
@@ -6,16 +6,16 @@ from pathlib import Path
 ONE_THREAD = {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1", "MKL_NUM_THREADS": "1", "NUMBA_NUM_THREADS": "1",
               "MKL_CBWR": "AUTO"}
 CACHE = "NUMBA_CACHE_DIR"
-#: names of numba's locators of compiled code; ours comes first
+#: numba's locators of compiled code, ours first
 LOCATORS = "NUMBA_CACHE_LOCATOR_CLASSES"
 _LOCATORS = ("pipeline.physics.numerics.compiled_cache.SourceLocator", "UserProvidedCacheLocator", "InTreeCacheLocator",
              "UserWideCacheLocator")
 
 
-def own_compiled_code(environment=os.environ):
-    """Keep the code that numba compiles in a folder of the user, each file's by the state of its sources.
+def use_compiled_cache(environment=os.environ):
+    """Cache compiled code in a folder of the user, keyed by the state of its sources.
 
-    A folder or locators that the user names are kept. Must come before numba is loaded.
+    A folder or locators that the user names are left as they are. Must be called before numba is loaded.
     """
     environment.setdefault(LOCATORS, ",".join(_LOCATORS))
     if CACHE in environment:
@@ -24,5 +24,5 @@ def own_compiled_code(environment=os.environ):
     try:
         (home / "compiled").mkdir(parents=True, exist_ok=True)
     except OSError:
-        return      # numba then finds a place of its own
+        return      # numba then chooses a folder itself
     environment[CACHE] = str(home / "compiled")

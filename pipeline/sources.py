@@ -1,4 +1,4 @@
-"""Which files of the project a module is made of: itself, and all that its import statements name, however far."""
+"""The project files that a module depends on: itself and everything that it imports, transitively."""
 
 import hashlib
 import re
@@ -8,7 +8,7 @@ from pathlib import Path
 
 PROJECT = ("pipeline", "stages")
 ROOT = Path(__file__).parents[1]
-#: an import statement of project modules, wherever it stands; names may go on over lines in parentheses
+#: an import statement of project modules, at any indentation; names in parentheses may span lines
 _IMPORT = re.compile(rf"^[ \t]*(?:import[ \t]+(?P<plain>(?:{'|'.join(PROJECT)})\b[^\n#]*)|"
                      rf"from[ \t]+(?P<module>(?:{'|'.join(PROJECT)})\b[\w.]*)[ \t]+import[ \t]*"
                      r"(?:\((?P<lines>[^)]*)\)|(?P<line>[^\n#]*)))", re.MULTILINE)
@@ -42,7 +42,7 @@ def file_of(module):
 
 @cache
 def imports(path):
-    """Project modules that the import statements of a file name, wherever they stand in it; names in modules too."""
+    """Project modules named in the import statements of a file, also inside functions; with names of their contents."""
     names = set()
     for match in _IMPORT.finditer(path.read_text(encoding="utf-8")):
         if match["plain"]:
@@ -54,12 +54,12 @@ def imports(path):
 
 
 def _words(names):
-    """Names in ``a, b as c``: what is imported, not what it is called here."""
+    """Imported names in ``a, b as c``, without their aliases."""
     return [part.split()[0] for part in names.split(",") if part.split()]
 
 
 def listed(name, path):
-    """Modules of a package that loads them by name: a catalogue, of which no import statement tells."""
+    """Modules of a package that loads them by name: a catalogue, which has no import statements for them."""
     if path.name != "__init__.py" or name == "stages" or "import_module(" not in path.read_text(encoding="utf-8"):
         return ()
     files = (f.relative_to(path.parent).with_suffix("") for f in sorted(path.parent.rglob("*.py")))

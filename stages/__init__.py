@@ -1,4 +1,4 @@
-"""The chains, in reading order. Each stage is the file of its name; it is loaded when it is needed."""
+"""The chains, in reading order. Each stage is in the file of its name, loaded when needed."""
 
 import ast
 import inspect

@@ -1,4 +1,4 @@
-"""What the user sees while a chain runs: bars with time left on a terminal, plain lines elsewhere. Door of rich."""
+"""Progress of a running chain: bars with the remaining time on a terminal, plain lines elsewhere. Door of rich."""
 
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -21,7 +21,7 @@ from pipeline.contract import context
 
 
 def table(title, head, rows, note=""):
-    """Print rows of text under a head, the first column to the left, and a note below."""
+    """Print rows of text under a header, the first column left-aligned, and a note below."""
     shown = Table(title=title, title_justify="left", box=SIMPLE_HEAD)
     for index, name in enumerate(head):
         shown.add_column(name, justify="right" if index else "left")
@@ -53,7 +53,7 @@ class _Advance(context.Progress):
 
 
 class Bars:
-    """The bars of one run; silent when ``console`` is no terminal."""
+    """Progress bars of one run; silent if ``console`` is not a terminal."""
 
     def __init__(self, console=None):
         self.console = console or Console(stderr=True)

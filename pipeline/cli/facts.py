@@ -43,17 +43,17 @@ def facts(sources, only, markdown, file):
 
 
 def _record(sources):
-    """The record that ``sources`` are, or give."""
+    """The record in ``sources[0]``, or that of the run folders ``sources``."""
     from pipeline.views.pages import facts as page
 
     if sources[0].is_file():
         if len(sources) > 1:
             raise click.UsageError("one record, or run folders: they cannot be mixed")
         return _stored(sources[0])
-    comparisons, runs = zip(*map(_read, sources), strict=True)
+    comparisons, runs = zip(*map(_computed, sources), strict=True)
     keys = [list(map(str, comparison.key)) for comparison in comparisons]
-    for source, those in zip(sources, keys, strict=True):
-        if those != keys[0]:
+    for source, its_keys in zip(sources, keys, strict=True):
+        if its_keys != keys[0]:
             raise ConfigError(source, f"the facts of {sources[0]}", "others", "give run folders of one case")
     return page.record(comparisons, list(runs))
 
@@ -67,8 +67,8 @@ def _stored(file):
                           ) from None
 
 
-def _read(folder):
-    """(Comparison, commits and kernels that the products of the folder were computed with) of a run folder."""
+def _computed(folder):
+    """(Comparison, {commits, kernels} of all products) of a run folder."""
     from pipeline.contract import store
     from pipeline.products import Comparison
 

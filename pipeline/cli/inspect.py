@@ -1,4 +1,4 @@
-"""What 'brakechain inspect' says of a product file."""
+"""The output of 'brakechain inspect' for a product file."""
 
 import json
 
@@ -37,8 +37,8 @@ def _range(dataset):
         return "empty"
     if dataset.dtype.kind == "O":
         flat = [str(v) for v in np.ravel(dataset.asstr()[()])]
-        told = ", ".join(flat)
-        return told if len(told) <= _LONG and "\n" not in told else f"{len(flat)} strings, {len(told)} characters"
+        text = ", ".join(flat)
+        return text if len(text) <= _LONG and "\n" not in text else f"{len(flat)} strings, {len(text)} characters"
     values = dataset[()]
     if values.dtype.kind == "c":
         return f"|.| {abs(values).min():.6g} .. {abs(values).max():.6g}"
@@ -59,8 +59,8 @@ def _provenance(attributes):
 
 
 def _short(value):
-    told = json.dumps(value) if isinstance(value, (dict, list)) else str(value)
-    return told if len(told) <= 2 * _LONG else f"{told[:2 * _LONG]} ..."
+    text = json.dumps(value) if isinstance(value, (dict, list)) else str(value)
+    return text if len(text) <= 2 * _LONG else f"{text[:2 * _LONG]} ..."
 
 
 def _indent(name):

@@ -18,7 +18,7 @@ RUNS = Path("data/runs")
 
 
 class Derived(click.Group):
-    """A group whose stage commands are made when asked for: '--help' imports no stage."""
+    """A group whose stage commands are created on demand: '--help' imports no stage."""
 
     def list_commands(self, ctx):
         return [*self.commands, *(name.replace("_", "-") for name in stages.NAMES)]
@@ -34,7 +34,7 @@ def cli():
     """brakechain: from asperities to brake squeal, one HDF5 file per step.
 
     'brakechain run CONFIG' runs the chain of a case; every stage is a command of its own.
-    Products lie in data/runs/<case>/; 'brakechain inspect FILE' shows what is in one.
+    Products are written to data/runs/<case>/; 'brakechain inspect FILE' shows what is in one.
     """
 
 
@@ -46,12 +46,12 @@ _FAN_OUT = ("dry", "workers", "scheduler", "debug")
 @_CONFIG
 @options("run", "set", "from", "until", "force", *_FAN_OUT)
 def run(config, folder, overrides, first, last, force, dry_run, workers, scheduler):
-    """Run the chain of CONFIG; what is up to date is not computed again."""
+    """Run the chain of CONFIG; stages that are up to date are skipped."""
     _run(config, folder, overrides, first, last, force, dry_run, workers, scheduler)
 
 
 def _stage_command(name):
-    """The command of one stage: the same form for all of them."""
+    """The command of one stage; all have the same form."""
 
     @click.command(name.replace("_", "-"), help=stages.summary(name), short_help=stages.summary(name))
     @_CONFIG
@@ -74,14 +74,14 @@ def _run(config, folder, overrides, first, last, force, dry_run, workers, schedu
             raise click.BadParameter(f"expected one of {', '.join(names)}, found {name!r}", param_hint="--force")
     for stale in job.stale_before(first):
         why = _because(stale.reasons)
-        click.echo(f"note: {stale.stage.name} is out of date ({why}) and is taken as it is", err=True)
+        click.echo(f"note: {stale.stage.name} is out of date ({why}) and is used as it is", err=True)
     if dry_run:
         _show_plan(job.plan(first, last, frozenset(force)))
         return
     work = executor.choose(workers or os.cpu_count() or 1, scheduler)
     try:
         context = RunContext(solver=job.solver, case=job.case.card(__version__), executor=work, bars=Bars())
-        computed = job.execute(context, first, last, frozenset(force), _tell)
+        computed = job.execute(context, first, last, frozenset(force), _report)
     finally:
         work.close()
     if not computed:
@@ -104,7 +104,7 @@ def _job(config, folder, overrides):
     return runner.Run(chosen, folder or RUNS / chosen.name, solver)
 
 
-def _tell(state, seconds):
+def _report(state, seconds):
     if seconds is None:
         return
     click.echo(f"{state.stage.name:<16} {seconds:8.1f} s   {_because(state.reasons)}")
@@ -119,8 +119,8 @@ def _because(reasons, most=3, longest=100):
 
 def _show_plan(states):
     for state in states:
-        told = f"would run: {_because(state.reasons)}" if state.reasons else "up to date"
-        click.echo(f"{state.stage.name:<16} {told}")
+        status = f"would run: {_because(state.reasons)}" if state.reasons else "up to date"
+        click.echo(f"{state.stage.name:<16} {status}")
     if not any(state.reasons for state in states):
         click.echo("nothing to compute")
 
@@ -178,7 +178,7 @@ def schema(name):
 @options("set", "debug")
 @click.option("--csv", "file", metavar="FILE", type=click.Path(path_type=Path), help="write the table there too")
 def plan(config, overrides, file):
-    """Before the bench: say which planned run of CONFIG can name which effect, and the cheapest set that names all."""
+    """Plan a campaign: which planned run of CONFIG can identify which effect, and the cheapest set for all of them."""
     from pipeline.case_models import effect_block, virtual_rig
     from pipeline.cli.console import table
     from pipeline.contract import ConfigError, case
@@ -188,29 +188,29 @@ def plan(config, overrides, file):
 
     given = case.load(config, stages.CHAINS, stages.load, overrides, registry.path, unread=("recording",))
     if given.document["chain"] != "lumped_bench":
-        raise ConfigError(f"{config}: chain", "lumped_bench, of which runs can be planned", given.document["chain"])
+        raise ConfigError(f"{config}: chain", "lumped_bench, whose runs can be planned", given.document["chain"])
     chosen = given.sections
     model = stages.load("reduced_model")(stages.load("lumped")(settings=chosen["lumped"]),
                                          settings=chosen["reduced_model"])
     whole = effect_block.with_effects(virtual_rig.built(model, chosen["bench"]),
                                       effect_block.product(chosen["effects"]))
-    found = campaign_planning.plan(whole, campaign_planning.channel_units(whole), chosen["diagnosis"])
-    head, rows = campaign_planning.table(found)
+    result = campaign_planning.plan(whole, campaign_planning.channel_units(whole), chosen["diagnosis"])
+    head, rows = campaign_planning.table(result)
     table("d: standard deviations that each effect leaves beside the nominal values", head, rows,
-          campaign_planning.conclusion(found))
+          campaign_planning.conclusion(result))
     if file is not None:
         write_companion(file, "\n".join(",".join(row) for row in (head, *rows)) + "\n")
 
 
 @cli.group()
 def data():
-    """Public measurements: what is registered, and where it lies."""
+    """Public measurements: what is registered, and where it is stored."""
 
 
 @data.command("list")
 @options("debug")
 def list_data():
-    """List the registered files: name, licence, what they hold and what they do not say."""
+    """List the registered files: name, content, what is not documented, licence."""
     from pipeline.recordings import registry
 
     for entry in registry.entries().values():
@@ -221,7 +221,7 @@ def list_data():
 @click.argument("name")
 @options("debug")
 def data_path(name):
-    """Print where the registered file NAME lies; it is downloaded where BRAKECHAIN_DATA names no folder."""
+    """Print the path of the registered file NAME; it is downloaded unless BRAKECHAIN_DATA names a folder."""
     from pipeline.recordings import registry
 
     click.echo(registry.path(name))
@@ -230,7 +230,7 @@ def data_path(name):
 @data.command("format")
 @options("debug")
 def data_format():
-    """Print the form of plain HDF5 recordings that any program can write."""
+    """Print the format of plain HDF5 recordings that any program can write."""
     import inspect as source
 
     from pipeline.recordings.neutral import read_neutral
@@ -245,7 +245,7 @@ cli.add_command(trial)
 @cli.command()
 @options("debug")
 def completion():
-    """Say how to switch on completion of commands in your shell."""
+    """Print how to switch on command completion in your shell."""
     for shell, file in (("bash", "~/.bashrc"), ("zsh", "~/.zshrc")):
         click.echo(f"{shell}: add to {file}:   eval \"$(_BRAKECHAIN_COMPLETE={shell}_source brakechain)\"")
     click.echo("fish: run once:   _BRAKECHAIN_COMPLETE=fish_source brakechain >"
@@ -262,7 +262,7 @@ def main():
         error.show()
         sys.exit(2)
     except (click.Abort, KeyboardInterrupt):
-        click.echo("stopped; what was finished is kept, run the same command to go on", err=True)
+        click.echo("stopped; finished stages are kept, run the same command to continue", err=True)
         sys.exit(130)
     except BrakechainError as error:
         _fail(error, str(error), error.exit_code)

@@ -18,7 +18,7 @@ def case_schema(chains):
 def _chain_schema(name, stages):
     sections = {stage.name: {"$ref": f"#/$defs/{stage.name}"} for stage in stages}
     head = {"chain": {"const": name}, "title": {"type": "string"}, "description": {"type": "string"},
-            "based_on": {"type": "string", "description": "another case, whose values hold where this one is silent"},
+            "based_on": {"type": "string", "description": "another case, whose values apply where this one gives none"},
             "solver": {"enum": list(SOLVERS), "default": "auto"}}
     named = [{"required": ["chain"]}, {"required": ["based_on"]}]
     return {"type": "object", "properties": {**head, **sections}, "anyOf": named, "additionalProperties": False}
@@ -35,17 +35,17 @@ def _annotated(section):
     """``section`` where every value may also be written with its origin."""
     if "properties" not in section:
         return section
-    section = {key: value for key, value in section.items() if key != "required"}    # a base case may hold the rest
+    section = {key: value for key, value in section.items() if key != "required"}    # a base case may give the rest
     return {**section, "properties": {key: _with_origin(value) for key, value in section["properties"].items()}}
 
 
 def _with_origin(schema):
-    told = {k: v for k, v in schema.items() if k in ("description", "title", "default")}
-    bare = {k: v for k, v in schema.items() if k not in told}
+    notes = {k: v for k, v in schema.items() if k in ("description", "title", "default")}
+    bare = {k: v for k, v in schema.items() if k not in notes}
     inner = bare.get("additionalProperties")
-    if isinstance(inner, dict) and "$ref" not in inner:     # values by name: each may have an origin of its own
+    if isinstance(inner, dict) and "$ref" not in inner:     # values by name: each may have its origin
         bare["additionalProperties"] = _with_origin(inner)
     origin = {"type": "object", "additionalProperties": False, "required": ["value"],
               "properties": {"value": bare, "origin": {"enum": list(ORIGINS)}, "source": {"type": "string"},
                              "doubt": {"type": "string"}, "choose": {"type": "string"}}}
-    return {**told, "anyOf": [bare, origin]}
+    return {**notes, "anyOf": [bare, origin]}

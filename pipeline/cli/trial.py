@@ -1,4 +1,4 @@
-"""The commands of a concealed trial: make, seal, solve, score, verify, show, remake."""
+"""The commands of a blind trial: make, seal, solve, score, verify, show, remake."""
 
 import os
 from pathlib import Path
@@ -14,22 +14,22 @@ _KEY = click.option("--key", "key_file", metavar="FILE", type=click.Path(path_ty
 
 @click.group()
 def trial():
-    """The concealed trial: cases with hidden physics, solved without their truth and scored once.
+    """The blind trial: cases with hidden physics, solved without their ground truth and scored once.
 
-    A set is a folder of cases/NNN/{nominal.yaml, recordings.h5}; docs/trial_sets.md tells how to make one yourself.
+    A set is a folder of cases/NNN/{nominal.yaml, recordings.h5}; docs/trial_sets.md explains how to make one yourself.
     """
 
 
 @trial.command()
 @_SET
 @click.option("--cases", type=click.IntRange(1), default=40, show_default=True, help="number of cases")
-@click.option("--systems", metavar="A,B", help="systems that are drawn from  [default: all]")
+@click.option("--systems", metavar="A,B", help="systems to draw cases from  [default: all]")
 @click.option("--seed", type=click.IntRange(0), help="seed of an open set  [default: 0]")
 @click.option("--sealed", is_flag=True, help="seal the truth; seeds are then drawn from the operating system")
 @_KEY
 @options("workers", "scheduler", "debug")
 def make(folder, cases, systems, seed, sealed, key_file, workers, scheduler):
-    """Make SET: an open one whose truth lies beside it, or a sealed one. Goes on where it was stopped."""
+    """Make SET: an open one with its truth beside it, or a sealed one. An interrupted run is continued."""
     from pipeline.blind_trial.generators.systems import SYSTEMS
     from pipeline.blind_trial.protocol import making, sealing
 
@@ -45,8 +45,8 @@ def make(folder, cases, systems, seed, sealed, key_file, workers, scheduler):
 
     with _working(workers, scheduler) as work:
         making.make(folder, cases, names, work, None if sealed else seed or 0, key if sealed else None,
-                    _telling("made"))
-    _tell_of(folder, path)
+                    _counter("made"))
+    _summarise(folder, path)
 
 
 @trial.command()
@@ -54,38 +54,38 @@ def make(folder, cases, systems, seed, sealed, key_file, workers, scheduler):
 @_KEY
 @options("debug")
 def seal(folder, key_file):
-    """Seal an open SET that nobody has solved: encrypt its truth.json and commit to it."""
+    """Seal an open SET that has not been solved: encrypt its truth.json and commit to it."""
     from pipeline.blind_trial.protocol import making, sealing
 
     path = sealing.key_path(folder, key_file)
     making.seal(folder, lambda: sealing.new_key(path))
-    _tell_of(folder, path)
+    _summarise(folder, path)
 
 
 @trial.command()
 @_SET
 @click.option("--methods", metavar="A,B", help="the diagnosis and baselines by name  [default: all]")
 @click.option("--limit", type=click.FloatRange(min=0, min_open=True), default=3600.0, show_default=True,
-              metavar="SECONDS", help="a case that takes longer is not answered")
+              metavar="SECONDS", help="time limit per case; a slower one counts as unanswered")
 @options("workers", "scheduler", "debug")
 def solve(folder, methods, limit, workers, scheduler):
-    """Solve SET, each case in a process that sees nothing but its two files. Goes on where it was stopped."""
+    """Solve SET, each case in an isolated process that is given only its two files. An interrupted run is continued."""
     from pipeline.blind_trial.protocol import solving
 
     names = tuple(methods.split(",")) if methods else solving.METHODS
     with _working(workers, scheduler) as work:
-        count = solving.solve(folder, work, names, limit, _telling("solved"))
-    click.echo(f"{count} answers are new; next: brakechain trial score {folder}")
+        count = solving.solve(folder, work, names, limit, _counter("solved"))
+    click.echo(f"{count} new answers; next: brakechain trial score {folder}")
 
 
 @trial.command()
 @_SET
 @_KEY
 @click.option("--truth", "truth_file", metavar="FILE", type=click.Path(path_type=Path),
-              help="truth of an open set that lies elsewhere  [default: SET/truth.json]")
+              help="truth of an open set, if stored elsewhere  [default: SET/truth.json]")
 @options("debug")
 def score(folder, key_file, truth_file):
-    """Score a solved SET: open its truth, once, and publish it with the key and the result."""
+    """Score a solved SET: unseal its truth, once, and publish it with the key and the result."""
     from pipeline.blind_trial.metrics.summary import lines
     from pipeline.blind_trial.protocol import scoring, sealing
     from pipeline.blind_trial.protocol.case_set import TrialSet
@@ -98,7 +98,7 @@ def score(folder, key_file, truth_file):
 @_SET
 @options("debug")
 def verify(folder):
-    """Verify a published SET: truth, key, commitment, answers and result belong together."""
+    """Verify that a published SET is consistent: truth, key, commitment, answers and result."""
     from pipeline.blind_trial.protocol.verifying import verify as checked
 
     for sentence in checked(folder):
@@ -107,20 +107,20 @@ def verify(folder):
 
 @trial.command()
 @_SET
-@click.option("--markdown", is_flag=True, help="print the table of the rates as Markdown instead")
+@click.option("--markdown", is_flag=True, help="print the table of rates as Markdown instead")
 @options("debug")
 def show(folder, markdown):
-    """Write the page of a scored SET, trial.html, and tell where it is."""
+    """Write the page of a scored SET, trial.html."""
     from pipeline.blind_trial.metrics.summary import as_markdown
     from pipeline.blind_trial.protocol.case_set import TrialSet
     from pipeline.contract.store import write_companion
     from pipeline.views.pages.trial import page
 
-    found = TrialSet(folder).read("result.json")
+    result = TrialSet(folder).read("result.json")
     if markdown:
-        click.echo(as_markdown(found))
+        click.echo(as_markdown(result))
         return
-    write_companion(folder / "trial.html", page(found))
+    write_companion(folder / "trial.html", page(result))
     click.echo(f"page: {folder / 'trial.html'}")
 
 
@@ -130,21 +130,21 @@ def show(folder, markdown):
 @_KEY
 @options("workers", "scheduler", "debug")
 def remake(folder, into, key_file, workers, scheduler):
-    """Make the cases of SET again: in its own folder where they were lost, or as the open set NEW, to be solved anew.
+    """Make the cases of SET again: in SET itself if they were lost, or as the open set NEW, to be solved again.
 
-    NEW is made of a published set. Only sets that 'trial make' made can be made again. Goes on where it was stopped.
+    NEW requires a published set. Only sets made by 'trial make' can be made again. An interrupted run is continued.
     """
     from pipeline.blind_trial.protocol import remaking, sealing
 
     if into and key_file:
-        raise click.UsageError("NEW shows its truth: it is made of a published set, which needs no --key")
+        raise click.UsageError("--key is not needed for NEW: it is made from a published set, whose key is public")
     with _working(workers, scheduler) as work:
         if into:
-            same = remaking.repeat(folder, into, work, _telling("made"))
-            click.echo("the files are those of the set" if same else
-                       "the files differ from those of the set: made with other packages or on another processor")
+            same = remaking.repeat(folder, into, work, _counter("made"))
+            click.echo("the files are identical to those of the set" if same else
+                       "the files differ from those of the set: other package versions or another processor")
         else:
-            remaking.restore(folder, work, sealing.key_path(folder, key_file), _telling("made"))
+            remaking.restore(folder, work, sealing.key_path(folder, key_file), _counter("made"))
     click.echo(f"next: brakechain trial solve {into or folder}")
 
 
@@ -156,19 +156,19 @@ def _working(workers, scheduler):
     return closing(executor.choose(workers or os.cpu_count() or 1, scheduler))
 
 
-def _telling(what):
-    def tell(done, total):
-        click.echo(f"{done} of {total} {what}")
+def _counter(action):
+    def report(done, total):
+        click.echo(f"{done} of {total} {action}")
 
-    return tell
+    return report
 
 
-def _tell_of(folder, key_file):
+def _summarise(folder, key_file):
     from pipeline.blind_trial.protocol.case_set import TrialSet
 
-    found = TrialSet(folder)
-    classes = ", ".join(f"{count} {name}" for name, count in found.about["classes"].items())
-    click.echo(f"{found.about['cases']} cases: {classes}")
-    if found.sealed:
-        click.echo(f"commitment {found.about['commitment']}\nkey: {key_file} (keep it out of sight until the score)")
+    trial_set = TrialSet(folder)
+    classes = ", ".join(f"{count} {name}" for name, count in trial_set.about["classes"].items())
+    click.echo(f"{trial_set.about['cases']} cases: {classes}")
+    if trial_set.sealed:
+        click.echo(f"commitment {trial_set.about['commitment']}\nkey: {key_file} (keep it secret until scoring)")
     click.echo(f"next: brakechain trial solve {folder}")

@@ -1,5 +1,5 @@
 """Mathematics of a diagnosis, independent of what is modelled: fits, evidence, decision, location."""
 
-from pipeline.environment import own_compiled_code
+from pipeline.environment import use_compiled_cache
 
-own_compiled_code()
+use_compiled_cache()

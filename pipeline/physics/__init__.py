@@ -1,5 +1,5 @@
 """Mechanics on arrays: no files, no YAML, no command line, no products."""
 
-from pipeline.environment import own_compiled_code
+from pipeline.environment import use_compiled_cache
 
-own_compiled_code()
+use_compiled_cache()

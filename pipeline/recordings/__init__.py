@@ -1,1 +1,1 @@
-"""Readers of what benches write; each turns a file into plain columns or into runs."""
+"""Readers of measured files; each returns plain columns or runs."""

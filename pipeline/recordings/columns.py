@@ -1,4 +1,4 @@
-"""Files that hold columns under names and nothing else: MATLAB, plain HDF5 and text tables."""
+"""Files of named columns: MATLAB, plain HDF5 and text tables."""
 
 import csv
 import struct
@@ -16,7 +16,7 @@ MISSING = frozenset({"", "nan", "na", "n/a", "none", "null", "-"})
 def read_columns(path):
     """Name -> 1-D array of a file: MATLAB (.mat), HDF5 with vectors at its root (.h5, .hdf5), else a text table.
 
-    Raises ConfigError for what is none of them.
+    Raises ConfigError for anything else.
     """
     path = Path(path)
     kind = path.suffix.lower()
@@ -30,7 +30,7 @@ def read_columns(path):
 def read_matlab(path):
     """Name -> 1-D array of every numeric variable of a MATLAB file, version 4 to 7.3; vectors lose their second axis.
 
-    Raises ConfigError for a file that is no MATLAB file, is cut off or holds no numbers.
+    Raises ConfigError for a file that is not a MATLAB file, is truncated or holds no numbers.
     """
     path = Path(path)
     try:
@@ -43,7 +43,7 @@ def read_matlab(path):
 
 
 def _decoded(content, path):
-    """Variables of a MATLAB file of version 4 to 7; a file that is cut off or damaged is refused."""
+    """Variables of a MATLAB file of version 4 to 7; a truncated or damaged file is refused."""
     from scipy.io import loadmat
 
     if 0 not in content[:4]:        # version 4 begins with a small number, later ones with text
@@ -66,13 +66,13 @@ def _whole(content, byte_order):
     return end == len(content)
 
 
-def _vectors(found, path):
-    """What of ``found`` is a vector of numbers."""
-    numeric = {k: np.asarray(v) for k, v in found.items() if np.asarray(v).dtype.kind in "fiub"}
+def _vectors(variables, path):
+    """Those of the ``variables`` that are vectors of numbers."""
+    numeric = {k: np.asarray(v) for k, v in variables.items() if np.asarray(v).dtype.kind in "fiub"}
     flat = {k: v for k, v in numeric.items() if v.ndim < 2 or (v.ndim == 2 and 1 in v.shape)}
     columns = {k: v.astype(float).ravel() for k, v in flat.items()}
     if not columns:
-        raise ConfigError(path, "a vector of numbers", f"{', '.join(found) or 'no variables'}")
+        raise ConfigError(path, "a vector of numbers", f"{', '.join(variables) or 'no variables'}")
     return columns
 
 
@@ -87,10 +87,10 @@ def _read_hdf5(path, expected):
 
 
 def read_table(path, delimiter=None, skip=0):
-    """Head -> 1-D array of every column of a text table, NaN where a sample is missing.
+    """Column name -> 1-D array of a text table, NaN where a sample is missing.
 
-    ``delimiter`` None = tab, semicolon or comma, whichever the head holds first in that order; ``skip`` lines come
-    before the head. Raises ConfigError with the line of what is no number.
+    ``delimiter`` None: the first of tab, semicolon and comma that the header contains; ``skip``: lines before the
+    header. Raises ConfigError with the line of a value that is not a number.
     """
     path = Path(path)
     try:
@@ -98,7 +98,7 @@ def read_table(path, delimiter=None, skip=0):
     except (OSError, UnicodeDecodeError) as error:
         raise ConfigError(path, "a readable text table", str(error)) from None
     if len(lines) < 2:
-        raise ConfigError(path, "a head and at least one line of numbers", f"{len(lines)} lines")
+        raise ConfigError(path, "a header and at least one line of numbers", f"{len(lines)} lines")
     mark = delimiter or next((d for d in "\t;," if d in lines[0]), ",")
     try:
         head, *rows = csv.reader(lines, delimiter=mark)

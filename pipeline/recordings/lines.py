@@ -8,17 +8,17 @@ from pipeline.contract.errors import ConfigError
 from pipeline.products import Lines
 
 
-def line_list(facts, wanted, multiples, place, where):
-    """Lines of the published ``facts`` whose keys fit the patterns ``wanted``, each with its ``multiples``, in order.
+def line_list(facts, patterns, multiples, place, where):
+    """Lines of the published ``facts`` whose keys match ``patterns``, each with its ``multiples``, in order.
 
-    A doubted value that is read as another one enters as read. ConfigError at ``where`` for a pattern without a fact,
-    and for facts that are no frequencies.
+    A doubted value enters with its corrected reading. ConfigError at ``where`` for a pattern without a fact and for
+    facts that are not frequencies.
     """
-    for pattern in wanted:
+    for pattern in patterns:
         if not any(fnmatch(fact.key, pattern) for fact in facts):
-            raise ConfigError(f"{where}.facts", "a key of the file, or a pattern of keys", f"{pattern}, which none"
-                                                                                           f" fits")
-    chosen = [fact for fact in facts if any(fnmatch(fact.key, pattern) for pattern in wanted)]
+            raise ConfigError(f"{where}.facts", "a key of the file, or a pattern of keys",
+                              f"{pattern}, which matches no key")
+    chosen = [fact for fact in facts if any(fnmatch(fact.key, pattern) for pattern in patterns)]
     others = [fact.key for fact in chosen if fact.value is None or fact.unit != "Hz"]
     if others:
         raise ConfigError(f"{where}.facts", "facts in Hz", ", ".join(others))

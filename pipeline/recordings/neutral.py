@@ -1,4 +1,4 @@
-"""Recordings in plain HDF5, as any program can write them without this one; ``read_neutral`` tells the format."""
+"""Recordings in plain HDF5 that any program can write; ``read_neutral`` documents the format."""
 
 from dataclasses import fields
 
@@ -20,7 +20,7 @@ from pipeline.recordings.samples import channel
 
 
 def read_neutral(path):
-    """Run name -> Run of an HDF5 file of this form; a star marks what may be left out:
+    """Run name -> Run of an HDF5 file of this form; a star marks optional items:
 
         /runs/RUN                          attributes description*, repeat_of*
             conditions/NAME*               number or series; attributes units, sample_rate (of a series), t0*
@@ -35,7 +35,7 @@ def read_neutral(path):
             topography/NAME*               (y, x) heights; attributes units, pixel_size (m), body*, state*
             friction/NAME*                 group: friction, friction_std*, pressure, speed, distance*, temperature* (SI)
 
-    Raises ConfigError with the place in the file of what is missing or cannot be read.
+    Raises ConfigError with the path in the file of anything that is missing or unreadable.
     """
     try:
         with h5py.File(path, "r") as h5:
@@ -68,28 +68,28 @@ def write_neutral(path, runs):
 
 
 def _run(group, where):
-    read = {"conditions": _condition, "channels": _channel, "frf": _frf, "modes": _modes, "lines": _lines,
-            "topography": _topography, "friction": _friction}
+    readers = {"conditions": _condition, "channels": _channel, "frf": _frf, "modes": _modes, "lines": _lines,
+               "topography": _topography, "friction": _friction}
     if not isinstance(group, h5py.Group):
-        raise ConfigError(where, f"a group of {', '.join(read)}", str(group))
-    unknown = set(group) - set(read) | {kind for kind, node in group.items() if not isinstance(node, h5py.Group)}
+        raise ConfigError(where, f"a group of {', '.join(readers)}", str(group))
+    unknown = set(group) - set(readers) | {kind for kind, node in group.items() if not isinstance(node, h5py.Group)}
     if unknown:
-        raise ConfigError(where, f"groups among {', '.join(read)}", ", ".join(sorted(unknown)))
-    filled = {kind: {name: _understood(one, node, f"{where}/{kind}/{name}") for name, node in group.get(
-        kind, {}).items()} for kind, one in read.items()}
-    return Run(description=_said(group, "description"), repeat_of=_said(group, "repeat_of"), **filled)
+        raise ConfigError(where, f"groups among {', '.join(readers)}", ", ".join(sorted(unknown)))
+    filled = {kind: {name: _checked(reader, node, f"{where}/{kind}/{name}")
+                     for name, node in group.get(kind, {}).items()} for kind, reader in readers.items()}
+    return Run(description=_text(group, "description"), repeat_of=_text(group, "repeat_of"), **filled)
 
 
-def _understood(read, node, where):
-    """What ``read`` makes of a node; ConfigError with its place for what it cannot read, whatever that is."""
+def _checked(reader, node, where):
+    """``reader(node, where)``; any error of an unreadable node becomes a ConfigError at ``where``."""
     try:
-        return read(node, where)
+        return reader(node, where)
     except (KeyError, TypeError, ValueError, AttributeError, IndexError, RuntimeError) as error:
-        raise ConfigError(where, "data and attributes as 'brakechain data format' prints them",
-                          f"what cannot be read ({type(error).__name__}: {error})") from None
+        raise ConfigError(where, "data and attributes as printed by 'brakechain data format'",
+                          f"unreadable data ({type(error).__name__}: {error})") from None
 
 
-def _said(node, name, default=""):
+def _text(node, name, default=""):
     value = node.attrs.get(name, default)
     return value.decode() if isinstance(value, bytes) else str(value)
 
@@ -102,16 +102,16 @@ def _needed(node, name, where):
 
 def _unit(node, where):
     _needed(node, "units", where)
-    return _said(node, "units")
+    return _text(node, "units")
 
 
 def _channel(node, where):
     if not isinstance(node, h5py.Dataset) or node.ndim != 1:
         raise ConfigError(where, "a dataset (sample,)", str(node))
     _needed(node, "quantity", where)
-    return channel(node[()], _unit(node, where), _said(node, "quantity"), float(_needed(node, "sample_rate", where)),
-                   float(node.attrs.get("t0", 0.0)), where, role=_said(node, "role", "response"),
-                   place=_said(node, "point_name"), position=node.attrs.get("point", ()),
+    return channel(node[()], _unit(node, where), _text(node, "quantity"), float(_needed(node, "sample_rate", where)),
+                   float(node.attrs.get("t0", 0.0)), where, role=_text(node, "role", "response"),
+                   place=_text(node, "point_name"), position=node.attrs.get("point", ()),
                    direction=node.attrs.get("direction", ()))
 
 
@@ -126,7 +126,7 @@ def _condition(node, where):
 def _frf(node, where):
     response, unit = in_si(_array(node, "response", where), _unit(node, where), where)
     return FrequencyResponse(frequency=_array(node, "frequency", where), response=response, unit=unit,
-                             place=_said(node, "response"), reference=_said(node, "reference"))
+                             place=_text(node, "response"), reference=_text(node, "reference"))
 
 
 def _modes(node, where):
@@ -134,8 +134,8 @@ def _modes(node, where):
     filled = {name: node[name][()] if name in node else np.zeros(len(frequency))
               for name in ("frequency_std", "damping_ratio", "damping_ratio_std")}
     shape = node["shape"][()] if "shape" in node else np.empty((len(frequency), 0))
-    place = node["place"].asstr()[()] if "place" in node else [str(k + 1) for k in range(shape.shape[1])]
-    return MeasuredModes(frequency=frequency, **filled, place=place, shape=np.asarray(shape, complex))
+    points = node["place"].asstr()[()] if "place" in node else [str(k + 1) for k in range(shape.shape[1])]
+    return MeasuredModes(frequency=frequency, **filled, place=points, shape=np.asarray(shape, complex))
 
 
 def _lines(node, where):
@@ -145,7 +145,7 @@ def _lines(node, where):
     label = node["label"].asstr()[()] if "label" in node else [""] * len(frequency)
     return Lines(label=label, frequency=frequency, frequency_tolerance=off, level=np.nan_to_num(level),
                  level_known=np.isfinite(level).astype(int), partners=np.zeros(len(frequency), int),
-                 diameters=np.full(len(frequency), -1), place=_said(node, "place"))
+                 diameters=np.full(len(frequency), -1), place=_text(node, "place"))
 
 
 def _topography(node, where):
@@ -154,7 +154,7 @@ def _topography(node, where):
         raise ConfigError(where, "heights (y, x) in a unit of length", f"{heights.ndim} dimensions in {unit}")
     pixel = np.broadcast_to(np.asarray(_needed(node, "pixel_size", where), float), 2)
     y, x = (size * np.arange(count) for size, count in zip(pixel, heights.shape, strict=True))
-    return Topography(y=y, x=x, height=heights, body=_said(node, "body"), state=_said(node, "state"))
+    return Topography(y=y, x=x, height=heights, body=_text(node, "body"), state=_text(node, "state"))
 
 
 def _friction(node, where):

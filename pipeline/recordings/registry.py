@@ -1,7 +1,7 @@
 """The registry of public measurements in data/measured: address, commit, SHA-256, licence; no bytes.
 
-A file is looked for in the folder that the environment variable BRAKECHAIN_DATA names; without
-that variable it is downloaded once into the user's cache. Either way its SHA-256 must match.
+Files are read from the folder that the environment variable BRAKECHAIN_DATA names; without it
+they are downloaded once into the user's cache. Either way their SHA-256 must match.
 """
 
 import hashlib
@@ -28,21 +28,21 @@ class Entry(BaseModel):
     sha256: str
     licence: str
     content: str
-    lacks: str      # what the file does not say or is not
+    lacks: str      # what the file does not document
 
 
 def entries():
     """name -> Entry of every file in the registry."""
-    found = {}
+    files = {}
     for document in sorted(REGISTRY.glob("*.yaml")):
         for values in read_yaml(document)["files"]:
             entry = fill(Entry, values, str(document))
-            found[entry.name] = entry
-    return found
+            files[entry.name] = entry
+    return files
 
 
 def path(name):
-    """Local path of the registered file ``name``, verified; ConfigError where it cannot be had."""
+    """Local path of the registered file ``name``, verified. Raises ConfigError if it is not available."""
     known = entries()
     if name not in known:
         raise ConfigError(f"measured:{name}", f"one of {', '.join(known)}", "an unregistered name")
@@ -54,9 +54,9 @@ def _mirrored(entry, local):
     if not local.is_file():
         raise ConfigError(f"measured:{entry.name}", f"a file at {local}", "none",
                           "copy it there, or unset BRAKECHAIN_DATA to download it")
-    found = hashlib.sha256(local.read_bytes()).hexdigest()
-    if found != entry.sha256:
-        raise ConfigError(local, f"SHA-256 {entry.sha256}", found, "the file was changed; fetch it again")
+    digest = hashlib.sha256(local.read_bytes()).hexdigest()
+    if digest != entry.sha256:
+        raise ConfigError(local, f"SHA-256 {entry.sha256}", digest, "the file was changed; fetch it again")
     return local
 
 

@@ -1,4 +1,4 @@
-"""From a column of numbers to a channel: SI units, stretches without data, an even sampling rate."""
+"""From a column of numbers to a channel: SI units, gaps in the data, a constant sampling rate."""
 
 import numpy as np
 
@@ -6,9 +6,9 @@ from pipeline.contract.errors import ConfigError
 from pipeline.contract.units import in_si
 from pipeline.products import Channel
 
-#: what a channel may be: what the bench answered, or imposed
+#: roles of a channel: measured response, or imposed excitation
 ROLES = ("response", "excitation")
-#: largest deviation of a sampling instant from an even grid, as a share of the interval
+#: largest deviation of a sampling instant from an even grid, as a fraction of the interval
 EVEN = 0.01
 #: largest distance of an instant from a declared grid, in intervals
 OFF_GRID = 0.25
@@ -18,7 +18,7 @@ def channel(values, unit, measures, rate, begin, where, *, role="response", plac
     """Channel of ``values`` (sample,) in ``unit``; samples that are not finite are missing.
 
     ``rate`` Hz and ``begin`` s: sampling rate and time of the first sample. Raises ConfigError, with ``where``, for a
-    unit that pint does not read, a rate that is none and a channel without a single sample.
+    unit that pint cannot read, a rate that is not positive and a channel without any valid sample.
     """
     if not (np.isfinite(rate) and rate > 0):
         raise ConfigError(f"{where}: sample_rate", "a rate above 0 Hz", f"{rate:g}")
@@ -36,13 +36,13 @@ def channel(values, unit, measures, rate, begin, where, *, role="response", plac
 
 
 def stretches(flag):
-    """(n, 2) first index of each run of True in ``flag`` (sample,), and the first after it."""
+    """(n, 2) first index of each run of True in ``flag`` (sample,), and the index after its last."""
     edges = np.flatnonzero(np.diff(np.concatenate(([False], flag, [False])).astype(int)))
     return edges.reshape(-1, 2)
 
 
 def even_rate(time, where):
-    """(rate in Hz, begin in s) of sampling instants (sample,) in s; ConfigError where they are not even."""
+    """(rate in Hz, begin in s) of sampling instants (sample,) in s; ConfigError if they are not evenly spaced."""
     if len(time) < 2 or not np.isfinite(time).all():
         raise ConfigError(where, "at least two finite times", f"{len(time)}")
     interval = (time[-1] - time[0]) / (len(time) - 1)
@@ -54,17 +54,17 @@ def even_rate(time, where):
 
 
 def on_grid(columns, time, rate, where):
-    """(columns, begin in s) with NaN where a sample of the even grid was lost; ``columns`` name -> (sample,).
+    """(columns, begin in s) on the full even grid, NaN where a sample is missing; ``columns`` name -> (sample,).
 
-    ``time`` (sample,) s: instants, of which some of the grid at ``rate`` Hz may lack. Raises ConfigError where one lies
-    off the grid by more than OFF_GRID intervals, or twice on the same instant, or where a sample has none.
+    ``time`` (sample,) s: instants on a grid at ``rate`` Hz, of which some may be missing. Raises ConfigError for an
+    instant off the grid by more than OFF_GRID intervals, one that occurs twice, and a sample without a time.
     """
     if not len(time) or not np.isfinite(time).all() or {len(values) for values in columns.values()} - {len(time)}:
         raise ConfigError(where, "a finite time of every sample", f"{np.isfinite(time).sum()} of"
-                          f" {max(map(len, columns.values()), default=0)}", "mend the file, or leave the times out")
-    place = (time - time[0]) * rate
-    index = np.rint(place).astype(int)
-    off = np.abs(place - index).max()
+                          f" {max(map(len, columns.values()), default=0)}", "correct the file, or leave the times out")
+    position = (time - time[0]) * rate
+    index = np.rint(position).astype(int)
+    off = np.abs(position - index).max()
     if off > OFF_GRID or np.any(np.diff(index) < 1):
         raise ConfigError(where, f"rising times on a grid of {rate:g} Hz", f"one that is {off:.2g} intervals off it",
                           "give the sampling rate of the record, or resample it")
@@ -75,16 +75,16 @@ def on_grid(columns, time, rate, where):
 
 
 def stretch(whole, begin, end, where):
-    """The Channel from ``begin`` up to, not with, ``end`` in s (None = its own ends).
+    """The Channel from ``begin`` to ``end`` (exclusive) in s; None: from its start, to its end.
 
-    Raises ConfigError where it holds no sample there.
+    Raises ConfigError if it has no sample there.
     """
     rate, start, count = float(whole.rate), float(whole.begin), len(whole.samples)
     first = 0 if begin is None else max(0, int(np.ceil((begin - start) * rate - 1e-6)))
     last = count if end is None else min(count, int(np.ceil((end - start) * rate - 1e-6)))
     if first >= last:
         raise ConfigError(where, f"a stretch within {start:g} s to {start + (count - 1) / rate:g} s",
-                          f"{_told(begin)} to {_told(end)}")
+                          f"{_instant(begin)} to {_instant(end)}")
     gap = np.zeros(count, bool)
     for low, high in whole.missing:
         gap[low:high] = True
@@ -94,8 +94,8 @@ def stretch(whole, begin, end, where):
                                                               "role")})
 
 
-def _told(instant):
-    return "its own end" if instant is None else f"{instant:g} s"
+def _instant(instant):
+    return "its end" if instant is None else f"{instant:g} s"
 
 
 def _unit_vector(direction, where):

@@ -16,7 +16,7 @@ TIME, RESPONSE = 1, 4
 #: ordinate codes of data set 58
 QUANTITY = {8: "displacement", 9: "force", 11: "velocity", 12: "acceleration", 13: "force", 15: "pressure",
             21: "pressure", 5: "temperature"}
-#: units as benches spell them, as pint reads them
+#: units as measurement systems write them, and as pint reads them
 SPELT = {"m/s2": "m/s^2", "g": "g_0", "NONE": "", "-": ""}
 #: the line that begins a data set, and the one that ends it
 _DELIMITER = re.compile(rb"^ {4}-1\s*$", re.MULTILINE)
@@ -25,9 +25,9 @@ _DELIMITER = re.compile(rb"^ {4}-1\s*$", re.MULTILINE)
 def read_uff(path, units=None):
     """(channels, frf, modes), each a dict by name, of the universal file at ``path``.
 
-    ``units``: response name -> unit, where the file says none. Data sets of other kinds are left out. Raises
-    ConfigError for a file that is no universal file, is cut off or holds nothing that is read here, and for ``units``
-    of responses that it does not hold.
+    ``units``: response name -> unit, for files without units. Data sets of other kinds are ignored. Raises
+    ConfigError for a file that is not a universal file, is truncated or holds no data set of these kinds, and for
+    ``units`` of responses that it does not contain.
     """
     import pyuff
 
@@ -41,15 +41,15 @@ def read_uff(path, units=None):
             sets = [file.read_sets(k) for k, kind in enumerate(file.get_set_types()) if kind in (55, 58)]
     except Exception as error:  # pyuff passes on whatever its parser stumbles over
         raise ConfigError(path, "a universal file", str(error) or type(error).__name__) from None
-    for number, found in enumerate(sets, 1):
+    for number, data_set in enumerate(sets, 1):
         where = f"{path}: data set {number}"
-        if found["type"] == 58 and found["func_type"] == TIME:
-            _put(channels, _name(found), _signal(found, units, where))
-        elif found["type"] == 58 and found["func_type"] == RESPONSE:
-            _put(frf, _name(found), _response(found, units, where))
-        elif found["type"] == 55 and "freq" in found:
-            _put(modes, f"mode_{len(modes) + 1}", _mode(found))
-    strange = sorted(set(units) - {_name(found) for found in sets if found["type"] == 58})
+        if data_set["type"] == 58 and data_set["func_type"] == TIME:
+            _put(channels, _name(data_set), _signal(data_set, units, where))
+        elif data_set["type"] == 58 and data_set["func_type"] == RESPONSE:
+            _put(frf, _name(data_set), _response(data_set, units, where))
+        elif data_set["type"] == 55 and "freq" in data_set:
+            _put(modes, f"mode_{len(modes) + 1}", _mode(data_set))
+    strange = sorted(set(units) - {_name(data_set) for data_set in sets if data_set["type"] == 58})
     if strange:
         raise ConfigError(f"{path}: units", f"responses among {', '.join((*channels, *frf)) or 'none'}",
                           ", ".join(strange))
@@ -64,16 +64,16 @@ def _put(table, name, item):
     table[next(n for n in free if n not in table)] = item
 
 
-def _name(found):
+def _name(data_set):
     """'mic_01' of a response entity 'Mic 01'; node and direction where the file names none."""
-    named = found.get("rsp_ent_name", "NONE").strip()
+    named = data_set.get("rsp_ent_name", "NONE").strip()
     spelt = "".join(c if c.isalnum() else "_" for c in named.lower().replace("+", "p").replace("-", "m")).strip("_")
-    return spelt if spelt and spelt != "none" else f"node_{found['rsp_node']}_{found['rsp_dir']}"
+    return spelt if spelt and spelt != "none" else f"node_{data_set['rsp_node']}_{data_set['rsp_dir']}"
 
 
-def _unit(found, units, where):
-    name = _name(found)
-    written = found.get("ordinate_axis_units_lab", "NONE").strip()
+def _unit(data_set, units, where):
+    name = _name(data_set)
+    written = data_set.get("ordinate_axis_units_lab", "NONE").strip()
     unit = SPELT.get(written, written) or units.get(name, "")
     if not unit:
         raise ConfigError(f"{where} ({name})", "a unit in the file or in 'units'", "none",
@@ -88,28 +88,28 @@ def _direction(code):
     return tuple(np.sign(code) * np.eye(3)[abs(code) - 1])
 
 
-def _signal(found, units, where):
-    rate, begin = even_rate(np.asarray(found["x"], float), where)
-    measures = QUANTITY.get(found["ordinate_spec_data_type"], found["ordinate_axis_lab"].strip().lower())
+def _signal(data_set, units, where):
+    rate, begin = even_rate(np.asarray(data_set["x"], float), where)
+    measures = QUANTITY.get(data_set["ordinate_spec_data_type"], data_set["ordinate_axis_lab"].strip().lower())
     role = "excitation" if measures == "force" else "response"
-    return channel(found["data"], _unit(found, units, where), measures, rate, begin, where, role=role,
-                   place=f"node {found['rsp_node']}" if found["rsp_node"] else "",
-                   direction=_direction(found["rsp_dir"]))
+    return channel(data_set["data"], _unit(data_set, units, where), measures, rate, begin, where, role=role,
+                   place=f"node {data_set['rsp_node']}" if data_set["rsp_node"] else "",
+                   direction=_direction(data_set["rsp_dir"]))
 
 
-def _response(found, units, where):
-    upper, lower = _unit(found, units, where), found.get("orddenom_axis_units_lab", "NONE").strip()
+def _response(data_set, units, where):
+    upper, lower = _unit(data_set, units, where), data_set.get("orddenom_axis_units_lab", "NONE").strip()
     below = SPELT.get(lower, lower)
-    values, unit = in_si(np.asarray(found["data"], complex), f"({upper}) / ({below})" if below else upper, where)
-    return FrequencyResponse(frequency=found["x"], response=values, unit=unit,
-                             place=f"node {found['rsp_node']} direction {found['rsp_dir']}",
-                             reference=f"node {found['ref_node']} direction {found['ref_dir']}")
+    values, unit = in_si(np.asarray(data_set["data"], complex), f"({upper}) / ({below})" if below else upper, where)
+    return FrequencyResponse(frequency=data_set["x"], response=values, unit=unit,
+                             place=f"node {data_set['rsp_node']} direction {data_set['rsp_dir']}",
+                             reference=f"node {data_set['ref_node']} direction {data_set['ref_dir']}")
 
 
-def _mode(found):
-    parts = [np.atleast_1d(np.asarray(found[f"r{k}"], complex)) for k in range(1, 7) if f"r{k}" in found]
-    nodes = np.atleast_1d(np.asarray(found["node_nums"], int))
-    place = [f"node {n} direction {k}" for k in range(1, len(parts) + 1) for n in nodes]
-    ratio = float(found.get("modal_damp_vis", 0.0) or 0.0)
-    return MeasuredModes(frequency=[float(found["freq"])], frequency_std=[0.0], damping_ratio=[ratio],
-                         damping_ratio_std=[0.0], place=place, shape=np.concatenate(parts)[None, :])
+def _mode(data_set):
+    parts = [np.atleast_1d(np.asarray(data_set[f"r{k}"], complex)) for k in range(1, 7) if f"r{k}" in data_set]
+    nodes = np.atleast_1d(np.asarray(data_set["node_nums"], int))
+    names = [f"node {n} direction {k}" for k in range(1, len(parts) + 1) for n in nodes]
+    ratio = float(data_set.get("modal_damp_vis", 0.0) or 0.0)
+    return MeasuredModes(frequency=[float(data_set["freq"])], frequency_std=[0.0], damping_ratio=[ratio],
+                         damping_ratio_std=[0.0], place=names, shape=np.concatenate(parts)[None, :])

@@ -81,7 +81,7 @@ def test_plan_prints_and_writes_the_table(tmp_path):
 
 def test_a_plan_of_another_chain_is_refused():
     done = brakechain("plan", "configs/belt.yaml")
-    assert done.returncode == 2 and "chain: expected lumped_bench, of which runs can be planned" in done.stderr
+    assert done.returncode == 2 and "chain: expected lumped_bench, whose runs can be planned" in done.stderr
 
 
 def test_debug_shows_the_traceback(tmp_path):

@@ -70,7 +70,7 @@ def test_tables_find_their_delimiter_and_mark_missing_samples(tmp_path, mark):
 @pytest.mark.parametrize("text, message", [
     ("a,b\n1,2\n1,x\n", r"a\.csv:3: expected a number, found 'x'"),
     ("a,b\n1\n", r"a\.csv:2: expected 2 values, found 1"),
-    ("a,a\n1,2\n", r"a\.csv:1: expected each column name once"), ("a,b\n", "expected a head and at least one line"),
+    ("a,a\n1,2\n", r"a\.csv:1: expected each column name once"), ("a,b\n", "expected a header and at least one line"),
 ])
 def test_tables_tell_the_line_of_a_mistake(tmp_path, text, message):
     path = tmp_path / "a.csv"

@@ -29,7 +29,7 @@ def test_a_base_has_its_multiples_with_their_tolerance():
     assert found.label.tolist() == ["mode_1_test", "mode_1_test x 2", "mode_1_test x 3"]
 
 
-@pytest.mark.parametrize("wanted, message", [(["mod_1"], "mod_1, which none fits"),
+@pytest.mark.parametrize("wanted, message", [(["mod_1"], "mod_1, which matches no key"),
                                              (["step"], "expected facts in Hz, found step")])
 def test_refusals(wanted, message):
     with pytest.raises(ConfigError, match=message):

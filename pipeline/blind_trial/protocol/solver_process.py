@@ -18,7 +18,7 @@ from pathlib import Path
 
 from pipeline.blind_trial.protocol.case_set import FILES
 from pipeline.contract.errors import BrakechainError
-from pipeline.environment import CACHE, ONE_THREAD, own_compiled_code
+from pipeline.environment import CACHE, ONE_THREAD, use_compiled_cache
 
 #: what runs a diagnosis; baselines have a door of their own
 DIAGNOSIS = ("pipeline", "run", "nominal.yaml", "--run", "products", "--until", "diagnosis", "--workers", "1")
@@ -38,7 +38,7 @@ def command(method):
 
 def environment(home):
     """All variables of the process: compiled code is shared, everything else lies in ``home``."""
-    own_compiled_code()
+    use_compiled_cache()
     kept = {name: os.environ[name] for name in ("PATH", "LANG", CACHE) if name in os.environ}
     return {**kept, **ONE_THREAD, "HOME": str(home), "TMPDIR": str(home),
             "PYTHONPATH": str(_ROOT), "PYTHONDONTWRITEBYTECODE": "1"}

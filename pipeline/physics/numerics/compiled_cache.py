@@ -1,8 +1,8 @@
-"""Where numba keeps the code that it compiles: beside the digest of everything that the code was compiled from.
+"""Where numba caches compiled code: under a digest of all sources that the code was compiled from.
 
-numba compiles a function again when its own file changes, but not when a function or a constant changes that it takes
-from another file. Here the folder of a file is named after its content and that of all project files it imports: a
-change reaches what depends on it, and nothing else.
+By itself numba recompiles a function when its file changes, but not when a function or a constant changes that it
+imports from another file. Here the folder of a file is named after its content and that of all project files that it
+imports: a change recompiles what depends on it, and nothing else.
 """
 
 import hashlib
@@ -23,7 +23,7 @@ def state_of(path):
 
 
 class SourceLocator(_CacheLocator):
-    """Locator of numba (NUMBA_CACHE_LOCATOR_CLASSES) for functions of this project."""
+    """Cache locator of numba (NUMBA_CACHE_LOCATOR_CLASSES) for functions of this project."""
 
     def __init__(self, py_func, py_file):
         self._py_file, self._line = py_file, py_func.__code__.co_firstlineno
@@ -34,16 +34,16 @@ class SourceLocator(_CacheLocator):
         return str(Path(config.CACHE_DIR) / f"{Path(self._py_file).stem}-{self._state}")
 
     def get_source_stamp(self):
-        """What the code was compiled from."""
+        """Digest of the sources."""
         return self._state
 
     def get_disambiguator(self):
-        """The line at which the function begins."""
+        """The first line of the function."""
         return str(self._line)
 
     @classmethod
     def from_function(cls, py_func, py_file):
-        """The locator; None for functions of others, or where no folder can be written."""
+        """The locator; None for functions outside this project, or if the folder cannot be written."""
         if not config.CACHE_DIR or not Path(py_file).is_relative_to(sources.ROOT / "pipeline"):
             return None
         locator = cls(py_func, py_file)

@@ -104,7 +104,7 @@ def test_a_sealed_truth_is_not_laid_open_and_sets_of_others_cannot_be_made_again
 def test_from_the_command_line(tmp_path, generators):
     make(tmp_path / "a", seed=3)
     done = CliRunner().invoke(cli, ["trial", "remake", str(tmp_path / "a"), str(tmp_path / "b"), "--workers", "1"])
-    assert done.exit_code == 0 and "the files are those of the set" in done.output, done.output
+    assert done.exit_code == 0 and "the files are identical to those of the set" in done.output, done.output
     shutil.rmtree(tmp_path / "b" / "cases")
     done = CliRunner().invoke(cli, ["trial", "remake", str(tmp_path / "b"), "--workers", "1"])
     assert done.exit_code == 0 and (tmp_path / "b" / "cases" / "005").exists(), done.output
