@@ -76,14 +76,14 @@ def beam_geometry(settings: Settings, context: Context) -> BeamGeometry:
     joint = _joint_search(settings, yielding.x)
     sample = _sampled(settings, joint.best[:GEOMETRY])
     runs = [_motion(settings, joint.best, seed) for seed in settings.motion_seeds]
-    found = linear(joint.best)
+    result = linear(joint.best)
     return BeamGeometry(
-        parameter=NAMES, best=joint.best, linear_cost=found.cost, cost=joint.cost,
+        parameter=NAMES, best=joint.best, linear_cost=result.cost, cost=joint.cost,
         rigid_tilt=settings.tilts, rigid_cost=[r.fun for r in rigid], rigid_best=[r.x for r in rigid],
         rigid_parameter=NAMES[:_RIGID], yielding_cost=yielding.fun, samples=sample, sampled_parameter=NAMES[:GEOMETRY],
         lower_bound=LOWER[:GEOMETRY], upper_bound=UPPER[:GEOMETRY],
-        onset_frequency=found.found.onset_frequency, onset_friction=found.found.onset_friction,
-        closed_frequency=found.found.frictionless, quantity_name=list(MOTION),
+        onset_frequency=result.found.onset_frequency, onset_friction=result.found.onset_friction,
+        closed_frequency=result.found.frictionless, quantity_name=list(MOTION),
         lower=np.maximum([band[0] for band in MOTION.values()], -1e9),
         upper=np.minimum([band[1] for band in MOTION.values()], 1e9),
         motion=[[run[name] for name in MOTION] for run in runs],
@@ -101,8 +101,8 @@ def _linear_search(settings, size, tilt, generations):
 def _joint_search(settings, geometry):
     """Evolved population about the linear optimum, and the known geometry where there is one."""
     random = np.random.default_rng(settings.seed)
-    own = np.concatenate((geometry, (LOWER + UPPER)[GEOMETRY:] / 2))
-    centres = [own] + ([np.array(settings.start)] if settings.start is not None else [])
+    start = np.concatenate((geometry, (LOWER + UPPER)[GEOMETRY:] / 2))
+    centres = [start] + ([np.array(settings.start)] if settings.start is not None else [])
     spread = (UPPER - LOWER) * np.r_[np.full(GEOMETRY, 0.004), 0.15, 0.15, 0.15]
     population = np.array([centres[k % len(centres)] + spread * random.standard_normal(len(LOWER)) * (k >= len(centres))
                            for k in range(settings.joint_population)])
@@ -132,18 +132,19 @@ def _sampled(settings, best):
 
 def _model(settings, vector, damping_factor=1.0):
     """SlidingModel of a geometry in the modes of its Timoshenko beams."""
-    told = described(vector)
-    modes, sensor, load = modes_of(build(told, "timoshenko"))
+    description = described(vector)
+    modes, sensor, load = modes_of(build(description, "timoshenko"))
     kept = modes.squared < (2 * np.pi * settings.highest_frequency) ** 2
     squared, size = modes.squared[kept], int(kept.sum())
     normal, tangent, sensor, load = (row[kept][None] for row in (modes.normal, modes.tangent, sensor, load))
-    none, one = np.zeros((size, size)), np.ones(1)
-    contacts = Contacts(normal, tangent, 0 * normal, np.zeros((1, 3)), one, one, told.contact.force * one, 0 * one,
-                        0 * one)
-    drag = damping_factor * told.material.mass_damping + told.material.stiffness_damping * squared
+    none, unit = np.zeros((size, size)), np.ones(1)
+    force = description.contact.force * unit
+    contacts = Contacts(normal, tangent, 0 * normal, np.zeros((1, 3)), unit, unit, force, 0 * unit,
+                        0 * unit)
+    drag = damping_factor * description.material.mass_damping + description.material.stiffness_damping * squared
     return SlidingModel(("beams",), np.zeros(size, int), np.eye(size), np.diag(drag), none, np.diag(squared), none,
                         Joints((), np.zeros((0, size)), np.zeros(0), np.zeros(0)), contacts, ("weight",), load, ("B",),
-                        sensor, settings.speed), told.contact.force
+                        sensor, settings.speed), description.contact.force
 
 
 def _motion(settings, vector, seed, damping_factor=1.0):
@@ -173,8 +174,8 @@ def _over_damping(settings, vector):
     for factor in settings.damping_factors:
         model, _ = _model(settings, vector, factor)
         sliding = hard_sliding(model, settings.friction, friction_damping=False)
-        told = SimpleNamespace(**_motion(settings, vector, settings.motion_seeds[0], factor))
+        motion = SimpleNamespace(**_motion(settings, vector, settings.motion_seeds[0], factor))
         rows.append((factor * np.exp(vector[GEOMETRY + 1]), growth(sliding, 400.0, _WIDTH),
-                     growth(sliding, 2800.0, _WIDTH), told.low_level, told.fundamental, told.vibrating_share))
+                     growth(sliding, 2800.0, _WIDTH), motion.low_level, motion.fundamental, motion.vibrating_share))
     names = ("damping", "low_growth", "middle_growth", "damping_low_level", "damping_fundamental", "damping_vibrating")
     return {name: np.maximum(column, -1e9) for name, column in zip(names, zip(*rows, strict=True), strict=True)}

@@ -103,15 +103,15 @@ def beam_on_beam(settings: Settings, context: Context) -> BeamOnBeam:
     chosen, check = (_reduced(settings, element, context) for element in (settings.element, other))
     frequency = np.geomspace(settings.coalescences_below / 1e3, settings.coalescences_below, settings.samples)
     modes, direction = joined(*chosen)[0], -1.0
-    found = coalescences(modes, frequency, direction, _MOST_FRICTION)
+    pairs = coalescences(modes, frequency, direction, _MOST_FRICTION)
     crosscheck = coalescences(joined(*check)[0], frequency, direction, _MOST_FRICTION)
     context.log("coalescences: " + (", ".join(f"{f:.0f} Hz at {mu:.3f}" for f, mu in zip(
-        found.onset_frequency, found.onset_friction, strict=True)) or "none"))
+        pairs.onset_frequency, pairs.onset_friction, strict=True)) or "none"))
     return BeamOnBeam(
         body_name=BODIES, element=settings.element, curve_frequency=frequency,
         curve_friction=_drawn(friction_over_frequency(modes, frequency, direction)[1]),
-        closed_frequency=found.frictionless, onset_frequency=found.onset_frequency, onset_friction=found.onset_friction,
-        end_frequency=found.end_frequency, end_friction=found.end_friction,
+        closed_frequency=pairs.frictionless, onset_frequency=pairs.onset_frequency, onset_friction=pairs.onset_friction,
+        end_frequency=pairs.end_frequency, end_friction=pairs.end_friction,
         check_frequency=crosscheck.frictionless, check_onset_frequency=crosscheck.onset_frequency,
         check_onset_friction=crosscheck.onset_friction, **_findings(settings.findings), **_joined(*chosen, settings))
 
@@ -127,12 +127,12 @@ def _findings(path):
 
 def _reduced(settings, element, context):
     """(bodies, squared, shapes) of both beams."""
-    bodies, found = build(settings, element), []
+    bodies, modes = build(settings, element), []
     for body in bodies:
         rows = np.vstack((body.contact, body.load))
-        found.append(beam_modes(body.stiffness, body.mass, rows[np.any(rows, axis=1)], settings.modes_below,
+        modes.append(beam_modes(body.stiffness, body.mass, rows[np.any(rows, axis=1)], settings.modes_below,
                                 settings.residual_below, context.solver))
-    return bodies, *zip(*found, strict=True)
+    return bodies, *zip(*modes, strict=True)
 
 
 def _drawn(friction):

@@ -43,37 +43,38 @@ def bench(model: ReducedModel, effects: Effects | None, recording: Recording, se
     else:
         runs = started(whole, runs, settings)
         answers = context.map(partial(_shown, whole), list(runs.values()), "runs")
-    found = {name: _run(one, answer) for (name, one), answer in zip(runs.items(), answers, strict=True)}
+    results = {name: _run(one, answer) for (name, one), answer in zip(runs.items(), answers, strict=True)}
     units = {c: u for one in runs.values() for c, u in zip(one.channels, one.unit, strict=True)}
-    for name, one in found.items():
+    for name, one in results.items():
         context.log(f"{name}: error {', '.join(f'{e:.3g}' for e in one.error)} of the standard deviation")
-    return Bench(settings=stored(settings), channel=list(units), unit=list(units.values()), runs=found)
+    return Bench(settings=stored(settings), channel=list(units), unit=list(units.values()), runs=results)
 
 
-def _shown(whole, one):
+def _shown(whole, run):
     """Samples (c, n) of one recorded run."""
-    return shown(whole, one.run, one.channels)
+    return shown(whole, run.run, run.channels)
 
 
-def _run(one, predicted):
-    count = one.valid.sum(axis=1)
-    left = np.where(one.valid, one.samples - predicted, 0.0)
+def _run(seen_run, predicted):
+    count = seen_run.valid.sum(axis=1)
+    left = np.where(seen_run.valid, seen_run.samples - predicted, 0.0)
     size = np.sqrt((left**2).sum(axis=1) / np.maximum(count, 1))
-    spread = np.array([s[v].std() if v.any() else 0.0 for s, v in zip(one.samples, one.valid, strict=True)])
-    return BenchRun(time=one.run.time, measured=np.where(one.valid, one.samples, 0.0), predicted=predicted,
-                    valid=one.valid.astype(int), root_mean_square=size,
+    spread = np.array([s[v].std() if v.any() else 0.0 for s, v in zip(seen_run.samples, seen_run.valid, strict=True)])
+    measured = np.where(seen_run.valid, seen_run.samples, 0.0)
+    return BenchRun(time=seen_run.run.time, measured=measured, predicted=predicted,
+                    valid=seen_run.valid.astype(int), root_mean_square=size,
                     error=np.divide(size, spread, out=np.zeros(len(size)), where=spread > 0))
 
 
 def _of_features(whole, recorded_runs, settings, context):
     """Bench of poles and other features, one sample a feature; their errors count in their standard deviations."""
     seen = features(whole, recorded_runs, settings.poles)
-    told, units = observed(seen)
-    found = {}
-    for one in told:
+    measured, units = observed(seen)
+    results = {}
+    for one in measured:
         told_by = predicted(whole, seen[one.name], one.channels)
         left = np.where(one.valid, one.samples - told_by, 0.0)[:, 0]
-        found[one.name] = BenchRun(time=[0.0], measured=one.samples, predicted=told_by, valid=one.valid.astype(int),
+        results[one.name] = BenchRun(time=[0.0], measured=one.samples, predicted=told_by, valid=one.valid.astype(int),
                                    root_mean_square=abs(left), error=abs(left) / one.noise_std)
         context.log(f"{one.name}: {int(one.valid.sum())} features")
-    return Bench(settings=stored(settings), channel=list(units), unit=list(units.values()), runs=found)
+    return Bench(settings=stored(settings), channel=list(units), unit=list(units.values()), runs=results)

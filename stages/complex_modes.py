@@ -66,14 +66,15 @@ class Settings(Section):
 
 def _check(sections):
     """Refuse friction that is given twice or not at all, and speeds of both signs, before anything is computed."""
-    told = sections["complex_modes"]
-    given = told.friction is not None
-    if told.friction_at_rest is not None and not given:
+    settings = sections["complex_modes"]
+    given = settings.friction is not None
+    if settings.friction_at_rest is not None and not given:
         raise ConfigError("complex_modes.friction_at_rest", "friction beside it, or neither", "none",
                           "for friction that falls from that of a map or law, state effects.falling_friction")
-    if min(told.speeds) < 0 < max(told.speeds):
+    if min(settings.speeds) < 0 < max(settings.speeds):
         raise ConfigError("complex_modes.speeds", "speeds of one sign, at whose mean the sweep runs",
-                          f"{min(told.speeds):g} to {max(told.speeds):g} rad/s", "make a case of each direction")
+                          f"{min(settings.speeds):g} to {max(settings.speeds):g} rad/s", "make a case of each"
+                          " direction")
     mapped = "friction_map" in sections
     if given and mapped or not (given or mapped or "interface_law" in sections):
         raise ConfigError("complex_modes.friction", "friction from one source",
@@ -159,20 +160,20 @@ def _told(terms, context):
 
 def _state(settings, task):
     """The model about its state without friction, on a basis that serves all states of the sweep."""
-    one, input_force = task
-    response, seeking = _response(one, settings), one.condensed() if one.moved else one
+    case, input_force = task
+    response, seeking = _response(case, settings), case.condensed() if case.moved else case
     still = seeking.slide(response, input_force, constant(0.0), 0.0, settings)
-    about = still.about(one.bench.model)
+    about = still.about(case.bench.model)
     basis = _basis(about, settings, contact_stiffness=still.contact.stiffness.max(initial=0.0))
-    bare = replace(one.bench.model, contacts=about.contacts)
+    bare = replace(case.bench.model, contacts=about.contacts)
     bare = bare if is_hard(about) else bare.projected(basis.shape)
-    return _State(bare, response, input_force, basis, still, seeking if one.moved else one.within(bare))
+    return _State(bare, response, input_force, basis, still, seeking if case.moved else case.within(bare))
 
 
-def _response(one, settings):
+def _response(case, settings):
     """ClosureResponse where the law of the model is what a sliding state is found with, else None."""
-    tabled = isinstance(one.base.law, Table) and not one.moved
-    return closure_response(one.bench.model, settings.centrifugal) if tabled else None
+    tabled = isinstance(case.base.law, Table) and not case.moved
+    return closure_response(case.bench.model, settings.centrifugal) if tabled else None
 
 
 def _friction_law(friction_map, model, settings):
@@ -215,17 +216,17 @@ def _roots_over_friction(settings, task):
     for mu in friction:
         sliding = state.posed.slide(state.response, state.input_force, constant(mu), mu, settings)
         matrices, beside = _linearised(sliding.about(state.model), sliding, state.basis, settings)
-        found = quadratic_roots(*matrices, beside)
-        roots.append(found[upper_half(found, len(matrices[0]))])
+        every_root = quadratic_roots(*matrices, beside)
+        roots.append(every_root[upper_half(every_root, len(matrices[0]))])
     return np.array(roots)
 
 
 def _operate(settings, law, task):
     """Sliding state with friction of the law, and the modes about it on a basis of its own."""
-    one, input_force = task
-    response, seeking = _response(one, settings), one.condensed() if one.moved else one
+    case, input_force = task
+    response, seeking = _response(case, settings), case.condensed() if case.moved else case
     sliding = seeking.slide(response, input_force, *law, settings)
-    model = sliding.about(one.bench.model)
+    model = sliding.about(case.bench.model)
     basis = _basis(model, settings)
     about = model if is_hard(model) else model.projected(basis.shape)
     matrices, beside = _linearised(about, sliding, basis, settings, settings.friction_slopes)
@@ -249,12 +250,12 @@ def _linearised(model, sliding, basis, settings, slopes=True):
 
 def _unstable(outcomes, recovery):
     """Growing modes below the frequency limit, strongest first, with their shapes on the surface."""
-    found = [(number, root, motion) for number, outcome in enumerate(outcomes)
+    unstable = [(number, root, motion) for number, outcome in enumerate(outcomes)
              for root, motion in zip(outcome.growing, outcome.motion.T, strict=True)]
-    found.sort(key=lambda f: -f[1].real)
-    shapes = [_normalised(recovery @ q[:recovery.shape[2]].astype(np.complex64)) for _, _, q in found]
-    return {"unstable_operating": [f[0] for f in found], "unstable_root": [f[1] for f in found],
-            "unstable_shape": np.array(shapes).reshape(len(found), *recovery.shape[:2])}
+    unstable.sort(key=lambda f: -f[1].real)
+    shapes = [_normalised(recovery @ q[:recovery.shape[2]].astype(np.complex64)) for _, _, q in unstable]
+    return {"unstable_operating": [f[0] for f in unstable], "unstable_root": [f[1] for f in unstable],
+            "unstable_shape": np.array(shapes).reshape(len(unstable), *recovery.shape[:2])}
 
 
 def _normalised(shape):

@@ -56,14 +56,14 @@ def diagnosis(model: ReducedModel | None, effects: Effects | None, recording: Re
     never fitted.
     """
     if settings.forward == "lines":
-        told = published_diagnosis(recording, Models(model, structure, modes), settings, context)
+        result = published_diagnosis(recording, Models(model, structure, modes), settings, context)
     elif settings.forward == "friction":
-        told = _answered(_of_friction(recording, surface, micro, friction_map, effects, settings, context), settings,
+        result = _answered(_of_friction(recording, surface, micro, friction_map, effects, settings, context), settings,
                          context)
     else:
-        told = _answered(_of_bench(model, effects, recording, bench, settings), settings, context)
-    context.log(f"verdict: {told.verdict.item()}")
-    return told
+        result = _answered(_of_bench(model, effects, recording, bench, settings), settings, context)
+    context.log(f"verdict: {result.verdict.item()}")
+    return result
 
 
 def _of_friction(recording, surface, micro, friction_map, effects, settings, context):
@@ -87,9 +87,9 @@ def _answered(asked, settings, context):
     """Product Diagnosis of a Question."""
     context.log(f"{len(asked.candidates)} hypotheses over {len(asked.problem.training)} runs,"
                 f" {len(asked.problem.held_out)} held out")
-    found = course.diagnose(asked.problem, asked.budget, asked.candidates, course.Settings(
+    result = course.diagnose(asked.problem, asked.budget, asked.candidates, course.Settings(
         settings.kept, asked.starts, settings.draws, settings.seed, asked.rules), context.map)
-    return answer(asked, found)
+    return answer(asked, result)
 
 
 def _question(whole, runs, settings, laid_out):

@@ -14,7 +14,7 @@ def effects(settings: Settings, context: Context) -> Effects:
     Effects of the catalogue were added at the places and with the values that the case states; none where it states
     none.
     """
-    found = effect_block.product(settings)
-    for name, place in zip(found.effect, found.place, strict=True):
+    added = effect_block.product(settings)
+    for name, place in zip(added.effect, added.place, strict=True):
         context.log(f"{name} at {place}")
-    return found
+    return added

@@ -166,9 +166,9 @@ def lumped(settings: Settings, context: Context) -> Lumped:
     Method:
     The system was given as masses, springs, dampers and contacts; static contact forces are those without friction.
     """
-    found = _built(settings)
-    context.log(f"coordinates: {', '.join(found.coordinate_name)}")
-    return found
+    built = _built(settings)
+    context.log(f"coordinates: {', '.join(built.coordinate_name)}")
+    return built
 
 
 def _built(settings):
@@ -194,11 +194,11 @@ def _rows(rows, place):
 
 def _weights(combination, where):
     """{coordinate: weight} with numbers for translations and radii in m for rotations."""
-    found = {}
+    weights = {}
     for name, weight in combination.items():
         turns = name.rpartition(".")[2] in system.ROTATIONS
-        found[name] = to_si(weight, "m" if turns else "1", f"{where}.{name}")
-    return found
+        weights[name] = to_si(weight, "m" if turns else "1", f"{where}.{name}")
+    return weights
 
 
 def _connected(place, combination, where):

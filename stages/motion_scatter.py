@@ -47,12 +47,13 @@ class Settings(Section):
 
 def _check(sections):
     """Refuse motions that are over before they are judged, and bands without width."""
-    told = sections["motion_scatter"]
-    if told.settling + 8 * told.frame > told.duration:
-        raise ConfigError("motion_scatter.duration", f"at least {told.settling + 8 * told.frame:g} s, settling and"
-                          " eight frames", f"{told.duration:g} s")
-    if len(told.low_band) != 2 or told.low_band[0] >= told.low_band[1]:
-        raise ConfigError("motion_scatter.low_band", "two rising frequencies", str(told.low_band))
+    settings = sections["motion_scatter"]
+    if settings.settling + 8 * settings.frame > settings.duration:
+        raise ConfigError("motion_scatter.duration", f"at least {settings.settling + 8 * settings.frame:g} s, settling"
+                          " and"
+                          " eight frames", f"{settings.duration:g} s")
+    if len(settings.low_band) != 2 or settings.low_band[0] >= settings.low_band[1]:
+        raise ConfigError("motion_scatter.low_band", "two rising frequencies", str(settings.low_band))
 
 
 @stage(check=_check)
@@ -95,13 +96,13 @@ def _judged(motion, interval, settings):
     velocity, status = motion.velocity[0, late], motion.status[0, late]
     fundamental, level, height = harmonic_lines(velocity, interval, settings.resolution, settings.lowest_frequency,
                                                 _ORDERS)
-    found = bursts(velocity, interval, settings.frame, settings.threshold)
+    events = bursts(velocity, interval, settings.frame, settings.threshold)
     return {
         "fundamental": fundamental, "harmonic_level": np.maximum(level, -200.0), "harmonic_height": height,
         "low_level": _low_level(velocity, interval, fundamental, settings),
         "peak_force": motion.normal_force[0, late].max(), "peak_slip": abs(motion.slip[0, late]).max(),
         "peak_velocity": abs(velocity).max(), "status_share": [np.mean(status == kind) for kind in range(3)],
-        "vibrating_share": found.share, "burst_length": found.burst, "pause_length": found.pause,
+        "vibrating_share": events.share, "burst_length": events.burst, "pause_length": events.pause,
         "imbalance": motion.imbalance}
 
 

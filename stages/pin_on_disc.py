@@ -100,10 +100,10 @@ def _check(sections):
     speeds = {f"{name}.speeds": sections[name].speeds for name in ("complex_modes", "transient", "lock_in")
               if name in sections}
     speeds |= {"lock_in.speed": (sections["lock_in"].speed,)} if "lock_in" in sections else {}
-    for name, own in speeds.items():
-        if min(own, default=0.0) < 0:
+    for name, values in speeds.items():
+        if min(values, default=0.0) < 0:
             raise ConfigError(name, "speeds above 0, where a heavy clamp may lock the pin",
-                              f"{min(own):.3g} rad/s with a base_mass of {pin.base_mass:g} kg",
+                              f"{min(values):.3g} rad/s with a base_mass of {pin.base_mass:g} kg",
                               "to slide the other way, change the signs of pin.tilt and contact.offset")
 
 
@@ -174,8 +174,8 @@ def _pin_modes(settings, context):
     lengths = (settings.pin.length, *settings.lengths)
     longer = [settings.model_copy(update={"pin": settings.pin.model_copy(update={"length": length})})
               for length in lengths]
-    found = context.map(partial(_clamped_pin, context.solver), longer, "real modes of the pin")
-    return {"pin_length": lengths, "pin_frequency": found}
+    modes = context.map(partial(_clamped_pin, context.solver), longer, "real modes of the pin")
+    return {"pin_length": lengths, "pin_frequency": modes}
 
 
 def _clamped_pin(solver, settings):

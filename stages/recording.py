@@ -131,11 +131,11 @@ def recording(settings: Settings, context: Context) -> Recording:
     """
     runs, source = {}, []
     for number, file in enumerate(settings.files):
-        found = READ[file.kind](file)
-        twice = set(found) & set(runs)
+        new_runs = READ[file.kind](file)
+        twice = set(new_runs) & set(runs)
         if twice:
             raise ConfigError(f"recording.files.{number}", "run names that are not taken", ", ".join(sorted(twice)))
-        runs |= found
+        runs |= new_runs
         source.append(f"{file.file.name} {hashlib.sha256(file.file.read_bytes()).hexdigest()}")
     _check_repeats(runs)
     context.log(f"{len(runs)} runs: {', '.join(runs)}")
@@ -178,8 +178,8 @@ def _from_uff(file):
 def _from_facts(file):
     facts = load(file.file)
     return {name: _run({}, run, f"{file.file}: runs.{name}", lines={
-        key: line_list(facts, one.facts, one.multiples, one.place, f"{file.file}: runs.{name}.lists.{key}")
-        for key, one in run.lists.items()}) for name, run in file.runs.items()}
+        key: line_list(facts, values.facts, values.multiples, values.place, f"{file.file}: runs.{name}.lists.{key}")
+        for key, values in run.lists.items()}) for name, run in file.runs.items()}
 
 
 #: kind of file -> its runs by name
@@ -188,13 +188,13 @@ READ = {"matlab": lambda file: _from_columns(file, read_matlab(file.file)),
         "uff": _from_uff, "lines": _from_facts, "hdf5": lambda file: read_neutral(file.file)}
 
 
-def _run(channels, told, where, **more):
+def _run(channels, stated, where, **more):
     conditions = {}
-    for name, given in told.conditions.items():
+    for name, given in stated.conditions.items():
         value, unit = in_si(given.value, given.unit, f"{where}: conditions.{name}.unit")
         conditions[name] = Condition(value=[value], time=[0.0], unit=unit)
     empty = {kind: {} for kind in ("frf", "modes", "lines", "topography", "friction")}
-    return Run(description=told.description, repeat_of=getattr(told, "repeat_of", ""), conditions=conditions,
+    return Run(description=stated.description, repeat_of=getattr(stated, "repeat_of", ""), conditions=conditions,
                channels=channels,
                **{**empty, **more})
 

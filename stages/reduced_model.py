@@ -48,8 +48,8 @@ def _from_solids(structure, settings, context):
                      solver=context.solver)
     terms = context.map(reduce, bodies, "reducing bodies")
     sizes = [len(t.mass) for t in terms]
-    told = (f"{name} {size}" for name, size in zip(structure.body_name, sizes, strict=True))
-    context.log(f"reduced coordinates: {', '.join(told)}")
+    counts = (f"{name} {size}" for name, size in zip(structure.body_name, sizes, strict=True))
+    context.log(f"reduced coordinates: {', '.join(counts)}")
     matrices = {name: scipy.linalg.block_diag(*(getattr(t, name) for t in terms))
                 for name in ("mass", "damping", "gyroscopic", "stiffness", "centrifugal")}
     rows = _split_rows(structure, np.hstack([t.rows for t in terms]))
@@ -111,11 +111,11 @@ def _copied(structure):
     radius = np.hypot(structure.contact_position[:, 0], structure.contact_position[:, 1])
     sensors = len(structure.sensor_name)
     inputs = int(getattr(structure, f"{INPUTS[type(structure)]}_rows").rows)
-    own = {"contact_lever": radius, "contact_gap": np.zeros(len(radius)), "history_interval": 0.0,
+    constants = {"contact_lever": radius, "contact_gap": np.zeros(len(radius)), "history_interval": 0.0,
            "input_history": np.empty((0, inputs)), "drive_history": [],
            "sensor_quantity": ["velocity"] * sensors, "sensor_unit": ["m/s"] * sensors, "sensor_gain": np.ones(sensors),
            **tangential}
-    return {**own, **{name: getattr(structure, name) for name in kept}}
+    return {**constants, **{name: getattr(structure, name) for name in kept}}
 
 
 def _surfaces(terms, sizes):

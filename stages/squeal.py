@@ -65,16 +65,16 @@ def squeal(response: Response | Transient, settings: Settings, context: Context)
                           f"{settings.settling:.3g} s")
     rate = (len(response.time) - 1) / (response.time[-1] - response.time[0])
     search = partial(_search, rate=rate, detector=detector)
-    found = context.map(search, [velocity[:, searched] for velocity in response.velocity], "squeal detection")
+    results = context.map(search, [velocity[:, searched] for velocity in response.velocity], "squeal detection")
     middle = third_octave_bands(settings.lowest_frequency, settings.highest_frequency)
     power = band_power(response.frequency, response.velocity_spectrum, middle)
-    peaks = np.array([[peak for peak, _ in sensors] for sensors in found])
+    peaks = np.array([[peak for peak, _ in sensors] for sensors in results])
     return Squeal(
         pressure=response.pressure, speed=response.speed, sensor_name=response.sensor_name,
         coupling=getattr(response, "coupling", "transient"),
         reference=settings.reference, threshold=detector.threshold,
         peak_level=peaks[..., 0], peak_frequency=peaks[..., 1],
-        band=middle, band_level=level(power, settings.reference), **_events(found, response.time[searched][0]))
+        band=middle, band_level=level(power, settings.reference), **_events(results, response.time[searched][0]))
 
 
 def _detector(settings):
@@ -88,14 +88,14 @@ def _detector(settings):
 def _search(velocity, rate, detector):
     """For each sensor of one operating point: (level, frequency) of the loudest tone, and the events."""
     every = [frames(signal.astype(float), rate, detector) for signal in velocity]
-    return [(loudest(found, detector), detect(found, detector)) for found in every]
+    return [(loudest(spectrum, detector), detect(spectrum, detector)) for spectrum in every]
 
 
-def _events(found, begin):
+def _events(results, begin):
     """The event table; times count from the static start."""
     rows = [(operating, sensor, event.frequency, event.level, begin + event.start, event.duration, event.fundamental,
              event.order)
-            for operating, sensors in enumerate(found) for sensor, (_, events) in enumerate(sensors)
+            for operating, sensors in enumerate(results) for sensor, (_, events) in enumerate(sensors)
             for event in events]
     names = ("operating", "sensor", "frequency", "level", "start", "duration", "fundamental", "order")
     columns = zip(*rows, strict=True) if rows else [()] * len(names)

@@ -153,7 +153,8 @@ def structure(friction_map: FrictionMap, settings: Settings, context: Context) -
     """
     brake = build(settings)
     free, *modes = _all_modes(brake, settings, context)
-    bodies = {name: body_product(body, *found) for name, body, found in zip(BODIES, brake.bodies, modes, strict=True)}
+    bodies = {name: body_product(body, *results)
+              for name, body, results in zip(BODIES, brake.bodies, modes, strict=True)}
     law = _law(friction_map, settings)
     diameters, out_of_plane = describe(brake.bodies[0].mesh.node, free[1])
     return Structure(
@@ -168,13 +169,13 @@ def _all_modes(brake, settings, context):
     disc = brake.bodies[0]
     tasks = [(disc, np.empty(0, int), settings.free_frequency_max)]
     tasks += [(body, body.supported, settings.frequency_max) for body in brake.bodies]
-    found = context.map(partial(_modes, context.solver), tasks, "real modes")
-    frequency, shape = found[0]
+    results = context.map(partial(_modes, context.solver), tasks, "real modes")
+    frequency, shape = results[0]
     if len(frequency) > _RIGID and frequency[_RIGID - 1] > _RIGID_SHARE * frequency[_RIGID]:
         raise ConvergenceError("structure: free disc", "six rigid motions far below its first mode",
                                f"frequencies {', '.join(f'{f:.4g}' for f in frequency[:_RIGID + 1])} Hz",
                                "check the mesh of the disc: it must be one body")
-    return [(frequency[_RIGID:], shape[:, _RIGID:]), *found[1:]]
+    return [(frequency[_RIGID:], shape[:, _RIGID:]), *results[1:]]
 
 
 def _modes(solver, task):
@@ -201,6 +202,6 @@ def _preload(brake, law, settings, context):
     normal, piston = (rows.matrix[:, free] for rows in (brake.contacts.normal, brake.piston))
     compliance, closure = condense(stiffness[free][:, free], normal, piston.toarray()[0] * brake.pad_area,
                                    context.solver)
-    found = [solve_preload(compliance, p * closure, brake.contacts.area, *law) for p in settings.pressures]
-    return {"pressure": settings.pressures, "preload": [f.force for f in found],
-            "contact_stiffness": [f.stiffness for f in found], "closed": [f.closed.astype(int) for f in found]}
+    preloads = [solve_preload(compliance, p * closure, brake.contacts.area, *law) for p in settings.pressures]
+    return {"pressure": settings.pressures, "preload": [f.force for f in preloads],
+            "contact_stiffness": [f.stiffness for f in preloads], "closed": [f.closed.astype(int) for f in preloads]}

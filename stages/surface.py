@@ -143,12 +143,12 @@ def _recorded(body, choice, settings):
     if choice.map not in maps:
         raise ConfigError(f"{where}.map", f"one of {', '.join(maps) or 'no map'} in run {choice.run} of"
                           f" {', '.join(runs)}", choice.map)
-    told = maps[choice.map]
-    length = [2 * axis[-1] - axis[-2] for axis in (told.y, told.x)]
+    scan = maps[choice.map]
+    length = [2 * axis[-1] - axis[-2] for axis in (scan.y, scan.x)]
     if not np.allclose(length, settings.patch_length, rtol=1e-6):
         raise ConfigError(f"{where}.map", f"the whole patch, {settings.patch_length:g} m",
                           f"{length[0]:g} by {length[1]:g} m", "set surface.patch_length, or use kind: scan")
-    levelled = without_plane(told.height)
+    levelled = without_plane(scan.height)
     height = resample(band_limit(levelled, (settings.patch_length,) * 2, settings.shortest_wavelength),
                       (settings.nodes,) * 2)
     return {"height": height, "source": f"{choice.file.name}: {choice.run}/{choice.map}", "outliers": 0.0,

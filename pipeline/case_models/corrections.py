@@ -28,23 +28,23 @@ from pipeline.physics.time_stepping.simulate import Penalty
 def known(bench):
     """{name: SI unit} of every number of the bench that can be changed."""
     model = bench.model
-    found = {"friction": "1"} if len(model.contacts.area) else {}
+    units = {"friction": "1"} if len(model.contacts.area) else {}
     if isinstance(bench.law, Penalty) and len(model.contacts.area):
-        found |= {"contact.stiffness": "1", "contact.damping": "N s/m"}
+        units |= {"contact.stiffness": "1", "contact.damping": "N s/m"}
     if getattr(bench.friction, "description", "rigid") != "rigid":
-        found["friction.stiffness"] = "1"
+        units["friction.stiffness"] = "1"
     for name in model.joints.name:
-        found |= {f"joints.{name}.stiffness": "N/m", f"joints.{name}.damping": "N s/m"}
+        units |= {f"joints.{name}.stiffness": "N/m", f"joints.{name}.damping": "N s/m"}
     for index, name in enumerate(model.body_name):
-        found |= {f"bodies.{name}.{what}": "1" for what in ("mass", "stiffness", "frequency", "damping",
+        units |= {f"bodies.{name}.{what}": "1" for what in ("mass", "stiffness", "frequency", "damping",
                                                           "modal_mass")}
         if np.sum(model.coordinate_body == index) == 1:
-            found[f"masses.{name}"] = "kg"
+            units[f"masses.{name}"] = "kg"
     for name in model.input_name:
-        found |= {f"inputs.{name}.gain": "1", f"inputs.{name}.offset": "N"}
+        units |= {f"inputs.{name}.gain": "1", f"inputs.{name}.offset": "N"}
     for channel in bench.channels:
-        found |= {f"channels.{channel.name}.gain": "1", f"channels.{channel.name}.delay": "s"}
-    return found
+        units |= {f"channels.{channel.name}.gain": "1", f"channels.{channel.name}.delay": "s"}
+    return units
 
 
 def read(bench, given, where):
@@ -53,25 +53,25 @@ def read(bench, given, where):
     ConfigError for unknown names and units, and for masses and factors of bodies that are not above 0.
     """
     units = known(bench)
-    found = {name: to_si(value, _known(name, units, where), f"{where}.{name}") for name, value in given.items()}
-    for name, value in found.items():
+    values = {name: to_si(value, _known(name, units, where), f"{where}.{name}") for name, value in given.items()}
+    for name, value in values.items():
         if _steps(name)[0] in ("masses", "bodies") and not value > 0:
             raise ConfigError(f"{where}.{name}", "a value above 0", f"{value:g}")
-    return found
+    return values
 
 
 def nominal(bench, name, where="parameters"):
     """The value that the bench has now; 1 of a factor."""
     unit = _known(name, known(bench), where)
-    kind, own, what = _steps(name)
+    kind, name_of, what = _steps(name)
     if kind == "joints":
-        row = bench.model.joints.name.index(own)
+        row = bench.model.joints.name.index(name_of)
         return float(getattr(bench.model.joints, what)[row])
     if kind == "masses":
-        index = np.flatnonzero(bench.model.coordinate_body == bench.model.body_name.index(own))
+        index = np.flatnonzero(bench.model.coordinate_body == bench.model.body_name.index(name_of))
         return float(bench.model.mass[index, index][0])
     if kind == "channels":
-        return float(getattr(next(c for c in bench.channels if c.name == own), what))
+        return float(getattr(next(c for c in bench.channels if c.name == name_of), what))
     if name == "contact.damping":
         return float(np.mean(bench.law.damping))
     return 1.0 if unit == "1" else 0.0
@@ -80,8 +80,8 @@ def nominal(bench, name, where="parameters"):
 def corrected(bench, values):
     """The bench with ``values`` {name: SI value} in place of its own."""
     for name, value in values.items():
-        kind, own, what = _steps(name)
-        bench = _CHANGES[kind](bench, own, what, value)
+        kind, name_of, what = _steps(name)
+        bench = _CHANGES[kind](bench, name_of, what, value)
     return bench
 
 
@@ -90,8 +90,8 @@ def _steps(name):
     kind, _, rest = name.partition(".")
     if kind in ("friction", "masses", "contact"):
         return kind, rest, rest
-    own, _, what = rest.rpartition(".")
-    return kind, own, what
+    owner, _, what = rest.rpartition(".")
+    return kind, owner, what
 
 
 def _known(name, units, where):
@@ -102,20 +102,20 @@ def _known(name, units, where):
                       f"did you mean '{near[0]}'?" if near else None)
 
 
-def _joint(bench, own, what, value):
+def _joint(bench, owner, what, value):
     joints = bench.model.joints
     values = np.array(getattr(joints, what), float)
-    values[joints.name.index(own)] = value
+    values[joints.name.index(owner)] = value
     return _with_model(bench, joints=replace(joints, **{what: values}))
 
 
-def _mass(bench, own, what, value):
-    return _body(bench, own, "mass", value / nominal(bench, f"masses.{own}"))
+def _mass(bench, owner, what, value):
+    return _body(bench, owner, "mass", value / nominal(bench, f"masses.{owner}"))
 
 
-def _body(bench, own, what, factor):
+def _body(bench, owner, what, factor):
     """Rows and columns of one body times the factor: its own block exactly."""
-    own_coordinates = bench.model.coordinate_body == bench.model.body_name.index(own)
+    own_coordinates = bench.model.coordinate_body == bench.model.body_name.index(owner)
     if what == "frequency":
         return _held_body(bench, own_coordinates, {"stiffness": factor**2})
     if what == "damping":
@@ -133,26 +133,26 @@ def _held_body(bench, own_coordinates, factors):
     held = {what: getattr(joints, what) * np.where(alone, factor, 1.0) for what, factor in factors.items()
             if what != "mass"}
     root = {what: np.where(own_coordinates, np.sqrt(factor), 1.0) for what, factor in factors.items()}
-    own = {what: getattr(model, what) * np.outer(each, each) for what, each in root.items()}
-    return _with_model(bench, joints=replace(joints, **held), **own)
+    matrices = {what: getattr(model, what) * np.outer(each, each) for what, each in root.items()}
+    return _with_model(bench, joints=replace(joints, **held), **matrices)
 
 
-def _input(bench, own, what, value):
+def _input(bench, owner, what, value):
     model = bench.model
-    row = model.input_name.index(own)
+    row = model.input_name.index(owner)
     if what == "offset":
-        force = Element(f"offset {own}", model.input_rows[row], Wave(1.0, amplitude=value))
+        force = Element(f"offset {owner}", model.input_rows[row], Wave(1.0, amplitude=value))
         return bench.with_elements(force) if value else bench
     rows = np.array(model.input_rows)
     rows[row] *= value
     return _with_model(bench, input_rows=rows)
 
 
-def _channel(bench, own, what, value):
-    return bench.with_channels(lambda c: replace(c, **{what: value}) if c.name == own else c)
+def _channel(bench, owner, what, value):
+    return bench.with_channels(lambda c: replace(c, **{what: value}) if c.name == owner else c)
 
 
-def _friction(bench, own, what, factor):
+def _friction(bench, owner, what, factor):
     if what == "stiffness":
         stiffer = factor * np.asarray(bench.friction.stiffness)
         return replace(bench, friction=replace(bench.friction, stiffness=stiffer))
@@ -161,7 +161,7 @@ def _friction(bench, own, what, factor):
     return replace(bench, friction=replace(bench.friction, law=table))
 
 
-def _contact(bench, own, what, value):
+def _contact(bench, owner, what, value):
     own_value = value * np.asarray(bench.law.stiffness) if what == "stiffness" else value
     return replace(bench, law=replace(bench.law, **{what: own_value}))
 

@@ -66,7 +66,7 @@ def _blocks(settings):
 
 def product(settings):
     """The product Effects of a filled section."""
-    told = {name: value for name, value in dict(settings.conditions).items() if value is not None}
+    stated = {name: value for name, value in dict(settings.conditions).items() if value is not None}
     rows = [(name, place, dict(values)) for name, places in _blocks(settings).items()
             for place, values in places.items()]
     units = {(e.name, p.name): p.unit for e in CATALOGUE for p in parameters(e)}
@@ -74,7 +74,8 @@ def product(settings):
             for parameter, value in values.items()]
     return Effects(effect=[r[0] for r in rows], place=[r[1] for r in rows], term=[f[0] for f in flat],
                    parameter=[f[2] for f in flat], value=[f[3] for f in flat],
-                   unit=[units[f[1], f[2]] for f in flat], condition=list(told), condition_value=list(told.values()))
+                   unit=[units[f[1], f[2]] for f in flat], condition=list(stated),
+                   condition_value=list(stated.values()))
 
 
 def terms(effects):
@@ -84,9 +85,9 @@ def terms(effects):
     values = [{} for _ in effects.effect]
     for term, parameter, value in zip(effects.term, effects.parameter, effects.value, strict=True):
         values[term][str(parameter)] = float(value)
-    found = (Term(named(str(name)), str(place), given)
+    stated = (Term(named(str(name)), str(place), given)
              for name, place, given in zip(effects.effect, effects.place, values, strict=True))
-    return tuple(term for term in found if not _vanishes(term))
+    return tuple(term for term in stated if not _vanishes(term))
 
 
 def _vanishes(term):
@@ -107,19 +108,19 @@ def with_effects(bench, effects, channels=True):
     """
     if channels:
         return compose(bench, _on_benches(effects))
-    found = physics_terms(effects)
-    whole = compose(bench, found)
-    return replace(whole, friction=under(whole.friction, conditions(effects), "effects")) if found else whole
+    acting = physics_terms(effects)
+    whole = compose(bench, acting)
+    return replace(whole, friction=under(whole.friction, conditions(effects), "effects")) if acting else whole
 
 
 def physics_terms(effects):
     """Terms of a product Effects (or None) on a bench where nothing is recorded; ConfigError for effects of sensors."""
-    found = _on_benches(effects)
-    for term in found:
+    acting = _on_benches(effects)
+    for term in acting:
         if term.effect.kind == "sensor":
             raise ConfigError(f"effects.{term.effect.name}", "physics", "an effect of a sensor",
                               "sensors are part of a bench: use it in a case with recordings")
-    return found
+    return acting
 
 
 def _on_benches(effects):

@@ -53,55 +53,55 @@ class Balance:
         return self.motions[key]
 
 
-def balance(bench, one, equation):
+def balance(bench, recorded, equation):
     """Balance of a Recorded run under the section ``equation``. ConfigError for missing samples, and runs too short."""
-    measured = _displacements(bench, one)
-    kept = (one.run.samples - 2 * equation.trim) // equation.decimation
+    measured = _displacements(bench, recorded)
+    kept = (recorded.run.samples - 2 * equation.trim) // equation.decimation
     if kept < 2:
-        raise ConfigError(f"run {one.run.name}", "samples left between its ends", f"{one.run.samples} in all",
+        raise ConfigError(f"run {recorded.run.name}", "samples left between its ends", f"{recorded.run.samples} in all",
                           "trim and decimate less, or take a longer stretch")
-    applied = applied_force(bench, one.run, equation.decimation, equation.trim)
-    rate = one.run.sample_rate / equation.decimation
-    thin = Run(one.run.name, (applied.shape[1] - 1) / rate, rate, conditions=one.run.conditions)
+    applied = applied_force(bench, recorded.run, equation.decimation, equation.trim)
+    rate = recorded.run.sample_rate / equation.decimation
+    thin = Run(recorded.run.name, (applied.shape[1] - 1) / rate, rate, conditions=recorded.run.conditions)
     seen = Recorded(thin, channel_names(bench), ("N",) * len(applied), applied, np.ones(applied.shape, bool),
-                    one.repeat_of)
-    return Balance(seen, one.run, measured, equation)
+                    recorded.repeat_of)
+    return Balance(seen, recorded.run, measured, equation)
 
 
 def channel_names(bench):
     """(n,) names of the forces on the coordinates, by their bodies."""
     owners = [bench.model.body_name[k] for k in bench.model.coordinate_body]
-    return tuple(f"force on {own}" if owners.count(own) == 1 else f"force on {own} {owners[:k].count(own) + 1}"
-                 for k, own in enumerate(owners))
+    return tuple(f"force on {owner}" if owners.count(owner) == 1 else f"force on {owner} {owners[:k].count(owner) + 1}"
+                 for k, owner in enumerate(owners))
 
 
-def measured_start(bench, one):
+def measured_start(bench, recorded):
     """Start where and as fast as the displacement channels of a Recorded run are: a parabola through its first samples.
 
     ConfigError where they do not give every coordinate.
     """
-    motion = coordinates(bench, one.run, _displacements(bench, one))[:, :_FIRST]
+    motion = coordinates(bench, recorded.run, _displacements(bench, recorded))[:, :_FIRST]
     if motion.shape[1] < 3:
-        raise ConfigError(f"run {one.run.name}", "three samples or more", f"{motion.shape[1]}")
-    curve = np.polynomial.polynomial.polyfit(one.run.time[:motion.shape[1]], motion.T, 2)
+        raise ConfigError(f"run {recorded.run.name}", "three samples or more", f"{motion.shape[1]}")
+    curve = np.polynomial.polynomial.polyfit(recorded.run.time[:motion.shape[1]], motion.T, 2)
     return Start(curve[0], curve[1])
 
 
-def begun(bench, one):
+def begun(bench, recorded):
     """The Recorded run with its measured start."""
-    return replace(one, run=replace(one.run, start=measured_start(bench, one)))
+    return replace(recorded, run=replace(recorded.run, start=measured_start(bench, recorded)))
 
 
 def started(bench, runs, settings):
     """{name: Recorded} with the starts that the section ``bench`` asks for."""
-    return {name: begun(bench, one) for name, one in runs.items()} if settings.measured_start else runs
+    return {name: begun(bench, run) for name, run in runs.items()} if settings.measured_start else runs
 
 
-def _displacements(bench, one):
+def _displacements(bench, run):
     """{channel: (samples,)} of the displacement channels; ConfigError where samples are missing."""
     shown = {c.name for c in bench.channels if c.quantity == MOTIONS[0]}
-    for channel, valid in zip(one.channels, one.valid, strict=True):
+    for channel, valid in zip(run.channels, run.valid, strict=True):
         if channel in shown and not valid.all():
-            raise ConfigError(f"run {one.run.name}: {channel}", "no missing samples, because they are differentiated",
+            raise ConfigError(f"run {run.run.name}: {channel}", "no missing samples, because they are differentiated",
                               f"{int((~valid).sum())} missing", "declare the stretches between them as runs")
-    return {c: s for c, s in zip(one.channels, one.samples, strict=True) if c in shown}
+    return {c: s for c, s in zip(run.channels, run.samples, strict=True) if c in shown}

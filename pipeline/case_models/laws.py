@@ -77,8 +77,8 @@ def _sticking(model, contacts, settings):
     """Stiffness (c,) N/m and exponent of the elastic and the evolution description."""
     stiffness, exponent = settings.tangential_stiffness, settings.exponent
     if stiffness is None or (exponent is None and settings.description == "evolution"):
-        own = tangential_law(model).at(contacts.pressure)
-        per_area = own.elastic_stiffness if settings.description == "elastic" else own.stiffness
+        tangential = tangential_law(model).at(contacts.pressure)
+        per_area = tangential.elastic_stiffness if settings.description == "elastic" else tangential.stiffness
         stiffness = per_area * contacts.area if stiffness is None else stiffness
-        exponent = float(own.exponent.mean()) if exponent is None else exponent
+        exponent = float(tangential.exponent.mean()) if exponent is None else exponent
     return {"stiffness": stiffness, "exponent": 1.0 if exponent is None else exponent}

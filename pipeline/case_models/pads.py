@@ -53,7 +53,8 @@ def _dressed(system, model, law, friction):
 
 def _scatter(friction, count):
     rows = [(i, state.amplitude, state.order, np.broadcast_to(state.phase, count)[i])
-            for law, own in parts(friction, count) for state in law.states if isinstance(state, Scatter) for i in own]
+            for law, members in parts(friction, count) for state in law.states if isinstance(state, Scatter)
+            for i in members]
     return np.array(rows, float).reshape(-1, 4)
 
 
@@ -89,7 +90,7 @@ def refuse_idle(terms, build):
                                             " rigid disc have no such physics here")
 
 
-def _alike(one, other):
-    if isinstance(one, tuple):
-        return all(map(_alike, one, other))
-    return np.array_equal(one, other)
+def _alike(first, other):
+    if isinstance(first, tuple):
+        return all(map(_alike, first, other))
+    return np.array_equal(first, other)

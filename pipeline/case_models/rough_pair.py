@@ -94,9 +94,9 @@ def rubbing(surface, settings):
 
 def offsets(surface, settings):
     """Relative positions (realisations, 2) of the two patches in nodes; the first is none."""
-    found = np.random.default_rng(settings.seed).integers(0, surface.x.size, (settings.realisations, 2))
-    found[0] = 0
-    return found
+    shifts = np.random.default_rng(settings.seed).integers(0, surface.x.size, (settings.realisations, 2))
+    shifts[0] = 0
+    return shifts
 
 
 def shifted(rubbing, offset):

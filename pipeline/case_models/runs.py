@@ -33,15 +33,15 @@ def recorded(recording, settings):
 
     Raises ConfigError for runs without any channel of the bench, unequal sampling, and units other than the model's.
     """
-    found = {name: _recorded(name, run, settings) for name, run in recording.runs.items()
+    runs = {name: _recorded(name, run, settings) for name, run in recording.runs.items()
              if set(run.channels) & set(settings.channels)}
-    if not found:
+    if not runs:
         known = sorted({c for run in recording.runs.values() for c in run.channels})
         raise ConfigError("bench.channels",
                           f"channels of the recording, of {', '.join(known) or 'which there are none'}",
                           ", ".join(settings.channels) or "none", "name recorded channels and what they show")
-    check_units(found, settings)
-    return found
+    check_units(runs, settings)
+    return runs
 
 
 def _recorded(name, run, settings):
@@ -62,8 +62,8 @@ def _recorded(name, run, settings):
     drive = None if settings.drive is None else _fed(settings.drive, run)
     conditions = {key: float(np.ravel(c.value)[0]) for key, c in run.conditions.items()}
     compared = np.array([valid(p) for p in parts]) & (np.arange(count) >= settings.settle * rate)
-    own = Run(name, (count - 1) / rate, rate, inputs, drive, conditions)
-    return Recorded(own, tuple(seen), tuple(str(p.unit) for p in parts), np.array([p.samples for p in parts]),
+    plan = Run(name, (count - 1) / rate, rate, inputs, drive, conditions)
+    return Recorded(plan, tuple(seen), tuple(str(p.unit) for p in parts), np.array([p.samples for p in parts]),
                     compared, str(run.repeat_of))
 
 
@@ -104,10 +104,10 @@ def unit_of(quantity):
     return {"displacement": "m", "velocity": "m/s", "acceleration": "m/s^2"}.get(quantity, "N")
 
 
-def check_units(found, settings):
+def check_units(runs, settings):
     """Refuse channels whose unit is not that of the quantity which the case says they show."""
-    for name, one in found.items():
-        for channel, unit in zip(one.channels, one.unit, strict=True):
+    for name, recorded_run in runs.items():
+        for channel, unit in zip(recorded_run.channels, recorded_run.unit, strict=True):
             quantity, gain = settings.channels[channel].quantity, settings.channels[channel].gain
             wanted = unit_of(quantity)
             if unit != wanted and gain == 1.0:

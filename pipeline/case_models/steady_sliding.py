@@ -95,8 +95,8 @@ class Posed:
 
     def friction(self, given):
         """The Friction ``given`` with the effects on it; itself where they leave it alone."""
-        own = tuple(t for t in self.terms if t.effect.stage == "friction")
-        return under(compose(replace(self.base, friction=given), own).friction, self.conditions, "effects")
+        terms = tuple(t for t in self.terms if t.effect.stage == "friction")
+        return under(compose(replace(self.base, friction=given), terms).friction, self.conditions, "effects")
 
     def slide(self, response, input_force, given, plain, settings):
         """Steady of this state under ``input_force`` (i,) N.
@@ -109,14 +109,14 @@ class Posed:
         friction, model = self.friction(given), self.bench.model
         state = plain if friction is given else partial(_state, friction, model)
         if not self.moved:
-            found = self._found(self._as_given(response, input_force, state), settings)
-            drawn = model.direction() * found.friction.coefficient * found.contact.force
-            start = Start(np.zeros(model.size), np.zeros(model.size), found.contact.force, drawn)
+            solution = self._found(self._as_given(response, input_force, state), settings)
+            drawn = model.direction() * solution.friction.coefficient * solution.contact.force
+            start = Start(np.zeros(model.size), np.zeros(model.size), solution.contact.force, drawn)
         else:
-            found, start = self._anew(friction, input_force, settings)
-        states = friction_about(friction, model.sliding_speed, found.contact.force, model.contacts.area)[1]
+            solution, start = self._anew(friction, input_force, settings)
+        states = friction_about(friction, model.sliding_speed, solution.contact.force, model.contacts.area)[1]
         slopes = element_slopes(model, start, model.sliding_speed)[1:]
-        return replace(found, states=states, slopes=np.array(slopes))
+        return replace(solution, states=states, slopes=np.array(slopes))
 
     def _as_given(self, response, input_force, state):
         if response is None:

@@ -102,7 +102,7 @@ def groups(model):
     """Contacts of each body by its name, where several bodies rub; ``model`` is a product ReducedModel."""
     rubbed = [str(model.body_name[k]) for k in model.contact_body]
     names = dict.fromkeys(rubbed)
-    return {name: tuple(k for k, own in enumerate(rubbed) if own == name) for name in names} if len(names) > 1 else {}
+    return {name: tuple(k for k, g in enumerate(rubbed) if g == name) for name in names} if len(names) > 1 else {}
 
 
 def _channel(name, sensor):

@@ -92,9 +92,9 @@ def typical(kind, bench, place, runs):
                     sensor_rows=np.vstack((bench.model.sensor_rows, row)))
     seen = _largest(replace(bench, model=model, channels=tuple(channels)), runs)
     if kind in _CONTACTS:
-        contacts, own = bench.model.contacts, bench.contacts(place)
-        seen["speed"] = drive * abs(contacts.lever[own]).max()
-        seen["pressure"] = seen["force"] / contacts.area[own].sum()
+        contacts, members = bench.model.contacts, bench.contacts(place)
+        seen["speed"] = drive * abs(contacts.lever[members]).max()
+        seen["pressure"] = seen["force"] / contacts.area[members].sum()
     else:
         seen["force"] = stiffness * seen["length"] + damping * seen["speed"]
     if kind == INPUT:
@@ -134,20 +134,20 @@ def _place(kind, bench, place):
     if kind == POINT:
         row = bench.sensor(place)
         return row, float(row @ bench.model.supported()[2] @ row), float(row @ bench.model.supported()[1] @ row)
-    own = bench.contacts(place)
+    members = bench.contacts(place)
     contacts = bench.model.contacts
-    rows = contacts.tangent if contacts.fixed[own].all() else contacts.normal
-    return rows[own].mean(axis=0), *_contact_law(bench, own)
+    rows = contacts.tangent if contacts.fixed[members].all() else contacts.normal
+    return rows[members].mean(axis=0), *_contact_law(bench, members)
 
 
-def _contact_law(bench, own):
+def _contact_law(bench, group):
     """(stiffness, damping) of a whole group, 0 for contacts that do not yield; a table by its last slope."""
-    area, found = bench.model.contacts.area, np.zeros(2)
+    area, total = bench.model.contacts.area, np.zeros(2)
     for law, members in parts(bench.law, len(area)):
-        mine = np.intersect1d(members, own)
+        mine = np.intersect1d(members, group)
         if isinstance(law, Penalty):
-            found += [np.broadcast_to(v, len(area))[mine].sum() for v in (law.stiffness, law.damping)]
+            total += [np.broadcast_to(v, len(area))[mine].sum() for v in (law.stiffness, law.damping)]
         elif isinstance(law, Table):
             slope = (law.pressure[-1] - law.pressure[-2]) / (law.closure[-1] - law.closure[-2])
-            found[0] += slope * area[mine].sum()
-    return tuple(float(v) for v in found)
+            total[0] += slope * area[mine].sum()
+    return tuple(float(v) for v in total)

@@ -141,18 +141,18 @@ def _course(problem, budget, catalogue, settings, fan_out, start=None, base=None
     noises = tuple(budget[run.name] for run in runs)
     null = start if start and start.converged else calibrate(
         problem, noises, hypothesis, [start.latent if start else hypothesis.nominal], runs, settled=False)
-    found = list(fan_out(partial(directions, problem, null), catalogue))
-    rough = screen(null, found, None, settings.draws, settings.seed)
+    projections = list(fan_out(partial(directions, problem, null), catalogue))
+    rough = screen(null, projections, None, settings.draws, settings.seed)
     largest = _hopeful(null, settings.rules, settings.rules.p_value if base else _LIKELY)
     hopeful = [i for i in rough.order() if np.isfinite(rough.score[i]) and rough.p_value[i] <= largest]
     refits = Refits(problem, null, tuple(catalogue), settings, fan_out)
     results = _best_refits(refits, hopeful, rough.start)
-    results = refits.of(_overlooked(null, found, results, settings), rough.start, results)
+    results = refits.of(_overlooked(null, projections, results, settings), rough.start, results)
     better = min([null, *(r.null for r in results.values() if r.null is not None)], key=lambda f: f.objective)
     if better.objective < null.objective - 0.1:
         refits = replace(refits, null=better)
-        found = list(fan_out(partial(directions, problem, better), catalogue))
-    return _Course(problem, budget, refits, found, results, base)
+        projections = list(fan_out(partial(directions, problem, better), catalogue))
+    return _Course(problem, budget, refits, projections, results, base)
 
 
 def _material(pair, explained, rules):
@@ -163,13 +163,13 @@ def _material(pair, explained, rules):
     """
     odd = len(excluded(pair.null, EXCLUDED))
 
-    def is_more(one):
-        gained = one.fit.betters(pair.null)
-        if reaches_noise(one.fit, rules) and not one.contender.held_out_left:
-            return gained >= rules.second_at_noise * explained or len(excluded(one.fit, EXCLUDED)) < odd
+    def is_more(name):
+        gained = name.fit.betters(pair.null)
+        if reaches_noise(name.fit, rules) and not name.contender.held_out_left:
+            return gained >= rules.second_at_noise * explained or len(excluded(name.fit, EXCLUDED)) < odd
         return gained >= rules.second_share * explained
 
-    return any(is_more(one) for one in pair.named)
+    return any(is_more(name) for name in pair.named)
 
 
 def _asks_for_more(fit, explained, rules):
@@ -219,44 +219,45 @@ def _hopeful(null, rules, likely):
     return likely if reaches_noise(null, rules) or (of_features(null.noises) and null.converged) else 1.0
 
 
-def _overlooked(null, found, results, settings):
+def _overlooked(null, projections, results, settings):
     """Indices of candidates that were not refitted, but promise about as much as the best of the others reached."""
     fits = {i: r.fit for i, r in results.items() if r.fit is not None}
     if not fits:
         return []
-    logs, evidences, final, _ = _evidences(null, found, fits, settings)
+    logs, evidences, final, _ = _evidences(null, projections, fits, settings)
     best = max(e.log_evidence for e in evidences.values())
     near = [i for i in final.order() if i not in results and final.p_value[i] <= settings.rules.p_value
             and logs[1 + i] > best - settings.rules.evidence_gain]
     return near[:settings.kept]
 
 
-def _evidences(null, found, fits, settings, failed=()):
+def _evidences(null, projections, fits, settings, failed=()):
     """(ln Z of the null and every candidate, {index: Evidence} of the refitted ones, their Screen, runs' weights)."""
     closest = min([null, *fits.values()], key=lambda f: f.chi_square.sum())
     weights = tempering(closest.noises, closest.residuals)
-    final = screen(null, found, weights, settings.draws, settings.seed)
-    evidences = {i: (evidence if own.converged else reached)(own, weights) for i, own in fits.items()}
+    final = screen(null, projections, weights, settings.draws, settings.seed)
+    evidences = {i: (evidence if fit.converged else reached)(fit, weights) for i, fit in fits.items()}
     base = evidence(null, weights).log_evidence
-    rough = np.where([f.candidate.name in failed for f in found], -np.inf, screened(base, final.score, final.power))
-    logs = [base] + [evidences[i].log_evidence if i in fits else rough[i] for i in range(len(found))]
+    rough = np.where([p.candidate.name in failed for p in projections], -np.inf,
+                     screened(base, final.score, final.power))
+    logs = [base] + [evidences[i].log_evidence if i in fits else rough[i] for i in range(len(projections))]
     return np.array(logs), evidences, final, weights
 
 
 def _weighed(course):
     """Diagnosis of a _Course by the rules."""
-    null, found, settings, problem = course.null, course.found, course.refits.settings, course.problem
+    null, projections, settings, problem = course.null, course.found, course.refits.settings, course.problem
     fits = {i: r.fit for i, r in course.results.items() if r.fit is not None}
-    failures = {found[i].candidate.name: r.told for i, r in course.results.items() if r.told}
-    failures |= {f.candidate.name: f.failure for f in found if f.failure}
-    logs, evidences, final, weights = _evidences(null, found, fits, settings, failures)
+    failures = {projections[i].candidate.name: r.told for i, r in course.results.items() if r.told}
+    failures |= {f.candidate.name: f.failure for f in projections if f.failure}
+    logs, evidences, final, weights = _evidences(null, projections, fits, settings, failures)
     null_evidence = evidence(null, weights)
-    share = posterior(logs, cautious_prior(len(found)))
+    share = posterior(logs, cautious_prior(len(projections)))
     held_out = held_out_gains(problem, course.budget, null, fits, share[1:])
     drifting = drift(null, weights, seed=settings.seed)
-    weighed = [Weighed(found[i].candidate, fit, evidences[i], contender(
-        null, null_evidence, found[i].candidate, fit, evidences[i], share[1 + i],
-        family_wise(final.p_value[i], evidences[i].log_evidence - null_evidence.log_evidence, len(found)),
+    weighed = [Weighed(projections[i].candidate, fit, evidences[i], contender(
+        null, null_evidence, projections[i].candidate, fit, evidences[i], share[1 + i],
+        family_wise(final.p_value[i], evidences[i].log_evidence - null_evidence.log_evidence, len(projections)),
         held_out[i], weights, settings.rules)) for i, fit in fits.items()]
     weighed.sort(key=lambda w: -w.evidence.log_evidence)
     known = situation(problem, course.budget, null, weights, drifting, settings.rules)
@@ -276,4 +277,5 @@ def _leading(single, rules, count=2):
             and w.contender.evidence_gain >= rules.evidence_gain and w.contender.unexplained < 0.5
             and not unfinished(w.fit, single.null)]
     explained = [w.fit.betters(single.null) for w in good]
-    return [w for w, own in zip(good[:count], explained, strict=False) if own >= _AS_MUCH * max(explained)]
+    enough = _AS_MUCH * max(explained, default=0.0)
+    return [w for w, explanation in zip(good[:count], explained, strict=False) if explanation >= enough]

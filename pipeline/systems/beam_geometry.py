@@ -74,7 +74,7 @@ def described(vector, tilt=TILT):
 def modes_of(bodies):
     """(ContactModes, sensor row, load row) of all modes of both beams."""
     squared, shapes = zip(*(scipy.linalg.eigh(b.stiffness.toarray(), b.mass.toarray()) for b in bodies), strict=True)
-    return joined(bodies, [np.maximum(own, 0.0) for own in squared], shapes)
+    return joined(bodies, [np.maximum(values, 0.0) for values in squared], shapes)
 
 
 def linear(vector, tilt=TILT):
@@ -83,18 +83,18 @@ def linear(vector, tilt=TILT):
         modes, *_ = modes_of(build(described(vector, tilt), "timoshenko"))
     except ConfigError:
         return Linear(10 * _MISSING, None, 0)
-    found = coalescences(modes, _FREQUENCIES, -1.0, most=0.6)
+    pairs = coalescences(modes, _FREQUENCIES, -1.0, most=0.6)
     cost, used = 0.0, set()
     for frequency, friction in COALESCENCES:
-        costs = (_outside(found.onset_frequency / frequency - 1, *_FREQUENCY)
-                 + _outside(found.onset_friction - friction, *_FRICTION))
+        costs = (_outside(pairs.onset_frequency / frequency - 1, *_FREQUENCY)
+                 + _outside(pairs.onset_friction - friction, *_FRICTION))
         nearest = costs.min(initial=np.inf)
         if nearest < _MISSING:
             used.add(int(np.argmin(costs)))
         cost += _MISSING * np.tanh(nearest / _MISSING)
-    others = [k for k in range(len(found.onset_frequency)) if k not in used and found.onset_friction[k] < 0.5]
-    cost += _EXTRA * len(others) + _modes_cost(found.frictionless)
-    return Linear(float(cost), found, int(np.sum(found.onset_friction < 0.2) - np.sum(found.end_friction < 0.2)))
+    others = [k for k in range(len(pairs.onset_frequency)) if k not in used and pairs.onset_friction[k] < 0.5]
+    cost += _EXTRA * len(others) + _modes_cost(pairs.frictionless)
+    return Linear(float(cost), pairs, int(np.sum(pairs.onset_friction < 0.2) - np.sum(pairs.end_friction < 0.2)))
 
 
 def motion_cost(values):

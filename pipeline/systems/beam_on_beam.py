@@ -112,9 +112,9 @@ def joined(bodies, squared, shapes):
     Of each body ``squared`` (k,) rad^2/s^2 and mass-normalised ``shapes`` (n, k). Rows of the contact are slider less
     track; the sensor reads x.
     """
-    (slider, track), (own, other) = bodies, shapes
-    tangent, normal = (np.r_[slider.contact[axis] @ own, -track.contact[axis] @ other] for axis in range(2))
-    sensor, load = (np.r_[upper[0] @ own, lower[0] @ other]
+    (slider, track), (first, other) = bodies, shapes
+    tangent, normal = (np.r_[slider.contact[axis] @ first, -track.contact[axis] @ other] for axis in range(2))
+    sensor, load = (np.r_[upper[0] @ first, lower[0] @ other]
                     for upper, lower in ((slider.sensor, track.sensor), (slider.load, track.load)))
     return ContactModes(np.concatenate(squared), normal, tangent), sensor, load
 
@@ -133,9 +133,9 @@ def check(parameters):
         (c.patch / 2 < min(c.distance, p2.length - c.distance), "contact.patch", "a patch on the track",
          f"{c.patch:g} m"),
     )
-    for holds, where, expected, found in rules:
+    for holds, where, expected, actual in rules:
         if not holds:
-            raise ConfigError(f"beam_on_beam.{where}", expected, found)
+            raise ConfigError(f"beam_on_beam.{where}", expected, actual)
 
 
 def _strip(parameters, member, start, direction, stations, element, patch):

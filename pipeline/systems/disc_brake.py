@@ -156,6 +156,6 @@ def _check(parameters):
          "inner < bridge inner < bridge outer radius",
          f"{c.inner_radius:g}, {c.bridge_inner_radius:g}, {c.bridge_outer_radius:g} m"),
     )
-    for holds, where, expected, found in rules:
+    for holds, where, expected, actual in rules:
         if not holds:
-            raise ConfigError(f"structure.{where}", expected, found)
+            raise ConfigError(f"structure.{where}", expected, actual)

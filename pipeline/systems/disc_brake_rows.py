@@ -35,9 +35,9 @@ def contacts(meshes, parameters):
     normal = np.where(pad == OUTER, 1.0, -1.0)[:, None] * (0, 0, 1)
     rows = []
     for direction in (normal, np.cross((0, 0, 1), radial), radial):
-        own = [along(r[3], direction[pad == p]) for r, p in zip(read, (OUTER, INNER), strict=True)]
+        radii = [along(r[3], direction[pad == p]) for r, p in zip(read, (OUTER, INNER), strict=True)]
         parts = [scipy.sparse.csr_matrix((len(pad), 3 * len(m.node))) for m in meshes]
-        parts[OUTER], parts[INNER] = _diagonal_blocks(*own)
+        parts[OUTER], parts[INNER] = _diagonal_blocks(*radii)
         parts[DISC] = -along(scipy.sparse.vstack([r[4] for r in read]), direction)
         rows.append(Rows(tuple(parts)))
     return Contacts(pad, position, area, *rows)
@@ -54,29 +54,29 @@ def _pad_patches(meshes, parameters, pad):
     group = (along * p.patches_radial + across).astype(int)
     total = np.bincount(group, area)
     centre = np.stack([np.bincount(group, area * x) for x in point.T], axis=1) / total[:, None]
-    own = surface_rows(mesh.node, face, point, area, group, "structure.pad: contact face")
+    rows = surface_rows(mesh.node, face, point, area, group, "structure.pad: contact face")
     opposite = faces_towards(meshes[DISC], 1 if pad == OUTER else -1)
     met = surface_rows(meshes[DISC].node, opposite, point, area, group, "structure.pad: contact with the disc")
-    return np.full(len(total), pad), centre, total, own, met
+    return np.full(len(total), pad), centre, total, rows, met
 
 
 def joints(meshes, parameters):
     """All declared joints; ``loss_time`` is damping over stiffness."""
-    j, found = parameters.joints, []
+    j, springs = parameters.joints, []
     for end, sign in (("leading", -1), ("trailing", 1)):
-        found += _guide_pin(meshes, parameters, end, sign)
+        springs += _guide_pin(meshes, parameters, end, sign)
         for name, pad in (("outer", OUTER), ("inner", INNER)):
             spot = _backplate_end(meshes, parameters, pad, sign)
             held = j.abutment_stiffness if end == "trailing" else j.clip_stiffness
-            found += [(f"abutment_{name}_{end}_tangential", held, spot, None, "tangential"),
+            springs += [(f"abutment_{name}_{end}_tangential", held, spot, None, "tangential"),
                       (f"abutment_{name}_{end}_radial", j.abutment_radial_stiffness, spot, None, "radial")]
     for prefix, side, normal, shear in (("finger", OUTER, j.finger_stiffness, j.finger_shear_stiffness),
                                         ("piston", INNER, j.piston_stiffness, j.piston_shear_stiffness)):
         for place, pad, body in _clamping_spots(meshes, parameters, prefix, side):
-            found += [(f"{prefix}_{kind}_{place}", stiffness / 4, pad, body, axis) for kind, stiffness, axis in
+            springs += [(f"{prefix}_{kind}_{place}", stiffness / 4, pad, body, axis) for kind, stiffness, axis in
                       (("normal", normal, "axial"), ("tangential", shear, "tangential"), ("radial", shear, "radial"))]
-    name, stiffness, *_ = zip(*found, strict=True)
-    rows = _stacked([_relative(meshes, one, other, _AXES[axis]) for _, _, one, other, axis in found])
+    name, stiffness, *_ = zip(*springs, strict=True)
+    rows = _stacked([_relative(meshes, first, other, _AXES[axis]) for _, _, first, other, axis in springs])
     return Joints(name, np.array(stiffness), np.array(stiffness) * j.loss_time, rows)
 
 
@@ -161,10 +161,10 @@ def _spot(meshes, body, point, where):
     return _Spot(body, mean)
 
 
-def _relative(meshes, one, other, axis):
+def _relative(meshes, first, other, axis):
     """Displacement of one spot less that of the other (or of the ground) along an axis, per body."""
     row = [scipy.sparse.csr_matrix((1, 3 * len(m.node))) for m in meshes]
-    row[one.body] = along(one.mean, np.eye(3)[[axis]])
+    row[first.body] = along(first.mean, np.eye(3)[[axis]])
     if other is not None:
         row[other.body] = -along(other.mean, np.eye(3)[[axis]])
     return row

@@ -121,18 +121,18 @@ def _check_inertia(mass, move, where):
                           f"give it {'an inertia' if key == 'inertia' else 'a mass'}, or set grounded: true")
 
 
-def mass_matrix(masses, found):
-    """(n, n) of ``masses`` in the Coordinates ``found``."""
+def mass_matrix(masses, named):
+    """(n, n) of ``masses`` in the Coordinates ``named``."""
     bodies = list(masses.values())
     return np.diag([bodies[body].inertia if name.rpartition(".")[2] in ROTATIONS else bodies[body].mass
-                    for name, body in zip(found.names, found.body, strict=True)])
+                    for name, body in zip(named.names, named.body, strict=True)])
 
 
-def gyroscopic_matrix(gyros, found, where="gyros"):
+def gyroscopic_matrix(gyros, named, where="gyros"):
     """(n, n) per rad/s of drive speed: W J on the rate of the second tilt in the first equation, minus it in turn."""
-    matrix = np.zeros((len(found.names),) * 2)
+    matrix = np.zeros((len(named.names),) * 2)
     for name, gyro in gyros.items():
-        first, second = (found.row({axis: 1.0}, f"{where}.{name}.axes") for axis in gyro.axes)
+        first, second = (named.row({axis: 1.0}, f"{where}.{name}.axes") for axis in gyro.axes)
         matrix += gyro.polar_inertia * (np.outer(first, second) - np.outer(second, first))
     return matrix
 

@@ -143,9 +143,9 @@ def check(parameters):
          f"a contact patch of {c.length:g} m on a tip of {p.side:g} m", f"{c.offset:g} m off its middle", ""),
         (c.width <= p.side, "contact.width", f"a patch no wider than the pin, {p.side:g} m", f"{c.width:g} m", ""),
     )
-    for holds, where, expected, found, remedy in rules:
+    for holds, where, expected, actual, remedy in rules:
         if not holds:
-            raise ConfigError(f"pin_on_disc.{where}", expected, found, *([remedy] if remedy else []))
+            raise ConfigError(f"pin_on_disc.{where}", expected, actual, *([remedy] if remedy else []))
 
 
 def _contact(meshes, parameters):
@@ -156,9 +156,9 @@ def _contact(meshes, parameters):
         np.linspace(-c.length / 2, c.length / 2, _PATCH_POINTS)))
     tip = place(np.column_stack((across, c.offset + along_sliding, np.zeros_like(across))), parameters)
     face = np.column_stack((c.radius + across, along_sliding, np.full_like(across, parameters.disc.thickness / 2)))
-    own = _mean(meshes[PIN], tip, "pin_on_disc.contact: tip of the pin")
+    tip_mean = _mean(meshes[PIN], tip, "pin_on_disc.contact: tip of the pin")
     met = _mean(meshes[DISC], face, "pin_on_disc.contact: face of the disc")
-    rows = [Rows((-along(met, axis[None]), along(own, axis[None]))) for axis in np.eye(3)[[2, 1, 0]]]
+    rows = [Rows((-along(met, axis[None]), along(tip_mean, axis[None]))) for axis in np.eye(3)[[2, 1, 0]]]
     centre = np.array([[c.radius, 0, parameters.disc.thickness / 2]])
     return Contacts(np.array([PIN]), centre, np.array([c.width * c.length]), *rows)
 
@@ -171,10 +171,10 @@ def _clamp(meshes, parameters):
     sides = [_mean(meshes[PIN], place(np.array([[s * half, 0, p.length + p.clamp_length / 2]]), parameters), "clamp")
              for s in (-1, 1)]
     along_tilt = np.array([[0, np.cos(p.tilt), np.sin(p.tilt)]])
-    found = [(f"clamp_{name}_{end}", along(mean, np.eye(3)[[axis]]), p.clamp_stiffness / 2)
+    springs = [(f"clamp_{name}_{end}", along(mean, np.eye(3)[[axis]]), p.clamp_stiffness / 2)
              for end, mean in (("front", front), ("rear", rear)) for axis, name in enumerate(("radial", "tangential"))]
-    found.append(("clamp_twist", (along(sides[1], along_tilt) - along(sides[0], along_tilt)) / 2, p.clamp_stiffness))
-    name, rows, stiffness = zip(*found, strict=True)
+    springs.append(("clamp_twist", (along(sides[1], along_tilt) - along(sides[0], along_tilt)) / 2, p.clamp_stiffness))
+    name, rows, stiffness = zip(*springs, strict=True)
     nothing = scipy.sparse.csr_matrix((len(name), 3 * len(meshes[DISC].node)))
     stiffness = np.array(stiffness)
     return Joints(name, stiffness, stiffness * p.loss_time, Rows((nothing, scipy.sparse.vstack(rows, format="csr"))))

@@ -22,23 +22,23 @@ def parameters(typical):
 def apply(bench, place, values):
     if values["exponent"] == 0:
         return bench
-    own, area = bench.contacts(place), bench.model.contacts.area
+    members, area = bench.contacts(place), bench.model.contacts.area
 
     def steeper(law):
-        closure, pressure = _table(law, own, area, values["pressure"])
+        closure, pressure = _table(law, members, area, values["pressure"])
         speed = law.damping_speed if isinstance(law, Table) else np.inf
         return Table(closure, pressure * (pressure / values["pressure"]) ** values["exponent"], speed, law.gap, True)
 
     return bench.with_law(place, steeper)
 
 
-def _table(law, own, area, reference):
+def _table(law, members, area, reference):
     """(closure, pressure) of the nominal law, finely sampled from 0 to far beyond the reference pressure."""
     if isinstance(law, Table):
         closure, pressure = np.asarray(law.closure, float), np.asarray(law.pressure, float)
     elif isinstance(law, Penalty):
-        each = (np.broadcast_to(law.stiffness, len(area)) / area)[own]
-        if np.ptp(each) > 1e-9 * each[0] or np.broadcast_to(law.damping, len(area))[own].any():
+        each = (np.broadcast_to(law.stiffness, len(area)) / area)[members]
+        if np.ptp(each) > 1e-9 * each[0] or np.broadcast_to(law.damping, len(area))[members].any():
             raise ConfigError("effect contact_stiffness_law", "contacts of one stiffness per area, without damping",
                               "others", "give the contacts a table")
         closure, pressure = np.array([0.0, 1.0]), np.array([0.0, each[0]])

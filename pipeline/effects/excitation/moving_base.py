@@ -15,9 +15,9 @@ from pipeline.physics.sliding.model import Joints
 
 
 def parameters(typical):
-    size, own = 0.1 / typical.holding, 1 / (2 * np.pi * typical.period)
+    size, frequency = 0.1 / typical.holding, 1 / (2 * np.pi * typical.period)
     return (Parameter("compliance", "m/N", size, HalfNormal(2 * size), null=0.0),
-            Parameter("frequency", "Hz", own, LogNormal(own, 0.7)))
+            Parameter("frequency", "Hz", frequency, LogNormal(frequency, 0.7)))
 
 
 def apply(bench, place, values):

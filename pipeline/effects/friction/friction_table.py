@@ -14,8 +14,8 @@ from pipeline.physics.friction.friction_table import FrictionLaw
 def times(friction, axis, samples, factor):
     """The Friction with its law times ``factor(values)`` along ``axis``, sampled at ``samples`` and its own values."""
     law = friction.law
-    own = getattr(law, axis)
-    values = np.union1d(own, samples)
+    coordinates = getattr(law, axis)
+    values = np.union1d(coordinates, samples)
     grown = factor(values)
     if np.all(grown == 1):
         return friction

@@ -58,17 +58,17 @@ def _beats_decoy(index, null, fits, gains, share):
     return bool(gains[index].value > gains[max(decoys, key=lambda i: share[i])].value)
 
 
-def contender(null, null_evidence, candidate, fit, own, share, p_value, held_out, weights, rules):
-    """Contender of a refitted candidate: its Fit, ``own`` Evidence, posterior ``share`` and held-out (Gain, decoy)."""
+def contender(null, null_evidence, candidate, fit, support, share, p_value, held_out, weights, rules):
+    """Contender of a refitted candidate: its Fit, Evidence, posterior ``share`` and held-out (Gain, decoy)."""
     size, std, gained = len(null.latent), fit.spread(weights), held_out[0]
     moved = [abs(fit.values[p.name] - p.null) / max(std[p.name], 1e-300) for p in candidate.parameters
              if p.null is not None]
     differing = [agreement(fit, size + k, weights, _immaterial(fit, size + k, rules))[0]
                  for k, p in enumerate(candidate.parameters) if p.null is not None]
-    left_out = own.left_out - null_evidence.left_out
+    left_out = support.left_out - null_evidence.left_out
     unfitted = gained and (gained.errors_with(left_out) if len(left_out) > 1 else gained.errors)
     return Contender(
-        candidate.name, candidate.kind, float(share), own.log_evidence - null_evidence.log_evidence, float(p_value),
+        candidate.name, candidate.kind, float(share), support.log_evidence - null_evidence.log_evidence, float(p_value),
         float(left_out.sum()), unfitted, gained and gained.errors, gained and gained.share_at_most,
         gained and gained.left(rules.noise_uncertainty),
         gained and _growth(gained, fit, rules), held_out[1],
@@ -87,11 +87,11 @@ def unfinished(fit, null):
     """Why the end of a Fit, or of that of the nominal model, says little of one beside the other, in words."""
     gained = fit.betters(null)
     share = _AT_NOISE if fit.chi_square.sum() <= fit.counts.sum() else NOTHING_MORE
-    told = () if ended(fit, gained, share) else ("its fit did not converge",)
+    doubts = () if ended(fit, gained, share) else ("its fit did not converge",)
     near = null.chi_square.sum() < _FAR_BELOW * fit.chi_square.sum()
     if not null.converged and near and HOPE * promised(null) > gained:
-        told += ("the recalibration of the nominal model did not converge, so that nothing lies far below it",)
-    return told
+        doubts += ("the recalibration of the nominal model did not converge, so that nothing lies far below it",)
+    return doubts
 
 
 def excluded(fit, beyond):

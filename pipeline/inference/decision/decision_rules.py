@@ -97,43 +97,44 @@ def decide(situation, contenders, rules):
     waived = _waivers(situation)
     significant = [c for c in contenders if c.p_value <= rules.p_value and c.evidence_gain >= rules.evidence_gain]
     asked = [(c, objections(c, situation, rules)) for c in significant]
-    told = [f"{c.name}: {why}" for c, objected in asked for why in objected]
+    reasons = [f"{c.name}: {why}" for c, objected in asked for why in objected]
     survivors, refused = ([c for c, objected in asked if bool(objected) is broken] for broken in (False, True))
     outweighed = _weight(survivors) < rules.outweighed * _weight(refused)
     if survivors and not outweighed:
         decision = _among(survivors, situation, rules)
     else:
-        told += [f"{c.name}: candidates that break a rule are more likely" for c in survivors]
+        reasons += [f"{c.name}: candidates that break a rule are more likely" for c in survivors]
         decision = _nothing_named(situation, contenders, rules, bool(significant))
         decision = replace(decision, reasons=decision.reasons + situation.excluded)
-    return replace(decision, reasons=decision.reasons + tuple(told) + waived)
+    return replace(decision, reasons=decision.reasons + tuple(reasons) + waived)
 
 
 def objections(contender, situation, rules):
     """Rules that a significant contender breaks, in words."""
-    told = list(contender.doubts)
+    reasons = list(contender.doubts)
     if contender.forbidden:
-        told.append(contender.forbidden)
+        reasons.append(contender.forbidden)
     if contender.from_null < rules.from_null:
-        told.append(f"its value lies {contender.from_null:.1f} standard deviations from none at all")
+        reasons.append(f"its value lies {contender.from_null:.1f} standard deviations from none at all")
     if situation.points >= 3 and contender.disagreement > rules.disagreement:
-        told.append(f"its value differs between operating points ({contender.disagreement:.1f} standard deviations)")
+        reasons.append(f"its value differs between operating points ({contender.disagreement:.1f} standard deviations)")
     if situation.points >= 2 and contender.left_out_gain <= 0:
-        told.append("it predicts left-out operating points no better than the recalibrated nominal model")
+        reasons.append("it predicts left-out operating points no better than the recalibrated nominal model")
     if contender.held_out_errors is not None:
         if contender.unfitted_errors < rules.gain_errors:
-            told.append(f"its gain on runs that were not fitted is {contender.unfitted_errors:.1f} standard errors")
+            reasons.append(f"its gain on runs that were not fitted is {contender.unfitted_errors:.1f} standard errors")
         if contender.held_out_errors < -rules.loss_errors:
-            told.append(f"it predicts held-out runs worse, by {-contender.held_out_errors:.1f} standard errors")
+            reasons.append(f"it predicts held-out runs worse, by {-contender.held_out_errors:.1f} standard errors")
         elif contender.held_out_share < rules.gain_share:
-            told.append(f"it takes {contender.held_out_share:.1%} of the excess error on held-out runs at most")
+            reasons.append(f"it takes {contender.held_out_share:.1%} of the excess error on held-out runs at most")
         elif contender.held_out_left > rules.held_out_left:
-            told.append(f"it leaves {contender.held_out_left:.0%} of the excess error on held-out runs")
+            reasons.append(f"it leaves {contender.held_out_left:.0%} of the excess error on held-out runs")
         elif contender.growth > rules.growth:
-            told.append(f"its squared error on held-out runs is {contender.growth:.1f} times that on the fitted ones")
+            reasons.append(f"its squared error on held-out runs is {contender.growth:.1f} times that on the fitted"
+                           " ones")
         if contender.beats_decoy is False:
-            told.append("it predicts held-out runs no better than a decoy of equal size")
-    return told
+            reasons.append("it predicts held-out runs no better than a decoy of equal size")
+    return reasons
 
 
 def _weight(contenders):
@@ -171,8 +172,8 @@ def _among(survivors, situation, rules):
 def _nothing_named(situation, contenders, rules, some_significant):
     misfit = situation.misfit > rules.misfit or situation.coherent
     if misfit:
-        found = "a significant candidate breaks a rule" if some_significant else "no candidate is significant"
-        return Decision("unknown", (), (f"the recalibrated nominal model does not reach the noise, and {found}",))
+        state = "a significant candidate breaks a rule" if some_significant else "no candidate is significant"
+        return Decision("unknown", (), (f"the recalibrated nominal model does not reach the noise, and {state}",))
     if situation.held_out > rules.misfit:
         return Decision("unknown", (), ("the recalibrated nominal model reaches the noise on the fitted runs, but is"
                                         f" {situation.held_out:.1f} standard deviations off on held-out ones",))
@@ -185,10 +186,11 @@ def _nothing_named(situation, contenders, rules, some_significant):
 
 
 def _waivers(situation):
-    told = []
+    waivers = []
     if situation.points < 3:
-        told.append(f"{situation.points} operating point(s): whether values agree across them was not tested (three are"
+        waivers.append(f"{situation.points} operating point(s): whether values agree across them was not tested"
+                       " (three are"
                     " needed)")
     if situation.runs < 2:
-        told.append("one run only: nothing was held out, the verdict is at most a tie")
-    return tuple(told)
+        waivers.append("one run only: nothing was held out, the verdict is at most a tie")
+    return tuple(waivers)

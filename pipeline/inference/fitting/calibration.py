@@ -33,37 +33,37 @@ def calibrate(problem, noises, hypothesis, starts, runs, settled=True):
     """
     reasons = []
     for state in _begun(problem, noises, hypothesis, starts, runs, reasons):
-        found = state if state.converged else continued(problem, state, patient=settled)
-        if found.converged or not settled:
-            return _on_another_way(problem, paired_anew(problem, found), starts)
-        reasons.append(f"not converged after {found.evaluations} predictions")
+        best = state if state.converged else continued(problem, state, patient=settled)
+        if best.converged or not settled:
+            return _on_another_way(problem, paired_anew(problem, best), starts)
+        reasons.append(f"not converged after {best.evaluations} predictions")
     raise _stopped(hypothesis, reasons)
 
 
-def _on_another_way(problem, found, starts):
-    """The Fit ``found``, or a lower one of features that comes from ``starts`` by other standard deviations."""
-    if not of_features(found.noises) or found.chi_square.sum() < _OFF * found.counts.sum():
-        return found
-    other = _ended(problem, _tightened(problem, found.noises, found.hypothesis, starts, found.runs, [], _LOOSER))
-    return min(found, paired_anew(problem, other), key=lambda f: f.objective) if other else found
+def _on_another_way(problem, fit, starts):
+    """The Fit ``fit``, or a lower one of features that comes from ``starts`` by other standard deviations."""
+    if not of_features(fit.noises) or fit.chi_square.sum() < _OFF * fit.counts.sum():
+        return fit
+    other = _ended(problem, _tightened(problem, fit.noises, fit.hypothesis, starts, fit.runs, [], _LOOSER))
+    return min(fit, paired_anew(problem, other), key=lambda f: f.objective) if other else fit
 
 
-def paired_anew(problem, found):
-    """The Fit ``found``, or a lower one of features, begun with those values at their prior means that priors exclude.
+def paired_anew(problem, fit):
+    """The Fit ``fit``, or a lower one of features, begun with those values at their prior means that priors exclude.
 
     A feature paired with what it does not belong to drags the value that moves this there; as long as it is there, the
     two stay paired.
     """
     for _ in range(_AGAIN):
-        pulled = abs(found.latent) > EXCLUDED
-        if not (of_features(found.noises) and pulled.any()):
+        pulled = abs(fit.latent) > EXCLUDED
+        if not (of_features(fit.noises) and pulled.any()):
             break
-        start = np.where(pulled, 0.0, found.latent)
-        other = _ended(problem, _begun(problem, found.noises, found.hypothesis, [start], found.runs, []))
-        if other is None or other.objective >= found.objective:
+        start = np.where(pulled, 0.0, fit.latent)
+        other = _ended(problem, _begun(problem, fit.noises, fit.hypothesis, [start], fit.runs, []))
+        if other is None or other.objective >= fit.objective:
             break
-        found = other
-    return found
+        fit = other
+    return fit
 
 
 def _ended(problem, states):
@@ -103,14 +103,14 @@ def _begun(problem, noises, hypothesis, starts, runs, reasons, known=()):
 
 
 def _tried(problem, noises, hypothesis, starts, runs, reasons, known=(), rough=False):
-    found = []
+    fits = []
     for start in starts:
         try:
             state = linearised(problem, noises, hypothesis, start, runs, known)
-            found.append(iterated(problem, state, _EASIER if rough else _TRIAL, patient=not rough, rough=rough))
+            fits.append(iterated(problem, state, _EASIER if rough else _TRIAL, patient=not rough, rough=rough))
         except BrakechainError as error:
             reasons.append(str(error))
-    return sorted(found, key=lambda f: f.objective)
+    return sorted(fits, key=lambda f: f.objective)
 
 
 def _over_horizons(problem, noises, hypothesis, starts, runs, reasons):
@@ -118,26 +118,26 @@ def _over_horizons(problem, noises, hypothesis, starts, runs, reasons):
     ahead = starts
     for share in _HORIZONS:
         kept = [noise.horizon(share, _FEWEST) for noise in noises]
-        found = _tried(problem, [noise.until(n) for noise, n in zip(noises, kept, strict=True)], hypothesis, ahead,
+        fits = _tried(problem, [noise.until(n) for noise, n in zip(noises, kept, strict=True)], hypothesis, ahead,
                        [run.until(n) for run, n in zip(runs, kept, strict=True)], reasons, rough=True)
-        ahead = [found[0].latent] if found else []
+        ahead = [fits[0].latent] if fits else []
     return ahead
 
 
 def _tightened(problem, noises, hypothesis, starts, runs, reasons, factors):
     """[Fit] of features after a few iterations under standard deviations larger by falling ``factors``, from the start
     that does best under the largest; [] where none can."""
-    found, known = [], ()
+    fits, known = [], ()
     for start in starts:
         try:
             state = linearised(problem, noises, hypothesis, start, runs, known)
             known = [j[:, :len(problem.nominal.parameters)] for j in state.jacobians]
-            found.append(_roughly(problem, state, noises, factors[0]))
+            fits.append(_roughly(problem, state, noises, factors[0]))
         except BrakechainError as error:
             reasons.append(str(error))
-    if not found:
+    if not fits:
         return []
-    state = min(found, key=lambda f: f.objective)
+    state = min(fits, key=lambda f: f.objective)
     for factor in factors[1:]:
         state = _roughly(problem, state, noises, factor)
     return _tried(problem, noises, hypothesis, [state.latent], runs, reasons)

@@ -54,11 +54,12 @@ def coherent_energy(noise, white, level=1.0, chance=1e-3):
         bound, power, levels = 2 * np.log(2 * max(total, 1) / chance), white**2, level
     else:
         power = [np.abs(np.fft.rfft(p)[1:(len(p) + 1) // 2]) ** 2 / max(len(p), 1) for p in parts]
-        levels = np.concatenate([np.full(len(own), level * _density(p)) for own, p in zip(power, parts, strict=True)])
+        levels = np.concatenate([np.full(len(lines), level * _density(p))
+                                 for lines, p in zip(power, parts, strict=True)])
         power = np.concatenate(power)
         bound = np.log(max(len(power), 1) / chance)
-    found = np.where(power > levels * bound, power - levels, 0.0)
-    return float(found.sum() * (2 if noise.ordered else 1))
+    excess = np.where(power > levels * bound, power - levels, 0.0)
+    return float(excess.sum() * (2 if noise.ordered else 1))
 
 
 def _density(series):

@@ -157,20 +157,20 @@ def continued(problem, state, iterations=ITERATIONS, enough=np.inf, patient=True
     tell how far it is from its optimum: in a narrow valley the error of forward ones looks like a slope. From there a
     fit goes on that is nearly at its end.
     """
-    found = iterated(problem, state, iterations, enough, patient)
-    if found.converged or found.objective > enough:
-        return found
-    found = _looked_at(problem, found)
-    if found.converged or promised(found) > _NEARLY * _scale(found):
-        return found
-    found = iterated(problem, found, iterations // _AGAIN, enough, patient)
-    return found if found.converged or found.objective > enough else _looked_at(problem, found)
+    best = iterated(problem, state, iterations, enough, patient)
+    if best.converged or best.objective > enough:
+        return best
+    best = _looked_at(problem, best)
+    if best.converged or promised(best) > _NEARLY * _scale(best):
+        return best
+    best = iterated(problem, best, iterations // _AGAIN, enough, patient)
+    return best if best.converged or best.objective > enough else _looked_at(problem, best)
 
 
 def _looked_at(problem, state):
     """The Fit with central differences, and whether they find it at its optimum."""
-    found = _refreshed(problem, state, central=True)
-    return replace(found, converged=promised(found) < _STALLED * _scale(found))
+    refreshed = _refreshed(problem, state, central=True)
+    return replace(refreshed, converged=promised(refreshed) < _STALLED * _scale(refreshed))
 
 
 def iterated(problem, state, iterations, enough=np.inf, patient=True, rough=False):
@@ -277,7 +277,7 @@ def _jacobians(problem, noises, hypothesis, latent, residuals, runs, first=0, wi
                 slopes.append([(before - after) / step for before, after in zip(residuals, moved, strict=True)])
         if not slopes:
             raise error
-        columns.append([np.mean(own, axis=0) for own in zip(*slopes, strict=True)])
+        columns.append([np.mean(pair, axis=0) for pair in zip(*slopes, strict=True)])
     jacobians = tuple(np.array([column[i] for column in columns]).reshape(len(columns), len(residual)).T
                       for i, residual in enumerate(residuals))
     return jacobians, count

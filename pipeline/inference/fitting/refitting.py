@@ -69,8 +69,8 @@ class Refits:
     def better(self, results, starts):
         """{index: Refitted} with fits begun at the latent values ``starts`` {index: (k,)}, where they are better."""
         tried = [(i, *_tried(self.problem, self.null, self.catalogue[i], [start], ())) for i, start in starts.items()]
-        found = {i: _finished(self.problem, self.null, np.inf, state) for i, state, _ in tried if state is not None}
-        return _lowest(results, found)
+        finished = {i: _finished(self.problem, self.null, np.inf, state) for i, state, _ in tried if state is not None}
+        return _lowest(results, finished)
 
     def _explains(self, fit):
         gained = tempering(fit.noises, fit.residuals).max() * fit.betters(self.null)
@@ -86,14 +86,15 @@ class Refits:
         rivals = [i for i in seen.order() if i != top and seen.score[i] > 0
                   and seen.score[i]**2 >= _RIVAL * seen.score[top]**2][:self.settings.kept]
         begin = partial(_begun_at, self.problem, anchor)
-        found = self._ended(rivals, self.fan_out(begin, [(self.catalogue[i], seen.start[i]) for i in rivals]),
+        ended = self._ended(rivals, self.fan_out(begin, [(self.catalogue[i], seen.start[i]) for i in rivals]),
                             {top: results[top]})
-        return _lowest(results, found)
+        return _lowest(results, ended)
 
     def _ended(self, chosen, begins, before):
         """{index: Refitted} of ``before`` and of candidates with their [(Fit or None, what went wrong)] of a begin."""
         first = dict(zip(chosen, begins, strict=True))
-        ended = {**before, **{i: Refitted(None, None, told) for i, (state, told) in first.items() if state is None}}
+        failed = {i: Refitted(None, None, failure) for i, (state, failure) in first.items() if state is None}
+        ended = {**before, **failed}
         states = {i: state for i, (state, _) in first.items() if state is not None}
         best = sorted(states, key=lambda i: states[i].objective)[:self.settings.kept]
         for group in (best[:1], best[1:]):
@@ -118,12 +119,12 @@ def _best(results):
     return min(fits, key=fits.get, default=None)
 
 
-def _lowest(results, found):
+def _lowest(results, indices):
     """{index: Refitted} of both, each of the lower objective."""
     def lower(fit, other):
         return fit is not None and (other is None or fit.objective < other.objective)
 
-    return {**results, **{i: r for i, r in found.items() if i not in results or lower(r.fit, results[i].fit)}}
+    return {**results, **{i: r for i, r in indices.items() if i not in results or lower(r.fit, results[i].fit)}}
 
 
 def _begun(problem, null, offsets, item):
@@ -172,8 +173,8 @@ def _finished(problem, null, enough, state):
         return Refitted(state, None, str(error))
     if not best.converged and best.objective > enough:
         return Refitted(best, None, "its fit was given up, far from what others reach")
-    told = "" if best.converged else f"its fit had not converged after {best.evaluations} predictions"
-    return Refitted(best, _null_again(problem, null, best), told)
+    failure = "" if best.converged else f"its fit had not converged after {best.evaluations} predictions"
+    return Refitted(best, _null_again(problem, null, best), failure)
 
 
 def _null_again(problem, null, best):

@@ -62,7 +62,7 @@ def starts(problem, fit, candidate):
         return []
     hypothesis, jacobian = problem.nominal.joined(candidate), np.concatenate(fit.jacobians)
     base, start = np.concatenate(fit.residuals), np.concatenate(from_prior_mean(fit))
-    found = []
+    ranked = []
     for frequency in standing_out(fit):
         waves = [_latent(candidate, tone, _SMALL, frequency, phase) for phase in (0.0, np.pi / 2)]
         shown = [whitened(problem, fit.noises, hypothesis, np.concatenate((fit.latent, w)), fit.runs)[0] for w in waves]
@@ -72,9 +72,9 @@ def starts(problem, fit, candidate):
         clean = orthogonal(change, jacobian)
         cosine, sine = np.linalg.lstsq(change.T @ clean, clean.T @ start)[0]
         gain = (cosine, sine) @ (clean.T @ start)
-        found.append((gain, _latent(candidate, tone, _SMALL * np.hypot(cosine, sine), frequency,
+        ranked.append((gain, _latent(candidate, tone, _SMALL * np.hypot(cosine, sine), frequency,
                                     np.arctan2(sine, cosine))))
-    return [latent for _, latent in sorted(found, key=lambda f: -f[0])[:_BEGUN]]
+    return [latent for _, latent in sorted(ranked, key=lambda f: -f[0])[:_BEGUN]]
 
 
 def _latent(candidate, tone, size, frequency, phase):

@@ -47,8 +47,8 @@ def divergence(first, second):
     trace = np.sum(first.root**2) - np.sum(second.root * np.linalg.solve(inner, second.root.T).T) - np.sum(
         cross * solved[:, 1:])
     square = gap @ gap - (second.root.T @ gap) @ solved[:, 0]
-    own = np.linalg.slogdet(np.eye(first.root.shape[1]) + first.root.T @ first.root)[1]
-    return float(0.5 * (trace + square + np.linalg.slogdet(inner)[1] - own))
+    log_determinant = np.linalg.slogdet(np.eye(first.root.shape[1]) + first.root.T @ first.root)[1]
+    return float(0.5 * (trace + square + np.linalg.slogdet(inner)[1] - log_determinant))
 
 
 def choose(probability, predictions):

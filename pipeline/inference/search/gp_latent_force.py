@@ -58,10 +58,10 @@ def latent_force(residual, rate, valid=None):
     bounds = np.log([sizes, [0.3 / rate, max(len(residual), 1000) / rate], sizes])
     options = {"xatol": 1e-3, "fatol": 1e-3, "maxiter": 600}
     fits = (scipy.optimize.minimize(loss, s, method="Nelder-Mead", bounds=bounds, options=options) for s in starts)
-    found = min(fits, key=lambda fit: fit.fun)
-    if not found.success:
-        raise ConvergenceError("latent force: hyperparameters", "convergence in 600 steps", found.message)
-    return smooth(residual, rate, *(float(x) for x in np.exp(found.x)), valid)
+    best = min(fits, key=lambda fit: fit.fun)
+    if not best.success:
+        raise ConvergenceError("latent force: hyperparameters", "convergence in 600 steps", best.message)
+    return smooth(residual, rate, *(float(x) for x in np.exp(best.x)), valid)
 
 
 @dataclass(frozen=True)

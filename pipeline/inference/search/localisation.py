@@ -99,10 +99,10 @@ def places(names, bases, null, weights=None, draws=DRAWS, seed=0):
     ends = np.cumsum([frame.shape[1] for frame, _ in frames])[:-1]
     score = [_normal_score(part) for part in np.split(vectors.T @ orthogonal(residual, jacobian), ends)]
     null_score = np.array([_normal_score(part) for part in np.split(drawn, ends, axis=1)]).T
-    found = against_null(names, score, null_score)
+    localised = against_null(names, score, null_score)
     logs = np.array([_log_gain(frame.T @ orthogonal(residual, jacobian), size) for frame, size in frames])
     share = np.exp(logs - logs.max())
-    return Location(found.items, found.score, found.p_value, credible_set(share / share.sum()))
+    return Location(localised.items, localised.score, localised.p_value, credible_set(share / share.sum()))
 
 
 def regimes(power, coordinate, edges, draws=DRAWS, seed=0):

@@ -82,7 +82,7 @@ def directions(problem, null, candidate, like=None):
     return Directions(candidate, vectors, np.array(signs, int), tuple(tried), "" if len(vectors) else failure)
 
 
-def screen(null, found, weights=None, draws=DRAWS, seed=0):
+def screen(null, projections, weights=None, draws=DRAWS, seed=0):
     """Screen of [Directions] at the Fit ``null``; ``weights`` (runs,) of the runs (see ``effective.tempering``).
 
     Without ``draws`` of the null scores are not compared with it, and p-values say nothing.
@@ -90,9 +90,9 @@ def screen(null, found, weights=None, draws=DRAWS, seed=0):
     root = np.sqrt(np.repeat(np.ones(len(null.runs)) if weights is None else weights, null.counts))
     jacobian = root[:, None] * np.concatenate(null.jacobians)
     residual = root * np.concatenate(from_prior_mean(null))
-    vectors = np.concatenate([np.empty((0, len(residual))), *(f.vectors for f in found)]) * root
-    sign = np.concatenate([np.empty(0, int), *(f.sign for f in found)])
-    owner = np.repeat(np.arange(len(found)), np.array([len(f.sign) for f in found], int))
+    vectors = np.concatenate([np.empty((0, len(residual))), *(f.vectors for f in projections)]) * root
+    sign = np.concatenate([np.empty(0, int), *(f.sign for f in projections)])
+    owner = np.repeat(np.arange(len(projections)), np.array([len(f.sign) for f in projections], int))
     cleaned = orthogonal(vectors.T, jacobian).T
     square = np.einsum("qm,qm->q", vectors, cleaned)
     seen = square > _VISIBLE * np.einsum("qm,qm->q", vectors, vectors)
@@ -102,7 +102,7 @@ def screen(null, found, weights=None, draws=DRAWS, seed=0):
     if draws:
         correlation = np.where(seen[:, None] & seen, (cleaned @ vectors.T) / np.outer(size, size), 0.0)
         largest = largest_scores(correlation, np.where(seen, sign, 0), draws, seed)
-    return _gathered(found, owner, score, np.where(seen, size, 0.0), largest)
+    return _gathered(projections, owner, score, np.where(seen, size, 0.0), largest)
 
 
 def largest_scores(correlation, sign, draws=DRAWS, seed=0):
@@ -161,10 +161,11 @@ def _latent_of(parameter, share):
     return parameter.prior.latent(parameter.prior.quantile(share))
 
 
-def _gathered(found, owner, score, power, largest):
-    best = [max(np.flatnonzero(owner == n), key=lambda q: score[q], default=None) for n in range(len(found))]
+def _gathered(projections, owner, score, power, largest):
+    best = [max(np.flatnonzero(owner == n), key=lambda q: score[q], default=None) for n in range(len(projections))]
     top = np.array([-np.inf if q is None else score[q] for q in best])
     starts = tuple(np.zeros(len(f.candidate.parameters)) if q is None else f.tried[q - np.flatnonzero(owner == n)[0]]
-                   for n, (f, q) in enumerate(zip(found, best, strict=True)))
-    return Screen(tuple(f.candidate for f in found), top, family_p(top, largest),
-                  np.array([0.0 if q is None else power[q] for q in best]), starts, tuple(f.failure for f in found))
+                   for n, (f, q) in enumerate(zip(projections, best, strict=True)))
+    return Screen(tuple(f.candidate for f in projections), top, family_p(top, largest),
+                  np.array([0.0 if q is None else power[q] for q in best]), starts,
+                  tuple(f.failure for f in projections))

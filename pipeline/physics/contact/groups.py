@@ -39,32 +39,32 @@ def parts(law, count):
 
 def read(law, name, count, default=None):
     """Values (c,) of the field ``name`` at each contact; ``default`` for laws without it."""
-    found = np.empty(count)
-    for each, own in parts(law, count):
-        found[own] = np.broadcast_to(np.asarray(getattr(each, name, default), float), count)[own]
-    return found
+    values = np.empty(count)
+    for each, members in parts(law, count):
+        values[members] = np.broadcast_to(np.asarray(getattr(each, name, default), float), count)[members]
+    return values
 
 
-def alike(one, other, count):
+def alike(first, other, count):
     """Whether two laws of ``count`` contacts, Grouped or not, say the same of every contact."""
     def each(law):
-        whole = {i: own for own, members in parts(law, count) for i in members}
+        whole = {i: law_of for law_of, members in parts(law, count) for i in members}
         return [whole[i] for i in range(count)]
 
     return all(a is b or (type(a) is type(b) and all(map(np.array_equal, vars(a).values(), vars(b).values())))
-               for a, b in zip(each(one), each(other), strict=True))
+               for a, b in zip(each(first), each(other), strict=True))
 
 
 def changed(law, count, chosen, change):
     """The law with ``change(law)`` at the contacts ``chosen`` (indices), elsewhere as it is."""
     table, of = [], np.empty(count, int)
-    for each, own in parts(law, count):
-        inside = np.isin(own, chosen)
-        for one, members in ((each, own[~inside]), (change(each) if inside.any() else each, own[inside])):
+    for each, indices in parts(law, count):
+        inside = np.isin(indices, chosen)
+        for part, members in ((each, indices[~inside]), (change(each) if inside.any() else each, indices[inside])):
             if len(members):
-                known = [k for k, other in enumerate(table) if other is one]
+                known = [k for k, other in enumerate(table) if other is part]
                 of[members] = known[0] if known else len(table)
-                table += () if known else (one,)
+                table += () if known else (part,)
     return table[0] if len(table) == 1 else Grouped(tuple(table), of)
 
 

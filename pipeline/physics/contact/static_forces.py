@@ -21,10 +21,10 @@ def static_forces(stiffness, load, normal, gap, compliance):
         rows = normal[closed]
         matrix = np.block([[stiffness / scale, -rows.T], [rows, np.diag(scale * compliance[closed])]])
         wanted = np.r_[load, -scale * gap[closed]]
-        found = np.linalg.lstsq(matrix, wanted)[0]
-        _check_balance(matrix @ found - wanted, len(load), max(abs(wanted).max(), abs(found).max()), scale)
-        place, force = found[:len(load)] / scale, np.zeros(len(gap))
-        force[closed] = found[len(load):]
+        forces = np.linalg.lstsq(matrix, wanted)[0]
+        _check_balance(matrix @ forces - wanted, len(load), max(abs(wanted).max(), abs(forces).max()), scale)
+        place, force = forces[:len(load)] / scale, np.zeros(len(gap))
+        force[closed] = forces[len(load):]
         opened, touching = closed & (force < 0), ~closed & (gap + normal @ place < 0)
         if not opened.any() and not touching.any():
             return force

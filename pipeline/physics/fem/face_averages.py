@@ -34,21 +34,21 @@ def interpolation(node, face, point, where="surface point", distance=1e-6, slack
     face; farther raises ConfigError.
     """
     kind, tree = face_kind(face), scipy.spatial.cKDTree(node[face[:, :4]].mean(axis=1))
-    found = np.full(len(point), -1)
+    nearest = np.full(len(point), -1)
     local = np.zeros((len(point), 2))
     candidates = tree.query(point, k=min(_CANDIDATES, len(face)))[1].reshape(len(point), -1)
     for candidate in candidates.T:
-        missing = np.flatnonzero(found < 0)
+        missing = np.flatnonzero(nearest < 0)
         if not len(missing):
             break
         inner, gap = _project(node[face[candidate[missing]]], kind, point[missing])
         inside = (np.abs(inner - 0.5).max(axis=1) < 0.5 + slack) & (gap < distance)
-        found[missing[inside]] = candidate[missing[inside]]
+        nearest[missing[inside]] = candidate[missing[inside]]
         local[missing[inside]] = inner[inside]
-    if (found < 0).any():
-        raise ConfigError(where, "a point on the surface", f"{point[np.argmin(found)]} m, off it",
+    if (nearest < 0).any():
+        raise ConfigError(where, "a point on the surface", f"{point[np.argmin(nearest)]} m, off it",
                           "check radii, angles and heights")
-    return found, shape_functions(kind, local)[0]
+    return nearest, shape_functions(kind, local)[0]
 
 
 def surface_rows(node, face, point, weight, group, where="surface point", distance=1e-6):
@@ -60,10 +60,10 @@ def surface_rows(node, face, point, weight, group, where="surface point", distan
 
     Weights within a row sum to one.
     """
-    found, shape = interpolation(node, face, point, where, distance)
+    nearest, shape = interpolation(node, face, point, where, distance)
     share = weight / np.bincount(group, weight)[group]
     rows = np.repeat(group, face.shape[1])
-    return scipy.sparse.csr_matrix(((share[:, None] * shape).ravel(), (rows, face[found].ravel())),
+    return scipy.sparse.csr_matrix(((share[:, None] * shape).ravel(), (rows, face[nearest].ravel())),
                          (group.max() + 1, len(node)))
 
 

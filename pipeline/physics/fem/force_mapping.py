@@ -30,8 +30,8 @@ def locate(node, face, point):
     A point may lie a hundredth of a face or 1 um beside the faces, as points of a circular rim do; raises
     ConfigError beyond that.
     """
-    found, share = interpolation(node, face, point, "force mapping", slack=_BESIDE)
-    return Weights(face[found], share)
+    nearest, share = interpolation(node, face, point, "force mapping", slack=_BESIDE)
+    return Weights(face[nearest], share)
 
 
 def spread(weights, force, nodes):

@@ -16,7 +16,7 @@ def held_modes(stiffness, mass, held, solver, **wanted):
     Returns frequency (m,) Hz and shape (n, m) in 1/kg^0.5, mass-normalised and 0 at the nodes held.
     """
     free = free_freedoms(stiffness.shape[0] // 3, held)
-    frequency, found = lowest_modes(stiffness[free][:, free], mass[free][:, free], solver, **wanted)
+    frequency, modes = lowest_modes(stiffness[free][:, free], mass[free][:, free], solver, **wanted)
     shape = np.zeros((stiffness.shape[0], len(frequency)))
-    shape[free] = found
+    shape[free] = modes
     return frequency, shape

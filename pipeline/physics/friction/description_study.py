@@ -93,9 +93,9 @@ def block_on_drive(side=4, friction=0.4, **options):
     unit = np.eye(size)
     load = np.zeros(size)
     load[base + 2] = -20.0
-    told = {"drive": np.array([0.04, 0.0]), "stiffness": 5e6, "pressure_scale": 0.5, "length": 1e-6, **options}
+    options_used = {"drive": np.array([0.04, 0.0]), "stiffness": 5e6, "pressure_scale": 0.5, "length": 1e-6, **options}
     return Sliding(mass, 1e-5 * stiff + 2e3 * mass, stiff, unit[2:base:3], np.array([unit[0:base:3], unit[1:base:3]]),
-                   load, friction=friction, **told)
+                   load, friction=friction, **options_used)
 
 
 def run(problem, description, step, steps, consistent=True):
@@ -193,8 +193,8 @@ class _State:
         corner[:, index, :, index] = np.moveaxis(by_pull, 2, 0)
         matrix = np.block([[tangent, -rows.T], [lower.reshape(2 * count, size), corner.reshape((2 * count,) * 2)]])
         miss = np.r_[inner - rows.T @ pull.ravel(), gap.ravel()]
-        found = np.linalg.solve(matrix, -miss)
-        return found[:size], found[size:].reshape(2, count), miss, sliding
+        step = np.linalg.solve(matrix, -miss)
+        return step[:size], step[size:].reshape(2, count), miss, sliding
 
 
 def _turning(along):

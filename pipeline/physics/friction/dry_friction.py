@@ -82,8 +82,8 @@ class Friction:
 
     def at_speed(self, speed, pressure=0.0):
         """Coefficient at sliding speeds (m/s, either sign)."""
-        found = self.law.evaluate(pressure, np.abs(speed), self.distance)[0]
-        return found if self.backward == 1 else np.where(np.asarray(speed) < 0, self.backward, 1.0) * found
+        value = self.law.evaluate(pressure, np.abs(speed), self.distance)[0]
+        return value if self.backward == 1 else np.where(np.asarray(speed) < 0, self.backward, 1.0) * value
 
 
 def under(friction, given, where):
@@ -153,8 +153,8 @@ def kernel(friction, contacts):
         contact[:, column] = read(friction, name, contacts)
     contact[:, [FACTOR, LOAD_SHARE, SPEED_SHARE]] = 1.0
     axes, tables = common([law.law for law, _ in laws])
-    for k, (_, own) in enumerate(laws):
-        contact[own, FIRST] = k * len(axes[0])
+    for k, (_, members) in enumerate(laws):
+        contact[members, FIRST] = k * len(axes[0])
     return FrictionKernel(*axes, np.concatenate(tables), contact, DESCRIPTIONS[described.pop()])
 
 
@@ -170,10 +170,10 @@ def common(laws):
 def coefficients(friction, speed, pressure):
     """mu (c,) or (c, samples) at sliding speeds of either sign (m/s) and pressures (Pa) of that shape."""
     speed, pressure = np.broadcast_arrays(speed, pressure)
-    found = np.empty(speed.shape)
-    for law, own in parts(friction, len(found)):
-        found[own] = law.at_speed(speed[own], pressure[own])
-    return found
+    values = np.empty(speed.shape)
+    for law, members in parts(friction, len(values)):
+        values[members] = law.at_speed(speed[members], pressure[members])
+    return values
 
 
 @njit

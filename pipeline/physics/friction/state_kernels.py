@@ -100,26 +100,26 @@ def expect(states, value, friction, load, slip, drawn, angle, turned, step, midd
     share = 0.5 if middle else 1.0
     for k in range(states.kind.size):
         kind, i, p = states.kind[k], states.contact[k], states.parameter[k]
-        own, speed = friction.contact[i], abs(slip[i])
+        j, speed = friction.contact[i], abs(slip[i])
         if kind == MEMORY:
             keep, mean = _kept(step * speed / p[0])
             last, first = 1.0 - mean, mean - keep
-            own[DELAYED] = 1.0
-            own[LOAD_KEPT] = keep * value[k, 0] + first * load[i]
-            own[SPEED_KEPT] = keep * value[k, 1] + first * speed
-            own[LOAD_SHARE] = own[SPEED_SHARE] = last
+            j[DELAYED] = 1.0
+            j[LOAD_KEPT] = keep * value[k, 0] + first * load[i]
+            j[SPEED_KEPT] = keep * value[k, 1] + first * speed
+            j[LOAD_SHARE] = j[SPEED_SHARE] = last
             if middle:      # the mean slip speed is known to friction, that of the end is twice it less the begin
-                own[LOAD_KEPT] = 0.5 * (value[k, 0] + own[LOAD_KEPT])
-                own[SPEED_KEPT] = 0.5 * (value[k, 1] + own[SPEED_KEPT] - last * speed)
-                own[LOAD_SHARE] = 0.5 * last
+                j[LOAD_KEPT] = 0.5 * (value[k, 0] + j[LOAD_KEPT])
+                j[SPEED_KEPT] = 0.5 * (value[k, 1] + j[SPEED_KEPT] - last * speed)
+                j[LOAD_SHARE] = 0.5 * last
             continue
         source, rate = source_and_rate(kind, p, load[i], states.area[i], speed, abs(drawn[i]))
         keep, mean = _kept(rate * step)
         after = keep * value[k, 0] + mean * step * source
         if kind == DISTANCE:
-            own[READ_AT] = (1.0 - share) * value[k, 0] + share * after
+            j[READ_AT] = (1.0 - share) * value[k, 0] + share * after
         else:
-            own[FACTOR] *= ((1.0 - share) * factor(kind, p, value[k, 0], angle)
+            j[FACTOR] *= ((1.0 - share) * factor(kind, p, value[k, 0], angle)
                             + share * factor(kind, p, after, turned))
 
 
@@ -132,15 +132,15 @@ def settle(states, value, load, loaded, slip, slipped, drawn, step):
     """
     for k in range(states.kind.size):
         kind, i, p = states.kind[k], states.contact[k], states.parameter[k]
-        one, other = abs(slip[i]), abs(slipped[i])
+        speed, other = abs(slip[i]), abs(slipped[i])
         if kind == MEMORY:
-            keep, mean = _kept(step * 0.5 * (one + other) / p[0])
+            keep, mean = _kept(step * 0.5 * (speed + other) / p[0])
             value[k, 0] = keep * value[k, 0] + (mean - keep) * load[i] + (1.0 - mean) * loaded[i]
-            value[k, 1] = keep * value[k, 1] + (mean - keep) * one + (1.0 - mean) * other
+            value[k, 1] = keep * value[k, 1] + (mean - keep) * speed + (1.0 - mean) * other
             if loaded[i] == 0.0:
                 value[k, 0] = 0.0
             continue
-        source, rate = source_and_rate(kind, p, 0.5 * (load[i] + loaded[i]), states.area[i], 0.5 * (one + other),
+        source, rate = source_and_rate(kind, p, 0.5 * (load[i] + loaded[i]), states.area[i], 0.5 * (speed + other),
                                        abs(drawn[i]))
         keep, mean = _kept(rate * step)
         value[k, 0] = keep * value[k, 0] + mean * step * source

@@ -101,13 +101,13 @@ _KIND = {Memory: MEMORY, Healing: HEALING, Distance: DISTANCE, Film: FILM, Fade:
 def state_kernel(friction, area):
     """StateKernel of a Friction, or of Grouped ones, for contacts of ``area`` (c,) m^2."""
     rows, begin = [], np.zeros(len(area))
-    for law, own in parts(friction, len(area)):
-        begin[own] = law.distance
+    for law, members in parts(friction, len(area)):
+        begin[members] = law.distance
         for state in law.states:
             values = np.zeros((len(area), 3))
             for k, value in enumerate(astuple(state)):
                 values[:, k] = value
-            rows += [(_KIND[type(state)], i, *values[i]) for i in own]
+            rows += [(_KIND[type(state)], i, *values[i]) for i in members]
     rows = np.array(rows, float).reshape(-1, 5)
     if not np.isfinite(rows).all():
         raise ConfigError("friction states", "finite values", str(rows[~np.isfinite(rows).all(axis=1), 2:]))
@@ -137,10 +137,10 @@ def started(states, load, speed):
 
 def factors(states, value, angle):
     """Factor (c,) of states (k, 2) on friction, the drive standing at ``angle`` rad."""
-    found = np.ones(len(states.area))
+    product = np.ones(len(states.area))
     for k, (kind, i) in enumerate(zip(states.kind, states.contact, strict=True)):
-        found[i] *= factor(kind, states.parameter[k], value[k, 0], angle)
-    return found
+        product[i] *= factor(kind, states.parameter[k], value[k, 0], angle)
+    return product
 
 
 def shapeless(friction):
@@ -172,8 +172,8 @@ def _along(states, value, friction, load, slip, angle, interval):
         # over no time: friction as the states stand
         expect(states, value, friction, load[:, s], slip[:, s], forces, angle[s], angle[s], 0.0, False)
         for i in range(load.shape[0]):
-            own = friction.contact[i]
-            heard = own[LOAD_KEPT] + own[LOAD_SHARE] * load[i, s]
+            j = friction.contact[i]
+            heard = j[LOAD_KEPT] + j[LOAD_SHARE] * load[i, s]
             drawn[i, s] = np.sign(slip[i, s]) * heard * coefficient(friction, i, heard / states.area[i], slip[i, s],
                                                                     slip[i, s])
         if s < last:

@@ -30,14 +30,14 @@ def evolve(cost, population, lower, upper, generations, seed):
     costs = np.array([cost(point) for point in points])
     for _ in range(generations):
         for i in range(len(points)):
-            one, other = random.choice(len(points), 2, replace=False)
-            trial = points[i] + random.uniform(0.3, 0.9) * (points[one] - points[other])
+            first, other = random.choice(len(points), 2, replace=False)
+            trial = points[i] + random.uniform(0.3, 0.9) * (points[first] - points[other])
             if random.random() < 0.5:
                 trial = trial + random.uniform(0.0, 0.6) * (points[np.argmin(costs)] - points[i])
             trial = np.clip(trial + _SHAKE * (upper - lower) * random.standard_normal(len(lower)), lower, upper)
-            found = cost(trial)
-            if found < costs[i]:
-                points[i], costs[i] = trial, found
+            value = cost(trial)
+            if value < costs[i]:
+                points[i], costs[i] = trial, value
     best = int(np.argmin(costs))
     return Evolved(points[best].copy(), float(costs[best]), points, costs, len(points) * (generations + 1))
 
@@ -59,8 +59,8 @@ def stretch_samples(log_density, walkers, lower, upper, sweeps, seed):
             trial = points[j] + stretch * (points[i] - points[j])
             if np.any(trial < lower) or np.any(trial > upper):
                 continue
-            found = log_density(trial)
-            if np.log(random.random()) < (len(lower) - 1) * np.log(stretch) + found - density[i]:
-                points[i], density[i] = trial, found
+            value = log_density(trial)
+            if np.log(random.random()) < (len(lower) - 1) * np.log(stretch) + value - density[i]:
+                points[i], density[i] = trial, value
         kept.append(points.copy())
     return np.concatenate(kept)

@@ -189,9 +189,9 @@ def _miss(matrix, factor):
     return np.linalg.norm(matrix @ factor.solve(probe) - probe) / np.linalg.norm(probe)
 
 
-def _singular(matrix, found):
+def _singular(matrix, actual):
     return ConvergenceError(f"factorisation of a {matrix.shape[0]} x {matrix.shape[1]} matrix", "a regular matrix",
-                            found, "support the body, or shift the matrix")
+                            actual, "support the body, or shift the matrix")
 
 
 _BACKENDS = {"pypardiso": _Pardiso, "superlu": _SuperLU}

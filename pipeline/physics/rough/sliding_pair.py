@@ -212,6 +212,6 @@ def _nodal_share(pressure, shearing, area):
     """Limit of each node over the mean of the spots: pressed harder, it bears more (``pressure_coefficient``)."""
     if shearing.pressure_coefficient == 0.0:
         return 1.0
-    own = shearing.pressure_coefficient * pressure
+    limit = shearing.pressure_coefficient * pressure
     counted = np.count_nonzero(pressure) / pressure.size
-    return (shearing.limit + own * counted / area) / (shearing.limit + own.mean() / area)
+    return (shearing.limit + limit * counted / area) / (shearing.limit + limit.mean() / area)

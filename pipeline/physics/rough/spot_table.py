@@ -62,12 +62,12 @@ class SpotTable:
 
     def _read(self, layers, pressure, wear, ratio):
         """What the splines ``layers`` tell at points (n,), straight on outside their runs."""
-        axes, found = (np.log(self.pressure), self._wear(self.worn)), 0.0
+        axes, total = (np.log(self.pressure), self._wear(self.worn)), 0.0
         inside = [np.clip(c, a[0], a[-1]) for c, a in zip((pressure, wear), axes, strict=True)]
         for weight, spline in zip(_parabola(ratio), layers, strict=True):
             beyond = (pressure - inside[0]) * spline.ev(*inside, dx=1) + (wear - inside[1]) * spline.ev(*inside, dy=1)
-            found = found + weight * (spline.ev(*inside) + beyond)
-        return found
+            total = total + weight * (spline.ev(*inside) + beyond)
+        return total
 
 
 def spot_table(pairs, pressure, cycles, speed, fan_out):
@@ -78,11 +78,12 @@ def spot_table(pairs, pressure, cycles, speed, fan_out):
     wearing = pairs[0].wearing
     tasks = [(_worn_so(pair, ratio), p, tuple(cycles), tuple(speed)) for p in pressure for ratio in RATIOS
              for pair in pairs]
-    found = np.array(list(fan_out(_slide, tasks)))              # (task, w, 1 + v)
-    found = found.reshape(len(pressure), len(RATIOS), len(pairs), len(cycles), 1 + len(speed)).transpose(2, 4, 0, 3, 1)
-    mean, worn = found.mean(axis=0), wearing.pad_coefficient * wearing.distance * np.asarray(cycles, float)
+    values = np.array(list(fan_out(_slide, tasks)))              # (task, w, 1 + v)
+    values = values.reshape(len(pressure), len(RATIOS), len(pairs), len(cycles), 1 + len(speed))
+    values = values.transpose(2, 4, 0, 3, 1)
+    mean, worn = values.mean(axis=0), wearing.pad_coefficient * wearing.distance * np.asarray(cycles, float)
     table = SpotTable(np.asarray(pressure, float), worn, np.asarray(speed, float), mean[0], mean[1:], 0.0)
-    return replace(table, scatter=_scatter(table, np.log(found[:, 0])))
+    return replace(table, scatter=_scatter(table, np.log(values[:, 0])))
 
 
 def friction(table, rubbing, drag, softer=1.0):
@@ -134,4 +135,4 @@ def _slide(task):
 
 def _parabola(ratio):
     """Weights (3, n) of the three RATIOS at ratios (n,) (Lagrange)."""
-    return [np.prod([(ratio - r) / (own - r) for r in RATIOS if r != own], axis=0) for own in RATIOS]
+    return [np.prod([(ratio - r) / (node - r) for r in RATIOS if r != node], axis=0) for node in RATIOS]

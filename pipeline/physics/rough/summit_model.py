@@ -113,14 +113,14 @@ def gap_at(summits, modulus, pressure):
     reach = _HEIGHTS[summits.heights][1] * summits.spread
     low, high = summits.mean - reach, summits.mean + (1 - 1e-6) * reach
     ends = normal_law(summits, modulus, np.array([high, low]))[0]
-    found = []
+    gaps = []
     for wanted in np.atleast_1d(pressure):
         if not ends[0] < wanted < ends[1]:
             raise ConfigError("interface law: pressure", f"between {ends[0]:.3g} and {ends[1]:.3g} Pa",
                               f"{wanted:.3g} Pa")
-        found.append(scipy.optimize.brentq(lambda d, p=wanted: np.log(normal_law(summits, modulus, [d])[0][0] / p),
+        gaps.append(scipy.optimize.brentq(lambda d, p=wanted: np.log(normal_law(summits, modulus, [d])[0][0] / p),
                                            low, high, xtol=1e-12 * summits.spread, rtol=1e-14))
-    return np.array(found)
+    return np.array(gaps)
 
 
 def _meeting(summits, gap):
@@ -136,8 +136,8 @@ def _meeting(summits, gap):
     standard = (overlap + gap[:, None] - summits.mean) / summits.spread
     weight = summits.density * shape(standard) / summits.spread * width
     node, curvature_weight = np.polynomial.hermite_e.hermegauss(_CURVATURE_POINTS)
-    own = np.sqrt(1 - summits.correlation**2) * node
-    logarithm = summits.curvature_spread * (summits.correlation * standard[..., None] + own)
+    independent = np.sqrt(1 - summits.correlation**2) * node
+    logarithm = summits.curvature_spread * (summits.correlation * standard[..., None] + independent)
     return (overlap[..., None], summits.curvature * np.exp(logarithm),
             weight[..., None] * curvature_weight / curvature_weight.sum())
 

@@ -90,22 +90,22 @@ def edge_impedance(grid):
     """
     pressure = grid.density * dilatational_speed(grid) * grid.spacing
     shear = np.sqrt(grid.density * grid.shear_modulus) * grid.spacing
-    found = np.zeros((2, grid.rows, grid.columns))
+    impedance = np.zeros((2, grid.rows, grid.columns))
     for edge, (place, count) in enumerate(_places(grid)):
         for axis in (0, 1):
             if grid.edges[edge, axis] == ABSORBING:
-                found[axis][place] += (pressure if (edge < 2) == (axis == 0) else shear) * nodal_share(count)
-    return found
+                impedance[axis][place] += (pressure if (edge < 2) == (axis == 0) else shear) * nodal_share(count)
+    return impedance
 
 
 def held(grid):
     """(2, rows, columns) True where an edge holds the node."""
-    found = np.zeros((2, grid.rows, grid.columns), dtype=bool)
+    mask = np.zeros((2, grid.rows, grid.columns), dtype=bool)
     for edge, (place, _) in enumerate(_places(grid)):
         for axis in (0, 1):
             if grid.edges[edge, axis] == FIXED:
-                found[axis][place] = True
-    return found
+                mask[axis][place] = True
+    return mask
 
 
 def _places(grid):

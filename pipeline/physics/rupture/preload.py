@@ -137,14 +137,14 @@ class _System:
         """Displacements of lower and upper plate, with ``given`` added to those of the lower one."""
         load = np.zeros(self.size)
         np.subtract.at(load, self.parts[0].ravel(), elastic_force(self.lower, given).ravel())
-        found = np.zeros(self.size)
-        found[self.free] = self.factor.solve(load[self.free])
-        return found[self.parts[0]] + given, found[self.parts[1]]
+        solution = np.zeros(self.size)
+        solution[self.free] = self.factor.solve(load[self.free])
+        return solution[self.parts[0]] + given, solution[self.parts[1]]
 
 
 def _spread(matrix, places, size):
-    found = matrix.tocoo()
-    return scipy.sparse.csr_matrix((found.data, (places[found.row], places[found.col])), (size, size))
+    entries = matrix.tocoo()
+    return scipy.sparse.csr_matrix((entries.data, (places[entries.row], places[entries.col])), (size, size))
 
 
 def _stiffness(grid):

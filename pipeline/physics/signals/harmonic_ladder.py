@@ -36,12 +36,12 @@ def ladders(frequency, accuracy, chance):
     order, fundamental = np.ones(len(frequency), dtype=int), np.array(frequency, dtype=float)
     highest = {}                # own tone -> (order, frequency) of the highest step of its ladder
     for tone in np.argsort(frequency, kind="stable"):
-        matches = [(*_match(frequency[tone], *step, accuracy), own) for own, step in highest.items()]
-        share, multiple, own = min(matches, default=(np.inf, 1, tone))
+        matches = [(*_match(frequency[tone], *step, accuracy), ladder) for ladder, step in highest.items()]
+        share, multiple, ladder = min(matches, default=(np.inf, 1, tone))
         if share > chance:
-            multiple, own = 1, tone
-        order[tone], fundamental[tone] = multiple, frequency[own]
-        highest[own] = (multiple, frequency[tone])
+            multiple, ladder = 1, tone
+        order[tone], fundamental[tone] = multiple, frequency[ladder]
+        highest[ladder] = (multiple, frequency[tone])
     return order, fundamental
 
 

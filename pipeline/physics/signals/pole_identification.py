@@ -61,8 +61,8 @@ def poles(samples, rate, low, high, count=None):
     if not 0 < low < high < 0.5 * rate:
         raise ConfigError("poles: band", f"0 < low < high < {0.5 * rate:g} Hz", f"{low:g} to {high:g} Hz")
     edges = _edges(low, high)
-    found = [_band(samples[:, :count], rate, *both) for both in zip(edges[:-1], edges[1:], strict=True)]
-    whole = Poles(*(np.concatenate(parts) for parts in zip(*((f.root, f.std, f.shape) for f in found), strict=True)))
+    bands = [_band(samples[:, :count], rate, *both) for both in zip(edges[:-1], edges[1:], strict=True)]
+    whole = Poles(*(np.concatenate(parts) for parts in zip(*((f.root, f.std, f.shape) for f in bands), strict=True)))
     whole = whole.of(np.argsort(whole.root.imag))
     return whole.of(_loudness(whole.shape) > _FAINT)
 
@@ -74,14 +74,14 @@ def steady_poles(samples, rate, low, high, count=None):
     Records too short to begin later show what they show.
     """
     shown = samples[:, :count]
-    found = poles(shown, rate, low, high)
+    identified = poles(shown, rate, low, high)
     late = round(_LATER * _TAPS * rate / np.diff(_edges(low, high))[0])
     try:
         later = poles(shown[:, min(late, shown.shape[1] - 1):], rate, low, high)
     except ConfigError:
-        return found
-    pairs = matched(found, later)
-    kept, again = found.of([i for i, _ in pairs]), later.of([j for _, j in pairs])
+        return identified
+    pairs = matched(identified, later)
+    kept, again = identified.of([i for i, _ in pairs]), later.of([j for _, j in pairs])
     return replace(kept, std=np.maximum(kept.std, abs(kept.root - again.root) / 2))
 
 

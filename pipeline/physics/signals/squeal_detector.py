@@ -167,27 +167,27 @@ def _related_tones(found, frame, detector):
     return frequency, levels, order[:len(frequency)], fundamental[:len(frequency)]
 
 
-def _tones(found, frame, detector, band):
+def _tones(spectrum, frame, detector, band):
     """Frequencies and levels of the tones of one frame in a band (lowest, highest) [Hz], strongest first."""
-    levels = level(found.spectrum[frame]**2, detector.reference)
+    levels = level(spectrum.spectrum[frame]**2, detector.reference)
     lines = scipy.signal.find_peaks(levels, detector.threshold - _BETWEEN_LINES, prominence=detector.prominence)[0]
-    lines = lines[_inside(found, band)[lines]]
-    frequency, root_mean_square = _refine(found, frame, lines)
+    lines = lines[_inside(spectrum, band)[lines]]
+    frequency, root_mean_square = _refine(spectrum, frame, lines)
     levels = level(root_mean_square**2, detector.reference)
     lowest = max(detector.threshold, levels.max(initial=-np.inf) - detector.range)
     order = [i for i in np.argsort(-levels, kind="stable") if levels[i] >= lowest]
     return frequency[order], levels[order]
 
 
-def _refine(found, frame, lines):
+def _refine(spectra, frame, lines):
     """Frequency and root mean square of tones between the lines of a Hann spectrum: exact for one steady tone."""
-    spectrum, last = found.spectrum[frame], len(found.frequency) - 1
+    spectrum, last = spectra.spectrum[frame], len(spectra.frequency) - 1
     lower, upper = spectrum[np.maximum(lines - 1, 0)], spectrum[np.minimum(lines + 1, last)]
     side = np.where(upper >= lower, 1, -1)
     ratio = np.maximum(upper, lower) / np.maximum(spectrum[lines], np.finfo(float).tiny)
     shift = np.clip((2 * ratio - 1) / (ratio + 1), 0, 0.5)
-    spacing = found.frequency[1]
-    return found.frequency[lines] + side * shift * spacing, spectrum[lines] * (1 - shift**2) / np.sinc(shift)
+    spacing = spectra.frequency[1]
+    return spectra.frequency[lines] + side * shift * spacing, spectrum[lines] * (1 - shift**2) / np.sinc(shift)
 
 
 def _extend(growing, frame, frequency, levels, orders, fundamentals, detector):
@@ -207,11 +207,11 @@ def _extend(growing, frame, frequency, levels, orders, fundamentals, detector):
         nearest.fundamental.append(fundamental)
 
 
-def _event(track, found, detector):
+def _event(track, spectrum, detector):
     """An event reaches half a hop beyond its frames, or to the ends of the signal."""
     first, last = track.frame[0], track.frame[-1]
-    start = 0.0 if first == 0 else found.time[first] - found.hop / 2
-    end = found.duration if last == len(found.time) - 1 else found.time[last] + found.hop / 2
+    start = 0.0 if first == 0 else spectrum.time[first] - spectrum.hop / 2
+    end = spectrum.duration if last == len(spectrum.time) - 1 else spectrum.time[last] + spectrum.hop / 2
     power = 10**(np.array(track.level) / 10)
     frequency = float(np.average(track.frequency, weights=power))
     return Event(frequency, max(track.level), start, end - start, *_origin(track, frequency, power, detector))
@@ -221,7 +221,7 @@ def _origin(track, frequency, power, detector):
     """(fundamental, order) of an event: the order above 1 that most frames tell, if enough do, else its own tone."""
     orders = np.array(track.order)
     order = int(np.bincount(orders[orders > 1], minlength=2).argmax())
-    told = orders == order
-    if order < 2 or told.mean() <= detector.told:
+    matching = orders == order
+    if order < 2 or matching.mean() <= detector.told:
         return frequency, 1
-    return float(np.average(np.array(track.fundamental)[told], weights=power[told])), order
+    return float(np.average(np.array(track.fundamental)[matching], weights=power[matching])), order

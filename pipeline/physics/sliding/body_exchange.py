@@ -18,8 +18,8 @@ def exchanged(model, body, terms):
                 for name in ("mass", "damping", "gyroscopic", "stiffness", "centrifugal")}
     contacts = model.contacts
     old = (model.joints.rows, contacts.normal, contacts.tangent, contacts.lateral, model.input_rows, model.sensor_rows)
-    own = np.split(terms.rows, np.cumsum([len(rows) for rows in old])[:-1])
-    rows = [np.hstack((before[:, kept], new)) for before, new in zip(old, own, strict=True)]
+    split = np.split(terms.rows, np.cumsum([len(rows) for rows in old])[:-1])
+    rows = [np.hstack((before[:, kept], new)) for before, new in zip(old, split, strict=True)]
     owner = np.concatenate((model.coordinate_body[kept], np.full(len(terms.mass), index)))
     return replace(model, **matrices, coordinate_body=owner,
                    joints=replace(model.joints, rows=rows[0]),

@@ -13,22 +13,22 @@ def doublets(model, within=1e-3):
     they belong together where their frequencies differ by less than the share ``within``. Each is in one pair at most.
     """
     mass, _, stiffness = model.supported(gyroscopic=False, centrifugal=False)
-    found = {}
+    named = {}
     for index, body in enumerate(model.body_name):
-        own = np.flatnonzero(model.coordinate_body == index)
-        own = own[~(_coupled(mass, own) | _coupled(stiffness, own))]
-        frequency = np.sqrt(np.maximum(stiffness[own, own] / mass[own, own], 0.0))
-        own, frequency = own[np.argsort(frequency, kind="stable")], np.sort(frequency)
+        members = np.flatnonzero(model.coordinate_body == index)
+        members = members[~(_coupled(mass, members) | _coupled(stiffness, members))]
+        frequency = np.sqrt(np.maximum(stiffness[members, members] / mass[members, members], 0.0))
+        members, frequency = members[np.argsort(frequency, kind="stable")], np.sort(frequency)
         free, pairs = 0, []
-        for k in range(1, len(own)):
+        for k in range(1, len(members)):
             if k > free and frequency[k] > 0 and frequency[k] - frequency[k - 1] < within * frequency[k]:
-                pairs.append((int(own[k - 1]), int(own[k])))
+                pairs.append((int(members[k - 1]), int(members[k])))
                 free = k + 1
-        found |= {f"{body} {number}": pair for number, pair in enumerate(pairs, 1)}
-    return found
+        named |= {f"{body} {number}": pair for number, pair in enumerate(pairs, 1)}
+    return named
 
 
-def _coupled(matrix, own):
+def _coupled(matrix, members):
     """True (k,) for coordinates that ``matrix`` couples with others of their body."""
-    block = abs(matrix[np.ix_(own, own)])
+    block = abs(matrix[np.ix_(members, members)])
     return (block - np.diag(np.diag(block)) > _ROUNDING * block.max(initial=0.0)).any(axis=1)

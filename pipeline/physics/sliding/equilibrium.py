@@ -80,9 +80,9 @@ def steady_sliding(model, response, input_force, law_closure, law_pressure, fric
     closure = equilibrium.solve(np.interp(model.contacts.pressure, law_pressure, law_closure), 0.0)
     reached, rise = 0.0, 1.0
     while closure is not None and reached < 1:
-        found = equilibrium.solve(closure, min(reached + rise, 1.0))
-        if found is not None:
-            closure, reached = found, min(reached + rise, 1.0)
+        solution = equilibrium.solve(closure, min(reached + rise, 1.0))
+        if solution is not None:
+            closure, reached = solution, min(reached + rise, 1.0)
         elif rise > _SMALLEST_RISE:
             rise /= 2
         else:
@@ -179,7 +179,7 @@ class _Equilibrium:
         state = self.friction_state(force)
         sign = share * self.model.direction()
         coupling = sign * (state.coefficient + force / self.model.contacts.area * state.pressure_slope)
-        found = (self.free + response.normal @ (force - springs * closure)
+        reached = (self.free + response.normal @ (force - springs * closure)
                  + response.tangent @ (sign * state.coefficient * force))
         tangent = np.eye(len(closure)) - response.normal * (slope - springs) - response.tangent * (coupling * slope)
-        return closure - found, slope, tangent
+        return closure - reached, slope, tangent

@@ -55,15 +55,15 @@ def present(state, states):
 
 
 def _read(friction, speed, pressure, factor):
-    found = np.empty((3, len(speed)))
-    for law, own in parts(friction, len(speed)):
-        turned, there, slip = np.where(speed[own] < 0, law.backward, 1.0), pressure[own], abs(speed[own])
-        found[0, own] = turned * law.law.evaluate(there, slip, law.distance)[0]
+    values = np.empty((3, len(speed)))
+    for law, members in parts(friction, len(speed)):
+        turned, there, slip = np.where(speed[members] < 0, law.backward, 1.0), pressure[members], abs(speed[members])
+        values[0, members] = turned * law.law.evaluate(there, slip, law.distance)[0]
         for row, axis in enumerate(("pressure", "speed"), 1):
             varies = getattr(law.law, axis).size > 1
-            found[row, own] = turned * [law.law.slope(axis, p, v, law.distance) if varies else 0.0
+            values[row, members] = turned * [law.law.slope(axis, p, v, law.distance) if varies else 0.0
                                         for p, v in zip(there, slip, strict=True)]
-    return FrictionState(*(factor * found))
+    return FrictionState(*(factor * values))
 
 
 def settling(model, friction, states):

@@ -73,15 +73,15 @@ def lock_in(signal, rate, first, second, *, near=0.03, rival=20.0, dynamic_range
 def harmonic_levels(signal, rate, base, count, dynamic_range):
     """Level (count,) in dB of the multiples of ``base`` (Hz) re the first; -inf below the range or without a line."""
     frequency, level = _spectrum(signal, rate)
-    found, first = np.full(count, -np.inf), None
+    levels, first = np.full(count, -np.inf), None
     for k in range(min(count, int(0.45 * rate / base))):
         middle, half = int(round((k + 1) * base / frequency[1])), max(3, int(round(0.004 * base / frequency[1])))
-        own = level[middle - half:middle + half + 1].max()
+        peak = level[middle - half:middle + half + 1].max()
         floor = np.median(level[max(middle - _SURROUNDINGS, 0):middle + _SURROUNDINGS])
-        first = own if first is None else first
-        if own > floor + _MULTIPLE_PROMINENCE and own > first - dynamic_range:
-            found[k] = own - first
-    return found
+        first = peak if first is None else first
+        if peak > floor + _MULTIPLE_PROMINENCE and peak > first - dynamic_range:
+            levels[k] = peak - first
+    return levels
 
 
 def _one_base(base, first, second, near):

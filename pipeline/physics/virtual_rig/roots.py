@@ -55,9 +55,9 @@ def roots(bench, run):
 
     Each of the k Maxwell branches, F' = k v - F / tau, and states of friction adds one.
     """
-    found = np.linalg.eigvals(small_motion(bench, run).matrix())
-    found = found[np.argsort(found.imag, kind="stable")]
-    return found[by_frequency(found.real + 1j * abs(found.imag))]
+    values = np.linalg.eigvals(small_motion(bench, run).matrix())
+    values = values[np.argsort(values.imag, kind="stable")]
+    return values[by_frequency(values.real + 1j * abs(values.imag))]
 
 
 def linearised(bench, run):
