@@ -15,7 +15,7 @@ def named(ranked, count=1, shares=None):
         posterior = {"posterior": float(shares[term])} if shares else {}
         return {"name": term.name, "place": term.place, "kind": term.kind, **posterior}
 
-    found = list(ranked)
-    sensor = all(term.kind == "sensor" for term in found[:count])
-    return {"verdict": "sensor" if sensor else "missing", "effects": [told(t) for t in found[:count]],
-            "alternatives": [told(t) for t in found[count:count + 3]]}
+    candidates = list(ranked)
+    sensor = all(term.kind == "sensor" for term in candidates[:count])
+    return {"verdict": "sensor" if sensor else "missing", "effects": [told(t) for t in candidates[:count]],
+            "alternatives": [told(t) for t in candidates[count:count + 3]]}

@@ -13,19 +13,19 @@ from pipeline.blind_trial.baselines.rig import read
 def answer(folder):
     """The law of least criterion, none where the nominal model has it; stated shares are exp(-BIC / 2)."""
     rig = read(folder)
-    found = equations(rig, rig.runs)
-    models = [(), *((term,) for term in found.library)]
-    values = np.array([criterion(found, terms) for terms in models])
+    regression = equations(rig, rig.runs)
+    models = [(), *((term,) for term in regression.library)]
+    values = np.array([criterion(regression, terms) for terms in models])
     share = np.exp(-(values - values.min()) / 2)
     share /= share.sum()
     if share.argmax() == 0:
         return nothing()
-    shares = {terms[0]: own for terms, own in zip(models[1:], share[1:], strict=True)}
+    shares = {terms[0]: value for terms, value in zip(models[1:], share[1:], strict=True)}
     return named(sorted(shares, key=shares.get, reverse=True), shares=shares)
 
 
-def criterion(found, terms):
+def criterion(regression, terms):
     """n ln(mean square) + k ln n of Equations with ``terms``."""
-    count = len(found.target)
-    left = found.residual(terms)
-    return count * np.log(max(left @ left, 1e-300) / count) + (found.nominal.shape[1] + len(terms)) * np.log(count)
+    count = len(regression.target)
+    left = regression.residual(terms)
+    return count * np.log(max(left @ left, 1e-300) / count) + (regression.nominal.shape[1] + len(terms)) * np.log(count)

@@ -13,13 +13,13 @@ _SHARE = 0.05
 def answer(folder):
     """The law of largest correlation with the residual, where that is more than 5 % of the forces."""
     rig = read(folder)
-    found = equations(rig, rig.runs)
-    left = found.residual()
-    if np.linalg.norm(left) < _SHARE * np.linalg.norm(found.target):
+    regression = equations(rig, rig.runs)
+    left = regression.residual()
+    if np.linalg.norm(left) < _SHARE * np.linalg.norm(regression.target):
         return nothing()
 
     def likeness(term):
-        column = found.library[term]
+        column = regression.library[term]
         return abs(column @ left) / (np.linalg.norm(column) * np.linalg.norm(left) or 1.0)
 
-    return named(sorted(found.library, key=likeness, reverse=True))
+    return named(sorted(regression.library, key=likeness, reverse=True))

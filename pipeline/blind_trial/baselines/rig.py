@@ -71,26 +71,26 @@ def read(folder):
 
 def _sensors(lumped, bench, names):
     """[(channel, (delay, corner))] of a displacement of every mass alone, in their order."""
-    found = {}
-    for channel, told in bench.get("channels", {}).items():
-        row = _combined(lumped.get("sensors", {}).get(told["source"], {}).get("along", {}), names)
-        if told["quantity"] == "displacement" and np.count_nonzero(row) == 1 and row.max() == 1:
-            corner = to_si(told["corner"], "Hz", channel) if "corner" in told else np.inf
-            found[int(row.argmax())] = channel, (_si(told, "delay", "s"), corner)
-    if sorted(found) != list(range(len(names))):
-        raise _other("a displacement channel of every mass", f"those of {len(found)} of {len(names)}")
-    return [found[k] for k in range(len(names))]
+    sensors = {}
+    for channel, entry in bench.get("channels", {}).items():
+        row = _combined(lumped.get("sensors", {}).get(entry["source"], {}).get("along", {}), names)
+        if entry["quantity"] == "displacement" and np.count_nonzero(row) == 1 and row.max() == 1:
+            corner = to_si(entry["corner"], "Hz", channel) if "corner" in entry else np.inf
+            sensors[int(row.argmax())] = channel, (_si(entry, "delay", "s"), corner)
+    if sorted(sensors) != list(range(len(names))):
+        raise _other("a displacement channel of every mass", f"those of {len(sensors)} of {len(names)}")
+    return [sensors[k] for k in range(len(names))]
 
 
 def _run(name, run, lumped, bench, names, sensors, load):
     push = 0.0
-    for key, told in bench.get("inputs", {}).items():
-        push = push + np.outer(_combined(lumped["inputs"][key]["along"], names), _samples(run, told["channel"]))
+    for key, entry in bench.get("inputs", {}).items():
+        push = push + np.outer(_combined(lumped["inputs"][key]["along"], names), _samples(run, entry["channel"]))
     shown = np.array([_samples(run, channel) for channel, _ in sensors])
     drive = bench.get("drive")
-    told = run.conditions.get("normal_load")
+    entry = run.conditions.get("normal_load")
     return Run(name, np.broadcast_to(push, shown.shape), shown, _samples(run, drive["channel"]) if drive else None,
-               float(np.ravel(told.value)[0]) if told else load)
+               float(np.ravel(entry.value)[0]) if entry else load)
 
 
 def _samples(run, channel):
@@ -121,5 +121,5 @@ def _si(section, key, unit):
     return float(to_si(section[key], unit, key)) if key in section else 0.0
 
 
-def _other(expected, found):
-    return ConfigError("baseline", expected, found, "baselines answer forced rigs of masses alone")
+def _other(expected, actual):
+    return ConfigError("baseline", expected, actual, "baselines answer forced rigs of masses alone")

@@ -17,12 +17,12 @@ _THRESHOLD, _ROUNDS = 0.05, 20
 def answer(folder):
     """All laws that are kept, the largest first."""
     rig = read(folder)
-    found = equations(rig, rig.runs)
-    terms = list(found.library)
-    basis, _ = np.linalg.qr(found.nominal)
-    columns = np.column_stack([found.library[t] / (np.linalg.norm(found.library[t]) or 1.0) for t in terms])
-    left, apart = (a - basis @ (basis.T @ a) for a in (found.target, columns))
-    size = abs(stlsq(apart, left, _THRESHOLD * np.linalg.norm(found.target)))
+    regression = equations(rig, rig.runs)
+    terms = list(regression.library)
+    basis, _ = np.linalg.qr(regression.nominal)
+    columns = np.column_stack([regression.library[t] / (np.linalg.norm(regression.library[t]) or 1.0) for t in terms])
+    left, apart = (a - basis @ (basis.T @ a) for a in (regression.target, columns))
+    size = abs(stlsq(apart, left, _THRESHOLD * np.linalg.norm(regression.target)))
     kept = [terms[k] for k in np.argsort(-size) if size[k] > 0]
     return named(kept, len(kept)) if kept else nothing()
 
@@ -31,11 +31,11 @@ def stlsq(columns, target, threshold, rounds=_ROUNDS):
     """Coefficients (k,) of least squares in which all below ``threshold`` are set to 0, again and again."""
     kept = np.ones(columns.shape[1], bool)
     for _ in range(rounds):
-        found = np.zeros(len(kept))
+        coefficients = np.zeros(len(kept))
         if kept.any():
-            found[kept] = np.linalg.lstsq(columns[:, kept], target, rcond=None)[0]
-        after = abs(found) >= threshold
+            coefficients[kept] = np.linalg.lstsq(columns[:, kept], target, rcond=None)[0]
+        after = abs(coefficients) >= threshold
         if (after == kept).all():
             break
         kept = after
-    return np.where(kept, found, 0.0)
+    return np.where(kept, coefficients, 0.0)

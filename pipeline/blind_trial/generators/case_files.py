@@ -67,13 +67,13 @@ def truth(case):
     catalogue holds, beside the nearest known law. Laws that leave less than can be told are alike.
     """
     near = rivals(case) if case.kind in ("effect", "foreign") else []
-    own = effects(case, parameters)
-    told = [{**one, "alike": alike(p, case.truth)} for one, p in zip(own, case.planted, strict=True)]
-    for taken in ({"name": one.name, "place": one.place} for one in near if one.left < APART):
-        told[0]["alike"] += [taken] * (taken not in told[0]["alike"])
-    left = [*case.left, *(one.left for one in near if case.kind == "foreign")]
+    listed = effects(case, parameters)
+    hidden = [{**entry, "alike": alike(p, case.truth)} for entry, p in zip(listed, case.planted, strict=True)]
+    for taken in ({"name": entry.name, "place": entry.place} for entry in near if entry.left < APART):
+        hidden[0]["alike"] += [taken] * (taken not in hidden[0]["alike"])
+    left = [*case.left, *(entry.left for entry in near if case.kind == "foreign")]
     left += beside_the_other(case) if case.kind == "pair" else ()
-    return {"class": case.kind, "effects": told, "system": "forced_rig", "size": case.change,
+    return {"class": case.kind, "effects": hidden, "system": "forced_rig", "size": case.change,
             "noise": case.level, "parameters": values(case.truth), "seed": case.seed, "colour": case.colour,
             "left": min(left, default=0.0), "wrong": case.far, "reach": case.reach}
 
@@ -93,10 +93,10 @@ def values(rig):
 
 def beliefs(rig, exact):
     """{name in the case: how far it may be off} of all values of a Rig but those ``exact``, and of the gains."""
-    own = {f"masses.mass_{k}": f"mass_{k}" for k in range(len(rig.mass))}
+    name_of = {f"masses.mass_{k}": f"mass_{k}" for k in range(len(rig.mass))}
     for k in range(len(rig.links)):
-        own |= {f"joints.link_{k}.{what}": f"{what}_{k}" for what in ("stiffness", "damping")}
-    return {**{name: {"spread": SPREAD} for name, short in own.items() if short not in exact},
+        name_of |= {f"joints.link_{k}.{what}": f"{what}_{k}" for what in ("stiffness", "damping")}
+    return {**{name: {"spread": SPREAD} for name, short in name_of.items() if short not in exact},
             **{f"channels.x_{k}.gain": {"spread": GAIN_ERROR} for k in range(len(rig.mass))}}
 
 

@@ -41,12 +41,12 @@ def write(draw, folder):
     runs = _runs(document["recording"]["files"])
     document["recording"] = {"files": [{"kind": "hdf5", "file": "recordings.h5"}]}
     document.pop("based_on", None)
-    told = [_removed(document, draw.system, one) for one in draw.hidden]
+    removed = [_removed(document, draw.system, hidden) for hidden in draw.hidden]
     for effect, (place, values) in effects.items():
         if effect not in draw.hidden:
             document.setdefault("effects", {}).setdefault(effect, {})[place] = values
     case_files.leave(folder, document, runs)
-    return {"class": draw.kind, "effects": told, "system": draw.system, "parameters": {}, "seed": draw.seed}
+    return {"class": draw.kind, "effects": removed, "system": draw.system, "parameters": {}, "seed": draw.seed}
 
 
 def _removed(document, system, name):
@@ -61,16 +61,16 @@ def _removed(document, system, name):
 
 def _runs(entries):
     """{run: ...} as ``files.leave`` takes them, cut from all files of a case."""
-    found = {}
+    runs = {}
     for entry in entries:
         table, rate = _table(entry)
         for name, cut in entry["runs"].items():
             first, after = (round(float(cut[end].split()[0]) * rate) if end in cut else None
                             for end in ("begin", "end"))
-            found[name] = {"conditions": {}, "channels": {
+            runs[name] = {"conditions": {}, "channels": {
                 key: (*_si(table[column["column"]][first:after], column), rate, column.get("role", "response"))
                 for key, column in entry["columns"].items()}}
-    return found
+    return runs
 
 
 def _si(values, column):

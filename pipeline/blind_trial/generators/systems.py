@@ -103,28 +103,28 @@ def _apart(random, pieces):
     chosen = [int(random.choice(at)) for at in free]
     if len(chosen) > 1 and chosen[0] == chosen[1] and "link" in kinds[0] and "link" in kinds[1]:
         chosen[1] = int(random.choice([at for at in free[1] if at != chosen[0]]))
-    return masses, tuple(index.index(one) for index, one in zip(free, chosen, strict=True))
+    return masses, tuple(index.index(link) for index, link in zip(free, chosen, strict=True))
 
 
 def _classes(pieces):
     """{class: ((name, ...), ...)} of the pieces of HIDDEN, and of nothing hidden."""
-    found = {"control": ((),), "wrong_value": ((),), "pair": tuple(combinations(_PAIRED, 2))}
+    groups = {"control": ((),), "wrong_value": ((),), "pair": tuple(combinations(_PAIRED, 2))}
     for piece in pieces:
         kind = kind_of((piece.name,))
-        found[kind] = (*found.get(kind, ()), (piece.name,))
-    found["below"] = found["effect"]
-    return found
+        groups[kind] = (*groups.get(kind, ()), (piece.name,))
+    groups["below"] = groups["effect"]
+    return groups
 
 
 def _on_belts():
     """{class: ((name, ...), ...)} of what a belt hides; a pair is one of its contact and one of the rig."""
-    found = {"control": ((),), "wrong_value": ((),), "effect": tuple((name,) for name in belt.IN_RIG), "foreign": ()}
+    groups = {"control": ((),), "wrong_value": ((),), "effect": tuple((name,) for name in belt.IN_RIG), "foreign": ()}
     for piece in FRICTION.values():
         kind = belt.kind_of((piece.name,))
-        found[kind] = (*found[kind], (piece.name,))
-    found["below"] = found["effect"]
-    contact = [name for name, in found["effect"] if name in FRICTION]
-    return {**found, "pair": tuple(product(contact, belt.IN_RIG))}
+        groups[kind] = (*groups[kind], (piece.name,))
+    groups["below"] = groups["effect"]
+    contact = [name for name, in groups["effect"] if name in FRICTION]
+    return {**groups, "pair": tuple(product(contact, belt.IN_RIG))}
 
 
 SYSTEMS = {system.name: system for system in (

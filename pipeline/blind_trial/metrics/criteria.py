@@ -38,24 +38,24 @@ def judged(truth, answer):
     called = verdict == NAMED_BY[truth["class"]]
     alone = called and len(named) == len(wanted)
     exactly = (alone and _all_in(wanted, named)) or _same_forces(verdict, wanted, named)
-    found = {"right": exactly, "named": exactly, "called": called,
+    judgement = {"right": exactly, "named": exactly, "called": called,
              "type": alone and sorted(e["name"] for e in named) == sorted(e["name"] for e in wanted),
              "among_tied": verdict in ("tie", "sensor") and len(named) > len(wanted) and _all_in(wanted, named),
              "top": _all_in(wanted, [*named, *answer.get("alternatives", ())][:max(_TOP, len(wanted))])}
     if kind == "below":     # to abstain is right, or to name what is there or comes nearest; to name another is not
-        near = (called or verdict == "tie") and all(any(_like(w, [one]) for w in wanted) for one in named)
-        found["right"] = found["right"] or verdict in (*NOTHING, "unknown") or found["among_tied"] or near
-    return found
+        near = (called or verdict == "tie") and all(any(_like(w, [effect]) for w in wanted) for effect in named)
+        judgement["right"] = judgement["right"] or verdict in (*NOTHING, "unknown") or judgement["among_tied"] or near
+    return judgement
 
 
 def _same_forces(verdict, wanted, named):
     """Whether a tie holds the one effect that is hidden, and beside it only laws of the same force."""
     return (verdict == "tie" and len(wanted) == 1 and _all_in(wanted, named)
-            and all(_like(wanted[0], [one]) for one in named))
+            and all(_like(wanted[0], [effect]) for effect in named))
 
 
-def _like(true, told):
-    return any(same(one, other) for one in (true, *true.get("alike", ())) for other in told)
+def _like(true, answered):
+    return any(same(effect, other) for effect in (true, *true.get("alike", ())) for other in answered)
 
 
 def class_of(truth):
@@ -70,9 +70,9 @@ def threshold(truth):
 
 
 def _all_in(wanted, named):
-    return all(any(same(one, other) for other in named) for one in wanted)
+    return all(any(same(effect, other) for other in named) for effect in wanted)
 
 
-def same(true, told):
+def same(true, answered):
     """Whether an effect that was told is the true one; a truth without a place asks for none."""
-    return true["name"] == told["name"] and true["place"] in ("", told["place"])
+    return true["name"] == answered["name"] and true["place"] in ("", answered["place"])

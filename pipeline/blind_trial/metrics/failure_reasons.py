@@ -3,17 +3,17 @@
 _MOST, _LONGEST = 3, 300
 
 
-def why(truth, answer, found):
+def why(truth, answer, judgement):
     """{why: sentences} of a case that is not right, {} of one that is.
 
     What the diagnosis says of the hidden effect itself comes first, then what it says at all.
     """
-    if found["right"]:
+    if judgement["right"]:
         return {}
-    told = [str(reason)[:_LONGEST] for reason in answer.get("reasons", ())]
+    reasons = [str(reason)[:_LONGEST] for reason in answer.get("reasons", ())]
     hidden = [f"{e['name']} at {e['place']}" for e in truth["effects"]]
-    own = [reason for reason in told if any(reason.startswith(name) for name in hidden)]
-    return {"why": [_plainly(truth, answer), *(own or told)[:_MOST]]}
+    on_hidden = [reason for reason in reasons if any(reason.startswith(name) for name in hidden)]
+    return {"why": [_plainly(truth, answer), *(on_hidden or reasons)[:_MOST]]}
 
 
 def _plainly(truth, answer):

@@ -15,10 +15,10 @@ def rate(hits):
     return {"hits": successes, "count": count, "low": low, "high": high}
 
 
-def line(name, found):
+def line(name, numbers):
     """One line of a table of a ``rate``."""
-    return (f"{name:<53} {found['hits']:>4} of {found['count']:<4} {found['hits'] / found['count']:>6.1%}"
-            f"   95 %: {found['low']:.1%} to {found['high']:.1%}")
+    return (f"{name:<53} {numbers['hits']:>4} of {numbers['count']:<4} {numbers['hits'] / numbers['count']:>6.1%}"
+            f"   95 %: {numbers['low']:.1%} to {numbers['high']:.1%}")
 
 
 def calibration(claims):
@@ -30,8 +30,8 @@ def calibration(claims):
         return {"count": 0}
     bins = []
     for low, high in zip(EDGES[:-1], EDGES[1:], strict=True):
-        own = [(p, so) for p, so in claims if low <= p < high or p == high == EDGES[-1]]
-        if own:
-            bins.append({"low": low, "high": high, "stated": sum(p for p, _ in own) / len(own),
-                         "so": rate([so for _, so in own])})
+        members = [(p, so) for p, so in claims if low <= p < high or p == high == EDGES[-1]]
+        if members:
+            bins.append({"low": low, "high": high, "stated": sum(p for p, _ in members) / len(members),
+                         "so": rate([so for _, so in members])})
     return {"count": len(claims), "brier": sum((p - so) ** 2 for p, so in claims) / len(claims), "bins": bins}

@@ -34,26 +34,26 @@ def result(about, truth, answers, errata=()):
     parameters: [name, ...], reason}], true values of a system that are known to be wrong, and are not compared.
     ``thresholds`` of the result: what hidden physics must leave in its cases to count as visible.
     """
-    truth = {number: _without_errata(one, errata) for number, one in truth.items()}
-    found = {method: {number: judged(truth[number], told[number]) for number in truth}
-             for method, told in answers.items()}
+    truth = {number: _without_errata(case_truth, errata) for number, case_truth in truth.items()}
+    judgements = {method: {number: judged(truth[number], method_answers[number]) for number in truth}
+             for method, method_answers in answers.items()}
     return {"format": FORMAT, "set": about, **({"errata": errata} if errata else {}),
             "thresholds": sorted({threshold(t) for t in truth.values() if "left" in t}),
-            "methods": {method: _numbers(truth, answers[method], found[method]) for method in answers},
+            "methods": {method: _numbers(truth, answers[method], judgements[method]) for method in answers},
             "cases": {number: {"class": class_of(truth[number]), "truth": truth[number], "answers": {
-                method: {**_brief(answers[method][number]), "judged": found[method][number],
-                         **why(truth[number], answers[method][number], found[method][number])}
+                method: {**_brief(answers[method][number]), "judged": judgements[method][number],
+                         **why(truth[number], answers[method][number], judgements[method][number])}
                 for method in answers}} for number in sorted(truth)}}
 
 
 def _without_errata(truth, errata):
-    wrong = {name for one in errata if one["system"] == truth.get("system") for name in one["parameters"]}
+    wrong = {name for erratum in errata if erratum["system"] == truth.get("system") for name in erratum["parameters"]}
     right = {name: value for name, value in truth.get("parameters", {}).items() if name not in wrong}
     return {**truth, "parameters": right} if wrong else truth
 
 
-def _numbers(truth, answers, found):
-    cases = [(truth[n], answers[n], found[n]) for n in sorted(truth)]
+def _numbers(truth, answers, judgements):
+    cases = [(truth[n], answers[n], judgements[n]) for n in sorted(truth)]
     return {"rates": rates(cases), "confusion": confusion(cases), "names": names(cases),
             "detection": detection(cases), "visible": visible(cases), "calibration": calibration(claims(cases)),
             "systems": systems(cases), "parameters": parameters(cases), "cost": cost(cases)}
@@ -67,7 +67,7 @@ def rates(cases):
     def moved(motion):
         return lambda t, a: t.get("motion", "forced") == motion
 
-    told = {
+    by_name = {
         "type and place, one effect": of("right", "effect"),
         "type and place, one effect, forced": of("right", "effect", only=moved("forced")),
         "type and place, one effect, self-excited": of("right", "effect", only=moved("self_excited")),
@@ -85,7 +85,7 @@ def rates(cases):
         "stated with about 90 %: right": rate([right for p, right in claims(cases) if 0.85 <= p < 0.95]),
         "refused": rate([a["verdict"] == "refused" for _, a, _ in cases]),
     }
-    return {name: {**one, "goal": list(GOALS.get(name, ()))} for name, one in told.items() if one["count"]}
+    return {name: {**row, "goal": list(GOALS.get(name, ()))} for name, row in by_name.items() if row["count"]}
 
 
 def _near_noise(cases):
@@ -98,33 +98,33 @@ def _near_noise(cases):
 
 def confusion(cases):
     """{class: {verdict: count}}; 'missing' is split into right and wrong, as is 'sensor'."""
-    found = {}
-    for truth, answer, one in cases:
+    counts = {}
+    for truth, answer, judgement in cases:
         verdict = answer["verdict"]
         if verdict in ("missing", "sensor") and class_of(truth) in (*_NAMED, "below"):
-            verdict += ", right" if one["right"] else ", other place" if one.get("type") else ", wrong"
-        row = found.setdefault(class_of(truth), {})
+            verdict += ", right" if judgement["right"] else ", other place" if judgement.get("type") else ", wrong"
+        row = counts.setdefault(class_of(truth), {})
         row[verdict] = row.get(verdict, 0) + 1
-    return found
+    return counts
 
 
 def names(cases):
     """{hidden: {told: count}} of cases with one thing hidden that has a name, of whatever class."""
-    found = {}
+    counts = {}
     for truth, answer, _ in cases:
         if len(truth["effects"]) == 1:
-            told = sorted({e["name"] for e in answer["effects"]})
-            said = told[0] if len(told) == 1 else f"{answer['verdict']}" if not told else "several"
-            row = found.setdefault(truth["effects"][0]["name"], {})
+            answered = sorted({e["name"] for e in answer["effects"]})
+            said = answered[0] if len(answered) == 1 else f"{answer['verdict']}" if not answered else "several"
+            row = counts.setdefault(truth["effects"][0]["name"], {})
             row[said] = row.get(said, 0) + 1
-    return found
+    return counts
 
 
 def detection(cases):
     """[{noise, low, high, right: rate}] over sizes, of what is to be named, right type and place."""
     hidden = [(t, j) for t, _, j in cases if t["class"] in _ALONE and t.get("size") and "noise" in t]
-    return [{"noise": noise, **one} for noise in sorted({t["noise"] for t, _ in hidden})
-            for one in _binned([(t["size"], j["named"]) for t, j in hidden if t["noise"] == noise], SIZES, 1.0)]
+    return [{"noise": noise, **row} for noise in sorted({t["noise"] for t, _ in hidden})
+            for row in _binned([(t["size"], j["named"]) for t, j in hidden if t["noise"] == noise], SIZES, 1.0)]
 
 
 def visible(cases):
@@ -136,33 +136,33 @@ def _binned(pairs, edges, last):
     """[{low, high, right: rate}] of [(value, hit)] in bins; the last ends at ``last`` for who draws it."""
     bins = ((low, high, [hit for value, hit in pairs if low <= value < high])
             for low, high in zip(edges[:-1], edges[1:], strict=True))
-    return [{"low": low, "high": min(high, last), "right": rate(own)} for low, high, own in bins if own]
+    return [{"low": low, "high": min(high, last), "right": rate(members)} for low, high, members in bins if members]
 
 
 def systems(cases):
     """{system: {named, false_alarm, unknown: rate; cpu: median seconds}}; rates only of what the system has."""
-    found = {}
+    table = {}
     for system in sorted({t.get("system", "") for t, _, _ in cases}):
-        own = [(t, a, j) for t, a, j in cases if t.get("system", "") == system]
-        told = {what: rate([j[key] for t, _, j in own if class_of(t) in kinds]) for what, key, kinds in (
+        members = [(t, a, j) for t, a, j in cases if t.get("system", "") == system]
+        row = {what: rate([j[key] for t, _, j in members if class_of(t) in kinds]) for what, key, kinds in (
             ("named", "right", ("effect",)), ("false_alarm", "false_alarm", EMPTY), ("unknown", "right", ("foreign",)))}
-        found[system] = {**{what: one for what, one in told.items() if one["count"]},
-                         "cpu": float(np.median([a.get("cpu_seconds", 0.0) for _, a, _ in own]))}
-    return found
+        table[system] = {**{what: numbers for what, numbers in row.items() if numbers["count"]},
+                         "cpu": float(np.median([a.get("cpu_seconds", 0.0) for _, a, _ in members]))}
+    return table
 
 
 def claims(cases):
     """[(stated probability, whether it is so)] of everything that was named, alone or among tied; of a solver that is
     named whether it is wrong at all."""
-    found = []
+    pairs = []
     for truth, answer, _ in cases:
         true = truth["effects"] if truth["class"] != "foreign" else []
         for effect in answer["effects"]:
             if "posterior" in effect:
                 right = (truth["class"] == "solver" if answer["verdict"] == "numerics"
-                         else any(same(one, effect) for one in true))
-                found.append((min(max(float(effect["posterior"]), 0.0), 1.0), right))
-    return found
+                         else any(same(hidden, effect) for hidden in true))
+                pairs.append((min(max(float(effect["posterior"]), 0.0), 1.0), right))
+    return pairs
 
 
 def parameters(cases):
@@ -178,9 +178,9 @@ def parameters(cases):
                           for pair in _pairs(t.get("parameters", {}), a.get("parameters", {}))])
 
     return {"nominal": nominal(True), "lacking": nominal(False),
-            "effects": _compared([pair for t, a, _ in right for true in t["effects"] for told in a["effects"]
-                                  if same(true, told) for pair in _pairs(true.get("parameters", {}),
-                                                                         told.get("parameters", {}))])}
+            "effects": _compared([pair for t, a, _ in right for true in t["effects"] for answered in a["effects"]
+                                  if same(true, answered) for pair in _pairs(true.get("parameters", {}),
+                                                                         answered.get("parameters", {}))])}
 
 
 def _whole(truth, judged):
@@ -188,17 +188,18 @@ def _whole(truth, judged):
     return class_of(truth) in (*EMPTY, "solver") or judged.get("named", False)
 
 
-def _pairs(true, told):
+def _pairs(true, answered):
     """[(true value, {value, std})] of the names that both have."""
-    return [(value, told[name]) for name, value in true.items() if value and name in told and told[name]["std"] > 0]
+    return [(value, answered[name]) for name, value in true.items()
+            if value and name in answered and answered[name]["std"] > 0]
 
 
 def _compared(pairs):
     """{count, median_error, within_68, within_95, distances} of [(true value, {value, std})]; distances over std."""
     if not pairs:
         return {"count": 0}
-    errors = [abs(told["value"] / value - 1) for value, told in pairs]
-    distances = [(told["value"] - value) / told["std"] for value, told in pairs]
+    errors = [abs(answered["value"] / value - 1) for value, answered in pairs]
+    distances = [(answered["value"] - value) / answered["std"] for value, answered in pairs]
     return {"count": len(pairs), "median_error": float(np.median(errors)),
             "within_68": rate([abs(d) <= 1.0 for d in distances]),
             "within_95": rate([abs(d) <= 1.96 for d in distances]),

@@ -9,21 +9,21 @@ _FIRST = "diagnosis"
 
 def lines(result):
     """Lines of the rates of the diagnosis, then of every baseline."""
-    told = [f"{result['set']['name']}: {len(result['cases'])} cases, {result['set']['kind']}"]
+    text = [f"{result['set']['name']}: {len(result['cases'])} cases, {result['set']['kind']}"]
     for method, numbers in result["methods"].items():
-        told += ["", method.replace("_", " ")]
-        told += [line(rate_in_words(name), one) + _goal(one) for name, one in numbers["rates"].items()]
-        told.append(f"{numbers['cost']['total'] / 60:.1f} CPU minutes")
-    return told
+        text += ["", method.replace("_", " ")]
+        text += [line(rate_in_words(name), rate) + _goal(rate) for name, rate in numbers["rates"].items()]
+        text.append(f"{numbers['cost']['total'] / 60:.1f} CPU minutes")
+    return text
 
 
 def as_markdown(result):
     """Table of the rates with a goal: every method in a column of its own."""
     methods = result["methods"]
     head = ["", "goal", *(method.replace("_", " ") for method in methods)]
-    rows = [[rate_in_words(name), _goal(one).strip(),
+    rows = [[rate_in_words(name), _goal(rate).strip(),
              *(_cell(numbers["rates"].get(name)) for numbers in methods.values())]
-            for name, one in methods[_FIRST]["rates"].items() if one["goal"]]
+            for name, rate in methods[_FIRST]["rates"].items() if rate["goal"]]
     return "\n".join([_row(head), "|" + "---|" * len(head), *map(_row, rows)])
 
 
@@ -31,11 +31,11 @@ def _row(cells):
     return "|" + "|".join(f" {cell} " if cell else " " for cell in cells) + "|"
 
 
-def _goal(one):
-    return f"   {one['goal'][0]} {one['goal'][1]:.0%}" if one["goal"] else ""
+def _goal(rate):
+    return f"   {rate['goal'][0]} {rate['goal'][1]:.0%}" if rate["goal"] else ""
 
 
-def _cell(one):
-    if one is None:
+def _cell(rate):
+    if rate is None:
         return ""
-    return f"{one['hits']} of {one['count']} ({one['low']:.0%} to {one['high']:.0%})"
+    return f"{rate['hits']} of {rate['count']} ({rate['low']:.0%} to {rate['high']:.0%})"

@@ -43,21 +43,21 @@ class TrialSet:
     @property
     def cases(self):
         """{number: folder}, each with both files; ConfigError where one lacks any."""
-        found = {p.name: p for p in sorted((self.folder / "cases").glob("*")) if p.is_dir()}
-        if not found:
+        folders = {p.name: p for p in sorted((self.folder / "cases").glob("*")) if p.is_dir()}
+        if not folders:
             raise ConfigError(self.folder / "cases", "folders of cases, such as cases/001", "none",
                               "see docs/trial_sets.md")
-        for case in found.values():
+        for case in folders.values():
             lacks = [name for name in FILES if not (case / name).is_file()]
             if lacks:
                 raise ConfigError(case, " and ".join(FILES), f"no {' and no '.join(lacks)}")
-        return found
+        return folders
 
     def digest(self):
         """SHA-256 over the names of all cases and the bytes of their files."""
-        told = [f"{number}/{name} {sha256((folder / name).read_bytes())}" for number, folder in self.cases.items()
+        lines = [f"{number}/{name} {sha256((folder / name).read_bytes())}" for number, folder in self.cases.items()
                 for name in FILES]
-        return sha256("\n".join(told).encode())
+        return sha256("\n".join(lines).encode())
 
     def path(self, name):
         return self.folder / name

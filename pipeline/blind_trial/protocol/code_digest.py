@@ -21,8 +21,8 @@ _PACKAGES = ("numpy", "scipy", "numba", "h5py")
 
 def files():
     """{file: SHA-256} of what decides answers and scores."""
-    found = sorted(path for name in ("pipeline", "stages") for path in (_ROOT / name).rglob("*.py"))
-    named = ((path.relative_to(_ROOT).as_posix(), path) for path in found)
+    paths = sorted(path for name in ("pipeline", "stages") for path in (_ROOT / name).rglob("*.py"))
+    named = ((path.relative_to(_ROOT).as_posix(), path) for path in paths)
     return {name: digest(path) for name, path in named if not name.startswith(_APART)}
 
 

@@ -94,7 +94,7 @@ def _draws(store, asked):
     if plan["asked"] != asked:
         raise ConfigError(store.folder.parent, f"the command that began this set: {plan['asked']}", str(asked),
                           "repeat that command, or name a new folder")
-    return {number: Draw.read(one) for number, one in plan["draws"].items()}
+    return {number: Draw.read(record) for number, record in plan["draws"].items()}
 
 
 def _seed(random, given):
@@ -115,20 +115,20 @@ def _made(folder, store, item):
 
 def _drawn(draw, folder):
     """Truth of a draw whose files are in ``folder`` now; other seeds where the first cannot be made."""
-    told = []
+    draws = []
     for attempt in range(_TRIES):
         shutil.rmtree(folder, ignore_errors=True)
         again = replace(draw, seed=int(np.random.SeedSequence([draw.seed, attempt]).generate_state(1)[0]))
         try:
             truth = SYSTEMS[draw.system].write(again, folder)
         except BrakechainError as error:
-            told.append(str(error))
+            draws.append(str(error))
             continue
         if truth.get("reach", 0.0) < _REACH:
             return {**truth, "motion": SYSTEMS[draw.system].motion, "visible": VISIBLE, "draw": asdict(again)}
-        told.append(f"a motion {truth['reach']:.3g} times as far as without what is hidden")
+        draws.append(f"a motion {truth['reach']:.3g} times as far as without what is hidden")
     hidden = " + ".join(draw.hidden)
-    raise ConfigError(f"{draw.system}: {draw.kind} {hidden}", f"a case within {_TRIES} seeds", told[-1])
+    raise ConfigError(f"{draw.system}: {draw.kind} {hidden}", f"a case within {_TRIES} seeds", draws[-1])
 
 
 def _finish(made, truth, key):
@@ -142,38 +142,38 @@ def _finish(made, truth, key):
 
 def seal(folder, new_key):
     """Seal the truth.json of an open set that was not solved under ``new_key()``: it is a sealed one from then on."""
-    found = TrialSet(folder)
-    if found.sealed:
-        raise ConfigError(found.folder, "an open set", "a sealed one")
-    if found.has("answers") or found.has("answers.json"):
-        raise ConfigError(found.folder, "a set that nobody has solved", "answers",
+    cases = TrialSet(folder)
+    if cases.sealed:
+        raise ConfigError(cases.folder, "an open set", "a sealed one")
+    if cases.has("answers") or cases.has("answers.json"):
+        raise ConfigError(cases.folder, "a set that nobody has solved", "answers",
                           "to seal a truth that was known while it was solved would prove nothing")
-    truth = found.read("truth.json")
-    check_truth(found, truth)
-    seal_truth(found, truth, new_key())
-    found.path("truth.json").unlink()
+    truth = cases.read("truth.json")
+    check_truth(cases, truth)
+    seal_truth(cases, truth, new_key())
+    cases.path("truth.json").unlink()
 
 
-def seal_truth(found, truth, key):
+def seal_truth(cases, truth, key):
     """Write truth.sealed, then set.yaml with its commitment."""
     content, commitment = sealing.sealed(truth, key)
-    write_companion(found.path("truth.sealed"), content)
-    write_code(found)
-    found.write("set.yaml", {**described(found, truth, "sealed"), "commitment": commitment})
+    write_companion(cases.path("truth.sealed"), content)
+    write_code(cases)
+    cases.write("set.yaml", {**described(cases, truth, "sealed"), "commitment": commitment})
 
 
-def described(found, truth, kind):
+def described(cases, truth, kind):
     """What a set says of itself; classes and systems in numbers, nothing of single cases."""
-    counted = {what: _counted([one.get(name, "") for one in truth.values()]) for what, name in (
+    counted = {what: _counted([case.get(name, "") for case in truth.values()]) for what, name in (
         ("classes", "class"), ("systems", "system"))}
-    return {"format": FORMAT, "name": found.name, "kind": kind, "cases": len(truth), **counted,
-            "digest": found.digest(), **code_digest.described()}
+    return {"format": FORMAT, "name": cases.name, "kind": kind, "cases": len(truth), **counted,
+            "digest": cases.digest(), **code_digest.described()}
 
 
 def _counted(names):
     return {name: names.count(name) for name in sorted(set(names))}
 
 
-def write_code(found):
+def write_code(cases):
     """Write code.json: the digests of what decides answers and scores."""
-    found.write("code.json", code_digest.files())
+    cases.write("code.json", code_digest.files())

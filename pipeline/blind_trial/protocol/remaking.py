@@ -21,13 +21,14 @@ def restore(folder, work, key_file=None, tell=lambda done, total: None):
 
     Refused where they are not, byte for byte, those that the set was committed with. work, tell : see ``making.make``.
     """
-    found = TrialSet(folder)
+    original = TrialSet(folder)
     with locked(folder):
-        _make_cases(found.folder, _truth(found, key_file), work, tell)
-        shutil.rmtree(found.folder / _HALF)
-    if found.digest() != found.about["digest"]:
-        raise ConfigError(found.folder / "cases", f"files of digest {found.about['digest'][:16]}...", "other files",
-                          f"check out commit {found.about.get('commit') or '(none recorded)'} with the packages "
+        _make_cases(original.folder, _truth(original, key_file), work, tell)
+        shutil.rmtree(original.folder / _HALF)
+    if original.digest() != original.about["digest"]:
+        raise ConfigError(original.folder / "cases", f"files of digest {original.about['digest'][:16]}...",
+                          "other files",
+                          f"check out commit {original.about.get('commit') or '(none recorded)'} with the packages "
                           "of set.yaml, remove cases/, and run this again")
 
 
@@ -36,11 +37,11 @@ def repeat(folder, into, work, tell=lambda done, total: None):
 
     Other packages or another processor may change last digits: what is hidden, and how well it shows, stay the same.
     """
-    found, into = TrialSet(folder), Path(into)
+    original, into = TrialSet(folder), Path(into)
     if (into / "set.yaml").exists() or (not (into / _HALF).exists() and (
             (into / "cases").exists() or (into / "truth.json").exists())):
         raise ConfigError(into, "a folder without a set", "a set of cases", "name a new folder")
-    truth = _truth(found, None)
+    truth = _truth(original, None)
     into.mkdir(parents=True, exist_ok=True)
     with locked(into):
         _make_cases(into, truth, work, tell)
@@ -48,21 +49,21 @@ def repeat(folder, into, work, tell=lambda done, total: None):
         made.write("truth.json", truth)
         made.write("set.yaml", described(made, truth, "open"))
         shutil.rmtree(into / _HALF)
-    return made.digest() == found.about.get("digest")
+    return made.digest() == original.about.get("digest")
 
 
-def _truth(found, key_file):
+def _truth(original, key_file):
     """Truth of a set, each case with the draw that makes it again."""
-    if found.has("truth.json"):
-        truth = found.read("truth.json")
-    elif found.has("truth.sealed") and key_file:
-        truth = unsealed(found, sealing.read_key(key_file))["truth"]
+    if original.has("truth.json"):
+        truth = original.read("truth.json")
+    elif original.has("truth.sealed") and key_file:
+        truth = unsealed(original, sealing.read_key(key_file))["truth"]
     else:
-        raise ConfigError(found.folder, "a published set, with its truth.json", "none",
+        raise ConfigError(original.folder, "a published set, with its truth.json", "none",
                           "a sealed set is published once it is scored")
-    strange = [number for number, one in truth.items() if one.get("draw", {}).get("system") not in SYSTEMS]
+    strange = [number for number, case in truth.items() if case.get("draw", {}).get("system") not in SYSTEMS]
     if strange:
-        raise ConfigError(found.folder / "truth.json", "draws of the generators of this program",
+        raise ConfigError(original.folder / "truth.json", "draws of the generators of this program",
                           f"{len(strange)} cases without, such as {strange[0]}",
                           "only sets that 'brakechain trial make' made can be made again")
     return truth
@@ -74,7 +75,7 @@ def _make_cases(folder, truth, work, tell):
     half = folder / _HALF
     half.mkdir(exist_ok=True)
     (folder / "cases").mkdir(exist_ok=True)
-    work.map(partial(_make_case, folder / "cases", half), [(n, one["draw"]) for n, one in truth.items()],
+    work.map(partial(_make_case, folder / "cases", half), [(n, case["draw"]) for n, case in truth.items()],
              lambda: tell(next(done), len(truth)))
 
 

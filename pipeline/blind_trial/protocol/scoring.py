@@ -16,78 +16,78 @@ def score(folder, key_file=None, truth_file=None):
     Refused: a set that is not solved, no key, a truth that does not match its commitment, changed code, answers or
     cases, and a sealed set that was scored before.
     """
-    found = TrialSet(folder)
-    answers = _answers(found)
-    opened, key = _opened(found, key_file) if found.sealed else (None, None)
-    truth = opened["truth"] if opened else read_json(truth_file or found.path("truth.json"))
-    check_truth(found, truth)
-    if not found.sealed:
-        _check_current(found, answers)
-    scored = scored_as(found, truth, answers)
+    trial = TrialSet(folder)
+    answers = _answers(trial)
+    opened, key = _opened(trial, key_file) if trial.sealed else (None, None)
+    truth = opened["truth"] if opened else read_json(truth_file or trial.path("truth.json"))
+    check_truth(trial, truth)
+    if not trial.sealed:
+        _check_current(trial, answers)
+    scored = scored_as(trial, truth, answers)
     if opened:
-        found.write("truth.json", truth)
-        found.write("opened.yaml", {"key": key.decode(), "salt": opened["salt"],
+        trial.write("truth.json", truth)
+        trial.write("opened.yaml", {"key": key.decode(), "salt": opened["salt"],
                                     "scored": datetime.now(UTC).isoformat(timespec="seconds")})
-    found.write("result.json", scored)
+    trial.write("result.json", scored)
     return scored
 
 
-def scored_as(found, truth, answers):
+def scored_as(trial, truth, answers):
     """The result of a TrialSet of this truth and these answers, but for the errata of the set."""
-    return result(found.about or {"name": found.name, "kind": "open", "cases": len(truth)}, truth, answers,
-                  found.read_yaml("errata.yaml")["errata"] if found.has("errata.yaml") else ())
+    return result(trial.about or {"name": trial.name, "kind": "open", "cases": len(truth)}, truth, answers,
+                  trial.read_yaml("errata.yaml")["errata"] if trial.has("errata.yaml") else ())
 
 
-def _answers(found):
+def _answers(trial):
     """{method: {case: answer}}, complete and as they were when the last was found."""
-    if not found.has("answers.json"):
-        raise ConfigError(found.folder, "answers of all cases", f"{_solved(found)} of {len(found.cases)}",
-                          f"run: brakechain trial solve {found.folder}")
-    kept = found.read("answers.json")
+    if not trial.has("answers.json"):
+        raise ConfigError(trial.folder, "answers of all cases", f"{_solved(trial)} of {len(trial.cases)}",
+                          f"run: brakechain trial solve {trial.folder}")
+    kept = trial.read("answers.json")
     if sha256(canonical(kept["answers"])) != kept["digest"]:
-        raise ConfigError(found.path("answers.json"), "answers as they were solved", "answers that were changed")
+        raise ConfigError(trial.path("answers.json"), "answers as they were solved", "answers that were changed")
     if METHODS[0] not in kept["answers"]:
-        raise ConfigError(found.path("answers.json"), f"answers of the {METHODS[0]}", ", ".join(kept["answers"]),
-                          f"run: brakechain trial solve {found.folder}")
+        raise ConfigError(trial.path("answers.json"), f"answers of the {METHODS[0]}", ", ".join(kept["answers"]),
+                          f"run: brakechain trial solve {trial.folder}")
     return kept["answers"]
 
 
-def _solved(found):
-    return len(list(found.path(f"answers/{METHODS[0]}").glob("*.json")))
+def _solved(trial):
+    return len(list(trial.path(f"answers/{METHODS[0]}").glob("*.json")))
 
 
-def _opened(found, key_file):
+def _opened(trial, key_file):
     """({salt, truth}, key) of a sealed set that was not scored, by its committed code on its committed cases."""
-    if found.has("result.json"):
-        raise ConfigError(found.folder, "a sealed set that was not scored", "its result",
+    if trial.has("result.json"):
+        raise ConfigError(trial.folder, "a sealed set that was not scored", "its result",
                           "check it with: brakechain trial verify SET")
     key = sealing.read_key(key_file)
-    check_code(found, code_digest.files(), "before it was scored")
-    check_cases(found)
-    return unsealed(found, key), key
+    check_code(trial, code_digest.files(), "before it was scored")
+    check_cases(trial)
+    return unsealed(trial, key), key
 
 
-def unsealed(found, key):
+def unsealed(trial, key):
     """{salt, truth} that a ``key`` opens; ConfigError where it is not the set's, or they are not what was committed."""
-    opened = sealing.unlocked(found.path("truth.sealed").read_bytes(), key, found.path("truth.sealed"))
-    check_commitment(found, opened["salt"], opened["truth"])
+    opened = sealing.unlocked(trial.path("truth.sealed").read_bytes(), key, trial.path("truth.sealed"))
+    check_commitment(trial, opened["salt"], opened["truth"])
     return opened
 
 
-def check_commitment(found, salt, truth):
+def check_commitment(trial, salt, truth):
     """Refuse a truth other than the one that was committed."""
-    if sealing.commitment(salt, truth) != found.about.get("commitment"):
-        raise ConfigError(found.folder / "set.yaml", f"commitment {sealing.commitment(salt, truth)}",
-                          found.about.get("commitment"), "truth or commitment was changed after the set was made")
+    if sealing.commitment(salt, truth) != trial.about.get("commitment"):
+        raise ConfigError(trial.folder / "set.yaml", f"commitment {sealing.commitment(salt, truth)}",
+                          trial.about.get("commitment"), "truth or commitment was changed after the set was made")
 
 
-def _check_current(found, answers):
+def _check_current(trial, answers):
     """Refuse to score answers of an open set that other code gave, or to other files."""
     now = code_digest.of_answers(code_digest.files())
-    files = {number: digest_of_case(case) for number, case in found.cases.items()}
-    told = [(number, answer) for own in answers.values() for number, answer in own.items()]
-    for what, apart in (("of other code", sum(answer["code"] != now for _, answer in told)),
-                        ("to other files", sum(answer["files"] != files.get(number) for number, answer in told))):
+    files = {number: digest_of_case(case) for number, case in trial.cases.items()}
+    numbered = [(number, answer) for method_answers in answers.values() for number, answer in method_answers.items()]
+    for what, apart in (("of other code", sum(answer["code"] != now for _, answer in numbered)),
+                        ("to other files", sum(answer["files"] != files.get(number) for number, answer in numbered))):
         if apart:
-            raise ConfigError(found.path("answers.json"), "answers of this code to these cases", f"{apart} {what}",
-                              f"run again: brakechain trial solve {found.folder}")
+            raise ConfigError(trial.path("answers.json"), "answers of this code to these cases", f"{apart} {what}",
+                              f"run again: brakechain trial solve {trial.folder}")

@@ -57,8 +57,8 @@ def answered(case, method, limit):
         home.mkdir()
         for name in FILES:
             shutil.copyfile(case / name, work / name)
-        told = _run(command(method), work, environment(home), limit)
-        answer = _read(work / "products" / "diagnosis.json") if told is None else told
+        refusal = _run(command(method), work, environment(home), limit)
+        answer = _read(work / "products" / "diagnosis.json") if refusal is None else refusal
     finally:
         shutil.rmtree(here, ignore_errors=True)
     return {**answer, "cpu_seconds": round(_cpu_seconds() - before, 3)}
@@ -75,7 +75,7 @@ def _run(arguments, folder, variables, limit):
                           stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True) as process:
         _bound(process)
         try:
-            _, told = process.communicate(timeout=limit)
+            _, stderr = process.communicate(timeout=limit)
         except subprocess.TimeoutExpired:
             return {**refused(f"no answer within {limit:g} s"), "limit": limit}
         finally:
@@ -84,7 +84,7 @@ def _run(arguments, folder, variables, limit):
     if -process.returncode in _ENDED:
         raise BrakechainError("a solver process", "to run until its end", f"signal {-process.returncode}",
                               "run the same command to go on")
-    lines = [line for line in told.splitlines() if line.strip()] or ["it said nothing"]
+    lines = [line for line in stderr.splitlines() if line.strip()] or ["it said nothing"]
     return refused(lines[-1][:_LONGEST]) if process.returncode else None
 
 

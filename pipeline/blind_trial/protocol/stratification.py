@@ -17,11 +17,11 @@ def drawn(count, systems, random, shares=SHARES):
     possible = {kind: share for kind, share in shares.items() if makers[kind]}
     if count < len(possible):
         raise ConfigError("--cases", f"at least one of each of the {len(possible)} classes", str(count))
-    found = []
+    draws = []
     for kind, many in shared_out(count, possible).items():
         for name, own in shared_out(many, {s.name: s.weight for s in makers[kind]}).items():
-            found += _stratified(own, systems[name], kind, random)
-    return [found[k] for k in random.permutation(len(found))]
+            draws += _stratified(own, systems[name], kind, random)
+    return [draws[k] for k in random.permutation(len(draws))]
 
 
 def shared_out(count, weights):
@@ -30,10 +30,10 @@ def shared_out(count, weights):
     rest, total = count - least * len(weights), sum(weights.values())
     exact = {key: max(count * weight / total - least, 0.0) for key, weight in weights.items()}
     exact = {key: rest * part / (sum(exact.values()) or 1) for key, part in exact.items()}
-    found = {key: least + int(part) for key, part in exact.items()}
-    for key in sorted(exact, key=lambda k: int(exact[k]) - exact[k])[:count - sum(found.values())]:
-        found[key] += 1
-    return found
+    counts = {key: least + int(part) for key, part in exact.items()}
+    for key in sorted(exact, key=lambda k: int(exact[k]) - exact[k])[:count - sum(counts.values())]:
+        counts[key] += 1
+    return counts
 
 
 def _stratified(count, system, kind, random):
@@ -47,7 +47,7 @@ def _stratified(count, system, kind, random):
 
 def _blocks(count, options, random):
     """``count`` of the options: each once in random order, then each again."""
-    found = []
-    while len(found) < count:
-        found += [options[k] for k in random.permutation(len(options))]
-    return found[:count]
+    sequence = []
+    while len(sequence) < count:
+        sequence += [options[k] for k in random.permutation(len(options))]
+    return sequence[:count]

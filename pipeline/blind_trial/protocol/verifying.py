@@ -15,44 +15,44 @@ _AGREE = 1e-4
 
 def verify(folder):
     """Sentences of what was checked; ConfigError at the first thing that does not hold."""
-    found = TrialSet(folder)
-    if not found.has("result.json"):
-        raise ConfigError(found.folder, "a set that was scored", "no result.json",
-                          f"run: brakechain trial score {found.folder}")
-    truth, kept = found.read("truth.json"), found.read("answers.json")
-    told = [*_sealing(found, truth)] if found.sealed else ["open set: nothing was sealed"]
-    _check(sha256(canonical(kept["answers"])) == kept["digest"], found, "answers.json is not what was solved")
-    told.append(f"answers {kept['digest']} are unchanged")
-    other = difference(json.loads(canonical(scored_as(found, truth, kept["answers"]))), found.read("result.json"))
-    _check(other is None, found, f"result.json is not the score of these answers by this code: {other}")
-    told.append(f"result.json is the score of {len(truth)} cases by this code")
-    told += [f"errata.yaml: not compared are {', '.join(one['parameters'])} of {one['system']}: {one['reason']}"
-             for one in found.read("result.json").get("errata", ())]
-    if (found.folder / "cases").exists() and found.about:
-        _check(found.digest() == found.about["digest"], found, "the cases are not those of set.yaml")
-        told.append("the files of all cases are those that were committed")
-    return told
+    trial = TrialSet(folder)
+    if not trial.has("result.json"):
+        raise ConfigError(trial.folder, "a set that was scored", "no result.json",
+                          f"run: brakechain trial score {trial.folder}")
+    truth, kept = trial.read("truth.json"), trial.read("answers.json")
+    sentences = [*_sealing(trial, truth)] if trial.sealed else ["open set: nothing was sealed"]
+    _check(sha256(canonical(kept["answers"])) == kept["digest"], trial, "answers.json is not what was solved")
+    sentences.append(f"answers {kept['digest']} are unchanged")
+    other = difference(json.loads(canonical(scored_as(trial, truth, kept["answers"]))), trial.read("result.json"))
+    _check(other is None, trial, f"result.json is not the score of these answers by this code: {other}")
+    sentences.append(f"result.json is the score of {len(truth)} cases by this code")
+    sentences += [f"errata.yaml: not compared are {', '.join(e['parameters'])} of {e['system']}: {e['reason']}"
+             for e in trial.read("result.json").get("errata", ())]
+    if (trial.folder / "cases").exists() and trial.about:
+        _check(trial.digest() == trial.about["digest"], trial, "the cases are not those of set.yaml")
+        sentences.append("the files of all cases are those that were committed")
+    return sentences
 
 
-def _sealing(found, truth):
+def _sealing(trial, truth):
     """Sentences on key, ciphertext, commitment and code of a sealed set."""
-    opened = found.read_yaml("opened.yaml")
-    content = sealing.unlocked(found.path("truth.sealed").read_bytes(), opened["key"].encode(),
-                               found.path("truth.sealed"))
-    _check(content == {"salt": opened["salt"], "truth": truth}, found, "truth.json is not what was sealed")
+    opened = trial.read_yaml("opened.yaml")
+    content = sealing.unlocked(trial.path("truth.sealed").read_bytes(), opened["key"].encode(),
+                               trial.path("truth.sealed"))
+    _check(content == {"salt": opened["salt"], "truth": truth}, trial, "truth.json is not what was sealed")
     yield "the published key opens truth.sealed, which holds truth.json"
-    check_commitment(found, opened["salt"], truth)
-    yield f"commitment {found.about['commitment']} is the salted SHA-256 of that truth"
-    committed = code_digest.of_answers(found.read("code.json"))
-    answers = found.read("answers.json")["answers"]
-    _check({a["code"] for method in answers.values() for a in method.values()} == {committed}, found,
+    check_commitment(trial, opened["salt"], truth)
+    yield f"commitment {trial.about['commitment']} is the salted SHA-256 of that truth"
+    committed = code_digest.of_answers(trial.read("code.json"))
+    answers = trial.read("answers.json")["answers"]
+    _check({a["code"] for method in answers.values() for a in method.values()} == {committed}, trial,
            "answers were made by other code than that of the commitment")
-    yield f"all answers were made by the code of the commitment (commit {found.about.get('commit') or 'not recorded'})"
+    yield f"all answers were made by the code of the commitment (commit {trial.about.get('commit') or 'not recorded'})"
 
 
-def _check(holds, found, otherwise):
+def _check(holds, trial, otherwise):
     if not holds:
-        raise ConfigError(found.folder, "a set whose parts belong together", otherwise)
+        raise ConfigError(trial.folder, "a set whose parts belong together", otherwise)
 
 
 def difference(now, published, path="result"):
@@ -71,4 +71,4 @@ def difference(now, published, path="result"):
     else:
         same = type(now) is type(published) and now == published
         return None if same else f"{path}: {now!r} for {published!r}"
-    return next((found for pair in pairs if (found := difference(*pair))), None)
+    return next((first for pair in pairs if (first := difference(*pair))), None)

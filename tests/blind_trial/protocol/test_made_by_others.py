@@ -42,8 +42,9 @@ def test_a_set_made_by_others_is_sealed_solved_scored_shown_and_verified(theirs,
     assert "commitment" in brakechain("seal", theirs, "--key", key) and not (theirs / "truth.json").exists()
     assert "3 of 3 solved" in brakechain("solve", theirs, "--methods", "diagnosis", "--workers", 1)
     told = brakechain("score", theirs, "--key", key)
-    assert re.search(r"type and place, one effect +1 of 1", told) and re.search(r"refused +1 of 3", told)
-    assert re.search(r"false alarms +0 of 2", told) and re.search(r"nothing missing told so +1 of 2", told)
+    assert re.search(r"single effect: type and location correct +1 of 1", told) and re.search(r"refused +1 of 3", told)
+    assert re.search(r"false alarms +0 of 2", told)
+    assert re.search(r"controls: nothing missing, and reported so +1 of 2", told)
     result = json.loads((theirs / "result.json").read_text())
     assert "lumpt: unknown section; did you mean 'lumped'?" in result["cases"]["003"]["answers"]["diagnosis"]["why"][1]
     found = result["methods"]["diagnosis"]["parameters"]["nominal"]

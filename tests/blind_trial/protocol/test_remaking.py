@@ -109,4 +109,4 @@ def test_from_the_command_line(tmp_path, generators):
     done = CliRunner().invoke(cli, ["trial", "remake", str(tmp_path / "b"), "--workers", "1"])
     assert done.exit_code == 0 and (tmp_path / "b" / "cases" / "005").exists(), done.output
     done = CliRunner().invoke(cli, ["trial", "remake", str(tmp_path / "b"), str(tmp_path / "c"), "--key", "k"])
-    assert done.exit_code == 2 and "needs no --key" in done.output
+    assert done.exit_code == 2 and "--key is not needed" in done.output

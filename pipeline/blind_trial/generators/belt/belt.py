@@ -72,20 +72,20 @@ def made(seed, hidden=(), level=0.01, masses=1, change=0.1, kind=""):
     """The Case of a seed with physics of FRICTION and IN_RIG ``hidden``, each of a size that changes motion by
     ``change``; ``kind`` as ``case.made``. Raises ConfigError, ConvergenceError."""
     random = np.random.default_rng(seed)
-    own = _drawn(random, masses)
-    bare = _seen(own)
+    values = _drawn(random, masses)
+    bare = _seen(values)
     trained = range(len(LOADS) - 1)
-    known = explained(lambda one: _seen(one, runs=trained), _nudged(own), SPREAD, GAIN_ERROR, _STEP)
+    known = explained(lambda changed: _seen(changed, runs=trained), _nudged(values), SPREAD, GAIN_ERROR, _STEP)
     noise = noise_of(bare, level)
-    planted = tuple(_planted(random, own, bare, name, known, noise, change, kind == "below") for name in hidden)
-    seen = _seen(own, planted) if planted else bare
-    left = tuple(known.left(np.array(seen)[trained] - _seen(own, tuple(p for p in planted if p is not one), trained),
-                            noise) for one in planted)
+    planted = tuple(_planted(random, values, bare, name, known, noise, change, kind == "below") for name in hidden)
+    seen = _seen(values, planted) if planted else bare
+    others = (tuple(p for p in planted if p is not piece) for piece in planted)
+    left = tuple(known.left(np.array(seen)[trained] - _seen(values, rest, trained), noise) for rest in others)
     exact = tuple(f"mass_{p.spot.index}" for p in planted if p.piece.exact == "mass")
-    belief, believed, far = _believed(random, own, exact, kind)
-    runs = tuple((f, w, _recorded(random, s, noise)) for f, w, s in zip(own.recorder.runs, own.belts, seen,
+    belief, believed, far = _believed(random, values, exact, kind)
+    runs = tuple((f, w, _recorded(random, s, noise)) for f, w, s in zip(values.recorder.runs, values.belts, seen,
                                                                        strict=True))
-    return Case(seed, kind or kind_of(hidden), planted, left, level, own, belief, believed, exact, far, runs, noise,
+    return Case(seed, kind or kind_of(hidden), planted, left, level, values, belief, believed, exact, far, runs, noise,
                 change_of(seen, bare))
 
 
@@ -113,16 +113,17 @@ def _way(random, steady):
 def _seen(belt, planted=(), runs=None):
     """[(sensor, n)] of the chosen runs with all that is ``planted``."""
     drag, around = plain(_contact(belt)), []
-    for one in planted:
-        if one.piece.name in FRICTION:
-            drag = one.piece.build(one.spot, one.size)
+    for piece in planted:
+        if piece.piece.name in FRICTION:
+            drag = piece.piece.build(piece.spot, piece.size)
         else:
-            around.append(one)
+            around.append(piece)
     world, _ = built(belt.truth, around)
-    found = [moved(replace(world, laws=(*world.laws, dragging(drag, belt.rubbed(k), belt.belts[k], len(world.rig.mass))
+    masses = len(world.rig.mass)
+    motions = [moved(replace(world, laws=(*world.laws, dragging(drag, belt.rubbed(k), belt.belts[k], masses)
                                         )), belt.recorder.runs[k], 1 / RATE, CORNER)
              for k in (range(len(LOADS)) if runs is None else runs)]
-    return belt.recorder.seen(found)
+    return belt.recorder.seen(motions)
 
 
 def dragging(drag: Drag, run, belt, masses):
@@ -160,11 +161,11 @@ def _planted(random, belt, bare, name, known, noise, wanted, below):
     else:
         raise ConfigError(f"trial: {name}", f"one of {', '.join((*FRICTION, *IN_RIG))}")
 
-    def change(one):
-        return change_of(_seen(belt, (one,), trained), bare[:len(trained)])
+    def change(hidden):
+        return change_of(_seen(belt, (hidden,), trained), bare[:len(trained)])
 
-    def left(one):
-        return known.left(np.array(_seen(belt, (one,), trained)) - np.array(bare[:len(trained)]), noise)
+    def left(hidden):
+        return known.left(np.array(_seen(belt, (hidden,), trained)) - np.array(bare[:len(trained)]), noise)
 
     return sized(start, left, start.spot.between(2, *BELOW)) if below else sized(start, change, wanted)
 
@@ -178,8 +179,8 @@ def _spot(belt, bare, piece, index, shape):
 
 def _nudged(belt):
     """The belt, then belts with one value after the other larger, its coefficient last."""
-    for one in nudged(belt.truth, _STEP):
-        yield replace(belt, truth=one)
+    for changed in nudged(belt.truth, _STEP):
+        yield replace(belt, truth=changed)
     yield replace(belt, friction=belt.friction * (1 + _STEP))
 
 

@@ -32,7 +32,7 @@ def _told(piece, spot, size):
 def nominal(case):
     """The case file of the workshop: the rig, Coulomb friction on a recorded belt, and what may be wrong."""
     contact, friction = {"tangent": {"mass_0.x": 1}, "normal_force": f"{LOAD:g} N"}, round(float(case.believed), 6)
-    own = case_files.beliefs(case.belief, case.exact) | {"friction": {"spread": SPREAD}}
+    stated = case_files.beliefs(case.belief, case.exact) | {"friction": {"spread": SPREAD}}
     return {
         "chain": "lumped_bench", "title": "Rig on a belt",
         "description": "Masses pushed by a shaker, the first rubbing on a belt under several loads.",
@@ -40,4 +40,4 @@ def nominal(case):
         "recording": {"files": [{"kind": "hdf5", "file": "recordings.h5"}]},
         "bench": {"step": f"{_STEP / RATE:g} s", "friction": friction, "drive": {"channel": "belt"},
                   "inputs": {"shaker": {"channel": "force"}}, "channels": case_files.sensors(case.belief)},
-        "diagnosis": case_files.asked(case, own)}
+        "diagnosis": case_files.asked(case, stated)}

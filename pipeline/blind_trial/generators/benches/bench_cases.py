@@ -19,10 +19,10 @@ _WORN = {"third_body": "third_body_film", "transfer": "material_transfer"}
 
 def pin_on_disc(draw, folder):
     """A tilted pin on a turning disc, tapped until it squeals."""
-    bench, told = pin_bench.make(draw.seed, *_split(draw, pin_bench.DECOYS))
+    bench, about = pin_bench.make(draw.seed, *_split(draw, pin_bench.DECOYS))
     document = case_files.stated("pin_on_disc_bench.yaml")
-    found = _self_excited(draw, folder, document, pin_bench.record(bench, draw.seed), told["hidden"], told["factors"])
-    return {**found, "parameters": _values(bench, told["factors"])}
+    truth = _self_excited(draw, folder, document, pin_bench.record(bench, draw.seed), about["hidden"], about["factors"])
+    return {**truth, "parameters": _values(bench, about["factors"])}
 
 
 def _values(bench, factors):
@@ -36,30 +36,30 @@ def _values(bench, factors):
 
 def shoe_on_drum(draw, folder):
     """A shoe on a drum that flutters by mode coupling."""
-    bench, told = flutter.make(draw.seed, *_split(draw, flutter.DECOYS))
-    return _self_excited(draw, folder, flutter.nominal(), flutter.record(bench, draw.seed), told.hidden, told.factors)
+    bench, about = flutter.make(draw.seed, *_split(draw, flutter.DECOYS))
+    return _self_excited(draw, folder, flutter.nominal(), flutter.record(bench, draw.seed), about.hidden, about.factors)
 
 
 def worn_pads(draw, folder):
     """Replicas of a pad, worn under several pressures: friction and faces."""
     hidden = draw.hidden[0] if draw.hidden else ""
-    bench, told = worn_pad.make(draw.seed, next((own for own, name in _WORN.items() if name == hidden), ""))
+    bench, description = worn_pad.make(draw.seed, next((key for key, name in _WORN.items() if name == hidden), ""))
     document = case_files.stated("worn_pad.yaml")
     for body in ("disc", "pad"):
         document["surface"][body]["file"] = "recordings.h5"
     document["recording"]["files"] = [_BESIDE]
     case_files.leave(folder, document, _neutral(worn_pad.record(bench, draw.seed)))
-    known = {name: told["hidden"]["third_body"][name] for name in ("gain", "distance")} if (
-        hidden == "third_body_film") else told["hidden"].get("transfer", {})
+    known = {name: description["hidden"]["third_body"][name] for name in ("gain", "distance")} if (
+        hidden == "third_body_film") else description["hidden"].get("transfer", {})
     return {"class": draw.kind, "system": draw.system, "seed": draw.seed, "parameters": {},
             "effects": [{"name": hidden, "place": "asperities", "parameters": known}] if hidden else [],
-            "factors": told["factors"]}
+            "factors": description["factors"]}
 
 
 def hides(physics, decoys=()):
     """{class: ((name,), ...)} of the physics and decoys of a bench."""
-    found = {"control": ((),), "effect": tuple((name,) for name in physics)}
-    return {**found, "sensor": tuple((name,) for name in decoys)} if decoys else found
+    groups = {"control": ((),), "effect": tuple((name,) for name in physics)}
+    return {**groups, "sensor": tuple((name,) for name in decoys)} if decoys else groups
 
 
 def worn_names():
@@ -75,8 +75,8 @@ def _split(draw, decoys):
 def _self_excited(draw, folder, document, runs, hidden, factors):
     document["recording"]["files"] = [_BESIDE]
     case_files.leave(folder, document, _neutral(runs))
-    found = [_told(name, values, draw.system) for name, values in hidden.items()]
-    return {"class": draw.kind, "system": draw.system, "seed": draw.seed, "parameters": {}, "effects": found,
+    effects = [_told(name, values, draw.system) for name, values in hidden.items()]
+    return {"class": draw.kind, "system": draw.system, "seed": draw.seed, "parameters": {}, "effects": effects,
             "factors": factors}
 
 

@@ -71,7 +71,7 @@ def built(values):
 
 def record(bench, seed):
     """{run: dict} of a campaign as ``pin_bench.record`` makes it, under the names of these sensors."""
-    return {name: {**run, "channels": {CHANNELS[key]: told for key, told in run["channels"].items()}}
+    return {name: {**run, "channels": {CHANNELS[key]: samples for key, samples in run["channels"].items()}}
             for name, run in pin_bench.record(bench, seed, _TAPS).items()}
 
 
@@ -84,9 +84,9 @@ def nominal():
 
     parameters = {f"bodies.{name}.mass": {"spread": SPREAD[name]} for name in ("tail", "block")}
     parameters |= {f"joints.{name}.stiffness": spread for name in ("tie", "along", "onto", "inclined")}
-    parameters |= {f"joints.{name}.damping": {"spread": SPREAD[own]} for name, own in (
+    parameters |= {f"joints.{name}.damping": {"spread": SPREAD[kind]} for name, kind in (
         ("guide", "guide"), ("along", "sliding"))}
-    parameters |= {name: {"spread": SPREAD[own]} for name, own in (
+    parameters |= {name: {"spread": SPREAD[kind]} for name, kind in (
         ("contact.stiffness", "contact"), ("friction.stiffness", "shear"), ("friction", "friction"))}
     return {
         "chain": "lumped_bench", "title": "Shoe on a drum",

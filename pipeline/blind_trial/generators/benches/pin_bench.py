@@ -126,10 +126,10 @@ def _disc(off):
     """Doublets with w = (r / radius of the contact)^n cos n theta, sin n theta on a plate; faces turn with slopes."""
     for n, (name, frequency) in enumerate(_DISC.items(), 1):
         mass = _DENSITY * _THICKNESS * np.pi * _OUTER**2 * (_OUTER / RADIUS) ** (2 * n) / (2 * n + 2)
-        own = (mass * off(f"{name}.mass", "mass"), frequency * off(f"{name}.frequency", "frequency"),
+        mode = (mass * off(f"{name}.mass", "mass"), frequency * off(f"{name}.frequency", "frequency"),
                _DISC_LOSS * off(f"{name}.damping", "damping"))
         for wave, normal, tangent in ((np.cos, -1.0, 0.0), (np.sin, 0.0, n * _THICKNESS / (2 * RADIUS))):
-            yield _Coordinate(*own, normal, tangent, (wave(n * _LASER_ANGLE), 0, 0), (0, wave(n * _HIT_ANGLE)))
+            yield _Coordinate(*mode, normal, tangent, (wave(n * _LASER_ANGLE), 0, 0), (0, wave(n * _HIT_ANGLE)))
 
 
 def _pin(off):
@@ -161,9 +161,9 @@ def beam_modes(length=_LENGTH, count=4, elements=30):
                                                  [-13 * size, -3 * size**2, -22 * size, 4 * size**2]])
     stiffness, mass = np.zeros((2, 2 * elements + 2, 2 * elements + 2))
     for e in range(elements):
-        own = slice(2 * e, 2 * e + 4)
-        stiffness[own, own] += k
-        mass[own, own] += m
+        block = slice(2 * e, 2 * e + 4)
+        stiffness[block, block] += k
+        mass[block, block] += m
     squared, shape = eigh(stiffness[2:, 2:], mass[2:, 2:], subset_by_index=(0, count - 1))
     shape = shape / shape[-2]
     place = size * np.arange(1, elements + 1)
@@ -344,19 +344,19 @@ def _march(state, bodies, pairs, law, sensors, arm, steps, step):
     """(velocity (3, steps), force of the arm (steps,)) by Runge-Kutta's classical rule."""
     size = arm.size
     rest = np.sum(bodies[4] * state[:size])
-    one, two, three, four = np.zeros((4, state.size))
+    k1, k2, k3, k4 = np.zeros((4, state.size))
     velocity, force = np.zeros((sensors.shape[0], steps)), np.zeros(steps)
     for k in range(steps):
         for i in range(size):
             force[k] += arm[i] * state[i]
             for s in range(sensors.shape[0]):
                 velocity[s, k] += sensors[s, i] * state[size + i]
-        _rate(state, bodies, pairs, law, rest, k * step, one)
-        _rate(state + 0.5 * step * one, bodies, pairs, law, rest, (k + 0.5) * step, two)
-        _rate(state + 0.5 * step * two, bodies, pairs, law, rest, (k + 0.5) * step, three)
-        _rate(state + step * three, bodies, pairs, law, rest, (k + 1) * step, four)
+        _rate(state, bodies, pairs, law, rest, k * step, k1)
+        _rate(state + 0.5 * step * k1, bodies, pairs, law, rest, (k + 0.5) * step, k2)
+        _rate(state + 0.5 * step * k2, bodies, pairs, law, rest, (k + 0.5) * step, k3)
+        _rate(state + step * k3, bodies, pairs, law, rest, (k + 1) * step, k4)
         for i in range(state.size):
-            state[i] += step / 6 * (one[i] + 2 * two[i] + 2 * three[i] + four[i])
+            state[i] += step / 6 * (k1[i] + 2 * k2[i] + 2 * k3[i] + k4[i])
     return velocity, force
 
 
@@ -367,7 +367,7 @@ def _recorded(bench, motion, random):
     shown = {"laser_disc": (velocity[0], "m/s", "velocity"), "laser_pin": (velocity[1], "m/s", "velocity"),
              "accelerometer": (np.gradient(velocity[2], STEP), "m/s^2", "acceleration")}
     guard = butter(4, 10e3, fs=1 / STEP, output="sos")
-    found = {}
+    channels = {}
     for name, (values, unit, quantity) in shown.items():
         delay = bench.hidden.get("sensor_delay", {})
         if delay.get("channel") == name:
@@ -375,11 +375,11 @@ def _recorded(bench, motion, random):
             values = np.interp(time - delay["delay"], time, values, left=0.0)
         gain = bench.hidden.get("sensor_gain", {})
         values = values * (1 + gain["error"] if gain.get("channel") == name else 1.0)
-        found[name] = (_digitised(sosfilt(guard, values)[::keep], _NOISE[name], random), unit, quantity, RATE)
+        channels[name] = (_digitised(sosfilt(guard, values)[::keep], _NOISE[name], random), unit, quantity, RATE)
     slow = butter(2, 200.0, fs=1 / STEP, output="sos")
     cell = force[0] + sosfilt(slow, force - force[0])
-    found["load_cell"] = (_digitised(cell[::keep], _NOISE["load_cell"], random), "N", "force", RATE)
-    return found
+    channels["load_cell"] = (_digitised(cell[::keep], _NOISE["load_cell"], random), "N", "force", RATE)
+    return channels
 
 
 def _turned(bench, load, random, speed=0.25, rate=20.0):

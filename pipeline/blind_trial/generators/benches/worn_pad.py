@@ -76,7 +76,7 @@ def record(bench, seed):
 def drag(bench, pressure):
     """(friction (ways, speeds), worn pad, worn disc) of one drag."""
     pad, disc = bench.pad, bench.disc
-    values, step, film, found, press = bench.values, WAYS[-1] / bench.cycles, 0.0, [], None
+    values, step, film, rows, press = bench.values, WAYS[-1] / bench.cycles, 0.0, [], None
     third, share = bench.hidden.get("third_body"), bench.hidden.get("transfer", {}).get("share", 0.0)
     marks = {round(way / step) for way in WAYS}
     shift = round(SHIFT / PATCH * len(pad))
@@ -85,7 +85,7 @@ def drag(bench, pressure):
         if cycle in marks:
             gain = 1 + third["gain"] * film if third else 1.0
             met = [pressed(pad + np.roll(disc, k, 1), pressure, values["modulus"], press) for k in range(shift + 1)]
-            found.append([gain * np.mean([coefficient(m, values, speed) for m in met]) for speed in SPEEDS])
+            rows.append([gain * np.mean([coefficient(m, values, speed) for m in met]) for speed in SPEEDS])
         if cycle == bench.cycles:
             break
         press = pressed(pad + np.roll(disc, moved, 1), pressure, values["modulus"], press)
@@ -95,7 +95,7 @@ def drag(bench, pressure):
         disc = disc - np.roll(values["disc_wear"] * press * step - kept, -moved, 1)
         if third:
             film += step / third["distance"] * (pressure / third["pressure"] - film)
-    return np.array(found), pad, disc
+    return np.array(rows), pad, disc
 
 
 def pressed(height, mean, modulus, start=None):

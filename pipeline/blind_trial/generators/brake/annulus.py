@@ -73,27 +73,27 @@ def thick(disc, order, parts=_PARTS, degree=_DEGREE):
         radius = low + half * (1 + place)
         value, slope = across[0], across[1] / half
         fields = [np.kron(value, row) for row in np.eye(3)], [np.kron(slope, row) for row in np.eye(3)]
-        own = slice(3 * degree * k, 3 * degree * (k + 1) + 3)
+        block = slice(3 * degree * k, 3 * degree * (k + 1) + 3)
         strain, law = _bending(disc, h, order, radius, *(_turns(fields, part) for part in (0, 1)))
         share = half * weight * radius
-        stiffness[own, own] += _energy(strain, law, share)
+        stiffness[block, block] += _energy(strain, law, share)
         shear = fields[1][0] + fields[0][1], fields[0][2] - order / radius[:, None] * fields[0][0]
         rigid = SHEAR * disc.young / (2 + 2 * disc.poisson) * h
-        stiffness[own, own] += _energy(shear, rigid * np.eye(2), share)
-        mass[own, own] += _energy(fields[0], disc.density * h * np.diag((1, h**2 / 12, h**2 / 12)), share)
+        stiffness[block, block] += _energy(shear, rigid * np.eye(2), share)
+        mass[block, block] += _energy(fields[0], disc.density * h * np.diag((1, h**2 / 12, h**2 / 12)), share)
     kept = np.arange(3, size)
     if order == 0:
         kept = kept[kept % 3 < 2]
 
     def rows(radius):
-        found = np.zeros((2, len(radius), size))
+        values_at = np.zeros((2, len(radius), size))
         element = np.clip(np.searchsorted(edges, radius) - 1, 0, len(thickness) - 1)
         for j, (e, r) in enumerate(zip(element, radius, strict=True)):
-            own = slice(3 * degree * e, 3 * degree * (e + 1) + 3)
+            block = slice(3 * degree * e, 3 * degree * (e + 1) + 3)
             local = _lagrange(nodes, np.array([2 * (r - edges[e]) / (edges[e + 1] - edges[e]) - 1]))[0]
-            for found_row, what in zip(found[:, j], (0, 2), strict=True):
-                found_row[own] = np.kron(local[0], np.eye(3)[what])
-        return found[..., kept]
+            for found_row, what in zip(values_at[:, j], (0, 2), strict=True):
+                found_row[block] = np.kron(local[0], np.eye(3)[what])
+        return values_at[..., kept]
 
     return _waves(order, stiffness, mass, kept, rows)
 
@@ -108,17 +108,17 @@ def thin(disc, order, parts=2):
         radius = low + (high - low) / 2 * (1 + place)
         value, slope, curve = _hermite(radius, low, high)
         strain, law = _bending(disc, h, order, radius, *_following(order, radius, value, slope, curve))
-        share, own = (high - low) / 2 * weight * radius, slice(2 * k, 2 * k + 4)
-        stiffness[own, own] += _energy(strain, law, share)
-        mass[own, own] += _energy((value,), disc.density * h * np.eye(1), share)
+        share, block = (high - low) / 2 * weight * radius, slice(2 * k, 2 * k + 4)
+        stiffness[block, block] += _energy(strain, law, share)
+        mass[block, block] += _energy((value,), disc.density * h * np.eye(1), share)
     kept = np.arange(2, size)
 
     def rows(radius):
-        found = np.zeros((len(radius), size))
+        values_at = np.zeros((len(radius), size))
         element = np.clip(np.searchsorted(edges, radius) - 1, 0, len(thickness) - 1)
-        for row, e, r in zip(found, element, radius, strict=True):
+        for row, e, r in zip(values_at, element, radius, strict=True):
             row[2 * e:2 * e + 4] = _hermite(np.array([r]), *edges[e:e + 2])[0]
-        return found[:, kept], order / np.asarray(radius)[:, None] * found[:, kept]
+        return values_at[:, kept], order / np.asarray(radius)[:, None] * values_at[:, kept]
 
     return _waves(order, stiffness, mass, kept, rows)
 

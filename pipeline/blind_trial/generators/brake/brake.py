@@ -72,7 +72,7 @@ def record(brake, seed):
 
     ConvergenceError where the brake squeals, or where a lining lifts off.
     """
-    random, found = np.random.default_rng([seed, 1]), {}
+    random, runs = np.random.default_rng([seed, 1]), {}
     gain = dict(zip(CHANNELS, 1 + _GAIN * random.standard_normal(len(CHANNELS)), strict=True))
     for run in campaign():
         root, shape, kick = vibrations(brake, run)
@@ -81,11 +81,11 @@ def record(brake, seed):
                                    f"growth by {root.real.max():.3g} 1/s in {run.name}")
         for again in (1, 2):
             blow = _TAPS[run.speed > 0] * random.uniform(0.5, 1.5, len(brake.taps))
-            found[f"{run.name}_{again}"] = {
+            runs[f"{run.name}_{again}"] = {
                 "repeat_of": f"{run.name}_1" if again == 2 else "",
                 "conditions": {"press": (run.load, "N"), "speed": (run.speed, "rad/s")},
                 "channels": _recorded(brake, root, shape * (kick @ blow)[:, None], gain, random)}
-    return found
+    return runs
 
 
 def _recorded(brake, root, amplitude, gain, random):
@@ -94,18 +94,18 @@ def _recorded(brake, root, amplitude, gain, random):
     waves = np.exp(np.outer(root, time))
     guard = butter(4, _CORNER, fs=RATE * _FINE, output="sos")
     late, wrong = (brake.hidden.get(name, {}) for name in ("sensor_delay", "sensor_gain"))
-    found = {}
-    for (name, quantity), own in zip(CHANNELS.items(), amplitude.T, strict=True):
-        values = gain[name] * ((root ** (quantity == "acceleration") * own) @ waves).real
+    channels = {}
+    for (name, quantity), amplitudes in zip(CHANNELS.items(), amplitude.T, strict=True):
+        values = gain[name] * ((root ** (quantity == "acceleration") * amplitudes) @ waves).real
         if late.get("channel") == name:
             values = np.interp(time - late["delay"], time, values, left=0.0)
         if wrong.get("channel") == name:
             values = (1 + wrong["error"]) * values
         values = sosfilt(guard, values)[::_FINE]
         values = values + _NOISE[quantity] * random.standard_normal(len(values))
-        found[name] = (converted(values, 1.25 * abs(values).max()).astype(np.float32), _UNIT[quantity], quantity, RATE,
-                       "response")
-    return found
+        channels[name] = (converted(values, 1.25 * abs(values).max()).astype(np.float32), _UNIT[quantity], quantity,
+                          RATE, "response")
+    return channels
 
 
 def vibrations(brake, run):

@@ -57,9 +57,9 @@ def write(draw, folder):
     if draw.kind == "below":
         hidden = _faint(seen, hidden, float(random.uniform(*BELOW)))
     case_files.leave(folder, nominal(shape), brake.record(built(values, shape, hidden=hidden), draw.seed))
-    found = {"class": draw.kind, "system": draw.system, "seed": draw.seed, "parameters": _known(values, shape),
-             "effects": [_told(*one) for one in hidden.items()], "wrong": _FAR_OFF.get(far, "")}
-    return {**found, "left": seen.left(hidden)} if seen else found
+    truth = {"class": draw.kind, "system": draw.system, "seed": draw.seed, "parameters": _known(values, shape),
+             "effects": [_told(*effect) for effect in hidden.items()], "wrong": _FAR_OFF.get(far, "")}
+    return {**truth, "left": seen.left(hidden)} if seen else truth
 
 
 def hides():
@@ -76,7 +76,7 @@ class Seen:
     def __init__(self, values, shape):
         low, high = (2 * np.pi * edge for edge in BAND)
         self.values, self.shape = values, shape
-        self.roots = [one[(one.imag > low) & (one.imag < high)] for one in _roots(built(values, shape))]
+        self.roots = [r[(r.imag > low) & (r.imag < high)] for r in _roots(built(values, shape))]
         nudged = [(SPREAD[name], built({**values, name: values[name] * (1 + _STEP)}, shape)) for name in _OWN]
         nudged += [(spread, built(values, shape, {(what.split("_")[-1], order): 1 + _STEP}))
                    for what, spread in WAVE_SPREAD.items() for order in range(len(SEEN) + len(STIFF))]
@@ -91,30 +91,30 @@ class Seen:
     def _change(self, bench):
         """Changes (2 p,) of the poles of all runs in standard deviations, all growth rates first."""
         there = np.concatenate(self.roots)
-        found = (np.concatenate(_followed(self.roots, bench)) - there) / (RESOLUTION * abs(there))
-        return np.concatenate((found.real, found.imag))
+        change = (np.concatenate(_followed(self.roots, bench)) - there) / (RESOLUTION * abs(there))
+        return np.concatenate((change.real, change.imag))
 
 
 def _roots(bench):
     """[(p,)] roots in rad/s of every run that turn."""
-    found = [np.linalg.eigvals(brake.small_motion(bench, run)) for run in brake.campaign()]
-    return [one[one.imag > 0] for one in found]
+    spectra = [np.linalg.eigvals(brake.small_motion(bench, run)) for run in brake.campaign()]
+    return [roots[roots.imag > 0] for roots in spectra]
 
 
 def _followed(roots, bench):
     """[(p,)] of every run: the roots of a bench that come nearest to ``roots`` [(p,)], each once."""
-    return [other[linear_sum_assignment(abs(np.subtract.outer(one, other)))[1]]
-            for one, other in zip(roots, _roots(bench), strict=True)]
+    return [other[linear_sum_assignment(abs(np.subtract.outer(previous, other)))[1]]
+            for previous, other in zip(roots, _roots(bench), strict=True)]
 
 
 def _faint(seen, hidden, wanted):
     """What is hidden, so small that other values leave about ``wanted`` of it. ConvergenceError where none is found."""
-    (name, own), = hidden.items()
+    (name, parameters), = hidden.items()
     for _ in range(_ROUNDS):
-        now = seen.left({name: own})
+        now = seen.left({name: parameters})
         if abs(np.log(now / wanted)) < _NEAR:
-            return {name: own}
-        own = {**own, _SIZE[name]: own[_SIZE[name]] * float(np.clip(wanted / now, 0.05, 2.0))}
+            return {name: parameters}
+        parameters = {**parameters, _SIZE[name]: parameters[_SIZE[name]] * float(np.clip(wanted / now, 0.05, 2.0))}
     raise ConvergenceError("practice brake", f"a size that leaves {wanted:.2g}", f"{now:.2g} at last")
 
 
@@ -125,15 +125,15 @@ def _factor(random, spread):
 def _sizes(random, name):
     """Values of what is hidden, and where it is."""
     ends = {**brake.HIDDEN, **brake.FOREIGN, **brake.DECOYS}[name]
-    found = {key: float(random.uniform(*pair)) for key, pair in ends.items()}
+    sizes = {key: float(random.uniform(*pair)) for key, pair in ends.items()}
     where = {"doublet_split": ("order", SPLIT), "attached_mass": ("sensor", (0, 1, 2)),
              "added_stiffness": ("sensor", (0, 1, 2)), "resonant_clip": ("sensor", (0, 1, 2, 3, 5)),
              "moving_base": ("pad", (0, 1))}
     where |= dict.fromkeys(brake.DECOYS, ("channel", ("laser_outer", "accelerometer")))
     if name in where:
         key, options = where[name]
-        found[key] = random.choice(options).item()
-    return found
+        sizes[key] = random.choice(options).item()
+    return sizes
 
 
 def _told(name, values):
@@ -159,7 +159,7 @@ def _known(values, shape):
     """{name in the case: true SI value, or factor} of what the reduced model means as the bench does."""
     plate = drawn(shape)
     true = replace(plate, young=values["young"], density=values["density"])
-    found = {f"bodies.{word}.frequency": float(thick(true, order).frequency[0] / thin(plate, order).frequency[0])
+    factors = {f"bodies.{word}.frequency": float(thick(true, order).frequency[0] / thin(plate, order).frequency[0])
              for order, word in enumerate(SEEN)}
-    return found | {f"joints.{name}.stiffness": values[name] for name in JOINTS} | {
+    return factors | {f"joints.{name}.stiffness": values[name] for name in JOINTS} | {
         "friction": values["friction"] / NOMINAL["friction"]}

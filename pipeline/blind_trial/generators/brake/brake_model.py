@@ -61,18 +61,18 @@ def nominal(shape):
 
 def _beliefs():
     """Section diagnosis.parameters."""
-    found = {f"bodies.{word}.{what}": spread for what, spread in WAVE_SPREAD.items() for word in SEEN}
-    found |= {f"bodies.{word}.frequency": WAVE_SPREAD["frequency"]
+    spreads = {f"bodies.{word}.{what}": spread for what, spread in WAVE_SPREAD.items() for word in SEEN}
+    spreads |= {f"bodies.{word}.frequency": WAVE_SPREAD["frequency"]
               for word in (*STIFF, *(f"{circle}_circle" for circle in CIRCLES))}
-    found |= {f"joints.{name}.stiffness": SPREAD[name] for name in JOINTS}
-    found |= {"contact.stiffness": SPREAD["contact"], "friction.stiffness": SPREAD["shear"],
+    spreads |= {f"joints.{name}.stiffness": SPREAD[name] for name in JOINTS}
+    spreads |= {"contact.stiffness": SPREAD["contact"], "friction.stiffness": SPREAD["shear"],
               "friction": SPREAD["friction"]}
-    return {name: {"spread": spread} for name, spread in found.items()}
+    return {name: {"spread": spread} for name, spread in spreads.items()}
 
 
 def _waves(shape):
     """{body: (order, mass kg, stiffness N/m, at)} of the disc; ``at(r)`` -> (w, p_t) at a radius, w = 1 at the rim."""
-    found, plate = {}, drawn(shape)
+    entries, plate = {}, drawn(shape)
     for order, word in enumerate(WORDS):
         waves = thin(plate, order)
         rim = waves.at(shape[2])[0][0]
@@ -80,8 +80,8 @@ def _waves(shape):
             def at(radius, waves=waves, k=k, size=rim[k]):
                 return tuple(float(part[0, k] / size) for part in waves.at(radius))
 
-            found[name] = order, rim[k] ** -2, waves.squared[k] * rim[k] ** -2, at
-    return found
+            entries[name] = order, rim[k] ** -2, waves.squared[k] * rim[k] ** -2, at
+    return entries
 
 
 def _masses(waves):
@@ -94,15 +94,16 @@ def _masses(waves):
 
 def _springs(waves):
     """Springs of the waves and of the joints."""
-    found, value = {}, brake_parts.NOMINAL
+    springs, value = {}, brake_parts.NOMINAL
     for name, (order, mass, stiffness, _) in waves.items():
         for axis in ("x", "y")[:1 + (order > 0)]:
-            found[f"{name}_{axis}"] = _spring({f"{name}.{axis}": 1}, stiffness,
+            springs[f"{name}_{axis}"] = _spring({f"{name}.{axis}": 1}, stiffness,
                                               2 * brake_parts.LOSS * np.sqrt(mass * stiffness))
     for pad in brake_parts.PADS:
-        found[f"abutment_{pad}"] = _spring({f"pad_{pad}.x": 1}, value[f"abutment_{pad}"], brake_parts.ABUTMENT_LOSS)
-        found[f"clip_{pad}"] = _spring({f"pad_{pad}.tilt_y": "1 m"}, *brake_parts.CLIP)
-    return {**found, "fingers": _spring({"pad_outer.z": 1, "caliper.z": -1}, value["fingers"], brake_parts.FINGER_LOSS),
+        springs[f"abutment_{pad}"] = _spring({f"pad_{pad}.x": 1}, value[f"abutment_{pad}"], brake_parts.ABUTMENT_LOSS)
+        springs[f"clip_{pad}"] = _spring({f"pad_{pad}.tilt_y": "1 m"}, *brake_parts.CLIP)
+    return {**springs, "fingers": _spring({"pad_outer.z": 1, "caliper.z": -1}, value["fingers"],
+                                          brake_parts.FINGER_LOSS),
             "seal": _spring({"pad_inner.z": 1, "caliper.z": 1}, *brake_parts.SEAL),
             "guide": _spring({"caliper.z": 1}, *brake_parts.GUIDE)}
 
@@ -121,7 +122,7 @@ def _contacts(waves, shape):
     outer = shape[2] - brake_parts.INSET
     inner = outer - brake_parts.WIDTH
     middle, reach = (outer**2 + inner**2) / 2, (outer**2 - inner**2) / (2 * 3**0.5)
-    found = {}
+    contacts = {}
     for pad, side in zip(brake_parts.PADS, (1, -1), strict=True):
         for k, angle in enumerate(brake_parts.HALF_ANGLE * np.array(_NODES)):
             for m, radius in enumerate(np.sqrt((middle - reach, middle + reach))):
@@ -132,10 +133,10 @@ def _contacts(waves, shape):
                     for axis, wave, turned in _around(order, angle):
                         normal[f"{name}.{axis}"] = -side * deflection * wave
                         tangent[f"{name}.{axis}"] = -side * shape[4] / 2 * turn * turned
-                found[f"{pad}_{k}{m}"] = {"normal": normal, "tangent": tangent, "lever": f"{radius:.6g} m",
+                contacts[f"{pad}_{k}{m}"] = {"normal": normal, "tangent": tangent, "lever": f"{radius:.6g} m",
                                           "angle": f"{angle:.6g} rad",
                                           "stiffness": _share_of(brake_parts.NOMINAL["contact"])}
-    return found
+    return contacts
 
 
 def _around(order, angle):
@@ -146,9 +147,9 @@ def _around(order, angle):
 
 def _sensors(waves, shape):
     radius = shape[2] - brake_parts.LASER_INSET
-    found = {name: {"along": {f"{word}.{axis}": at(radius)[0] * wave for word, (order, _, _, at) in waves.items()
+    sensors = {name: {"along": {f"{word}.{axis}": at(radius)[0] * wave for word, (order, _, _, at) in waves.items()
                               for axis, wave, _ in _around(order, angle)}}
              for name, angle in zip(POINTS, brake_parts.LASERS, strict=False)}
     along, opening, pitch = brake_parts.ON_PAD
-    return {**found, **{name: {"along": {f"pad_{name}.x": along, f"pad_{name}.z": opening,
+    return {**sensors, **{name: {"along": {f"pad_{name}.x": along, f"pad_{name}.z": opening,
                                          f"pad_{name}.tilt_y": f"{pitch:g} m"}} for name in POINTS[3:]}}

@@ -96,7 +96,7 @@ def built(values, shape, scale=None, hidden=None):
     ``scale`` {(frequency, mass or damping, order): factor} of the first wave of an order.
     """
     families = _families(Disc(*shape, values["young"], POISSON, values["density"]), values, scale or {})
-    squared, loss = (np.concatenate([getattr(one, name) for one in families]) for name in ("squared", "loss"))
+    squared, loss = (np.concatenate([getattr(family, name) for family in families]) for name in ("squared", "loss"))
     disc, laser = len(squared), shape[2] - LASER_INSET
     pads = np.zeros((2, disc + 7))
     pads[0, disc:disc + 3] = pads[1, disc + 3:disc + 6] = ON_PAD
@@ -115,7 +115,7 @@ def built(values, shape, scale=None, hidden=None):
 
 def _families(plate, values, scale):
     """[_Family] of the cosines and sines of all orders."""
-    found = []
+    families = []
     for order in range(ORDERS + 1):
         waves = _thick(plate, order)
         waves = waves.first(max(1, int(np.sum(waves.frequency < HIGHEST))))
@@ -125,8 +125,8 @@ def _families(plate, values, scale):
         size[0] /= np.sqrt(scale.get(("mass", order), 1.0))
         loss[0] *= scale.get(("damping", order), 1.0)
         around = (np.cos, np.sin), (np.sin, lambda angle: -np.cos(angle))
-        found += [_Family(waves, squared, loss, size, *pair) for pair in around[:1 + (order > 0)]]
-    return found
+        families += [_Family(waves, squared, loss, size, *pair) for pair in around[:1 + (order > 0)]]
+    return families
 
 
 @lru_cache(maxsize=64)
@@ -138,19 +138,19 @@ def _seen(families, angle, radius):
     """(w, p_t), each (points, modes), of the disc at points of these angles and radii."""
     rings, ring = np.unique(radius, return_inverse=True)
     deflection, turn = [], []
-    for one in families:
-        w, p = (part[ring] * one.size for part in one.waves.at(rings))
-        deflection.append(w * one.wave(one.waves.order * angle)[:, None])
-        turn.append(p * one.turned(one.waves.order * angle)[:, None])
+    for family in families:
+        w, p = (part[ring] * family.size for part in family.waves.at(rings))
+        deflection.append(w * family.wave(family.waves.order * angle)[:, None])
+        turn.append(p * family.turned(family.waves.order * angle)[:, None])
     return np.hstack(deflection), np.hstack(turn)
 
 
 def _linings(families, shape, disc):
     """(normal, tangent, share, radius) of the points of the outer pad, then of the inner one."""
-    (along, one), (across, other) = (legendre.leggauss(count) for count in POINTS)
+    (along, weight_along), (across, other) = (legendre.leggauss(count) for count in POINTS)
     radius = shape[2] - INSET - WIDTH / 2 * (1 - across)
     t, r = (grid.ravel() for grid in np.meshgrid(HALF_ANGLE * along, radius, indexing="ij"))
-    share = np.outer(one, other * radius).ravel()
+    share = np.outer(weight_along, other * radius).ravel()
     deflection, turn = _seen(families, t, r)
     normal, tangent = np.zeros((2, 2, len(t), disc + 7))
     for k, side in enumerate((1, -1)):
@@ -187,15 +187,15 @@ def _with_hidden(brake, families):
 
 def _parting(split, families, size):
     """(n, n) N/m of a plate whose stiffness varies as share cos 2 n (t - angle), n the order that it parts."""
-    first = np.cumsum([0, *(len(one.squared) for one in families)])
-    own = [start + np.arange(len(one.squared)) for start, one in zip(first, families, strict=False)
-           if one.waves.order == split["order"]]
-    squared = next(one.squared for one in families if one.waves.order == split["order"])
+    first = np.cumsum([0, *(len(family.squared) for family in families)])
+    indices = [start + np.arange(len(family.squared)) for start, family in zip(first, families, strict=False)
+           if family.waves.order == split["order"]]
+    squared = next(family.squared for family in families if family.waves.order == split["order"])
     a, b = (split["share"] * wave(2 * split["angle"]) * squared for wave in (np.cos, np.sin))
-    found = np.zeros((size, size))
+    matrix = np.zeros((size, size))
     for rows, columns, part in ((0, 0, a), (1, 1, -a), (0, 1, b), (1, 0, b)):
-        found[own[rows], own[columns]] = part
-    return found
+        matrix[indices[rows], indices[columns]] = part
+    return matrix
 
 
 def _on_base(brake, pad, stiffness, frequency):

@@ -118,8 +118,8 @@ class Refitted(Explained):
 
     def _slopes(self, u, seen):
         step = _WIDER if self.costly else _STEP
-        found = np.array([(np.array(self.model(u + step * one)) - seen) / step for one in np.eye(self.size)])
-        return np.where(np.isfinite(found), found, 0.0)
+        slopes = np.array([(np.array(self.model(u + step * unit)) - seen) / step for unit in np.eye(self.size)])
+        return np.where(np.isfinite(slopes), slopes, 0.0)
 
 
 def explained(seen, values, spread, gain_spread, step=_STEP):
@@ -128,12 +128,12 @@ def explained(seen, values, spread, gain_spread, step=_STEP):
     ``seen(values)`` -> [(sensor, n)] is what sensors show; ``spread``: standard deviation of the logarithm of each
     value, ``gain_spread`` of the gain of each sensor.
     """
-    base, *others = (np.array(seen(one)) for one in values)
-    found = [spread * (other - base) / step for other in others]
+    base, *others = (np.array(seen(value)) for value in values)
+    directions = [spread * (other - base) / step for other in others]
     for k in range(base.shape[1]):
-        found.append(np.zeros_like(base))
-        found[-1][:, k] = gain_spread * base[:, k]
-    return Explained(found)
+        directions.append(np.zeros_like(base))
+        directions[-1][:, k] = gain_spread * base[:, k]
+    return Explained(directions)
 
 
 class Values:
@@ -151,10 +151,10 @@ class Values:
         """(Rig, factors (sensor,) of the gains)."""
         whole, masses, links = np.zeros(len(self.free)), len(self.rig.mass), len(self.rig.links)
         whole[self.free] = u
-        own = np.exp(self.spread * whole[:masses + 2 * links])
-        rig = Rig(tuple(self.rig.mass * own[:masses]), tuple(
+        factor = np.exp(self.spread * whole[:masses + 2 * links])
+        rig = Rig(tuple(self.rig.mass * factor[:masses]), tuple(
             replace(link, stiffness=link.stiffness * k, damping=link.damping * c) for link, (k, c) in zip(
-                self.rig.links, own[masses:].reshape(links, 2), strict=True)), self.rig.pushed)
+                self.rig.links, factor[masses:].reshape(links, 2), strict=True)), self.rig.pushed)
         return rig, 1 + self.gain_spread * whole[masses + 2 * links:]
 
 
@@ -170,9 +170,9 @@ def of_rig(recorder, values, runs):
 
 def whitened(samples, noise, colour):
     """Samples (..., sensor, n) over first-order autoregressive noise of standard deviation (sensor,)."""
-    own = samples / np.asarray(noise)[:, None]
-    later = (own[..., 1:] - colour * own[..., :-1]) / np.sqrt(1 - colour**2)
-    return np.concatenate((own[..., :1], later), axis=-1)
+    scaled = samples / np.asarray(noise)[:, None]
+    later = (scaled[..., 1:] - colour * scaled[..., :-1]) / np.sqrt(1 - colour**2)
+    return np.concatenate((scaled[..., :1], later), axis=-1)
 
 
 def nudged(rig, step=_STEP):

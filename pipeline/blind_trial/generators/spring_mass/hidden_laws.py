@@ -152,8 +152,9 @@ def _base(spot, size):
     base, wall = len(spot.rig.mass), spot.link.stiffness / size
     links = list(spot.rig.links)
     links[spot.index] = replace(spot.link, far=base)
-    own = spot.angular * spot.between(0, 1.2, 2.0)
-    return World(replace(spot.rig, mass=(*spot.rig.mass, wall / own**2), links=(*links, Link(base, -1, wall, 0.0))))
+    frequency = spot.angular * spot.between(0, 1.2, 2.0)
+    mass = (*spot.rig.mass, wall / frequency**2)
+    return World(replace(spot.rig, mass=mass, links=(*links, Link(base, -1, wall, 0.0))))
 
 
 def _carried(spot, size):

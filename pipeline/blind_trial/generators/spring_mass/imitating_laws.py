@@ -48,18 +48,19 @@ class Rival:
 
 def rivals(case):
     """[Rival] of the one piece of physics that a Case hides, nearest first."""
-    one, hiding = case.planted[0], case.hiding
-    without, seen, near = hiding.without(hiding.trained), _shown(hiding.recorder, hiding.truth, one, hiding.trained), {}
-    for law in _laws(hiding, one):
+    hidden, hiding = case.planted[0], case.hiding
+    without, near = hiding.without(hiding.trained), {}
+    seen = _shown(hiding.recorder, hiding.truth, hidden, hiding.trained)
+    for law in _laws(hiding, hidden):
         change = difference(_shown(hiding.recorder, hiding.truth, law, hiding.trained), without)
         asked = difference(seen, without), case.noise, case.colour, [change]
         left, key = hiding.explained.left(*asked), (law.piece.name, law.place)
         if left < near.get(key, (np.inf,))[0]:
             near[key] = left, replace(law, size=float(hiding.explained.taken(*asked)[1][0]) * law.size)
-    order = sorted(near.values(), key=lambda found: found[0])
+    order = sorted(near.values(), key=lambda pair: pair[0])
     refitted = [(min(left, _refitted(case, law, seen)) if k < _REFITTED and left < _WORTH * APART else left, law)
                 for k, (left, law) in enumerate(order)]
-    return [Rival(law.piece.name, law.place, float(left)) for left, law in sorted(refitted, key=lambda found: found[0])]
+    return [Rival(law.piece.name, law.place, float(left)) for left, law in sorted(refitted, key=lambda pair: pair[0])]
 
 
 def beside_the_other(case):
@@ -72,30 +73,30 @@ def beside_the_other(case):
                  for left, other in zip(case.left, case.planted[::-1], strict=True))
 
 
-def _laws(hiding, one):
-    """Planted laws that change motion about as much as ``one`` does, where there is such a size."""
-    masses, wanted = len(hiding.truth.mass), hiding.change(one)
-    found = []
-    for piece in map(HIDDEN.get, (*KIN.get(one.piece.name, ()), *[one.piece.name] * one.piece.known)):
-        itself = piece is one.piece
-        there = [(at, place) for at, place in places(piece, masses) if (place != one.place) == itself]
+def _laws(hiding, hidden):
+    """Planted laws that change motion about as much as ``hidden`` does, where there is such a size."""
+    masses, wanted = len(hiding.truth.mass), hiding.change(hidden)
+    laws = []
+    for piece in map(HIDDEN.get, (*KIN.get(hidden.piece.name, ()), *[hidden.piece.name] * hidden.piece.known)):
+        itself = piece is hidden.piece
+        there = [(at, place) for at, place in places(piece, masses) if (place != hidden.place) == itself]
         for at, place in there:
-            spot = hiding.spot(piece, at, one.spot.shape)
+            spot = hiding.spot(piece, at, hidden.spot.shape)
             for speed in _SPEEDS if piece.timed else (1.0,):
                 start = Planted(piece, place, replace(spot, speed=speed * spot.speed))
                 try:
-                    found.append(sized(start, hiding.change, wanted))
+                    laws.append(sized(start, hiding.change, wanted))
                 except BrakechainError:
                     continue
-    return found
+    return laws
 
 
 def _refitted(case, law, seen):
     """What a law leaves of the motion ``seen`` that it is fitted to, together with the values of the rig; where that is
     less than APART, it may be still less."""
     hiding = case.hiding
-    own = of_law(hiding.recorder, hiding.values, law, hiding.trained)
-    return own.left(difference(seen, own.at_rest), case.noise, case.colour, enough=0.9 * APART)
+    refit = of_law(hiding.recorder, hiding.values, law, hiding.trained)
+    return refit.left(difference(seen, refit.at_rest), case.noise, case.colour, enough=0.9 * APART)
 
 
 def of_law(recorder, values, law, runs):

@@ -49,7 +49,7 @@ class Recorder:
         count = len(self.runs[0])
         time, fine = np.arange(count) / self.rate, np.arange(PARTS * (count - 1) + 1) / (self.rate * PARTS)
         whole = [self._chain(gain, (chains or {}).get(k, sensors.Chain())) for k, gain in enumerate(self.gains)]
-        return [np.array([chain.shown(time, fine, one[k]) for k, chain in enumerate(whole)]) for one in motion]
+        return [np.array([chain.shown(time, fine, run[k]) for k, chain in enumerate(whole)]) for run in motion]
 
     def _chain(self, gain, own):
         return replace(own, delay=self.delay + own.delay, gain=gain * own.gain)
@@ -59,8 +59,8 @@ def built(rig: Rig, planted):
     """(World, {channel: Chain}) of a rig with all that is ``planted``."""
     chains = {p.spot.index: p.piece.build(p.spot, p.size) for p in planted if p.piece.place == "channel"}
     for name in _STRUCTURE:
-        for one in (p for p in planted if p.piece.name == name):
-            rig = one.piece.build(replace(one.spot, rig=rig), one.size).rig
+        for piece in (p for p in planted if p.piece.name == name):
+            rig = piece.piece.build(replace(piece.spot, rig=rig), piece.size).rig
     worlds = [p.piece.build(p.spot, p.size) for p in planted
               if p.piece.place != "channel" and p.piece.name not in _STRUCTURE]
     laws = tuple(_wider(law, len(rig.mass)) for world in worlds for law in world.laws)
@@ -86,13 +86,13 @@ def sized(planted, measure, wanted):
     """
     size, (low, high) = 0.1, _ENDS
     for _ in range(_TRIALS):
-        found = replace(planted, size=size)
+        candidate = replace(planted, size=size)
         try:
-            change = measure(found)
+            change = measure(candidate)
         except ConvergenceError:
             change = np.inf
         if abs(np.log(max(change, 1e-12) / wanted)) < _NEAR:
-            return found
+            return candidate
         low, high = (size, high) if change < wanted else (low, size)
         guess = size * np.clip(wanted / max(change, 1e-12), 0.01, 5.0)
         size = float(guess if low < guess < high else np.sqrt(low * high))

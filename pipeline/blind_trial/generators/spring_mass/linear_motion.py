@@ -22,12 +22,12 @@ def coarse(rig, force, interval, corner):
     states, reach = _states(rig, force, interval, corner), np.array([[-2 * np.pi * corner]])
     instants = np.arange(len(states)) / PARTS
     kept, now, ramp = _held(reach, -reach[0], interval / PARTS)
-    found = []
+    displacements = []
     for place in states[:, :len(rig.mass)].T:
         straight = np.interp(instants, instants[::PARTS], place[::PARTS])
         fed = now * straight[:-1] + ramp * np.diff(straight)
-        found.append(lfilter([1.0], [1.0, -kept.item()], np.append(0.0, fed)))
-    return np.array(found)
+        displacements.append(lfilter([1.0], [1.0, -kept.item()], np.append(0.0, fed)))
+    return np.array(displacements)
 
 
 def linear_world(world, forces, interval, corner):
@@ -38,7 +38,7 @@ def linear_world(world, forces, interval, corner):
     if world.jump or world.mass:
         return None
     states = 3 * size + sum(law.states for law in world.laws)
-    matrix = np.array([still(0.0, one) for one in np.eye(states)]).T
+    matrix = np.array([still(0.0, direction) for direction in np.eye(states)]).T
     for time, state in zip(_INSTANTS, np.random.default_rng(0).standard_normal((len(_INSTANTS), states)), strict=True):
         if not np.allclose(still(time, state), matrix @ state, rtol=1e-9, atol=1e-9 * abs(matrix @ state).max()):
             return None
@@ -55,8 +55,8 @@ def driven(matrix, push, force, interval):
     factors, shapes = np.linalg.eig(kept)
     if np.linalg.cond(shapes) > _ALIKE:
         return _marched(kept, pushed)
-    own = np.vstack((np.zeros(size), pushed @ np.linalg.inv(shapes).T))
-    return np.real(np.array([lfilter([1.0], [1.0, -factor], g) for factor, g in zip(factors, own.T, strict=True)]).T
+    modal = np.vstack((np.zeros(size), pushed @ np.linalg.inv(shapes).T))
+    return np.real(np.array([lfilter([1.0], [1.0, -factor], g) for factor, g in zip(factors, modal.T, strict=True)]).T
                    @ shapes.T)
 
 
@@ -66,9 +66,9 @@ def _states(rig, force, interval, corner):
     inverse = np.diag(1 / np.array(rig.mass))
     stiffness, damping = (rows.T @ np.diag([getattr(link, what) for link in rig.links]) @ rows
                           for what in ("stiffness", "damping"))
-    none, one = np.zeros((size, size)), np.eye(size)
-    matrix = np.block([[none, one, none], [-inverse @ stiffness, -inverse @ damping, none],
-                       [reach * one, none, -reach * one]])
+    none, unit = np.zeros((size, size)), np.eye(size)
+    matrix = np.block([[none, unit, none], [-inverse @ stiffness, -inverse @ damping, none],
+                       [reach * unit, none, -reach * unit]])
     push = np.concatenate((np.zeros(size), inverse[rig.pushed], np.zeros(size)))
     return driven(matrix, push, force, interval)
 
@@ -86,5 +86,5 @@ def _held(rates, push, step):
     size = len(push)
     whole = np.zeros((size + 2, size + 2))
     whole[:size, :size], whole[:size, size], whole[size, size + 1] = rates * step, push * step, 1.0
-    found = expm(whole)
-    return found[:size, :size], found[:size, size], found[:size, size + 1]
+    transition = expm(whole)
+    return transition[:size, :size], transition[:size, size], transition[:size, size + 1]

@@ -44,9 +44,9 @@ def moved(world, force, interval, corner):
     ``corner`` Hz of the first-order filters. Raises ConvergenceError.
     """
     size = len(world.rig.mass)
-    own = interval * np.arange(len(force))
-    time = np.linspace(0, own[-1], PARTS * (len(force) - 1) + 1)
-    rate = rates(world, own, np.asarray(force, float), 2 * np.pi * corner)
+    grid = interval * np.arange(len(force))
+    time = np.linspace(0, grid[-1], PARTS * (len(force) - 1) + 1)
+    rate = rates(world, grid, np.asarray(force, float), 2 * np.pi * corner)
     start = np.zeros(3 * size + sum(law.states for law in world.laws))
     if world.jump is None:
         return _integrated(rate, start, time, interval)[:, 2 * size:3 * size].T
@@ -61,15 +61,15 @@ def moved(world, force, interval, corner):
 def _integrated(rate, start, time, interval):
     with np.errstate(all="ignore"), warnings.catch_warnings():
         warnings.simplefilter("ignore", ODEintWarning)
-        states, told = odeint(rate, start, time, tfirst=True, rtol=RELATIVE, atol=ABSOLUTE, hmax=interval,
+        states, information = odeint(rate, start, time, tfirst=True, rtol=RELATIVE, atol=ABSOLUTE, hmax=interval,
                               mxstep=5000, full_output=True)
-    if told["message"] != "Integration successful." or not np.isfinite(states).all():
-        raise ConvergenceError("motion of a trial", "an integration that succeeds", told["message"])
+    if information["message"] != "Integration successful." or not np.isfinite(states).all():
+        raise ConvergenceError("motion of a trial", "an integration that succeeds", information["message"])
     return states
 
 
-def rates(world, own, pushed, reach):
-    """The right-hand side ``rate(t, state)`` under forces ``pushed`` at instants ``own``, filters of ``reach`` rad/s.
+def rates(world, times, pushed, reach):
+    """The right-hand side ``rate(t, state)`` under forces ``pushed`` at instants ``times``, filters of ``reach`` rad/s.
 
     States are displacements, velocities, filtered displacements, then those of laws.
     """
@@ -80,7 +80,7 @@ def rates(world, own, pushed, reach):
 
     def rate(time, state):
         place, speed = state[:size], state[size:2 * size]
-        total = push * np.interp(time, own, pushed) - stiffness @ place - damping @ speed
+        total = push * np.interp(time, times, pushed) - stiffness @ place - damping @ speed
         change, first = np.empty(len(state)), 3 * size
         for law in world.laws:
             e, v, z = law.row @ place, law.row @ speed, state[first:first + law.states]

@@ -61,13 +61,13 @@ class Hiding:
             return sized(start, self._left, start.spot.between(2, *BELOW))
         return sized(start, self.change, wanted)
 
-    def left(self, one, planted, seen, noise):
-        """Standard deviations of ``noise`` that values of the linear rig leave of the change by ``one`` of what is
+    def left(self, piece, planted, seen, noise):
+        """Standard deviations of ``noise`` that values of the linear rig leave of the change by ``piece`` of what is
         planted and ``seen``: too many, where the others are strong and bend what values do.
 
         Others that are planted may take part.
         """
-        others = tuple(p for p in planted if p is not one)
+        others = tuple(p for p in planted if p is not piece)
         before = self.shown(others)
         beside = [difference(before, self.without(self.trained))] * bool(others)
         return self.explained.left(difference(seen[:self.trained], before), noise, self.colour, beside)
@@ -80,9 +80,9 @@ class Hiding:
         """[(sensor, n)] of the first ``runs`` of the rig alone."""
         return self.recorder.seen(self.bare[:runs])
 
-    def change(self, one):
+    def change(self, piece):
         """Relative change of the first run by a Planted alone."""
-        return change_of(shown(self.recorder, self.truth, (one,), self.bare, slice(1)), self.without(1))
+        return change_of(shown(self.recorder, self.truth, (piece,), self.bare, slice(1)), self.without(1))
 
     def spot(self, piece, index, shape):
         """The Spot of a Hidden at the place of this index, of a drawn ``shape`` (3,)."""
@@ -94,9 +94,10 @@ class Hiding:
             min(index, len(self.truth.links) - 1)].stiffness * length
         return Spot(self.truth, index, length, speed, force, len(self.recorder.runs[0]) / self.recorder.rate, shape)
 
-    def _left(self, one):
+    def _left(self, piece):
         without = self.without(self.trained)
-        return self.explained.left(difference(self.shown((one,)), without), noise_of(without, self.level), self.colour)
+        change = difference(self.shown((piece,)), without)
+        return self.explained.left(change, noise_of(without, self.level), self.colour)
 
 
 def difference(shown_now, before):

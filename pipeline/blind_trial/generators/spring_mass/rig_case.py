@@ -87,7 +87,7 @@ def made(seed, hidden="", place=0, level=0.01, masses=2, colour=0.0, change=None
                     for name, at, (shape, drawn) in zip(names, indices, draws, strict=False))
     seen = shown(recorder, truth, planted, bare)
     noise = noise_of(seen, level)
-    left = tuple(hiding.left(one, planted, seen, noise) for one in planted)
+    left = tuple(hiding.left(piece, planted, seen, noise) for piece in planted)
     if kind == "solver":
         left = (_of_solver(hiding, seen, noise),)
     belief = rig.believed(random, truth, exact)
@@ -101,15 +101,15 @@ def made(seed, hidden="", place=0, level=0.01, masses=2, colour=0.0, change=None
 
 def _reach(seen, without):
     """Largest peak of a sensor in all runs over that in those ``without`` hidden physics."""
-    far, near = (np.max(np.abs(one), axis=(0, 2)) for one in (seen, without))
+    far, near = (np.max(np.abs(motion), axis=(0, 2)) for motion in (seen, without))
     return float((far / near).max())
 
 
 def _exact(names, indices, masses):
     """Names of values that are stated exactly, as what is hidden would else be a wrong value of them."""
-    found = [(HIDDEN[name], place) for name, place in zip(names, indices, strict=False)]
+    pieces = [(HIDDEN[name], place) for name, place in zip(names, indices, strict=False)]
     return tuple(_EXACT[piece.exact].format(_number(piece, placed(piece, at, masses)[0], masses))
-                 for piece, at in found if piece.exact)
+                 for piece, at in pieces if piece.exact)
 
 
 def _number(piece, index, masses):
@@ -145,8 +145,8 @@ def kind_of(names, pieces=HIDDEN):
 def _of_solver(hiding, seen, noise):
     """What values leave of the error of a step of one sample; ConfigError where that is too little to be seen."""
     recorder = hiding.recorder
-    found = recorder.seen([coarse(hiding.truth, f, 1 / recorder.rate, CORNER) for f in recorder.runs])
-    left = hiding.explained.left(difference(found, seen)[:-1], noise, hiding.colour)
+    samples = recorder.seen([coarse(hiding.truth, f, 1 / recorder.rate, CORNER) for f in recorder.runs])
+    left = hiding.explained.left(difference(samples, seen)[:-1], noise, hiding.colour)
     if left < STEP_SHOWS:
         raise ConfigError("trial: solver", f"an error of {STEP_SHOWS:g} standard deviations", f"{left:.2g}",
                           "draw another seed")
