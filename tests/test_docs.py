@@ -1,12 +1,24 @@
 """The documents name what exists: functions, product fields, packages, pages."""
 
 import ast
+import os
 import re
+import shlex
+import shutil
+import subprocess
+import sys
+import textwrap
 from dataclasses import fields
 from pathlib import Path
 
+import numpy as np
+import pytest
+
 from pipeline import products
 from pipeline.contract.product import is_product
+from pipeline.effects.effect import null_values
+from pipeline.physics.virtual_rig.response import respond
+from tests.effects.benches import let_go, sprung
 
 ROOT = Path(__file__).parents[1]
 HOPS = (ROOT / "docs" / "where_numbers_come_from.md").read_text()
@@ -29,14 +41,63 @@ def test_every_product_field_on_the_way_of_a_number_exists():
 
 
 def test_the_layout_names_every_package():
-    layout = (ROOT / "CONTRIBUTING.md").read_text().partition("## Layout")[2].partition("## Add a stage")[0]
+    layout = (ROOT / "CONTRIBUTING.md").read_text().partition("## Layout")[2].partition("\n## ")[0]
     missing = [str(p.parent.relative_to(ROOT)) for p in (ROOT / "pipeline").rglob("__init__.py")
                if f"{p.parent.name}/" not in layout and p.parent.parent.parent.name != "views"]
     assert not missing
-    assert max(len(line) for line in layout.splitlines()) <= 120 and len(layout.splitlines()) < 60
+    assert max(len(line) for line in layout.splitlines()) <= 120 and len(layout.splitlines()) < 50, "one screen"
 
 
 def test_links_between_documents_lead_somewhere():
     for page in (*ROOT.glob("*.md"), *ROOT.glob("docs/**/*.md")):
         for target in re.findall(r"\]\(([^)#:]+)(?:#[^)]*)?\)", page.read_text()):
             assert (page.parent / target).exists(), f"{page.relative_to(ROOT)}: {target}"
+
+
+@pytest.mark.exact
+def test_the_worked_example_of_an_effect_is_an_effect():
+    """Its null is the base bit for bit; a free mass slows down as the page states."""
+    page = (ROOT / "docs" / "add_an_effect.md").read_text()
+    code = re.search(r'^( +)"""Drag of a seal.*?(?=^\d\. )', page, re.MULTILINE | re.DOTALL)[0]
+    module = {}
+    exec(compile(textwrap.dedent(code), "docs/add_an_effect.md", "exec"), module)
+    effect, free, run = module["EFFECT"], sprung(stiffness=1e-6, damping=0.0), let_go(0.0, speed=2.0)
+    null = respond(effect.on(free, "joint_0", null_values(effect.at(free, "joint_0", (run,)))), run)
+    np.testing.assert_array_equal(null["v"], respond(free, run)["v"])
+    slowed = respond(effect.on(free, "joint_0", {"coefficient": 5.0}), run)["v"]
+    assert slowed == pytest.approx((2.0**-0.5 + 5.0 * run.time / 2) ** -2, rel=1e-4)
+
+
+def command(words, folder):
+    """Output of a documented command, run in ``folder``."""
+    program = [sys.executable, *(["-m", "pipeline"] if words[0] == "brakechain" else [])]
+    done = subprocess.run([*program, *words[1:]], cwd=folder, capture_output=True, text=True,
+                          env={**os.environ, "PYTHONPATH": str(ROOT)})
+    assert done.returncode == 0, f"{shlex.join(words)}: {done.stderr}"
+    return done.stdout
+
+
+def documented(page):
+    """Commands of a page, word by word."""
+    lines = re.findall(r"^    ((?:brakechain|python) .*)$", (ROOT / page).read_text(), re.MULTILINE)
+    return [shlex.split(line, comments=True) for line in lines]
+
+
+def test_the_plan_of_the_tutorial_is_what_is_printed():
+    plan = documented("docs/tutorial.md")[0]
+    printed = command(plan[:3], ROOT)
+    shown = re.search(r"^    (\w+ at \w+) +(.*)$", (ROOT / "docs/tutorial.md").read_text(), re.MULTILINE)
+    row = next(line for line in printed.splitlines() if shown[1] in line).split(shown[1])[1]
+    assert [float(d) for d in row.split()] == pytest.approx([float(d) for d in shown[2].split()], rel=0.01, abs=0.05)
+    assert "cheapest set: soft (cost 1)" in printed
+
+
+@pytest.mark.slow
+def test_the_commands_of_the_tutorial_lead_to_the_completed_case(tmp_path):
+    shutil.copytree(ROOT / "docs/practice", tmp_path / "docs/practice", ignore=shutil.ignore_patterns("*.h5"))
+    commands = documented("docs/tutorial.md")
+    assert len(commands) == 6
+    for words in commands:
+        command([word.replace("EFFECT", "coulomb") for word in words], tmp_path)
+    assert (tmp_path / "data/runs/rig/report.html").exists() and (tmp_path / "data/runs/rig/latent_force.csv").exists()
+    assert (tmp_path / "data/runs/rig_with_coulomb/report.html").exists()

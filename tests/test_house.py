@@ -148,6 +148,22 @@ def test_imports_point_inwards():
     assert not offenders
 
 
+def test_contributing_states_what_each_package_may_import():
+    """The list below the layout tree is MAY_IMPORT by package, with the names that the text above the list gives."""
+    layout = (ROOT / "CONTRIBUTING.md").read_text().partition("## Imports")[2].partition("`tests/")[0]
+    stated = {name: set(allowed.split(", ")) for name, allowed in re.findall(r"^    (\w+) +(.*)$", layout, re.MULTILINE)}
+    enforced = {}
+    for layer, allowed in MAY_IMPORT.items():
+        package = layer.removeprefix("pipeline.").split(".")[0]
+        enforced.setdefault(package, set()).update(name.removeprefix("pipeline.") for name in allowed)
+    short = {"contract.errors": "errors", "inference.priors": "priors"}
+    for package, names in enforced.items():
+        heads = {name.split(".")[0] for name in names if name not in short}
+        special = {short[name] for name in names & set(short) if name.split(".")[0] not in heads | {package}}
+        enforced[package] = (heads | special) - {package}
+    assert stated == {k: v for k, v in enforced.items() if v and k != "__main__"}
+
+
 def test_no_import_circle():
     names = {dotted(path) for path in FILES}
     graph = {dotted(path): {max((k for k in names if within(n, {k})), key=len, default=None) for n in everywhere(path)}
