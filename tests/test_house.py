@@ -151,7 +151,8 @@ def test_imports_point_inwards():
 def test_contributing_states_what_each_package_may_import():
     """The list below the layout tree is MAY_IMPORT by package, with the names that the text above the list gives."""
     layout = (ROOT / "CONTRIBUTING.md").read_text().partition("## Imports")[2].partition("`tests/")[0]
-    stated = {name: set(allowed.split(", ")) for name, allowed in re.findall(r"^    (\w+) +(.*)$", layout, re.MULTILINE)}
+    rows = re.findall(r"^    (\w+) +(.*)$", layout, re.MULTILINE)
+    stated = {name: set(allowed.split(", ")) for name, allowed in rows}
     enforced = {}
     for layer, allowed in MAY_IMPORT.items():
         package = layer.removeprefix("pipeline.").split(".")[0]
