@@ -137,6 +137,6 @@ def _evaluate(states, pressures, speeds, distances, table):
     friction, outside = np.empty(size), np.zeros(size, dtype=np.bool_)
     for i in range(size):
         mu, _, _, clipped = friction_at(
-            states[0, i], states[1, i], states[2, i], pressures, speeds, distances, table)
+            states[0, i], states[1, i], states[2, i], pressures, speeds, distances, table, 0)
         friction[i], outside[i] = mu, clipped == 1
     return friction, outside

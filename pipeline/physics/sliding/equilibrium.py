@@ -108,7 +108,7 @@ def given_state(model, friction):
 
 def from_map(law, distance, pressure, speed):
     """FrictionState of a FrictionLaw at a sliding ``distance`` (m), ``pressure`` (c,) Pa and ``speed`` (c,) m/s."""
-    read = [friction_at(p, v, distance, *law.table)[:3] for p, v in zip(pressure, speed, strict=True)]
+    read = [friction_at(p, v, distance, *law.table, 0)[:3] for p, v in zip(pressure, speed, strict=True)]
     return FrictionState(*np.reshape(read, (-1, 3)).T)
 
 
