@@ -27,6 +27,11 @@ def files_of(module):
     return files
 
 
+def changed_since(module, instant):
+    """True if a file that ``module`` depends on was written after ``instant`` (s since the epoch)."""
+    return any(path.stat().st_mtime > instant for path in files_of(module).values())
+
+
 @cache
 def file_of(module):
     """Path of a module or of the ``__init__`` of a package; None where there is none."""

@@ -1,10 +1,17 @@
 """Compiled kernels: numba's ``njit``, with numba loaded and the kernel made when it is first called.
 
-Modules with kernels are then imported in no time, and what is never called is never compiled. Code is always cached
-(see ``compiled_cache``).
+Modules with kernels are then imported in no time, and what is never called is never compiled. Compiled code is cached
+(see ``compiled_cache``), except in a process whose sources were edited after it had started: what it has loaded is no
+longer what the files hold.
 """
 
+import time
 from functools import cache, cached_property, update_wrapper
+
+from pipeline import sources
+
+#: before any module with kernels was loaded, s since the epoch
+_STARTED = time.time()
 
 
 def njit(function=None, **options):
@@ -24,7 +31,8 @@ class Kernel:
     @cached_property
     def dispatcher(self):
         """numba's object: what another kernel calls, and what holds the compiled code."""
-        return _numba().njit(cache=True, **self._options)(self._function)
+        current = not sources.changed_since(self.__module__, _STARTED)
+        return _numba().njit(cache=current, **self._options)(self._function)
 
     def __call__(self, *arguments):
         return self.dispatcher(*arguments)

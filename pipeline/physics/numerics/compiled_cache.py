@@ -6,12 +6,16 @@ imports: a change recompiles what depends on it, and nothing else.
 """
 
 import hashlib
+import shutil
 from pathlib import Path
 
 from numba import config
 from numba.core.caching import _CacheLocator
 
 from pipeline import sources
+
+#: states of one file whose code is kept, the last used ones
+_STATES = 8
 
 
 def state_of(path):
@@ -20,6 +24,13 @@ def state_of(path):
     files = sources.files_of(module)
     content = "".join(f"{name} {sources.digest(file)}\n" for name, file in sorted(files.items()))
     return hashlib.sha256(content.encode()).hexdigest()[:16]
+
+
+def _last_used(folder):
+    try:
+        return folder.stat().st_mtime
+    except FileNotFoundError:       # another process removed it
+        return 0.0
 
 
 class SourceLocator(_CacheLocator):
@@ -31,7 +42,17 @@ class SourceLocator(_CacheLocator):
 
     def get_cache_path(self):
         """Folder of the compiled functions of one file in one state."""
-        return str(Path(config.CACHE_DIR) / f"{Path(self._py_file).stem}-{self._state}")
+        module = ".".join(Path(self._py_file).relative_to(sources.ROOT / "pipeline").with_suffix("").parts)
+        return str(Path(config.CACHE_DIR) / f"{module}-{self._state}")
+
+    def ensure_cache_path(self):
+        """Make the folder; when it is new, remove those of the states of this file that were not used for longest."""
+        path = Path(self.get_cache_path())
+        if not path.is_dir():
+            others = sorted(path.parent.glob(f"{path.name.rpartition('-')[0]}-*"), key=_last_used)
+            for folder in others[:max(0, len(others) + 1 - _STATES)]:
+                shutil.rmtree(folder, ignore_errors=True)
+        super().ensure_cache_path()     # also writes a file for a moment: the folder's time is that of its last use
 
     def get_source_stamp(self):
         """Digest of the sources."""

@@ -5,10 +5,12 @@ import subprocess
 import sys
 
 import pytest
+from numba import config
 
 from pipeline import sources
 from pipeline.environment import CACHE, LOCATORS
-from pipeline.physics.numerics.compiled_cache import state_of
+from pipeline.physics.numerics import compiled_cache
+from pipeline.physics.numerics.compiled_cache import SourceLocator, state_of
 
 CALLEE = """
 from pipeline.physics.numerics.compiled import njit
@@ -46,13 +48,18 @@ def project(tmp_path, monkeypatch):
     return folder
 
 
-def answer(project):
-    """(value, cache hits) of the compiled function in a process of its own."""
+def environment(project):
+    """Variables of a process that runs the project and caches in a folder beside it."""
     home = project.parent / "compiled"
     home.mkdir(exist_ok=True)
     locators = "pipeline.physics.numerics.compiled_cache.SourceLocator"
+    return {**os.environ, CACHE: str(home), LOCATORS: locators, "PYTHONPATH": str(project.parent)}
+
+
+def answer(project):
+    """(value, cache hits) of the compiled function in a process of its own."""
     done = subprocess.run([sys.executable, "-c", ASK], cwd=project.parent, capture_output=True, text=True, check=True,
-                          env={**os.environ, CACHE: str(home), LOCATORS: locators, "PYTHONPATH": str(project.parent)})
+                          env=environment(project))
     value, hits = done.stdout.split()
     return float(value), int(hits)
 
@@ -66,6 +73,37 @@ def test_code_is_compiled_again_when_what_it_uses_changes_and_not_for_anything_e
     assert answer(project) == (3.0, 0), "a kernel of another file"
     (project / "callee.py").write_text(CALLEE)
     assert answer(project) == (2.0, 1), "the first state is still there"
+
+
+EDITED = """
+import sys, time
+from pathlib import Path
+from pipeline import caller
+time.sleep(0.05)
+file = Path(sys.argv[1])
+file.write_text(file.read_text().replace("2.0", "5.0"))
+print(caller.twice(1.0))
+"""
+
+
+def test_code_of_sources_that_were_edited_after_they_were_loaded_is_not_cached(project):
+    """It would be found again under the digest of the new sources, and answer for them."""
+    callee = str(project / "callee.py")
+    done = subprocess.run([sys.executable, "-c", EDITED, callee], cwd=project.parent, capture_output=True, text=True,
+                          check=True, env=environment(project))
+    assert float(done.stdout) == 2.0, "the process goes on with what it has loaded"
+    assert not list((project.parent / "compiled").rglob("*.nbi"))
+    assert answer(project) == (5.0, 0)
+
+
+def test_the_states_that_were_not_used_for_longest_are_removed(tmp_path, monkeypatch):
+    monkeypatch.setattr(config, "CACHE_DIR", str(tmp_path))
+    folders = [tmp_path / f"physics.friction.friction_table-{number}" for number in range(10)]
+    for number, folder in enumerate(folders):
+        monkeypatch.setattr(compiled_cache, "state_of", lambda path, number=number: str(number))
+        SourceLocator.from_function(answer, sources.ROOT / "pipeline" / "physics" / "friction" / "friction_table.py")
+        os.utime(folder, (number, number))
+    assert [folder.exists() for folder in folders] == [False] * 2 + [True] * 8
 
 
 def test_the_state_of_a_kernel_holds_the_kernels_that_it_calls():
