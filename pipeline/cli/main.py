@@ -101,7 +101,7 @@ def _job(config, folder, overrides):
     if solver not in sparse_solver.available():
         raise click.BadParameter(f"{config}: solver: expected one of {', '.join(sparse_solver.available())} on this"
                                  f" machine, found {solver!r}")
-    return runner.Run(chosen, folder or RUNS / chosen.name, solver)
+    return runner.ChainRun(chosen, folder or RUNS / chosen.name, solver)
 
 
 def _report(state, seconds):

@@ -9,7 +9,7 @@ from pathlib import Path
 
 from pipeline import __version__
 from pipeline.contract import documents, settings
-from pipeline.contract.context import Case
+from pipeline.contract.context import CaseSummary
 from pipeline.contract.errors import ConfigError
 
 #: top-level keys beside the sections of the stages
@@ -78,8 +78,8 @@ class CaseFile:
         values = {name: {key: _file_name(value) for key, value in rows.items()} for name, rows in values.items()}
         origins = {s.name: {key: _origin(self.given(s), key.split(".")) for key in values[s.name]} for s in self.stages}
         methods = {s.name: s.method for s in self.stages}
-        return Case(self.name, self.document.get("title", ""), self.document.get("description", ""), values, origins,
-                    units, meanings, methods, version)
+        return CaseSummary(self.name, self.document.get("title", ""), self.document.get("description", ""), values,
+                           origins, units, meanings, methods, version)
 
 
 def _file_name(value):

@@ -12,7 +12,7 @@ class Progress:
 
 
 @dataclass(frozen=True)
-class Case:
+class CaseSummary:
     """What the report may say about its case: title, settings with origins, method sentences."""
 
     name: str = "case"
@@ -31,7 +31,7 @@ class Context:
     """The default context runs in this process, silently: for tests and notebooks."""
 
     solver: str = "superlu"
-    case: Case = Case()
+    case: CaseSummary = CaseSummary()
 
     def map(self, function, items, label=""):
         """``[function(item) for item in items]``, in order; ``function`` must be picklable."""

@@ -34,7 +34,7 @@ class State:
 
 
 @dataclass(frozen=True)
-class Run:
+class ChainRun:
     """One case in one folder."""
 
     case: object        # case.CaseFile

@@ -61,7 +61,7 @@ class Elsewhere(Context):
 def test_the_time_of_a_product_holds_child_processes_and_workers(tmp_path):
     config = tmp_path / "toy.yaml"
     config.write_text("chain: toy")
-    runner.Run(case.load(config, CHAINS, load), tmp_path, "superlu").execute(Elsewhere())
+    runner.ChainRun(case.load(config, CHAINS, load), tmp_path, "superlu").execute(Elsewhere())
     seconds = {name: store.provenance(tmp_path / f"{name}.h5")["cpu_seconds"] for name in ("source", "doubled")}
     assert seconds["source"] < SPENT
     assert 100.0 + SPENT <= seconds["doubled"] < 101.0 + SPENT

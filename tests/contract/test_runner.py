@@ -23,7 +23,7 @@ def config(tmp_path):
 
 
 def job(config, *overrides, solver="superlu"):
-    return runner.Run(case.load(config, CHAINS, load, overrides), config.parent / "run", solver)
+    return runner.ChainRun(case.load(config, CHAINS, load, overrides), config.parent / "run", solver)
 
 
 def why(run):

@@ -4,7 +4,7 @@ from dataclasses import fields
 
 import numpy as np
 
-from pipeline.contract.context import Case
+from pipeline.contract.context import CaseSummary
 from pipeline.contract.product import is_product
 from pipeline.products import (
     Body,
@@ -325,7 +325,7 @@ def rupture():
 
 def case():
     """A case with settings of every kind."""
-    return Case(
+    return CaseSummary(
         name="small", title="Small brake", description="A synthetic case for the views",
         settings={"surface": {"period": 1e-3, "seed": 7, "filled": True},
                   "micro_friction": {"shear_limit": 13.5e6, "pressures": (1e6, 2e6, 3e6)}},

@@ -1,7 +1,7 @@
 """The page of a scored trial, in the style of the report: rates, failures, and what the trial does not prove."""
 
 from pipeline.blind_trial.metrics.wording import rate_in_words
-from pipeline.contract.context import Case
+from pipeline.contract.context import CaseSummary
 from pipeline.views.chapters.bench import trial as chapters
 from pipeline.views.chapters.chapter import Figure
 from pipeline.views.figures.bench.trial import rates
@@ -20,7 +20,7 @@ def page(result):
     names = [name for name, rate in main["rates"].items() if rate["goal"]]
     figure = Figure(rates(result["methods"], names, [rate_in_words(name) for name in names]),
                     "Rates with their 95 % Wilson confidence intervals; vertical bars: goals.")
-    case = Case(about["name"], f"Concealed trial {about['name']}",
+    case = CaseSummary(about["name"], f"Concealed trial {about['name']}",
                 "Cases with hidden physics, solved without access to the truth and scored once")
     return template().render(case=case, chapters=chapters.all_of(result), verdict=_verdict(result), key_figure=figure,
                              key_tables=(), stages=(), methods=(), limits=chapters.not_proven(result),

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from pipeline.contract.context import Case
+from pipeline.contract.context import CaseSummary
 from pipeline.views.chapters import vibration
 from pipeline.views.chapters.chapter import Look
 from pipeline.views.pages import case_settings as case_view
@@ -70,14 +70,14 @@ def test_the_squeal_chapter_distinguishes_harmonics_from_fundamentals():
 
 
 def test_text_of_the_case_cannot_break_the_page():
-    wicked = Case(name="x", title='<img src="//example.org/a.png">', methods={"surface": "a < b & c"})
+    wicked = CaseSummary(name="x", title='<img src="//example.org/a.png">', methods={"surface": "a < b & c"})
     text = page([], {}, wicked, LOOK)
     assert "<img src" not in text
     assert "a &lt; b &amp; c" in text
 
 
 def test_a_case_without_settings_has_no_such_section():
-    text = page([], {}, Case(name="bare"), LOOK)
+    text = page([], {}, CaseSummary(name="bare"), LOOK)
     assert 'id="settings"' not in text
     assert 'id="methods"' not in text
     assert 'id="table"' not in text
