@@ -1,11 +1,11 @@
-"""Diagnosis: the effects of a case, what its bench would have shown, and what recordings say is missing."""
+"""Diagnosis: the effects of a case, the predictions of its virtual rig, and what the recordings say is missing."""
 
 from pipeline.contract import Array, count, parts, product, quantity, text
 
 
 @product(version=2)
 class Effects:
-    """Physics that the case adds to its model: terms of the catalogue, each at a place."""
+    """Physics that the case adds to its model: terms of the catalogue, each at a location."""
 
     effect: Array = text("entry", "effect of the catalogue")
     place: Array = text("entry", "joint, contact group, point or channel where it acts")
@@ -13,17 +13,17 @@ class Effects:
     parameter: Array = text("value", "parameter of the effect")
     value: Array = quantity("1", "value", "its value in the SI unit that `unit` names")
     unit: Array = text("value", "SI unit of the value")
-    condition: Array = text("condition", "condition of motions that no recorded run tells, such as humidity")
+    condition: Array = text("condition", "operating condition that the recorded runs do not give, such as humidity")
     condition_value: Array = quantity("1", "condition", "its value")
 
 
 @product(version=1)
 class BenchRun:
-    """One recorded run beside what the sensors of the bench would have shown in it."""
+    """One recorded run beside the prediction of the virtual rig."""
 
-    time: Array = quantity("s", "sample", "time since the begin of the run")
+    time: Array = quantity("s", "sample", "time since the start of the run")
     measured: Array = quantity("1", "channel sample", "recorded samples, each channel in its SI unit; 0 where missing")
-    predicted: Array = quantity("1", "channel sample", "what the model shows")
+    predicted: Array = quantity("1", "channel sample", "prediction of the model")
     valid: Array = count("channel sample", "1 where a sample was recorded")
     error: Array = quantity("1", "channel", "root mean square error over the standard deviation of the recorded signal; of features, over their own")
     root_mean_square: Array = quantity("1", "channel", "root mean square error in the unit of the channel")
@@ -31,11 +31,11 @@ class BenchRun:
 
 @product(version=1)
 class Bench:
-    """The bench: sensors, laws and inputs of the model, and what it would have shown in the recorded runs."""
+    """The virtual rig: sensors, laws and inputs of the model, and its predictions for the recorded runs."""
 
     settings: Array = text("", "the section of the case that describes it, as JSON")
     channel: Array = text("channel", "sensors in order")
-    unit: Array = text("channel", "SI unit of what each shows")
+    unit: Array = text("channel", "SI unit of each sensor")
     runs: dict[str, BenchRun] = parts("recorded runs by name")
 
 
@@ -43,8 +43,8 @@ class Bench:
 class DiagnosedRun:
     """One run under the nominal, the recalibrated and the completed model."""
 
-    held_out: Array = count("", "1 where the run was not fitted")
-    time: Array = quantity("s", "sample", "time since the begin of the run; sample number for features")
+    held_out: Array = count("", "1 if the run was not fitted")
+    time: Array = quantity("s", "sample", "time since the start of the run; sample number for features")
     measured: Array = quantity("1", "channel sample", "recorded samples; 0 where missing")
     valid: Array = count("channel sample", "1 where a sample was recorded")
     nominal: Array = quantity("1", "channel sample", "prediction with the given values")
@@ -62,27 +62,27 @@ class Located:
     low: Array = quantity("1", "item", "lower edge of a band or bin, in the unit that `unit` names; 0 for names")
     high: Array = quantity("1", "item", "upper edge")
     unit: Array = text("", "unit of the edges; empty for names")
-    score: Array = quantity("1", "item", "standard deviations, or what the axis says")
+    score: Array = quantity("1", "item", "deviation in standard deviations, or the measure of the axis")
     p_value: Array = quantity("1", "item", "family-wise over the axis")
     member: Array = count("item", "1 in the 95 % set")
 
 
 @product(version=1)
 class LatentForce:
-    """The force that is missing at the located place in one run, whatever its physics; positive along the place."""
+    """The force missing at the identified location in one run, whatever its physics; positive along the location."""
 
-    time: Array = quantity("s", "sample", "time since the begin of the run; its ends are left out")
+    time: Array = quantity("s", "sample", "time since the start of the run; its ends are left out")
     force: Array = quantity("N", "sample", "smoothed force on the moving side")
     std: Array = quantity("N", "sample", "its standard deviation")
-    displacement: Array = quantity("m", "sample", "displacement at the place")
-    velocity: Array = quantity("m/s", "sample", "velocity at the place")
+    displacement: Array = quantity("m", "sample", "displacement at the location")
+    velocity: Array = quantity("m/s", "sample", "velocity at the location")
 
 
 @product(version=1)
 class Follows:
-    """What the latent force follows: its mean over one quantity, in bins of equal count."""
+    """Dependence of the latent force on one quantity: its mean in bins of equal count."""
 
-    share: Array = quantity("1", "", "share of the variance of the force that the curve explains")
+    share: Array = quantity("1", "", "fraction of the variance of the force that the curve explains")
     p_value: Array = quantity("1", "", "against circular shifts of the force")
     unit: Array = text("", "unit of the quantity")
     centre: Array = quantity("1", "bin", "mean of the quantity in each bin")
@@ -101,7 +101,7 @@ class LatentPrediction:
 class SquealCheck:
     """Features of one recorded squeal and of simulated repeats of it: for verification only, never by waveform."""
 
-    sentence: Array = text("", "who squeals, and in which of recording and model alone")
+    sentence: Array = text("", "which of recording and models squeal, in one sentence")
     who: Array = text("who", "recorded, recalibrated, completed; models that could not be simulated are left out")
     records: Array = count("who", "records, or simulated repeats")
     squealing: Array = count("who", "of these, those that reached saturation")
@@ -122,19 +122,19 @@ class Diagnosis:
     channel: Array = text("channel", "sensors, or features")
     channel_unit: Array = text("channel", "their SI units")
     named: Array = count("named", "rows of the hypotheses that the verdict names; all of a tie")
-    known: Array = count("known", "rows of the hypotheses that were taken as known before (first of a pair)")
-    hypothesis: Array = text("hypothesis", "everything that was weighed; nothing missing first")
+    known: Array = count("known", "rows of the hypotheses that were assumed known (first of a pair)")
+    hypothesis: Array = text("hypothesis", "all hypotheses compared; first: nothing missing")
     effect: Array = text("hypothesis", "effect of the catalogue; empty for nothing missing")
-    place: Array = text("hypothesis", "where it would act")
+    place: Array = text("hypothesis", "location at which it would act")
     kind: Array = text("hypothesis", "physics, sensor or numerics")
     stage: Array = text("hypothesis", "stage of the chain that it belongs to; empty for nothing missing")
-    posterior: Array = quantity("1", "hypothesis", "probability among all; beside what is known, that of both")
+    posterior: Array = quantity("1", "hypothesis", "probability among all; next to a known effect, that of the pair")
     score: Array = quantity("1", "hypothesis", "screening score in standard deviations")
     p_value: Array = quantity("1", "hypothesis", "family-wise p-value over the catalogue")
-    power: Array = quantity("1", "hypothesis", "score expected at the prior's size: what these runs can see")
+    power: Array = quantity("1", "hypothesis", "score expected at the prior's size: detectability in these runs")
     evidence_gain: Array = quantity("1", "hypothesis", "ln Z over the recalibrated nominal model; 0 where not refitted")
     refitted: Array = count("hypothesis", "1 where it was refitted in the full model")
-    objection: Array = text("hypothesis", "rules that it breaks, or why it could not be judged")
+    objection: Array = text("hypothesis", "rules that it violates, or why it could not be assessed")
     parameter: Array = text("parameter", "fitted parameters: nominal ones, then those of the named effects")
     parameter_unit: Array = text("parameter", "their SI units")
     parameter_nominal: Array = quantity("1", "parameter", "given value")
@@ -143,20 +143,20 @@ class Diagnosis:
     parameter_owner: Array = count("parameter", "row of the hypothesis that owns it; 0 for nominal ones")
     fit: Array = quantity("1", "part model", "error over standard deviation, training and held out (0 without):"
                           " nominal, recalibrated, completed, noise alone")
-    unexplained_share: Array = quantity("1", "", "share of the excess error that the completed model leaves")
-    drift_p_value: Array = quantity("1", "", "p-value that fitted values are alike over operating points; 1 untested")
+    unexplained_share: Array = quantity("1", "", "fraction of the excess error that the completed model leaves")
+    drift_p_value: Array = quantity("1", "", "p-value of constant fitted values over operating points; 1 if not tested")
     location: dict[str, Located] = parts("axes by name: stage, substitution, place, run, band, amplitude, velocity, time")
-    latent_place: Array = text("", "place of the latent force; empty where none was found")
-    latent_sentence: Array = text("", "what the latent force is and follows")
+    latent_place: Array = text("", "location of the latent force; empty if none was identified")
+    latent_sentence: Array = text("", "description of the latent force and of what it depends on")
     latent: dict[str, LatentForce] = parts("the latent force by run: description, not identified physics")
-    follows: dict[str, Follows] = parts("quantities that the latent force may follow, by name")
-    latent_use: Array = text("", "how the latent force predicts held-out runs, or why not; empty unless asked")
+    follows: dict[str, Follows] = parts("quantities that the latent force may depend on, by name")
+    latent_use: Array = text("", "how well the latent force predicts held-out runs, or why not; empty unless requested")
     latent_term: Array = text("term", "terms of the latent force as a function: x m, v m/s, angle of the drive")
     latent_coefficient: Array = quantity("1", "term", "their coefficients in the SI unit that `latent_unit` names")
     latent_unit: Array = text("term", "SI units of the coefficients")
-    latent_predicted: dict[str, LatentPrediction] = parts("held-out runs predicted with it; none unless asked")
-    squeal: dict[str, SquealCheck] = parts("recorded squeals by run beside simulated ones; none unless asked")
+    latent_predicted: dict[str, LatentPrediction] = parts("held-out runs predicted with it; none unless requested")
+    squeal: dict[str, SquealCheck] = parts("recorded squeals by run beside simulated ones; none unless requested")
     next_condition: Array = text("next", "conditions of the next experiment, as name = value unit")
     next_separates: Array = text("separated", "hypotheses that it separates best")
-    next_value: Array = quantity("1", "", "what it is expected to tell, in nats; 0 without one")
+    next_value: Array = quantity("1", "", "its expected information gain in nats; 0 without one")
     runs: dict[str, DiagnosedRun] = parts("runs by name")

@@ -10,11 +10,11 @@ class MicroFriction:
     settings: Array = text("", "the section of the case that describes it, as JSON")
     pressure: Array = quantity("Pa", "pressure", "nominal contact pressure")
     speed: Array = quantity("m/s", "speed", "sliding speed")
-    disc_speed: Array = quantity("rad/s", "speed", "speed of the disc that slides so at the effective radius")
+    disc_speed: Array = quantity("rad/s", "speed", "disc speed with this sliding speed at the effective radius")
     distance: Array = quantity("m", "distance", "sliding distance")
     friction: Array = quantity("1", "pressure speed distance", "coefficient of friction, shear over normal force")
     friction_std: Array = quantity("1", "pressure speed distance", "standard error of the friction coefficient")
-    real_area: Array = quantity("1", "pressure speed distance", "real contact area share, perimeter-corrected")
+    real_area: Array = quantity("1", "pressure speed distance", "real over nominal contact area, perimeter-corrected")
     wear_depth: Array = quantity("m", "pressure speed distance", "approach of both mean planes by wear, at equal load")
     largest_wear: Array = quantity("m", "pressure speed distance", "largest wear of one surface node")
     normal_stiffness: Array = quantity("Pa/m", "pressure speed distance", "interface stiffness dp/d(approach) without the"
@@ -31,7 +31,7 @@ class MicroFriction:
     pad_wear: Array = quantity("m", "y x", "wear of the pad nodes after the last cycle, middle pressure and speed")
     disc_wear: Array = quantity("m", "y x", "wear of the disc nodes after the last cycle, middle pressure and speed")
     refinement: Array = quantity("1", "refinement", "nodes per shortest wavelength of the convergence study")
-    refinement_area: Array = quantity("1", "refinement", "perimeter-corrected real area share at middle pressure")
+    refinement_area: Array = quantity("1", "refinement", "perimeter-corrected real over nominal area at middle pressure")
 
 
 @product(version=1)
@@ -52,7 +52,7 @@ class FrictionMap:
 class InterfaceLaw:
     """Normal and tangential law of a rough interface from its summits, and the three descriptions of its friction."""
 
-    source: Array = text("", "where the summits come from")
+    source: Array = text("", "source of the summits")
     summit_density: Array = quantity("1/m^2", "", "summits per area")
     summit_mean: Array = quantity("m", "", "mean height of the summits above the mean plane")
     summit_spread: Array = quantity("m", "", "standard deviation of their heights, Gaussian")
@@ -62,7 +62,7 @@ class InterfaceLaw:
     shear_limit: Array = quantity("Pa", "", "yield stress in shear of the contact spots")
     gap: Array = quantity("m", "gap", "distance of the mean planes, falling")
     gap_pressure: Array = quantity("Pa", "gap", "nominal contact pressure at the gap")
-    real_area: Array = quantity("1", "gap", "real contact area share at the gap")
+    real_area: Array = quantity("1", "gap", "real over nominal contact area at the gap")
     normal_stiffness: Array = quantity("Pa/m", "gap", "interface stiffness at the gap")
     pressure: Array = quantity("Pa", "pressure", "nominal contact pressures of the shear law")
     displacement: Array = quantity("m", "displacement", "tangential displacement from rest")
@@ -78,16 +78,16 @@ class InterfaceLaw:
 
 @product(version=1)
 class FrictionDescriptions:
-    """The three descriptions of friction in an implicit setting: what each costs, and what they agree on."""
+    """The three descriptions of friction in an implicit scheme: cost of each, and their agreement."""
 
     description: Array = text("description", "evolution, elastic, rigid")
     modulation: Array = quantity("1", "modulation", "amplitude of the pulsating load over its mean; above 1 contact is lost")
     iterations: Array = quantity("1", "tangent modulation description", "Newton iterations per step, mean; first without the unsymmetric term, then with it")
     worst: Array = count("tangent modulation description", "largest number of iterations of one step")
     halvings: Array = count("tangent modulation description", "steps that did not converge and were halved")
-    converged: Array = count("tangent modulation description", "1 where no step had to be given up")
+    converged: Array = count("tangent modulation description", "1 if no step was abandoned")
     cost: Array = quantity("1", "tangent modulation description", "work of the factorisations over that of the cheapest")
-    sliding_share: Array = quantity("1", "tangent modulation description", "share of contacts that slide, mean over the steps")
+    sliding_share: Array = quantity("1", "tangent modulation description", "fraction of contacts that slide, mean over the steps")
     mean_shift: Array = quantity("m", "tangent modulation description", "mean displacement of the block along sliding, second half")
     curve_error: Array = quantity("1", "description", "deviation from the curve of one Hertz contact over its limit, root mean square")
     step: Array = quantity("s", "", "time step")

@@ -1,4 +1,4 @@
-"""How a sliding model moves: complex modes, rigid sub-discs, motion over time."""
+"""Motion of a sliding model: complex modes, rigid sub-discs, time histories."""
 
 import numpy as np
 
@@ -42,17 +42,17 @@ class Multibody:
     growth_rate_std: Array = quantity("1/s", "operating", "standard error of the growth rate over these thirds")
     growth_decided: Array = count("operating", "1 where the growth rate exceeds two standard errors: its sign is decided")
     oscillation_frequency: Array = quantity("Hz", "operating", "dominant frequency of the pad oscillation along sliding")
-    separated_share: Array = quantity("1", "operating", "share of contact samples without contact")
-    outside_map_share: Array = quantity("1", "operating", "share of friction evaluations outside the computed map")
+    separated_share: Array = quantity("1", "operating", "fraction of contact samples without contact")
+    outside_map_share: Array = quantity("1", "operating", "fraction of friction evaluations outside the computed map")
     caliper_factor: Array = quantity("1", "caliper_factor", "factor on the caliper stiffness, stability map")
     abutment_factor: Array = quantity("1", "abutment_factor", "factor on the abutment stiffness, stability map")
     stability: Array = quantity("1/s", "operating caliper_factor abutment_factor", "largest growth rate of the linearised system")
-    stability_root: Array = quantity("Hz", "operating caliper_factor abutment_factor", "frequency of the root that grows so")
+    stability_root: Array = quantity("Hz", "operating caliper_factor abutment_factor", "frequency of that root")
 
 
 @product(version=1)
 class Transient:
-    """Motion with unilateral contact and dry friction, and the cycle that it ends in, per operating point."""
+    """Motion with unilateral contact and dry friction, and its limit cycle, per operating point."""
 
     pressure: Array = quantity("Pa", "operating", "nominal pressure")
     speed: Array = quantity("rad/s", "operating", "speed of the drive")
@@ -61,28 +61,28 @@ class Transient:
     sensor_position: Array = quantity("m", "sensor xyz", "sensor positions")
     displacement: Array = quantity("m", "operating sensor time", "displacement at the sensors less that at time 0", np.float32)
     velocity: Array = quantity("m/s", "operating sensor time", "velocity at the sensors", np.float32)
-    gap: Array = quantity("m", "operating contact time", "gap, negative where the contact is pressed in", np.float32)
-    normal_force: Array = quantity("N", "operating contact time", "normal force, mean since the sample before", np.float32)
-    friction_force: Array = quantity("N", "operating contact time", "friction force along sliding, mean since the sample before", np.float32)
+    gap: Array = quantity("m", "operating contact time", "gap, negative where the contact is compressed", np.float32)
+    normal_force: Array = quantity("N", "operating contact time", "normal force, mean since the previous sample", np.float32)
+    friction_force: Array = quantity("N", "operating contact time", "friction force along sliding, mean since the previous sample", np.float32)
     slip: Array = quantity("m/s", "operating contact time", "slip velocity, drive less body", np.float32)
     status: Array = count("operating contact time", "0 open, 1 sticking, 2 sliding")
-    status_share: Array = quantity("1", "operating contact kind", "share of the steps open, sticking, sliding")
+    status_share: Array = quantity("1", "operating contact kind", "fraction of the steps open, sticking, sliding")
     stored_energy: Array = quantity("J", "operating time", "kinetic and strain energy of bodies and joints")
     input_work: Array = quantity("J", "operating time", "work of the inputs since time 0")
     damping_loss: Array = quantity("J", "operating time", "loss in dampers since time 0")
     normal_work: Array = quantity("J", "operating time", "work of the normal forces on the bodies since time 0")
     friction_work: Array = quantity("J", "operating time", "work of the friction forces on the bodies since time 0")
     sliding_loss: Array = quantity("J", "operating time", "work of the friction forces on the slip since time 0")
-    imbalance: Array = quantity("1", "operating", "largest error of the energy balance over the largest energy that passed")
+    imbalance: Array = quantity("1", "operating", "largest error of the energy balance over the largest energy exchanged")
     step: Array = quantity("s", "", "time step")
     window: Array = quantity("s", "", "end of the motion from which spectra and cycles are taken")
     frequency: Array = quantity("Hz", "frequency", "frequency axis of the spectra")
     velocity_spectrum: Array = quantity("m^2/s^2/Hz", "operating sensor frequency", "one-sided power spectral density in the window")
     cycle_frequency: Array = quantity("Hz", "operating sensor", "dominant frequency in the window, 0 at rest")
     cycle_amplitude: Array = quantity("m/s", "operating sensor", "velocity amplitude in the window")
-    cycle_drift: Array = quantity("1", "operating sensor", "spread of the amplitude over quarters of the window")
+    cycle_drift: Array = quantity("1", "operating sensor", "range of the amplitude over quarters of the window")
     settled: Array = count("operating sensor", "1 where the cycle has settled in the window")
-    growth_rate: Array = quantity("1/s", "operating sensor", "growth rate of the small motion before, 0 where none was seen")
+    growth_rate: Array = quantity("1/s", "operating sensor", "growth rate of the initial small motion, 0 if none was observed")
     growth_rate_std: Array = quantity("1/s", "operating sensor", "standard error of the growth rate")
-    grew: Array = count("operating sensor", "1 where the motion grew from small to its cycle")
+    grew: Array = count("operating sensor", "1 if the motion grew from small to its limit cycle")
     harmonic_amplitude: Array = quantity("m/s", "operating sensor harmonic", "velocity amplitude at 1, 2, ... times the dominant frequency")

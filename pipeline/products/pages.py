@@ -1,4 +1,4 @@
-"""What is read at the end: the comparison with the source, and the report."""
+"""The comparison with the source, and the report."""
 
 from pipeline.contract import Array, count, product, quantity, text
 
@@ -10,7 +10,7 @@ class Comparison:
     row: Array = text("row", "name of the quantity")
     key: Array = text("row", "key of the fact in the reference file")
     field: Array = text("row", "product and field that our value comes from, e.g. micro_friction.real_area; empty where none")
-    section: Array = text("row", "part of the source, as its reference file calls it")
+    section: Array = text("row", "part of the source, as named in its reference file")
     unit: Array = text("row", "unit in which the row is shown")
     published: Array = quantity("1", "row", "published value in that unit (0 where none)")
     published_known: Array = count("row", "1 where the paper gives a value")

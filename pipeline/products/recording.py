@@ -1,4 +1,4 @@
-"""Recordings: what a bench wrote, run by run."""
+"""Recordings: measured data, run by run."""
 
 from pipeline.contract import Array, count, parts, product, quantity, text
 
@@ -8,14 +8,14 @@ class Channel:
     """One sampled signal of a run."""
 
     samples: Array = quantity("1", "sample", "samples in the unit that `unit` names; 0 where missing")
-    missing: Array = count("sample_gap bound", "first sample of each stretch without data, and the first after it")
+    missing: Array = count("sample_gap bound", "first sample of each gap in the data, and the first after it")
     unit: Array = text("", "coherent SI unit of the samples")
     measures: Array = text("", "what is measured: displacement, velocity, acceleration, force, pressure, voltage, ...")
     rate: Array = quantity("Hz", "", "sampling rate")
     begin: Array = quantity("s", "", "time of the first sample")
-    place: Array = text("", "named point or joint; empty where nothing is said")
-    position: Array = quantity("m", "xyz", "position of the point; size 0 where nothing is said")
-    direction: Array = quantity("1", "axis", "direction, unit vector; size 0 where nothing is said")
+    place: Array = text("", "named point or joint; empty if not given")
+    position: Array = quantity("m", "xyz", "position of the point; size 0 if not given")
+    direction: Array = quantity("1", "axis", "direction, unit vector; size 0 if not given")
     role: Array = text("", "response or excitation")
 
 
@@ -35,8 +35,8 @@ class FrequencyResponse:
     frequency: Array = quantity("Hz", "frequency", "frequency axis")
     response: Array = quantity("1", "frequency", "response per reference, in the unit that `unit` names", complex)
     unit: Array = text("", "unit of the function, e.g. m/s^2/N")
-    place: Array = text("", "place and direction of the response")
-    reference: Array = text("", "place and direction of the reference")
+    place: Array = text("", "location and direction of the response")
+    reference: Array = text("", "location and direction of the reference")
 
 
 @product(version=1)
@@ -47,7 +47,7 @@ class MeasuredModes:
     frequency_std: Array = quantity("Hz", "mode", "their standard deviations")
     damping_ratio: Array = quantity("1", "mode", "damping ratios; 0 where not measured")
     damping_ratio_std: Array = quantity("1", "mode", "their standard deviations; 0 where not measured")
-    place: Array = text("place", "places and directions of the shapes")
+    place: Array = text("place", "locations and directions of the shapes")
     shape: Array = quantity("1", "mode place", "mode shapes", complex)
 
 
@@ -57,12 +57,12 @@ class Lines:
 
     label: Array = text("line", "names of the lines, empty where they have none")
     frequency: Array = quantity("Hz", "line", "frequencies")
-    frequency_tolerance: Array = quantity("Hz", "line", "how far off they may be read")
+    frequency_tolerance: Array = quantity("Hz", "line", "reading uncertainty of the frequencies")
     level: Array = quantity("1", "line", "levels in dB re the strongest line; 0 where none is given")
     level_known: Array = count("line", "1 where a level is given")
-    partners: Array = count("line", "1: mode without a partner, 2: one of a pair; 0 where nothing is said")
-    diameters: Array = count("line", "nodal diameters of its mode; -1 where nothing is said")
-    place: Array = text("", "where the spectrum was taken")
+    partners: Array = count("line", "1: mode without a partner, 2: one of a pair; 0 if not given")
+    diameters: Array = count("line", "nodal diameters of its mode; -1 if not given")
+    place: Array = text("", "where the spectrum was measured")
 
 
 @product(version=1)
@@ -71,7 +71,7 @@ class Topography:
 
     y: Array = quantity("m", "y", "lateral position across sliding")
     x: Array = quantity("m", "x", "lateral position along sliding")
-    height: Array = quantity("m", "y x", "heights, outwards of the solid")
+    height: Array = quantity("m", "y x", "heights, positive out of the solid")
     body: Array = text("", "body, e.g. disc or pad")
     state: Array = text("", "new or worn")
 
@@ -105,7 +105,7 @@ class Run:
 
 @product(version=2)
 class Recording:
-    """What a bench wrote, in one form; simulations embed the same runs in their products."""
+    """Measured data in one format; simulations embed the same runs in their products."""
 
-    source: Array = text("source", "files it was read from, with SHA-256")
+    source: Array = text("source", "files that it was read from, with SHA-256")
     runs: dict[str, Run] = parts("runs by name")

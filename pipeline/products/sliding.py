@@ -1,4 +1,4 @@
-"""The reduced sliding model that all systems become."""
+"""The reduced sliding model, common to all systems."""
 
 import numpy as np
 
@@ -7,7 +7,7 @@ from pipeline.contract import Array, count, product, quantity, text
 
 @product(version=4)
 class ReducedModel:
-    """The reduced sliding model: everything that a solver or an effect needs of a sliding system.
+    """The reduced sliding model: everything that a solver or an effect needs to know of a sliding system.
 
     Equation of motion, s = sliding, q = reduced coordinates:
         M q'' + (C + speed G + sum_j c_j b_j b_j^T) q'
@@ -32,7 +32,7 @@ class ReducedModel:
     contact_position: Array = quantity("m", "contact xyz", "centroid of the contact patch")
     contact_area: Array = quantity("m^2", "contact", "area of the contact patch")
     contact_lever: Array = quantity("m", "contact", "sliding speed per speed of the drive: the radius on a disc, 1 m on a belt")
-    contact_gap: Array = quantity("m", "contact", "gap where nothing is loaded, negative where parts are set to press")
+    contact_gap: Array = quantity("m", "contact", "gap without load, negative for an initial overlap")
     contact_normal: Array = quantity("1", "contact coordinate", "normal rows, pad minus disc, positive opens")
     contact_tangent: Array = quantity("1", "contact coordinate", "tangent rows, pad minus disc, along sliding")
     contact_lateral: Array = quantity("1", "contact coordinate", "lateral rows, pad minus disc, radial")
@@ -56,7 +56,7 @@ class ReducedModel:
     sensor_position: Array = quantity("m", "sensor xyz", "sensor positions")
     sensor_direction: Array = quantity("1", "sensor xyz", "sensor directions")
     sensor_rows: Array = quantity("1", "sensor coordinate", "sensor displacement rows")
-    sensor_quantity: Array = text("sensor", "what it measures: displacement, velocity or acceleration")
+    sensor_quantity: Array = text("sensor", "measured quantity: displacement, velocity or acceleration")
     sensor_unit: Array = text("sensor", "unit of its reading")
     sensor_gain: Array = quantity("1", "sensor", "its reading in that unit per SI unit of its quantity")
     visible_position: Array = quantity("m", "visible xyz", "surface nodes kept for pictures")

@@ -1,4 +1,4 @@
-"""What the sensors take up, and the squeal in it."""
+"""Vibration at the sensors, and the squeal in it."""
 
 import numpy as np
 
@@ -41,7 +41,7 @@ class Squeal:
     event_sensor: Array = count("event", "sensor of the event")
     event_frequency: Array = quantity("Hz", "event", "frequency")
     event_level: Array = quantity("1", "event", "largest level, dB")
-    event_start: Array = quantity("s", "event", "begin")
+    event_start: Array = quantity("s", "event", "start")
     event_duration: Array = quantity("s", "event", "duration")
-    event_fundamental: Array = quantity("Hz", "event", "tone whose whole multiple the event is; its own frequency if of none")
-    event_order: Array = count("event", "the multiple: 1 = a tone of its own, 2 and more = a harmonic")
+    event_fundamental: Array = quantity("Hz", "event", "fundamental of which the event is an integer multiple; its own frequency if there is none")
+    event_order: Array = count("event", "order: 1 = fundamental, 2 and more = harmonic")
