@@ -21,7 +21,7 @@ class Lumped:
     joint_damping: Array = quantity("N s/m", "joint", "damping")
     contact_name: Array = text("contact", "contacts and friction joints")
     contact_body: Array = count("contact", "mass that the friction force acts on")
-    contact_position: Array = quantity("m", "contact xyz", "angle about the axis of the drive, z")
+    contact_position: Array = quantity("m", "contact xyz", "position relative to the axis of the drive, z")
     contact_area: Array = quantity("m^2", "contact", "contact area")
     contact_lever: Array = quantity("m", "contact", "sliding speed per speed of the drive")
     contact_gap: Array = quantity("m", "contact", "gap without load, negative for an initial overlap")

@@ -80,7 +80,7 @@ class Transient:
     velocity_spectrum: Array = quantity("m^2/s^2/Hz", "operating sensor frequency", "one-sided power spectral density in the window")
     cycle_frequency: Array = quantity("Hz", "operating sensor", "dominant frequency in the window, 0 at rest")
     cycle_amplitude: Array = quantity("m/s", "operating sensor", "velocity amplitude in the window")
-    cycle_drift: Array = quantity("1", "operating sensor", "range of the amplitude over quarters of the window")
+    cycle_drift: Array = quantity("1", "operating sensor", "range of the amplitude over quarters of the window, over its mean")
     settled: Array = count("operating sensor", "1 where the cycle has settled in the window")
     growth_rate: Array = quantity("1/s", "operating sensor", "growth rate of the initial small motion, 0 if none was observed")
     growth_rate_std: Array = quantity("1/s", "operating sensor", "standard error of the growth rate")
