@@ -1,9 +1,10 @@
 """Wall and CPU seconds of repeated calls."""
 
-import os
 import statistics
 import time
 from dataclasses import dataclass
+
+from pipeline.contract.cpu_time import cpu_seconds
 
 
 @dataclass(frozen=True)
@@ -35,9 +36,3 @@ def measured(call, runs):
     _, first = timed(call)
     wall, cpu = zip(*(timed(call) for _ in range(runs)), strict=True)
     return Timing(first, wall, cpu)
-
-
-def cpu_seconds():
-    """CPU seconds of this process and of the children that it has waited for."""
-    children = os.times()
-    return time.process_time() + children.children_user + children.children_system
