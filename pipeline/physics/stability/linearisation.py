@@ -15,7 +15,7 @@ from pipeline.physics.friction.state_kernels import MEMORY, PLATEAUS, SETTLING, 
 from pipeline.physics.friction.state_variables import factors, started, state_kernel
 from pipeline.physics.sliding.model import FrictionState
 from pipeline.physics.time_stepping.coupled_solver import no_memory
-from pipeline.physics.time_stepping.element_forces import DRY, element_force, turn
+from pipeline.physics.time_stepping.element_forces import DRY, element_force, update_turning_dampers
 from pipeline.physics.time_stepping.elements import Maxwell, alone
 
 
@@ -120,7 +120,7 @@ def element_slopes(model, start, slip):
     """
     kernel, rows = alone(model.elements), np.array([e.row for e in model.elements]).reshape(-1, model.size)
     memory = no_memory(kernel) if start.memory is None else start.memory
-    turn(kernel, start.friction, slip, np.zeros(len(rows)))
+    update_turning_dampers(kernel, start.friction, slip, np.zeros(len(rows)))
     slopes = np.zeros((2, len(rows)))
     for k, row in enumerate(rows):
         if kernel.kind[k] != DRY:

@@ -57,6 +57,22 @@ class NormalKernel(NamedTuple):
     newmark: bool               # the linear part is stepped by Newmark's rule, contact and friction forces with it
 
 
+class ContactStep(NamedTuple):
+    """c contacts over one time step: what is given, and the forces and states that are solved for.
+
+    Observables are displacement and velocity along n, then along t.
+    """
+
+    free: np.ndarray        # (4, c) observables at the end, without the contact forces of this step
+    begin: np.ndarray       # (4, c) observables at the begin
+    held: np.ndarray        # (2, c) N, forces N, T at the begin
+    drive: np.ndarray       # (2, c) m/s, sliding velocity at begin and end
+    way: np.ndarray         # (c,) m, its integral
+    force: np.ndarray       # (2, c) N, forces N, T of the step; a guess, then the solution
+    status: np.ndarray      # (c,) OPEN, STICK or SLIP; that of the last step, then of this one
+    before: np.ndarray      # (c,) work: status at the begin, SLIP once a contact has broken loose
+
+
 @njit
 def table_force(law, i, closure, rate):
     """(N, dN/dclosure, dN/drate) of contact i; beyond its last row the table goes on along its last slope."""
@@ -74,16 +90,17 @@ def table_force(law, i, closure, rate):
 
 
 @njit
-def solve_contacts(law, friction, response, free, past, held, drive, way, force, status, before):
-    """(code, contact) after filling ``force`` (2, c) N and ``status`` (c,), which enter with those of the last step.
+def solve_contacts(law, friction, response, step):
+    """(code, contact) after solving for force and status of a ContactStep.
 
-    ``response`` (4, 2, c, c), ``free`` (4, c) observables without forces of this step, ``past`` (4, c) those at its
-    begin, ``held`` (2, c) the forces at its begin, ``drive`` (2, c) sliding velocity at begin and end, ``way`` (c,) m
-    its integral; ``before`` (c,) is room to work in. Nothing is accepted that has not converged: the code says what
-    failed, in which contact.
+    ``response`` (4, 2, c, c) of the observables to the forces. Nothing is accepted that has not converged: the code
+    says what failed, in which contact.
     """
+    free, begin, held, drive, force, status, before = (step.free, step.begin, step.held, step.drive, step.force,
+                                                       step.status, step.before)
     count = free.shape[1]
-    before[:] = status
+    for i in range(count):
+        before[i] = status[i]
     for _ in range(SWEEPS):
         change, size, where = 0.0, 0.0, 0
         for i in range(count):
@@ -98,10 +115,10 @@ def solve_contacts(law, friction, response, free, past, held, drive, way, force,
                             y2 += response[2, f, i, j] * x
                             y3 += response[3, f, i, j] * x
             active = before[i] != OPEN or law.gap[i] + free[0, i] <= 0.0
-            normal, tangent, status[i], code = _one_contact(
+            normal, tangent, status[i], code = _solve_contact(
                 law, friction, i, (y0, y1, y2, y3), _own_response(response, i),
-                (past[0, i], past[1, i], past[2, i], past[3, i]), (held[0, i], held[1, i]), (drive[0, i], drive[1, i]),
-                way[i], (force[0, i], force[1, i]), before[i], active)
+                (begin[0, i], begin[1, i], begin[2, i], begin[3, i]), (held[0, i], held[1, i]),
+                (drive[0, i], drive[1, i]), step.way[i], (force[0, i], force[1, i]), before[i], active)
             if code != SOLVED:
                 return code, i
             moved = abs(normal - force[0, i]) + abs(tangent - force[1, i])
@@ -116,15 +133,15 @@ def solve_contacts(law, friction, response, free, past, held, drive, way, force,
     return UNCONVERGED, where
 
 
-@njit
+@njit(inline="always")
 def _own_response(response, i):
     """Pairs (to N, to T) of the four observables of contact i: tuples, which cost nothing to pass."""
     return ((response[0, 0, i, i], response[0, 1, i, i]), (response[1, 0, i, i], response[1, 1, i, i]),
             (response[2, 0, i, i], response[2, 1, i, i]), (response[3, 0, i, i], response[3, 1, i, i]))
 
 
-@njit
-def _one_contact(law, friction, i, y, r, past, held, drive, way, guess, before, active):
+@njit(inline="always")
+def _solve_contact(law, friction, i, y, r, past, held, drive, way, guess, before, active):
     """(N, T, status, code) of contact i, its observables without its own forces being ``y``."""
     if law.kind == HARD and not active:
         return 0.0, 0.0, OPEN, SOLVED
@@ -171,7 +188,7 @@ def _rigid(law, friction, i, y, r, past, held, drive, way, guess, before):
     return 0.0, 0.0, OPEN, UNCONVERGED
 
 
-@njit
+@njit(inline="always")
 def _mean_load(law, friction, i, held):
     """(share, kept): the normal force that carries rigid friction over the step is kept + share N."""
     if friction.contact[i, DELAYED] > 0.0:

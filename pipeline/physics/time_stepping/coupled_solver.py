@@ -1,4 +1,4 @@
-"""Elements within a time step, compiled: their forces and those of the contacts, found together.
+"""Elements within a time step, compiled: their forces and those of the contacts, solved together.
 
 The force of an element is linear between begin and end of a step, the value at its end belongs to the motion at the
 end. Contacts and elements are solved in turn until the element forces stay; the waviness of a surface and its wear move
@@ -28,13 +28,13 @@ def surface_shift(waviness, instant, shift):
     shift[:] = 0.0
     for w in range(waviness.shape[0]):
         contact = int(waviness[w, 0])
-        place, speed = wave(waviness[w, 1], waviness[w, 2], waviness[w, 3], waviness[w, 4], instant)
+        height, speed = wave(waviness[w, 1], waviness[w, 2], waviness[w, 3], waviness[w, 4], instant)
         grown, growing = 1.0, 0.0
         if waviness[w, 5] > 0.0:
             grown = -np.expm1(-instant[0] / waviness[w, 5])
             growing = (1.0 - grown) / waviness[w, 5]
-        shift[0, contact] += grown * place
-        shift[1, contact] += grown * speed + growing * place
+        shift[0, contact] += grown * height
+        shift[1, contact] += grown * speed + growing * height
 
 
 @njit
@@ -46,7 +46,7 @@ def recede(worn, pace, step, shift):
 
 
 @njit
-def wear_on(wear, force, drive, speed, step, worn, pace):
+def advance_wear(wear, force, drive, speed, step, worn, pace):
     """Wear over a step, by the trapezoidal rule: fill ``worn`` (c,) m and ``pace`` (c,) m/s = wear N |slip| at its end.
 
     ``force`` (c,) N, sliding velocity ``drive`` and velocity ``speed`` (c,) m/s along it are those at the end.
@@ -58,92 +58,91 @@ def wear_on(wear, force, drive, speed, step, worn, pace):
 
 
 @njit
-def first_forces(elements, place, memory, force, instant):
-    """Fill ``force`` (e,) for elongation and rate ``place`` (2, e) at time 0; memory is as it stands there."""
+def first_forces(laws, motion, memory, force, instant):
+    """Fill ``force`` (e,) for elongation and rate ``motion`` (2, e) at time 0; memory is as it stands there."""
     unchanged = memory.copy()
     for k in range(force.size):
-        force[k] = element_force(elements, k, place[0, k], place[1, k], place[0, k], memory, unchanged, instant)[0]
+        force[k] = element_force(laws, k, motion[0, k], motion[1, k], motion[0, k], memory, unchanged, instant)[0]
 
 
 @njit
-def solve_together(law, friction, response, elements, alone, free, seen, held, sliding, way, force, status, earlier,
-                   before, lonely, place, begin, remembered, memory, drawn, instant):
+def solve_together(law, friction, response, elements, contacts, step, free, status, instant):
     """(code, number): forces of contacts and elements at the end of a step, as ``solve_contacts``.
 
-    ``alone`` (4, c) are the observables of the contacts, ``lonely`` (2, e) those of the elements, without the forces
-    at the end; ``free`` gets the former with the element forces, ``place`` (2, e) the latter with all. ``earlier``
-    (c,) is the status at the begin, ``drawn`` (e,) the element forces.
+    ``contacts`` is a ContactStep and ``step`` an ElementStep; ``free`` (4, c) are the observables of the contacts
+    without the forces at the end, to which the element forces come; ``status`` (c,) those at the begin.
     """
-    contacts, count, laws = law.gap.size, drawn.size, laws_of(elements)
-    loose, grain = place.copy(), np.zeros(count)
+    count, laws = step.force.size, laws_of(elements)
     for _ in range(ROUNDS):
-        for i in range(contacts):
+        for i in range(status.size):
+            contacts.status[i] = status[i]
             for o in range(4):
-                total = alone[o, i]
+                total = free[o, i]
                 for k in range(count):
-                    total += elements.to_contacts[o, i, k] * drawn[k]
-                free[o, i] = total
-        if contacts:
-            status[:] = earlier
-            code, contact = solve_contacts(law, friction, response, free, seen, held, sliding, way, force, status,
-                                           before)
+                    total += elements.to_contacts[o, i, k] * step.force[k]
+                contacts.free[o, i] = total
+        if status.size:
+            code, number = solve_contacts(law, friction, response, contacts)
             if code != SOLVED:
-                return code, contact
-        settled, size = True, 0.0
+                return code, number
         for k in range(count):
             for o in range(2):
-                total = lonely[o, k]
+                total = step.free[o, k]
                 for f in range(2):
-                    for i in range(contacts):
-                        total += elements.to_elements[o, k, f, i] * force[f, i]
-                loose[o, k] = total
-            place[0, k] = drawn[k]
-        code, number = solve_elements(laws, loose, begin, remembered, memory, drawn, grain, instant)
+                    for i in range(status.size):
+                        total += elements.to_elements[o, k, f, i] * contacts.force[f, i]
+                step.pressed[o, k] = total
+            step.end[0, k] = step.force[k]
+        code, number = solve_elements(laws, step, instant)
         if code != SOLVED:
             return code, number
-        for k in range(count):
-            size = max(size, abs(drawn[k]))
-        for k in range(count):
-            settled = settled and abs(drawn[k] - place[0, k]) <= TOLERANCE * size + grain[k]
+        settled, size = status.size == 0, 0.0
+        if not settled:
+            for k in range(count):
+                size = max(size, abs(step.force[k]))
+            settled = True
+            for k in range(count):
+                settled = settled and abs(step.force[k] - step.end[0, k]) <= TOLERANCE * size + step.rounding[k]
         if settled:
-            pulled(laws.own, loose, drawn, place)
+            _motion_at_end(laws.own, step)
             return SOLVED, 0
     return UNSETTLED, 0
 
 
 @njit
-def pulled(own, loose, drawn, place):
-    """Fill ``place`` (2, e): elongation and rate ``loose`` (2, e) with the element forces ``drawn`` (e,)."""
-    for k in range(drawn.size):
+def _motion_at_end(own, step):
+    """Fill the elongation and rate at the end: those without the element forces, and what the forces add."""
+    for k in range(step.force.size):
         for o in range(2):
-            place[o, k] = loose[o, k]
-            for j in range(drawn.size):
-                place[o, k] += own[o, k, j] * drawn[j]
+            total = step.pressed[o, k]
+            for j in range(step.force.size):
+                total += own[o, k, j] * step.force[j]
+            step.end[o, k] = total
 
 
 @njit
-def settle_element_books(now, after, drawn_before, drawn):
-    """Work (J) of the elements on the bodies over a step: mean force times way."""
+def element_work(begin, end, force_begin, force_end):
+    """Work (J) of the elements on the bodies over a step: mean force times change of the elongation."""
     total = 0.0
-    for k in range(drawn.size):
-        total -= 0.5 * (drawn_before[k] + drawn[k]) * (after[k] - now[k])
+    for k in range(begin.size):
+        total -= 0.5 * (force_begin[k] + force_end[k]) * (end[k] - begin[k])
     return total
 
 
 @njit
-def shift_work(shift_before, shift, held, force, holds):
+def shift_work(begin, end, held, force, holds):
     """What the moving surface adds to the work of the normal forces over a step; it does not reach the bodies."""
     total = 0.0
-    for i in range(shift.size):
+    for i in range(begin.size):
         mean = force[0, i] if holds else 0.5 * (held[0, i] + force[0, i])
-        total += mean * (shift[i] - shift_before[i])
+        total += mean * (end[i] - begin[i])
     return total
 
 
 @njit
-def middle_angle(angle, before, turning, step):
+def angle_after(angle, speed_begin, speed_end, step):
     """Angle of the drive after a step over which its speed is linear."""
-    return angle + 0.5 * step * (before + turning)
+    return angle + 0.5 * step * (speed_begin + speed_end)
 
 
 def no_memory(elements, time=0.0):

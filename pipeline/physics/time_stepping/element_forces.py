@@ -65,6 +65,19 @@ class LawKernel(NamedTuple):
     own: np.ndarray
 
 
+class ElementStep(NamedTuple):
+    """e elements over one time step: what is given, and the forces that are solved for."""
+
+    free: np.ndarray            # (2, e) elongation and rate at the end without forces of contacts and elements there
+    pressed: np.ndarray         # (2, e) the same with the forces of the contacts
+    begin: np.ndarray           # (2, e) elongation and rate at the begin
+    memory_begin: np.ndarray    # (s,) what the elements remember from there
+    memory: np.ndarray          # (s,) what they remember at the end
+    force: np.ndarray           # (e,) N at the end; a guess, then the solution
+    rounding: np.ndarray        # (e,) N, what rounding of elongation and rate makes of it
+    end: np.ndarray             # (2, e) elongation and rate at the end
+
+
 @njit
 def laws_of(kernel):
     """LawKernel of an ElementKernel."""
@@ -127,7 +140,7 @@ def element_force(kernel, k, elongation, rate, begin, remembered, memory, instan
 
 
 @njit
-def turn(kernel, friction, slip, rate):
+def update_turning_dampers(kernel, friction, slip, rate):
     """Set the damping of all ``turning`` elements by friction forces and slip speeds (c,), and their own rates (e,).
 
     As it is taken at the begin of a step, it resists whatever the step; where friction all but stops the slip, it is
@@ -178,49 +191,49 @@ def _bouc_wen(z, way, size, exponent, shape):
 
 
 @njit
-def solve_elements(kernel, free, begin, remembered, memory, force, grain, instant):
-    """(code, element) after filling ``force`` (e,) N, from a guess, and ``memory``, at the end of the step.
+def solve_elements(laws, step, instant):
+    """(code, element) after solving for force and memory of an ElementStep with ``pressed`` as it stands.
 
-    ``free`` (2, e) are elongation and rate without the forces ``force``, ``begin`` (e,) elongations at the begin of
-    the step. Elements are visited in turn, each solved by Newton's method, until no force changes by more than a
-    tolerance or by more than the rounding of its elongation and rate, which is left in ``grain`` (e,) N.
+    Elements are visited in turn, each solved by Newton's method, until no force changes by more than a tolerance or
+    by more than the rounding of its elongation and rate.
     """
+    force, rounding = step.force, step.rounding
     count = force.size
     for _ in range(SWEEPS):
         settled, size, where = True, 0.0, 0
         for k in range(count):
             size = max(size, abs(force[k]))
         for k in range(count):
-            place, rate = free[0, k], free[1, k]
+            elongation, rate = step.pressed[0, k], step.pressed[1, k]
             for j in range(count):
                 if j != k:
-                    place += kernel.own[0, k, j] * force[j]
-                    rate += kernel.own[1, k, j] * force[j]
-            found, grain[k], code = _one_element(kernel, k, place, rate, begin[k], remembered, memory, force[k],
-                                                 instant)
+                    elongation += laws.own[0, k, j] * force[j]
+                    rate += laws.own[1, k, j] * force[j]
+            result, rounding[k], code = _solve_element(laws, k, elongation, rate, step.begin[0, k], step.memory_begin,
+                                                       step.memory, force[k], instant)
             if code != SOLVED:
                 return code, k
-            if abs(found - force[k]) > TOLERANCE * max(size, abs(found)) + grain[k]:
+            if abs(result - force[k]) > TOLERANCE * max(size, abs(result)) + rounding[k]:
                 settled, where = False, k
-            force[k] = found
+            force[k] = result
         if count == 1 or settled:
             return SOLVED, 0
     return UNSETTLED, where
 
 
-@njit
-def _one_element(kernel, k, place, rate, begin, remembered, memory, guess, instant):
-    """(F, its rounding, code) of element ``k``; ``place``, ``rate``: elongation and rate without its own force."""
-    give, mobile, force = kernel.own[0, k, k], kernel.own[1, k, k], guess
+@njit(inline="always")
+def _solve_element(laws, k, elongation_free, rate_free, begin, memory_begin, memory, guess, instant):
+    """(F, its rounding, code) of element ``k``, from elongation and rate without its own force."""
+    give, mobile, force = laws.own[0, k, k], laws.own[1, k, k], guess
     for _ in range(ITERATIONS):
-        elongation, speed = place + give * force, rate + mobile * force
-        drawn, slope, drag = element_force(kernel, k, elongation, speed, begin, remembered, memory, instant)
-        grain = ROUNDING * (abs(slope * elongation) + abs(drag * speed))
+        elongation, rate = elongation_free + give * force, rate_free + mobile * force
+        value, slope, drag = element_force(laws, k, elongation, rate, begin, memory_begin, memory, instant)
+        rounding = ROUNDING * (abs(slope * elongation) + abs(drag * rate))
         against = 1.0 - slope * give - drag * mobile
         if abs(slope * give) > LARGEST_STIFFNESS or against <= 0.0:
             return 0.0, 0.0, TOO_STIFF
-        change = (drawn - force) / against
+        change = (value - force) / against
         force += change
-        if abs(change) <= LOCAL_TOLERANCE * max(abs(force), abs(drawn)) + grain:
-            return force, grain, SOLVED
+        if abs(change) <= LOCAL_TOLERANCE * max(abs(force), abs(value)) + rounding:
+            return force, rounding, SOLVED
     return 0.0, 0.0, UNSETTLED

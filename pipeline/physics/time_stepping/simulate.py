@@ -32,7 +32,7 @@ from pipeline.physics.time_stepping.normal_laws import (
     normal_force,
     normal_kernel,
 )
-from pipeline.physics.time_stepping.step_loop import HistoryKernel, Record, march
+from pipeline.physics.time_stepping.step_loop import HistoryKernel, Record, Schedule, State, System, integrate
 
 __all__ = ["Forward", "Hard", "History", "Lagrange", "Motion", "Penalty", "Start", "Table", "imposed", "simulate"]
 
@@ -131,18 +131,16 @@ def simulate(model, law, friction=None, *, step, duration, drive=None, inputs=No
     rest = np.zeros(model.size)
     start = Start(rest, rest) if start is None else start
     elements = elements_kernel(model, system, linear)
-    memory = no_memory(elements, start.age) if start.memory is None else contiguous(start.memory)
-    pairs, force, status, value = _begin(model, system, normal, dry, start, _speed_at_start(model, drive), elements,
-                                         states)
-    record = _empty(linear, elements, len(value), steps // record_every + 1, start)
-    code, number, contact = march(
-        linear, normal, dry, elements, states, contiguous(model.contacts.lever),
-        _history(model.speed if drive is None else drive, 1, "drive"), _inputs(model, inputs), pairs, force, status,
-        memory, value, float(start.age), float(step), steps, int(record_every), bool(book), record)
+    state = _begin(model, system, normal, dry, start, _speed_at_start(model, drive), elements, states)
+    record = _empty(linear, elements, steps // record_every + 1)
+    schedule = Schedule(_history(model.speed if drive is None else drive, 1, "drive"), _inputs(model, inputs),
+                        float(start.age), float(step), steps, int(record_every), bool(book))
+    code, number, contact = integrate(
+        System(linear, normal, dry, elements, states, contiguous(model.contacts.lever)), schedule, state, record)
     if code != SOLVED:
         raise _failure(code, number * step, contact, step, model)
-    end = Start(*system.from_pairs(record.end), *force, record.memory, float(record.angle[0]),
-                start.age + steps * step, record.worn, record.states)
+    end = Start(*system.from_pairs(state.pairs), *state.force, state.memory, float(state.angle[0]),
+                start.age + steps * step, state.worn, state.friction)
     return _motion(record, step * record_every, steps, end)
 
 
@@ -157,7 +155,7 @@ def imposed(model, joint):
 
 
 def _begin(model, system, normal, dry, start, speed, elements, states):
-    """Pairs (2, m), forces (2, c), status (c,) and states of friction (k, 2) at time 0."""
+    """The State at time 0."""
     contacts = model.contacts
     gap = normal.gap + contacts.normal @ start.displacement
     rate, slip = contacts.normal @ start.velocity, contacts.lever * speed - contacts.tangent @ start.velocity
@@ -180,7 +178,10 @@ def _begin(model, system, normal, dry, start, speed, elements, states):
     mu = [coefficient(dry, i, force[0, i] / contacts.area[i], slip[i], slip[i]) for i in range(len(gap))]
     force[1] = np.sign(slip) * mu * force[0] if start.friction is None else start.friction
     status = np.where(closed, np.where(slip == 0, STICK, SLIP), OPEN).astype(np.int64)
-    return contiguous(system.to_pairs(start.displacement, start.velocity)), force, status, value
+    return State(contiguous(system.to_pairs(start.displacement, start.velocity)), force, status,
+                 no_memory(elements, start.age) if start.memory is None else np.array(start.memory, float),
+                 np.array(value, float), np.array([float(start.angle)]),
+                 np.zeros(len(gap)) if start.worn is None else np.array(start.worn, float))
 
 
 def _speed_at_start(model, drive):
@@ -205,13 +206,11 @@ def _inputs(model, inputs):
     return _history(np.zeros(count) if inputs is None else inputs, count, "inputs")
 
 
-def _empty(linear, elements, states, kept, start):
+def _empty(linear, elements, rows):
     sensors, contacts = len(linear.sensors) // 2, len(linear.rows) // 4
-    return Record(*np.zeros((2, sensors, kept)), *np.zeros((4, contacts, kept)),
-                  np.zeros((contacts, kept), np.int8), np.zeros(kept), np.zeros((6, kept)),
-                  *np.zeros((2, len(elements.kind), kept)), np.zeros((contacts, 3)), np.zeros(linear.step.shape[1:]),
-                  no_memory(elements), np.zeros((states, 2)), np.array([float(start.angle)]),
-                  np.zeros(contacts) if start.worn is None else contiguous(start.worn))
+    return Record(*np.zeros((2, sensors, rows)), *np.zeros((4, contacts, rows)),
+                  np.zeros((contacts, rows), np.int8), np.zeros(rows), np.zeros((6, rows)),
+                  *np.zeros((2, len(elements.kind), rows)), np.zeros((contacts, 3)))
 
 
 def _motion(record, interval, steps, end):

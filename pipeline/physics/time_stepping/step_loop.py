@@ -11,22 +11,27 @@ from typing import NamedTuple
 
 import numpy as np
 
-from pipeline.physics.friction.dry_friction import RIGID
-from pipeline.physics.friction.state_kernels import expect, settle
+from pipeline.physics.friction.dry_friction import RIGID, FrictionKernel
+from pipeline.physics.friction.state_kernels import StateKernel, expect, settle
 from pipeline.physics.numerics.compiled import njit
-from pipeline.physics.time_stepping.contact_solver import SOLVED, solve_contacts
+from pipeline.physics.time_stepping.contact_solver import SOLVED, ContactStep, NormalKernel, solve_contacts
 from pipeline.physics.time_stepping.coupled_solver import (
+    advance_wear,
+    angle_after,
+    element_work,
     first_forces,
-    middle_angle,
-    pulled,
     recede,
-    settle_element_books,
     shift_work,
     solve_together,
     surface_shift,
-    wear_on,
 )
-from pipeline.physics.time_stepping.element_forces import TURNING, laws_of, solve_elements, turn
+from pipeline.physics.time_stepping.element_forces import (
+    TURNING,
+    ElementKernel,
+    ElementStep,
+    laws_of,
+    update_turning_dampers,
+)
 
 DIVERGED = 4
 #: sums may be reordered to use the width of the processor; nothing else is relaxed
@@ -44,12 +49,12 @@ class LinearKernel(NamedTuple):
     response: np.ndarray    # (4, 2, c, c) of the observables to ``last``
     input_rows: np.ndarray  # (i, 2, m) displacement along the inputs
     sensors: np.ndarray     # (2 s, 2, m) displacement, then velocity
-    hold: np.ndarray        # (2,) 1 where N, T are constant over the step
-    pull: np.ndarray        # (m,) squared frequencies, uncoupled
-    drag: np.ndarray        # (m,) damping, uncoupled
+    constant_over_step: np.ndarray  # (2,) 1 where N, T are constant over the step
+    omega_squared: np.ndarray   # (m,) squared frequencies, uncoupled
+    damping: np.ndarray     # (m,) damping, uncoupled
     energy: np.ndarray      # (2m, 2m) energy form of coupled pairs, else empty
     power: np.ndarray       # (2m, 2m) loss form of coupled pairs, else empty
-    struck: np.ndarray      # (2 c, 2, m) effect at once of forces that are impulses; empty where none are
+    impulse_response: np.ndarray    # (2 c, 2, m) effect at once of forces that are impulses; empty where none are
 
 
 class HistoryKernel(NamedTuple):
@@ -59,8 +64,43 @@ class HistoryKernel(NamedTuple):
     interval: float
 
 
+class System(NamedTuple):
+    """A sliding model, as the loop steps it."""
+
+    linear: LinearKernel
+    law: NormalKernel
+    friction: FrictionKernel
+    elements: ElementKernel
+    states: StateKernel
+    lever: np.ndarray           # (c,) m, sliding velocity per speed of the drive
+
+
+class Schedule(NamedTuple):
+    """What drives the model, and how it is stepped."""
+
+    drive: HistoryKernel        # rad/s, speed of the drive
+    inputs: HistoryKernel       # N, input forces
+    age: float                  # s that passed before time 0
+    step: float                 # s
+    steps: int
+    every: int                  # steps between records
+    book: bool                  # whether energy is recorded, and work of inputs and dampers summed
+
+
+class State(NamedTuple):
+    """Where the motion stands; after the run, where it ended."""
+
+    pairs: np.ndarray           # (2, m)
+    force: np.ndarray           # (2, c) N, forces N, T
+    status: np.ndarray          # (c,) OPEN, STICK or SLIP
+    memory: np.ndarray          # (s,) of the elements
+    friction: np.ndarray        # (k, 2) states of friction
+    angle: np.ndarray           # (1,) rad of the drive
+    worn: np.ndarray            # (c,) m that the contacts have receded by
+
+
 class Record(NamedTuple):
-    """What is kept at r instants."""
+    """What is recorded at r instants."""
 
     displacement: np.ndarray    # (s, r)
     velocity: np.ndarray        # (s, r)
@@ -74,285 +114,290 @@ class Record(NamedTuple):
     elongation: np.ndarray      # (e, r)
     element_force: np.ndarray   # (e, r)
     share: np.ndarray           # (c, 3) steps open, sticking, sliding
-    end: np.ndarray             # (2, m) pairs after the last step
-    memory: np.ndarray          # (s,) of the elements after the last step
-    states: np.ndarray          # (k, 2) of friction after the last step
-    angle: np.ndarray           # (1,) rad of the drive, at time 0, then after the last step
-    worn: np.ndarray            # (c,) m that the contacts have receded by, at time 0, then after the last step
 
 
 @njit
-def read(history, time, found):
-    """Fill ``found`` (n,) with the values at ``time``."""
+def interpolate(history, time, values):
+    """Fill ``values`` (n,) with those of a HistoryKernel at ``time``."""
     last = history.value.shape[0] - 1
-    place = time / history.interval
-    k = min(int(place), last)
-    share = place - k
-    for i in range(found.size):
-        found[i] = history.value[k, i]
+    position = time / history.interval
+    k = min(int(position), last)
+    share = position - k
+    for i in range(values.size):
+        values[i] = history.value[k, i]
         if k < last:
-            found[i] += share * (history.value[k + 1, i] - history.value[k, i])
+            values[i] += share * (history.value[k + 1, i] - history.value[k, i])
+
+
+@njit
+def _copy(source, target):
+    """Copy values (n,). A loop: numba compiles it in a tenth of the time of an assignment of arrays."""
+    for i in range(source.size):
+        target[i] = source[i]
 
 
 @njit(fastmath=_FAST)
-def _advance(step, steady, now, after):
-    for b in range(now.shape[1]):
-        one, other = now[0, b], now[1, b]
-        after[0, b] = step[0, 0, b] * one + step[0, 1, b] * other + steady[0, b]
-        after[1, b] = step[1, 0, b] * one + step[1, 1, b] * other + steady[1, b]
+def _advance(step, steady, begin, end):
+    for b in range(begin.shape[1]):
+        first, second = begin[0, b], begin[1, b]
+        end[0, b] = step[0, 0, b] * first + step[0, 1, b] * second + steady[0, b]
+        end[1, b] = step[1, 0, b] * first + step[1, 1, b] * second + steady[1, b]
 
 
 @njit(fastmath=_FAST)
-def _push(columns, first, factors, pairs):
-    """Add ``columns`` (from number ``first`` on) times ``factors`` to the pairs."""
+def _add_forces(columns, factors, pairs):
+    """Add ``columns`` (n, 2, m) times ``factors`` (n,) to the pairs."""
     for k in range(factors.size):
         factor = factors[k]
         if factor != 0.0:
             for b in range(pairs.shape[1]):
-                pairs[0, b] += factor * columns[first + k, 0, b]
-                pairs[1, b] += factor * columns[first + k, 1, b]
+                pairs[0, b] += factor * columns[k, 0, b]
+                pairs[1, b] += factor * columns[k, 1, b]
 
 
 @njit(fastmath=_FAST)
-def _see(rows, pairs, seen):
-    """Fill ``seen`` (r,) with the rows (r, 2, m) of the pairs."""
-    for k in range(seen.size):
+def _project_rows(rows, pairs, values):
+    """Fill ``values`` (r,) with the rows (r, 2, m) of the pairs."""
+    for k in range(values.size):
         total = 0.0
         for b in range(pairs.shape[1]):
             total += rows[k, 0, b] * pairs[0, b] + rows[k, 1, b] * pairs[1, b]
-        seen[k] = total
+        values[k] = total
 
 
 @njit(fastmath=_FAST)
-def _loss_rate(power, drag, pairs):
+def _loss_rate(power, damping, pairs):
     """Power of the dampers, W."""
     if power.size:
         state = pairs.ravel()
         return state @ (power @ state)
     total = 0.0
     for b in range(pairs.shape[1]):
-        total += drag[b] * pairs[1, b] ** 2
+        total += damping[b] * pairs[1, b] ** 2
     return total
 
 
 @njit
-def stored_energy(energy, pull, pairs):
+def stored_energy(energy, omega_squared, pairs):
     """Kinetic and strain energy, J."""
     if energy.size:
         state = pairs.ravel()
         return state @ (energy @ state)
     total = 0.0
     for b in range(pairs.shape[1]):
-        total += pairs[1, b] ** 2 + pull[b] * pairs[0, b] ** 2
+        total += pairs[1, b] ** 2 + omega_squared[b] * pairs[0, b] ** 2
     return 0.5 * total
 
 
 @njit
-def _keep(kept, gap, stored, record, row, seen, force, drive, status, steps, work):
-    for s in range(kept.size // 2):
-        record.displacement[s, row], record.velocity[s, row] = kept[s], kept[kept.size // 2 + s]
-    for i in range(seen.shape[1]):
-        record.gap[i, row] = gap[i] + seen[0, i]
-        record.normal[i, row], record.friction[i, row] = force[0, i] / steps, force[1, i] / steps
-        record.slip[i, row] = drive[i] - seen[3, i]
-        record.status[i, row] = status[i]
+def _record_row(record, row, sensors, gap, stored, contact, summed, steps, work):
+    """Fill ``row`` of the record; ``summed`` (2, c) are the forces of the last ``steps``."""
+    for s in range(sensors.size // 2):
+        record.displacement[s, row], record.velocity[s, row] = sensors[s], sensors[sensors.size // 2 + s]
+    for i in range(gap.size):
+        record.gap[i, row] = gap[i] + contact.begin[0, i]
+        record.normal[i, row], record.friction[i, row] = summed[0, i] / steps, summed[1, i] / steps
+        record.slip[i, row] = contact.drive[1, i] - contact.begin[3, i]
+        record.status[i, row] = contact.status[i]
     record.stored[row] = stored
     for k in range(work.size):
         record.work[k, row] = work[k]
 
 
 @njit
-def _keep_elements(elongation, element_force, row, place, drawn):
-    for k in range(drawn.size):
-        elongation[k, row], element_force[k, row] = place[0, k], drawn[k]
-
-
-@njit
-def march(linear, law, friction, elements, states, lever, drive, inputs, pairs, force, status, memory, value, age, step,
-          steps, every, book, record):
-    """(code, step number, contact or element): fills ``record`` from what stands at time 0, ``pairs`` to ``value``.
-
-    ``lever`` (c,), ``drive`` HistoryKernel of the drive speed, ``inputs`` of the input forces; ``age`` s passed before
-    time 0; ``book``: whether energy is kept and the work of inputs and dampers summed.
-    """
-    contacts, count = law.gap.size, linear.input_rows.shape[0]
+def integrate(system, schedule, state, record):
+    """(code, step number, contact or element) of the first step that fails, after filling ``record`` and ``state``."""
+    linear, law, friction, elements, states, lever = system
+    drive, inputs, age, step, steps, every, book = schedule
+    pairs, force, status, memory, value = state.pairs, state.force, state.status, state.memory, state.friction
+    contacts, count, count_e = law.gap.size, linear.input_rows.shape[0], elements.kind.size
     # functions of the loop take the arrays that they need: a whole tuple of arrays costs more than their work
-    one_step, first, last, rows, response = linear.step, linear.first, linear.last, linear.rows, linear.response
-    input_rows, power, drag, struck, share = linear.input_rows, linear.power, linear.drag, linear.struck, record.share
-    sensors, energy, pull, gap = linear.sensors, linear.energy, linear.pull, law.gap
-    holds = (linear.hold[0] > 0, linear.hold[1] > 0)
-    free, seen, after = np.zeros((4, contacts)), np.zeros((4, contacts)), np.zeros_like(pairs)
-    held, summed, turning = force.copy(), np.zeros((2, contacts)), np.zeros(1)
-    free_flat, seen_flat, held_flat, force_flat = free.ravel(), seen.ravel(), held.ravel(), force.ravel()
-    sliding, way, work, before = np.zeros((2, contacts)), np.zeros(contacts), np.zeros(6), status.copy()
-    kicked, hit, jump = np.zeros_like(pairs), np.zeros((4, contacts)), np.zeros((2, contacts if struck.size else 0))
-    hit_flat = hit.ravel()
-    begin, end, watched = np.zeros(count), np.zeros(count), np.zeros(linear.sensors.shape[0])
-    place, place_after = np.zeros(count), np.zeros(count)
-    varies, turns, steady = inputs.value.shape[0] > 1, drive.value.shape[0] > 1, np.zeros_like(pairs)
-    read(inputs, 0.0, begin)
-    read(drive, 0.0, turning)
-    end[:] = begin
-    sliding[:] = turning[0] * lever
-    way[:] = step * turning[0] * lever
+    one_step, rows, response, gap, share = linear.step, linear.rows, linear.response, law.gap, record.share
+    input_rows, power, damping, impulse = linear.input_rows, linear.power, linear.damping, linear.impulse_response
+    sensor_rows, energy, omega_squared = linear.sensors, linear.energy, linear.omega_squared
+    element_rows = elements.rows
+    contact_first, contact_last = linear.first[:2 * contacts], linear.last[:2 * contacts]
+    input_first, element_first = linear.first[2 * contacts:2 * contacts + count], linear.first[2 * contacts + count:]
+    input_last, element_last = linear.last[2 * contacts:2 * contacts + count], linear.last[2 * contacts + count:]
+    constant = (linear.constant_over_step[0] > 0, linear.constant_over_step[1] > 0)
+    contact = ContactStep(np.zeros((4, contacts)), np.zeros((4, contacts)), force.copy(), np.zeros((2, contacts)),
+                          np.zeros(contacts), force, status, status.copy())
+    element = ElementStep(np.zeros((2, count_e)), np.zeros((2, count_e)), np.zeros((2, count_e)), memory.copy(), memory,
+                          np.zeros(count_e), np.zeros(count_e), np.zeros((2, count_e)))
+    free, observed, held, sliding, way = contact.free, contact.begin, contact.held, contact.drive, contact.way
+    free_flat, observed_flat, held_flat, force_flat = free.ravel(), observed.ravel(), held.ravel(), force.ravel()
+    elongation, elongation_flat, elongation_end = element.begin, element.begin.ravel(), element.end.ravel()
+    element_free, element_force, element_force_begin = element.free.ravel(), element.force, np.zeros(count_e)
+    after, steady, kicked = np.zeros_like(pairs), np.zeros_like(pairs), np.zeros_like(pairs)
+    pairs_flat, after_flat, kicked_flat = pairs.ravel(), after.ravel(), kicked.ravel()
+    struck, jump = np.zeros((4, contacts)), np.zeros((2, contacts if impulse.size else 0))
+    struck_flat, summed, work = struck.ravel(), force.copy(), np.zeros(6)
+    input_begin, input_end, sensors = np.zeros(count), np.zeros(count), np.zeros(sensor_rows.shape[0])
+    displacement, displacement_end, speed, angle = np.zeros(count), np.zeros(count), np.zeros(1), state.angle[0]
+    alone, shift, shift_begin = np.zeros((4, contacts)), np.zeros((2, contacts)), np.zeros((2, contacts))
+    alone_flat, shift_flat, shift_begin_flat = alone.ravel(), shift.ravel(), shift_begin.ravel()
+    status_begin = status.copy()
+    slip, slip_end, mean = np.zeros(contacts), np.zeros(contacts), np.zeros(contacts)
+    laws, wear, worn, pace = laws_of(elements), elements.wear, state.worn, np.zeros(elements.wear.size)
+    varies, turns, recalls = inputs.value.shape[0] > 1, drive.value.shape[0] > 1, states.kind.size > 0
+    middle, dampers_turn = friction.description == RIGID and not law.newmark, False
+    for k in range(count_e):
+        dampers_turn = dampers_turn or elements.kind[k] == TURNING
+    special = count_e > 0 or elements.waviness.shape[0] > 0 or wear.size > 0 or recalls
+    interpolate(inputs, 0.0, input_end)
+    interpolate(drive, 0.0, speed)
+    _copy(input_end, input_begin)
+    for i in range(contacts):
+        sliding[0, i] = sliding[1, i] = speed[0] * lever[i]
+        way[i] = step * speed[0] * lever[i]
     if not varies:
-        _push(first, 2 * contacts, begin, steady)
-        _push(last, 2 * contacts, begin, steady)
-    count_e, waves = elements.kind.size, elements.waviness.shape[0] > 0
-    recalls, middle = states.kind.size > 0, friction.description == RIGID and not law.newmark
-    turns_aside = np.any(elements.kind == TURNING)
-    wear, worn, pace = elements.wear, record.worn, np.zeros(elements.wear.size)
-    special, angle, spin = count_e > 0 or waves or wear.size > 0 or recalls, record.angle[0], np.zeros(1)
-    slip, slipped, mean = np.zeros(contacts), np.zeros(contacts), np.zeros(contacts)
-    alone, shift, shift_before = np.zeros((4, contacts)), np.zeros((2, contacts)), np.zeros((2, contacts))
-    lonely, now, later = np.zeros((2, count_e)), np.zeros((2, count_e)), np.zeros((2, count_e))
-    drawn, drawn_before, remembered, earlier = np.zeros(count_e), np.zeros(count_e), memory.copy(), status.copy()
-    laws, element_rows, grain, lonely_flat = laws_of(elements), elements.rows, np.zeros(count_e), lonely.ravel()
-    _see(input_rows, pairs, place)
-    _see(rows, pairs, seen_flat)
+        _add_forces(input_first, input_begin, steady)
+        _add_forces(input_last, input_begin, steady)
+    _project_rows(input_rows, pairs, displacement)
+    _project_rows(rows, pairs, observed_flat)
     if special:
-        read(drive, 0.0, spin)
-        instant = (age, angle, spin[0])
-        wear_on(wear, force[0], sliding[1], seen[3], 0.0, worn, pace)
+        instant = (age, angle, speed[0])
+        advance_wear(wear, force[0], sliding[1], observed[3], 0.0, worn, pace)
         surface_shift(elements.waviness, instant, shift)
         recede(worn, pace, 0.0, shift)
-        seen[0] += shift[0]
-        seen[1] += shift[1]
-        _see(elements.rows, pairs, now.ravel())
-        turn(elements, force[1], sliding[1] - seen[3], now[1])
-        first_forces(elements, now, memory, drawn, instant)
-        _keep_elements(record.elongation, record.element_force, 0, now, drawn)
-    _see(sensors, pairs, watched)
-    stored = stored_energy(energy, pull, pairs) if book else 0.0
-    _keep(watched, gap, stored, record, 0, seen, force, sliding[1], status, 1, work)
-    loss = _loss_rate(power, drag, pairs) if book else 0.0
-    for number in range(1, steps + 1):
-        _advance(one_step, steady, pairs, after)
-        if varies:
-            begin[:] = end
-            read(inputs, number * step, end)
-            _push(first, 2 * contacts, begin, after)
-            _push(last, 2 * contacts, end, after)
-        if special:
-            drawn_before[:] = drawn
-            shift_before[:] = shift
-            remembered[:] = memory
-            spun, angle_before = spin[0], angle
-            read(drive, number * step, spin)
-            angle = middle_angle(angle, spun, spin[0], step)
-            instant = (age + number * step, angle, spin[0])
-            _push(first, 2 * contacts + count, drawn, after)
-        if contacts:
-            if turns:
-                read(drive, number * step, turning)
-                for i in range(contacts):
-                    sliding[0, i], sliding[1, i] = sliding[1, i], lever[i] * turning[0]
-                    way[i] = 0.5 * step * (sliding[0, i] + sliding[1, i])
-            held_flat[:] = force_flat
-            if recalls or turns_aside:
-                slip[:] = sliding[0] - seen[3]
-            if turns_aside:
-                turn(elements, held[1], slip, now[1])
-            if recalls:
-                expect(states, value, friction, held[0], slip, held[1], angle_before, angle, step, middle)
-            if not (holds[0] and holds[1]):
-                _push(first, 0, held_flat, after)
-            _see(rows, after, free_flat)
-            if not special:
-                code, contact = solve_contacts(law, friction, response, free, seen, held, sliding, way, force,
-                                               status, before)
-                if code != SOLVED:
-                    return code, number, contact
-        if special:
-            surface_shift(elements.waviness, instant, shift)
-            recede(worn, pace, step, shift)
-            for i in range(contacts):
-                free[0, i] += shift[0, i]
-                free[1, i] += shift[1, i]
-            _see(element_rows, after, lonely_flat)
-            if contacts:
-                alone[:] = free
-                earlier[:] = status
-                code, contact = solve_together(law, friction, response, elements, alone, free, seen, held, sliding, way,
-                                               force, status, earlier, before, lonely, later, now[0], remembered,
-                                               memory, drawn, instant)
-            else:
-                code, contact = solve_elements(laws, lonely, now[0], remembered, memory, drawn, grain, instant)
-                pulled(laws.own, lonely, drawn, later)
-            if code != SOLVED:
-                return code, number, contact
-            _push(last, 2 * contacts + count, drawn, after)
-            work[ELEMENTS] += settle_element_books(now[0], later[0], drawn_before, drawn)
-            work[NORMAL] -= shift_work(shift_before[0], shift[0], held, force, holds[0])
-            now, later = later, now
-        if contacts:
-            _push(last, 0, force_flat, after)
-            if struck.size:
-                kicked[:] = pairs
-                _push(struck, 0, force_flat, kicked)
-                _see(rows, kicked, hit_flat)
-                loss = _loss_rate(power, drag, kicked) if book else 0.0
-                jump[0] = 0.5 * step * (seen[1] + hit[1])
-                jump[1] = 0.5 * step * (seen[3] + hit[3])
-            _account(response, jump, holds, held, force, free, seen, way, status, share, summed, work)
-            if recalls:
-                slipped[:] = sliding[1] - seen[3]
-                mean[:] = force[1] if holds[1] else 0.5 * (held[1] + force[1])
-                settle(states, value, force[0] if holds[0] else held[0], force[0], slip, slipped, mean, step)
-            wear_on(wear, force[0], sliding[1], seen[3], step, worn, pace)
-        if book:
-            rate = _loss_rate(power, drag, after)
-            if struck.size:
-                kicked[:] = 0.5 * (kicked + after)
-                work[DAMPING] += step / 6 * (loss + 4 * _loss_rate(power, drag, kicked) + rate)
-            else:
-                work[DAMPING] += 0.5 * step * (loss + rate)
-            loss = rate
-            _see(input_rows, after, place_after)
-            for i in range(count):
-                work[INPUT] += 0.5 * (begin[i] + end[i]) * (place_after[i] - place[i])
-                place[i] = place_after[i]
-        pairs, after = after, pairs
-        if number % every == 0:
-            if not np.isfinite(np.sum(pairs)):
-                return DIVERGED, number, 0
-            _see(sensors, pairs, watched)
-            stored = stored_energy(energy, pull, pairs) if book else 0.0
-            _keep(watched, gap, stored, record, number // every, seen, summed, sliding[1], status, every, work)
+        for i in range(contacts):
+            observed[0, i] += shift[0, i]
+            observed[1, i] += shift[1, i]
+            slip[i] = sliding[1, i] - observed[3, i]
+        _project_rows(element_rows, pairs, elongation_flat)
+        update_turning_dampers(laws, force[1], slip, elongation[1])
+        first_forces(laws, elongation, memory, element_force, instant)
+    loss, recorded = _loss_rate(power, damping, pairs) if book else 0.0, min(every, 1)
+    for number in range(steps + 1):
+        if number > 0:
+            _advance(one_step, steady, pairs, after)
+            if varies:
+                _copy(input_end, input_begin)
+                interpolate(inputs, number * step, input_end)
+                _add_forces(input_first, input_begin, after)
+                _add_forces(input_last, input_end, after)
+            speed_begin, angle_begin = speed[0], angle
+            if turns or special:
+                interpolate(drive, number * step, speed)
             if special:
-                _keep_elements(record.elongation, record.element_force, number // every, now, drawn)
-            summed[:] = 0.0
-    record.end[:] = pairs
-    record.memory[:] = memory
-    record.states[:] = value
-    record.angle[0] = angle
+                _copy(element_force, element_force_begin)
+                _copy(shift_flat, shift_begin_flat)
+                _copy(memory, element.memory_begin)
+                angle = angle_after(angle, speed_begin, speed[0], step)
+                instant = (age + number * step, angle, speed[0])
+                _add_forces(element_first, element_force, after)
+            if contacts:
+                if turns:
+                    for i in range(contacts):
+                        sliding[0, i], sliding[1, i] = sliding[1, i], lever[i] * speed[0]
+                        way[i] = 0.5 * step * (sliding[0, i] + sliding[1, i])
+                _copy(force_flat, held_flat)
+                if recalls or dampers_turn:
+                    for i in range(contacts):
+                        slip[i] = sliding[0, i] - observed[3, i]
+                if dampers_turn:
+                    update_turning_dampers(laws, held[1], slip, elongation[1])
+                if recalls:
+                    expect(states, value, friction, held[0], slip, held[1], angle_begin, angle, step, middle)
+                if not (constant[0] and constant[1]):
+                    _add_forces(contact_first, held_flat, after)
+                _project_rows(rows, after, free_flat)
+            if special:
+                surface_shift(elements.waviness, instant, shift)
+                recede(worn, pace, step, shift)
+                for i in range(contacts):
+                    free[0, i] += shift[0, i]
+                    free[1, i] += shift[1, i]
+                    status_begin[i] = status[i]
+                _copy(free_flat, alone_flat)
+                _project_rows(element_rows, after, element_free)
+                code, where = solve_together(law, friction, response, elements, contact, element, alone, status_begin,
+                                             instant)
+                if code != SOLVED:
+                    return code, number, where
+                _add_forces(element_last, element_force, after)
+                work[ELEMENTS] += element_work(elongation[0], element.end[0], element_force_begin, element_force)
+                work[NORMAL] -= shift_work(shift_begin[0], shift[0], held, force, constant[0])
+                _copy(elongation_end, elongation_flat)
+            elif contacts:
+                code, where = solve_contacts(law, friction, response, contact)
+                if code != SOLVED:
+                    return code, number, where
+            if contacts:
+                _add_forces(contact_last, force_flat, after)
+                if impulse.size:
+                    _copy(pairs_flat, kicked_flat)
+                    _add_forces(impulse, force_flat, kicked)
+                    _project_rows(rows, kicked, struck_flat)
+                    loss = _loss_rate(power, damping, kicked) if book else 0.0
+                    for i in range(contacts):
+                        jump[0, i] = 0.5 * step * (observed[1, i] + struck[1, i])
+                        jump[1, i] = 0.5 * step * (observed[3, i] + struck[3, i])
+                _account(response, contact, jump, constant, share, summed, work)
+                if recalls:
+                    for i in range(contacts):
+                        slip_end[i] = sliding[1, i] - observed[3, i]
+                        mean[i] = force[1, i] if constant[1] else 0.5 * (held[1, i] + force[1, i])
+                    settle(states, value, force[0] if constant[0] else held[0], force[0], slip, slip_end, mean, step)
+                advance_wear(wear, force[0], sliding[1], observed[3], step, worn, pace)
+            if book:
+                rate = _loss_rate(power, damping, after)
+                if impulse.size:
+                    for i in range(kicked_flat.size):
+                        kicked_flat[i] = 0.5 * (kicked_flat[i] + after_flat[i])
+                    work[DAMPING] += step / 6 * (loss + 4 * _loss_rate(power, damping, kicked) + rate)
+                else:
+                    work[DAMPING] += 0.5 * step * (loss + rate)
+                loss = rate
+                _project_rows(input_rows, after, displacement_end)
+                for i in range(count):
+                    work[INPUT] += 0.5 * (input_begin[i] + input_end[i]) * (displacement_end[i] - displacement[i])
+                    displacement[i] = displacement_end[i]
+            _copy(after_flat, pairs_flat)
+        if number % every == 0:
+            total = 0.0
+            for i in range(pairs_flat.size):
+                total += pairs_flat[i]
+            if not np.isfinite(total):
+                return DIVERGED, number, 0
+            _project_rows(sensor_rows, pairs, sensors)
+            stored = stored_energy(energy, omega_squared, pairs) if book else 0.0
+            _record_row(record, number // every, sensors, gap, stored, contact, summed, recorded, work)
+            for k in range(count_e):
+                record.elongation[k, number // every] = elongation[0, k]
+                record.element_force[k, number // every] = element_force[k]
+            for i in range(contacts):
+                summed[0, i] = summed[1, i] = 0.0
+            recorded = every
+    state.angle[0] = angle
     return SOLVED, 0, 0
 
 
 @njit
-def _account(response, jump, holds, held, force, free, seen, way, status, share, summed, work):
-    """Observables at the end of the step into ``seen``; mean forces, their work, the status of the step.
+def _account(response, contact, jump, constant, share, summed, work):
+    """Observables at the end of the step into those at its begin; mean forces, their work, the status of the step.
 
-    ``jump`` (2, c) m is the way along n and t that impulses work along, empty where there are none.
+    ``jump`` (2, c) m is the distance along n and t over which impulses work, empty where there are none.
     """
-    contacts = seen.shape[1]
+    free, observed, held, force = contact.free, contact.begin, contact.held, contact.force
+    contacts = observed.shape[1]
     for i in range(contacts):
-        moved, drawn = seen[0, i], seen[2, i]
+        along_n, along_t = observed[0, i], observed[2, i]
         for o in range(4):
             total = free[o, i]
             for j in range(contacts):
                 for f in range(2):
                     total += response[o, f, i, j] * force[f, j]
-            seen[o, i] = total
-        mean_n = force[0, i] if holds[0] else 0.5 * (held[0, i] + force[0, i])
-        mean_t = force[1, i] if holds[1] else 0.5 * (held[1, i] + force[1, i])
+            observed[o, i] = total
+        mean_n = force[0, i] if constant[0] else 0.5 * (held[0, i] + force[0, i])
+        mean_t = force[1, i] if constant[1] else 0.5 * (held[1, i] + force[1, i])
         summed[0, i] += mean_n
         summed[1, i] += mean_t
-        moved, drawn = seen[0, i] - moved, seen[2, i] - drawn
+        along_n, along_t = observed[0, i] - along_n, observed[2, i] - along_t
         if jump.size:
-            moved = jump[0, i]
-            drawn = jump[1, i] if holds[1] else drawn
-        work[NORMAL] += mean_n * moved
-        work[SLIDING] += mean_t * (way[i] - drawn)
-        work[FRICTION] += mean_t * drawn
-        share[i, status[i]] += 1.0
+            along_n = jump[0, i]
+            along_t = jump[1, i] if constant[1] else along_t
+        work[NORMAL] += mean_n * along_n
+        work[SLIDING] += mean_t * (contact.way[i] - along_t)
+        work[FRICTION] += mean_t * along_t
+        share[i, contact.status[i]] += 1.0

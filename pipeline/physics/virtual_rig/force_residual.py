@@ -17,8 +17,8 @@ from pipeline.contract.errors import ConfigError
 from pipeline.physics.contact.groups import read
 from pipeline.physics.friction.state_variables import friction_along
 from pipeline.physics.numerics.compiled import njit
-from pipeline.physics.time_stepping.coupled_solver import no_memory, surface_shift, wear_on
-from pipeline.physics.time_stepping.element_forces import element_force, turn
+from pipeline.physics.time_stepping.coupled_solver import advance_wear, no_memory, surface_shift
+from pipeline.physics.time_stepping.element_forces import element_force, update_turning_dampers
 from pipeline.physics.time_stepping.elements import alone, wave_table
 from pipeline.physics.time_stepping.normal_laws import force_along
 from pipeline.physics.virtual_rig.response import MOTIONS, run_drive, run_friction, run_inputs
@@ -121,7 +121,7 @@ def _along(kernel, place, rate, instants, memory, drawn, slip):
     force, after = np.zeros_like(place), memory.copy()
     for s in range(place.shape[1]):
         instant = (instants[s, 0], instants[s, 1], instants[s, 2])
-        turn(kernel, drawn[:, s], slip[:, s], rate[:, s])
+        update_turning_dampers(kernel, drawn[:, s], slip[:, s], rate[:, s])
         for k in range(place.shape[0]):
             begin = place[k, max(s - 1, 0)]
             force[k, s] = element_force(kernel, k, place[k, s], rate[k, s], begin, memory, after, instant)[0]
@@ -163,5 +163,5 @@ def _worn(bench, i, gap, opening, rate, time):
     for s, interval in enumerate(np.diff(time, prepend=time[0])):
         shift[:, s] = worn[0] + interval * pace[0], pace[0]
         force = force_along(bench.law, i, area, -gap[s] - shift[0, s], -opening[s] - shift[1, s])
-        wear_on(rate[s:s + 1], np.reshape(force, 1), np.ones(1), np.zeros(1), interval, worn, pace)
+        advance_wear(rate[s:s + 1], np.reshape(force, 1), np.ones(1), np.zeros(1), interval, worn, pace)
     return shift

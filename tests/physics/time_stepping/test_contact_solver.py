@@ -16,6 +16,7 @@ from pipeline.physics.time_stepping.contact_solver import (
     TABLE,
     TOO_LONG,
     UNCONVERGED,
+    ContactStep,
     NormalKernel,
     solve_contacts,
     table_force,
@@ -36,9 +37,9 @@ def solve(law, mobility, free, mu=0.3, past=None, status=None, **friction):
     response = np.array([1e-6 * blocks[0], blocks[0], 1e-6 * blocks[1], blocks[1]])
     force, none = np.zeros((2, contacts)), np.zeros((4, contacts))
     status = np.full(contacts, OPEN) if status is None else np.array(status)
-    code, where = solve_contacts(law, kernel(constant(mu, **friction), contacts), response, np.array(free, float),
-                                 none if past is None else np.array(past, float), np.zeros((2, contacts)),
-                                 np.zeros((2, contacts)), np.zeros(contacts), force, status, status.copy())
+    step = ContactStep(np.array(free, float), none if past is None else np.array(past, float), np.zeros((2, contacts)),
+                       np.zeros((2, contacts)), np.zeros(contacts), force, status, status.copy())
+    code, _ = solve_contacts(law, kernel(constant(mu, **friction), contacts), response, step)
     return code, force, status
 
 

@@ -4,13 +4,13 @@ import numpy as np
 import pytest
 
 from pipeline.physics.time_stepping.coupled_solver import (
-    middle_angle,
+    advance_wear,
+    angle_after,
+    element_work,
     no_memory,
     recede,
-    settle_element_books,
     shift_work,
     surface_shift,
-    wear_on,
 )
 from pipeline.physics.time_stepping.elements import Element, Maxwell, Polynomial, alone
 
@@ -40,7 +40,8 @@ def test_wear_over_a_step_is_the_mean_of_its_ends():
     worn, pace, shift = np.array([1e-3, 0.0]), np.array([2e-2, 0.0]), np.zeros((2, 2))
     recede(worn, pace, 0.1, shift)
     np.testing.assert_allclose(shift, [[3e-3, 0.0], [2e-2, 0.0]])
-    wear_on(np.array([1e-3, 5e-3]), np.array([20.0, 10.0]), np.full(2, -1.0), np.array([1.0, -1.0]), 0.1, worn, pace)
+    advance_wear(np.array([1e-3, 5e-3]), np.array([20.0, 10.0]), np.full(2, -1.0), np.array([1.0, -1.0]), 0.1, worn,
+                 pace)
     np.testing.assert_allclose(pace, [4e-2, 0.0])
     np.testing.assert_allclose(worn, [1e-3 + 3e-3, 0.0])
 
@@ -53,9 +54,9 @@ def test_branches_remember_when_they_were_relaxed():
 
 @pytest.mark.exact
 def test_books_of_a_step():
-    assert settle_element_books(np.array([1.0, 2.0]), np.array([1.5, 1.0]), np.array([2.0, 4.0]),
-                                np.array([4.0, 6.0])) == pytest.approx(-0.5 * 3 + 5.0)
+    work = element_work(np.array([1.0, 2.0]), np.array([1.5, 1.0]), np.array([2.0, 4.0]), np.array([4.0, 6.0]))
+    assert work == pytest.approx(-0.5 * 3 + 5.0)
     held, force = np.array([[2.0], [0.0]]), np.array([[6.0], [0.0]])
     assert shift_work(np.zeros(1), np.array([0.1]), held, force, True) == pytest.approx(0.6)
     assert shift_work(np.zeros(1), np.array([0.1]), held, force, False) == pytest.approx(0.4)
-    assert middle_angle(1.0, 2.0, 4.0, 0.5) == pytest.approx(2.5)
+    assert angle_after(1.0, 2.0, 4.0, 0.5) == pytest.approx(2.5)

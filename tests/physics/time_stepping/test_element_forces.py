@@ -9,7 +9,9 @@ from pipeline.physics.time_stepping.contact_solver import SOLVED
 from pipeline.physics.time_stepping.element_forces import (
     LOCAL_TOLERANCE,
     TOO_STIFF,
+    ElementStep,
     element_force,
+    laws_of,
     solve_elements,
     wave,
 )
@@ -37,6 +39,12 @@ def compiled(*laws, own=None):
     return element_kernel(tuple(Element(f"law_{k}", np.ones(1), law) for k, law in enumerate(laws)), (),
                           rows=np.zeros((2 * count, 2, 1)), own=own, to_contacts=np.zeros((4, 0, count)),
                           to_elements=np.zeros((2, count, 2, 0)))
+
+
+def element_step(pressed, force):
+    """ElementStep of elements without memory, from rest at 0."""
+    return ElementStep(np.array(pressed), pressed, np.zeros_like(pressed), np.zeros(0), np.zeros(0), force,
+                       np.zeros_like(force), np.zeros_like(pressed))
 
 
 def drawn(law, way, rate=None, instants=None):
@@ -184,7 +192,7 @@ def test_coupled_elements_are_solved_together():
     own = -np.array([[[0.01, 0.004], [0.004, 0.02]], [[0, 0], [0, 0]]])
     kernel, force = compiled(Polynomial(3.0), Polynomial(5.0), own=own), np.zeros(2)
     free = np.array([[0.5, -0.2], [0.0, 0.0]])
-    code, _ = solve_elements(kernel, free, np.zeros(2), np.zeros(0), np.zeros(0), force, np.zeros(2), REST)
+    code, _ = solve_elements(laws_of(kernel), element_step(free, force), REST)
     stiffness = np.diag([3.0, 5.0])
     assert code == SOLVED
     exact = np.linalg.solve(np.eye(2) - stiffness @ own[0], stiffness @ free[0])
@@ -193,6 +201,5 @@ def test_coupled_elements_are_solved_together():
 
 def test_an_element_too_stiff_for_the_step_is_told():
     kernel = compiled(Polynomial(3.0), own=-np.array([[[0.05]], [[0.0]]]))
-    code, element = solve_elements(kernel, np.ones((2, 1)), np.zeros(1), np.zeros(0), np.zeros(0), np.zeros(1),
-                                   np.zeros(1), REST)
+    code, element = solve_elements(laws_of(kernel), element_step(np.ones((2, 1)), np.zeros(1)), REST)
     assert (code, element) == (TOO_STIFF, 0)
