@@ -101,7 +101,7 @@ MIRRORED = ("stages", "pipeline/physics", "pipeline/systems", "pipeline/recordin
 REFERENCES = "pipeline/physics/closed_form"
 MOST_FILES = 16
 #: compiled kernels, one loop each: a call per step costs more than the step
-LONG = {"pipeline.physics.time_stepping.step_loop.march"}
+LONG = {"pipeline.physics.time_stepping.step_loop.integrate"}
 
 
 def dotted(path):

@@ -14,7 +14,6 @@ from pipeline.physics.time_stepping.element_forces import (
     TOLERANCE,
     UNSETTLED,
     element_force,
-    laws_of,
     solve_elements,
     wave,
 )
@@ -66,13 +65,14 @@ def first_forces(laws, motion, memory, force, instant):
 
 
 @njit
-def solve_together(law, friction, response, elements, contacts, step, free, status, instant):
+def solve_together(law, friction, response, elements, laws, contacts, step, free, status, instant):
     """(code, number): forces of contacts and elements at the end of a step, as ``solve_contacts``.
 
-    ``contacts`` is a ContactStep and ``step`` an ElementStep; ``free`` (4, c) are the observables of the contacts
-    without the forces at the end, to which the element forces come; ``status`` (c,) those at the begin.
+    ``laws`` are those of the ``elements``; ``contacts`` is a ContactStep and ``step`` an ElementStep; ``free`` (4, c)
+    are the observables of the contacts without the forces at the end, to which the element forces come; ``status``
+    (c,) those at the begin.
     """
-    count, laws = step.force.size, laws_of(elements)
+    count = step.force.size
     for _ in range(ROUNDS):
         for i in range(status.size):
             contacts.status[i] = status[i]
@@ -81,10 +81,9 @@ def solve_together(law, friction, response, elements, contacts, step, free, stat
                 for k in range(count):
                     total += elements.to_contacts[o, i, k] * step.force[k]
                 contacts.free[o, i] = total
-        if status.size:
-            code, number = solve_contacts(law, friction, response, contacts)
-            if code != SOLVED:
-                return code, number
+        code, number = solve_contacts(law, friction, response, contacts)
+        if code != SOLVED:
+            return code, number
         for k in range(count):
             for o in range(2):
                 total = step.free[o, k]
@@ -96,21 +95,19 @@ def solve_together(law, friction, response, elements, contacts, step, free, stat
         code, number = solve_elements(laws, step, instant)
         if code != SOLVED:
             return code, number
-        settled, size = status.size == 0, 0.0
-        if not settled:
-            for k in range(count):
-                size = max(size, abs(step.force[k]))
-            settled = True
-            for k in range(count):
-                settled = settled and abs(step.force[k] - step.end[0, k]) <= TOLERANCE * size + step.rounding[k]
+        settled, size = True, 0.0
+        for k in range(count):
+            size = max(size, abs(step.force[k]))
+        for k in range(count):
+            settled = settled and abs(step.force[k] - step.end[0, k]) <= TOLERANCE * size + step.rounding[k]
         if settled:
-            _motion_at_end(laws.own, step)
+            motion_at_end(laws.own, step)
             return SOLVED, 0
     return UNSETTLED, 0
 
 
 @njit
-def _motion_at_end(own, step):
+def motion_at_end(own, step):
     """Fill the elongation and rate at the end: those without the element forces, and what the forces add."""
     for k in range(step.force.size):
         for o in range(2):

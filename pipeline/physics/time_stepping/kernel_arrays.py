@@ -8,9 +8,9 @@ from pipeline.physics.friction.dry_friction import RIGID, STIFFNESS
 from pipeline.physics.friction.state_kernels import MEMORY
 from pipeline.physics.time_stepping.contact_solver import LARGEST_STIFFNESS, PENALTY, TABLE
 from pipeline.physics.time_stepping.elements import element_kernel
+from pipeline.physics.time_stepping.linear_step import LinearKernel
 from pipeline.physics.time_stepping.modal_integrator import newmark_matrices, step_matrices
 from pipeline.physics.time_stepping.normal_laws import Forward, Hard, contiguous
-from pipeline.physics.time_stepping.step_loop import LinearKernel
 
 #: fewest steps in a period of the highest mode
 STEPS_PER_PERIOD = 2.5

@@ -21,6 +21,7 @@ from pipeline.physics.time_stepping.contact_solver import JAMMED, OPEN, SLIP, SO
 from pipeline.physics.time_stepping.coupled_solver import no_memory, surface_shift
 from pipeline.physics.time_stepping.element_forces import TOO_STIFF, UNSETTLED
 from pipeline.physics.time_stepping.kernel_arrays import elements_kernel, linear_kernel, refuse
+from pipeline.physics.time_stepping.linear_step import HistoryKernel
 from pipeline.physics.time_stepping.modal_integrator import modal_system
 from pipeline.physics.time_stepping.normal_laws import (
     Forward,
@@ -32,7 +33,7 @@ from pipeline.physics.time_stepping.normal_laws import (
     normal_force,
     normal_kernel,
 )
-from pipeline.physics.time_stepping.step_loop import HistoryKernel, Record, Schedule, State, System, integrate
+from pipeline.physics.time_stepping.step_loop import Record, Schedule, State, System, integrate
 
 __all__ = ["Forward", "Hard", "History", "Lagrange", "Motion", "Penalty", "Start", "Table", "imposed", "simulate"]
 

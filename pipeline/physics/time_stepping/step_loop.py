@@ -20,6 +20,7 @@ from pipeline.physics.time_stepping.coupled_solver import (
     angle_after,
     element_work,
     first_forces,
+    motion_at_end,
     recede,
     shift_work,
     solve_together,
@@ -30,38 +31,23 @@ from pipeline.physics.time_stepping.element_forces import (
     ElementKernel,
     ElementStep,
     laws_of,
+    solve_elements,
     update_turning_dampers,
+)
+from pipeline.physics.time_stepping.linear_step import (
+    HistoryKernel,
+    LinearKernel,
+    add_forces,
+    advance,
+    copy,
+    interpolate,
+    loss_rate,
+    project_rows,
+    stored_energy,
 )
 
 DIVERGED = 4
-#: sums may be reordered to use the width of the processor; nothing else is relaxed
-_FAST = {"reassoc", "contract", "nsz"}
 INPUT, DAMPING, NORMAL, FRICTION, SLIDING, ELEMENTS = range(6)
-
-
-class LinearKernel(NamedTuple):
-    """Linear step of m pairs under c contacts, i inputs and e elements: forces are N (c), T (c), inputs, elements."""
-
-    step: np.ndarray        # (2, 2, m)
-    first: np.ndarray       # (2 c + i + e, 2, m) effect of the forces at the begin of the step
-    last: np.ndarray        # (2 c + i + e, 2, m) effect of the forces at its end, or of forces constant over it
-    rows: np.ndarray        # (4 c, 2, m) observables: displacement, velocity along n, then along t
-    response: np.ndarray    # (4, 2, c, c) of the observables to ``last``
-    input_rows: np.ndarray  # (i, 2, m) displacement along the inputs
-    sensors: np.ndarray     # (2 s, 2, m) displacement, then velocity
-    constant_over_step: np.ndarray  # (2,) 1 where N, T are constant over the step
-    omega_squared: np.ndarray   # (m,) squared frequencies, uncoupled
-    damping: np.ndarray     # (m,) damping, uncoupled
-    energy: np.ndarray      # (2m, 2m) energy form of coupled pairs, else empty
-    power: np.ndarray       # (2m, 2m) loss form of coupled pairs, else empty
-    impulse_response: np.ndarray    # (2 c, 2, m) effect at once of forces that are impulses; empty where none are
-
-
-class HistoryKernel(NamedTuple):
-    """Values at equal intervals from time 0, linear between, constant beyond the last."""
-
-    value: np.ndarray       # (samples, n)
-    interval: float
 
 
 class System(NamedTuple):
@@ -117,79 +103,6 @@ class Record(NamedTuple):
 
 
 @njit
-def interpolate(history, time, values):
-    """Fill ``values`` (n,) with those of a HistoryKernel at ``time``."""
-    last = history.value.shape[0] - 1
-    position = time / history.interval
-    k = min(int(position), last)
-    share = position - k
-    for i in range(values.size):
-        values[i] = history.value[k, i]
-        if k < last:
-            values[i] += share * (history.value[k + 1, i] - history.value[k, i])
-
-
-@njit
-def _copy(source, target):
-    """Copy values (n,). A loop: numba compiles it in a tenth of the time of an assignment of arrays."""
-    for i in range(source.size):
-        target[i] = source[i]
-
-
-@njit(fastmath=_FAST)
-def _advance(step, steady, begin, end):
-    for b in range(begin.shape[1]):
-        first, second = begin[0, b], begin[1, b]
-        end[0, b] = step[0, 0, b] * first + step[0, 1, b] * second + steady[0, b]
-        end[1, b] = step[1, 0, b] * first + step[1, 1, b] * second + steady[1, b]
-
-
-@njit(fastmath=_FAST)
-def _add_forces(columns, factors, pairs):
-    """Add ``columns`` (n, 2, m) times ``factors`` (n,) to the pairs."""
-    for k in range(factors.size):
-        factor = factors[k]
-        if factor != 0.0:
-            for b in range(pairs.shape[1]):
-                pairs[0, b] += factor * columns[k, 0, b]
-                pairs[1, b] += factor * columns[k, 1, b]
-
-
-@njit(fastmath=_FAST)
-def _project_rows(rows, pairs, values):
-    """Fill ``values`` (r,) with the rows (r, 2, m) of the pairs."""
-    for k in range(values.size):
-        total = 0.0
-        for b in range(pairs.shape[1]):
-            total += rows[k, 0, b] * pairs[0, b] + rows[k, 1, b] * pairs[1, b]
-        values[k] = total
-
-
-@njit(fastmath=_FAST)
-def _loss_rate(power, damping, pairs):
-    """Power of the dampers, W."""
-    if power.size:
-        state = pairs.ravel()
-        return state @ (power @ state)
-    total = 0.0
-    for b in range(pairs.shape[1]):
-        total += damping[b] * pairs[1, b] ** 2
-    return total
-
-
-@njit
-def stored_energy(energy, omega_squared, pairs):
-    """Kinetic and strain energy, J."""
-    if energy.size:
-        state = pairs.ravel()
-        return state @ (energy @ state)
-    total = 0.0
-    for b in range(pairs.shape[1]):
-        total += pairs[1, b] ** 2 + omega_squared[b] * pairs[0, b] ** 2
-    return 0.5 * total
-
-
-@njit
 def _record_row(record, row, sensors, gap, stored, contact, summed, steps, work):
     """Fill ``row`` of the record; ``summed`` (2, c) are the forces of the last ``steps``."""
     for s in range(sensors.size // 2):
@@ -227,7 +140,8 @@ def integrate(system, schedule, state, record):
     free, observed, held, sliding, way = contact.free, contact.begin, contact.held, contact.drive, contact.way
     free_flat, observed_flat, held_flat, force_flat = free.ravel(), observed.ravel(), held.ravel(), force.ravel()
     elongation, elongation_flat, elongation_end = element.begin, element.begin.ravel(), element.end.ravel()
-    element_free, element_force, element_force_begin = element.free.ravel(), element.force, np.zeros(count_e)
+    element_free, element_pressed, own = element.free.ravel(), element.pressed.ravel(), elements.own
+    element_force, element_force_begin = element.force, np.zeros(count_e)
     after, steady, kicked = np.zeros_like(pairs), np.zeros_like(pairs), np.zeros_like(pairs)
     pairs_flat, after_flat, kicked_flat = pairs.ravel(), after.ravel(), kicked.ravel()
     struck, jump = np.zeros((4, contacts)), np.zeros((2, contacts if impulse.size else 0))
@@ -246,15 +160,15 @@ def integrate(system, schedule, state, record):
     special = count_e > 0 or elements.waviness.shape[0] > 0 or wear.size > 0 or recalls
     interpolate(inputs, 0.0, input_end)
     interpolate(drive, 0.0, speed)
-    _copy(input_end, input_begin)
+    copy(input_end, input_begin)
     for i in range(contacts):
         sliding[0, i] = sliding[1, i] = speed[0] * lever[i]
         way[i] = step * speed[0] * lever[i]
     if not varies:
-        _add_forces(input_first, input_begin, steady)
-        _add_forces(input_last, input_begin, steady)
-    _project_rows(input_rows, pairs, displacement)
-    _project_rows(rows, pairs, observed_flat)
+        add_forces(input_first, input_begin, steady)
+        add_forces(input_last, input_begin, steady)
+    project_rows(input_rows, pairs, displacement)
+    project_rows(rows, pairs, observed_flat)
     if special:
         instant = (age, angle, speed[0])
         advance_wear(wear, force[0], sliding[1], observed[3], 0.0, worn, pace)
@@ -264,34 +178,34 @@ def integrate(system, schedule, state, record):
             observed[0, i] += shift[0, i]
             observed[1, i] += shift[1, i]
             slip[i] = sliding[1, i] - observed[3, i]
-        _project_rows(element_rows, pairs, elongation_flat)
+        project_rows(element_rows, pairs, elongation_flat)
         update_turning_dampers(laws, force[1], slip, elongation[1])
         first_forces(laws, elongation, memory, element_force, instant)
-    loss, recorded = _loss_rate(power, damping, pairs) if book else 0.0, min(every, 1)
+    loss, recorded = loss_rate(power, damping, pairs) if book else 0.0, min(every, 1)
     for number in range(steps + 1):
         if number > 0:
-            _advance(one_step, steady, pairs, after)
+            advance(one_step, steady, pairs, after)
             if varies:
-                _copy(input_end, input_begin)
+                copy(input_end, input_begin)
                 interpolate(inputs, number * step, input_end)
-                _add_forces(input_first, input_begin, after)
-                _add_forces(input_last, input_end, after)
+                add_forces(input_first, input_begin, after)
+                add_forces(input_last, input_end, after)
             speed_begin, angle_begin = speed[0], angle
             if turns or special:
                 interpolate(drive, number * step, speed)
             if special:
-                _copy(element_force, element_force_begin)
-                _copy(shift_flat, shift_begin_flat)
-                _copy(memory, element.memory_begin)
+                copy(element_force, element_force_begin)
+                copy(shift_flat, shift_begin_flat)
+                copy(memory, element.memory_begin)
                 angle = angle_after(angle, speed_begin, speed[0], step)
                 instant = (age + number * step, angle, speed[0])
-                _add_forces(element_first, element_force, after)
+                add_forces(element_first, element_force, after)
             if contacts:
                 if turns:
                     for i in range(contacts):
                         sliding[0, i], sliding[1, i] = sliding[1, i], lever[i] * speed[0]
                         way[i] = 0.5 * step * (sliding[0, i] + sliding[1, i])
-                _copy(force_flat, held_flat)
+                copy(force_flat, held_flat)
                 if recalls or dampers_turn:
                     for i in range(contacts):
                         slip[i] = sliding[0, i] - observed[3, i]
@@ -300,8 +214,8 @@ def integrate(system, schedule, state, record):
                 if recalls:
                     expect(states, value, friction, held[0], slip, held[1], angle_begin, angle, step, middle)
                 if not (constant[0] and constant[1]):
-                    _add_forces(contact_first, held_flat, after)
-                _project_rows(rows, after, free_flat)
+                    add_forces(contact_first, held_flat, after)
+                project_rows(rows, after, free_flat)
             if special:
                 surface_shift(elements.waviness, instant, shift)
                 recede(worn, pace, step, shift)
@@ -309,27 +223,32 @@ def integrate(system, schedule, state, record):
                     free[0, i] += shift[0, i]
                     free[1, i] += shift[1, i]
                     status_begin[i] = status[i]
-                _copy(free_flat, alone_flat)
-                _project_rows(element_rows, after, element_free)
-                code, where = solve_together(law, friction, response, elements, contact, element, alone, status_begin,
-                                             instant)
+                copy(free_flat, alone_flat)
+                project_rows(element_rows, after, element_free)
+                if contacts:
+                    code, where = solve_together(law, friction, response, elements, laws, contact, element, alone,
+                                                 status_begin, instant)
+                else:
+                    copy(element_free, element_pressed)
+                    code, where = solve_elements(laws, element, instant)
+                    motion_at_end(own, element)
                 if code != SOLVED:
                     return code, number, where
-                _add_forces(element_last, element_force, after)
+                add_forces(element_last, element_force, after)
                 work[ELEMENTS] += element_work(elongation[0], element.end[0], element_force_begin, element_force)
                 work[NORMAL] -= shift_work(shift_begin[0], shift[0], held, force, constant[0])
-                _copy(elongation_end, elongation_flat)
+                copy(elongation_end, elongation_flat)
             elif contacts:
                 code, where = solve_contacts(law, friction, response, contact)
                 if code != SOLVED:
                     return code, number, where
             if contacts:
-                _add_forces(contact_last, force_flat, after)
+                add_forces(contact_last, force_flat, after)
                 if impulse.size:
-                    _copy(pairs_flat, kicked_flat)
-                    _add_forces(impulse, force_flat, kicked)
-                    _project_rows(rows, kicked, struck_flat)
-                    loss = _loss_rate(power, damping, kicked) if book else 0.0
+                    copy(pairs_flat, kicked_flat)
+                    add_forces(impulse, force_flat, kicked)
+                    project_rows(rows, kicked, struck_flat)
+                    loss = loss_rate(power, damping, kicked) if book else 0.0
                     for i in range(contacts):
                         jump[0, i] = 0.5 * step * (observed[1, i] + struck[1, i])
                         jump[1, i] = 0.5 * step * (observed[3, i] + struck[3, i])
@@ -341,26 +260,26 @@ def integrate(system, schedule, state, record):
                     settle(states, value, force[0] if constant[0] else held[0], force[0], slip, slip_end, mean, step)
                 advance_wear(wear, force[0], sliding[1], observed[3], step, worn, pace)
             if book:
-                rate = _loss_rate(power, damping, after)
+                rate = loss_rate(power, damping, after)
                 if impulse.size:
                     for i in range(kicked_flat.size):
                         kicked_flat[i] = 0.5 * (kicked_flat[i] + after_flat[i])
-                    work[DAMPING] += step / 6 * (loss + 4 * _loss_rate(power, damping, kicked) + rate)
+                    work[DAMPING] += step / 6 * (loss + 4 * loss_rate(power, damping, kicked) + rate)
                 else:
                     work[DAMPING] += 0.5 * step * (loss + rate)
                 loss = rate
-                _project_rows(input_rows, after, displacement_end)
+                project_rows(input_rows, after, displacement_end)
                 for i in range(count):
                     work[INPUT] += 0.5 * (input_begin[i] + input_end[i]) * (displacement_end[i] - displacement[i])
                     displacement[i] = displacement_end[i]
-            _copy(after_flat, pairs_flat)
+            copy(after_flat, pairs_flat)
         if number % every == 0:
             total = 0.0
             for i in range(pairs_flat.size):
                 total += pairs_flat[i]
             if not np.isfinite(total):
                 return DIVERGED, number, 0
-            _project_rows(sensor_rows, pairs, sensors)
+            project_rows(sensor_rows, pairs, sensors)
             stored = stored_energy(energy, omega_squared, pairs) if book else 0.0
             _record_row(record, number // every, sensors, gap, stored, contact, summed, recorded, work)
             for k in range(count_e):

@@ -4,16 +4,7 @@ import numpy as np
 import pytest
 
 from pipeline.physics.time_stepping.simulate import Hard, History, simulate
-from pipeline.physics.time_stepping.step_loop import HistoryKernel, interpolate
 from tests.physics.lumps import lumps, random_structure
-
-
-@pytest.mark.exact
-def test_histories_are_linear_between_samples_and_constant_beyond():
-    history, found = HistoryKernel(np.array([[0.0, 1.0], [2.0, 1.0], [-2.0, 4.0]]), 0.5), np.zeros(2)
-    for time, exact in ((0.0, (0, 1)), (0.25, (1, 1)), (0.75, (0, 2.5)), (1.0, (-2, 4)), (7.0, (-2, 4))):
-        interpolate(history, time, found)
-        np.testing.assert_allclose(found, exact, atol=1e-15)
 
 
 @pytest.mark.exact
