@@ -1,4 +1,4 @@
-"""Stage beam_geometry: search for one geometry of the beam on beam, because the paper's dimensions are not printed."""
+"""Stage beam_geometry: search for the dimensions of the beam-on-beam system, which the paper does not give."""
 
 from functools import partial
 from types import SimpleNamespace
@@ -38,7 +38,7 @@ _LOW_BAND, _WIDTH = (250.0, 650.0), 0.15
 
 
 class Settings(Section):
-    """How long each part of the search goes on."""
+    """Length of each part of the search."""
 
     seed: int = option(1, "seed of every part", ge=0)
     tilts: Quantities("rad") = option(("-5 deg", "5 deg"), "senses of the tilt that the rigid search tries")
@@ -62,13 +62,14 @@ class Settings(Section):
 
 @stage
 def beam_geometry(settings: Settings, context: Context) -> BeamGeometry:
-    """Search for one geometry that meets coalescences, modes and motion, and tell what the data leave open.
+    """Search for one geometry that reproduces coalescences, modes and motion, and quantify its uncertainty.
 
     Method:
-    Linear facts were searched by differential evolution with rigid supports ({rigid_generations} generations) and with
-    supports that yield ({generations}); the best then seeded a joint search over geometry, width and damping
+    Differential evolution fitted the linear facts, first with rigid supports ({rigid_generations} generations), then
+    with elastic supports ({generations}). The best geometry started a joint search over geometry, width and damping
     ({joint_generations} generations of {joint_population}) whose cost adds that of the motion over {duration}, mean
-    over the seeds {motion_seeds}. {sweeps} sweeps of {walkers} walkers sampled what the linear facts leave open.
+    over the seeds {motion_seeds}. {sweeps} sweeps of {walkers} walkers sampled the uncertainty that the linear facts
+    leave.
     """
     rigid = [_linear_search(settings, _RIGID, tilt, settings.rigid_generations) for tilt in settings.tilts]
     yielding = _linear_search(settings, GEOMETRY, settings.tilts[0], settings.generations)

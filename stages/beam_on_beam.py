@@ -1,4 +1,4 @@
-"""Stage beam_on_beam: modes of both beams on their supports, and where sliding makes the modes of the pair coalesce."""
+"""Stage beam_on_beam: modes of both beams on their supports, and mode coalescence in sliding contact."""
 
 from typing import Literal
 
@@ -56,7 +56,7 @@ class Material(Section):
 
 
 class Contact(Section):
-    """Where the beams meet, and what presses them together."""
+    """Contact point of the beams and the normal force."""
 
     distance: Quantity("m", gt=0) = option("80 mm", "contact from the clamp of the track")
     offset: float = option(0.0, "contact off the axis of the slider over its half thickness, positive towards +x",
@@ -74,7 +74,7 @@ class Sensor(Section):
 
 
 class Settings(Section):
-    """Both beams, their contact and the modes that are kept."""
+    """Both beams, their contact and the modes retained."""
 
     element: Literal["plane", "timoshenko"] = option("plane", "plane finite elements, or Timoshenko beams (faster)")
     slider: Slider = option(Slider(), "beam P1")
@@ -92,12 +92,12 @@ class Settings(Section):
 
 @stage
 def beam_on_beam(settings: Settings, context: Context) -> BeamOnBeam:
-    """Build the two beams and find where their modes coalesce in sliding.
+    """Build the two beams and find the coalescences of their modes in sliding.
 
     Method:
     The beams ({element}) on their supports were reduced to their modes below {modes_below} and residual shapes for the
-    contact forces. In steady sliding on a hard contact each frequency has one friction coefficient at which it is a
-    mode; maxima of that curve are coalescences. Sampled below {coalescences_below} at {samples} frequencies.
+    contact forces. In steady sliding on a rigid contact each frequency is a mode at exactly one friction coefficient;
+    the maxima of that curve are the coalescences. It was sampled below {coalescences_below} at {samples} frequencies.
     """
     other = "timoshenko" if settings.element == "plane" else "plane"
     chosen, check = (_reduced(settings, element, context) for element in (settings.element, other))

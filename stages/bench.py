@@ -1,4 +1,4 @@
-"""Stage bench: what the sensors of a bench would have shown in the recorded runs."""
+"""Stage bench: predicted sensor signals of the recorded runs."""
 
 from functools import partial
 
@@ -24,14 +24,14 @@ def _check(sections):
 @stage(check=_check)
 def bench(model: ReducedModel, effects: Effects | None, recording: Recording, settings: Settings,
           context: Context) -> Bench:
-    """Predict what the sensors of the bench would have shown in the recorded runs.
+    """Predict the sensor signals of the recorded runs.
 
     Method:
-    Every recorded run was predicted with the model, its laws of contact (contact: {contact}) and friction, the stated
-    effects and corrected values (forward: {forward}; simulation: by steps of at most {step}, sensors showing what the
-    case says; equation: measured displacements give the force that they need, against the one applied); the error is
-    the root mean square of recorded less predicted samples. Where poles are compared, the runs are free
-    vibrations, and poles come from complex eigenvalues about steady sliding.
+    Every recorded run was predicted with the model, its contact law (contact: {contact}), friction law, stated effects
+    and corrected values (forward: {forward}). simulation: time steps of at most {step}, sensors as defined in the case;
+    equation: the force that the measured displacements require is compared with the applied force. The error is the
+    root mean square of recorded minus predicted samples. If poles are compared, the runs are free vibrations and the
+    predicted poles are complex eigenvalues about steady sliding.
     """
     whole, runs = with_effects(built(model, settings), effects), recorded(recording, settings)
     if settings.poles is not None:

@@ -1,4 +1,4 @@
-"""Stage comparison: every published fact beside our number, with tolerance and doubt."""
+"""Stage comparison: every published fact beside the number computed here, with tolerance and doubt."""
 
 from dataclasses import fields
 from fnmatch import fnmatch
@@ -25,7 +25,7 @@ _UNCOMPUTED = "not computed by this chain"
 
 
 class Settings(Section):
-    """What the case is compared with, and which rows it was tuned on."""
+    """Reference of the case, and the facts that it was tuned to."""
 
     reference: InputFile | None = option(None, "published facts, e.g. data/reference/disc_brake.yaml; none = no rows")
     tuned: dict[str, str] | None = option({}, "key of a fact, or a pattern such as mode_*_test: what was tuned on it")
@@ -39,16 +39,16 @@ def _check(sections):
 
 @stage(check=_check)
 def comparison(products: Products, settings: Settings, context: Context) -> Comparison:
-    """Put the published numbers beside ours.
+    """Compare published numbers with ours.
 
-    A statement without a number is compared where it puts bounds on a number of ours. Inputs are shown
-    and not compared: choosing as the authors did is no evidence. A printed value that is read as
-    another one is shown as printed, and the row is not counted. Every row carries its fact key and the
+    A statement without a number is compared if it bounds one of our numbers. Inputs are shown but not
+    compared: choosing the same value as the authors is not evidence. A misprinted value is shown as
+    printed and its row is not counted. Every row carries its fact key and the
     product field that our value comes from.
 
     Method:
-    Published facts come from {reference}; each of our values is computed from the products of this case. Modes in
-    tables are paired by multiplicity, by nodal diameters where they can be inferred, and then by frequency.
+    Published facts are read from {reference}; each of our values is computed from the products of this case. Modes in
+    tables are paired by multiplicity, by nodal diameter if it can be inferred, and then by frequency.
     """
     facts = load(settings.reference) if settings.reference else ()
     tuned = _tuned(settings.tuned or {}, facts)

@@ -1,10 +1,11 @@
 """Complex modes of the sliding system over friction, and at its operating points.
 
-Friction moves the load between the contacts, so the system is linearised about steady sliding with that friction. It
-comes from the friction map; where the chain has none, from the settings or the tangential law of the model. Contacts
-without a normal law stay as their preload state says; where they have no stiffness either, they are hard, and the
-motions keep them closed.
-A root s = sigma + i omega with sigma > 0 is a squeal candidate: it says which motion can grow, not how loud it ends up.
+Friction redistributes the contact forces, so the system is linearised about steady sliding with that friction. The
+friction coefficient comes from the friction map or, in chains without one, from the settings or the tangential law of
+the model. Contacts without a normal law keep the status of the preload; if they have no stiffness either, they are
+rigid and remain closed.
+An eigenvalue s = sigma + i omega with sigma > 0 is a squeal candidate: the mode is unstable, but its final amplitude is
+unknown.
 """
 
 from dataclasses import dataclass, replace
@@ -118,15 +119,15 @@ class _Outcome:
 @stage(check=_check)
 def complex_modes(model: ReducedModel, friction_map: FrictionMap | None, effects: Effects | None, settings: Settings,
                   context: Context) -> ComplexModes:
-    """Find the complex modes over friction and at the operating points.
+    """Compute complex modes over friction and at the operating points.
 
-    Effects of the case are linearised about the sliding state; over friction they act on top of each coefficient.
+    Effects of the case are linearised about the sliding state; in the friction sweep they add to each coefficient.
 
     Method:
     All complex modes were computed at {friction_steps} friction coefficients from 0 to {friction_max} and at the
-    operating points, each about its own steady sliding state, on the real modes below
-    {frequency_max} and their friction corrections; a closing speed of {damping_speed} doubles the contact pressure
-    (contact damping), and a mode counts as unstable when its growth rate exceeds {neutral} of its angular frequency.
+    operating points, each about its own steady sliding state, in a basis of the real modes below
+    {frequency_max} and their friction corrections. A closing speed of {damping_speed} doubles the contact pressure
+    (contact damping). A mode is unstable if its growth rate exceeds {neutral} times its angular frequency.
     """
     terms, loads = _told(physics_terms(effects), context), model.pressure[:, None] * model.input_area
     models = [(posed(model, k, np.mean(settings.speeds), settings.damping_speed, terms, conditions(effects)), load)

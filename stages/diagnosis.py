@@ -1,4 +1,4 @@
-"""Stage diagnosis: what differs between recordings and the model, where, and which physics is missing."""
+"""Stage diagnosis: deviations between recordings and model, their location, and the missing physics."""
 
 from functools import partial
 
@@ -47,13 +47,13 @@ def diagnosis(model: ReducedModel | None, effects: Effects | None, recording: Re
               structure: Structure | None, modes: ComplexModes | None, surface: Surface | None,
               micro: MicroFriction | None, friction_map: FrictionMap | None, settings: Settings,
               context: Context) -> Diagnosis:
-    """Compare recordings with the model, locate what differs and name what is missing.
+    """Compare recordings with the model, locate the mismatch and identify missing effects.
 
     Method:
-    Nominal values were refitted first; only what they cannot explain counts as evidence of missing physics. Every
-    effect of the catalogue that the case does not leave out was screened at every place that it names, the best {kept}
-    were refitted in the full model, and an effect is named only by the rules that the page states; held-out runs were
-    never fitted.
+    Nominal values were recalibrated first; only the remaining mismatch counts as evidence of missing physics. Every
+    effect of the catalogue that the case does not exclude was screened at every location that the case allows, and the
+    best {kept} were refitted in the full model. An effect is identified only by the rules stated in the report.
+    Held-out runs were never fitted.
     """
     if settings.forward == "lines":
         result = published_diagnosis(recording, Models(model, structure, modes), settings, context)

@@ -1,4 +1,4 @@
-"""Stage effects: physics that a case adds to its model, from the catalogue."""
+"""Stage effects: effects of the catalogue that a case adds to its model."""
 
 from pipeline.case_models import effect_block
 from pipeline.case_models.effect_block import Settings
@@ -8,11 +8,10 @@ from pipeline.products import Effects
 
 @stage(check=effect_block.check_places)
 def effects(settings: Settings, context: Context) -> Effects:
-    """Add physics of the catalogue to the model.
+    """Add effects of the catalogue to the model.
 
     Method:
-    Effects of the catalogue were added at the places and with the values that the case states; none where it states
-    none.
+    Effects of the catalogue were added at the locations and with the values stated in the case, if any.
     """
     added = effect_block.product(settings)
     for name, place in zip(added.effect, added.place, strict=True):

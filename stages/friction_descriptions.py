@@ -1,4 +1,4 @@
-"""Stage friction_descriptions: the three descriptions of friction of the 1999 paper, counted in an implicit setting."""
+"""Stage friction_descriptions: cost of the three friction descriptions of the 1999 paper in implicit integration."""
 
 from functools import partial
 
@@ -26,13 +26,13 @@ class Settings(Section):
 
 @stage
 def friction_descriptions(law: InterfaceLaw, settings: Settings, context: Context) -> FrictionDescriptions:
-    """Count what three descriptions of friction cost in an implicit calculation.
+    """Count iterations of three friction descriptions in an implicit calculation.
 
     Method:
-    A block on {feet} x {feet} elastic feet slides on a drive that turns to and fro under a load that pulsates by
-    {modulations} of its mean, with the friction of the interface law; {steps} steps of {step} by Newmark's rule and
-    Newton's method, with and without the unsymmetric term of the tangent. Its damping and normal law were chosen so
-    that it follows its load.
+    A block on {feet} x {feet} elastic feet slides on an oscillating drive under a load that pulsates by {modulations}
+    of its mean, with the friction of the interface law: {steps} steps of {step} with Newmark's method and Newton
+    iterations, with and without the unsymmetric term of the tangent. Damping and normal law were chosen such that the
+    block follows its load.
     """
     friction = float(np.median(law.friction))
     tasks = [(full, modulation, name) for full in (False, True) for modulation in settings.modulations

@@ -1,4 +1,4 @@
-"""Stage friction_map: mu(pressure, speed, distance) of the interface, as a table other programs read."""
+"""Stage friction_map: mu(pressure, speed, distance) of the interface as a table for other programs."""
 
 import numpy as np
 
@@ -25,12 +25,12 @@ def companions(product, case=None):
 
 @stage(companions=companions)
 def friction_map(micro_friction: MicroFriction, settings: Settings, context: Context) -> FrictionMap:
-    """Map of the coefficient of friction over pressure, speed and sliding distance.
+    """Map the friction coefficient over pressure, speed and sliding distance.
 
     Method:
-    The computed points are joined by monotone cubics without overshoot (PCHIP along pressure, speed and distance, each
-    interval in {pressure_subdivisions}, {speed_subdivisions} and {distance_subdivisions} parts); users of the map read
-    it multilinearly and, as the paper does, hold it constant outside the computed range.
+    The computed points were interpolated by monotone cubics (PCHIP along pressure, speed and distance, each interval
+    divided into {pressure_subdivisions}, {speed_subdivisions} and {distance_subdivisions} parts). The map is read by
+    multilinear interpolation and, as in the paper, is constant outside the computed range.
     """
     parts = (settings.pressure_subdivisions, settings.speed_subdivisions, settings.distance_subdivisions)
     axes = (micro_friction.pressure, micro_friction.speed, micro_friction.distance)

@@ -27,7 +27,7 @@ class Material(Section):
 
 
 class FromSurface(Section):
-    """Summits of the sum of both height maps."""
+    """Summits of the summed height maps."""
 
     kind: Literal["surface"] = "surface"
 
@@ -63,12 +63,12 @@ class Settings(Section):
 
 @stage
 def interface_law(surface: Surface | None, settings: Settings, context: Context) -> InterfaceLaw:
-    """Law of the rough interface from its summits: pressure, real area, shear stress.
+    """Compute pressure, real area and shear stress of the rough interface from its summits.
 
     Method:
-    After Willner and Gaul the rough interface is a population of summits with Gaussian heights that deform after
-    Hertz and shear after Cattaneo and Mindlin up to a yield stress of {shear_limit}; the parameters of the evolution
-    rule and of the elastic stick were fitted to the shear law at {pressure_steps} pressures.
+    Following Willner and Gaul, the rough interface is a population of summits with Gaussian heights that deform
+    according to Hertz and shear according to Cattaneo and Mindlin up to a yield stress of {shear_limit}. The parameters
+    of the Dahl model and of the elastic sticking stiffness were fitted to the shear law at {pressure_steps} pressures.
     """
     if not settings.lowest_pressure < settings.highest_pressure:
         raise ConfigError("interface_law.highest_pressure", f"above the lowest, {settings.lowest_pressure:g} Pa",

@@ -1,4 +1,4 @@
-"""Stage lock_in: what the pin on disc locks into over pin length, load, speed and angle."""
+"""Stage lock_in: lock-in of the pin on disc over pin length, load, speed and angle."""
 
 from dataclasses import dataclass, replace
 from functools import partial
@@ -44,7 +44,7 @@ class Case(Section):
 
 
 class Settings(Section):
-    """Points of the map, and the motion from which each is classified."""
+    """Points of the map, and the motion by which each is classified."""
 
     cases: tuple[Case, ...] = option(({"length": "146.5 mm"}, {"length": "151.5 mm"}, {"length": "181.5 mm"}),
                                      "points compared with the paper")
@@ -100,14 +100,14 @@ def lock_in(pin_on_disc: PinOnDisc, model: ReducedModel, effects: Effects | None
             context: Context) -> LockIn:
     """Map lock-in over pin length, load, speed and angle.
 
-    The disc is reduced once; each point has a pin of its own. Points without a growing mode are not stepped: they have
-    no lock-in by themselves, though a strong blow might still lead to one. Effects of the case do not act here.
+    The disc is reduced once, the pin for each point. Points without an unstable mode are not integrated: they have no
+    spontaneous lock-in, although a large disturbance might still cause one. Effects of the case do not act here.
 
     Method:
-    At {lengths} free lengths, and over load, speed and angle, the pin was reduced anew, the complex modes were found,
-    and where one grows the motion was stepped by {step} over {duration} with a contact as stiff as the interface law
-    about the weight; the spectrum of the last {window} was classified as classical, intermediate, multiple or dual-base
-    lock-in.
+    At {lengths} free lengths, and over load, speed and angle, the pin was reduced and the complex modes were computed.
+    Where one is unstable, the motion was integrated over {duration} with steps of {step} and the contact stiffness of
+    the interface law at the static load. The spectrum of the last {window} was classified as classical, intermediate,
+    multiple or dual-base lock-in.
     """
     if effects is not None and len(effects.effect):
         context.log(f"{', '.join(dict.fromkeys(map(str, effects.effect)))}: not part of this map, whose pins and loads"

@@ -1,7 +1,7 @@
 """Stage lumped: masses, springs, dampers, contacts, inputs and sensors of a minimal model, from the YAML alone.
 
-Combinations {coordinate: weight} give what a spring, contact, input or sensor sees: weights of translations are
-numbers, those of rotations radii ("30 mm").
+Linear combinations {coordinate: weight} define the displacement on which a spring, contact, input or sensor acts:
+weights of translations are numbers, those of rotations are radii ("30 mm").
 """
 
 from typing import Literal
@@ -30,7 +30,7 @@ class Mass(Section):
 
 
 class Spring(Section):
-    """Spring and damper, side by side: between two coordinates, or along a combination of several."""
+    """Spring and damper in parallel, between two coordinates or along a combination of several."""
 
     between: tuple[str, str] | None = option(None, "two coordinates, or one and ground")
     along: dict[str, str | float] | None = option(None, "elongation as a combination of coordinates")
@@ -39,7 +39,7 @@ class Spring(Section):
 
 
 class Contact(Section):
-    """A place that slides on the drive: unilateral along ``normal``, or a joint with a given normal force."""
+    """Sliding contact with the drive: unilateral along ``normal``, or a joint with a given normal force."""
 
     tangent: dict[str, str | float] = option(..., "displacement of the rubbed mass along sliding")
     normal: dict[str, str | float] = option({}, "displacement that opens the contact; none for a friction joint")
@@ -53,7 +53,7 @@ class Contact(Section):
 
 
 class Gyro(Section):
-    """Gyroscopic moments of a mass that turns with the drive."""
+    """Gyroscopic moments of a mass that rotates with the drive."""
 
     axes: tuple[str, str] = option(..., "its two tilts, the first turning towards the second under the drive")
     polar_inertia: Quantity("kg m^2", gt=0) = option(..., "moment of inertia about the axis of the drive")
@@ -85,7 +85,7 @@ class Step(Section):
 
 
 class Recording(Section):
-    """A column of a file: a text table with a head, MATLAB, or plain HDF5."""
+    """A column of a file: a text table with a header, MATLAB, or plain HDF5."""
 
     kind: Literal["file"] = "file"
     file: InputFile = option(..., "text table with one row of names, .mat, or .h5 with vectors at its root;"
@@ -164,7 +164,7 @@ def lumped(settings: Settings, context: Context) -> Lumped:
     """Read a minimal model of masses, springs, contacts, inputs and sensors.
 
     Method:
-    The system was given as masses, springs, dampers and contacts; static contact forces are those without friction.
+    The system was specified as masses, springs, dampers and contacts; static contact forces exclude friction.
     """
     built = _built(settings)
     context.log(f"coordinates: {', '.join(built.coordinate_name)}")

@@ -1,4 +1,4 @@
-"""Stage micro_friction: friction, real contact area and wear of the rough pair."""
+"""Stage micro_friction: friction, real contact area and wear of the rough surface pair."""
 
 from functools import partial
 
@@ -15,17 +15,17 @@ from pipeline.products import Effects, MicroFriction, Surface
 @stage
 def micro_friction(surface: Surface, effects: Effects | None, settings: Settings,
                    context: Context) -> MicroFriction:
-    """Friction, real contact area and wear of the rough pair over pressure, speed and distance.
+    """Compute friction, real contact area and wear over pressure, speed and sliding distance.
 
     Method:
-    Two rough elastic blocks of hex8 finite elements, condensed exactly to their surface by DFT, are pressed together
-    (Polonsky and Keer's conjugate gradients) and sheared to full slip under the shear limit {third_body_factor} *
-    {disc_strength} / sqrt(3); Archard wear on both surfaces follows in {cycles} cycles. The coefficient of friction
-    is the sum of shear over the sum of normal force, with the real area corrected for its perimeter (Yastrebov et al.
-    2017), mean over one pass of the slider and {realisations} relative positions of the patches. Speed enters through a
-    rate term ({rate_coefficient}) and thermal softening ({softening}) of the limit. Moduli of the asperities,
-    third-body factor and wear coefficients whose origin is "tuned" were fitted to the facts that their source names.
-    Effects of the catalogue at the asperities act on wear and shear as ordinary physics.
+    Two rough elastic blocks of hex8 finite elements, condensed exactly to their surfaces by DFT, were pressed together
+    (conjugate gradients of Polonsky and Keer) and sheared to full slip with the shear limit {third_body_factor} *
+    {disc_strength} / sqrt(3); Archard wear was applied to both surfaces in {cycles} cycles. The friction coefficient is
+    total shear force over total normal force, with the real area corrected for its perimeter (Yastrebov et al. 2017),
+    averaged over one pass of the slider and {realisations} relative positions of the patches. Speed enters through a
+    rate term ({rate_coefficient}) and thermal softening ({softening}) of the limit. Asperity moduli, third-body factor
+    and wear coefficients with origin "tuned" were fitted to the facts named in their source. Effects at the asperities
+    modify wear and shear.
     """
     for name in ("pressures", "disc_speeds"):
         _refuse_falling(getattr(settings, name), name)

@@ -1,4 +1,4 @@
-"""Stage motion_scatter: one motion in several formulations, steps and seeds, because it may be chaotic."""
+"""Stage motion_scatter: one motion with several formulations, steps and seeds, because it may be chaotic."""
 
 from functools import partial
 from itertools import product as combinations
@@ -21,7 +21,7 @@ _ORDERS = 4
 
 
 class Settings(Section):
-    """Which runs, and how each is judged."""
+    """Runs and their evaluation."""
 
     formulations: tuple[Literal["hard", "forward", "lagrange"], ...] = option(
         ("hard", "forward"), "hard: impulses on velocities (Moreau-Jean); forward: multipliers on displacements a step"
@@ -46,7 +46,7 @@ class Settings(Section):
 
 
 def _check(sections):
-    """Refuse motions that are over before they are judged, and bands without width."""
+    """Refuse motions shorter than their settling time, and empty frequency bands."""
     settings = sections["motion_scatter"]
     if settings.settling + 8 * settings.frame > settings.duration:
         raise ConfigError("motion_scatter.duration", f"at least {settings.settling + 8 * settings.frame:g} s, settling"
@@ -58,15 +58,15 @@ def _check(sections):
 
 @stage(check=_check)
 def motion_scatter(model: ReducedModel, settings: Settings, context: Context) -> MotionScatter:
-    """Repeat the motion over formulations, steps and seeds, and tell what stays.
+    """Repeat the motion over formulations, steps and seeds, and report what is reproducible.
 
-    Waveforms of a chaotic motion depend on the last digit; its lines, peaks and shares of contact status scatter about
-    values that do not. Judged are the first sensor and the first contact.
+    The waveform of a chaotic motion depends on rounding; its spectral lines, peaks and contact status fractions scatter
+    about reproducible values. Evaluated are the first sensor and the first contact.
 
     Method:
-    The motion from steady sliding with a random start velocity was run over {duration} for each of {formulations}, the
-    steps {steps} and the seeds {seeds}, with friction {friction}; what is told are ranges over these runs after
-    {settling}; forces are means over {sampling}.
+    From steady sliding with a random initial velocity, the motion was integrated over {duration} for each of
+    {formulations}, the steps {steps} and the seeds {seeds}, with friction coefficient {friction}. Reported are ranges
+    over these runs after {settling}; forces are averaged over {sampling}.
     """
     runs = list(combinations(settings.formulations, settings.steps, settings.seeds))
     rows = context.map(partial(_run, model, settings), runs, "motions")

@@ -1,4 +1,4 @@
-"""Stage multibody: flexible pads and caliper on a rigid disc of four sub-discs with friction from the map."""
+"""Stage multibody: flexible pads and caliper on a rigid disc of four sub-discs, friction from the map."""
 
 from dataclasses import dataclass
 from functools import partial
@@ -63,7 +63,7 @@ class Settings(Section):
 
 @dataclass(frozen=True)
 class _Run:
-    """What one operating point gives: fields of the product without their first dimension."""
+    """Result of one operating point: fields of the product without their first dimension."""
 
     time: np.ndarray
     fields: dict
@@ -72,28 +72,28 @@ class _Run:
 @stage
 def multibody(model: ReducedModel, friction_map: FrictionMap, effects: Effects | None, settings: Settings,
               context: Context) -> Multibody:
-    """Move the flexible pads on four rigid sub-discs with friction from the map.
+    """Simulate flexible pads on four rigid sub-discs with friction from the map.
 
-    Coupling is one way, as in the paper: the disc is rigid here and the contact forces excite its
+    The coupling is one-way, as in the paper: the disc is rigid here, and the contact forces excite its
     modes in the stage 'response'.
 
-    The trapezoidal rule lowers a frequency by a twelfth of the square of the angle per step (7.2 kHz:
-    0.4 % at 5 us, 1.7 % at 10 us); a step in which 'highest_frequency' turns by more than 0.4 rad is
-    refused. The opening of contacts needs 5 us on its own account.
+    The trapezoidal rule lowers a frequency by the fraction phi^2 / 12, phi being its phase angle per step
+    (7.2 kHz: 0.4 % at 5 us, 1.7 % at 10 us). A step with phi above 0.4 rad at 'highest_frequency' is
+    refused. Opening contacts require 5 us in any case.
 
-    Effects act on friction and laws of the patches, on the surface of the disc, on pads, caliper and
-    joints. Friction over distance counts the distance on the friction map. What remembers the motion,
-    wears or belongs to the flexible disc does not act here and is refused, unless 'without' names it.
+    Effects act on friction and contact laws of the patches, on the disc surface, and on pads, caliper and
+    joints. Friction over distance uses the distance on the friction map. Effects with memory, with wear or
+    of the flexible disc cannot act here and are refused unless 'without' names them.
 
     Method:
-    Reduced pads and caliper on a rigid disc ({coupling} coupling) whose {sectors} sectors belong to four jointed
-    sub-discs in turn; friction of each contact patch from the friction map at its pressure, its slip and the distance
-    of its sub-disc (start: {bedding}, gaining {bedding_share} of the distance slid). Static start without friction,
-    friction raised in {ramp}, then the implicit trapezoidal rule ({integrator}) in steps of {step} over {duration},
-    with preloaded modes up to {highest_frequency} and static answers to the contact forces. The stability map
-    holds the largest growth rate of the linearised system with scaled joint stiffnesses, of roots below
-    {stability_frequency}. The growth rate of the transient is the mean over thirds of its envelope; within two
-    standard errors of zero its sign is undecided.
+    Reduced pads and caliper were coupled to a rigid disc ({coupling} coupling) whose {sectors} sectors belong
+    alternately to four jointed sub-discs. Each contact patch reads its friction from the friction map at its pressure,
+    slip speed and the distance of its sub-disc (initially {bedding}, increasing by {bedding_share} of the distance
+    slid). After a frictionless static start, friction was ramped up in {ramp}; the implicit trapezoidal rule
+    ({integrator}) integrated over {duration} in steps of {step}, with preloaded modes up to {highest_frequency} and
+    static corrections for the contact forces. The stability map holds the largest growth rate, of eigenvalues below
+    {stability_frequency}, of the linearised system with scaled joint stiffnesses. The growth rate of the transient is
+    the mean over thirds of its envelope; within two standard errors of zero its sign is undecided.
     """
     _check_times(settings)
     if DISC not in model.body_name:

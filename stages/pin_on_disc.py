@@ -60,7 +60,7 @@ class Pin(Section):
 
 
 class Contact(Section):
-    """Where and how the tip touches."""
+    """Contact of the tip."""
 
     radius: Quantity("m", gt=0) = option("159 mm", "distance of the contact from the axis of the disc")
     offset: Quantity("m") = option("-4.5 mm", "contact off the middle of the tip, along sliding; a tilted tip touches"
@@ -109,13 +109,13 @@ def _check(sections):
 
 @stage(check=_check)
 def pin_on_disc(interface_law: InterfaceLaw, settings: Settings, context: Context) -> PinOnDisc:
-    """Mesh disc and pin; place hub, clamp, guide and contact; find the real modes of disc and pin.
+    """Mesh disc and pin, attach hub, clamp, guide and contact, and compute real modes.
 
     Method:
-    Disc and pin were meshed with quadratic hexahedra. The disc sits on a rigid hub whose shaft gives way in rocking,
-    the pin in a clamp that moves along the normal of the disc on a guide without friction, so that the weight is the
-    static contact force. Normal and tangential law of the contact follow from the interface law. Modes of the disc
-    were computed below {frequency_max}.
+    Disc and pin were meshed with quadratic hexahedra. The disc is mounted on a rigid hub whose shaft is compliant in
+    rocking; the pin is held in a clamp that moves normal to the disc on a frictionless guide, so that the weight is the
+    static contact force. The normal and tangential contact laws follow from the interface law. Modes of the disc were
+    computed below {frequency_max}.
     """
     model = build(settings)
     force = np.array(settings.loads) * _GRAVITY

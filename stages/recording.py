@@ -1,4 +1,4 @@
-"""Stage recording: what a bench wrote, from any of its file formats into one form."""
+"""Stage recording: test bench recordings, read from any supported file format into one product."""
 
 import hashlib
 from typing import Literal
@@ -15,7 +15,7 @@ from pipeline.validation.published_facts import load
 
 
 class Column(Section):
-    """One column of a file and what it is."""
+    """One column of a file and its meaning."""
 
     column: str = option(..., "its name in the file")
     unit: str = option(..., "unit of its numbers, such as mm or kN")
@@ -27,14 +27,14 @@ class Column(Section):
 
 
 class Given(Section):
-    """A condition of a run."""
+    """An operating condition of a run."""
 
     value: float = option(..., "its value")
     unit: str = option(..., "its unit")
 
 
 class Stretch(Section):
-    """A run: a stretch of the record."""
+    """A run: a segment of the record."""
 
     begin: Quantity("s") | None = option(None, "first instant; none = that of the record")
     end: Quantity("s") | None = option(None, "instant before which it ends; none = end of the record")
@@ -93,7 +93,7 @@ class LineList(Section):
 
 
 class LineRun(Section):
-    """A run of which lines were published."""
+    """A run of which only lines were published."""
 
     description: str = option("", "what was done")
     conditions: dict[str, Given] = option({}, "conditions by name")
@@ -101,7 +101,7 @@ class LineRun(Section):
 
 
 class PublishedLines(Section):
-    """Frequencies of published facts, where no raw signal exists."""
+    """Published frequencies, if no raw signal exists."""
 
     kind: Literal["lines"] = "lines"
     file: InputFile = option(..., "published facts, e.g. data/reference/pin_on_disc.yaml")
@@ -109,7 +109,7 @@ class PublishedLines(Section):
 
 
 class Settings(Section):
-    """Files of the bench, each with what its columns are."""
+    """Files of the bench, each with the meaning of its columns."""
 
     files: tuple[OneOf(Matlab, Table, Uff, Neutral, PublishedLines), ...] = option(
         (), "files in any order; at least one")
@@ -126,8 +126,8 @@ def recording(settings: Settings, context: Context) -> Recording:
     """Import recordings of a test bench.
 
     Method:
-    Recordings were converted to SI units and cut into runs as the case declares; missing samples are marked, and
-    nothing was filtered or resampled.
+    Recordings were converted to SI units and cut into runs as stated in the case. Missing samples are marked; nothing
+    was filtered or resampled.
     """
     runs, source = {}, []
     for number, file in enumerate(settings.files):

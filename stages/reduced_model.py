@@ -1,6 +1,6 @@
-"""From any system to the reduced sliding model that every solver and every effect works on.
+"""Stage reduced_model: reduction of any system to the sliding model used by all solvers and effects.
 
-Each system is a product of its own; ``SYSTEMS`` tells how it is reduced.
+Each system has its own product; ``SYSTEMS`` maps it to its reduction.
 """
 
 from dataclasses import fields
@@ -19,7 +19,7 @@ NO_SHEAR = {f"shear_{name}": [] for name in ("pressure", "friction", "stiffness"
 
 
 class Settings(Section):
-    """How many coordinates the bodies keep."""
+    """Number of coordinates that the bodies retain."""
 
     fixed_below: Quantity("Hz", gt=0) = option("20 kHz", "limit of the fixed-interface modes of pads and caliper")
     residual_below: Quantity("Hz", gt=0) = option(
@@ -33,10 +33,10 @@ def reduced_model(structure: Structure | PinOnDisc | BeamOnBeam | Lumped, settin
     """Reduce the system to interface coordinates and modes.
 
     Method:
-    Bodies held by joints were reduced by Craig-Bampton with averaged interfaces and fixed-interface modes below
-    {fixed_below}, bodies on rigid supports to their modes; to both were added residual shapes with pseudo-frequencies
-    below {residual_below}, for what interface accelerations and contact forces excite beyond these modes. Lumped
-    masses keep their coordinates.
+    Bodies supported by joints were reduced by the Craig-Bampton method with averaged interfaces and fixed-interface
+    modes below {fixed_below}, bodies on rigid supports to their modes. Both were augmented by residual shapes with
+    pseudo-frequencies below {residual_below}, for the response to interface accelerations and contact forces beyond
+    these modes. Lumped masses retain their coordinates.
     """
     return SYSTEMS[type(structure)](structure, settings, context)
 

@@ -5,7 +5,7 @@ from pipeline.products import Report
 
 
 class Settings(Section):
-    """Pictures of the report."""
+    """Figures of the report."""
 
     dots_per_inch: int = option(150, "resolution of the pictures that are not line drawings", ge=50, le=600)
     mode_pictures: int = option(6, "mode shapes drawn of the disc and of the unstable brake, each", ge=0, le=40)
@@ -13,11 +13,11 @@ class Settings(Section):
 
 @stage(companions=lambda product, case: {"report.html": product.html.item()}, reads_case=True)
 def report(products: Products, settings: Settings, context: Context) -> Report:
-    """Write one HTML page with pictures, tables, settings and methods.
+    """Write the HTML report with figures, tables, settings and methods.
 
     Method:
-    Pictures are drawn from the data products alone ({dots_per_inch} dots per inch, up to {mode_pictures} mode shapes
-    of a kind); every number on this page is read from a product or from the settings.
+    Figures were drawn from the data products only ({dots_per_inch} dots per inch, up to {mode_pictures} mode shapes
+    of each kind); every number in this report is read from a product or from the settings.
     """
     from pipeline.views.chapters.chapter import Look
     from pipeline.views.pages.report import page, plan

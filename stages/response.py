@@ -19,7 +19,7 @@ _SAMPLES_PER_PERIOD = 2.5
 
 
 class Settings(Section):
-    """How the contact forces enter the elastic brake, and which modes answer."""
+    """Load on the elastic brake, and the modes that respond."""
 
     coupling: Literal["assembly", "disc"] = option(
         "disc", "disc: the disc alone, turning; assembly: the whole brake, as in the paper, its contact counted twice")
@@ -67,32 +67,31 @@ def _check(sections):
 @stage(check=_check)
 def response(structure: Structure, model: ReducedModel, multibody: Multibody, settings: Settings,
              context: Context) -> Response:
-    """Superpose the modes of the elastic brake under the contact forces.
+    """Compute the response of the elastic brake to the contact forces by modal superposition.
 
-    Coupling 'disc' is the consistent one-way answer: the contact forces were computed on a rigid disc,
-    and load the elastic disc alone, in its own rotating frame, at points that stay in place while it
-    turns (gyroscopic and centrifugal terms are left out: it turns by a hundredth of a radian per radian
-    of its slowest mode).
+    Coupling 'disc' is the consistent one-way result: the contact forces were computed on a rigid disc and
+    act on the elastic disc alone, in its rotating frame, at points fixed in space (gyroscopic and
+    centrifugal terms are neglected: the disc rotates by a hundredth of a radian per radian of its slowest
+    mode).
 
-    Coupling 'assembly' is the paper's variant (section 2.1.6): the modes of the whole brake, its contact
-    a spring between pads and disc. It counts the contact twice. The normal forces already contain what
-    that spring does as the pads move, and they load it again; along sliding the pads answer a second
-    time, at resonance, to friction that already follows their own motion. Tones at the frequencies of
-    the pads are exaggerated: at 7 kHz the pair of normal forces adds a tenth to a half to the answer to
-    friction. Without the pads' hold, on the other hand, the disc alone answers several times as much
-    below 1 kHz: only a disc that is elastic in the multi-body simulation itself settles both.
+    Coupling 'assembly' is the paper's variant (section 2.1.6): the modes of the whole brake, with contact
+    springs between pads and disc. It counts the contact twice. The normal forces already include the
+    spring forces due to the pad motion, and load the same springs again; along sliding, the pads respond
+    a second time, at resonance, to friction forces that already follow their motion. Tones at the pad
+    frequencies are exaggerated: at 7 kHz the normal forces add 10 to 50 % to the response to friction.
+    The disc alone, on the other hand, lacks the support of the pads and responds several times as
+    strongly below 1 kHz. Only an elastic disc in the multibody simulation itself resolves both.
 
-    'forces: friction' leaves the normal pair out.
+    'forces: friction' omits the normal forces.
 
-    A load 'fluctuation' is the force less its first sample: the motion about the static equilibrium
-    from which the multi-body simulation starts.
+    The load 'fluctuation' is the force minus its first sample: motion about the static equilibrium from
+    which the multibody simulation starts.
 
     Method:
-    The contact forces of the multi-body simulation ({forces}, {load}) load the real modes of the brake below
-    {highest_frequency} (coupling: {coupling}); the modes are superposed by the exact recursion for piecewise-linear
-    forces, whose loss of amplitude between samples (sinc^2 of frequency times sampling interval) is divided out, with
-    their viscous damping taken diagonal. Spectra are Welch estimates with {resolution} between lines,
-    after {settling}.
+    The contact forces of the multibody simulation ({forces}, {load}) were applied to the real modes of the brake below
+    {highest_frequency} (coupling: {coupling}). Modal superposition used the exact recursion for piecewise-linear
+    forces, corrected for the amplitude loss of linear interpolation (sinc^2 of frequency times sampling interval), with
+    diagonal modal damping. Spectra are Welch estimates with a resolution of {resolution}, after {settling}.
     """
     step = _checked_step(multibody.time, settings)
     build = {"assembly": _assembly, "disc": _turning_disc}[settings.coupling]

@@ -1,4 +1,4 @@
-"""Stage rupture: the dynamic rupture of the interface of two unlike plates."""
+"""Stage rupture: dynamic rupture of the interface between two dissimilar plates."""
 
 from dataclasses import replace
 from functools import partial
@@ -42,7 +42,7 @@ class Friction(Section):
 
 
 class Studies(Section):
-    """Variations of the main run; an empty list leaves a study out."""
+    """Variations of the main run; an empty list omits a study."""
 
     spacings: Quantities("m", gt=0) | None = option(("50 um", "25 um", "12.5 um"),
                                                      "mesh study, with and without memory")
@@ -87,7 +87,7 @@ class Settings(Section):
 
 
 def _check(sections):
-    """Refuse what no rupture can be built from before anything is computed."""
+    """Refuse inconsistent settings before anything is computed."""
     settings = sections["rupture"]
     base = _parameters(settings, "superlu")
     refuse(base)
@@ -106,16 +106,16 @@ def _check(sections):
 
 @stage(check=_check)
 def rupture(settings: Settings, context: Context) -> Rupture:
-    """Dynamic rupture of the interface of two unlike plates, its fronts, and what they rest on.
+    """Simulate dynamic rupture between two dissimilar plates, and the sensitivity of its fronts.
 
     Method:
     Two plates of square bilinear elements ({spacing}, plane {plane}) with lumped mass, central differences, stiffness
     damping of {damping_share} spacing / cP and forward-increment Lagrange multipliers are in frictional contact.
-    A {preload} static state with shear over pressure {stress_ratio} is perturbed by friction zero on
-    {nucleation_length}. Shear over pressure, mesh and damping are tuned: the paper prints none of them. The arrival
-    of a pulse is half of its peak slip rate on the rise, which tells it from the P precursor. Coulomb friction between
-    unlike solids is ill-posed (Renardy 1992; Adams 1995; Ranjith and Rice 2001): its pulses narrow with the mesh and no
-    limit exists; a Prakash-Clifton memory of the pressure makes one. Mesh, stress, damping and Poisson ratio vary.
+    A {preload} static state with a shear-to-pressure ratio of {stress_ratio} is perturbed by removing friction over
+    {nucleation_length}. Stress ratio, mesh and damping are tuned: the paper gives none of them. A pulse arrives when
+    the slip rate rises to half of its peak, which excludes the P precursor. Coulomb friction between dissimilar solids
+    is ill-posed (Renardy 1992; Adams 1995; Ranjith and Rice 2001): pulses narrow with the mesh without converging;
+    Prakash-Clifton regularisation restores convergence. Mesh, stress, damping and Poisson ratio were varied.
     """
     base = _parameters(settings, context.solver)
     system = build(base)

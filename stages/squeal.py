@@ -40,17 +40,17 @@ class Settings(Section):
 
 @stage
 def squeal(response: Response | Transient, settings: Settings, context: Context) -> Squeal:
-    """Find squeal events and band levels in the sensor velocities.
+    """Detect squeal events and compute band levels of the sensor velocities.
 
     The level is a velocity level: no radiation, no A-weighting.
 
     Method:
-    A squeal event is a tone between {lowest_frequency} and {highest_frequency} of at least {threshold} root
-    mean square (levels re {reference}) for at least {shortest}, in Hann frames of {window} that overlap by
-    {overlap}; tones that drift by less than {drift} from frame to frame are one event. It is a harmonic if
-    more than {told_share} of its frames hold a lower tone of that level, from {lowest_fundamental} up, of which it is a
-    whole multiple, each frequency being known to {line_accuracy} of the distance of the lines, and if at most
-    {largest_chance} of all unrelated tones would pass so. Third-octave levels are sums of the velocity spectra.
+    A squeal event is a tone between {lowest_frequency} and {highest_frequency} of at least {threshold} root mean square
+    (levels re {reference}) for at least {shortest}, in Hann frames of {window} with an overlap of {overlap}; tones that
+    drift by less than {drift} between frames form one event. An event is a harmonic if in more than {told_share} of its
+    frames it is an integer multiple of a lower tone, itself at or above {lowest_fundamental} and {threshold}, with
+    frequencies accurate to {line_accuracy} of the line spacing, and if at most {largest_chance} of unrelated tones
+    would satisfy this by chance. Third-octave levels are sums of the velocity spectra.
     """
     if settings.lowest_frequency >= settings.highest_frequency:
         raise ConfigError("squeal.lowest_frequency", f"less than highest_frequency, {settings.highest_frequency:g} Hz",

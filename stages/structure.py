@@ -1,4 +1,4 @@
-"""Stage structure: finite elements of disc, pads and caliper, their real modes, joints, contacts and preload."""
+"""Stage structure: finite-element models of disc, pads and caliper; real modes, joints, contacts and preload."""
 
 from functools import partial
 from typing import Literal
@@ -92,7 +92,7 @@ class Caliper(Section):
 
 
 class Joints(Section):
-    """Springs and dampers of what is not meshed."""
+    """Springs and dampers of the parts that are not meshed."""
 
     abutment_stiffness: Quantity("N/m", gt=0) = option("50 MN/m", "trailing abutment of a pad, along sliding")
     clip_stiffness: Quantity("N/m", gt=0) = option("1 MN/m", "clip at the leading end of a pad, along sliding")
@@ -143,13 +143,13 @@ class Settings(Section):
 
 @stage
 def structure(friction_map: FrictionMap, settings: Settings, context: Context) -> Structure:
-    """Mesh disc, pads and caliper; solve their preload and real modes.
+    """Mesh disc, pads and caliper, and compute preload and real modes.
 
     Method:
-    Disc, pads and caliper were meshed with quadratic hexahedra (95 % of the stiffness from 2 x 2 x 2 points); fingers,
-    piston, abutments and guide pins are springs and dampers. The disc is clamped where the bolts press it on a rigid
-    hub. The normal contact law follows from the interface stiffness after {sliding_distance} of sliding; the
-    preload is static and free of friction. Real modes were computed below {frequency_max}.
+    Disc, pads and caliper were meshed with quadratic hexahedra (95 % of the stiffness by 2 x 2 x 2 integration);
+    fingers, piston, abutments and guide pins are springs and dampers. The disc is clamped where the bolts press it onto
+    a rigid hub. The normal contact law follows from the interface stiffness after {sliding_distance} of sliding; the
+    preload is static and frictionless. Real modes were computed below {frequency_max}.
     """
     brake = build(settings)
     free, *modes = _all_modes(brake, settings, context)

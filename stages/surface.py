@@ -1,4 +1,4 @@
-"""Stage surface: the two rough surfaces, from scans or from the seeded generators."""
+"""Stage surface: the two rough surfaces, from scans or seeded generators."""
 
 from typing import Literal
 
@@ -29,7 +29,7 @@ class Scan(Section):
 
 
 class Recorded(Section):
-    """A height map of a recording that shows the whole patch and nothing else."""
+    """A height map of a recording that covers exactly the patch."""
 
     kind: Literal["recorded"] = "recorded"
     file: InputFile = option(..., "plain HDF5 in the form that 'brakechain data format' prints")
@@ -83,14 +83,14 @@ class Settings(Section):
 
 @stage
 def surface(settings: Settings, context: Context) -> Surface:
-    """Rough surfaces of disc and pad, from scans or seeded generators.
+    """Prepare the rough surfaces of disc and pad, from scans or seeded generators.
 
     Method:
-    Both surfaces live on one periodic patch of {patch_length} edge with {nodes} nodes per edge and no wavelength
-    below {shortest_wavelength}. Scans lose outliers by a local median test, holes by harmonic filling and their
-    quadratic form, fade periodically at the margins and are scaled to the declared rms height; generated surfaces are
-    a turned disc (tool marks, roughness, grain outbreaks) and, against it, rough plateaus over a smoother matrix.
-    Recorded maps of the whole patch lose their plane and what is shorter than the shortest wavelength, nothing else.
+    Both surfaces are periodic patches with an edge of {patch_length}, {nodes} nodes per edge and no wavelength below
+    {shortest_wavelength}. In scans, outliers were removed by a local median test, holes were filled harmonically, the
+    quadratic form was removed, the margins were blended periodically, and heights were scaled to the stated rms height.
+    Generated surfaces are a turned disc (tool marks, roughness, grain outbreaks) and rough plateaus over a smoother
+    matrix. Recorded maps of the whole patch only lose their mean plane and wavelengths below the shortest one.
     """
     spacing = settings.patch_length / settings.nodes
     if settings.shortest_wavelength < 2.0 * spacing:

@@ -19,7 +19,7 @@ from pipeline.products import Effects, ReducedModel, Transient
 
 
 class Settings(Laws):
-    """Contact, friction, operating points, and what is kept of the motion."""
+    """Contact, friction, operating points, and the recorded part of the motion."""
 
     speeds: Quantities("rad/s") = option(("1 rad/s",), "speeds of the drive, either sign, for each pressure")
     step: Quantity("s", gt=0) = option("1 us", "time step")
@@ -39,7 +39,7 @@ class Settings(Laws):
 
 
 def _check(sections):
-    """Refuse, before anything is computed, windows that the motion does not fill."""
+    """Refuse windows longer than the motion before anything is computed."""
     told = sections["transient"]
     if told.window > told.duration:
         raise ConfigError("transient.window", f"at most the duration, {told.duration:g} s", f"{told.window:g} s")
@@ -50,17 +50,17 @@ def _check(sections):
 
 @stage(check=_check)
 def transient(model: ReducedModel, effects: Effects | None, settings: Settings, context: Context) -> Transient:
-    """Step the sliding model through contact, sticking and sliding.
+    """Integrate the sliding model with opening contacts, sticking and sliding.
 
-    The model is reduced to its real modes with open contacts. The linear part is stepped exactly; contact and friction
-    forces are constant or linear over a step. A motion that has not settled in the window is kept, and said so.
+    The model is reduced to its real modes with open contacts. The linear part is integrated exactly; contact and
+    friction forces are constant or linear over a step. A motion that is not steady in the window is stored and marked.
 
     Method:
-    The equations of motion on the real modes below {highest_frequency} (contacts open, damping {damping}) were stepped
-    by {step} over {duration}, the linear part exactly except under Lagrange multipliers or where Newmark's rule is
-    asked for (rule: {rule}); contact: {contact}, coefficient of friction {friction} (none: that of the interface law
-    under the static load), at rest {friction_at_rest} (none: the same), sticking described as {description}. Spectra
-    and cycles are those of the last {window}.
+    The equations of motion of the real modes below {highest_frequency} (contacts open, damping {damping}) were
+    integrated over {duration} in steps of {step}; the linear part exactly, except with Lagrange multipliers or
+    Newmark's method (rule: {rule}). Contact: {contact}; friction coefficient {friction} (none: that of the interface
+    law at the static load), at rest {friction_at_rest} (none: the same); sticking: {description}. Spectra and limit
+    cycles refer to the last {window}.
     """
     points = [(state, speed) for state in range(len(model.pressure)) for speed in settings.speeds]
     found = context.map(partial(_move, model, effects, settings), points, "operating points")
