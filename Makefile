@@ -19,7 +19,7 @@ BIN    := .venv/bin
 
 help:            ## show this list
 	@echo "usage: make TARGET [CASE=disc_brake] [ARGS=...]      cases: $(basename $(notdir $(wildcard configs/*.yaml)))"
-	@grep -hE '^[a-z_-]+:.*##' Makefile | sed -E 's/:.*## */ /' | awk '{name = $$1; sub(/^[^ ]* */, ""); printf "  %-12s %s\n", name, $$0}'
+	@grep -hE '^[a-z_-]+:.*##' Makefile | sed -E 's/:.*## */ /' | awk '{name = $$1; sub(/^[^ ]* */, ""); printf "  %-15s %s\n", name, $$0}'
 	@echo "  one stage:   $(STAGES)"
 
 setup: $(READY)  ## create the virtual environment .venv from the pinned lock, wheels only
@@ -32,53 +32,53 @@ $(READY): requirements.lock pyproject.toml
 	$(BIN)/python -m pip install --quiet --no-deps --no-build-isolation --editable .
 	@touch $@
 
-run: $(READY)    ## run the chain of CASE; what is up to date is kept
+run: $(READY)    ## run the chain of CASE; up-to-date stages are skipped
 	$(BIN)/brakechain run $(CONFIG) $(ARGS)
 
-test: $(READY)   ## all tests but the slow studies; says what it skipped and why
+test: $(READY)   ## all tests except slow ones; lists skipped tests with reasons
 	$(BIN)/python -m pytest -q -rs -m "not slow" -n auto --dist loadfile $(ARGS) $(TESTS)
 
-coverage: $(READY)  ## the same tests with the lines of pipeline/ and stages/ that they run
+coverage: $(READY)  ## the same tests, with line coverage of pipeline/ and stages/
 	$(BIN)/python -m pytest -q -rs -m "not slow" -n auto --dist loadfile --cov=pipeline --cov=stages --cov-report=term:skip-covered $(ARGS) $(TESTS)
 
-test-kernels: $(READY)  ## what rounding could move, as other processors round: KERNELS of OpenBLAS, old paths of MKL and numba
+test-kernels: $(READY)  ## tests sensitive to rounding, with the kernels of other processors (KERNELS of OpenBLAS, MKL, numba)
 	@for kernel in $(KERNELS); do echo "OpenBLAS kernel $$kernel"; \
 		OPENBLAS_CORETYPE=$$kernel MKL_ENABLE_INSTRUCTIONS=SSE4_2 NUMBA_CPU_NAME=generic \
 		$(BIN)/python -m pytest -q -rs -m "not slow" -n auto --dist loadfile $(ARGS) $(ROUNDING) || exit 1; done
 
-test-slow: $(READY)  ## the slow studies: full cases, kill-and-resume in every stage
+test-slow: $(READY)  ## slow tests: full cases, kill and resume in every stage
 	$(BIN)/python -m pytest -q -m "slow and not study" $(ARGS) $(TESTS)
 
-test-study: $(READY)  ## the long diagnoses: every case of its kind, samples of the studies
+test-study: $(READY)  ## long diagnoses: every kind of case, samples of the studies
 	$(BIN)/python -m pytest -q -m study $(ARGS) $(TESTS)
 
-bench: $(READY)  ## benchmarks: wall and CPU seconds of kernels, peers, stages and diagnoses; ARGS="--compare COMMIT" sets an earlier run beside them
+bench: $(READY)  ## benchmarks: wall and CPU seconds of kernels, other codes, stages, diagnoses; ARGS="--compare COMMIT" adds an earlier run
 	$(BIN)/python -m tests.benchmarks $(ARGS)
 
-trial: $(READY)  ## the open practice trial: made, solved and scored in at most half an hour on two cores; resumes
+trial: $(READY)  ## open practice trial: make, solve and score, up to half an hour on two cores; resumes
 	@test -e $(PRACTICE)/set.yaml || $(BIN)/brakechain trial make $(PRACTICE) --cases 48 --seed 1 --systems forced_rig,coarse_rig
 	$(BIN)/brakechain trial solve $(PRACTICE) $(ARGS)
 	$(BIN)/brakechain trial score $(PRACTICE)
 	$(BIN)/brakechain trial show $(PRACTICE)
 
-trial_sealed: $(READY)  ## the sealed trial SEALED: made and sealed; once its commitment is committed, solved and scored
+trial_sealed: $(READY)  ## sealed trial SEALED: make and seal; after its commitment is in Git, solve and score
 	@test -e $(SEALED)/set.yaml || $(BIN)/brakechain trial make $(SEALED) --cases 310 --sealed
 	@git ls-files --error-unmatch $(SEALED)/set.yaml >/dev/null 2>&1 || { \
-		echo "commit $(SEALED)/{set.yaml,code.json,truth.sealed} before anything is solved; then run this again"; exit 2; }
+		echo "commit $(SEALED)/{set.yaml,code.json,truth.sealed} before solving; then run this again"; exit 2; }
 	@test -e $(SEALED)/result.json || { $(BIN)/brakechain trial solve $(SEALED) $(ARGS) && $(BIN)/brakechain trial score $(SEALED); }
 	$(BIN)/brakechain trial show $(SEALED)
 	$(BIN)/brakechain trial verify $(SEALED)
 
-trial_again: $(READY)  ## the published trial SEALED made anew as an open one, solved and scored by the present code; resumes
+trial_again: $(READY)  ## remake the published trial SEALED as an open one; solve and score it with the current code; resumes
 	@test -e $(AGAIN)/set.yaml || $(BIN)/brakechain trial remake $(SEALED) $(AGAIN)
 	$(BIN)/brakechain trial solve $(AGAIN) $(ARGS)
 	$(BIN)/brakechain trial score $(AGAIN)
 	$(BIN)/brakechain trial show $(AGAIN)
 
-study_diagnosis: $(READY)  ## hidden physics on forced rigs: rates of right answers; resumes case by case
+study_diagnosis: $(READY)  ## identification rates for hidden physics on forced rigs; resumes case by case
 	$(BIN)/python -m tests.studies.forced $(ARGS)
 
-study_squeal: $(READY)  ## hidden physics on the practice pin-on-disc bench; resumes case by case
+study_squeal: $(READY)  ## identification rates on the practice pin-on-disc bench; resumes case by case
 	$(BIN)/python -m tests.studies.self_excited $(ARGS)
 
 pin_bench: $(READY)  ## write the practice recordings of configs/pin_on_disc_bench.yaml to data/runs/practice
@@ -87,7 +87,7 @@ pin_bench: $(READY)  ## write the practice recordings of configs/pin_on_disc_ben
 worn_bench: $(READY)  ## write the practice recordings of configs/worn_pad.yaml to data/runs/practice
 	$(BIN)/python -m tests.studies.worn
 
-lint: $(READY)   ## style of the code
+lint: $(READY)   ## check code style
 	$(BIN)/python -m ruff check .
 
 clean:           ## delete the products of CASE

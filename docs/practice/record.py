@@ -1,8 +1,8 @@
-"""A practice bench: writes recordings of a carriage with an arm, and hides one thing in them. Read it afterwards.
+"""A practice rig: writes recordings of a carriage with an arm that hide one effect. Read this file last.
 
     python docs/practice/record.py docs/practice/rig.h5 --hidden 1          (1, 2 or 3; 0 hides nothing)
 
-Equations, integrator (Runge-Kutta 8, adaptive) and noise are its own: nothing of the diagnosis is imported.
+It has its own equations, integrator (adaptive Runge-Kutta 8) and noise: nothing of the diagnosis is imported.
 """
 
 import argparse
@@ -17,7 +17,7 @@ GUIDE, JOINT = (5200.0, 11.0), (2350.0, 1.6)    # N/m, N s/m; the case says 5000
 
 
 def hidden_forces(which, carriage, speed, bend):
-    """Forces (on the guide, on the joint) in N that the case does not know."""
+    """Forces (on the guide, on the joint) in N that are missing in the case."""
     guide = 2.0 * np.tanh(speed / 1e-3) if which == 1 else 0.0
     joint = 4e6 * bend**3 if which == 2 else 0.0
     return guide + (40.0 * speed * abs(speed) if which == 3 else 0.0), joint
@@ -39,24 +39,24 @@ def record(which, level, sweep, random):
         return [vx, vy, (force(time, level, sweep) - guide + joint) / CARRIAGE, -joint / ARM]
 
     time = np.arange(int(RATE * DURATION) + 1) / RATE
-    found = solve_ivp(rates, (0, time[-1]), np.zeros(4), "DOP853", time, rtol=1e-9, atol=1e-12, max_step=2e-3)
+    motion = solve_ivp(rates, (0, time[-1]), np.zeros(4), "DOP853", time, rtol=1e-9, atol=1e-12, max_step=2e-3)
     noise = NOISE * random.standard_normal((2, len(time)))
-    return force(time, level, sweep), found.y[0] + noise[0], found.y[1] + noise[1]
+    return force(time, level, sweep), motion.y[0] + noise[0], motion.y[1] + noise[1]
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("file")
     parser.add_argument("--hidden", type=int, default=1, choices=range(4))
-    given = parser.parse_args()
-    random = np.random.default_rng(given.hidden)
-    with h5py.File(given.file, "w") as h5:
+    arguments = parser.parse_args()
+    random = np.random.default_rng(arguments.hidden)
+    with h5py.File(arguments.file, "w") as h5:
         for name, level, sweep in (("soft", 6.0, (1, 12)), ("middle", 12.0, (12, 1)), ("loud", 24.0, (1, 12)),
                                    ("check", 18.0, (2, 9))):
             run = h5.create_group(f"runs/{name}")
             run.attrs["description"] = f"sweep {sweep[0]} to {sweep[1]} Hz, {level:g} N"
             for channel, values, unit, quantity, role in zip(
-                    ("force", "carriage", "arm"), record(given.hidden, level, sweep, random), ("N", "m", "m"),
+                    ("force", "carriage", "arm"), record(arguments.hidden, level, sweep, random), ("N", "m", "m"),
                     ("force", "displacement", "displacement"), ("excitation", "response", "response"), strict=True):
                 data = run.create_dataset(f"channels/{channel}", data=values)
                 data.attrs.update(units=unit, quantity=quantity, sample_rate=RATE, role=role)
