@@ -126,7 +126,11 @@ def advance(lower, upper, interface, motion, step, steps, start=0.0):
 @njit(error_model="numpy")
 def _advance(lower, upper, lower_rim, upper_rim, interface, motion, step, record):
     below, above = np.empty((3, 2, lower.columns)), np.empty((3, 2, upper.columns))
-    matched = np.all((interface.weight == 0.0) | (interface.weight == 1.0))      # every node has its own: diagonal
+    between = 0         # nodes that meet a segment, not a node; without any the system is diagonal
+    for i in range(interface.weight.size):
+        if interface.weight[i] != 0.0 and interface.weight[i] != 1.0:
+            between += 1
+    matched = between == 0
     pressure, shear = np.empty(interface.pressure.size), np.empty(interface.pressure.size)
     strength = np.empty(pressure.size)
     for count in range(record.time.size):
@@ -148,7 +152,8 @@ def _advance(lower, upper, lower_rim, upper_rim, interface, motion, step, record
 @njit(error_model="numpy")
 def _contact(interface, motion, slave, slave_gain, master, master_gain, side, step, matched, pressure, shear, strength):
     """Multipliers at the new time, applied to both plates; ``side`` = 1 where the slave is above. True = converged."""
-    pressure[:], shear[:] = interface.pressure, interface.shear
+    for i in range(pressure.size):
+        pressure[i], shear[i] = interface.pressure[i], interface.shear[i]
     remembers = interface.memory_time > 0.0 or interface.memory_slip > 0.0
     largest = np.max(interface.pressure)
     for _ in range(_SWEEPS):

@@ -55,22 +55,22 @@ def step_plate(grid, rim, displacement, velocity, step, window):
     centre = (stiff + shear) * 4.0 / 3.0
     beside, above = (shear - 2.0 * stiff) / 3.0, (stiff - 2.0 * shear) / 3.0
     corner, cross = -(stiff + shear) / 6.0, -(first + shear) / 4.0
-    _mix(displacement, velocity, 0, grid.stiffness_damping, window[0])
-    for row in range(rows):
+    for row in range(-1, rows):
         if row + 1 < rows:
             _mix(displacement, velocity, row + 1, grid.stiffness_damping, window[(row + 1) % 3])
+        if row < 0:
+            continue
         low, here, high = window[(row - 1) % 3], window[row % 3], window[(row + 1) % 3]
         if 0 < row < rows - 1:
-            _inner_row(low, here, high, displacement[0, row], displacement[1, row], velocity[0, row], velocity[1, row],
-                       centre, beside, above, corner, cross, rim.inner_gain, step)
-            for side in range(2):
-                _edge_node(grid, low, here, high, row, side * (columns - 1), displacement, velocity,
-                           rim.column_keep[side, :, row], rim.column_gain[side, :, row], step)
+            _inner_row(low[0], here[0], high[0], low[1], here[1], high[1], displacement[0, row], displacement[1, row],
+                       velocity[0, row], velocity[1, row], centre, beside, above, corner, cross, rim.inner_gain, step)
         else:
-            side = 0 if row == 0 else 1
-            for column in range(columns):
-                _edge_node(grid, low, here, high, row, column, displacement, velocity,
-                           rim.row_keep[side, :, column], rim.row_gain[side, :, column], step)
+            side, across, other = (0, 1, high) if row == 0 else (1, -1, low)
+            keep, gain = rim.row_keep[side], rim.row_gain[side]
+            _edge_row(grid, row, across, here, other, displacement, velocity, keep, gain, step)
+        for side in range(2):
+            _edge_node(grid, low, here, high, row, side * (columns - 1), displacement, velocity,
+                       rim.column_keep[side, :, row], rim.column_gain[side, :, row], step)
 
 
 @njit(error_model="numpy", fastmath={"contract"}, inline="always")
@@ -83,20 +83,53 @@ def _mix(displacement, velocity, row, damping, mixed):
 
 
 @njit(error_model="numpy", fastmath={"contract"})
-def _inner_row(low, here, high, ux, uy, vx, vy, centre, beside, above, corner, cross, gain, step):
-    """All nodes of a row but its ends, by the nine-point stencil."""
-    xl, xh, xu, yl, yh, yu = low[0], here[0], high[0], low[1], here[1], high[1]
+def _inner_row(xl, xh, xu, yl, yh, yu, ux, uy, vx, vy, centre, beside, above, corner, cross, gain, step):
+    """All nodes of a row but its ends, by the nine-point stencil; x and y of the row below, this row, the row above.
+
+    Values below and above are added first: both components share these sums.
+    """
     for i in range(1, ux.size - 1):
-        turned_y = yu[i + 1] - yu[i - 1] - yl[i + 1] + yl[i - 1]
-        turned_x = xu[i + 1] - xu[i - 1] - xl[i + 1] + xl[i - 1]
-        force_x = (centre * xh[i] + beside * (xh[i - 1] + xh[i + 1]) + above * (xl[i] + xu[i])
-                   + corner * (xl[i - 1] + xl[i + 1] + xu[i - 1] + xu[i + 1]) + cross * turned_y)
-        force_y = (centre * yh[i] + above * (yh[i - 1] + yh[i + 1]) + beside * (yl[i] + yu[i])
-                   + corner * (yl[i - 1] + yl[i + 1] + yu[i - 1] + yu[i + 1]) + cross * turned_x)
-        vx[i] -= gain * force_x
-        vy[i] -= gain * force_y
-        ux[i] += step * vx[i]
-        uy[i] += step * vy[i]
+        sum_left, sum_here, sum_right = xl[i - 1] + xu[i - 1], xl[i] + xu[i], xl[i + 1] + xu[i + 1]
+        turned = (yu[i + 1] - yl[i + 1]) - (yu[i - 1] - yl[i - 1])
+        force_x = (centre * xh[i] + beside * (xh[i - 1] + xh[i + 1]) + above * sum_here
+                   + corner * (sum_left + sum_right) + cross * turned)
+        sum_left, sum_here, sum_right = yl[i - 1] + yu[i - 1], yl[i] + yu[i], yl[i + 1] + yu[i + 1]
+        turned = (xu[i + 1] - xl[i + 1]) - (xu[i - 1] - xl[i - 1])
+        force_y = (centre * yh[i] + above * (yh[i - 1] + yh[i + 1]) + beside * sum_here
+                   + corner * (sum_left + sum_right) + cross * turned)
+        speed_x, speed_y = vx[i] - gain * force_x, vy[i] - gain * force_y
+        vx[i], vy[i] = speed_x, speed_y
+        ux[i] += step * speed_x
+        uy[i] += step * speed_y
+
+
+@njit(error_model="numpy", fastmath={"contract"})
+def _edge_row(grid, row, across, here, other, displacement, velocity, keep, gain, step):
+    """All nodes but the ends of the first or last row; ``other`` is the line next to it, ``across`` rows above."""
+    first, shear = grid.first_modulus, grid.shear_modulus
+    stiff = first + 2.0 * shear
+    k_y, m_y, d_y, t_y = _line_element(row, grid.rows, 0)
+    k_o, m_o, d_o, t_o = _line_element(row, grid.rows, across)
+    # inside a line K is 2, M 2/3, D 0; beside it K is -1, M 1/6, D -1/2 to the right and 1/2 to the left
+    xx, xx_side, xy = 2.0 * stiff * m_y + shear * k_y / 1.5, -stiff * m_y + shear * k_y / 6.0, 0.5 * (
+        shear * d_y - first * t_y)
+    yy, yy_side, yx = 2.0 * shear * m_y + stiff * k_y / 1.5, -shear * m_y + stiff * k_y / 6.0, 0.5 * (
+        first * d_y - shear * t_y)
+    xx_o, xx_side_o, xy_o = 2.0 * stiff * m_o + shear * k_o / 1.5, -stiff * m_o + shear * k_o / 6.0, 0.5 * (
+        shear * d_o - first * t_o)
+    yy_o, yy_side_o, yx_o = 2.0 * shear * m_o + stiff * k_o / 1.5, -shear * m_o + stiff * k_o / 6.0, 0.5 * (
+        first * d_o - shear * t_o)
+    xh, yh, xo, yo = here[0], here[1], other[0], other[1]
+    ux, uy, vx, vy = displacement[0, row], displacement[1, row], velocity[0, row], velocity[1, row]
+    for i in range(1, ux.size - 1):
+        force_x = (xx * xh[i] + xx_side * (xh[i - 1] + xh[i + 1]) + xy * (yh[i + 1] - yh[i - 1])
+                   + xx_o * xo[i] + xx_side_o * (xo[i - 1] + xo[i + 1]) + xy_o * (yo[i + 1] - yo[i - 1]))
+        force_y = (yy * yh[i] + yy_side * (yh[i - 1] + yh[i + 1]) + yx * (xh[i + 1] - xh[i - 1])
+                   + yy_o * yo[i] + yy_side_o * (yo[i - 1] + yo[i + 1]) + yx_o * (xo[i + 1] - xo[i - 1]))
+        speed_x, speed_y = keep[0, i] * vx[i] - gain[0, i] * force_x, keep[1, i] * vy[i] - gain[1, i] * force_y
+        vx[i], vy[i] = speed_x, speed_y
+        ux[i] += step * speed_x
+        uy[i] += step * speed_y
 
 
 @njit(error_model="numpy")
@@ -125,9 +158,9 @@ def _edge_node(grid, low, here, high, row, column, displacement, velocity, keep,
 
 
 @njit(error_model="numpy", inline="always")
-def _line_element(place, count, offset):
-    """Entries (place, place + offset) of K, M, D and D^T of a line of unit elements."""
+def _line_element(position, count, offset):
+    """Entries (i, i + offset) of K, M, D and D^T of a line of unit elements."""
     if offset != 0:
         return -1.0, 1.0 / 6.0, -0.5 * offset, 0.5 * offset
-    left, right = (1.0 if place > 0 else 0.0), (1.0 if place < count - 1 else 0.0)
+    left, right = (1.0 if position > 0 else 0.0), (1.0 if position < count - 1 else 0.0)
     return left + right, (left + right) / 3.0, 0.5 * (left - right), 0.5 * (left - right)
