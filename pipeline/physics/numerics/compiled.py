@@ -7,6 +7,7 @@ longer what the files hold.
 
 import time
 from functools import cache, cached_property, update_wrapper
+from types import FunctionType
 
 from pipeline import sources
 
@@ -30,9 +31,20 @@ class Kernel:
 
     @cached_property
     def dispatcher(self):
-        """numba's object: what another kernel calls, and what holds the compiled code."""
+        """numba's object for calls from Python."""
+        return self._made(self._function)
+
+    @cached_property
+    def inner(self):
+        """numba's object for calls from other kernels, without the entry from Python, which costs compile time."""
+        f = self._function
+        function = update_wrapper(FunctionType(f.__code__, f.__globals__, f.__name__, f.__defaults__, f.__closure__), f)
+        function.__qualname__ = f"{f.__qualname__}.inner"       # names the file of the cache
+        return self._made(function, no_cpython_wrapper=True, no_cfunc_wrapper=True)
+
+    def _made(self, function, **more):
         current = not sources.changed_since(self.__module__, _STARTED)
-        return _numba().njit(cache=current, **self._options)(self._function)
+        return _numba().njit(cache=current, **self._options, **more)(function)
 
     def __call__(self, *arguments):
         return self.dispatcher(*arguments)
@@ -48,8 +60,8 @@ class Kernel:
 
 @cache
 def _numba():
-    """numba, told that a Kernel named in another kernel stands for its dispatcher."""
+    """numba, with the type of a Kernel that another kernel names or takes as an argument."""
     import numba
 
-    numba.extending.typeof_impl.register(Kernel)(lambda kernel, _: numba.types.Dispatcher(kernel.dispatcher))
+    numba.extending.typeof_impl.register(Kernel)(lambda kernel, _: numba.types.Dispatcher(kernel.inner))
     return numba

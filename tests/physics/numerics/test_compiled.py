@@ -4,6 +4,7 @@ import pickle
 import subprocess
 import sys
 
+import numba
 import numpy as np
 import pytest
 
@@ -34,6 +35,19 @@ def _sum_of_reciprocals(values):
 
 
 @njit
+def _cube(x):
+    return x**3
+
+
+@njit
+def _sum_of_cubes(values):
+    total = 0.0
+    for value in values:
+        total += _cube(value)
+    return total
+
+
+@njit
 def _applied(kernel, x):
     return kernel(x)
 
@@ -49,6 +63,13 @@ def test_kernels_call_kernels():
     assert _sum_of_reciprocals(np.array([1.0, 2.0, 4.0])) == 1.75
     assert _applied(_reciprocal, 4.0) == 0.25, "a kernel is an argument too"
     assert _sum_of_reciprocals.py_func(np.array([2.0])) == 0.5
+
+
+def test_a_kernel_that_only_kernels_call_gets_no_entry_from_python():
+    assert _sum_of_cubes(np.array([1.0, 2.0])) == 9.0 and _cube(2.0) == 8.0
+    assert numba.typeof(_cube).dispatcher is _cube.inner, "what a kernel that names it is compiled with"
+    assert _cube.inner.targetoptions["no_cpython_wrapper"]
+    assert "no_cpython_wrapper" not in _cube.dispatcher.targetoptions
 
 
 def test_options_reach_numba():
