@@ -155,7 +155,8 @@ def _told(terms, context):
     """The terms, those told that leave complex modes alone."""
     for term in terms:
         if not term.effect.small:
-            context.log(f"{term.effect.name} at {term.place}: no small motion sees it; complex modes stay as they are")
+            context.log(f"{term.effect.name} at {term.location} does not enter linearised models: complex modes"
+                        " unchanged")
     return terms
 
 

@@ -6,7 +6,7 @@ from pipeline.contract import Context, stage
 from pipeline.products import Effects
 
 
-@stage(check=effect_block.check_places)
+@stage(check=effect_block.check_locations)
 def effects(settings: Settings, context: Context) -> Effects:
     """Add effects of the catalogue to the model.
 
@@ -14,6 +14,6 @@ def effects(settings: Settings, context: Context) -> Effects:
     Effects of the catalogue were added at the locations and with the values stated in the case, if any.
     """
     added = effect_block.product(settings)
-    for name, place in zip(added.effect, added.place, strict=True):
-        context.log(f"{name} at {place}")
+    for name, location in zip(added.effect, added.place, strict=True):
+        context.log(f"{name} at {location}")
     return added

@@ -1,8 +1,8 @@
 """The block ``effects`` of a case: terms of the catalogue, from YAML to a product and from there onto a bench.
 
     effects:
-      falling_friction: {contact: {rise: 0.2, decay_speed: 100 mm/s}}         # effect: {place: {parameter: value}}
-      conditions: {humidity: 0.8}             # what some effects depend on, where no recorded run tells it
+      falling_friction: {contact: {rise: 0.2, decay_speed: 100 mm/s}}         # effect: {location: {parameter: value}}
+      conditions: {humidity: 0.8}             # what some effects depend on, where no recorded run states it
 """
 
 from dataclasses import replace
@@ -26,49 +26,50 @@ def written(unit):
 
 
 def _values(effect):
-    """Section of the values of one effect at one place."""
+    """Section of the values of one effect at one location."""
     fields = {p.name: (Quantity(written(p.unit)), option(..., f"{p.name.replace('_', ' ')} [{p.unit}]"))
               for p in parameters(effect)}
     return section(f"{effect.name}_values", effect.summary, fields)
 
 
-#: conditions that effects depend on, each a number or not told
+#: conditions that effects depend on, each a number or not stated
 Conditions = section("Conditions", "Conditions of a case, as runs have them.", {
     name: (float | None, option(None, f"{name} [1]"))
     for name in dict.fromkeys(name for effect in CATALOGUE for name in effect.conditions)})
-#: the section: one key an effect, each a mapping from places to values, and the conditions
-Settings = section("Settings", "Physics added to the model: effect, place, values.", {
+#: the section: one key an effect, each a mapping from locations to values, and the conditions
+Settings = section("Settings", "Physics added to the model: effect, location, values.", {
     **{effect.name: (dict[str, _values(effect)],
-                     option({}, f"{effect.summary}; at: {effect.place}{' or asperities' if effect.micro else ''}"))
+                     option({}, f"{effect.summary}; at: {effect.location}{' or asperities' if effect.micro else ''}"))
        for effect in CATALOGUE},
-    "conditions": (Conditions, option(Conditions(), "conditions of motions that no recorded run tells"))})
+    "conditions": (Conditions, option(Conditions(), "conditions of motions that no recorded run states"))})
 
-_REMEDY = {True: "asperities are places of a rough pair, such as that of the disc brake",
-           False: f"on the scale of the roughness the place is {ASPERITIES}"}
-#: stages that put effects on their model: at the asperities of a rough pair, and at any other place
+_REMEDY = {True: "asperities are locations of a rough pair, such as that of the disc brake",
+           False: f"at the scale of the roughness the location is {ASPERITIES}"}
+#: stages that put effects on their model: at the asperities of a rough pair, and at any other location
 _ACTING = {True: ("micro_friction",), False: ("complex_modes", "multibody", "transient", "bench")}
 
 
-def check_places(sections):
-    """Refuse effects at places that no stage among {stage: settings} has; ConfigError."""
-    for name, places in _blocks(sections["effects"]).items():
-        for place in places:
-            if not set(_ACTING[place == ASPERITIES]) & set(sections):
-                raise ConfigError(f"effects.{name}.{place}",
-                                  f"a chain with {' or '.join(_ACTING[place == ASPERITIES])}, where this place is",
-                                  "none", _REMEDY[place == ASPERITIES])
+def check_locations(sections):
+    """Refuse effects at locations that no stage of {stage: settings} models; ConfigError."""
+    for name, locations in _blocks(sections["effects"]).items():
+        for location in locations:
+            micro = location == ASPERITIES
+            if not set(_ACTING[micro]) & set(sections):
+                raise ConfigError(f"effects.{name}.{location}",
+                                  f"a chain with {' or '.join(_ACTING[micro])}, where this location exists", "none",
+                                  _REMEDY[micro])
 
 
 def _blocks(settings):
-    """{effect: {place: values}} of a filled section."""
+    """{effect: {location: values}} of a filled section."""
     return {name: block for name, block in dict(settings).items() if name != "conditions"}
 
 
 def product(settings):
     """The product Effects of a filled section."""
     stated = {name: value for name, value in dict(settings.conditions).items() if value is not None}
-    rows = [(name, place, dict(values)) for name, places in _blocks(settings).items()
-            for place, values in places.items()]
+    rows = [(name, location, dict(values)) for name, locations in _blocks(settings).items()
+            for location, values in locations.items()]
     units = {(e.name, p.name): p.unit for e in CATALOGUE for p in parameters(e)}
     flat = [(k, name, parameter, value) for k, (name, _, values) in enumerate(rows)
             for parameter, value in values.items()]
@@ -85,8 +86,8 @@ def terms(effects):
     values = [{} for _ in effects.effect]
     for term, parameter, value in zip(effects.term, effects.parameter, effects.value, strict=True):
         values[term][str(parameter)] = float(value)
-    stated = (Term(named(str(name)), str(place), given)
-             for name, place, given in zip(effects.effect, effects.place, values, strict=True))
+    stated = (Term(named(str(name)), str(location), given)
+             for name, location, given in zip(effects.effect, effects.place, values, strict=True))
     return tuple(term for term in stated if not _vanishes(term))
 
 
@@ -124,7 +125,7 @@ def physics_terms(effects):
 
 
 def _on_benches(effects):
-    return tuple(t for t in terms(effects) if t.place != ASPERITIES)
+    return tuple(t for t in terms(effects) if t.location != ASPERITIES)
 
 
 def rubbing_with_effects(rubbing, effects):
@@ -134,4 +135,4 @@ def rubbing_with_effects(rubbing, effects):
 
 def at_asperities(effects):
     """Terms of a product Effects (or None) that act on a rough pair."""
-    return tuple(t for t in terms(effects) if t.place == ASPERITIES)
+    return tuple(t for t in terms(effects) if t.location == ASPERITIES)

@@ -86,7 +86,7 @@ def refuse_idle(terms, build):
     plain = build(())
     for term in terms:
         if _alike(build((term,)), plain):
-            raise refused(term.effect.name, f"changes nothing at {term.place}: pads, caliper and their contacts on a"
+            raise refused(term.effect.name, f"changes nothing at {term.location}: pads, caliper and their contacts on a"
                                             " rigid disc have no such physics here")
 
 

@@ -144,7 +144,7 @@ class Posed:
 def posed(model, state, speed, damping_speed, terms=(), conditions=None):
     """Posed of a product ReducedModel at one row of its preload table, with those of the Terms that small motions see.
 
-    ConfigError for places that are not there, whichever the effect.
+    ConfigError for unknown locations, of any of the terms.
     """
     sliding = sliding_model(model, state, speed)
     base = Bench(sliding, _law(model, sliding.contacts, damping_speed), constant(0.0), _STEP, (), groups(model),

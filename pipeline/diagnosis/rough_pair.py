@@ -98,7 +98,7 @@ def question(recording, surface, micro, friction_map, effects, settings, fan_out
     problem = replace(problem, predict=forward)
     check_names("priors", settings.priors, [f"{e.name}.{p.name}" for e in CATALOGUE for p in parameters(e)])
     known = {term.effect.name for term in stated}
-    weighed = [e for e in chosen(settings) if e.places(bare) and e.name not in known]
+    weighed = [e for e in chosen(settings) if e.locations(bare) and e.name not in known]
     found = candidates(bare, tuple(drags[o.name] for o in problem.training), weighed, settings.places,
                        priors=settings.priors)
     channels = [c for one in seen for c in one.channels]

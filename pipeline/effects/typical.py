@@ -1,4 +1,4 @@
-"""Typical sizes at a place of a bench, taken from nominal runs: they scale the priors of effects."""
+"""Typical quantities at a location of a bench, taken from nominal runs: they scale the priors of effects."""
 
 from dataclasses import dataclass, replace
 
@@ -10,24 +10,24 @@ from pipeline.physics.contact.groups import parts
 from pipeline.physics.time_stepping.simulate import Penalty, Table
 from pipeline.physics.virtual_rig.response import Channel, respond, run_drive, run_inputs
 
-#: kinds of place that an effect can have; ``contact`` is a group of them, ``contacts`` all together, ``pressed
-#: contact`` a group that can open, which friction joints cannot, ``contact row`` one whose contacts lie one behind the
-#: other along the sliding, ``sideways contact`` one that can move across it
+#: kinds of location that an effect can have: ``contact`` is a group of contacts, ``contacts`` all together, ``pressed
+#: contact`` a group that can open (a friction joint cannot), ``contact row`` one whose contacts lie one behind the
+#: other along the sliding direction, ``sideways contact`` one that can move across it
 JOINT, CONTACT, CONTACTS, POINT, CHANNEL = "joint", "contact", "contacts", "point", "channel"
 PRESSED, CONTACT_ROW, DOUBLET, INPUT = "pressed contact", "contact row", "doublet", "input"
 SIDEWAYS = "sideways contact"
-#: the one place of a Rubbing, and its kind
+#: the only location of a Rubbing, and its kind
 ASPERITIES = "asperities"
 _CONTACTS, _SENSOR = (CONTACT, CONTACTS, PRESSED, CONTACT_ROW, SIDEWAYS), "typical"
 
 
 @dataclass(frozen=True)
 class Typical:
-    """What is moved at a place, how far, how fast, how hard, how long; 0 where it means nothing there.
+    """Typical quantities at a location: amplitudes, forces, times; 0 where a quantity has no meaning there.
 
     ``stiffness`` N/m, ``damping`` N s/m, effective ``mass`` kg, ``length`` m, ``speed`` m/s (of sliding, for
     contacts), ``force`` N, ``pressure`` Pa, ``time`` s of the longest run, ``interval`` s between samples, ``drive``
-    rad/s, ``shown`` in units of a channel.
+    rad/s, ``shown``: largest value in units of the channel.
     """
 
     stiffness: float = 1.0
@@ -44,22 +44,22 @@ class Typical:
 
     @property
     def period(self):
-        """Seconds per radian of the mass on the stiffness; those of the longest run where nothing holds it."""
+        """Seconds per radian of the mass on the stiffness; duration of the longest run where there is no stiffness."""
         return np.sqrt(self.mass / self.stiffness) if self.stiffness > 0 else self.time
 
     @property
     def holding(self):
-        """Stiffness in N/m, or force over length where no spring holds the place (a carriage on its drive)."""
+        """Stiffness in N/m, or force over length where no spring supports the location (a carriage on its drive)."""
         return self.stiffness if self.stiffness > 0 else self.force / self.length
 
-    def scaled(self, reach):
-        """The same place where everything moves ``reach`` times as far; loads of contacts stay."""
-        return replace(self, length=reach * self.length, speed=reach * self.speed, force=reach * self.force,
-                       shown=reach * self.shown)
+    def scaled(self, factor):
+        """The quantities with amplitudes times ``factor``; contact loads stay."""
+        return replace(self, length=factor * self.length, speed=factor * self.speed, force=factor * self.force,
+                       shown=factor * self.shown)
 
 
-def places(kind, bench):
-    """Names of the places of this kind on a bench."""
+def locations(kind, bench):
+    """Names of the locations of this kind on a bench."""
     model = bench.model
     contact = tuple(dict.fromkeys(("contact", *bench.groups))) if len(model.contacts.area) else ()
     pressed = tuple(g for g in contact if not model.contacts.fixed[bench.contacts(g)].all())
@@ -70,8 +70,8 @@ def places(kind, bench):
             CHANNEL: tuple(c.name for c in bench.channels)}[kind]
 
 
-def typical(kind, bench, place, runs):
-    """Typical sizes at ``place``: largest values of the bench as it is, over ``runs`` (Drags of a Rubbing).
+def typical(kind, bench, location, runs):
+    """Typical quantities at ``location``: largest values of the nominal bench over ``runs`` (Drags of a Rubbing).
 
     ConfigError without runs.
     """
@@ -82,23 +82,23 @@ def typical(kind, bench, place, runs):
     drive = max(float(np.abs(run_drive(bench, run)).max()) for run in runs)
     common = {"time": max(r.duration for r in runs), "interval": 1 / max(r.sample_rate for r in runs), "drive": drive}
     if kind == CHANNEL:
-        shown = _largest(replace(bench, channels=tuple(c for c in bench.channels if c.name == place)), runs)
-        return Typical(**common, shown=shown[place])
-    row, stiffness, damping = _place(kind, bench, place)
+        shown = _largest(replace(bench, channels=tuple(c for c in bench.channels if c.name == location)), runs)
+        return Typical(**common, shown=shown[location])
+    row, stiffness, damping = _at(kind, bench, location)
     channels = [Channel("length", "displacement", _SENSOR), Channel("speed", "velocity", _SENSOR)]
     if kind in _CONTACTS:
-        channels.append(Channel("force", "normal_force", place))
+        channels.append(Channel("force", "normal_force", location))
     model = replace(bench.model, sensor_name=(*bench.model.sensor_name, _SENSOR),
                     sensor_rows=np.vstack((bench.model.sensor_rows, row)))
     seen = _largest(replace(bench, model=model, channels=tuple(channels)), runs)
     if kind in _CONTACTS:
-        contacts, members = bench.model.contacts, bench.contacts(place)
+        contacts, members = bench.model.contacts, bench.contacts(location)
         seen["speed"] = drive * abs(contacts.lever[members]).max()
         seen["pressure"] = seen["force"] / contacts.area[members].sum()
     else:
         seen["force"] = stiffness * seen["length"] + damping * seen["speed"]
     if kind == INPUT:
-        seen["force"] = max(seen["force"], *(float(np.abs(_input(bench, run, place)).max()) for run in runs))
+        seen["force"] = max(seen["force"], *(float(np.abs(_input(bench, run, location)).max()) for run in runs))
     mass = 1 / (row @ np.linalg.solve(bench.model.mass, row)) if row.any() else 0.0
     return Typical(stiffness, damping, mass, **seen, **common)
 
@@ -111,8 +111,8 @@ def _rubbed(rubbing, runs):
                    pressure=pressure, time=way / speed)
 
 
-def _input(bench, run, place):
-    return run_inputs(bench, run)[bench.model.input_name.index(place)]
+def _input(bench, run, location):
+    return run_inputs(bench, run)[bench.model.input_name.index(location)]
 
 
 def _largest(bench, runs):
@@ -120,21 +120,21 @@ def _largest(bench, runs):
     return {c.name: max(float(abs(a[c.name]).max()) for a in answers) for c in bench.channels}
 
 
-def _place(kind, bench, place):
-    """(row (n,), stiffness, damping) of a place: of contacts along their mean normal, of friction joints along the
-    sliding, of a doublet's first mode.
+def _at(kind, bench, location):
+    """(row (n,), stiffness, damping) of a location: contacts along their mean normal, friction joints along the
+    sliding direction, a doublet by its first mode.
     """
     if kind == JOINT:
-        return bench.joint(place)
+        return bench.joint(location)
     if kind == INPUT:
-        return bench.input(place)
+        return bench.input(location)
     if kind == DOUBLET:
-        (_, (stiffness, _), (first, _)) = bench.doublet(place)
+        (_, (stiffness, _), (first, _)) = bench.doublet(location)
         return np.eye(bench.model.size)[first], stiffness, float(bench.model.supported()[1][first, first])
     if kind == POINT:
-        row = bench.sensor(place)
+        row = bench.sensor(location)
         return row, float(row @ bench.model.supported()[2] @ row), float(row @ bench.model.supported()[1] @ row)
-    members = bench.contacts(place)
+    members = bench.contacts(location)
     contacts = bench.model.contacts
     rows = contacts.tangent if contacts.fixed[members].all() else contacts.normal
     return rows[members].mean(axis=0), *_contact_law(bench, members)

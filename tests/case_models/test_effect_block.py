@@ -5,7 +5,7 @@ import pytest
 from pipeline.case_models import virtual_rig as benches
 from pipeline.case_models.effect_block import (
     Settings,
-    check_places,
+    check_locations,
     conditions,
     parameters,
     rubbing_with_effects,
@@ -26,7 +26,7 @@ def test_every_effect_is_a_key_with_its_parameters():
     term, = terms(effects({"moving_base": {"mount": {p.name: f"1 {p.unit}" if p.unit != "1" else 1
                                                      for p in parameters(next(e for e in CATALOGUE
                                                                               if e.name == "moving_base"))}}}))
-    assert term.effect.name == "moving_base" and term.place == "mount"
+    assert term.effect.name == "moving_base" and term.location == "mount"
 
 
 def test_values_arrive_in_si():
@@ -84,5 +84,5 @@ def test_terms_at_asperities_go_to_the_rough_pair_alone():
 def test_a_place_that_no_stage_of_the_chain_has_is_refused(given, chain, said):
     sections = {**dict.fromkeys(chain), "effects": fill(Settings, given, "effects")}
     with pytest.raises(ConfigError, match=said):
-        check_places(sections)
-    check_places({**sections, "micro_friction": None, "bench": None})
+        check_locations(sections)
+    check_locations({**sections, "micro_friction": None, "bench": None})

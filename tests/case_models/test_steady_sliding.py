@@ -76,5 +76,5 @@ def test_branches_and_turning_friction():
 
 
 def test_places_of_all_effects_are_checked():
-    with pytest.raises(ConfigError, match="effect wear: place"):
+    with pytest.raises(ConfigError, match="effect wear: location"):
         case({"wear": {"nowhere": {"rate": "1e-12 m^2/N"}}})

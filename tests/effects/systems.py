@@ -78,19 +78,19 @@ class System:
         settings = self.settings.model_copy(update=changed)
         return self.stage(self.model, *self.before, effects, settings=settings, context=context or Context())
 
-    def place(self, effect):
-        """First place of an effect, None where it has none."""
+    def location(self, effect):
+        """First location of an effect, None where it has none."""
         sliding = sliding_model(self.model, 0, 1.0)
         bench = Bench(sliding, None, None, 1.0, (), groups(self.model), doublets=doublets(sliding))
-        return next(iter(effect.places(bench)), None)
+        return next(iter(effect.locations(bench)), None)
 
-    def block(self, effect, values, place=None):
-        """YAML block of an effect at its place; ``values(parameters)`` as numbers in SI units."""
+    def block(self, effect, values, location=None):
+        """YAML block of an effect at its location; ``values(parameters)`` as numbers in SI units."""
         parameters = effect.parameters(self.typical)
         units = {p.name: p.unit for p in parameters}
         told = {name: value if units[name] == "1" else f"{float(value)!r} {units[name]}"
                 for name, value in values(parameters).items()}
-        return {effect.name: {place or self.place(effect): told}, "conditions": {"humidity": 0.8}}
+        return {effect.name: {location or self.location(effect): told}, "conditions": {"humidity": 0.8}}
 
 
 @cache

@@ -16,9 +16,9 @@ from stages.bench import bench as bench_stage
 from tests.diagnosis.small_rig import effects, laid_out, model, recording
 from tests.effects.systems import MODES, SYSTEMS, Telling, lumped_bench, system
 
-PHYSICS = tuple(e for e in CATALOGUE if e.kind == "physics" and e.place != ASPERITIES)
+PHYSICS = tuple(e for e in CATALOGUE if e.kind == "physics" and e.location != ASPERITIES)
 SENSORS = tuple(e for e in CATALOGUE if e.kind == "sensor")
-UPPER, MEDIAN = (partial(shaped_values, share=share) for share in (0.75, 0.6))
+UPPER, MEDIAN = (partial(shaped_values, probability=p) for p in (0.75, 0.6))
 #: needs a row of contacts that wear: of all transients only those of lumped systems have one
 ROWS_ALONE = ("taper_wear",)
 
@@ -40,12 +40,12 @@ def differing(name, found):
 
 @each(PHYSICS)
 def test_an_effect_changes_two_systems_or_more_and_at_its_null_none(effect):
-    """Where it has no place, or the law of the contact cannot carry it, one sentence says so."""
+    """One sentence says so where it has no location or the contact law cannot carry it."""
     changed = set()
     for name in SYSTEMS:
-        if system(name).place(effect) is None:
-            with pytest.raises(ConfigError, match=f"effect {effect.name}: place: expected .*found 'nowhere'"):
-                system(name).run(system(name).block(effect, UPPER, place="nowhere"))
+        if system(name).location(effect) is None:
+            with pytest.raises(ConfigError, match=f"effect {effect.name}: location: expected .*found 'nowhere'"):
+                system(name).run(system(name).block(effect, UPPER, location="nowhere"))
             continue
         assert not differing(name, system(name).run(system(name).block(effect, null_values)))
         try:
@@ -83,10 +83,10 @@ def test_what_small_motions_do_not_see_moves_no_root(effect):
     np.testing.assert_allclose(abs(found[:, None] - base).min(axis=0), 0.0, atol=1e-6 * abs(base).max())
 
 
-def test_complex_modes_say_what_they_do_not_see():
+def test_complex_modes_report_effects_they_ignore():
     told = Telling()
     system("lumped modes").run(system("lumped modes").block(named("wear"), UPPER), context=told)
-    assert any("wear at contact: no small motion sees it" in line for line in told.lines)
+    assert any("wear at contact does not enter linearised models" in line for line in told.lines)
 
 
 def test_conditions_of_the_block_are_asked_for():

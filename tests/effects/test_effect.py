@@ -21,16 +21,16 @@ BASE, RUN = rubbing(), pressed()
 BENCHES = {"penalty": BASE, "table": rubbing(tabled())}
 ANSWERS = {law: respond(bench, RUN) for law, bench in BENCHES.items()}
 ANSWER = ANSWERS["penalty"]
-#: those of the scale of the roughness alone have no place on a bench (tests/effects/test_micro_scale.py)
-ON_BENCHES = tuple(e for e in CATALOGUE if e.place != ASPERITIES)
+#: effects at the scale of the roughness only have no location on a bench (tests/effects/test_micro_scale.py)
+ON_BENCHES = tuple(e for e in CATALOGUE if e.location != ASPERITIES)
 UPPER = 0.75        # quartile: in the middle of a prior of either sign lies the null
 
 
 @cache
 def everywhere(effect, law="penalty"):
-    """(place, parameters) at each place of the bench with this contact law."""
+    """(location, parameters) at each location of the bench with this contact law."""
     bench = BENCHES[law]
-    return [(place, effect.at(bench, place, (RUN,))) for place in effect.places(bench)]
+    return [(location, effect.at(bench, location, (RUN,))) for location in effect.locations(bench)]
 
 
 def answered(calculate):
@@ -49,9 +49,9 @@ def each(test):
 @each
 def test_null_is_the_base_bit_for_bit(effect):
     for law, bench in BENCHES.items():
-        for place, parameters in everywhere(effect, law):
+        for location, parameters in everywhere(effect, law):
             assert any(p.null is not None for p in parameters)
-            found = respond(effect.on(bench, place, null_values(parameters)), RUN)
+            found = respond(effect.on(bench, location, null_values(parameters)), RUN)
             for name, values in ANSWERS[law].items():
                 np.testing.assert_array_equal(found[name], values)
 
@@ -60,13 +60,13 @@ def test_null_is_the_base_bit_for_bit(effect):
 def test_linear_forms_know_it_too(effect):
     """Roots and equation residual: at the null those of the base and what relaxes on its own; elsewhere finite."""
     base, left = roots(BASE, RUN), equation_residual(BASE, RUN, ANSWER)
-    for place, parameters in everywhere(effect)[:1]:
-        null = effect.on(BASE, place, null_values(parameters))
+    for location, parameters in everywhere(effect)[:1]:
+        null = effect.on(BASE, location, null_values(parameters))
         found = roots(null, RUN)
         assert all(abs(found - root).min() <= 1e-9 * abs(root) for root in base)
         assert np.all(found[~np.isclose(found[:, None], base).any(axis=1)] < 0)
         np.testing.assert_array_equal(equation_residual(null, RUN, ANSWER), left)
-        changed = effect.on(BASE, place, shaped_values(parameters, UPPER))
+        changed = effect.on(BASE, location, shaped_values(parameters, UPPER))
         for form in (lambda b=changed: roots(b, RUN), lambda b=changed: equation_residual(b, RUN, ANSWER)):
             found = answered(form)
             assert found is None or np.isfinite(found).all()
@@ -75,15 +75,15 @@ def test_linear_forms_know_it_too(effect):
 @each
 def test_finite_over_the_prior(effect):
     """Or refused, as where a joint softens so far that nothing holds the mass, or hardens beyond the step."""
-    assert effect.places(BASE)
+    assert effect.locations(BASE)
     random, refused, tried = np.random.default_rng(5), 0, 0
-    for place, parameters in everywhere(effect)[:2]:
+    for location, parameters in everywhere(effect)[:2]:
         draws = [shaped_values(parameters, share) for share in (0.03, 0.5, 0.97)]
         draws += [{p.name: float(p.prior.sample(random)) for p in parameters} for _ in range(3)]
         tried += len(draws)
         for values in draws:
             try:
-                found = respond(effect.on(BASE, place, values), RUN)
+                found = respond(effect.on(BASE, location, values), RUN)
             except BrakechainError:
                 refused += 1
                 continue
@@ -94,8 +94,8 @@ def test_finite_over_the_prior(effect):
 
 @each
 def test_visible_where_the_prior_puts_it(effect):
-    for place, parameters in everywhere(effect)[:1]:
-        found = respond(effect.on(BASE, place, shaped_values(parameters, UPPER)), RUN)
+    for location, parameters in everywhere(effect)[:1]:
+        found = respond(effect.on(BASE, location, shaped_values(parameters, UPPER)), RUN)
         change = [np.std(found[n] - v) / np.std(v) for n, v in ANSWER.items()]
         offset = [abs(np.mean(found[n] - v)) / np.std(v) for n, v in ANSWER.items()]
         assert max(*change, *offset) > 2e-3
@@ -104,8 +104,8 @@ def test_visible_where_the_prior_puts_it(effect):
 @each
 def test_what_is_given_stays_as_it_is(effect):
     before = pickle.dumps(BASE)
-    for place, parameters in everywhere(effect):
-        effect.on(BASE, place, shaped_values(parameters, UPPER))
+    for location, parameters in everywhere(effect):
+        effect.on(BASE, location, shaped_values(parameters, UPPER))
     assert pickle.dumps(BASE) == before
 
 
@@ -114,7 +114,7 @@ def test_an_effect_describes_itself(effect):
     module = sys.modules[effect.apply.__module__]
     assert module.__name__.endswith(f".{effect.name}")
     assert module.__doc__ and effect.summary and effect.source and effect.valid.startswith("Valid ")
-    assert effect.stage in STAGES and effect.kind == ("sensor" if effect.place == CHANNEL else "physics")
+    assert effect.stage in STAGES and effect.kind == ("sensor" if effect.location == CHANNEL else "physics")
     assert pickle.loads(pickle.dumps(effect)) == effect
     parameters = effect.parameters(Typical())
     assert all(p.unit for p in parameters) and set(effect.linear) <= {p.name for p in parameters}
@@ -122,13 +122,13 @@ def test_an_effect_describes_itself(effect):
 
 @pytest.mark.parametrize("effect", [e for e in CATALOGUE if e.linear], ids=lambda e: e.name)
 def test_linear_parameters_are_linear_in_the_equation_of_motion(effect):
-    place, parameters = everywhere(effect)[0]
+    location, parameters = everywhere(effect)[0]
     values, null = shaped_values(parameters, UPPER), null_values(parameters)
     base = {**values, **{n: null[n] for n in effect.linear}}
     half = {**values, **{n: values[n] / 2 for n in effect.linear}}
-    none, some, full = (equation_residual(effect.on(BASE, place, v), RUN, ANSWER) for v in (base, half, values))
+    none, some, full = (equation_residual(effect.on(BASE, location, v), RUN, ANSWER) for v in (base, half, values))
     assert abs(some - none).max() > 0
-    elastic = place == "joint_0" and effect.stage == "friction"     # a way to stick that grows with the force
+    elastic = location == "joint_0" and effect.stage == "friction"     # a way to stick that grows with the force
     assert np.linalg.norm(full - 2 * some + none) <= (0.1 if elastic else 1e-6) * np.linalg.norm(some - none)
 
 
@@ -150,22 +150,22 @@ def test_the_order_of_stages_is_declared_and_does_not_depend_on_that_of_the_term
 def test_pairs_can_be_composed():
     """Each effect with the next one in the catalogue, both at the upper quartile of their priors."""
     for first, second in zip(ON_BENCHES, ON_BENCHES[1:], strict=False):
-        terms = [Term(e, place, shaped_values(parameters, UPPER)) for e in (first, second)
-                 for place, parameters in everywhere(e)[:1]]
+        terms = [Term(e, location, shaped_values(parameters, UPPER)) for e in (first, second)
+                 for location, parameters in everywhere(e)[:1]]
         found = respond(compose(BASE, terms), RUN)
         assert all(np.isfinite(v).all() for v in found.values()), (first.name, second.name)
 
 
-@pytest.mark.parametrize("place, values, said", [
+@pytest.mark.parametrize("location, values, said", [
     ("nowhere", {"damping": 1.0}, "joint_0"), ("joint_0", {"drag": 1.0}, "damping"),
     ("joint_0", {"damping": -1.0}, "0 to"), ("joint_0", {}, "none")])
-def test_wrong_places_names_and_signs_are_refused(place, values, said):
+def test_wrong_locations_names_and_signs_are_refused(location, values, said):
     with pytest.raises(ConfigError, match=said):
-        named("joint_damping").on(BASE, place, values)
+        named("joint_damping").on(BASE, location, values)
 
 
-def test_no_contact_no_place():
+def test_no_contact_no_location():
     contacts = BASE.model.contacts
     empty = replace(contacts, **{n: getattr(contacts, n)[:0] for n in ("normal", "tangent", "lateral", "position",
                                                                       "area", "lever", "preload")})
-    assert named("runout").places(replace(BASE, groups={}, model=replace(BASE.model, contacts=empty))) == ()
+    assert named("runout").locations(replace(BASE, groups={}, model=replace(BASE.model, contacts=empty))) == ()

@@ -14,7 +14,7 @@ from pipeline.physics.friction.state_variables import Film
 from tests.effects.benches import rubbing as bench
 from tests.effects.rough_pair import DRAG, rubbed, rubbing
 
-MICRO = tuple(e for e in CATALOGUE if e.places(rubbing()))
+MICRO = tuple(e for e in CATALOGUE if e.locations(rubbing()))
 UPPER = 0.75
 
 
@@ -33,7 +33,7 @@ def parameters(effect):
 
 def test_who_they_are():
     assert {e.name for e in MICRO} == {"third_body_film", "material_transfer", "wear_law", "shear_limit"}
-    assert all(e.places(bench()) for e in CATALOGUE if e not in MICRO), "every other effect has a place on a bench"
+    assert all(e.locations(bench()) for e in CATALOGUE if e not in MICRO), "every other effect has a place on a bench"
 
 
 @each

@@ -1,4 +1,4 @@
-"""Typical sizes at places of a bench."""
+"""Typical quantities at locations of a bench."""
 
 from dataclasses import replace
 
@@ -17,7 +17,7 @@ from pipeline.effects.typical import (
     POINT,
     PRESSED,
     Typical,
-    places,
+    locations,
     typical,
 )
 from pipeline.physics.time_stepping.simulate import Hard
@@ -50,7 +50,7 @@ def test_sizes_along_an_input_and_of_a_mode():
 
 
 @pytest.mark.exact
-def test_the_time_scale_of_a_place():
+def test_the_time_scale_of_a_location():
     assert Typical(mass=2.0, stiffness=50.0).period == pytest.approx(0.2)
     assert Typical(stiffness=0.0, time=3.0).period == 3.0
     assert Typical(stiffness=50.0, force=3.0).holding == 50.0
@@ -63,13 +63,13 @@ def test_what_a_channel_shows():
 
 def test_places_of_each_kind():
     bench = rubbing()
-    assert places(JOINT, bench) == ("joint_0", "joint_1", "joint_2")
-    assert places(CONTACTS, bench) == ("contact",)
-    assert places(INPUT, bench) == ("input_0", "input_1", "input_2")
-    assert places(DOUBLET, bench) == ("tilt",) and places(DOUBLET, sprung()) == ()
-    assert places(CONTACT_ROW, bench) == ("contact",)
-    assert places(CONTACT, bench) == ("contact", "left", "right") and places(CONTACT, sprung()) == ()
-    assert np.all(np.isin(("x", "y"), places(CHANNEL, bench)))
+    assert locations(JOINT, bench) == ("joint_0", "joint_1", "joint_2")
+    assert locations(CONTACTS, bench) == ("contact",)
+    assert locations(INPUT, bench) == ("input_0", "input_1", "input_2")
+    assert locations(DOUBLET, bench) == ("tilt",) and locations(DOUBLET, sprung()) == ()
+    assert locations(CONTACT_ROW, bench) == ("contact",)
+    assert locations(CONTACT, bench) == ("contact", "left", "right") and locations(CONTACT, sprung()) == ()
+    assert np.all(np.isin(("x", "y"), locations(CHANNEL, bench)))
     with pytest.raises(ConfigError, match="one nominal run"):
         typical(JOINT, bench, "joint_0", ())
 
@@ -79,6 +79,6 @@ def test_what_cannot_open_is_no_pressed_contact():
     bench = slider()
     fixed = replace(bench.model.contacts, normal=np.zeros((1, 2)), preload=np.array([40.0]))
     held = replace(bench, model=replace(bench.model, contacts=fixed), law=Hard(), settled=False)
-    assert places(PRESSED, bench) == places(CONTACT, held) == ("contact",) and places(PRESSED, held) == ()
+    assert locations(PRESSED, bench) == locations(CONTACT, held) == ("contact",) and locations(PRESSED, held) == ()
     run = replace(steady(), inputs={"input_0": 8.0})
     assert typical(CONTACTS, held, "contact", (run,)).length == respond(held, run)["x"].max() > 0

@@ -127,7 +127,7 @@ def candidates(bench, runs, catalogue, places=(), scale=1.0, priors=(), peaks=()
     """
     found, sizes = [], {}
     for effect in catalogue:
-        for place in effect.places(bench) if effect.told_by(runs) else ():
+        for place in effect.locations(bench) if effect.conditions_known(runs) else ():
             if places and place not in places:
                 continue
             kind = effect.kind_at(place), place

@@ -20,8 +20,8 @@ def parameters(typical):
             Parameter("length", "m", typical.length, LogNormal(typical.length, 0.1)))
 
 
-def apply(bench, place, values):
-    return bench.with_law(place, lambda law: _damped(law, values["loss"], values["length"]))
+def apply(bench, location, values):
+    return bench.with_law(location, lambda law: _damped(law, values["loss"], values["length"]))
 
 
 def _damped(law, loss, length):
@@ -35,7 +35,7 @@ def _damped(law, loss, length):
 
 
 EFFECT = Effect(
-    name="contact_damping", summary="damping of contacts along their normals", place="pressed contact", stage="contact",
-    parameters=parameters, apply=apply, linear=("loss",),
+    name="contact_damping", summary="damping of contacts along their normals", location="pressed contact",
+    stage="contact", parameters=parameters, apply=apply, linear=("loss",),
     source="K. H. Hunt, F. R. E. Crossley, J. Appl. Mech. 42 (1975) 440",
     valid="Valid while contacts do not stick to each other: the force never pulls.")

@@ -19,17 +19,17 @@ def parameters(typical):
             Parameter("pressure", "Pa", typical.pressure, LogNormal(typical.pressure, 0.3)))
 
 
-def apply(bench, place, values):
+def apply(bench, location, values):
     if values["exponent"] == 0:
         return bench
-    members, area = bench.contacts(place), bench.model.contacts.area
+    members, area = bench.contacts(location), bench.model.contacts.area
 
     def steeper(law):
         closure, pressure = _table(law, members, area, values["pressure"])
         speed = law.damping_speed if isinstance(law, Table) else np.inf
         return Table(closure, pressure * (pressure / values["pressure"]) ** values["exponent"], speed, law.gap, True)
 
-    return bench.with_law(place, steeper)
+    return bench.with_law(location, steeper)
 
 
 def _table(law, members, area, reference):
@@ -51,7 +51,7 @@ def _table(law, members, area, reference):
 
 
 EFFECT = Effect(
-    name="contact_stiffness_law", summary="contacts whose stiffness changes with pressure", place="pressed contact",
+    name="contact_stiffness_law", summary="contacts whose stiffness changes with pressure", location="pressed contact",
     stage="contact", parameters=parameters, apply=apply,
     source="K. Willner, L. Gaul, Proc. Contact Mechanics II (1995); J. A. Greenwood, J. B. P. Williamson (1966)",
     valid="Valid to a hundred times the reference pressure, beyond which the last slope goes on.")

@@ -19,13 +19,13 @@ def parameters(typical):
             Parameter("time", "s", 0.5 * typical.time, LogNormal(0.5 * typical.time, 1.0)))
 
 
-def apply(bench, place, values):
-    return with_wave(bench, place, values["amplitude"], values["order"], values["phase"], values["time"])
+def apply(bench, location, values):
+    return with_wave(bench, location, values["amplitude"], values["order"], values["phase"], values["time"])
 
 
 EFFECT = Effect(
-    name="hot_spots", summary="a surface whose waves grow as it warms up", place="pressed contact", stage="excitation",
-    parameters=parameters, apply=apply, small=False,
+    name="hot_spots", summary="a surface whose waves grow as it warms up", location="pressed contact",
+    stage="excitation", parameters=parameters, apply=apply, small=False,
     source="J. R. Barber, Proc. R. Soc. Lond. A 312 (1969) 381; K. Lee, J. R. Barber, J. Tribol. 115 (1993) 607",
     valid="Valid below the critical speed, where spots do not grow by themselves; heating steady, every run starts"
           " cold.")

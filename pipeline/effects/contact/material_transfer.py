@@ -16,14 +16,14 @@ def parameters(typical):
     return (Parameter("share", "1", 0.3, Uniform(0.0, 1.0), null=0.0),)
 
 
-def apply(rubbing, place, values):
+def apply(rubbing, location, values):
     wearing = rubbing.wearing
     left = wearing.disc_coefficient - values["share"] * wearing.pad_coefficient
     return replace(rubbing, wearing=replace(wearing, disc_coefficient=left))
 
 
 EFFECT = Effect(
-    name="material_transfer", summary="pad material that sticks to the disc", place=ASPERITIES, stage="contact",
+    name="material_transfer", summary="pad material that sticks to the disc", location=ASPERITIES, stage="contact",
     parameters=parameters, apply=apply,
     source="M. G. Jacko, P. H. S. Tsang, S. K. Rhee, Wear 133 (1989) 23: friction films of brake linings; M. Kerridge,"
            " J. K. Lancaster, Proc. R. Soc. A 236 (1956) 250: transfer as a stage of wear",

@@ -18,7 +18,7 @@ def parameters(typical):
             Parameter("pressure_coefficient", "1", 0.0, HalfNormal(0.1), null=0.0))
 
 
-def apply(rubbing, place, values):
+def apply(rubbing, location, values):
     shearing = rubbing.shearing
     changed = replace(shearing, limit=values["factor"] * shearing.limit,
                       pressure_coefficient=shearing.pressure_coefficient + values["pressure_coefficient"])
@@ -26,7 +26,7 @@ def apply(rubbing, place, values):
 
 
 EFFECT = Effect(
-    name="shear_limit", summary="a third body that shears at another limit than the disc", place=ASPERITIES,
+    name="shear_limit", summary="a third body that shears at another limit than the disc", location=ASPERITIES,
     stage="friction", parameters=parameters, apply=apply,
     source="M. Godet, Wear 100 (1984) 437: the third body; B. J. Briscoe, D. C. B. Evans, Proc. R. Soc. A 380"
            " (1982) 389: tau = tau_0 + a p",

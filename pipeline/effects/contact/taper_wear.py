@@ -19,14 +19,14 @@ def parameters(typical):
     return (Parameter("rate", "m^2/N", size, Normal(0.0, size), null=0.0),)
 
 
-def apply(bench, place, values):
-    angle = sliding_angle(bench.model.contacts, bench.contacts(place))
+def apply(bench, location, values):
+    angle = sliding_angle(bench.model.contacts, bench.contacts(location))
     place_along = 2 * (angle - angle.min()) / np.ptp(angle) - 1
-    return with_wear(bench, place, abs(values["rate"]) * (1 - np.sign(values["rate"]) * place_along))
+    return with_wear(bench, location, abs(values["rate"]) * (1 - np.sign(values["rate"]) * place_along))
 
 
 EFFECT = Effect(
-    name="taper_wear", summary="contacts that wear more at one end", place="contact row", stage="contact",
+    name="taper_wear", summary="contacts that wear more at one end", location="contact row", stage="contact",
     parameters=parameters, apply=apply, small=False,
     source="J. F. Archard, J. Appl. Phys. 24 (1953) 981, with a rate that is linear along the sliding",
     valid="Valid while the rate is linear along the sliding; every run starts unworn.")

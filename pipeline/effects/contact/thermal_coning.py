@@ -18,13 +18,13 @@ def parameters(typical):
             Parameter("time", "s", 0.5 * typical.time, LogNormal(0.5 * typical.time, 1.0)))
 
 
-def apply(bench, place, values):
-    radius = np.abs(bench.model.contacts.lever[bench.contacts(place)])
-    return with_wave(bench, place, values["shift"] * radius / (radius.mean() or 1.0), 0.0, 0.0, values["time"])
+def apply(bench, location, values):
+    radius = np.abs(bench.model.contacts.lever[bench.contacts(location)])
+    return with_wave(bench, location, values["shift"] * radius / (radius.mean() or 1.0), 0.0, 0.0, values["time"])
 
 
 EFFECT = Effect(
-    name="thermal_coning", summary="contacts that open or close as the disc warms up", place="pressed contact",
+    name="thermal_coning", summary="contacts that open or close as the disc warms up", location="pressed contact",
     stage="excitation", parameters=parameters, apply=apply, small=False,
     source="R. Limpert, Brake Design and Safety, 2nd ed. (1999), chapter 3: coning of rotors",
     valid="Valid while heating is steady from the begin of each run, which starts cold; a belt shifts evenly.")

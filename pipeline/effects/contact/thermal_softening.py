@@ -10,14 +10,14 @@ def parameters(typical):
             Parameter("time", "s", 0.5 * typical.time, LogNormal(0.5 * typical.time, 1.0)))
 
 
-def apply(bench, place, values):
-    row, stiffness, _ = bench.joint(place)
+def apply(bench, location, values):
+    row, stiffness, _ = bench.joint(location)
     law = Softening(values["drop"] * stiffness, values["time"])
-    return bench.with_elements(Element(f"thermal_softening {place}", row, law))
+    return bench.with_elements(Element(f"thermal_softening {location}", row, law))
 
 
 EFFECT = Effect(
-    name="thermal_softening", summary="a joint that loses stiffness as it warms up", place="joint",
+    name="thermal_softening", summary="a joint that loses stiffness as it warms up", location="joint",
     stage="structure", parameters=parameters, apply=apply, small=False, linear=("drop",),
     source="one lumped heat capacity under constant power; modulus linear in temperature",
     valid="Valid while heating is steady from the begin of each run, which starts cold.")

@@ -18,11 +18,12 @@ def parameters(typical):
     return (Parameter("rate", "m^2/N", size, HalfNormal(2 * size), null=0.0),)
 
 
-def apply(bench, place, values):
-    return with_wear(bench, place, values["rate"])
+def apply(bench, location, values):
+    return with_wear(bench, location, values["rate"])
 
 
 EFFECT = Effect(
-    name="wear", summary="contacts that recede with pressure and sliding way", place="pressed contact", stage="contact",
+    name="wear", summary="contacts that recede with pressure and sliding way", location="pressed contact",
+    stage="contact",
     parameters=parameters, apply=apply, small=False, source="J. F. Archard, J. Appl. Phys. 24 (1953) 981",
     valid="Valid while the rate stays the same; every run starts unworn.")

@@ -17,12 +17,12 @@ def parameters(typical):
             Parameter("pressure", "Pa", typical.pressure, LogNormal(typical.pressure, 0.1)))
 
 
-def apply(rubbing, place, values):
+def apply(rubbing, location, values):
     law = {"exponent": values["exponent"], "reference_pressure": values["pressure"]}
     return replace(rubbing, wearing=replace(rubbing.wearing, **law))
 
 
 EFFECT = Effect(
-    name="wear_law", summary="wear that is not in proportion to the pressure", place=ASPERITIES, stage="contact",
+    name="wear_law", summary="wear that is not in proportion to the pressure", location=ASPERITIES, stage="contact",
     parameters=parameters, apply=apply, source="S. K. Rhee, Wear 16 (1970) 431: W = K F^a v^b t^c of brake linings",
     valid="Valid while both surfaces follow the same power, within the pressures that were recorded.")

@@ -14,14 +14,14 @@ def parameters(typical):
             Parameter("phase", "rad", 0.0, Uniform(-np.pi, np.pi)))
 
 
-def apply(bench, place, values):
-    row, stiffness, damping = bench.joint(place)
+def apply(bench, location, values):
+    row, stiffness, damping = bench.joint(location)
     law = Wave(stiffness, damping, values["amplitude"], 0.0, values["frequency"], values["phase"])
-    return bench.with_elements(Element(f"base_shake {place}", row, law))
+    return bench.with_elements(Element(f"base_shake {location}", row, law))
 
 
 EFFECT = Effect(
-    name="base_shake", summary="a floor or drive that shakes the far end of a joint", place="joint",
+    name="base_shake", summary="a floor or drive that shakes the far end of a joint", location="joint",
     stage="excitation", parameters=parameters, apply=apply, small=False, linear=("amplitude",),
     source="J. P. Den Hartog, Mechanical Vibrations (1934): motion of the support",
     valid="Valid while the shaking is one tone that the structure does not act back on.")

@@ -20,13 +20,13 @@ def parameters(typical):
             Parameter("time", "s", middle, LogNormal(middle, spread)))
 
 
-def apply(bench, place, values):
+def apply(bench, location, values):
     law = Maxwell(np.array([values["stiffness"]]), np.array([values["time"]]))
-    return bench.with_elements(Element(f"hydraulic_compliance {place}", bench.input(place)[0], law))
+    return bench.with_elements(Element(f"hydraulic_compliance {location}", bench.input(location)[0], law))
 
 
 EFFECT = Effect(
     name="hydraulic_compliance", summary="a load that falls as the pad moves on, until the line refills",
-    place="input", stage="structure", parameters=parameters, apply=apply, linear=("stiffness",),
+    location="input", stage="structure", parameters=parameters, apply=apply, linear=("stiffness",),
     source="R. Limpert, Brake Design and Safety, 2nd ed. (1999), chapter 5: volume and stiffness of brake fluid",
     valid="Valid below the first frequency of the line itself; every run starts with the pressure in balance.")

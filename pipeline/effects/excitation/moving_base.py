@@ -20,23 +20,23 @@ def parameters(typical):
             Parameter("frequency", "Hz", frequency, LogNormal(frequency, 0.7)))
 
 
-def apply(bench, place, values):
+def apply(bench, location, values):
     if values["compliance"] == 0:
         return bench
     model = bench.model.projected(np.eye(bench.model.size, bench.model.size + 1))
     rows = model.joints.rows.copy()
-    rows[model.joints.name.index(place), -1] = -1.0
+    rows[model.joints.name.index(location), -1] = -1.0
     stiffness = 1 / values["compliance"]
     mass, springs = model.mass.copy(), model.stiffness.copy()
     mass[-1, -1], springs[-1, -1] = stiffness / (2 * np.pi * values["frequency"]) ** 2, stiffness
     joints = Joints(model.joints.name, rows, model.joints.stiffness, model.joints.damping)
     bodies = np.append(bench.model.coordinate_body, len(model.body_name))
-    return replace(bench, model=replace(model, body_name=(*model.body_name, f"base of {place}"), mass=mass,
+    return replace(bench, model=replace(model, body_name=(*model.body_name, f"base of {location}"), mass=mass,
                                         coordinate_body=bodies, stiffness=springs, joints=joints))
 
 
 EFFECT = Effect(
-    name="moving_base", summary="a base behind a joint that moves as well", place="joint", stage="structure",
+    name="moving_base", summary="a base behind a joint that moves as well", location="joint", stage="structure",
     parameters=parameters, apply=apply,
     source="J. P. Den Hartog, Mechanical Vibrations (1934): two masses in series",
     valid="Valid while one mode of the base matters, and the joint is fixed to nothing else than the base.")

@@ -17,14 +17,14 @@ def parameters(typical):
             Parameter("phase", "rad", 0.0, Uniform(-np.pi, np.pi)))
 
 
-def apply(bench, place, values):
-    row, _, _ = bench.input(place)
+def apply(bench, location, values):
+    row, _, _ = bench.input(location)
     law = Wave(1.0, 0.0, values["force"], 0.0, values["frequency"], values["phase"])
-    return bench.with_elements(Element(f"pressure_ripple {place}", row, law))
+    return bench.with_elements(Element(f"pressure_ripple {location}", row, law))
 
 
 EFFECT = Effect(
-    name="pressure_ripple", summary="an input that ripples at a frequency of its own", place="input",
+    name="pressure_ripple", summary="an input that ripples at a frequency of its own", location="input",
     stage="excitation", parameters=parameters, apply=apply, small=False, linear=("force",),
     source="K. A. Edge, D. N. Johnston, Proc. IMechE A 204 (1990) 33: pressure ripple of pumps",
     valid="Valid while the ripple is one tone that goes through the begin of each run with the same phase.")

@@ -19,12 +19,12 @@ def parameters(typical):
             Parameter("order", "1", 1.0, Uniform(0.5, 8.5)), Parameter("phase", "rad", 0.0, Uniform(-np.pi, np.pi)))
 
 
-def apply(bench, place, values):
-    return with_wave(bench, place, values["amplitude"], values["order"], values["phase"])
+def apply(bench, location, values):
+    return with_wave(bench, location, values["amplitude"], values["order"], values["phase"])
 
 
 EFFECT = Effect(
     name="runout", summary="a surface that runs out: its motion follows the angle of the drive",
-    place="pressed contact", stage="excitation", parameters=parameters, apply=apply, small=False,
+    location="pressed contact", stage="excitation", parameters=parameters, apply=apply, small=False,
     source="H. Jacobsson, Proc. IMechE D 217 (2003) 419: side-face runout",
     valid="Valid while contacts are short against the wave, and waves small against radii.")

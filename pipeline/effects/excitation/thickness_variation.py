@@ -16,15 +16,15 @@ def parameters(typical):
             Parameter("order", "1", 1.0, Uniform(0.5, 8.5)), Parameter("phase", "rad", 0.0, Uniform(-np.pi, np.pi)))
 
 
-def apply(bench, place, values):
+def apply(bench, location, values):
     # minus: against the normal, so that the contact is pressed
-    row = bench.model.contacts.normal[bench.contacts(place)].mean(axis=0)
+    row = bench.model.contacts.normal[bench.contacts(location)].mean(axis=0)
     law = Wave(-1.0, 0.0, values["force"], values["order"], 0.0, values["phase"])
-    return bench.with_elements(Element(f"thickness_variation {place}", row, law))
+    return bench.with_elements(Element(f"thickness_variation {location}", row, law))
 
 
 EFFECT = Effect(
     name="thickness_variation", summary="a squeezing force that follows the angle of the drive",
-    place="pressed contact", stage="excitation", parameters=parameters, apply=apply, small=False, linear=("force",),
+    location="pressed contact", stage="excitation", parameters=parameters, apply=apply, small=False, linear=("force",),
     source="H. Jacobsson, Proc. IMechE D 217 (2003) 419: disc thickness variation",
     valid="Valid while the support is stiff against the contacts.")

@@ -13,14 +13,14 @@ def parameters(typical):
     return (Parameter("force", "N", 0.1 * typical.force, Normal(0.0, 0.2 * typical.force), null=0.0),)
 
 
-def apply(bench, place, values):
-    row, _, _ = bench.joint(place)
+def apply(bench, location, values):
+    row, _, _ = bench.joint(location)
     law = Dry(stick_stiffness(bench, row), max(values["force"], 0.0), max(-values["force"], 0.0))
-    return bench.with_elements(Element(f"asymmetric_friction {place}", row, law))
+    return bench.with_elements(Element(f"asymmetric_friction {location}", row, law))
 
 
 EFFECT = Effect(
-    name="asymmetric_friction", summary="dry friction that is larger in one direction", place="joint",
+    name="asymmetric_friction", summary="dry friction that is larger in one direction", location="joint",
     stage="friction", parameters=parameters, apply=apply, small=False, linear=("force",),
     source="B. Armstrong-Helouvry, P. Dupont, C. Canudas de Wit, Automatica 30 (1994) 1083",
     valid="Valid while the normal force in the joint stays the same.")

@@ -21,15 +21,15 @@ def parameters(typical):
             Parameter("length", "m", size, LogNormal(size, 1.0)))
 
 
-def apply(bench, place, values):
+def apply(bench, location, values):
     if values["share"] == 0:
         return bench
     state = Healing(values["share"], values["speed"], values["length"])
-    return bench.with_friction(place, lambda friction: friction.with_state(state))
+    return bench.with_friction(location, lambda friction: friction.with_state(state))
 
 
 EFFECT = Effect(
-    name="contact_ageing", summary="friction that grows with the age of the contact", place="contact", stage="friction",
-    parameters=parameters, apply=apply, linear=("share",),
+    name="contact_ageing", summary="friction that grows with the age of the contact", location="contact",
+    stage="friction", parameters=parameters, apply=apply, linear=("share",),
     source="J. H. Dieterich, J. Geophys. Res. 84 (1979) 2161; A. Ruina, J. Geophys. Res. 88 (1983) 10359, ageing law",
     valid="Valid while contact spots age by the time that they meet; simulation, roots and equation see it.")

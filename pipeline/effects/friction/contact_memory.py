@@ -18,14 +18,14 @@ def parameters(typical):
     return (Parameter("length", "m", size, HalfNormal(2 * size), null=0.0),)
 
 
-def apply(bench, place, values):
+def apply(bench, location, values):
     if values["length"] == 0:
         return bench
-    return bench.with_friction(place, lambda friction: friction.with_state(Memory(values["length"])))
+    return bench.with_friction(location, lambda friction: friction.with_state(Memory(values["length"])))
 
 
 EFFECT = Effect(
-    name="contact_memory", summary="friction that follows pressure and speed with a delay", place="contact",
+    name="contact_memory", summary="friction that follows pressure and speed with a delay", location="contact",
     stage="friction", parameters=parameters, apply=apply,
     source="V. Prakash, J. Tribol. 120 (1998) 97; for the speed A. Ruina, J. Geophys. Res. 88 (1983) 10359, slip law",
     valid="Valid on contacts that yield (Penalty, Table); simulation, roots and equation see it.")

@@ -13,11 +13,11 @@ def parameters(typical):
     return (Parameter("asymmetry", "1", 0.1, Uniform(-0.5, 0.5), null=0.0),)
 
 
-def apply(bench, place, values):
+def apply(bench, location, values):
     asymmetry = values["asymmetry"]
     if asymmetry == 0:
         return bench
-    return bench.with_friction(place, lambda friction: _leaning(friction, asymmetry))
+    return bench.with_friction(location, lambda friction: _leaning(friction, asymmetry))
 
 
 def _leaning(friction, asymmetry):
@@ -26,7 +26,7 @@ def _leaning(friction, asymmetry):
 
 
 EFFECT = Effect(
-    name="directional_friction", summary="contacts whose friction depends on the direction of sliding", place="contact",
-    stage="friction", parameters=parameters, apply=apply, linear=("asymmetry",),
+    name="directional_friction", summary="contacts whose friction depends on the direction of sliding",
+    location="contact", stage="friction", parameters=parameters, apply=apply, linear=("asymmetry",),
     source="B. Armstrong-Helouvry, P. Dupont, C. Canudas de Wit, Automatica 30 (1994) 1083",
     valid="Valid while surfaces keep their texture; simulation, roots and equation see it.")

@@ -18,17 +18,17 @@ def parameters(typical):
             Parameter("decay_speed", "m/s", typical.speed, LogNormal(typical.speed, 1.0)))
 
 
-def apply(bench, place, values):
+def apply(bench, location, values):
     samples = values["decay_speed"] * _SPAN * np.linspace(0, 1, _SAMPLES) ** 2
 
     def factor(speed):
         return 1 + values["rise"] * np.exp(-speed / values["decay_speed"])
 
-    return bench.with_friction(place, lambda friction: times(friction, "speed", samples, factor))
+    return bench.with_friction(location, lambda friction: times(friction, "speed", samples, factor))
 
 
 EFFECT = Effect(
-    name="falling_friction", summary="friction that falls as sliding gets faster", place="contact", stage="friction",
+    name="falling_friction", summary="friction that falls as sliding gets faster", location="contact", stage="friction",
     parameters=parameters, apply=apply, linear=("rise",),
     source="L. C. Bo, D. Pavelescu, Wear 82 (1982) 277, with exponent 1; R. Stribeck, Z. VDI 46 (1902) 1341",
     valid="Valid while pressure, temperature and wear do not change friction as fast as speed does.")

@@ -15,14 +15,14 @@ def parameters(typical):
     return (Parameter("share", "1", 1.0, Uniform(0.0, 1.5), null=0.0),)
 
 
-def apply(bench, place, values):
+def apply(bench, location, values):
     lateral = bench.model.contacts.lateral
     return bench.with_elements(*(Element(f"friction_induced_damping {i}", lateral[i], Turning(int(i), values["share"]))
-                                 for i in bench.contacts(place) if lateral[i].any()))
+                                 for i in bench.contacts(location) if lateral[i].any()))
 
 
 EFFECT = Effect(
-    name="friction_induced_damping", summary="friction that turns against sideways motion", place="sideways contact",
+    name="friction_induced_damping", summary="friction that turns against sideways motion", location="sideways contact",
     stage="friction", parameters=parameters, apply=apply, linear=("share",),
     source="J. Kang, C. M. Krousgrill, F. Sadeghi, J. Sound Vib. 316 (2008) 164; equation (3) of the sliding model",
     valid="Valid while sideways motion is slow against sliding; simulation, roots and equation see it.")

@@ -20,7 +20,7 @@ def parameters(typical):
             Parameter("distance", "m", size, LogNormal(size, 1.0)))
 
 
-def apply(bench, place, values):
+def apply(bench, location, values):
     if values["rise"] == 0:
         return bench
     samples = values["distance"] * _SPAN * np.linspace(0, 1, _SAMPLES) ** 2
@@ -28,7 +28,7 @@ def apply(bench, place, values):
     def factor(distance):
         return 1 + values["rise"] * np.exp(-distance / values["distance"])
 
-    return bench.with_friction(place, lambda friction: _slid(times(friction, "distance", samples, factor)))
+    return bench.with_friction(location, lambda friction: _slid(times(friction, "distance", samples, factor)))
 
 
 def _slid(friction):
@@ -36,7 +36,7 @@ def _slid(friction):
 
 
 EFFECT = Effect(
-    name="friction_over_distance", summary="friction that changes over the sliding distance", place="contact",
+    name="friction_over_distance", summary="friction that changes over the sliding distance", location="contact",
     stage="friction", parameters=parameters, apply=apply, linear=("rise",),
     source="A. J. Day, Braking of Road Vehicles (2014), chapter 2: bedding-in of friction pairs",
     valid="Valid while what the surfaces went through before the run is the same; roots take friction where it begins.")

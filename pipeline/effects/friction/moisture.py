@@ -17,15 +17,15 @@ def parameters(typical):
     return (Parameter("slope", "1", 0.2, Normal(0.0, 0.5), null=0.0),)
 
 
-def apply(bench, place, values):
+def apply(bench, location, values):
     if values["slope"] == 0:
         return bench
     damp = Condition("humidity", values["slope"], _REFERENCE)
-    return bench.with_friction(place, lambda friction: replace(friction, conditions=(*friction.conditions, damp)))
+    return bench.with_friction(location, lambda friction: replace(friction, conditions=(*friction.conditions, damp)))
 
 
 EFFECT = Effect(
-    name="moisture", summary="friction that depends on the humidity of the air", place="contact", stage="friction",
+    name="moisture", summary="friction that depends on the humidity of the air", location="contact", stage="friction",
     parameters=parameters, apply=apply, linear=("slope",), conditions=("humidity",),
     source="P. J. Blau, Friction Science and Technology (2009): humidity",
     valid="Valid while humidity is the same all over a run; simulation, roots and equation see it.")

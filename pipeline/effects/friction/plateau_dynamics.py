@@ -18,15 +18,15 @@ def parameters(typical):
             Parameter("time", "s", 0.2 * typical.time, LogNormal(0.2 * typical.time, 1.0)))
 
 
-def apply(bench, place, values):
+def apply(bench, location, values):
     if values["strength"] == 0:
         return bench
     state = Plateaus(values["strength"], values["heat"], values["time"])
-    return bench.with_friction(place, lambda friction: friction.with_state(state))
+    return bench.with_friction(location, lambda friction: friction.with_state(state))
 
 
 EFFECT = Effect(
-    name="plateau_dynamics", summary="contact plateaus that grow and are worn off", place="contact", stage="friction",
-    parameters=parameters, apply=apply,
+    name="plateau_dynamics", summary="contact plateaus that grow and are worn off", location="contact",
+    stage="friction", parameters=parameters, apply=apply,
     source="G. P. Ostermeyer, Wear 254 (2003) 852: the equation of mu, its temperature held",
     valid="Valid while temperature stays the same; simulation, roots and equation see it.")

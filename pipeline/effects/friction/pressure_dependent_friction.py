@@ -18,18 +18,18 @@ def parameters(typical):
             Parameter("pressure", "Pa", typical.pressure, LogNormal(typical.pressure, 0.1)))
 
 
-def apply(bench, place, values):
+def apply(bench, location, values):
     samples = values["pressure"] * np.geomspace(1 / _SPAN, _SPAN, _SAMPLES)
 
     def factor(pressure):
         return np.clip(pressure, samples[0], samples[-1]) ** -values["exponent"] / (
             values["pressure"] ** -values["exponent"])
 
-    return bench.with_friction(place, lambda friction: times(friction, "pressure", samples, factor))
+    return bench.with_friction(location, lambda friction: times(friction, "pressure", samples, factor))
 
 
 EFFECT = Effect(
-    name="pressure_dependent_friction", summary="friction that changes with pressure", place="contact",
+    name="pressure_dependent_friction", summary="friction that changes with pressure", location="contact",
     stage="friction", parameters=parameters, apply=apply,
     source="F. P. Bowden, D. Tabor, The Friction and Lubrication of Solids (1950), chapter 5",
     valid="Valid from a thousandth to a thousand times the reference pressure, beyond which friction stays the same.")

@@ -17,15 +17,15 @@ def parameters(typical):
             Parameter("time", "s", 0.5 * typical.time, LogNormal(0.5 * typical.time, 1.0)))
 
 
-def apply(bench, place, values):
+def apply(bench, location, values):
     if values["drop"] == 0:
         return bench
     state = Fade(values["drop"], values["heat"], values["time"])
-    return bench.with_friction(place, lambda friction: friction.with_state(state))
+    return bench.with_friction(location, lambda friction: friction.with_state(state))
 
 
 EFFECT = Effect(
-    name="thermal_fade", summary="friction that fades as the contact heats up", place="contact", stage="friction",
+    name="thermal_fade", summary="friction that fades as the contact heats up", location="contact", stage="friction",
     parameters=parameters, apply=apply, small=False,
     source="T. P. Newcomb, R. T. Spurr, Braking of Road Vehicles (1967): fade; one lumped heat capacity",
     valid="Valid while one time constant holds and runs start cold; roots take friction where a run begins.")

@@ -21,17 +21,17 @@ def parameters(typical):
             Parameter("pressure", "Pa", typical.pressure, LogNormal(typical.pressure, 0.1)))
 
 
-def apply(model, place, values):
+def apply(model, location, values):
     if values["gain"] == 0:
         return model
     state = Film(values["gain"], values["distance"], values["pressure"])
-    if place == ASPERITIES:
+    if location == ASPERITIES:
         return replace(model, shearing=replace(model.shearing, film=state))
-    return model.with_friction(place, lambda friction: friction.with_state(state))
+    return model.with_friction(location, lambda friction: friction.with_state(state))
 
 
 EFFECT = Effect(
-    name="third_body_film", summary="a film of wear particles that adds to friction", place="contact", stage="friction",
-    parameters=parameters, apply=apply, small=False, linear=("gain",), micro=True,
+    name="third_body_film", summary="a film of wear particles that adds to friction", location="contact",
+    stage="friction", parameters=parameters, apply=apply, small=False, linear=("gain",), micro=True,
     source="M. Godet, Wear 100 (1984) 437: the third body; its growth with load and way after J. F. Archard (1953)",
     valid="Valid while particles leave the contact as the film slides; roots take friction where a run begins.")

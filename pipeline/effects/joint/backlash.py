@@ -10,13 +10,13 @@ def parameters(typical):
     return (Parameter("gap", "m", size, HalfNormal(2 * size), null=0.0),)
 
 
-def apply(bench, place, values):
-    row, stiffness, _ = bench.joint(place)
+def apply(bench, location, values):
+    row, stiffness, _ = bench.joint(location)
     law = Gap(inner=-stiffness, lower=values["gap"], upper=values["gap"])
-    return bench.with_elements(Element(f"backlash {place}", row, law))
+    return bench.with_elements(Element(f"backlash {location}", row, law))
 
 
 EFFECT = Effect(
-    name="backlash", summary="free play in a joint", place="joint", stage="structure", parameters=parameters,
+    name="backlash", summary="free play in a joint", location="joint", stage="structure", parameters=parameters,
     apply=apply, source="S. Dubowsky, F. Freudenstein, J. Eng. Ind. 93 (1971) 305",
     valid="Valid while the damper of the joint works within the gap as beyond it.")

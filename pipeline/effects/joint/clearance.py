@@ -15,14 +15,14 @@ def parameters(typical):
     return (Parameter("gap", "m", size, Normal(0.0, 2 * size), null=0.0),)
 
 
-def apply(bench, place, values):
+def apply(bench, location, values):
     gap = read(bench.law, "gap", len(bench.model.contacts.area))
-    gap[bench.contacts(place)] += values["gap"]
+    gap[bench.contacts(location)] += values["gap"]
     return replace(bench, law=with_field(bench.law, gap=gap))
 
 
 EFFECT = Effect(
     name="clearance", summary="contacts that close later, or earlier, than thought",
-    place="pressed contact", stage="contact", parameters=parameters, apply=apply,
+    location="pressed contact", stage="contact", parameters=parameters, apply=apply,
     source="A. Signorini, Atti Soc. Ital. Progr. Sci. (1933): unilateral contact, with an initial gap",
     valid="Valid while the gap is the same all over the group.")

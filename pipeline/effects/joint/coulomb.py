@@ -15,14 +15,14 @@ def parameters(typical):
     return (Parameter("force", "N", 0.2 * typical.force, HalfNormal(0.3 * typical.force), null=0.0),)
 
 
-def apply(bench, place, values):
-    row, _, _ = bench.joint(place)
+def apply(bench, location, values):
+    row, _, _ = bench.joint(location)
     law = Dry(stick_stiffness(bench, row), values["force"], values["force"])
-    return bench.with_elements(Element(f"coulomb {place}", row, law))
+    return bench.with_elements(Element(f"coulomb {location}", row, law))
 
 
 EFFECT = Effect(
-    name="coulomb", summary="dry friction of one size in both directions", place="joint", stage="friction",
+    name="coulomb", summary="dry friction of one size in both directions", location="joint", stage="friction",
     parameters=parameters, apply=apply, small=False, linear=("force",),
     source="C.-A. Coulomb, Theorie des machines simples (1785)",
     valid="Valid while the normal force in the joint stays the same and the joint slides more than it sticks.")

@@ -11,12 +11,12 @@ def parameters(typical):
     return (Parameter("coefficient", "N/m^3", size, Normal(0.0, 10 * size), null=0.0),)
 
 
-def apply(bench, place, values):
-    return beside_joint(bench, "cubic_stiffness", place, Polynomial(cubic=values["coefficient"]))
+def apply(bench, location, values):
+    return beside_joint(bench, "cubic_stiffness", location, Polynomial(cubic=values["coefficient"]))
 
 
 EFFECT = Effect(
     name="cubic_stiffness", summary="a joint that gets stiffer (or softer) with deflection, alike both ways",
-    place="joint", stage="structure", parameters=parameters, apply=apply, linear=("coefficient",),
+    location="joint", stage="structure", parameters=parameters, apply=apply, linear=("coefficient",),
     source="G. Duffing, Erzwungene Schwingungen bei veraenderlicher Eigenfrequenz (1918)",
     valid="Valid while the force grows with deflection: k + 3 k_3 e^2 > 0.")

@@ -16,14 +16,14 @@ def parameters(typical):
             Parameter("exponent", "1", -0.3, Uniform(-0.9, 0.0)))
 
 
-def apply(bench, place, values):
-    row, stiffness, _ = bench.joint(place)
+def apply(bench, location, values):
+    row, stiffness, _ = bench.joint(location)
     law = iwan(values["share"] * stiffness, values["slip_force"], values["exponent"], elastic=True)
-    return bench.with_elements(Element(f"hysteretic_joint {place}", row, law))
+    return bench.with_elements(Element(f"hysteretic_joint {location}", row, law))
 
 
 EFFECT = Effect(
     name="hysteretic_joint", summary="micro-slip in a joint: loss and softening that grow with amplitude",
-    place="joint", stage="structure", parameters=parameters, apply=apply, small=False,
+    location="joint", stage="structure", parameters=parameters, apply=apply, small=False,
     source="W. D. Iwan, J. Appl. Mech. 33 (1966) 893; D. J. Segalman, J. Appl. Mech. 72 (2005) 752",
     valid="Valid while the preload of the joint stays the same and its share slips within the joint.")

@@ -13,14 +13,14 @@ def parameters(typical):
     return (Parameter("damping", "N s/m", size, HalfNormal(2 * size), null=0.0),)
 
 
-def apply(bench, place, values):
+def apply(bench, location, values):
     joints = bench.model.joints
-    added = np.where([name == place for name in joints.name], values["damping"], 0.0)
+    added = np.where([name == location for name in joints.name], values["damping"], 0.0)
     return replace(bench, model=replace(bench.model, joints=replace(joints, damping=joints.damping + added)))
 
 
 EFFECT = Effect(
-    name="joint_damping", summary="viscous damping in a joint", place="joint", stage="structure",
+    name="joint_damping", summary="viscous damping in a joint", location="joint", stage="structure",
     parameters=parameters, apply=apply, linear=("damping",),
     source="Lord Rayleigh, The Theory of Sound (1877), section 45",
     valid="Valid while losses grow with the square of amplitude and with frequency.")

@@ -16,9 +16,9 @@ def parameters(typical):
     return (Parameter("compliance", "m/N", size, HalfNormal(2 * size), null=0.0),)
 
 
-def apply(bench, place, values):
+def apply(bench, location, values):
     added = values["compliance"]
-    return bench if added == 0 else bench.with_friction(place, lambda friction: _yielding(friction, added))
+    return bench if added == 0 else bench.with_friction(location, lambda friction: _yielding(friction, added))
 
 
 def _yielding(friction, added):
@@ -28,7 +28,7 @@ def _yielding(friction, added):
 
 
 EFFECT = Effect(
-    name="micro_slip", summary="contacts that give way before they slide", place="contacts", stage="friction",
+    name="micro_slip", summary="contacts that give way before they slide", location="contacts", stage="friction",
     parameters=parameters, apply=apply, small=False,
     source="M. Allgaier, L. Gaul, W. Keiper, K. Willner, Mode lock-in and friction modelling (1999), section 4",
     valid="Valid while the way before sliding is short against the vibration along the contact.")

@@ -11,12 +11,12 @@ def parameters(typical):
     return (Parameter("coefficient", "N s^2/m^2", size, HalfNormal(10 * size), null=0.0),)
 
 
-def apply(bench, place, values):
-    return beside_joint(bench, "quadratic_damping", place, Power(values["coefficient"], 2.0))
+def apply(bench, location, values):
+    return beside_joint(bench, "quadratic_damping", location, Power(values["coefficient"], 2.0))
 
 
 EFFECT = Effect(
-    name="quadratic_damping", summary="a joint whose damping grows with speed", place="joint", stage="structure",
+    name="quadratic_damping", summary="a joint whose damping grows with speed", location="joint", stage="structure",
     parameters=parameters, apply=apply, small=False, linear=("coefficient",),
     source="J. R. Morison et al., Petroleum Trans. AIME 189 (1950) 149: the drag term",
     valid="Valid while the flow that resists is turbulent.")

@@ -11,12 +11,12 @@ def parameters(typical):
     return (Parameter("coefficient", "N/m^2", size, Normal(0.0, 10 * size), null=0.0),)
 
 
-def apply(bench, place, values):
-    return beside_joint(bench, "quadratic_stiffness", place, Polynomial(quadratic=values["coefficient"]))
+def apply(bench, location, values):
+    return beside_joint(bench, "quadratic_stiffness", location, Polynomial(quadratic=values["coefficient"]))
 
 
 EFFECT = Effect(
-    name="quadratic_stiffness", summary="a joint that is stiffer one way than the other", place="joint",
+    name="quadratic_stiffness", summary="a joint that is stiffer one way than the other", location="joint",
     stage="structure", parameters=parameters, apply=apply, linear=("coefficient",),
     source="H. von Helmholtz, Die Lehre von den Tonempfindungen (1863)",
     valid="Valid while the force grows with deflection: k + 2 k_2 e > 0.")

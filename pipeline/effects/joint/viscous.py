@@ -15,15 +15,15 @@ def parameters(typical):
     return (Parameter("slope", "s/m", size, HalfNormal(2 * size), null=0.0),)
 
 
-def apply(bench, place, values):
+def apply(bench, location, values):
     fastest = _SPAN * max(1.0, abs(bench.model.sliding_speed).max())
     samples = np.linspace(0, fastest, _SAMPLES)
-    return bench.with_friction(place, lambda friction: times(friction, "speed", samples,
+    return bench.with_friction(location, lambda friction: times(friction, "speed", samples,
                                                              lambda speed: 1 + values["slope"] * speed))
 
 
 EFFECT = Effect(
-    name="viscous", summary="friction that rises with the sliding speed", place="contact", stage="friction",
+    name="viscous", summary="friction that rises with the sliding speed", location="contact", stage="friction",
     parameters=parameters, apply=apply, linear=("slope",),
     source="R. Stribeck, Z. VDI 46 (1902) 1341: the branch of full film",
     valid="Valid below 20 m/s and 20 times the speed of the drive, beyond which friction stays the same.")

@@ -11,11 +11,11 @@ def parameters(typical):
     return (Parameter("delay", "s", size, HalfNormal(2 * size), null=0.0),)
 
 
-def apply(bench, place, values):
-    return bench.with_channels(lambda c: replace(c, delay=c.delay + values["delay"]) if c.name == place else c)
+def apply(bench, location, values):
+    return bench.with_channels(lambda c: replace(c, delay=c.delay + values["delay"]) if c.name == location else c)
 
 
 EFFECT = Effect(
-    name="sensor_delay", summary="a channel that is late", place="channel", stage="measurement", kind="sensor",
+    name="sensor_delay", summary="a channel that is late", location="channel", stage="measurement", kind="sensor",
     parameters=parameters, apply=apply, source="group delay of anti-aliasing filters: IEEE 1057 (2017)",
     valid="Valid while all frequencies are late by the same time.")

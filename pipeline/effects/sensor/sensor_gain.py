@@ -10,11 +10,11 @@ def parameters(typical):
     return (Parameter("error", "1", 0.1, Uniform(-0.9, 1.0), null=0.0),)
 
 
-def apply(bench, place, values):
-    return bench.with_channels(lambda c: replace(c, gain=c.gain * (1 + values["error"])) if c.name == place else c)
+def apply(bench, location, values):
+    return bench.with_channels(lambda c: replace(c, gain=c.gain * (1 + values["error"])) if c.name == location else c)
 
 
 EFFECT = Effect(
-    name="sensor_gain", summary="a channel with a wrong gain", place="channel", stage="measurement", kind="sensor",
+    name="sensor_gain", summary="a channel with a wrong gain", location="channel", stage="measurement", kind="sensor",
     parameters=parameters, apply=apply, source="calibration: ISO 16063-21 (2003)",
     valid="Valid while the gain is the same in all runs and at all frequencies.")

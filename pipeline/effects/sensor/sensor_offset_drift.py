@@ -13,13 +13,13 @@ def parameters(typical):
                       null=0.0))
 
 
-def apply(bench, place, values):
+def apply(bench, location, values):
     return bench.with_channels(lambda c: replace(c, offset=c.offset + values["offset"], drift=c.drift + values["drift"])
-                               if c.name == place else c)
+                               if c.name == location else c)
 
 
 EFFECT = Effect(
-    name="sensor_offset_drift", summary="a channel whose zero is off or wanders", place="channel",
+    name="sensor_offset_drift", summary="a channel whose zero is off or wanders", location="channel",
     stage="measurement", kind="sensor", parameters=parameters, apply=apply,
     source="zero drift of charge amplifiers and bridges: ISO 376 (2011)",
     valid="Valid while the zero wanders evenly and is the same at the begin of every run.")

@@ -9,12 +9,12 @@ def parameters(typical):
     return (Parameter("stiffness", "N/m", 0.1 * typical.holding, HalfNormal(0.2 * typical.holding), null=0.0),)
 
 
-def apply(bench, place, values):
-    return at_point(bench, "stiffness", place, values["stiffness"])
+def apply(bench, location, values):
+    return at_point(bench, "stiffness", location, values["stiffness"])
 
 
 EFFECT = Effect(
-    name="added_stiffness", summary="a support at a point that the model leaves out", place="point",
+    name="added_stiffness", summary="a support at a point that the model leaves out", location="point",
     stage="structure", parameters=parameters, apply=apply, linear=("stiffness",),
     source="D. J. Ewins, Modal Testing, 2nd ed. (2000): supports of the structure",
     valid="Valid while the support is elastic and does not lift off.")

@@ -16,15 +16,15 @@ def parameters(typical):
     return (Parameter("compliance", "m/N", size, HalfNormal(2 * size), null=0.0),)
 
 
-def apply(bench, place, values):
+def apply(bench, location, values):
     joints = bench.model.joints
-    series = 1 + np.where([name == place for name in joints.name], values["compliance"], 0.0) * joints.stiffness
+    series = 1 + np.where([name == location for name in joints.name], values["compliance"], 0.0) * joints.stiffness
     changed = replace(joints, stiffness=joints.stiffness / series)
     return replace(bench, model=replace(bench.model, joints=changed))
 
 
 EFFECT = Effect(
-    name="compliant_arm", summary="a support that gives way in series with a joint", place="joint", stage="structure",
-    parameters=parameters, apply=apply,
+    name="compliant_arm", summary="a support that gives way in series with a joint", location="joint",
+    stage="structure", parameters=parameters, apply=apply,
     source="springs in series",
     valid="Valid below the first frequency of the arm itself.")

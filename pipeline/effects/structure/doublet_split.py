@@ -21,8 +21,8 @@ def parameters(typical):
     return tuple(Parameter(name, "1", 0.02, Uniform(-_LARGEST, _LARGEST), null=0.0) for name in ("along", "across"))
 
 
-def apply(bench, place, values):
-    _, stiffness, pair = bench.doublet(place)
+def apply(bench, location, values):
+    _, stiffness, pair = bench.doublet(location)
     root, a, b = np.sqrt(stiffness), values["along"], values["across"]
     changed = bench.model.stiffness.copy()
     changed[np.ix_(pair, pair)] += np.outer(root, root) * np.array([[a, b], [b, -a]])
@@ -30,7 +30,7 @@ def apply(bench, place, values):
 
 
 EFFECT = Effect(
-    name="doublet_split", summary="a disc that is not quite round: two equal modes part", place="doublet",
+    name="doublet_split", summary="a disc that is not quite round: two equal modes part", location="doublet",
     stage="structure", parameters=parameters, apply=apply, linear=("along", "across"),
     source="S. A. Tobias, R. N. Arnold, Proc. IMechE 171 (1957) 669: dynamical imperfection of discs",
     valid="Valid while the imperfection stands still against the contacts, as that of a disc that hardly turns.")

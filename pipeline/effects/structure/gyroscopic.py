@@ -19,8 +19,8 @@ def parameters(typical):
     return (Parameter("order", "1", 2.0, Normal(0.0, 3.0), null=0.0),)
 
 
-def apply(bench, place, values):
-    mass, _, pair = bench.doublet(place)
+def apply(bench, location, values):
+    mass, _, pair = bench.doublet(location)
     coupling = 2 * values["order"] * np.sqrt(mass.prod())
     changed = bench.model.gyroscopic.copy()
     changed[np.ix_(pair, pair)] += coupling * np.array([[0.0, 1.0], [-1.0, 0.0]])
@@ -28,7 +28,7 @@ def apply(bench, place, values):
 
 
 EFFECT = Effect(
-    name="gyroscopic", summary="a rotation that couples two modes by Coriolis forces", place="doublet",
+    name="gyroscopic", summary="a rotation that couples two modes by Coriolis forces", location="doublet",
     stage="structure", parameters=parameters, apply=apply, linear=("order",),
     source="H. Lamb, R. V. Southwell, Proc. R. Soc. Lond. A 99 (1921) 272: vibrations of a spinning disk",
     valid="Valid while n W is small against the frequency (squares of the speed are left out), at the speed with which"

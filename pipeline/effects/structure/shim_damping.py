@@ -28,15 +28,15 @@ def parameters(typical):
             Parameter("frequency", "Hz", frequency, LogNormal(frequency, 0.7)))
 
 
-def apply(bench, place, values):
-    each = values["loss_factor"] * bench.joint(place)[1] / _LOSS
+def apply(bench, location, values):
+    each = values["loss_factor"] * bench.joint(location)[1] / _LOSS
     law = Maxwell(np.full(len(_TIMES), each), _TIMES / (2 * np.pi * values["frequency"]), -each * _STORED)
-    return beside_joint(bench, "shim_damping", place, law)
+    return beside_joint(bench, "shim_damping", location, law)
 
 
 EFFECT = Effect(
-    name="shim_damping", summary="a constrained layer: the same loss factor over a band of frequencies", place="joint",
-    stage="structure", parameters=parameters, apply=apply, linear=("loss_factor",),
+    name="shim_damping", summary="a constrained layer: the same loss factor over a band of frequencies",
+    location="joint", stage="structure", parameters=parameters, apply=apply, linear=("loss_factor",),
     source="M. A. Biot, Proc. 3rd US Nat. Congr. Appl. Mech. (1958) 1: relaxation spectrum of structural damping;"
            " D. Ross, E. E. Ungar, E. M. Kerwin, Structural Damping (1959): constrained layer",
     valid="Valid from a third to three times the frequency, at one temperature of the shim.")

@@ -18,13 +18,13 @@ def parameters(typical):
             Parameter("time", "s", typical.period, LogNormal(typical.period, 1.0)))
 
 
-def apply(bench, place, values):
-    law = Maxwell(np.array([values["share"] * bench.joint(place)[1]]), np.array([values["time"]]))
-    return beside_joint(bench, "viscoelastic_pad", place, law)
+def apply(bench, location, values):
+    law = Maxwell(np.array([values["share"] * bench.joint(location)[1]]), np.array([values["time"]]))
+    return beside_joint(bench, "viscoelastic_pad", location, law)
 
 
 EFFECT = Effect(
-    name="viscoelastic_pad", summary="a pad that relaxes: stiffer and lossier for fast motion", place="joint",
+    name="viscoelastic_pad", summary="a pad that relaxes: stiffer and lossier for fast motion", location="joint",
     stage="structure", parameters=parameters, apply=apply, linear=("share",),
     source="C. Zener, Elasticity and Anelasticity of Metals (1948): standard linear solid",
     valid="Valid while one relaxation matters, and every run starts relaxed.")

@@ -43,7 +43,7 @@ def test_noise_is_given_of_every_channel_or_of_none():
 
 
 def test_every_place_of_every_effect_is_a_candidate():
-    places = {(e.name, place) for e in CATALOGUE for place in e.places(BENCH)}
+    places = {(e.name, place) for e in CATALOGUE for place in e.locations(BENCH)}
     assert {c.effects[0] for c in FOUND} == places and len({c.name for c in FOUND}) == len(FOUND)
     assert [c.effects for c in candidates(BENCH, tuple(RUNS.values()), CATALOGUE, ("nowhere",))] == []
 

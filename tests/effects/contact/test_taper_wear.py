@@ -44,6 +44,6 @@ def test_rates_are_linear_along_the_sliding_and_never_negative():
 
 
 def test_a_single_contact_has_no_ends():
-    assert TAPER.places(rubbing()) == ("contact",)
-    with pytest.raises(ConfigError, match="place"):
+    assert TAPER.locations(rubbing()) == ("contact",)
+    with pytest.raises(ConfigError, match="location"):
         TAPER.on(rubbing(), "left", {"rate": RATE})

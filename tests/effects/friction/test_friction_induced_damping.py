@@ -58,6 +58,6 @@ def test_the_force_never_exceeds_friction_and_takes_energy_out():
 
 
 def test_contacts_that_never_move_sideways_are_no_place_of_it():
-    assert named("friction_induced_damping").places(slider()) == ()
-    with pytest.raises(ConfigError, match="friction_induced_damping: place: expected one of none here"):
+    assert named("friction_induced_damping").locations(slider()) == ()
+    with pytest.raises(ConfigError, match="friction_induced_damping: location: expected one of none here"):
         named("friction_induced_damping").on(slider(), "contact", {"share": 1.0})

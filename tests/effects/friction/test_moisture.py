@@ -39,7 +39,7 @@ def test_roots_know_the_humidity():
 
 def test_runs_without_humidity_cannot_ask_for_it():
     damp = replace(steady(), conditions={"humidity": 0.4})
-    assert named("moisture").told_by((damp,)) and not named("moisture").told_by((damp, steady()))
+    assert named("moisture").conditions_known((damp,)) and not named("moisture").conditions_known((damp, steady()))
 
 
 @pytest.mark.parametrize("conditions", [{}, {"humidity": np.array([0.1, 0.2])}])
