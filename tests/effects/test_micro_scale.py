@@ -33,7 +33,7 @@ def parameters(effect):
 
 def test_who_they_are():
     assert {e.name for e in MICRO} == {"third_body_film", "material_transfer", "wear_law", "shear_limit"}
-    assert all(e.locations(bench()) for e in CATALOGUE if e not in MICRO), "every other effect has a place on a bench"
+    assert all(e.locations(bench()) for e in CATALOGUE if e not in MICRO), "every other effect has a location on a bench"
 
 
 @each
