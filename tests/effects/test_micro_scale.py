@@ -33,7 +33,7 @@ def parameters(effect):
 
 def test_who_they_are():
     assert {e.name for e in MICRO} == {"third_body_film", "material_transfer", "wear_law", "shear_limit"}
-    assert all(e.locations(bench()) for e in CATALOGUE if e not in MICRO), "every other effect has a location on a bench"
+    assert all(e.locations(bench()) for e in CATALOGUE if e not in MICRO), "other effects act on a bench"
 
 
 @each
@@ -78,7 +78,7 @@ def test_all_together():
 
 @each
 def test_a_bench_has_no_asperities(effect):
-    with pytest.raises(ConfigError, match="a rough pair, as stage micro_friction has it, found a bench"):
+    with pytest.raises(ConfigError, match="a rough pair, as in stage micro_friction, found a bench"):
         effect.on(bench(), ASPERITIES, shaped_values(parameters(effect)))
 
 
