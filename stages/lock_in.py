@@ -27,12 +27,12 @@ from pipeline.systems.pin_on_disc import reshaped
 _GRAVITY = 9.81
 #: sensors of the system that are classified: disc first, then the pin
 _SENSORS = ("disc", "pin")
-#: own modes of the pin that count, and multiples of the base that are told
+#: modes of the clamped pin that count, and harmonics of the base that are reported
 _PIN_MODES, _MULTIPLES = 8, 8
 _NO_LINE = -200.0
 #: time between samples that are kept, highest line and length of what is drawn
 _INTERVAL, _HIGHEST_LINE, _TRACE = 1e-5, 20e3, 5e-3
-#: modes of the disc with less motion along its axis are not seen
+#: disc modes with less axial motion are not observed
 _OUT_OF_PLANE = 0.5
 
 
@@ -87,12 +87,12 @@ class _Point:
 
 def _check(sections):
     """Refuse windows that the motion does not fill, before anything is computed."""
-    told = sections["lock_in"]
-    if told.window > told.duration:
-        raise ConfigError("lock_in.window", f"at most the duration, {told.duration:g} s", f"{told.window:g} s")
-    if abs(_INTERVAL / told.step - round(_INTERVAL / told.step)) > 1e-6 or told.step > _INTERVAL:
+    settings = sections["lock_in"]
+    if settings.window > settings.duration:
+        raise ConfigError("lock_in.window", f"at most the duration, {settings.duration:g} s", f"{settings.window:g} s")
+    if abs(_INTERVAL / settings.step - round(_INTERVAL / settings.step)) > 1e-6 or settings.step > _INTERVAL:
         raise ConfigError("lock_in.step", f"a whole part of {_INTERVAL:g} s, the time between samples",
-                          f"{told.step:g} s", "take 1 us, 2 us or 5 us")
+                          f"{settings.step:g} s", "take 1 us, 2 us or 5 us")
 
 
 @stage(check=_check)
@@ -113,14 +113,14 @@ def lock_in(pin_on_disc: PinOnDisc, model: ReducedModel, effects: Effects | None
         context.log(f"{', '.join(dict.fromkeys(map(str, effects.effect)))}: not part of this map, whose pins and loads"
                     " are those of the model alone")
     points = _points(pin_on_disc, settings)
-    found = context.map(partial(_visit, pin_on_disc, model, settings, context.solver), points, "points")
+    results = context.map(partial(_visit, pin_on_disc, model, settings, context.solver), points, "points")
     fields = {name: [getattr(p, name) for p in points] for name in _Point.__dataclass_fields__}
-    told = {name: [row[name] for row in found] for name in found[0]}
-    drawn = {name: told.pop(name)[:len(settings.cases)] for name in ("trace", "spectrum")}
-    return LockIn(**fields, **told, **_pictured(drawn, settings))
+    answers = {name: [row[name] for row in results] for name in results[0]}
+    pictures = {name: answers.pop(name)[:len(settings.cases)] for name in ("trace", "spectrum")}
+    return LockIn(**fields, **answers, **_pictured(pictures, settings))
 
 
-def _pictured(drawn, settings):
+def _pictured(pictures, settings):
     """Traces and spectra of the cases with their axes; silence where nothing grows."""
     samples = round(settings.window / _INTERVAL)
     frequency = np.fft.rfftfreq(samples, _INTERVAL)
@@ -128,8 +128,8 @@ def _pictured(drawn, settings):
     count, kept = len(settings.cases), min(round(_TRACE / _INTERVAL), samples)
     trace, spectrum = np.zeros((count, 2, kept)), np.full((count, 2, len(frequency)), _NO_LINE)
     for k in range(count):
-        if drawn["trace"][k] is not None:
-            trace[k], spectrum[k] = drawn["trace"][k][:, -kept:], drawn["spectrum"][k][:, :len(frequency)]
+        if pictures["trace"][k] is not None:
+            trace[k], spectrum[k] = pictures["trace"][k][:, -kept:], pictures["spectrum"][k][:, :len(frequency)]
     return {"trace_time": settings.duration - _INTERVAL * np.arange(kept)[::-1], "frequency": frequency,
             "trace": trace, "spectrum": spectrum}
 
@@ -147,20 +147,20 @@ def _points(system, settings):
 
 def _visit(system, model, settings, solver, point):
     """The fields of one point."""
-    body, own = _pin(system, point, solver)
+    body, pin_modes = _pin(system, point, solver)
     terms = reduce_body(body, settings.fixed_below, settings.residual_below, solver)
     sliding = exchanged(_pressed(system, model, settings, point), "pin", terms)
     friction = _friction(model, sliding) if settings.friction is None else settings.friction
     root = _growing(sliding, friction, settings)
     disc = system.disc_frequency[system.disc_out_of_plane > _OUT_OF_PLANE]
-    told = {"friction": friction, "root": root, "kind": KINDS[NONE], "base": 0.0, "second": 0.0,
+    answer = {"friction": friction, "root": root, "kind": KINDS[NONE], "base": 0.0, "second": 0.0,
             "settled": 1, "amplitude": [0.0, 0.0], "harmonics": [0, 0], "levels": np.full((2, _MULTIPLES), _NO_LINE),
             "open_share": 0.0, "trace": None, "spectrum": None}
     if root:
-        told |= _settled(sliding, friction, point, settings, (disc, own))
-    around = told["base"] or abs(root.imag) / (2 * np.pi)
-    told |= {"disc_mode": _nearest(disc, around), "pin_mode": _nearest(own, around)}
-    return told
+        answer |= _settled(sliding, friction, point, settings, (disc, pin_modes))
+    around = answer["base"] or abs(root.imag) / (2 * np.pi)
+    answer |= {"disc_mode": _nearest(disc, around), "pin_mode": _nearest(pin_modes, around)}
+    return answer
 
 
 def _pin(system, point, solver):
@@ -209,7 +209,7 @@ def _growing(sliding, friction, settings):
     return complex(fastest) if fastest.real > 0 else 0j
 
 
-def _settled(sliding, friction, point, settings, own):
+def _settled(sliding, friction, point, settings, modes):
     """Motion from a kick, and what it settles into."""
     system = modal_system(sliding, highest=settings.highest_frequency)
     load, names = np.array([point.load * _GRAVITY]), list(sliding.sensor_name)
@@ -223,11 +223,11 @@ def _settled(sliding, friction, point, settings, own):
     late = slice(-round(settings.window / _INTERVAL), None)
     rate = 1 / (motion.time[1] - motion.time[0])
     signals = [motion.velocity[names.index(name)][late] for name in _SENSORS]
-    found = classified(signals[0], rate, *own, dynamic_range=settings.dynamic_range, count=_MULTIPLES)
+    result = classified(signals[0], rate, *modes, dynamic_range=settings.dynamic_range, count=_MULTIPLES)
     levels = np.full((2, _MULTIPLES), -np.inf)
-    if found.base:
-        levels = np.array([harmonic_levels(s, rate, found.base, _MULTIPLES, settings.dynamic_range) for s in signals])
-    return {"kind": KINDS[found.kind], "base": found.base, "second": found.second,
+    if result.base:
+        levels = np.array([harmonic_levels(s, rate, result.base, _MULTIPLES, settings.dynamic_range) for s in signals])
+    return {"kind": KINDS[result.kind], "base": result.base, "second": result.second,
             "settled": int(all(_steady(names, motion, settings))),
             "amplitude": [s.std() for s in signals], "harmonics": [_without_gap(row) for row in levels],
             "levels": np.maximum(levels, _NO_LINE), "open_share": motion.status_share[0, 0],

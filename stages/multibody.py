@@ -101,7 +101,7 @@ def multibody(model: ReducedModel, friction_map: FrictionMap, effects: Effects |
     points = list(product(settings.pressures, settings.speeds))
     law = FrictionLaw(friction_map.pressure, friction_map.speed, friction_map.distance, friction_map.friction)
     terms = kept(physics_terms(effects), settings.without)
-    posed = partial(_posed, model=model, law=law, told=conditions(effects), settings=settings)
+    posed = partial(_posed, model=model, law=law, run_conditions=conditions(effects), settings=settings)
     refuse_idle(terms, lambda those: posed(points[0], terms=those)(1.0, 1.0))
     runs = context.map(partial(_operate, posed=partial(posed, terms=terms), model=model, settings=settings), points,
                        "operating points")
@@ -123,9 +123,9 @@ def _check_times(settings):
                           "shorten the step, or lower multibody.highest_frequency")
 
 
-def _posed(point, model, law, told, settings, terms):
+def _posed(point, model, law, run_conditions, settings, terms):
     """Function of the factors on caliper and abutment that gives the PadSystem of one operating point."""
-    sliding, dress = with_terms(braked(model, law, point[1], settings), terms, told)
+    sliding, dress = with_terms(braked(model, law, point[1], settings), terms, run_conditions)
     normal_law = model.law_closure, model.law_pressure
     return partial(_system, sliding.held(DISC), dress, point[0] * model.input_area, normal_law, law, settings)
 
@@ -183,10 +183,10 @@ def _motion_rows(model, pads, size):
     kept = model.coordinate_body != list(model.body_name).index(DISC)
     rows = np.zeros((len(pads), 3, len(kept)))
     for row, pad in zip(rows, pads, strict=True):
-        own = np.flatnonzero(model.coordinate_body == pad)
-        recovery = model.recovery[model.visible_body == pad][:, :, own]
+        members = np.flatnonzero(model.coordinate_body == pad)
+        recovery = model.recovery[model.visible_body == pad][:, :, members]
         axes = sliding_axes(model.contact_position[model.contact_body == pad])
-        row[:, own] = gravity_rows(model.mass[np.ix_(own, own)], recovery, axes)
+        row[:, members] = gravity_rows(model.mass[np.ix_(members, members)], recovery, axes)
     added = size - np.count_nonzero(kept)
     return np.pad(rows[:, :, kept], ((0, 0), (0, 0), (0, added))) if added else rows[:, :, kept]
 

@@ -122,10 +122,10 @@ def rupture(settings: Settings, context: Context) -> Rupture:
     stride = [_stride(settings, s) for s in (base.lower_spacing, base.upper_spacing)]
     history = run(system.lower, system.upper, system.interface, settings.duration, settings.step_share,
                   settings.frames, stride, [int(_STRIP / s) + 1 for s in (base.lower_spacing, base.upper_spacing)])
-    told = _told(history.record, system, settings)
+    observed = _observed(history.record, system, settings)
     varied = context.map(partial(_vary, base=base, settings=settings), _variations(settings), "other ruptures")
-    return Rupture(**_static(system), **_fronts(history, system, settings, told), **_waves(settings, base),
-                   **_angles(history, system, base, settings, told), **_fields(history, system, stride),
+    return Rupture(**_static(system), **_fronts(history, system, settings, observed), **_waves(settings, base),
+                   **_angles(history, system, base, settings, observed), **_fields(history, system, stride),
                    **_study(varied), **_account(history, system, settings))
 
 
@@ -166,7 +166,7 @@ def _vary(variation, base, settings):
     parameters = replace(base, solved_preload=False, **variation["changes"])
     system = build(parameters)
     history = run(system.lower, system.upper, system.interface, settings.duration, settings.step_share)
-    _, left, right, phrase = _told(history.record, system, settings)
+    _, left, right, phrase = _observed(history.record, system, settings)
     both = (left, right)
     return {"study": variation["study"], "study_spacing": parameters.upper_spacing,
             "study_memory": parameters.memory_time, "study_ratio": parameters.ratio,
@@ -179,17 +179,17 @@ def _vary(variation, base, settings):
 
 def _study(rows):
     names = [field for field in Rupture.__dataclass_fields__ if field.startswith("study")]
-    found = {name: [row[name] for row in rows] for name in names}
+    columns = {name: [row[name] for row in rows] for name in names}
     for name in ("study_stop", "study_speed", "study_width", "study_outcome", "study_kind"):
-        found[name] = np.reshape(found[name], (-1, 2))
-    return found
+        columns[name] = np.reshape(columns[name], (-1, 2))
+    return columns
 
 
-def _told(record, system, settings):
+def _observed(record, system, settings):
     """(Arrival, left Front, right Front, phrase)."""
-    place = system.x, system.centre, system.half_width
-    arrival = fronts.arrivals(record, *place)
-    left, right = (fronts.front(record, arrival, *place, settings.run_in, side) for side in SIDES.values())
+    geometry = system.x, system.centre, system.half_width
+    arrival = fronts.arrivals(record, *geometry)
+    left, right = (fronts.front(record, arrival, *geometry, settings.run_in, side) for side in SIDES.values())
     return arrival, left, right, fronts.named(left, right, bool((record.state == OPEN).any()))
 
 
@@ -206,8 +206,8 @@ def _static(system):
             "shift": [0.0, 0.0] if known is None else [known.shift_x, known.shift_y]}
 
 
-def _fronts(history, system, settings, told):
-    arrival, left, right, phrase = told
+def _fronts(history, system, settings, observed):
+    arrival, left, right, phrase = observed
     record = history.record
     times = np.append(np.arange(settings.profile_step, settings.duration * (1.0 - 1e-9), settings.profile_step),
                       settings.duration)
@@ -230,16 +230,16 @@ def _waves(settings, base):
             "pulse_exists": int(pulse is not None), "pulse_speed": pulse or (0.0, 0.0)}
 
 
-def _angles(history, system, base, settings, told):
+def _angles(history, system, base, settings, observed):
     """Mach angles on both sides of both plates; the lower one is seen upside down."""
     views = [View(history.frame_time, tuple(pair[1] for pair in history.strips), system.upper.spacing,
                   base.upper.shear_speed),
              View(history.frame_time, tuple(pair[0][:, ::-1] * [[[1.0]], [[-1.0]]] for pair in history.strips),
                   system.lower.spacing, base.lower.shear_speed)]
-    found = np.array([[front_angle(view, told[0], system.x, system.centre, settings.run_in, side) for view in views]
-                      for side in SIDES.values()])
-    return {"mach_known": np.isfinite(found[..., 0]).astype(int), "mach_angle": np.nan_to_num(found[..., 0]),
-            "mach_expected": np.nan_to_num(found[..., 1])}
+    angles = np.array([[front_angle(view, observed[0], system.x, system.centre, settings.run_in, side)
+                        for view in views] for side in SIDES.values()])
+    return {"mach_known": np.isfinite(angles[..., 0]).astype(int), "mach_angle": np.nan_to_num(angles[..., 0]),
+            "mach_expected": np.nan_to_num(angles[..., 1])}
 
 
 def _stride(settings, spacing):

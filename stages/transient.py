@@ -35,17 +35,18 @@ class Settings(Laws):
     window: Quantity("s", gt=0) = option("0.1 s", "end of the motion from which spectra and cycles are taken")
     settled_within: float = option(0.02, "largest spread of the amplitude over quarters of the window", gt=0)
     lowest_frequency: Quantity("Hz", ge=0) = option("50 Hz", "dominant frequencies are sought above it")
-    harmonics: int = option(8, "multiples of the dominant frequency that are told", ge=1)
+    harmonics: int = option(8, "number of harmonics of the dominant frequency that are reported", ge=1)
 
 
 def _check(sections):
     """Refuse windows longer than the motion before anything is computed."""
-    told = sections["transient"]
-    if told.window > told.duration:
-        raise ConfigError("transient.window", f"at most the duration, {told.duration:g} s", f"{told.window:g} s")
-    if told.step * told.record_every * 40 > told.window:
+    settings = sections["transient"]
+    if settings.window > settings.duration:
+        raise ConfigError("transient.window", f"at most the duration, {settings.duration:g} s",
+                          f"{settings.window:g} s")
+    if settings.step * settings.record_every * 40 > settings.window:
         raise ConfigError("transient.record_every", "at least 40 samples in the window",
-                          f"{told.window / (told.step * told.record_every):.3g}", "keep more samples")
+                          f"{settings.window / (settings.step * settings.record_every):.3g}", "keep more samples")
 
 
 @stage(check=_check)
@@ -63,8 +64,8 @@ def transient(model: ReducedModel, effects: Effects | None, settings: Settings, 
     cycles refer to the last {window}.
     """
     points = [(state, speed) for state in range(len(model.pressure)) for speed in settings.speeds]
-    found = context.map(partial(_move, model, effects, settings), points, "operating points")
-    motions, highest = [motion for motion, _ in found], max(frequency for _, frequency in found)
+    results = context.map(partial(_move, model, effects, settings), points, "operating points")
+    motions, highest = [motion for motion, _ in results], max(frequency for _, frequency in results)
     interval = settings.step * settings.record_every
     late = motions[0].time >= motions[0].time[-1] - settings.window
     velocity = np.array([m.velocity for m in motions])
@@ -124,8 +125,8 @@ def _cycles(velocity, late, interval, settings):
     lowest = max(settings.lowest_frequency, 2 / settings.window)
     rows = [[cycle(signal, interval, settings.window, settings.settled_within, lowest) for signal in sensors]
             for sensors in velocity]
-    harmonic = [[harmonic_levels(signal[late], 1 / interval, found.frequency, settings.harmonics) if found.frequency
-                 else np.zeros(settings.harmonics) for signal, found in zip(sensors, row, strict=True)]
+    harmonic = [[harmonic_levels(signal[late], 1 / interval, result.frequency, settings.harmonics) if result.frequency
+                 else np.zeros(settings.harmonics) for signal, result in zip(sensors, row, strict=True)]
                 for sensors, row in zip(velocity, rows, strict=True)]
     shape = velocity.shape[:2]
     named = {"cycle_frequency": "frequency", "cycle_amplitude": "amplitude", "cycle_drift": "drift",

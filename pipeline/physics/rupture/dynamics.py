@@ -72,9 +72,9 @@ def pairing(lower, upper):
     """(master, weight, slave_above, length): the finer plate's interface nodes on the segments of the coarser one."""
     above = upper.spacing < lower.spacing
     slave, master = (upper, lower) if above else (lower, upper)
-    place = np.arange(slave.columns) * (slave.spacing / master.spacing)
-    left = np.minimum(np.floor(place + 1e-9).astype(np.int64), master.columns - 2)
-    weight = place - left
+    position = np.arange(slave.columns) * (slave.spacing / master.spacing)
+    left = np.minimum(np.floor(position + 1e-9).astype(np.int64), master.columns - 2)
+    weight = position - left
     weight[np.abs(weight) < 1e-9] = 0.0
     weight[np.abs(weight - 1.0) < 1e-9] = 1.0
     return left, weight, above, slave.spacing * nodal_share(slave.columns)

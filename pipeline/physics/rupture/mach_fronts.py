@@ -70,8 +70,8 @@ def mach_angle_of(velocity, spacing, tip, side, depths, lag):
     x = spacing * np.arange(velocity.shape[2])
     best, angle = -1.0, np.nan
     for behind in np.arange(0.0, lag + 0.25 * spacing, 0.5 * spacing):
-        place = tip - side * (behind + rows[:, None] * spacing / np.tan(angles))
-        stack = np.abs(np.mean([np.interp(p, x, turning[r]) for r, p in zip(rows, place, strict=True)], axis=0))
+        position = tip - side * (behind + rows[:, None] * spacing / np.tan(angles))
+        stack = np.abs(np.mean([np.interp(p, x, turning[r]) for r, p in zip(rows, position, strict=True)], axis=0))
         top = int(stack.argmax())
         if stack[top] > best:
             best, angle = stack[top], angles[top] if 0 < top < angles.size - 1 else np.nan

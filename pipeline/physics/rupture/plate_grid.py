@@ -91,24 +91,24 @@ def edge_impedance(grid):
     pressure = grid.density * dilatational_speed(grid) * grid.spacing
     shear = np.sqrt(grid.density * grid.shear_modulus) * grid.spacing
     impedance = np.zeros((2, grid.rows, grid.columns))
-    for edge, (place, count) in enumerate(_places(grid)):
+    for edge, (nodes, count) in enumerate(_edge_nodes(grid)):
         for axis in (0, 1):
             if grid.edges[edge, axis] == ABSORBING:
-                impedance[axis][place] += (pressure if (edge < 2) == (axis == 0) else shear) * nodal_share(count)
+                impedance[axis][nodes] += (pressure if (edge < 2) == (axis == 0) else shear) * nodal_share(count)
     return impedance
 
 
 def held(grid):
     """(2, rows, columns) True where an edge holds the node."""
     mask = np.zeros((2, grid.rows, grid.columns), dtype=bool)
-    for edge, (place, _) in enumerate(_places(grid)):
+    for edge, (nodes, _) in enumerate(_edge_nodes(grid)):
         for axis in (0, 1):
             if grid.edges[edge, axis] == FIXED:
-                mask[axis][place] = True
+                mask[axis][nodes] = True
     return mask
 
 
-def _places(grid):
+def _edge_nodes(grid):
     every = slice(None)
     return ((every, 0), grid.rows), ((every, -1), grid.rows), ((0, every), grid.columns), ((-1, every), grid.columns)
 

@@ -101,19 +101,19 @@ def solve_together(law, friction, response, elements, laws, contacts, step, free
         for k in range(count):
             settled = settled and abs(step.force[k] - step.end[0, k]) <= TOLERANCE * size + step.rounding[k]
         if settled:
-            motion_at_end(laws.own, step)
+            motion_at_end(laws.response, step)
             return SOLVED, 0
     return UNSETTLED, 0
 
 
 @njit
-def motion_at_end(own, step):
+def motion_at_end(response, step):
     """Fill the elongation and rate at the end: those without the element forces, and what the forces add."""
     for k in range(step.force.size):
         for o in range(2):
             total = step.pressed[o, k]
             for j in range(step.force.size):
-                total += own[o, k, j] * step.force[j]
+                total += response[o, k, j] * step.force[j]
             step.end[o, k] = total
 
 

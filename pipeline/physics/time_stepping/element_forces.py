@@ -47,7 +47,7 @@ class ElementKernel(NamedTuple):
     stiffness: np.ndarray       # (s,) N/m of sliders and Maxwell branches
     limit: np.ndarray           # (s,) N of sliders, s of Maxwell branches
     rows: np.ndarray            # (2 e, 2, m) elongation, then its rate, from the pairs
-    own: np.ndarray             # (2, e, e) of elongation and rate to the forces at the end of the step
+    response: np.ndarray        # (2, e, e) of elongation and rate to the forces at the end of the step
     to_contacts: np.ndarray     # (4, c, e) of the observables of the contacts to these forces
     to_elements: np.ndarray     # (2, e, 2, c) of elongation and rate to the contact forces
     waviness: np.ndarray        # (w, 6) contact, amplitude (m), order, frequency (Hz), phase (rad), growth (s)
@@ -62,7 +62,7 @@ class LawKernel(NamedTuple):
     first: np.ndarray
     stiffness: np.ndarray
     limit: np.ndarray
-    own: np.ndarray
+    response: np.ndarray
 
 
 class ElementStep(NamedTuple):
@@ -81,7 +81,7 @@ class ElementStep(NamedTuple):
 @njit
 def laws_of(kernel):
     """LawKernel of an ElementKernel."""
-    return LawKernel(kernel.kind, kernel.parameter, kernel.first, kernel.stiffness, kernel.limit, kernel.own)
+    return LawKernel(kernel.kind, kernel.parameter, kernel.first, kernel.stiffness, kernel.limit, kernel.response)
 
 
 @njit
@@ -99,7 +99,7 @@ def element_force(kernel, k, elongation, rate, begin, remembered, memory, instan
 
     ``begin`` is the elongation where it remembered ``remembered``.
     """
-    kind, p, one, last = kernel.kind[k], kernel.parameter[k], kernel.first[k], kernel.first[k + 1]
+    kind, p, start, last = kernel.kind[k], kernel.parameter[k], kernel.first[k], kernel.first[k + 1]
     moved = elongation - begin
     if kind == POLYNOMIAL:
         return (elongation * (p[0] + elongation * (p[1] + elongation * p[2])),
@@ -109,7 +109,7 @@ def element_force(kernel, k, elongation, rate, begin, remembered, memory, instan
         return steep * rate, 0.0, p[1] * steep
     if kind == SLIDERS:
         force, slope = p[0] * elongation, p[0]
-        for s in range(one, last):
+        for s in range(start, last):
             trial = remembered[s] + kernel.stiffness[s] * moved
             memory[s] = min(max(trial, -kernel.limit[s]), kernel.limit[s])
             force += memory[s]
@@ -118,12 +118,12 @@ def element_force(kernel, k, elongation, rate, begin, remembered, memory, instan
         return force, slope, 0.0
     if kind == DRY:
         rise = 1.0 + p[3] * np.exp(-abs(rate) / p[4])
-        trial = remembered[one] + p[0] * moved
-        memory[one] = min(max(trial, -p[2] * rise), p[1] * rise)
-        return memory[one], p[0] if memory[one] == trial else 0.0, 0.0
+        trial = remembered[start] + p[0] * moved
+        memory[start] = min(max(trial, -p[2] * rise), p[1] * rise)
+        return memory[start], p[0] if memory[start] == trial else 0.0, 0.0
     if kind == BOUC_WEN:
-        memory[one], slope = _bouc_wen(remembered[one], moved, p[2], p[3], p[4])
-        return p[0] * elongation + p[1] * memory[one], p[0] + p[1] * slope, 0.0
+        memory[start], slope = _bouc_wen(remembered[start], moved, p[2], p[3], p[4])
+        return p[0] * elongation + p[1] * memory[start], p[0] + p[1] * slope, 0.0
     if kind == GAP:
         inner = min(max(elongation, -p[2]), p[3])
         return (p[0] * (elongation - inner) + p[1] * inner, p[1] if -p[2] < elongation < p[3] else p[0], 0.0)
@@ -133,10 +133,10 @@ def element_force(kernel, k, elongation, rate, begin, remembered, memory, instan
     if kind == TURNING:
         return p[2] * rate, 0.0, p[2]
     if kind == MAXWELL:
-        force, slope = _maxwell(kernel, one, last - 1, moved, remembered, memory, instant[0])
+        force, slope = _maxwell(kernel, start, last - 1, moved, remembered, memory, instant[0])
         return p[0] * elongation + force, p[0] + slope, 0.0
-    place, speed = wave(p[2], p[3], p[4], p[5], instant)
-    return -(p[0] * place + p[1] * speed), 0.0, 0.0
+    height, speed = wave(p[2], p[3], p[4], p[5], instant)
+    return -(p[0] * height + p[1] * speed), 0.0, 0.0
 
 
 @njit
@@ -149,7 +149,7 @@ def update_turning_dampers(kernel, friction, slip, rate):
     for k in range(kernel.kind.size):
         if kernel.kind[k] == TURNING:
             p = kernel.parameter[k]
-            i, mobile = int(p[0]), abs(kernel.own[1, k, k])
+            i, mobile = int(p[0]), abs(kernel.response[1, k, k])
             speed = np.hypot(slip[i], rate[k])
             p[2] = p[1] * abs(friction[i]) / speed if speed > 0.0 else 0.0
             if p[2] * mobile > STRONGEST_TURNING:
@@ -157,11 +157,11 @@ def update_turning_dampers(kernel, friction, slip, rate):
 
 
 @njit
-def _maxwell(kernel, one, clock, moved, remembered, memory, time):
-    """(F, dF/de) of the branches ``one:clock`` after ``moved`` m; exact where the rate is constant over the step."""
+def _maxwell(kernel, start, clock, moved, remembered, memory, time):
+    """(F, dF/de) of the branches ``start:clock`` after ``moved`` m; exact where the rate is constant over the step."""
     passed, force, slope = time - remembered[clock], 0.0, 0.0
     memory[clock] = time
-    for s in range(one, clock):
+    for s in range(start, clock):
         relaxed = -np.expm1(-passed / kernel.limit[s])
         share = kernel.stiffness[s] * relaxed * kernel.limit[s] / passed if passed > 0.0 else 0.0
         memory[s] = (1.0 - relaxed) * remembered[s] + share * moved
@@ -207,8 +207,8 @@ def solve_elements(laws, step, instant):
             elongation, rate = step.pressed[0, k], step.pressed[1, k]
             for j in range(count):
                 if j != k:
-                    elongation += laws.own[0, k, j] * force[j]
-                    rate += laws.own[1, k, j] * force[j]
+                    elongation += laws.response[0, k, j] * force[j]
+                    rate += laws.response[1, k, j] * force[j]
             result, rounding[k], code = _solve_element(laws, k, elongation, rate, step.begin[0, k], step.memory_begin,
                                                        step.memory, force[k], instant)
             if code != SOLVED:
@@ -224,7 +224,7 @@ def solve_elements(laws, step, instant):
 @njit(inline="always")
 def _solve_element(laws, k, elongation_free, rate_free, begin, memory_begin, memory, guess, instant):
     """(F, its rounding, code) of element ``k``, from elongation and rate without its own force."""
-    give, mobile, force = laws.own[0, k, k], laws.own[1, k, k], guess
+    give, mobile, force = laws.response[0, k, k], laws.response[1, k, k], guess
     for _ in range(ITERATIONS):
         elongation, rate = elongation_free + give * force, rate_free + mobile * force
         value, slope, drag = element_force(laws, k, elongation, rate, begin, memory_begin, memory, instant)

@@ -207,7 +207,7 @@ def _remembered(law):
 def alone(elements):
     """ElementKernel of Elements that stand for themselves: their force laws, without bodies or a step."""
     count = len(elements)
-    return element_kernel(elements, (), rows=np.zeros((2 * count, 2, 1)), own=np.zeros((2, count, count)),
+    return element_kernel(elements, (), rows=np.zeros((2 * count, 2, 1)), response=np.zeros((2, count, count)),
                           to_contacts=np.zeros((4, 0, count)), to_elements=np.zeros((2, count, 2, 0)))
 
 

@@ -41,22 +41,23 @@ def steady_start(model, law, friction, inputs):
     sign, closed, force = np.sign(model.sliding_speed), ~fixed, contacts.preload
     for _ in range(_ROUNDS):
         grown = factors(states, started(states, force, model.sliding_speed), 0.0)
-        drawn = sign * grown * coefficients(friction, model.sliding_speed, force / contacts.area)
+        ratio = sign * grown * coefficients(friction, model.sliding_speed, force / contacts.area)
         give, offset = closing(law, force, contacts.area)
-        held = load + (drawn * force)[fixed] @ contacts.tangent[fixed] - rest
-        pushed = contacts.normal + drawn[:, None] * contacts.tangent
-        place, found = _solve(stiffness + slope, held, contacts.normal, pushed, gap + offset, give, closed)
-        found = np.where(fixed, force, found)
-        wanted = np.where(closed, found > 0, gap + contacts.normal @ place < 0) & ~fixed
-        settled = abs(found - force).max(initial=0.0) <= _TOLERANCE * abs(found).max(initial=0.0)
+        held = load + (ratio * force)[fixed] @ contacts.tangent[fixed] - rest
+        pushed = contacts.normal + ratio[:, None] * contacts.tangent
+        displacement, solved = _solve(stiffness + slope, held, contacts.normal, pushed, gap + offset, give, closed)
+        solved = np.where(fixed, force, solved)
+        wanted = np.where(closed, solved > 0, gap + contacts.normal @ displacement < 0) & ~fixed
+        settled = abs(solved - force).max(initial=0.0) <= _TOLERANCE * abs(solved).max(initial=0.0)
         if model.elements:
-            counted = rest + slope @ place if np.ndim(slope) else np.zeros(model.size)
-            rest, slope, memory = _drawn(elements, model, place)
-            error = rest + slope @ place - counted
-            settled = settled and abs(error).max() <= _TOLERANCE * max(abs(held).max(), abs(stiffness @ place).max())
-        if settled and np.array_equal(wanted, closed | ((found > 0) & ~fixed)):
-            return Start(place, np.zeros(model.size), found, drawn * found, memory)
-        closed, force = wanted, np.where(wanted | fixed, found, 0.0)
+            counted = rest + slope @ displacement if np.ndim(slope) else np.zeros(model.size)
+            rest, slope, memory = _drawn(elements, model, displacement)
+            error = rest + slope @ displacement - counted
+            scale = max(abs(held).max(), abs(stiffness @ displacement).max())
+            settled = settled and abs(error).max() <= _TOLERANCE * scale
+        if settled and np.array_equal(wanted, closed | ((solved > 0) & ~fixed)):
+            return Start(displacement, np.zeros(model.size), solved, ratio * solved, memory)
+        closed, force = wanted, np.where(wanted | fixed, solved, 0.0)
     raise ConvergenceError("steady sliding", "forces that press on every closed contact", "none",
                            "lower friction or change the tilt (friction that locks has no steady sliding), or start at"
                            " rest")
@@ -69,16 +70,16 @@ def _waves(contacts):
     return shift[0]
 
 
-def _drawn(elements, model, place):
-    """(F - S q (n,), S (n, n), memory) of the elements at rest at ``place`` (n,), S the slope of F there."""
+def _drawn(elements, model, displacement):
+    """(F - S q (n,), S (n, n), memory) of the elements at rest at ``displacement`` (n,), S the slope of F there."""
     rows = np.array([e.row for e in model.elements])
     memory, none = no_memory(elements), no_memory(elements)
     force, slope = np.zeros((2, len(rows)))
     for k, row in enumerate(rows):
         if elements.kind[k] != DRY:
-            force[k], slope[k], _ = element_force(elements, k, float(row @ place), 0.0, 0.0, none, memory,
+            force[k], slope[k], _ = element_force(elements, k, float(row @ displacement), 0.0, 0.0, none, memory,
                                                   (0.0, 0.0, model.speed))
-    return rows.T @ (force - slope * (rows @ place)), (rows.T * slope) @ rows, memory
+    return rows.T @ (force - slope * (rows @ displacement)), (rows.T * slope) @ rows, memory
 
 
 def random_kick(system, sensor_rows, velocity, seed):
@@ -103,7 +104,7 @@ def _solve(stiffness, load, normal, pushed, gap, give, closed):
     if np.linalg.cond(scaled, 1) > 1 / np.finfo(float).eps:
         raise ConfigError("steady sliding", "joints and closed contacts that hold every body", "a body that is free",
                           "support it, press it on, or start at rest")
-    found = weight * np.linalg.solve(scaled, weight * np.r_[load, -gap[active]])
+    solution = weight * np.linalg.solve(scaled, weight * np.r_[load, -gap[active]])
     force = np.zeros(len(closed))
-    force[active] = found[size:]
-    return found[:size], force
+    force[active] = solution[size:]
+    return solution[:size], force

@@ -29,9 +29,9 @@ def linear_kernel(model, system, law, dry, step):
     if gamma is not None:
         hold[:] = False
     for f in np.flatnonzero(hold):
-        own = slice(f * count, (f + 1) * count)
-        flown = step * np.einsum("bxy,ryb->rxb", matrices[0], forced[own])
-        last[own], first[own] = flown if kicks else first[own] + last[own], 0.0
+        block = slice(f * count, (f + 1) * count)
+        flown = step * np.einsum("bxy,ryb->rxb", matrices[0], forced[block])
+        last[block], first[block] = flown if kicks else first[block] + last[block], 0.0
     rows = np.concatenate([system.observed(r) for r in (contacts.normal, contacts.tangent)])
     response = np.einsum("oibx,fjbx->ofij", rows, last[:2 * count].reshape(2, count, *last.shape[1:]))
     struck = step * np.repeat(hold, count)[:, None, None] * forced[:2 * count]
@@ -53,7 +53,7 @@ def elements_kernel(model, system, linear):
     seen = system.observed(_element_rows(model))
     drawn, pressed = linear.last[len(linear.last) - elements:], linear.last[:2 * count]
     contact_rows = linear.rows.reshape(4, count, *linear.rows.shape[1:])
-    arrays = {"rows": _stacked(seen), "own": np.einsum("oeax,fax->oef", seen, drawn),
+    arrays = {"rows": _stacked(seen), "response": np.einsum("oeax,fax->oef", seen, drawn),
               "to_contacts": np.einsum("ocax,fax->ocf", contact_rows, drawn),
               "to_elements": np.einsum("oeax,fax->oef", seen, pressed).reshape(2, elements, 2, count)}
     return element_kernel(model.elements, contacts.waviness, wear, **{n: contiguous(a) for n, a in arrays.items()})
@@ -68,9 +68,10 @@ def _forms(system):
     """Quadratic forms (2m, 2m) of energy and loss in coupled pairs; empty where the modes are the pairs."""
     if not system.coupled:
         return np.empty((0, 0)), np.empty((0, 0))
-    place, speed = np.split(system.state.reshape(len(system.state), -1), 2)
-    drag = (system.damping + system.damping.T) / 2
-    return (speed.T @ speed + place.T @ (system.squared[:, None] * place)) / 2, speed.T @ drag @ speed
+    displacement, velocity = np.split(system.state.reshape(len(system.state), -1), 2)
+    damping = (system.damping + system.damping.T) / 2
+    energy = (velocity.T @ velocity + displacement.T @ (system.squared[:, None] * displacement)) / 2
+    return energy, velocity.T @ damping @ velocity
 
 
 def refuse(system, linear, normal, dry, states, model, step):
@@ -88,10 +89,10 @@ def refuse(system, linear, normal, dry, states, model, step):
             raise ConfigError(f"time stepping: contact {i}", "bodies that its normal force moves", "none")
         if normal.newmark:
             continue
-        found = [normal.stiffness[i] * linear.response[0, 0, i, i]]
+        products = [normal.stiffness[i] * linear.response[0, 0, i, i]]
         if dry.description != RIGID:
-            found.append(dry.contact[i, STIFFNESS] * linear.response[2, 1, i, i])
-        if max(found) > LARGEST_STIFFNESS:
-            longest = step * np.sqrt(LARGEST_STIFFNESS / max(found))
+            products.append(dry.contact[i, STIFFNESS] * linear.response[2, 1, i, i])
+        if max(products) > LARGEST_STIFFNESS:
+            longest = step * np.sqrt(LARGEST_STIFFNESS / max(products))
             raise ConfigError("time stepping: step", f"at most about {longest:.2g} s for the stiffness of contact {i}",
                               f"{step:.3g} s", "shorten the step, soften the contact, or take hard contacts")

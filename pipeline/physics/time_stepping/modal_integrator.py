@@ -141,26 +141,26 @@ def _pairs(squared, damping):
     blocks, state, pairs = np.zeros((count, 2, 2)), np.zeros((2 * count, 2, count)), np.zeros((2, count, 2 * count))
     linked = abs(damping) > _COUPLING * abs(damping).max(initial=0.0)
     if not linked[~np.eye(count, dtype=bool)].any():
-        own, unit = np.arange(count), np.zeros((count, 2, 2, count))
+        members, unit = np.arange(count), np.zeros((count, 2, 2, count))
         blocks[:, 0, 1], blocks[:, 1, 0], blocks[:, 1, 1] = 1.0, -squared, -np.diag(damping)
-        unit[own, 0, 0, own] = unit[own, 1, 1, own] = 1.0
+        unit[members, 0, 0, members] = unit[members, 1, 1, members] = 1.0
         state = unit.swapaxes(0, 1).reshape(2 * count, 2, count)
         return blocks, state, np.ascontiguousarray(state.transpose(1, 2, 0)), False
     groups, label = scipy.sparse.csgraph.connected_components(linked, directed=False)
     for group in range(groups):
-        own = np.flatnonzero(label == group)
-        both = np.concatenate((own, own + count))
-        matrix = np.block([[np.zeros((len(own),) * 2), np.eye(len(own))],
-                           [-np.diag(squared[own]), -damping[np.ix_(own, own)]]])
-        if len(own) == 1:
-            split, blocks[own[0]] = np.eye(2), matrix
+        members = np.flatnonzero(label == group)
+        both = np.concatenate((members, members + count))
+        matrix = np.block([[np.zeros((len(members),) * 2), np.eye(len(members))],
+                           [-np.diag(squared[members]), -damping[np.ix_(members, members)]]])
+        if len(members) == 1:
+            split, blocks[members[0]] = np.eye(2), matrix
         else:
-            split, blocks[own] = _split(matrix)
-        placed = np.arange(2 * len(own)).reshape(len(own), 2)   # columns of the pairs of the group
+            split, blocks[members] = _split(matrix)
+        columns = np.arange(2 * len(members)).reshape(len(members), 2)   # columns of the pairs of the group
         inverse = np.linalg.inv(split)
-        for place, pair in zip(own, placed, strict=True):
-            state[both, :, place] = split[:, pair]
-            pairs[:, place, both] = inverse[pair]
+        for member, pair in zip(members, columns, strict=True):
+            state[both, :, member] = split[:, pair]
+            pairs[:, member, both] = inverse[pair]
     return blocks, state, pairs, groups < count
 
 
@@ -172,9 +172,9 @@ def _split(matrix):
     for k in upper:
         columns += [vector[:, k].real, vector[:, k].imag]
         blocks.append([[value[k].real, value[k].imag], [-value[k].imag, value[k].real]])
-    for one, other in real.reshape(-1, 2):
-        columns += [vector[:, one].real, vector[:, other].real]
-        blocks.append(np.diag(value[[one, other]].real))
+    for first, second in real.reshape(-1, 2):
+        columns += [vector[:, first].real, vector[:, second].real]
+        blocks.append(np.diag(value[[first, second]].real))
     basis = np.column_stack(columns)
     rows = np.linalg.norm(basis, axis=1, keepdims=True)
     condition = np.linalg.cond(basis / np.where(rows > 0, rows, 1.0))

@@ -84,7 +84,7 @@ def normal_kernel(law, contacts):
     if len(shared) > 1:
         raise ConfigError("time stepping: laws of contact groups", "one restitution and one gamma", "several")
     restitution, gamma = shared.pop()
-    tables = [(each, own) for each, own in laws if isinstance(each, Table)]
+    tables = [(each, members) for each, members in laws if isinstance(each, Table)]
     closure, pressure, first = _stacked_tables(tables, count, fill=-1 if tables else 0)
     kind = {Hard: HARD, Penalty: PENALTY, Table: TABLE, Lagrange: LAGRANGE, Forward: LAGRANGE}[
         Table if tables else kinds.pop()]
@@ -116,8 +116,8 @@ def _stacked_tables(tables, count, fill):
     closure = contiguous(tables[0][0].closure)
     if len(tables) > 1:
         closure = np.unique(np.concatenate([table.closure for table, _ in tables]))
-    for k, (_, own) in enumerate(tables):
-        first[own] = k * len(closure)
+    for k, (_, members) in enumerate(tables):
+        first[members] = k * len(closure)
     return closure, np.concatenate([table.at(closure) for table, _ in tables]), first
 
 
@@ -134,26 +134,27 @@ def normal_force(kernel, gap, rate):
 def closing(law, force, area):
     """(slope, rest) (c,) of the closure of contacts about their ``force``: c = slope N + rest; 0 where none yields."""
     slope, rest = np.zeros((2, len(force)))
-    for each, own in parts(law, len(force)):
+    for each, members in parts(law, len(force)):
         if isinstance(each, Penalty):
-            slope[own] = np.broadcast_to(1 / np.asarray(each.stiffness, float), len(force))[own]
+            slope[members] = np.broadcast_to(1 / np.asarray(each.stiffness, float), len(force))[members]
         elif isinstance(each, Table):
-            closure, pressure, k = _row(each, force[own] / area[own])
+            closure, pressure, k = _row(each, force[members] / area[members])
             give = (closure[k + 1] - closure[k]) / (pressure[k + 1] - pressure[k])
-            slope[own], rest[own] = give / area[own], closure[k] - give * pressure[k]
+            slope[members], rest[members] = give / area[members], closure[k] - give * pressure[k]
     return slope, rest
 
 
 def tangent(law, force, area):
     """(stiffness, damping) (c,) about the ``force`` on contacts, 0 where open; ConfigError where one cannot yield."""
     stiffness, damping = np.zeros((2, len(force)))
-    for each, own in parts(law, len(force)):
+    for each, members in parts(law, len(force)):
         if isinstance(each, Penalty):
-            stiffness[own], damping[own] = (np.broadcast_to(v, len(force))[own] for v in (each.stiffness, each.damping))
+            stiffness[members], damping[members] = (np.broadcast_to(v, len(force))[members]
+                                                    for v in (each.stiffness, each.damping))
         elif isinstance(each, Table):
-            stiffness[own] = area[own] * _slope(each, force[own] / area[own])
-            damping[own] = force[own] / each.damping_speed
-        elif np.any(force[own] > 0):
+            stiffness[members] = area[members] * _slope(each, force[members] / area[members])
+            damping[members] = force[members] / each.damping_speed
+        elif np.any(force[members] > 0):
             raise ConfigError("small motions about steady sliding", "contacts that yield", type(each).__name__,
                               "give them a stiffness")
     return tuple(np.where(force > 0, each, 0.0) for each in (stiffness, damping))
@@ -179,7 +180,7 @@ def force_along(law, i, area, closure, closing):
 
     ``area`` is that of all contacts. ConfigError where the contact does not yield.
     """
-    each = next(each for each, own in parts(law, len(area)) if i in own)
+    each = next(each for each, members in parts(law, len(area)) if i in members)
     shut = np.maximum(closure, 0.0)
     if isinstance(each, Penalty):
         stiffness, damping = (np.broadcast_to(v, len(area))[i] for v in (each.stiffness, each.damping))

@@ -233,9 +233,9 @@ def _failure(code, time, contact, step, model):
         return ConfigError(f"{where}: step", "at least 8 steps in a period of the contact", f"steps of {step:.3g} s",
                            "shorten the step, or soften the contact")
     if code == JAMMED:
-        return ConvergenceError(where, "contact forces that stop the approach", "friction that jams the contact",
+        return ConvergenceError(where, "a solvable contact problem", "frictional wedging (jamming)",
                                 "lower friction, change the tilt, or let the contact yield")
     if code == UNCONVERGED:
         return ConvergenceError(where, "contact forces that settle", "none after the last sweep", "take a shorter step")
-    return ConvergenceError(f"time stepping at t = {time:.6g} s", "a finite motion", "one that grows without bound",
-                            "take a shorter step, or look for what drives the motion")
+    return ConvergenceError(f"time stepping at t = {time:.6g} s", "a finite motion", "unbounded growth",
+                            "take a shorter step, or look for an unphysical source of energy")

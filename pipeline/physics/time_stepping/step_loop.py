@@ -140,7 +140,7 @@ def integrate(system, schedule, state, record):
     free, observed, held, sliding, way = contact.free, contact.begin, contact.held, contact.drive, contact.way
     free_flat, observed_flat, held_flat, force_flat = free.ravel(), observed.ravel(), held.ravel(), force.ravel()
     elongation, elongation_flat, elongation_end = element.begin, element.begin.ravel(), element.end.ravel()
-    element_free, element_pressed, own = element.free.ravel(), element.pressed.ravel(), elements.own
+    element_free, element_pressed, element_response = element.free.ravel(), element.pressed.ravel(), elements.response
     element_force, element_force_begin = element.force, np.zeros(count_e)
     after, steady, kicked = np.zeros_like(pairs), np.zeros_like(pairs), np.zeros_like(pairs)
     pairs_flat, after_flat, kicked_flat = pairs.ravel(), after.ravel(), kicked.ravel()
@@ -231,7 +231,7 @@ def integrate(system, schedule, state, record):
                 else:
                     copy(element_free, element_pressed)
                     code, where = solve_elements(laws, element, instant)
-                    motion_at_end(own, element)
+                    motion_at_end(element_response, element)
                 if code != SOLVED:
                     return code, number, where
                 add_forces(element_last, element_force, after)

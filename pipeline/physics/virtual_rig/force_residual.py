@@ -116,16 +116,17 @@ def _elements(model, motion, speed, instants, drawn, slip):
 
 
 @njit
-def _along(kernel, place, rate, instants, memory, drawn, slip):
-    """Forces (e, samples) along elongations ``place`` and their ``rate`` (e, samples)."""
-    force, after = np.zeros_like(place), memory.copy()
-    for s in range(place.shape[1]):
+def _along(kernel, elongation, rate, instants, memory, drawn, slip):
+    """Forces (e, samples) along ``elongation`` and its ``rate`` (e, samples)."""
+    force, memory_end = np.zeros_like(elongation), memory.copy()
+    for s in range(elongation.shape[1]):
         instant = (instants[s, 0], instants[s, 1], instants[s, 2])
         update_turning_dampers(kernel, drawn[:, s], slip[:, s], rate[:, s])
-        for k in range(place.shape[0]):
-            begin = place[k, max(s - 1, 0)]
-            force[k, s] = element_force(kernel, k, place[k, s], rate[k, s], begin, memory, after, instant)[0]
-        memory[:] = after
+        for k in range(elongation.shape[0]):
+            begin = elongation[k, max(s - 1, 0)]
+            force[k, s] = element_force(kernel, k, elongation[k, s], rate[k, s], begin, memory, memory_end, instant)[0]
+        for k in range(memory.size):
+            memory[k] = memory_end[k]
     return force
 
 

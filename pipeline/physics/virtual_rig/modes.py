@@ -31,8 +31,8 @@ def modes(bench, run):
     values, vectors = _eigen(matrix.tobytes(), len(matrix))
     kept = np.flatnonzero(values.imag > 0)
     kept = kept[by_frequency(values[kept])]
-    root, place = values[kept], vectors[:held.model.size, kept].T
-    shown = [root * (place @ held.sensor(c.source, f"channel {c.name}: sensor")) * c.gain * np.exp(-root * c.delay)
+    root, shape = values[kept], vectors[:held.model.size, kept].T
+    shown = [root * (shape @ held.sensor(c.source, f"channel {c.name}: sensor")) * c.gain * np.exp(-root * c.delay)
              for c in motions(bench)]
     return root, np.reshape(shown, (-1, len(root))).T
 

@@ -233,16 +233,16 @@ def _history(values, run):
 
 def _watched(bench):
     """({channel: sensor row}, model): the model with a sensor for every channel that needs a motion."""
-    model, rows, place = bench.model, [], {}
+    model, rows, index = bench.model, [], {}
     for channel in bench.channels:
         if channel.quantity in MOTIONS:
-            place[channel.name] = len(rows)
+            index[channel.name] = len(rows)
             rows.append(bench.sensor(channel.source, f"channel {channel.name}: sensor"))
         elif channel.quantity == "joint_force":
-            place[channel.name] = len(rows)
+            index[channel.name] = len(rows)
             rows.append(bench.joint(channel.source)[0])
     rows = np.reshape(np.array(rows, float), (-1, model.size))
-    return place, replace(model, sensor_name=tuple(place), sensor_rows=rows)
+    return index, replace(model, sensor_name=tuple(index), sensor_rows=rows)
 
 
 def _looked_at(bench, run, channel, motion, seen, inputs, step):
@@ -277,5 +277,6 @@ def at_instants(means):
 
 def _known(name, names, where):
     if name not in names:
-        raise ConfigError(f"bench: {where}", f"one of {', '.join(names) or 'none that are there'}", repr(name))
+        raise ConfigError(f"bench: {where}", f"one of {', '.join(names)}" if names else "a name, but the model defines none",
+                          repr(name))
     return name

@@ -37,7 +37,7 @@ def compiled(*laws, own=None):
     count = len(laws)
     own = np.zeros((2, count, count)) if own is None else np.asarray(own, float)
     return element_kernel(tuple(Element(f"law_{k}", np.ones(1), law) for k, law in enumerate(laws)), (),
-                          rows=np.zeros((2 * count, 2, 1)), own=own, to_contacts=np.zeros((4, 0, count)),
+                          rows=np.zeros((2 * count, 2, 1)), response=own, to_contacts=np.zeros((4, 0, count)),
                           to_elements=np.zeros((2, count, 2, 0)))
 
 
