@@ -277,6 +277,6 @@ def at_instants(means):
 
 def _known(name, names, where):
     if name not in names:
-        raise ConfigError(f"bench: {where}", f"one of {', '.join(names)}" if names else "a name, but the model defines none",
-                          repr(name))
+        expected = f"one of {', '.join(names)}" if names else "a name that the model defines; it defines none"
+        raise ConfigError(f"bench: {where}", expected, repr(name))
     return name
