@@ -11,10 +11,13 @@ import textwrap
 from dataclasses import fields
 from pathlib import Path
 
+import click
 import numpy as np
 import pytest
 
+import stages
 from pipeline import products
+from pipeline.cli.main import cli
 from pipeline.contract.product import is_product
 from pipeline.effects.effect import null_values
 from pipeline.physics.virtual_rig.response import respond
@@ -52,6 +55,25 @@ def test_links_between_documents_lead_somewhere():
     for page in (*ROOT.glob("*.md"), *ROOT.glob("docs/**/*.md")):
         for target in re.findall(r"\]\(([^)#:]+)(?:#[^)]*)?\)", page.read_text()):
             assert (page.parent / target).exists(), f"{page.relative_to(ROOT)}: {target}"
+
+
+def test_documented_commands_and_targets_exist():
+    pages = (*ROOT.glob("*.md"), *ROOT.glob("docs/**/*.md"), *ROOT.glob("configs/*.yaml"))
+    texts = [page.read_text() for page in pages]
+    context = click.Context(cli)
+    command_form = re.compile(r"(?:^[# ]+|`)brakechain ([a-z_-]+)(?: ([a-z_]+))?", re.MULTILINE)
+    commands = {words for text in texts for words in command_form.findall(text)}
+    assert len(commands) > 15
+    for name, word in commands:
+        command = cli.get_command(context, name)
+        assert command, f"brakechain {name}"
+        if isinstance(command, click.Group) and word:
+            assert command.get_command(context, word), f"brakechain {name} {word}"
+    makefile = (ROOT / "Makefile").read_text()
+    targets = {*re.findall(r"^([a-z_-]+):", makefile, re.MULTILINE), *stages.NAMES}
+    documented_targets = {name for text in texts for name in re.findall(r"(?:^[# ]+|`)make ([a-z][a-z_-]*)", text, re.M)}
+    assert len(documented_targets) > 8
+    assert not documented_targets - targets
 
 
 @pytest.mark.exact
