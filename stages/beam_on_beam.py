@@ -67,7 +67,7 @@ class Contact(Section):
     force: Quantity("N", gt=0) = option("9 N", "force at A along -y, which presses the beams together")
 
 
-class Sensor(Section):
+class ReadingPoint(Section):
     """Point B."""
 
     height: Quantity("m", gt=0) = option("40 mm", "distance of point B from the tip, along the slider")
@@ -81,7 +81,7 @@ class Settings(Section):
     track: Track = option(Track(), "beam P2")
     material: Material = option(Material(), "steel of both beams")
     contact: Contact = option(Contact(), "contact of the beams and its load")
-    sensor: Sensor = option(Sensor(), "point whose velocity along x is read")
+    sensor: ReadingPoint = option(ReadingPoint(), "point whose velocity along x is read")
     modes_below: Quantity("Hz", gt=0) = option("50 kHz", "limit of the modes of each beam")
     residual_below: Quantity("Hz", gt=0) = option("150 kHz", "limit of the residual shapes for the contact forces")
     coalescences_below: Quantity("Hz", gt=0) = option("10 kHz", "limit of the search for coalescing modes")

@@ -109,7 +109,7 @@ class Input(Section):
                                      discriminator="kind")
 
 
-class Sensor(Section):
+class SensorSettings(Section):
     """What is measured along a combination."""
 
     along: dict[str, str | float] = option(..., "displacement that the sensor sees")
@@ -139,7 +139,7 @@ class Settings(Section):
     contacts: dict[str, Contact] = option({}, "contacts and friction joints")
     gyros: dict[str, Gyro] = option({}, "masses that turn with the drive")
     inputs: dict[str, Input] = option({}, "forces and imposed displacements")
-    sensors: dict[str, Sensor] = option({}, "sensors")
+    sensors: dict[str, SensorSettings] = option({}, "sensors")
     drive: Drive | None = option(None, "speed of the drive over time; none = constant")
     load_factors: Quantities("Pa", gt=0) = option(("1 Pa",), "states: constant inputs times these, 1 Pa = as given")
     histories: Histories = option(Histories(), "samples of the time histories")

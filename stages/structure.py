@@ -115,7 +115,7 @@ class Joints(Section):
     spot_size: Quantity("m", gt=0) = option("6 mm", "size of a bearing spot")
 
 
-class Sensor(Section):
+class LaserPoint(Section):
     """A laser point on the friction ring."""
 
     name: str = option(..., "name of the sensor")
@@ -132,7 +132,7 @@ class Settings(Section):
     pad: Pad = option(Pad(), "both pads")
     caliper: Caliper = option(Caliper(), "caliper")
     joints: Joints = option(Joints(), "joints")
-    sensors: tuple[Sensor, ...] = option(
+    sensors: tuple[LaserPoint, ...] = option(
         tuple({"name": f"ring_{angle}", "radius": "150 mm", "angle": f"{angle} deg"} for angle in (90, 120, 150, 210)),
         "points on the friction ring", min_length=1)
     pressures: Quantities("Pa", gt=0) = option(("1 MPa", "2 MPa", "3 MPa"), "nominal pad pressures of the preload")

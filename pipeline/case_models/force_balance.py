@@ -12,7 +12,8 @@ from pipeline.case_models.runs import Recorded
 from pipeline.contract import ConfigError
 from pipeline.physics.time_stepping.simulate import Start
 from pipeline.physics.virtual_rig.force_residual import applied_force, coordinates, forces_missing, smoothed, thinned
-from pipeline.physics.virtual_rig.response import MOTIONS, Run
+from pipeline.physics.virtual_rig.response import Run
+from pipeline.physics.virtual_rig.sensor import DISPLACEMENT
 
 #: samples of the parabola whose slope is the speed at the start
 _FIRST = 7
@@ -99,7 +100,7 @@ def started(bench, runs, settings):
 
 def _displacements(bench, run):
     """{channel: (samples,)} of the displacement channels; ConfigError where samples are missing."""
-    shown = {c.name for c in bench.channels if c.quantity == MOTIONS[0]}
+    shown = {c.name for c in bench.channels if c.measurand == DISPLACEMENT}
     for channel, valid in zip(run.channels, run.valid, strict=True):
         if channel in shown and not valid.all():
             raise ConfigError(f"run {run.run.name}: {channel}", "no missing samples, because they are differentiated",

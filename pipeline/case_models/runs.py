@@ -11,6 +11,7 @@ import numpy as np
 
 from pipeline.contract import ConfigError
 from pipeline.physics.virtual_rig.response import Run
+from pipeline.physics.virtual_rig.sensor import measurand
 
 
 @dataclass(frozen=True)
@@ -99,18 +100,13 @@ def valid(channel):
     return kept
 
 
-def unit_of(quantity):
-    """SI unit of what a channel shows, gain left out: of a motion, or of a force."""
-    return {"displacement": "m", "velocity": "m/s", "acceleration": "m/s^2"}.get(quantity, "N")
-
-
 def check_units(runs, settings):
     """Refuse channels whose unit is not that of the quantity which the case says they show."""
     for name, recorded_run in runs.items():
         for channel, unit in zip(recorded_run.channels, recorded_run.unit, strict=True):
-            quantity, gain = settings.channels[channel].quantity, settings.channels[channel].gain
-            wanted = unit_of(quantity)
-            if unit != wanted and gain == 1.0:
+            shown = settings.channels[channel]
+            wanted = measurand(shown.quantity, f"bench.channels.{channel}.quantity").unit
+            if unit != wanted and shown.gain == 1.0:
                 raise ConfigError(f"bench.channels.{channel}",
-                                  f"a recorded unit of {wanted}, because it shows {quantity}", f"{unit} in run {name}",
-                                  "state its gain, or convert the recording")
+                                  f"a recorded unit of {wanted}, because it shows {shown.quantity}",
+                                  f"{unit} in run {name}", "state its gain, or convert the recording")

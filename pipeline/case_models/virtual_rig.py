@@ -10,13 +10,14 @@ from pipeline.case_models.laws import Laws, friction_law, normal_law
 from pipeline.contract import ConfigError, Quantity, Section, option
 from pipeline.physics.sliding.doublets import doublets
 from pipeline.physics.sliding.model import sliding_model
-from pipeline.physics.virtual_rig.response import FORCES, MOTIONS, Bench, Channel
+from pipeline.physics.virtual_rig.response import Bench
+from pipeline.physics.virtual_rig.sensor import MEASURANDS, Sensor, measurand
 
 
-class Sensor(Section):
+class ChannelSettings(Section):
     """What a recorded channel shows of the model."""
 
-    quantity: str = option(..., f"one of {', '.join(MOTIONS + FORCES)}")
+    quantity: str = option(..., f"one of {', '.join(MEASURANDS)}")
     source: str = option(..., "sensor, joint, contact group, element or input whose quantity it shows")
     gain: float = option(1.0, "in SI units shown per SI unit")
     delay: Quantity("s", ge=0) = option("0 s", "delay")
@@ -63,7 +64,7 @@ class Settings(Laws):
     equation: Equation = option(Equation(), "how that is done")
     step: Quantity("s", gt=0) = option("0.1 ms", "longest time step; samples are divided evenly")
     speed: Quantity("rad/s") = option("1 rad/s", "speed of the drive where a run tells none")
-    channels: dict[str, Sensor] = option({}, "recorded channel: what it shows")
+    channels: dict[str, ChannelSettings] = option({}, "recorded channel: what it shows")
     inputs: dict[str, Fed] = option({}, "input of the model: the recorded channel that feeds it")
     drive: Fed | None = option(None, "recorded channel with the speed of the drive in rad/s (belts: m/s)")
     settled: bool = option(False, "runs start in steady sliding under their first inputs, else at rest")
@@ -77,11 +78,11 @@ class Settings(Laws):
 
 def built(model, settings):
     """The Bench of a product ReducedModel and a filled section, without effects. ConfigError for unknown names."""
-    channels = tuple(_channel(name, sensor) for name, sensor in settings.channels.items())
+    channels = tuple(_sensor(name, given) for name, given in settings.channels.items())
     bench = about(model, settings, "bench", settings.state, settings.speed, settings.step)
     bench = replace(bench, channels=channels, settled=settings.settled)
-    for channel in bench.channels:
-        _check_source(bench, channel)
+    for sensor in bench.channels:
+        _check_source(bench, sensor)
     return corrections.corrected(bench, corrections.read(bench, settings.corrections, "bench.corrections"))
 
 
@@ -105,20 +106,18 @@ def groups(model):
     return {name: tuple(k for k, g in enumerate(rubbed) if g == name) for name in names} if len(names) > 1 else {}
 
 
-def _channel(name, sensor):
-    return Channel(name, sensor.quantity, sensor.source, sensor.gain, sensor.delay,
-                   corner=np.inf if sensor.corner is None else sensor.corner,
-                   limit=np.inf if sensor.limit is None else sensor.limit)
+def _sensor(name, settings):
+    return Sensor(name, measurand(settings.quantity, f"bench.channels.{name}.quantity"), settings.source,
+                  settings.gain, settings.delay, corner=np.inf if settings.corner is None else settings.corner,
+                  limit=np.inf if settings.limit is None else settings.limit)
 
 
-def _check_source(bench, channel):
-    known = {"joint_force": bench.model.joints.name, "normal_force": ("contact", *bench.groups),
-             "friction_force": ("contact", *bench.groups), "input": bench.model.input_name,
-             "element_force": None}.get(channel.quantity, bench.model.sensor_name)
-    if known is not None and channel.source not in known:
-        raise ConfigError(f"bench.channels.{channel.name}.source",
-                          f"one of {', '.join(known) or 'none that are there'}",
-                          repr(channel.source), "name a part of the model, or add it")
+def _check_source(bench, sensor):
+    names = sensor.measurand.sources(bench)
+    if sensor.measurand.in_model and sensor.source not in names:
+        raise ConfigError(f"bench.channels.{sensor.name}.source",
+                          f"one of {', '.join(names)}" if names else "one that the model defines",
+                          repr(sensor.source), "name a part of the model, or add it")
 
 
 def only(bench, names):

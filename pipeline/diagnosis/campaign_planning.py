@@ -10,7 +10,6 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from pipeline.case_models.runs import unit_of
 from pipeline.case_models.virtual_rig import only
 from pipeline.contract import ConfigError
 from pipeline.contract.units import to_si
@@ -96,7 +95,7 @@ def planned_runs(bench, settings):
 
 def channel_units(bench):
     """{channel: SI unit} of what the channels of a bench show, gain left out."""
-    return {c.name: unit_of(c.quantity) for c in bench.channels}
+    return {c.name: c.measurand.unit for c in bench.channels}
 
 
 def _sweep(time, given):

@@ -8,7 +8,8 @@ from pipeline.contract.errors import ConfigError
 from pipeline.effects.contact.contact_surface import sliding_angle
 from pipeline.physics.contact.groups import parts
 from pipeline.physics.time_stepping.simulate import Penalty, Table
-from pipeline.physics.virtual_rig.response import Channel, respond, run_drive, run_inputs
+from pipeline.physics.virtual_rig.response import respond, run_drive, run_inputs
+from pipeline.physics.virtual_rig.sensor import DISPLACEMENT, NORMAL_FORCE, VELOCITY, Sensor
 
 #: kinds of location that an effect can have: ``contact`` is a group of contacts, ``contacts`` all together, ``pressed
 #: contact`` a group that can open (a friction joint cannot), ``contact row`` one whose contacts lie one behind the
@@ -85,9 +86,9 @@ def typical(kind, bench, location, runs):
         shown = _largest(replace(bench, channels=tuple(c for c in bench.channels if c.name == location)), runs)
         return Typical(**common, shown=shown[location])
     row, stiffness, damping = _at(kind, bench, location)
-    channels = [Channel("length", "displacement", _SENSOR), Channel("speed", "velocity", _SENSOR)]
+    channels = [Sensor("length", DISPLACEMENT, _SENSOR), Sensor("speed", VELOCITY, _SENSOR)]
     if kind in _CONTACTS:
-        channels.append(Channel("force", "normal_force", location))
+        channels.append(Sensor("force", NORMAL_FORCE, location))
     model = replace(bench.model, sensor_name=(*bench.model.sensor_name, _SENSOR),
                     sensor_rows=np.vstack((bench.model.sensor_rows, row)))
     seen = _largest(replace(bench, model=model, channels=tuple(channels)), runs)

@@ -9,6 +9,7 @@ from pipeline.case_models.runs import Recorded
 from pipeline.contract.settings import fill
 from pipeline.physics.virtual_rig.modes import modes, motions, order_locked
 from pipeline.physics.virtual_rig.response import Run
+from pipeline.physics.virtual_rig.sensor import ACCELERATION
 from stages.lumped import Settings as LumpedSettings
 from stages.lumped import lumped
 from stages.reduced_model import Settings as ReductionSettings
@@ -64,9 +65,9 @@ def recorded(whole, seed=0):
             tap = 0.01 * random.uniform(0.5, 1.5, len(root)) / abs(shape[:, 0])
             shown = []
             for k, channel in enumerate(motions(whole)):
-                power = 1 if channel.quantity == "acceleration" else 0
+                power = 1 if channel.measurand == ACCELERATION else 0
                 clean = ((tap * shape[:, k] * root**power) @ np.exp(np.outer(root, time))).real
-                shown.append(clean + NOISE * quiet[channel.quantity] * random.standard_normal(len(time)))
+                shown.append(clean + NOISE * quiet[channel.measurand.name] * random.standard_normal(len(time)))
             own = Run(name + again, SECONDS, RATE, conditions=run(name).conditions)
             found[own.name] = Recorded(own, ("laser", "accelerometer"), ("m/s", "m/s^2"), np.array(shown),
                                        np.ones((2, len(time)), bool), name if again else "")

@@ -7,7 +7,15 @@ from scipy.linalg import expm
 
 from pipeline.physics.friction.dry_friction import constant
 from pipeline.physics.time_stepping.simulate import Hard, Penalty, Start, Table
-from pipeline.physics.virtual_rig.response import Bench, Channel, Run, respond
+from pipeline.physics.virtual_rig.response import Bench, Run, respond
+from pipeline.physics.virtual_rig.sensor import (
+    ACCELERATION,
+    DISPLACEMENT,
+    FRICTION_FORCE,
+    NORMAL_FORCE,
+    VELOCITY,
+    Sensor,
+)
 from tests.physics.lumps import lumps
 
 RATE = 2000.0
@@ -15,8 +23,8 @@ RATE = 2000.0
 
 def sprung(law=None, mass=1.0, stiffness=400.0, damping=0.4, step=1e-4):
     """One mass on one joint, pushed by input_0, seen by ``x``, ``v``, ``a``."""
-    channels = tuple(Channel(n, q, "sensor_0") for n, q in (("x", "displacement"), ("v", "velocity"),
-                                                            ("a", "acceleration")))
+    channels = tuple(Sensor(name, measurand, "sensor_0") for name, measurand in
+                     (("x", DISPLACEMENT), ("v", VELOCITY), ("a", ACCELERATION)))
     return Bench(lumps([mass], [[1.0]], [stiffness], [damping]), law or Hard(), constant(0.0), step, channels)
 
 
@@ -32,9 +40,9 @@ def rubbing(law=None, friction=None, speed=2.0, step=1e-4):
                   [[1, 0, 0.1], [1, 0, 0.1]], speed)
     contacts = replace(model.contacts, position=np.array([[0.1, 0, 0], [0, 0.1, 0]]), area=np.full(2, 1e-3),
                        lateral=np.array([[0, 0, 0.2], [0, 0, 0.2]]))
-    channels = (Channel("x", "displacement", "sensor_0"), Channel("y", "displacement", "sensor_1"),
-                Channel("turn", "displacement", "sensor_2"), Channel("n", "normal_force", "contact"),
-                Channel("t", "friction_force", "contact"))
+    channels = (Sensor("x", DISPLACEMENT, "sensor_0"), Sensor("y", DISPLACEMENT, "sensor_1"),
+                Sensor("turn", DISPLACEMENT, "sensor_2"), Sensor("n", NORMAL_FORCE, "contact"),
+                Sensor("t", FRICTION_FORCE, "contact"))
     return Bench(replace(model, contacts=contacts), law or Penalty(2e4), friction or constant(0.3), step, channels,
                  {"left": (0,), "right": (1,)}, settled=True, doublets={"tilt": (1, 2)})
 
@@ -56,8 +64,8 @@ def slider(law=None, friction=None, speed=2.0, area=1e-3, step=1e-4):
     """A mass of 1 kg on a joint of 400 N/m along a belt, on which input_1 presses it; steady from the begin."""
     model = lumps([1.0, 1.0], [[1.0, 0.0]], [400.0], [2.0], [[0.0, 1.0]], [[1.0, 0.0]], speed)
     model = replace(model, contacts=replace(model.contacts, area=np.array([area])))
-    channels = (Channel("x", "displacement", "sensor_0"), Channel("y", "displacement", "sensor_1"),
-                Channel("n", "normal_force", "contact"), Channel("t", "friction_force", "contact"))
+    channels = (Sensor("x", DISPLACEMENT, "sensor_0"), Sensor("y", DISPLACEMENT, "sensor_1"),
+                Sensor("n", NORMAL_FORCE, "contact"), Sensor("t", FRICTION_FORCE, "contact"))
     return Bench(model, law or Penalty(2e4), friction or constant(0.3), step, channels, settled=True)
 
 
@@ -71,7 +79,7 @@ def anchored(friction, mass=1e9):
 
 def round_disc(doublets=None):
     """Two modes of 20 rad/s, ``x`` and ``y``, of a disc without damping."""
-    channels = (Channel("x", "displacement", "sensor_0"), Channel("y", "displacement", "sensor_1"))
+    channels = (Sensor("x", DISPLACEMENT, "sensor_0"), Sensor("y", DISPLACEMENT, "sensor_1"))
     model = lumps([1.0, 1.0], np.eye(2), [400.0, 400.0])
     return Bench(model, Hard(), constant(0.0), 1e-4, channels,
                  doublets={"disc": (0, 1)} if doublets is None else doublets)

@@ -12,7 +12,8 @@ from pipeline.effects import named
 from pipeline.physics.friction.dry_friction import constant
 from pipeline.physics.time_stepping.simulate import Hard
 from pipeline.physics.virtual_rig.force_residual import equation_residual
-from pipeline.physics.virtual_rig.response import Bench, Channel, Run
+from pipeline.physics.virtual_rig.response import Bench, Run
+from pipeline.physics.virtual_rig.sensor import DISPLACEMENT, Sensor
 from tests.physics.lumps import lumps
 
 RATE, TRIM, DECIMATION = 1000.0, 100, 10
@@ -27,7 +28,7 @@ def recorded(name):
 def residual(record, mass, damping, friction):
     force, place = record
     bench = Bench(lumps([mass], [[1.0]], [0.0], [damping]), Hard(), constant(0.0), 1 / RATE,
-                  (Channel("q", "displacement", "sensor_0"),))
+                  (Sensor("q", DISPLACEMENT, "sensor_0"),))
     bench = named("coulomb").on(bench, "joint_0", {"force": friction})
     run = Run("record", (len(force) - 1) / RATE, RATE, {"input_0": force})
     return equation_residual(bench, run, {"q": place}, corner=100.0, decimation=DECIMATION, trim=TRIM)[0]

@@ -17,14 +17,15 @@ from pipeline.effects import named
 from pipeline.physics.friction.dry_friction import constant
 from pipeline.physics.time_stepping.elements import Element, Wave
 from pipeline.physics.time_stepping.simulate import Hard
-from pipeline.physics.virtual_rig.response import Bench, Channel, Run, respond
+from pipeline.physics.virtual_rig.response import Bench, Run, respond
+from pipeline.physics.virtual_rig.sensor import DISPLACEMENT, Sensor
 from tests.effects.test_emps import RATE, recorded
 from tests.physics.lumps import lumps
 
 
 def bench(mass, damping, offset, friction):
     plain = Bench(lumps([mass], [[1.0]], [0.0], [damping]), Hard(), constant(0.0), 1 / RATE,
-                  (Channel("q", "displacement", "sensor_0"),))
+                  (Sensor("q", DISPLACEMENT, "sensor_0"),))
     row = plain.model.input_rows[0]
     pushed = plain.with_elements(Element("offset", row, Wave(1.0, amplitude=offset)))
     return named("coulomb").on(pushed, "joint_0", {"force": friction})

@@ -2,14 +2,14 @@
 
 from functools import cache
 
-from stages.beam_on_beam import Contact, Material, Sensor, Settings, Slider, Track, beam_on_beam
+from stages.beam_on_beam import Contact, Material, ReadingPoint, Settings, Slider, Track, beam_on_beam
 from stages.reduced_model import Settings as Reduction
 from stages.reduced_model import reduced_model
 
 SETTINGS = Settings(
     element="timoshenko", slider=Slider(length="100.5 mm", thickness="5.69 mm", width="19.1 mm"),
     track=Track(length="377.4 mm", thickness="19.28 mm", width="10 mm"), contact=Contact(offset=0.34),
-    sensor=Sensor(height="50 mm"), material=Material(mass_damping="100 1/s", stiffness_damping="50 ns"))
+    sensor=ReadingPoint(height="50 mm"), material=Material(mass_damping="100 1/s", stiffness_damping="50 ns"))
 
 
 @cache

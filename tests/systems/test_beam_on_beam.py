@@ -6,7 +6,7 @@ from scipy.linalg import eigh
 
 from pipeline.contract.errors import ConfigError
 from pipeline.systems.beam_on_beam import build, joined, touching, upwards
-from stages.beam_on_beam import Contact, Sensor, Settings, Slider, Track
+from stages.beam_on_beam import Contact, ReadingPoint, Settings, Slider, Track
 
 SETTINGS = Settings()
 
@@ -80,7 +80,7 @@ def test_pictures_show_both_faces_and_the_tip_on_the_track():
 
 
 @pytest.mark.parametrize("parts, said", [
-    ({"contact": Contact(distance="400 mm")}, "never touch"), ({"sensor": Sensor(height="1 m")}, "sensor.height"),
+    ({"contact": Contact(distance="400 mm")}, "never touch"), ({"sensor": ReadingPoint(height="1 m")}, "sensor.height"),
     ({"slider": Slider(tilt="70 deg")}, "stands"), ({"contact": Contact(patch="200 mm")}, "patch"),
     ({"track": Track(length="79 mm")}, "contact.distance")])
 def test_systems_that_cannot_be_built_are_refused(parts, said):

@@ -13,7 +13,7 @@ from pipeline.case_models.force_balance import balance
 from pipeline.contract import ConfigError
 from pipeline.diagnosis.experiment_design.next_run import Planned, changed, words
 from pipeline.physics.virtual_rig.force_residual import forces_missing, smoothed
-from pipeline.physics.virtual_rig.response import MOTIONS
+from pipeline.physics.virtual_rig.sensor import DISPLACEMENT
 
 #: what a recorded motion is planned with: factors on its size about its middle, and on its speed
 MOTION, PACE = "motion", "pace"
@@ -45,7 +45,7 @@ def _again(bench, one, equation, name, value, where):
     if name in bench.model.input_name:
         raise ConfigError(where, f"{MOTION}, {PACE} or a number of the bench: inputs are what the motion takes", name)
     if name == MOTION:
-        moves = np.array([_quantity(bench, channel) == MOTIONS[0] for channel in one.channels])[:, None]
+        moves = np.array([_measurand(bench, channel) == DISPLACEMENT for channel in one.channels])[:, None]
         middle = (one.samples.max(axis=1, keepdims=True) + one.samples.min(axis=1, keepdims=True)) / 2
         return replace(one, samples=np.where(moves, middle + value * (one.samples - middle), one.samples)), equation, {}
     if name == PACE:
@@ -68,8 +68,8 @@ def _driven(bench, one, equation):
 
 def _measured(bench, one):
     """{channel: (samples,)} of the displacements of a Recorded run."""
-    return {c: s for c, s in zip(one.channels, one.samples, strict=True) if _quantity(bench, c) == MOTIONS[0]}
+    return {c: s for c, s in zip(one.channels, one.samples, strict=True) if _measurand(bench, c) == DISPLACEMENT}
 
 
-def _quantity(bench, channel):
-    return next(c.quantity for c in bench.channels if c.name == channel)
+def _measurand(bench, channel):
+    return next(c.measurand for c in bench.channels if c.name == channel)

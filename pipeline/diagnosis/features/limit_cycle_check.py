@@ -17,7 +17,8 @@ from pipeline.physics.signals.squeal_features import GROWING, SATURATED, agree, 
 from pipeline.physics.time_stepping.initial_state import random_kick, steady_start
 from pipeline.physics.time_stepping.modal_integrator import modal_system
 from pipeline.physics.virtual_rig.normal_load import loaded
-from pipeline.physics.virtual_rig.response import MOTIONS, Channel, at_begin, run_friction
+from pipeline.physics.virtual_rig.response import at_begin, run_friction
+from pipeline.physics.virtual_rig.sensor import FRICTION_FORCE, NORMAL_FORCE, Sensor
 
 #: who squeals, in the order of the tables
 WHO = ("recorded", "recalibrated", "completed")
@@ -100,8 +101,8 @@ class Squeals:
         return Compared(heard, agrees, failure)
 
     def _motions(self, channels):
-        quantity = {c.name: c.quantity for c in self.bench.channels}
-        return [name for name in channels if quantity[name] in MOTIONS]
+        moves = {c.name: c.moves for c in self.bench.channels}
+        return [name for name in channels if moves[name]]
 
     def _heard(self, motions, like):
         """Heard of [{channel: (n,)}] at the rate and with the units of the Recorded ``like``."""
@@ -128,10 +129,10 @@ def simulated(bench, like, told, seed=0):
     model = there.model.at_speed(speed)
     steady = steady_start(model, there.law, run_friction(there, run), first)
     system = modal_system(model)
-    rows = np.array([bench.sensor(c.source) for c in bench.channels if c.quantity in MOTIONS])
+    rows = np.array([bench.sensor(c.source) for c in bench.channels if c.moves])
     seen = only(bench, like.channels)
-    seen = replace(seen, channels=(*seen.channels, Channel(_NORMAL, "normal_force", "contact"),
-                                   Channel(_DRAWN, "friction_force", "contact")))
+    seen = replace(seen, channels=(*seen.channels, Sensor(_NORMAL, NORMAL_FORCE, "contact"),
+                                   Sensor(_DRAWN, FRICTION_FORCE, "contact")))
     names = tuple(c.name for c in seen.channels)
     found = []
     for repeat in range(told.repeats):

@@ -21,6 +21,7 @@ from pipeline.physics.signals.pole_identification import (
     steady_poles,
 )
 from pipeline.physics.virtual_rig.modes import modes, motions, order_locked
+from pipeline.physics.virtual_rig.sensor import JOINT_FORCE, VELOCITY
 
 #: orders of the drive that slow turns are read for
 ORDERS = (1, 2, 3)
@@ -37,8 +38,6 @@ _UNRESOLVED = 0.05
 _GAIN, _DELAY = 0.005, 1e-6
 #: sensors of one point are compared by poles that move both by more than this share of what their loudest pole does
 _HEARD = 0.02
-#: powers of the root that turn a quantity into a velocity
-_POWER = {"displacement": 1, "velocity": 0, "acceleration": -1}
 
 
 @dataclass(frozen=True)
@@ -83,7 +82,7 @@ def _poles(bench, one, settings):
     samples = _unbroken(one)[[one.channels.index(c.name) for c in seen]]
     count = before_saturation(samples, one.run.sample_rate, settings.saturation)
     told = steady_poles(samples, one.run.sample_rate, settings.low, settings.high, count)
-    power = np.array([_POWER[c.quantity] for c in seen])
+    power = np.array([VELOCITY.order - c.measurand.order for c in seen])
     apart = 2 * np.pi * one.run.sample_rate / min(count, samples.shape[1])
     std = np.hypot(told.std, _UNRESOLVED * apart)
     return replace(told, shape=told.shape * told.root[:, None] ** power, std=std), apart
@@ -180,7 +179,7 @@ def predicted(bench, one, channels):
             values[gain] = np.log(abs(told[second].gain / told[first].gain))
             values[delay] = told[second].delay - told[first].delay
     for channel in bench.channels:
-        if channel.quantity == "joint_force" and _orders(channel.name)[0] in one.values:
+        if channel.measurand == JOINT_FORCE and _orders(channel.name)[0] in one.values:
             force = channel.gain * order_locked(bench, one.run, channel.source, ORDERS)
             parts = np.column_stack((force.real, force.imag)).ravel()
             values |= dict(zip(_orders(channel.name), parts, strict=True))

@@ -15,8 +15,9 @@ import scipy
 
 from pipeline.contract import BrakechainError
 from pipeline.diagnosis.signals.forward_model import shown
-from pipeline.physics.virtual_rig.response import MOTIONS, Channel, respond
+from pipeline.physics.virtual_rig.response import respond
 from pipeline.physics.virtual_rig.roots import linearised
+from pipeline.physics.virtual_rig.sensor import DISPLACEMENT, VELOCITY, Sensor
 
 #: name of what is added to a bench: an input, or a sensor
 EXTRA = "latent"
@@ -70,7 +71,7 @@ def motion(bench, row, run, observed, noise):
     ``deconvolved``, else the model.
     """
     known = {c.name: c for c in bench.channels}
-    seen = [k for k, name in enumerate(observed.channels) if known[name].quantity == "displacement"]
+    seen = [k for k, name in enumerate(observed.channels) if known[name].measurand == DISPLACEMENT]
     rows = np.array([bench.sensor(known[observed.channels[k]].source) for k in seen]).reshape(-1, bench.model.size)
     weight = np.linalg.lstsq(rows.T, row, rcond=None)[0] if seen else np.zeros(0)
     if seen and np.allclose(weight @ rows, row, atol=1e-6 * np.abs(row).max()) and observed.valid[seen].all():
@@ -84,7 +85,7 @@ def motion(bench, row, run, observed, noise):
 def moved(bench, run, row):
     """Displacement and velocity (samples,) along a row (n,) in a simulated run."""
     model = replace(bench.model, sensor_name=(EXTRA,), sensor_rows=np.atleast_2d(row))
-    channels = (Channel("x", "displacement", EXTRA), Channel("v", "velocity", EXTRA))
+    channels = (Sensor("x", DISPLACEMENT, EXTRA), Sensor("v", VELOCITY, EXTRA))
     shown_by = respond(replace(bench, model=model, channels=channels), run)
     return shown_by["x"], shown_by["v"]
 
@@ -97,11 +98,5 @@ def receptances(bench, run, row, channels, frequency):
     dynamic = stiffness + 1j * omega[:, None, None] * damping - omega[:, None, None] ** 2 * mass
     moves = np.linalg.solve(dynamic, np.broadcast_to(row[:, None], (len(omega), len(row), 1)))[:, :, 0].T
     for k, name in enumerate(channels):
-        channel, rate = known[name], 1j * omega
-        if channel.quantity in MOTIONS:
-            shown[k] = rate ** MOTIONS.index(channel.quantity) * (bench.sensor(channel.source) @ moves)
-        elif channel.quantity == "joint_force":
-            joint, spring, loss = bench.joint(channel.source)
-            shown[k] = (spring + rate * loss) * (joint @ moves)
-        shown[k] *= channel.gain * np.exp(-rate * channel.delay) / (1 + rate / (2 * np.pi * channel.corner))
+        shown[k] = known[name].response(bench, moves, 1j * omega)
     return row @ moves, shown

@@ -15,7 +15,7 @@ from pipeline.effects.effect import Term, compose
 from pipeline.effects.typical import CHANNEL, typical
 from pipeline.inference.priors import Normal, Parameter
 from pipeline.inference.problem import Hypothesis, Observed
-from pipeline.physics.virtual_rig.response import MOTIONS, respond
+from pipeline.physics.virtual_rig.response import respond
 
 #: the solver as a hypothesis: its place, and its parameter: 0 as it is, 1 with half its step (4/3: none, at order 2)
 STEP, SOLVER, REFINEMENT = "time_step", "solver", "refinement"
@@ -104,8 +104,8 @@ def reach(bench, recorded):
     for one in recorded:
         for channel, samples, valid, found in zip(one.channels, one.samples, one.valid,
                                                   shown(bench, one.run, one.channels), strict=True):
-            quantity = next(c.quantity for c in bench.channels if c.name == channel)
-            if quantity in MOTIONS and valid.any() and found[valid].any():
+            moves = next(c.moves for c in bench.channels if c.name == channel)
+            if moves and valid.any() and found[valid].any():
                 ratios.append(np.sqrt(np.mean(samples[valid] ** 2) / np.mean(found[valid] ** 2)))
     return float(np.exp(np.mean(np.log(ratios)))) if ratios and min(ratios) > 0 else 1.0
 

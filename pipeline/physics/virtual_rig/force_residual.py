@@ -21,7 +21,8 @@ from pipeline.physics.time_stepping.coupled_solver import advance_wear, no_memor
 from pipeline.physics.time_stepping.element_forces import element_force, update_turning_dampers
 from pipeline.physics.time_stepping.elements import alone, wave_table
 from pipeline.physics.time_stepping.normal_laws import force_along
-from pipeline.physics.virtual_rig.response import MOTIONS, run_drive, run_friction, run_inputs
+from pipeline.physics.virtual_rig.response import run_drive, run_friction, run_inputs
+from pipeline.physics.virtual_rig.sensor import DISPLACEMENT
 
 _SMALLEST_SHARE = 1e-9
 
@@ -73,11 +74,10 @@ def coordinates(bench, run, measured):
     """Displacements (n, samples) that the displacement channels in ``measured`` show, gain, offset and delay undone."""
     model, rows, values = bench.model, [], []
     for channel in bench.channels:
-        if channel.quantity != MOTIONS[0] or channel.name not in measured:
+        if channel.measurand != DISPLACEMENT or channel.name not in measured:
             continue
         rows.append(bench.sensor(channel.source))
-        shown = np.asarray(measured[channel.name], float) - channel.offset - channel.drift * run.time
-        values.append(np.interp(run.time + channel.delay, run.time, shown / channel.gain))
+        values.append(channel.measured(measured[channel.name], run.time))
     rows = np.reshape(np.array(rows, float), (-1, model.size))
     share = np.linalg.svd(rows, compute_uv=False)
     if len(rows) < model.size or share[-1] < _SMALLEST_SHARE * share[0]:

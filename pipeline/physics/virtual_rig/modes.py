@@ -13,7 +13,7 @@ from pipeline.physics.friction.dry_friction import constant
 from pipeline.physics.modal.quadratic_eigenproblem import by_frequency
 from pipeline.physics.sliding.model import Joints
 from pipeline.physics.time_stepping.initial_state import steady_start
-from pipeline.physics.virtual_rig.response import MOTIONS, at_begin, run_friction
+from pipeline.physics.virtual_rig.response import at_begin, run_friction
 from pipeline.physics.virtual_rig.roots import small_motion
 
 #: angles of the drive at which order-locked forces are read
@@ -44,8 +44,8 @@ def _eigen(matrix, size):
 
 
 def motions(bench):
-    """Channels of the bench that show a motion."""
-    return tuple(c for c in bench.channels if c.quantity in MOTIONS)
+    """Sensors of the bench that measure a motion."""
+    return tuple(c for c in bench.channels if c.moves)
 
 
 def sticking(bench, run):

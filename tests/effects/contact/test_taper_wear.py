@@ -7,7 +7,8 @@ from pipeline.contract.errors import ConfigError
 from pipeline.effects import named
 from pipeline.physics.friction.dry_friction import constant
 from pipeline.physics.time_stepping.simulate import Penalty
-from pipeline.physics.virtual_rig.response import Bench, Channel, respond
+from pipeline.physics.virtual_rig.response import Bench, respond
+from pipeline.physics.virtual_rig.sensor import NORMAL_FORCE, Sensor
 from tests.effects.benches import at_angles, evolved, rubbing, steady
 from tests.physics.lumps import lumps
 
@@ -17,7 +18,7 @@ TAPER, SPEED, RATE = named("taper_wear"), 2.0, 4e-8
 def pair():
     """A mass that does not tilt, on two contacts a quarter of a turn apart, damped."""
     model = lumps([1.0, 1.0], [[1, 0], [0, 1]], [400.0, 0.0], [2.0, 200.0], [[0, 1], [0, 1]], [[1, 0], [1, 0]], SPEED)
-    channels = (Channel("first", "normal_force", "first"), Channel("last", "normal_force", "last"))
+    channels = (Sensor("first", NORMAL_FORCE, "first"), Sensor("last", NORMAL_FORCE, "last"))
     return Bench(at_angles(model, 3.0, 3.0 + np.pi / 2, area=1e-3), Penalty(1e4), constant(0.0), 1e-4, channels,
                  {"first": (0,), "last": (1,)}, settled=True)
 

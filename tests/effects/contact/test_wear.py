@@ -10,7 +10,8 @@ from pipeline.effects import named
 from pipeline.physics.friction.dry_friction import constant
 from pipeline.physics.time_stepping.simulate import Penalty
 from pipeline.physics.virtual_rig.force_residual import equation_residual
-from pipeline.physics.virtual_rig.response import Bench, Channel, respond
+from pipeline.physics.virtual_rig.response import Bench, respond
+from pipeline.physics.virtual_rig.sensor import DISPLACEMENT, NORMAL_FORCE, Sensor
 from tests.effects.benches import evolved, slider, steady
 from tests.physics.lumps import lumps
 
@@ -33,8 +34,8 @@ def wedged(duration=1.0):
     """A mass held by a spring of 3e3 N/m and set 1 mm deep into a contact of 2e4 N/m; damped so that nothing rings."""
     model = lumps([1.0, 1.0], [[1.0, 0.0], [0.0, 1.0]], [400.0, 3e3], [2.0, 80.0], [[0.0, 1.0]], [[1.0, 0.0]], SPEED)
     model = replace(model, contacts=replace(model.contacts, area=np.array([AREA])))
-    channels = (Channel("x", "displacement", "sensor_0"), Channel("y", "displacement", "sensor_1"),
-                Channel("n", "normal_force", "contact"))
+    channels = (Sensor("x", DISPLACEMENT, "sensor_0"), Sensor("y", DISPLACEMENT, "sensor_1"),
+                Sensor("n", NORMAL_FORCE, "contact"))
     return Bench(model, Penalty(2e4, gap=-1e-3), constant(0.0), 1e-4, channels, settled=True), steady(0.0, duration)
 
 

@@ -8,8 +8,9 @@ from scipy.optimize import brentq
 
 from pipeline.effects import named
 from pipeline.physics.time_stepping.simulate import Start
-from pipeline.physics.virtual_rig.response import Channel, respond
+from pipeline.physics.virtual_rig.response import respond
 from pipeline.physics.virtual_rig.roots import roots
+from pipeline.physics.virtual_rig.sensor import VELOCITY, Sensor
 from tests.effects.benches import slider, steady
 
 VALUES = {"share": 0.1, "speed": 0.5, "length": 0.01}
@@ -38,7 +39,7 @@ def test_a_contact_at_rest_ages_with_the_time():
     """mu (1 + b ln(1 + x)) holds: a block that just came to rest at t = 0 (x = 1) ages as x = 1 + v_0 t / L and slips
     when the ramp of the force gets there."""
     bench = replace(named("contact_ageing").on(slider(speed=0.0), "contact", VALUES), settled=False,
-                    channels=(Channel("v", "velocity", "sensor_0"),))
+                    channels=(Sensor("v", VELOCITY, "sensor_0"),))
     run = steady(duration=1.0, speed=0.0)
     run = replace(run, inputs={"input_0": 20.0 * run.time, "input_1": -40.0},
                   start=Start(np.array([0.0, -40 / 2e4]), np.zeros(2), np.array([40.0]), np.zeros(1)))

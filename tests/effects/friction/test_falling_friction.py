@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from pipeline.effects import named
-from pipeline.physics.virtual_rig.response import Channel, respond
+from pipeline.physics.virtual_rig.response import respond
+from pipeline.physics.virtual_rig.sensor import MEASURANDS, Sensor
 from tests.effects.benches import rubbing, slider, steady
 
 
@@ -34,7 +35,8 @@ def test_growth_rate_of_a_mass_on_a_belt():
 
 @pytest.mark.exact
 def test_one_group_of_contacts_alone():
-    channels = tuple(Channel(f"{q} {g}", f"{q}_force", g) for q in ("normal", "friction") for g in ("left", "right"))
+    channels = tuple(Sensor(f"{q} {g}", MEASURANDS[f"{q}_force"], g) for q in ("normal", "friction")
+                     for g in ("left", "right"))
     bench = named("falling_friction").on(replace(rubbing(), channels=channels), "left", {"rise": 0.4, "decay_speed": 2})
     found = respond(bench, steady(speed=2.0))
     for group, mu in (("left", 0.3 * (1 + 0.4 * np.exp(-1))), ("right", 0.3)):

@@ -9,8 +9,9 @@ from pipeline.contract.errors import ConfigError
 from pipeline.effects import named
 from pipeline.physics.friction.dry_friction import constant
 from pipeline.physics.time_stepping.simulate import Penalty, Start
-from pipeline.physics.virtual_rig.response import Bench, Channel, respond
+from pipeline.physics.virtual_rig.response import Bench, respond
 from pipeline.physics.virtual_rig.roots import roots
+from pipeline.physics.virtual_rig.sensor import DISPLACEMENT, ELEMENT_FORCE, VELOCITY, Sensor
 from tests.effects.benches import slider, steady
 from tests.physics.lumps import lumps
 
@@ -20,7 +21,7 @@ def sideways(share, speed=2.0):
     model = lumps([1.0, 1.0, 1.0], [[1, 0, 0], [0, 0, 1]], [400.0, 900.0], [2.0, 0.5], [[0, 1, 0]], [[1, 0, 0]], speed)
     contacts = replace(model.contacts, lateral=np.array([[0.0, 0.0, 1.0]]))
     bench = Bench(replace(model, contacts=contacts), Penalty(2e4), constant(0.3), 1e-4,
-                  (Channel("z", "displacement", "sensor_2"),), settled=True)
+                  (Sensor("z", DISPLACEMENT, "sensor_2"),), settled=True)
     return named("friction_induced_damping").on(bench, "contact", {"share": share})
 
 
@@ -51,7 +52,7 @@ def test_the_force_never_exceeds_friction_and_takes_energy_out():
     run = steady(duration=0.5)
     run = replace(run, inputs={**run.inputs, "input_2": 60 * np.sin(30 * run.time)})
     bench = sideways(1.0)
-    seen = (Channel("f", "element_force", "friction_induced_damping 0"), Channel("v", "velocity", "sensor_2"))
+    seen = (Sensor("f", ELEMENT_FORCE, "friction_induced_damping 0"), Sensor("v", VELOCITY, "sensor_2"))
     found = respond(replace(bench, channels=seen), run)
     assert abs(found["f"]).max() <= 0.3 * 40 * 1.05 and abs(found["v"]).max() > 2.0
     assert np.all(found["f"] * found["v"] >= 0)

@@ -10,8 +10,9 @@ from pipeline.physics.contact.groups import Grouped, alike, changed, parts, read
 from pipeline.physics.friction.dry_friction import constant, falling, tabulated
 from pipeline.physics.time_stepping.simulate import Hard, Penalty, Table
 from pipeline.physics.virtual_rig.force_residual import equation_residual
-from pipeline.physics.virtual_rig.response import Bench, Channel, Run, respond
+from pipeline.physics.virtual_rig.response import Bench, Run, respond
 from pipeline.physics.virtual_rig.roots import roots
+from pipeline.physics.virtual_rig.sensor import DISPLACEMENT, Sensor
 from tests.physics.lumps import lumps
 
 LAWS = Penalty(1e4, 3.0), Table(np.array([0.0, 1e-3, 1e-2]), np.array([0.0, 8.0, 200.0]), 2.0)
@@ -23,7 +24,7 @@ def bench(law, friction, blocks=1):
     """Masses on springs along a belt, each pressed onto it by a coordinate of its own."""
     eye = np.eye(2 * blocks)
     model = lumps(np.ones(2 * blocks), eye[::2], [400.0] * blocks, [0.5] * blocks, eye[1::2], eye[::2], 0.2)
-    channels = tuple(Channel(str(k), "displacement", f"sensor_{k}") for k in range(2 * blocks))
+    channels = tuple(Sensor(str(k), DISPLACEMENT, f"sensor_{k}") for k in range(2 * blocks))
     groups = {"one": (0,), "other": (1,)} if blocks == 2 else {}
     return Bench(model, law, friction, 1e-4, channels, groups, settled=True)
 

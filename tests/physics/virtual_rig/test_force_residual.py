@@ -11,11 +11,12 @@ from pipeline.physics.friction.dry_friction import constant
 from pipeline.physics.time_stepping.elements import Element, Polynomial, Power, iwan
 from pipeline.physics.time_stepping.simulate import Hard, Penalty
 from pipeline.physics.virtual_rig.force_residual import applied_force, equation_residual, thinned
-from pipeline.physics.virtual_rig.response import Bench, Channel, Run, respond
+from pipeline.physics.virtual_rig.response import Bench, Run, respond
+from pipeline.physics.virtual_rig.sensor import DISPLACEMENT, Sensor
 from tests.physics.lumps import belt, lumps
 
-CHANNELS = (Channel("one", "displacement", "sensor_0", gain=2.0, offset=0.1),
-            Channel("two", "displacement", "sensor_1"))
+CHANNELS = (Sensor("one", DISPLACEMENT, "sensor_0", gain=2.0, offset=0.1),
+            Sensor("two", DISPLACEMENT, "sensor_1"))
 RATE = 2000.0
 
 

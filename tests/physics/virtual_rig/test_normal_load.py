@@ -9,7 +9,8 @@ from pipeline.contract.errors import ConfigError
 from pipeline.physics.friction.dry_friction import constant
 from pipeline.physics.time_stepping.simulate import Hard
 from pipeline.physics.virtual_rig.normal_load import loaded
-from pipeline.physics.virtual_rig.response import Channel, respond
+from pipeline.physics.virtual_rig.response import respond
+from pipeline.physics.virtual_rig.sensor import DISPLACEMENT, FRICTION_FORCE, Sensor
 from tests.effects.benches import slider, steady
 
 STIFFNESS = 2e4
@@ -21,7 +22,7 @@ def jointed(description="elastic"):
     contacts = replace(bench.model.contacts, normal=np.zeros((1, 2)), preload=np.array([40.0]))
     joints = replace(bench.model.joints, stiffness=np.array([1e6]), damping=np.array([500.0]))
     return replace(bench, model=replace(bench.model, contacts=contacts, joints=joints), channels=(
-        Channel("t", "friction_force", "contact"), Channel("x", "displacement", "sensor_0")), settled=False)
+        Sensor("t", FRICTION_FORCE, "contact"), Sensor("x", DISPLACEMENT, "sensor_0")), settled=False)
 
 
 def run(load=None):

@@ -9,7 +9,19 @@ from pipeline.contract.errors import ConfigError
 from pipeline.physics.friction.dry_friction import constant
 from pipeline.physics.time_stepping.elements import Element, Polynomial
 from pipeline.physics.time_stepping.simulate import Hard, Penalty, Start
-from pipeline.physics.virtual_rig.response import Bench, Channel, Run, at_instants, low_pass, respond, shown
+from pipeline.physics.virtual_rig.response import Bench, Run, respond
+from pipeline.physics.virtual_rig.sensor import (
+    ACCELERATION,
+    DISPLACEMENT,
+    ELEMENT_FORCE,
+    FRICTION_FORCE,
+    INPUT_FORCE,
+    JOINT_FORCE,
+    NORMAL_FORCE,
+    VELOCITY,
+    Sensor,
+    measurand,
+)
 from tests.physics.lumps import belt, lumps
 
 STEP = 1e-4
@@ -21,7 +33,7 @@ def sprung(*channels, step=STEP):
 
 
 def seen(quantity, source="sensor_0", **options):
-    return Channel("seen", quantity, source, **options)
+    return Sensor("seen", measurand(quantity, "quantity"), source, **options)
 
 
 def swing(rate=100.0, amplitude=0.01):
@@ -48,8 +60,8 @@ def test_motions_at_the_rate_of_the_run(k, quantity):
 @pytest.mark.exact
 def test_joint_force_and_input_at_any_rate():
     run = replace(swing(333.0), inputs={"input_0": 3.0})
-    found = respond(sprung(Channel("force", "joint_force", "joint_0"), Channel("in", "input", "input_0"),
-                           Channel("a", "acceleration", "sensor_0")), run)
+    found = respond(sprung(Sensor("force", JOINT_FORCE, "joint_0"), Sensor("in", INPUT_FORCE, "input_0"),
+                           Sensor("a", ACCELERATION, "sensor_0")), run)
     np.testing.assert_allclose(found["a"], found["in"] - found["force"], atol=2e-5)
     np.testing.assert_array_equal(found["in"], 3.0)
 
@@ -59,8 +71,8 @@ def test_contact_forces_are_not_late_by_half_a_step():
     """A mass pressed by a ramp onto a penalty contact, 10 steps a sample: N is that of the closure at the instant."""
     time = np.linspace(0, 0.5, 51)
     bench = Bench(belt(speed=5.0), Penalty(1e4, 50.0), constant(0.3), 1e-3,
-                  (Channel("n", "normal_force", "contact"), Channel("t", "friction_force", "contact"),
-                   Channel("y", "displacement", "sensor_1"), Channel("v", "velocity", "sensor_1")))
+                  (Sensor("n", NORMAL_FORCE, "contact"), Sensor("t", FRICTION_FORCE, "contact"),
+                   Sensor("y", DISPLACEMENT, "sensor_1"), Sensor("v", VELOCITY, "sensor_1")))
     run = Run("ramp", 0.5, 100.0, {"input_1": -100 * time}, start=Start(np.array([0, -1e-5]), np.zeros(2)))
     errors = []
     for step in (2e-3, 1e-3, 5e-4):
@@ -71,42 +83,16 @@ def test_contact_forces_are_not_late_by_half_a_step():
     assert errors[-1] < 1e-3 * 50 and errors[0] / errors[-1] > 10
 
 
-@pytest.mark.exact
-def test_means_over_steps_become_values_at_instants():
-    edge = np.linspace(0, 3, 31)
-    means = np.r_[0.0, np.diff(edge**2 / 2) / 0.1]
-    np.testing.assert_allclose(at_instants(means), edge, atol=1e-14)
-
-
-@pytest.mark.exact
-def test_first_order_filter_of_a_sine_and_of_a_ramp():
-    time = np.linspace(0, 20, 20001)
-    gain = 1 / (1 + 1j * 3.0 / 0.7)
-    exact = np.imag(gain * np.exp(3j * 2 * np.pi * time))
-    np.testing.assert_allclose(low_pass(np.sin(3 * 2 * np.pi * time), 1e-3, 0.7)[10000:], exact[10000:], atol=1e-4)
-    np.testing.assert_allclose(low_pass(time, 1e-3, 0.7)[10000:], time[10000:] - 1 / (2 * np.pi * 0.7), rtol=1e-12)
-    np.testing.assert_array_equal(low_pass(np.full(5, 3.0), 1e-3, 0.7), low_pass(np.full(5, 3.0), 1e-3, 0.7))
-
-
-@pytest.mark.exact
-def test_gain_offset_drift_delay_and_limit():
-    time = np.linspace(0, 1, 101)
-    found = shown(seen("displacement", gain=2.0, offset=0.3, drift=-0.1, delay=0.02, limit=1.9), time, 0.01)
-    np.testing.assert_allclose(found, np.minimum(2 * np.maximum(time - 0.02, 0) + 0.3 - 0.1 * time, 1.9), atol=1e-12)
-    values = np.random.default_rng(1).standard_normal(50)
-    np.testing.assert_array_equal(shown(seen("displacement"), values, 0.01), values)
-
-
 def test_conditions_stand_in_for_inputs_and_drive():
-    bench = Bench(belt(), Hard(), constant(0.3), 1e-3, (Channel("x", "displacement", "sensor_0"),
-                                                        Channel("t", "friction_force", "contact")), settled=True)
+    bench = Bench(belt(), Hard(), constant(0.3), 1e-3, (Sensor("x", DISPLACEMENT, "sensor_0"),
+                                                        Sensor("t", FRICTION_FORCE, "contact")), settled=True)
     found = respond(bench, Run("pressed", 0.2, 100.0, conditions={"input_1": -10.0, "speed": -0.4}))
     np.testing.assert_allclose(found["x"], -0.3 * 10 / 100, rtol=1e-6)
     np.testing.assert_allclose(found["t"], -3.0, rtol=1e-9)
 
 
 def test_force_of_an_element():
-    bench = sprung(Channel("f", "element_force", "spring"), Channel("x", "displacement", "sensor_0"))
+    bench = sprung(Sensor("f", ELEMENT_FORCE, "spring"), Sensor("x", DISPLACEMENT, "sensor_0"))
     bench = bench.with_elements(Element("spring", np.ones(1), Polynomial(cubic=1e5)))
     found = respond(bench, swing())
     np.testing.assert_allclose(found["f"], 1e5 * found["x"] ** 3, rtol=1e-9)

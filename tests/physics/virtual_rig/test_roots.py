@@ -11,8 +11,9 @@ from pipeline.physics.friction.dry_friction import constant, tabulated
 from pipeline.physics.signals.oscillation import dominant_frequency, growth_rate
 from pipeline.physics.time_stepping.elements import Element, Polynomial, Power
 from pipeline.physics.time_stepping.simulate import Hard, Penalty, Table
-from pipeline.physics.virtual_rig.response import Bench, Channel, Run, respond
+from pipeline.physics.virtual_rig.response import Bench, Run, respond
 from pipeline.physics.virtual_rig.roots import linearised, roots
+from pipeline.physics.virtual_rig.sensor import DISPLACEMENT, Sensor
 from tests.physics.lumps import belt, lumps
 
 PRESSED = Run("pressed", 1.0, 1000.0, {"input_1": -20.0})
@@ -20,7 +21,7 @@ PRESSED = Run("pressed", 1.0, 1000.0, {"input_1": -20.0})
 
 def rubbed(law=None, friction=None, **options):
     return Bench(belt(400.0, 0.5, **options), law or Penalty(1e4, 20.0), friction or constant(0.3), 1e-4,
-                 (Channel("x", "displacement", "sensor_0"),))
+                 (Sensor("x", DISPLACEMENT, "sensor_0"),))
 
 
 @pytest.mark.exact
