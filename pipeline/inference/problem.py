@@ -1,7 +1,8 @@
 """What a diagnosis is asked: observed runs, a forward model, the nominal hypothesis and candidates."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
+from typing import Protocol
 
 import numpy as np
 
@@ -40,9 +41,9 @@ class Observed:
         object.__setattr__(self, "samples", np.where(valid, samples, 0.0))
         object.__setattr__(self, "valid", valid)
 
-    def until(self, kept):
-        """The run cut to its first ``kept`` samples; what it says of noise is that of the whole run."""
-        return replace(self, samples=self.samples[:, :kept], valid=self.valid[:, :kept])
+    def until(self, end):
+        """The run cut to its first ``end`` samples; what it says of noise is that of the whole run."""
+        return replace(self, samples=self.samples[:, :end], valid=self.valid[:, :end])
 
     @property
     def point(self):
@@ -50,19 +51,25 @@ class Observed:
         return self.repeat_of or self.name
 
 
+class Constraint(Protocol):
+    """Why fitted values {name: value} cannot be (a negative dissipation), in a sentence; empty where they can."""
+
+    def __call__(self, values: dict) -> str: ...
+
+
 @dataclass(frozen=True)
 class Hypothesis:
     """What may be so: ``effects`` ((effect, place), ...) and ``parameters`` (Parameter, ...) that come with them.
 
-    ``kind``: ``physics``, ``sensor`` (the measurement) or ``numerics`` (the solver). ``forbidden(values)``: a sentence
-    where fitted values cannot be (a negative dissipation), else empty; priors already keep single signs.
+    ``kind``: ``physics``, ``sensor`` (the measurement) or ``numerics`` (the solver). ``forbidden``: a constraint on
+    fitted values; priors already keep single signs.
     """
 
     name: str
     effects: tuple = ()
     parameters: tuple = ()
     kind: str = "physics"
-    forbidden: Callable | None = None
+    forbidden: Constraint | None = None
 
     def __post_init__(self):
         names = [p.name for p in self.parameters]
@@ -88,17 +95,29 @@ class Hypothesis:
         return Hypothesis(name, self.effects + other.effects, self.parameters + other.parameters, kind)
 
 
-@dataclass(frozen=True)
-class Problem:
-    """``predict(hypothesis, values, run)`` -> (c, n), what the channels of ``run`` (Observed) would show.
+class ForwardModel(Protocol):
+    """(c, n): what the channels of a run (Observed) would show under a hypothesis.
 
-    Runs in order of time may come cut to their first samples, so that only these need to be predicted.
-    ``values`` holds every parameter of the hypothesis by name: those of ``nominal`` first, then those of its effects.
-    ``predict`` may raise a BrakechainError where it cannot (no convergence); it must be picklable to fan out.
+    ``values`` holds every parameter of the hypothesis by name: nominal ones first, then those of its effects. Runs in
+    order of time may come cut to their first samples, so that only these need to be predicted. It may raise a
+    BrakechainError where it cannot predict (no convergence); it must be picklable to fan out.
     """
 
+    def __call__(self, hypothesis: Hypothesis, values: dict, run: Observed) -> np.ndarray: ...
+
+
+class FanOut(Protocol):
+    """Maps a function over items as the builtin ``map`` does: in this process, in several, or on a cluster."""
+
+    def __call__(self, function: Callable, items: Iterable, /) -> Iterable: ...
+
+
+@dataclass(frozen=True)
+class Problem:
+    """Observed ``runs``, the forward model ``predict`` and the ``nominal`` hypothesis."""
+
     runs: tuple
-    predict: Callable
+    predict: ForwardModel
     nominal: Hypothesis
 
     def __post_init__(self):

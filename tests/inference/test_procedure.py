@@ -9,14 +9,13 @@ import numpy as np
 import pytest
 
 from pipeline.contract.errors import ConvergenceError
-from pipeline.inference import procedure as course
-from pipeline.inference.decision.decision_rules import Rules
 from pipeline.inference.fitting import refitting
 from pipeline.inference.fitting.least_squares import linearised
 from pipeline.inference.fitting.noise import budget
 from pipeline.inference.priors import Normal, Parameter
 from pipeline.inference.problem import Hypothesis
 from pipeline.inference.procedure import Settings, diagnose
+from pipeline.inference.rules import DEFAULTS
 from tests.inference import linear
 from tests.inference.oscillator import CATALOGUE, SOLVER, alone, bench, predict_with_lag
 
@@ -39,6 +38,11 @@ def gap(t, x, v):
 
 def both(t, x, v):
     return cubic(t, x, v) + coulomb(t, x, v)
+
+
+def changed(group, **values):
+    """The rules with other ``values`` of a group."""
+    return replace(DEFAULTS, **{group: replace(getattr(DEFAULTS, group), **values)})
 
 
 TRUTHS = [
@@ -77,17 +81,17 @@ def test_two_effects_are_found_one_after_the_other():
 
 def test_a_second_effect_within_the_error_of_the_law_of_the_first_is_not_named():
     problem = bench(5, 0.1, stiffness=380.0, extra=both)
-    asked = replace(Settings(), rules=replace(Rules(), second_share=0.2, second_at_noise=0.2))
+    asked = replace(Settings(), rules=changed("decision", second_share=0.2, second_at_noise=0.2))
     told = diagnose(problem, budget(problem), CATALOGUE, asked)
     assert told.base is None and [c.name for c in told.decision.named] in ([], ["cubic"])
 
 
 def test_a_smaller_second_effect_is_named_where_both_reach_the_noise():
     problem = bench(5, 0.1, stiffness=380.0, extra=both)
-    asked = replace(Settings(), rules=replace(Rules(), second_share=0.2))
+    asked = replace(Settings(), rules=changed("decision", second_share=0.2))
     told = diagnose(problem, budget(problem), CATALOGUE, asked)
     assert told.base is not None and told.decision.verdict == "missing"
-    assert not told.named[0].contender.held_out_left
+    assert not told.named[0].statistics.held_out_left
 
 
 def odd_values(amount):
@@ -102,14 +106,14 @@ def odd_values(amount):
 
 
 def test_a_second_effect_that_gives_values_back_to_their_priors_is_named():
-    asked = replace(Settings(), rules=replace(Rules(), second_share=0.9, second_at_noise=0.9))
+    asked = replace(Settings(), rules=changed("decision", second_share=0.9, second_at_noise=0.9))
     told = diagnose(*odd_values(1.0), asked)
     assert told.decision.verdict == "missing" and told.base is not None
     assert {c.name for c in told.decision.named} == {"effect_2"} and told.nominal.effects[0][0] == "effect_1"
 
 
 def test_values_within_their_priors_ask_for_no_second_effect():
-    asked = replace(Settings(), rules=replace(Rules(), second_share=0.9, second_at_noise=0.9))
+    asked = replace(Settings(), rules=changed("decision", second_share=0.9, second_at_noise=0.9))
     told = diagnose(*odd_values(0.4), asked)
     assert told.decision.verdict == "missing" and told.base is None
     assert [c.name for c in told.decision.named] == ["effect_1"]
@@ -123,8 +127,8 @@ def test_a_candidate_whose_forward_model_fails_on_its_way_is_told_and_not_judged
     noises = tuple(budget(problem)[run.name] for run in problem.training)
     begin = linearised(problem, noises, problem.nominal, np.zeros(len(problem.nominal.parameters)), problem.training)
     monkeypatch.setattr(refitting, "continued", failing)
-    found = refitting._finished(problem, begin, np.inf, begin)
-    assert found.fit is begin and found.null is None and "a force that settles" in found.told
+    refitted = refitting._finished(problem, begin, np.inf, DEFAULTS, begin)
+    assert refitted.fit is begin and refitted.null is None and "a force that settles" in refitted.failure
 
 
 def test_a_solver_that_lags_is_told_from_missing_physics():
@@ -146,7 +150,7 @@ def test_two_candidates_that_do_the_same_are_a_tie():
         table["effect_2_0"] = table["effect_1_0"]
     told = diagnose(whole, noise, catalogue)
     assert told.decision.verdict == "tie" and {c.name for c in told.decision.named} == {"effect_1", "effect_2"}
-    assert sum(w.contender.posterior for w in told.named) == pytest.approx(1.0, abs=1e-6)
+    assert sum(w.statistics.posterior for w in told.named) == pytest.approx(1.0, abs=1e-6)
 
 
 def test_processes_give_the_same_bits():
@@ -165,12 +169,11 @@ def test_a_nominal_model_that_fails_is_told():
         diagnose(broken, budget(problem), CATALOGUE)
 
 
-def test_a_candidate_that_fails_is_reported_and_not_judged(monkeypatch):
-    monkeypatch.setattr(course, "_LIKELY", 1.0)
+def test_a_candidate_that_fails_is_reported_and_not_judged():
     problem = bench(5, 0.1)
     blown_up = Parameter("cubic_stiffness", "N/m^3", -1e12, Normal(-1e12, 1.0), -1e12)
     far = Hypothesis("far", (("far", "mount"),), (blown_up,))
-    told = diagnose(problem, budget(problem), (*CATALOGUE[:1], far))
+    told = diagnose(problem, budget(problem), (*CATALOGUE[:1], far), Settings(rules=changed("screening", p_value=1.0)))
     assert "far" in told.failures and [w.candidate.name for w in told.weighed] == ["cubic"]
 
 
@@ -196,13 +199,13 @@ def test_no_control_of_the_toy_bench_is_given_a_name(noise):
 
 
 @pytest.mark.slow
-def test_linearised_p_values_agree_with_full_refits_under_the_null(monkeypatch):
+def test_linearised_p_values_agree_with_full_refits_under_the_null():
     """The share of controls whose best refitted gain passes the bound of the linearised null is that of the bound."""
-    monkeypatch.setattr(course, "_LIKELY", 1.0)     # likely scores are refitted as well
+    every_score = changed("screening", p_value=1.0)
     passed, level = [], 0.2
     for seed in range(60):
         problem = bench(seed, 0.05, held_out=False)
-        told = diagnose(problem, budget(problem), CATALOGUE, Settings(kept=7, rules=Rules()))
+        told = diagnose(problem, budget(problem), CATALOGUE, Settings(kept=7, rules=every_score))
         gains = [told.null.objective - w.fit.chi_square.sum() - w.fit.latent[:2] @ w.fit.latent[:2]
                  for w in told.weighed]
         score = np.sqrt(max(0.0, *gains))

@@ -34,11 +34,11 @@ def evidence(fit, weights=None):
 
 def reached(fit, weights=None):
     """Evidence of a Fit that has not converged: from what it has reached, not from what its linearisation promises."""
-    bound = evidence(fit, weights)
+    linearised = evidence(fit, weights)
     weights = np.ones(len(fit.runs)) if weights is None else weights
     lost = weights @ fit.chi_square + fit.latent @ fit.latent
     log = -0.5 * lost + 0.5 * np.linalg.slogdet(fit.covariance(weights))[1]
-    return Evidence(min(float(log), bound.log_evidence), bound.left_out)
+    return Evidence(min(float(log), linearised.log_evidence), linearised.left_out)
 
 
 def screened(null_evidence, score, power):

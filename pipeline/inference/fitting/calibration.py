@@ -1,18 +1,19 @@
 """Calibration: the best of several least-squares fits, approached by easier problems where the starts are far off."""
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from pipeline.contract.errors import BrakechainError, ConvergenceError
-from pipeline.inference.decision.candidate_statistics import EXCLUDED
-from pipeline.inference.fitting.least_squares import FAR, continued, iterated, linearised, of_features, whitened
+from pipeline.inference.fitting.least_squares import FAR, Fit, continued, iterated, linearised, whitened
+from pipeline.inference.problem import Problem
+from pipeline.inference.rules import DEFAULTS
 
 #: iterations from every start before only the best goes on
 _TRIAL = 3
 #: iterations of an easier problem on the way
 _EASIER = 8
-#: shares of the runs that are fitted first where the residual is beyond FAR noise powers: over a short horizon the
+#: fractions of the runs that are fitted first where the residual is beyond FAR noise powers: over a short horizon the
 #: phase of a nonlinear motion cannot slip, so that the optimum is reached from far away
 _HORIZONS, _FEWEST = (0.08, 0.3), 32
 #: standard deviations, as multiples of the true ones, with which features are fitted first where they are that far off:
@@ -25,38 +26,65 @@ _LOOSER, _OFF = (1000.0, 100.0, 10.0, 3.0), 4.0
 _AGAIN = 2
 
 
-def calibrate(problem, noises, hypothesis, starts, runs, settled=True):
-    """The best of several fits. Raises ConvergenceError where none converged, telling what stopped them.
+@dataclass(frozen=True)
+class Calibration:
+    """First step: the Fit ``null`` of the nominal hypothesis of a Problem under its {run: Noise} ``budget``."""
+
+    problem: Problem
+    budget: dict
+    null: Fit
+
+    @classmethod
+    def of(cls, problem, budget, rules, start=None):
+        """Calibration from the nominal values, or from the Fit ``start`` of the same hypothesis.
+
+        It may not have converged; ConvergenceError where there is no fit at all.
+        """
+        if start and start.converged:
+            return cls(problem, budget, start)
+        runs, hypothesis = problem.training, problem.nominal
+        noises = tuple(budget[run.name] for run in runs)
+        latent = start.latent if start else hypothesis.nominal
+        return cls(problem, budget, calibrate(problem, noises, hypothesis, [latent], runs, False, rules))
+
+    def improved(self, fits, rules):
+        """This Calibration with the best of further ``fits`` (Fit or None) of the null, where that is better."""
+        best = min([self.null, *(fit for fit in fits if fit is not None)], key=lambda fit: fit.objective)
+        return replace(self, null=best) if best.objective < self.null.objective - rules.better_null else self
+
+
+def calibrate(problem, noises, hypothesis, starts, runs, settled=True, rules=DEFAULTS.calibration):
+    """The best of several fits. Raises ConvergenceError where none converged, saying what stopped them.
 
     A few iterations are made from each start; then the best goes on, the next best only where it does not converge.
     Without ``settled`` the best is returned even if its iterations were not enough, and no other goes on.
     """
     reasons = []
-    for state in _begun(problem, noises, hypothesis, starts, runs, reasons):
-        best = state if state.converged else continued(problem, state, patient=settled)
-        if best.converged or not settled:
-            return _on_another_way(problem, paired_anew(problem, best), starts)
-        reasons.append(f"not converged after {best.evaluations} predictions")
+    for begin in _begun(problem, noises, hypothesis, starts, runs, reasons):
+        fit = begin if begin.converged else continued(problem, begin, patient=settled)
+        if fit.converged or not settled:
+            return _by_other_deviations(problem, paired_anew(problem, fit, rules), starts, rules)
+        reasons.append(f"not converged after {fit.evaluations} predictions")
     raise _stopped(hypothesis, reasons)
 
 
-def _on_another_way(problem, fit, starts):
-    """The Fit ``fit``, or a lower one of features that comes from ``starts`` by other standard deviations."""
-    if not of_features(fit.noises) or fit.chi_square.sum() < _OFF * fit.counts.sum():
+def _by_other_deviations(problem, fit, starts, rules):
+    """The Fit, or a lower one of features that comes from ``starts`` by other standard deviations."""
+    if not fit.unordered or fit.chi_square.sum() < _OFF * fit.counts.sum():
         return fit
     other = _ended(problem, _tightened(problem, fit.noises, fit.hypothesis, starts, fit.runs, [], _LOOSER))
-    return min(fit, paired_anew(problem, other), key=lambda f: f.objective) if other else fit
+    return min(fit, paired_anew(problem, other, rules), key=lambda f: f.objective) if other else fit
 
 
-def paired_anew(problem, fit):
-    """The Fit ``fit``, or a lower one of features, begun with those values at their prior means that priors exclude.
+def paired_anew(problem, fit, rules):
+    """The Fit, or a lower one of features, begun with those values at their prior means that priors exclude.
 
     A feature paired with what it does not belong to drags the value that moves this there; as long as it is there, the
     two stay paired.
     """
     for _ in range(_AGAIN):
-        pulled = abs(fit.latent) > EXCLUDED
-        if not (of_features(fit.noises) and pulled.any()):
+        pulled = abs(fit.latent) > rules.excluded
+        if not (fit.unordered and pulled.any()):
             break
         start = np.where(pulled, 0.0, fit.latent)
         other = _ended(problem, _begun(problem, fit.noises, fit.hypothesis, [start], fit.runs, []))
@@ -66,10 +94,10 @@ def paired_anew(problem, fit):
     return fit
 
 
-def _ended(problem, states):
+def _ended(problem, begins):
     """The first of fits that began, continued; None where there is none or the forward model fails on the way."""
     try:
-        return continued(problem, states[0], patient=False) if states else None
+        return continued(problem, begins[0], patient=False) if begins else None
     except BrakechainError:
         return None
 
@@ -80,10 +108,10 @@ def begun(problem, noises, hypothesis, starts, runs, known=()):
     Raises ConvergenceError where the forward model cannot begin from any.
     """
     reasons = []
-    states = _begun(problem, noises, hypothesis, starts, runs, reasons, known)
-    if not states:
+    begins = _begun(problem, noises, hypothesis, starts, runs, reasons, known)
+    if not begins:
         raise _stopped(hypothesis, reasons)
-    return states[0]
+    return begins[0]
 
 
 def _stopped(hypothesis, reasons):
@@ -96,7 +124,7 @@ def _begun(problem, noises, hypothesis, starts, runs, reasons, known=()):
     sizes = [_mean_square(problem, noises, hypothesis, start, runs) for start in starts]
     if min(sizes) < FAR:
         return _tried(problem, noises, hypothesis, starts, runs, reasons, known)
-    if of_features(noises):
+    if not all(noise.ordered for noise in noises):
         return _tightened(problem, noises, hypothesis, starts, runs, reasons, _LOOSE)
     near = [*_over_horizons(problem, noises, hypothesis, starts, runs, reasons), starts[int(np.argmin(sizes))]]
     return _tried(problem, noises, hypothesis, near, runs, reasons, known)
@@ -106,20 +134,20 @@ def _tried(problem, noises, hypothesis, starts, runs, reasons, known=(), rough=F
     fits = []
     for start in starts:
         try:
-            state = linearised(problem, noises, hypothesis, start, runs, known)
-            fits.append(iterated(problem, state, _EASIER if rough else _TRIAL, patient=not rough, rough=rough))
+            begin = linearised(problem, noises, hypothesis, start, runs, known)
+            fits.append(iterated(problem, begin, _EASIER if rough else _TRIAL, patient=not rough, rough=rough))
         except BrakechainError as error:
             reasons.append(str(error))
-    return sorted(fits, key=lambda f: f.objective)
+    return sorted(fits, key=lambda fit: fit.objective)
 
 
 def _over_horizons(problem, noises, hypothesis, starts, runs, reasons):
     """[latent] where fits over rising horizons end, the best start of each the begin of the next; [] where none can."""
     ahead = starts
-    for share in _HORIZONS:
-        kept = [noise.horizon(share, _FEWEST) for noise in noises]
-        fits = _tried(problem, [noise.until(n) for noise, n in zip(noises, kept, strict=True)], hypothesis, ahead,
-                       [run.until(n) for run, n in zip(runs, kept, strict=True)], reasons, rough=True)
+    for fraction in _HORIZONS:
+        ends = [noise.horizon(fraction, _FEWEST) for noise in noises]
+        fits = _tried(problem, [noise.until(n) for noise, n in zip(noises, ends, strict=True)], hypothesis, ahead,
+                      [run.until(n) for run, n in zip(runs, ends, strict=True)], reasons, rough=True)
         ahead = [fits[0].latent] if fits else []
     return ahead
 
@@ -130,29 +158,29 @@ def _tightened(problem, noises, hypothesis, starts, runs, reasons, factors):
     fits, known = [], ()
     for start in starts:
         try:
-            state = linearised(problem, noises, hypothesis, start, runs, known)
-            known = [j[:, :len(problem.nominal.parameters)] for j in state.jacobians]
-            fits.append(_roughly(problem, state, noises, factors[0]))
+            begin = linearised(problem, noises, hypothesis, start, runs, known)
+            known = [j[:, :len(problem.nominal.parameters)] for j in begin.jacobians]
+            fits.append(_roughly(problem, begin, noises, factors[0]))
         except BrakechainError as error:
             reasons.append(str(error))
     if not fits:
         return []
-    state = min(fits, key=lambda f: f.objective)
+    fit = min(fits, key=lambda f: f.objective)
     for factor in factors[1:]:
-        state = _roughly(problem, state, noises, factor)
-    return _tried(problem, noises, hypothesis, [state.latent], runs, reasons)
+        fit = _roughly(problem, fit, noises, factor)
+    return _tried(problem, noises, hypothesis, [fit.latent], runs, reasons)
 
 
-def _roughly(problem, state, noises, factor):
-    return iterated(problem, _under(state, noises, factor), _EASIER, patient=False, rough=True)
+def _roughly(problem, fit, noises, factor):
+    return iterated(problem, _under(fit, noises, factor), _EASIER, patient=False, rough=True)
 
 
-def _under(state, noises, factor):
+def _under(fit, noises, factor):
     """A Fit of features under standard deviations ``factor`` times those of ``noises``."""
     looser = tuple(replace(noise, filter=noise.filter / factor) for noise in noises)
-    scale = [float(new.filter[0, 0] / old.filter[0, 0]) for new, old in zip(looser, state.noises, strict=True)]
-    return replace(state, noises=looser, residuals=tuple(k * r for k, r in zip(scale, state.residuals, strict=True)),
-                   jacobians=tuple(k * j for k, j in zip(scale, state.jacobians, strict=True)), converged=False)
+    scale = [float(new.filter[0, 0] / old.filter[0, 0]) for new, old in zip(looser, fit.noises, strict=True)]
+    return replace(fit, noises=looser, residuals=tuple(k * r for k, r in zip(scale, fit.residuals, strict=True)),
+                   jacobians=tuple(k * j for k, j in zip(scale, fit.jacobians, strict=True)), converged=False)
 
 
 def _mean_square(problem, noises, hypothesis, start, runs):

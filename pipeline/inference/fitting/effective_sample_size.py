@@ -15,7 +15,7 @@ def effective_share(noise, white, power=2):
 
     ``power`` 1, with |rho_k|: for sums of the residual along a motion, whatever its frequency; the density of noise is
     1 + 2 sum_k rho_k cos(k w) times that of white noise. There the first few correlations count from two of their
-    standard deviations on: faint colour lies in them.
+    standard deviations on: weak autocorrelation appears at the shortest lags.
     """
     if not noise.ordered:
         return 1.0
@@ -54,12 +54,11 @@ def coherent_energy(noise, white, level=1.0, chance=1e-3):
         bound, power, levels = 2 * np.log(2 * max(total, 1) / chance), white**2, level
     else:
         power = [np.abs(np.fft.rfft(p)[1:(len(p) + 1) // 2]) ** 2 / max(len(p), 1) for p in parts]
-        levels = np.concatenate([np.full(len(lines), level * _density(p))
-                                 for lines, p in zip(power, parts, strict=True)])
+        levels = np.concatenate([np.full(len(part), level * _density(p)) for part, p in zip(power, parts, strict=True)])
         power = np.concatenate(power)
         bound = np.log(max(len(power), 1) / chance)
-    excess = np.where(power > levels * bound, power - levels, 0.0)
-    return float(excess.sum() * (2 if noise.ordered else 1))
+    coherent = np.where(power > levels * bound, power - levels, 0.0)
+    return float(coherent.sum() * (2 if noise.ordered else 1))
 
 
 def _density(series):

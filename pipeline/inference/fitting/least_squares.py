@@ -5,6 +5,7 @@ Nielsen & Tingleff, Methods for Non-Linear Least Squares Problems, 2004).
 """
 
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 
@@ -24,15 +25,12 @@ _LONGEST = 1.5
 #: where no step helps (rounding, kinks of the forward model) or iterations are used up, a fit counts as converged below
 #: this: a posterior standard deviation from its linearised optimum
 _STALLED = 1.0
-#: so many times that a fit that used up its iterations may promise to go on, for this fraction of them
+#: a fit that used up its iterations goes on, for this fraction of them, where its predicted decrease is below _NEARLY
 _NEARLY, _AGAIN = 30.0, 3
 #: share of the tolerance below which the gain of a step is none
 _LEAST = 0.1
 #: so many times the decrease of the objective that its slope promises may a fit still come down
-HOPE = 10.0
-#: share of what a fit explains below which what its slopes still promise cannot matter (forces with kinks have no
-#: smooth optimum)
-NOTHING_MORE = 1e-3
+_HOPE = 10.0
 #: noise powers beyond which a residual is far off
 FAR = 100.0
 #: iterations, and the share of the objective that is left after them where a fit crawls
@@ -79,6 +77,41 @@ class Fit:
     def objective(self):
         return float(self.chi_square.sum() + self.latent @ self.latent)
 
+    @property
+    def unordered(self):
+        """Whether what is fitted has no order in time: features, not samples."""
+        return not all(noise.ordered for noise in self.noises)
+
+    @property
+    def far(self):
+        """Whether far more than noise is left."""
+        return bool(self.chi_square.sum() > FAR * self.counts.sum())
+
+    @cached_property
+    def weights(self):
+        """Weights (runs,) of the log-likelihoods of the runs by what this fit leaves (see ``tempering``)."""
+        return tempering(self.noises, self.residuals)
+
+    @cached_property
+    def promised(self):
+        """Decrease of the objective that the slopes still promise."""
+        gradient, hessian = _slopes(self)
+        return float(gradient @ np.linalg.solve(hessian, gradient))
+
+    def ended(self, explained, fraction):
+        """Whether it converged, or its slopes promise less than a ``fraction`` of what it ``explained``."""
+        return self.converged or self.promised <= fraction * explained
+
+    def reaches_noise(self, uncertainty):
+        """Whether no more is left than noise whose power has this relative ``uncertainty``."""
+        return self.chi_square.sum() <= (1 + uncertainty) * self.counts.sum()
+
+    def excluded(self, beyond):
+        """A sentence for each parameter that lies ``beyond`` so many standard deviations of its prior."""
+        return tuple(f"the prior of {p.name} excludes the data: they ask for {self.values[p.name]:.4g} {p.unit} or"
+                     f" beyond, {abs(u):.1f} of its standard deviations away; check its unit, or widen the prior"
+                     for p, u in zip(self.hypothesis.parameters, self.latent, strict=True) if abs(u) > beyond)
+
     def explains(self, null):
         """Squared error of the Fit ``null`` that this one explains."""
         return null.chi_square.sum() - self.chi_square.sum()
@@ -96,16 +129,6 @@ class Fit:
         std = np.sqrt(np.diag(self.covariance(weights)))
         low, high = self.hypothesis.values(self.latent - std), self.hypothesis.values(self.latent + std)
         return {name: 0.5 * (high[name] - low[name]) for name in low}
-
-
-def of_features(noises):
-    """Whether what is fitted has no order in time."""
-    return not all(noise.ordered for noise in noises)
-
-
-def far(state):
-    """Whether a Fit leaves far more than noise."""
-    return bool(state.chi_square.sum() > FAR * state.counts.sum())
 
 
 def whitened(problem, noises, hypothesis, latent, runs):
@@ -157,20 +180,20 @@ def continued(problem, state, iterations=ITERATIONS, enough=np.inf, patient=True
     tell how far it is from its optimum: in a narrow valley the error of forward ones looks like a slope. From there a
     fit goes on that is nearly at its end.
     """
-    best = iterated(problem, state, iterations, enough, patient)
-    if best.converged or best.objective > enough:
-        return best
-    best = _looked_at(problem, best)
-    if best.converged or promised(best) > _NEARLY * _scale(best):
-        return best
-    best = iterated(problem, best, iterations // _AGAIN, enough, patient)
-    return best if best.converged or best.objective > enough else _looked_at(problem, best)
+    state = iterated(problem, state, iterations, enough, patient)
+    if state.converged or state.objective > enough:
+        return state
+    state = _at_central_differences(problem, state)
+    if state.converged or state.promised > _NEARLY * _scale(state):
+        return state
+    state = iterated(problem, state, iterations // _AGAIN, enough, patient)
+    return state if state.converged or state.objective > enough else _at_central_differences(problem, state)
 
 
-def _looked_at(problem, state):
-    """The Fit with central differences, and whether they find it at its optimum."""
-    refreshed = _refreshed(problem, state, central=True)
-    return replace(refreshed, converged=promised(refreshed) < _STALLED * _scale(refreshed))
+def _at_central_differences(problem, state):
+    """The Fit with central differences, converged where they show it at its optimum."""
+    state = _refreshed(problem, state, central=True)
+    return replace(state, converged=state.promised < _STALLED * _scale(state))
 
 
 def iterated(problem, state, iterations, enough=np.inf, patient=True, rough=False):
@@ -178,14 +201,14 @@ def iterated(problem, state, iterations, enough=np.inf, patient=True, rough=Fals
 
     A ``rough`` one stops where updated Jacobians promise no more: its latent values are of use.
     """
-    damping, growth, width, before = 1e-3, 2.0, DIFFERENCE, []
+    damping, growth, width, objectives = 1e-3, 2.0, DIFFERENCE, []
     for _ in range(iterations):
-        before.append(state.objective)
-        if (not patient and _crawls(state, before)) or (rough and _settles(state, before)):
+        objectives.append(state.objective)
+        if (not patient and _crawls(state, objectives)) or (rough and _settles(state, objectives)):
             break
         gradient, hessian = _slopes(state)
         expected, scale = gradient @ np.linalg.solve(hessian, gradient), _scale(state)
-        if state.objective - HOPE * expected > enough:
+        if state.objective - _HOPE * expected > enough:
             break
         if expected < _tolerance(state, scale, patient):
             if rough or state.fresh:
@@ -205,30 +228,20 @@ def iterated(problem, state, iterations, enough=np.inf, patient=True, rough=Fals
     return state
 
 
-def promised(fit):
-    """Decrease of the objective that the slopes of a Fit still promise."""
-    gradient, hessian = _slopes(fit)
-    return float(gradient @ np.linalg.solve(hessian, gradient))
-
-
-def ended(fit, explained, share=NOTHING_MORE):
-    """Whether a Fit converged, or its slopes promise less than ``share`` of what it ``explained``."""
-    return fit.converged or promised(fit) <= share * explained
-
-
 def _tolerance(state, scale, patient):
-    return max(TOLERANCE * scale, 0.0 if patient or not of_features(state.noises) else _SHARE * state.objective)
+    return max(TOLERANCE * scale, 0.0 if patient or not state.unordered else _SHARE * state.objective)
 
 
-def _crawls(state, before):
+def _crawls(state, objectives):
     """Whether features that are far off have stayed so: their hypothesis has no use for more iterations."""
-    return (of_features(state.noises) and far(state)
-            and any(len(before) > n and before[-1] > share * before[-1 - n] for n, share in _CRAWLING))
+    return (state.unordered and state.far
+            and any(len(objectives) > n and objectives[-1] > fraction * objectives[-1 - n]
+                    for n, fraction in _CRAWLING))
 
 
-def _settles(state, before):
+def _settles(state, objectives):
     """Whether the last step gained so little that a rough fit may end."""
-    return not state.fresh and len(before) > 1 and before[-1] > (1 - _ROUGHLY) * before[-2]
+    return not state.fresh and len(objectives) > 1 and objectives[-1] > (1 - _ROUGHLY) * objectives[-2]
 
 
 def orthogonal(residual, jacobian, prior_precision=None):
@@ -257,7 +270,7 @@ def _information(jacobians, weights=None):
 
 def _scale(state):
     """Objective per unit of log evidence (see ``effective.tempering``)."""
-    return 1 / max(tempering(state.noises, state.residuals).max(), 1e-12)
+    return 1 / max(state.weights.max(), 1e-12)
 
 
 def _jacobians(problem, noises, hypothesis, latent, residuals, runs, first=0, width=DIFFERENCE, central=False):
@@ -274,10 +287,10 @@ def _jacobians(problem, noises, hypothesis, latent, residuals, runs, first=0, wi
             moved, error = whitened(problem, noises, hypothesis, latent + step * (np.arange(len(latent)) == k), runs)
             count += 1
             if moved is not None:
-                slopes.append([(before - after) / step for before, after in zip(residuals, moved, strict=True)])
+                slopes.append([(here - there) / step for here, there in zip(residuals, moved, strict=True)])
         if not slopes:
             raise error
-        columns.append([np.mean(pair, axis=0) for pair in zip(*slopes, strict=True)])
+        columns.append([np.mean(sides, axis=0) for sides in zip(*slopes, strict=True)])
     jacobians = tuple(np.array([column[i] for column in columns]).reshape(len(columns), len(residual)).T
                       for i, residual in enumerate(residuals))
     return jacobians, count
@@ -311,9 +324,9 @@ def _step(problem, state, gradient, hessian, damping, growth):
         tries += 1
         if residuals is not None:
             gain = objective - sum(r @ r for r in residuals) - latent @ latent
-            promised = step @ (2 * gradient - hessian @ step)
+            expected = step @ (2 * gradient - hessian @ step)
             if gain > 0:
-                ratio = gain / promised if promised > 0 else 0.5
+                ratio = gain / expected if expected > 0 else 0.5
                 moved = _moved(state, latent, residuals, tries)
                 if ratio < _TRUSTED:
                     moved = _refreshed(problem, moved)
@@ -326,8 +339,8 @@ def _step(problem, state, gradient, hessian, damping, growth):
 
 def _moved(state, latent, residuals, tries):
     """State at ``latent`` with Jacobians that agree with the change of the prediction on the way there."""
-    way = latent - state.latent
-    jacobians = tuple(j + np.outer(before - after - j @ way, way) / (way @ way)
-                      for j, before, after in zip(state.jacobians, state.residuals, residuals, strict=True))
+    step = latent - state.latent
+    jacobians = tuple(j + np.outer(here - there - j @ step, step) / (step @ step)
+                      for j, here, there in zip(state.jacobians, state.residuals, residuals, strict=True))
     return replace(state, latent=latent, residuals=tuple(residuals), jacobians=jacobians, fresh=False,
                    evaluations=state.evaluations + tries)

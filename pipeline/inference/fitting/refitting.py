@@ -1,26 +1,24 @@
 """Refits of candidates: from where each begins, which ones go on, and when one is given up."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from pipeline.contract.errors import BrakechainError
-from pipeline.inference.decision.candidate_statistics import EXCLUDED, excluded
+from pipeline.inference.decision.candidate_statistics import unexplained
+from pipeline.inference.decision.weighing import Evidences
 from pipeline.inference.fitting import tone_starts
-from pipeline.inference.fitting.calibration import begun, paired_anew
-from pipeline.inference.fitting.effective_sample_size import tempering
-from pipeline.inference.fitting.least_squares import Fit, continued, far, linearised, of_features
-from pipeline.inference.search.score_screen import directions, own_name, screen
+from pipeline.inference.fitting.calibration import Calibration, begun, paired_anew
+from pipeline.inference.fitting.least_squares import Fit, continued, linearised
+from pipeline.inference.problem import FanOut, Problem
+from pipeline.inference.rules import Rules
+from pipeline.inference.search.score_screen import directions, screen, short_name
 
 #: iterations of a nominal model from a candidate's optimum before it is given up where it is still worse than before
 _GIVEN_UP = 16
-#: units of log evidence of the best candidate within which others must be able to come, else they are given up
-_NEAR = 20.0
-#: share of the best one's squared score, at the nominal values it asks for, from which another could be in its place
-_RIVAL = 0.25
-#: times that a better one found in this way is asked again
+#: times that a better candidate found beside the best one is taken for the best
 _ROUNDS = 2
 
 
@@ -29,29 +27,84 @@ class Refitted(NamedTuple):
 
     fit: Fit | None
     null: Fit | None
-    told: str
+    failure: str
 
 
 @dataclass(frozen=True)
 class Refits:
-    """Fits of the ``catalogue`` (candidate, ...) beside the Fit ``null`` of the nominal hypothesis of a problem."""
+    """Third step: ``results`` {index: Refitted} of candidates, beside the Calibration as their optima improved it.
 
-    problem: object
-    null: object
+    ``directions`` of all candidates at its null; ``refitter`` made the results.
+    """
+
+    calibration: Calibration
+    directions: tuple
+    results: dict
+    refitter: "Refitter"
+
+    @classmethod
+    def of(cls, screening, catalogue, settings, fan_out):
+        """Refits of the promising candidates of a Screening, of their imitators, and of what they overlook."""
+        calibration, starts = screening.calibration, screening.screen.start
+        refitter = Refitter(calibration.problem, calibration.null, tuple(catalogue), settings, fan_out)
+        results = refitter.best_of(screening.promising, starts)
+        fits = {i: r.fit for i, r in results.items() if r.fit is not None}
+        if fits:
+            evidences = Evidences.of(calibration.null, screening.directions, fits, settings)
+            more = evidences.overlooked(settings.rules.decision)[:settings.kept]
+            results = refitter.of(more, starts, results)
+        better = calibration.improved([r.null for r in results.values()], settings.rules.calibration)
+        if better is calibration:
+            return cls(calibration, screening.directions, results, refitter)
+        refitter = replace(refitter, null=better.null)
+        again = tuple(fan_out(partial(directions, better.problem, better.null), catalogue))
+        return cls(better, again, results, refitter)
+
+    def begun_anew(self, starts):
+        """These Refits with fits begun at the latent values ``starts`` {index: (k,)}, where they are better."""
+        return replace(self, results=self.refitter.better(self.results, starts))
+
+
+@dataclass(frozen=True)
+class Refitter:
+    """Fits candidates of a ``catalogue`` (Hypothesis, ...) beside the Fit ``null`` of the nominal hypothesis.
+
+    ``settings``: those of ``procedure``.
+    """
+
+    problem: Problem
+    null: Fit
     catalogue: tuple
-    settings: object
-    fan_out: object
+    settings: Any
+    fan_out: FanOut
 
-    def of(self, chosen, starts, before=None):
-        """{index: Refitted} of what was found ``before`` and of the candidates ``chosen``, begun at latent ``starts``.
+    @property
+    def rules(self) -> Rules:
+        return self.settings.rules
+
+    def best_of(self, promising, starts):
+        """{index: Refitted}: the best few ``promising`` ones and their imitators, else all of them.
+
+        All begin only where the linearisation of the null may fail and none of the first few explains enough.
+        """
+        kept, decision = self.settings.kept, self.rules.decision
+        results = self.with_imitators(self.of(promising[:kept], starts))
+        enough = any(unexplained(self.null, r.fit, self.rules) <= decision.unexplained
+                     for r in results.values() if r.fit)
+        if enough or self.null.reaches_noise(decision.noise_uncertainty) or self.null.unordered:
+            return results
+        return self.with_imitators(self.of(promising[kept:], starts, results))
+
+    def of(self, chosen, starts, results=None):
+        """{index: Refitted} of ``results`` and of the candidates ``chosen``, begun at latent ``starts``.
 
         All begin; the best few go on, first the best of them, as the others have to come near it.
         """
-        begin = partial(_begun, self.problem, self.null, self.settings.starts)
+        begin = partial(_begun, self.problem, self.null, self.settings.starts, self.rules.calibration)
         items = [(self.catalogue[i], starts[i]) for i in chosen]
-        return self._ended(chosen, self.fan_out(begin, items), before or {})
+        return self._ended(chosen, self.fan_out(begin, items), results or {})
 
-    def from_best(self, results):
+    def with_imitators(self, results):
         """{index: Refitted} once others have begun at the nominal values that the best of ``results`` asks for.
 
         A nominal model that has to make up for what is missing is off its true values, and what moves as the best
@@ -68,72 +121,78 @@ class Refits:
 
     def better(self, results, starts):
         """{index: Refitted} with fits begun at the latent values ``starts`` {index: (k,)}, where they are better."""
-        tried = [(i, *_tried(self.problem, self.null, self.catalogue[i], [start], ())) for i, start in starts.items()]
-        finished = {i: _finished(self.problem, self.null, np.inf, state) for i, state, _ in tried if state is not None}
-        return _lowest(results, finished)
+        begins = [(i, *_tried(self.problem, self.null, self.catalogue[i], [start], ())) for i, start in starts.items()]
+        return _lowest(results, {i: _finished(self.problem, self.null, np.inf, self.rules, begin)
+                                 for i, begin, _ in begins if begin is not None})
 
     def _explains(self, fit):
-        gained = tempering(fit.noises, fit.residuals).max() * fit.betters(self.null)
-        return gained > 2 * self.settings.rules.evidence_gain
+        return fit.weights.max() * fit.betters(self.null) > 2 * self.rules.decision.evidence_gain
 
     def _beside(self, top, results):
-        """Results with those of the rivals of candidate ``top``, where they are better."""
+        """Results with those of the imitators of candidate ``top``, where they are better."""
         size, fit = len(self.null.latent), results[top].fit
         anchor = linearised(self.problem, self.null.noises, self.problem.nominal, fit.latent[:size], self.null.runs)
-        like = {own_name(p): fit.values[p.name] for p in fit.hypothesis.parameters[size:]}
+        like = {short_name(p): fit.values[p.name] for p in fit.hypothesis.parameters[size:]}
         look = partial(directions, self.problem, anchor, like=like)
-        seen = screen(anchor, list(self.fan_out(look, self.catalogue)), draws=0)
-        rivals = [i for i in seen.order() if i != top and seen.score[i] > 0
-                  and seen.score[i]**2 >= _RIVAL * seen.score[top]**2][:self.settings.kept]
+        scores = screen(anchor, list(self.fan_out(look, self.catalogue)), draws=0, rules=self.rules.screening)
+        enough = self.rules.refit.imitates * scores.score[top]**2
+        imitators = [i for i in scores.order() if i != top and scores.score[i] > 0
+                     and scores.score[i]**2 >= enough][:self.settings.kept]
         begin = partial(_begun_at, self.problem, anchor)
-        ended = self._ended(rivals, self.fan_out(begin, [(self.catalogue[i], seen.start[i]) for i in rivals]),
-                            {top: results[top]})
-        return _lowest(results, ended)
+        refitted = self._ended(imitators, self.fan_out(begin, [(self.catalogue[i], scores.start[i])
+                                                               for i in imitators]), {top: results[top]})
+        return _lowest(results, refitted)
 
-    def _ended(self, chosen, begins, before):
-        """{index: Refitted} of ``before`` and of candidates with their [(Fit or None, what went wrong)] of a begin."""
+    def _ended(self, chosen, begins, results):
+        """{index: Refitted} of ``results`` and of candidates with their [(Fit or None, what went wrong)] of a begin."""
         first = dict(zip(chosen, begins, strict=True))
-        failed = {i: Refitted(None, None, failure) for i, (state, failure) in first.items() if state is None}
-        ended = {**before, **failed}
-        states = {i: state for i, (state, _) in first.items() if state is not None}
-        best = sorted(states, key=lambda i: states[i].objective)[:self.settings.kept]
+        ended = {**results, **{i: Refitted(None, None, why) for i, (begin, why) in first.items() if begin is None}}
+        begun_fits = {i: begin for i, (begin, _) in first.items() if begin is not None}
+        best = sorted(begun_fits, key=lambda i: begun_fits[i].objective)[:self.settings.kept]
         for group in (best[:1], best[1:]):
-            finish = partial(_finished, self.problem, self.null, _enough(ended.values()))
-            ended = {**ended, **dict(zip(group, self.fan_out(finish, [states[i] for i in group]), strict=True))}
+            finish = partial(_finished, self.problem, self.null, self._enough(ended.values()), self.rules)
+            ended |= dict(zip(group, self.fan_out(finish, [begun_fits[i] for i in group]), strict=True))
         return ended
 
+    def _enough(self, results):
+        """The objective to which a candidate must be able to come down: near the best so far, as evidence is tempered.
+        """
+        best = min((r.fit for r in results if r.fit is not None), key=lambda fit: fit.objective, default=None)
+        return np.inf if best is None else best.objective + self.rules.refit.within_reach / best.weights.max()
 
-def at_odds(null):
+
+def at_odds(null, rules):
     """Whether samples pull the null to values at odds with their priors: then its linearisation ranks nothing."""
-    return bool(excluded(null, EXCLUDED)) and not of_features(null.noises)
+    return bool(null.excluded(rules.excluded)) and not null.unordered
 
 
-def _misled(null):
+def _misled(null, rules):
     """Whether nothing near the null's optimum helps: values at odds with their priors, features paired wrongly."""
-    return bool(excluded(null, EXCLUDED)) or (of_features(null.noises) and far(null))
+    return bool(null.excluded(rules.excluded)) or (null.unordered and null.far)
 
 
 def _best(results):
     """Index of the lowest objective, or None."""
-    fits = {i: r.fit.objective for i, r in results.items() if r.fit is not None}
-    return min(fits, key=fits.get, default=None)
+    objectives = {i: r.fit.objective for i, r in results.items() if r.fit is not None}
+    return min(objectives, key=objectives.get, default=None)
 
 
-def _lowest(results, indices):
+def _lowest(results, others):
     """{index: Refitted} of both, each of the lower objective."""
     def lower(fit, other):
         return fit is not None and (other is None or fit.objective < other.objective)
 
-    return {**results, **{i: r for i, r in indices.items() if i not in results or lower(r.fit, results[i].fit)}}
+    return {**results, **{i: r for i, r in others.items() if i not in results or lower(r.fit, results[i].fit)}}
 
 
-def _begun(problem, null, offsets, item):
+def _begun(problem, null, offsets, rules, item):
     """(Fit of a candidate after a few iterations or None, why there is none)."""
     candidate, screened_start = item
-    misled = _misled(null)
+    misled = _misled(null, rules)
     starts = _starts(problem.nominal.nominal if misled else null.latent, [
         screened_start, *(np.full(len(candidate.parameters), offset) for offset in offsets)])
-    starts += _starts(null.latent, [screened_start] * at_odds(null) + tone_starts.starts(problem, null, candidate))
+    starts += _starts(null.latent, [screened_start] * at_odds(null, rules)
+                      + tone_starts.starts(problem, null, candidate))
     return _tried(problem, null, candidate, starts, () if misled else null.jacobians)
 
 
@@ -156,35 +215,27 @@ def _tried(problem, null, candidate, starts, known):
         return None, str(error)
 
 
-def _enough(results):
-    """The objective to which a candidate must be able to come down: near the best so far, as evidence is tempered."""
-    best = min((r.fit for r in results if r.fit is not None), key=lambda f: f.objective, default=None)
-    if best is None:
-        return np.inf
-    return best.objective + _NEAR / tempering(best.noises, best.residuals).max()
-
-
-def _finished(problem, null, enough, state):
+def _finished(problem, null, enough, rules, begin):
     """Refitted of a candidate that has begun; where its forward model fails on the way, of its begin."""
     try:
-        best = state if state.converged else continued(problem, state, enough=enough, patient=False)
-        best = paired_anew(problem, best)
+        fit = begin if begin.converged else continued(problem, begin, enough=enough, patient=False)
+        fit = paired_anew(problem, fit, rules.calibration)
     except BrakechainError as error:
-        return Refitted(state, None, str(error))
-    if not best.converged and best.objective > enough:
-        return Refitted(best, None, "its fit was given up, far from what others reach")
-    failure = "" if best.converged else f"its fit had not converged after {best.evaluations} predictions"
-    return Refitted(best, _null_again(problem, null, best), failure)
+        return Refitted(begin, None, str(error))
+    if not fit.converged and fit.objective > enough:
+        return Refitted(fit, None, "its fit was given up, far from what others reach")
+    failure = "" if fit.converged else f"its fit had not converged after {fit.evaluations} predictions"
+    return Refitted(fit, _null_again(problem, null, fit, rules.refit), failure)
 
 
-def _null_again(problem, null, best):
-    """A better Fit of the nominal model, found from the optimum of a candidate that fits better than it, or None."""
-    if best.objective > null.objective - 1:
+def _null_again(problem, null, fit, rules):
+    """A better Fit of the nominal model, reached from the optimum of a candidate that fits better than it, or None."""
+    if fit.objective > null.objective - rules.better_by:
         return None
     size = len(null.latent)
     try:
-        again = linearised(problem, null.noises, problem.nominal, best.latent[:size], null.runs,
-                           [j[:, :size] for j in best.jacobians])
+        again = linearised(problem, null.noises, problem.nominal, fit.latent[:size], null.runs,
+                           [j[:, :size] for j in fit.jacobians])
         again = continued(problem, again, _GIVEN_UP, null.objective, patient=False)
     except BrakechainError:
         return None

@@ -10,11 +10,14 @@ whole catalogue reaches it under that null: a parametric bootstrap of the refitt
 """
 
 from dataclasses import dataclass
+from functools import partial
 from itertools import product
 
 import numpy as np
 
+from pipeline.inference.fitting.calibration import Calibration
 from pipeline.inference.fitting.least_squares import from_prior_mean, orthogonal, whitened
+from pipeline.inference.rules import DEFAULTS
 
 #: steps away from the null, in scales of the parameter's prior: its derivative, and a change one would notice
 STEPS = (0.02, 1.0)
@@ -25,8 +28,6 @@ ANGLES = (0.125, 0.375, 0.625, 0.875)
 #: at most this many combinations of shapes per effect parameter
 _COMBINATIONS = 8
 DRAWS = 20000
-#: a direction that keeps less than this share of its square outside the nominal parameters is not told from them
-_VISIBLE = 1e-8
 
 
 @dataclass(frozen=True)
@@ -62,6 +63,36 @@ class Screen:
         return np.argsort(-self.score, kind="stable")
 
 
+@dataclass(frozen=True)
+class Screening:
+    """Second step: Directions (candidate,) at the null of a Calibration, their Screen, what is refitted.
+
+    ``promising``: indices of the candidates whose scores are worth a fit, best first.
+    """
+
+    calibration: Calibration
+    directions: tuple
+    screen: Screen
+    promising: tuple
+
+    @classmethod
+    def of(cls, calibration, catalogue, settings, fan_out, beside_a_first=False):
+        """Screening of a ``catalogue`` (Hypothesis, ...); ``beside_a_first``: for the second effect of a pair.
+
+        Where the linearisation of the null may fail, all candidates are worth a fit. It holds where the null reaches
+        the noise; of features, which are few and far from linear only where they are paired anew, wherever the null
+        has an optimum.
+        """
+        problem, null, rules = calibration.problem, calibration.null, settings.rules
+        every = tuple(fan_out(partial(directions, problem, null), catalogue))
+        rough = screen(null, every, None, settings.draws, settings.seed, rules.screening)
+        linear = null.reaches_noise(rules.decision.noise_uncertainty) or (null.unordered and null.converged)
+        likely = rules.decision.p_value if beside_a_first else rules.screening.p_value
+        largest = likely if linear else 1.0
+        return cls(calibration, every, rough, tuple(
+            int(i) for i in rough.order() if np.isfinite(rough.score[i]) and rough.p_value[i] <= largest))
+
+
 def directions(problem, null, candidate, like=None):
     """Directions of one candidate (Hypothesis of its effects alone) at the Fit ``null`` of the nominal hypothesis.
 
@@ -69,40 +100,40 @@ def directions(problem, null, candidate, like=None):
     """
     hypothesis, vectors, signs, tried = problem.nominal.joined(candidate), [], [], []
     base, failure = np.concatenate(null.residuals), ""
-    for latent, sign, share in _trials(candidate, like or {}):
+    for latent, sign, step in _trials(candidate, like or {}):
         full = np.concatenate((null.latent, latent))
         moved, error = whitened(problem, null.noises, hypothesis, full, null.runs)
         if moved is None:
             failure = str(error)
             continue
-        vectors.append((base - np.concatenate(moved)) / share)
+        vectors.append((base - np.concatenate(moved)) / step)
         signs.append(sign)
         tried.append(latent)
     vectors = np.array(vectors).reshape(len(vectors), len(base))
     return Directions(candidate, vectors, np.array(signs, int), tuple(tried), "" if len(vectors) else failure)
 
 
-def screen(null, projections, weights=None, draws=DRAWS, seed=0):
-    """Screen of [Directions] at the Fit ``null``; ``weights`` (runs,) of the runs (see ``effective.tempering``).
+def screen(null, every, weights=None, draws=DRAWS, seed=0, rules=DEFAULTS.screening):
+    """Screen of ``every`` Directions at the Fit ``null``; ``weights`` (runs,) of the runs (see ``effective.tempering``).
 
     Without ``draws`` of the null scores are not compared with it, and p-values say nothing.
     """
     root = np.sqrt(np.repeat(np.ones(len(null.runs)) if weights is None else weights, null.counts))
     jacobian = root[:, None] * np.concatenate(null.jacobians)
     residual = root * np.concatenate(from_prior_mean(null))
-    vectors = np.concatenate([np.empty((0, len(residual))), *(f.vectors for f in projections)]) * root
-    sign = np.concatenate([np.empty(0, int), *(f.sign for f in projections)])
-    owner = np.repeat(np.arange(len(projections)), np.array([len(f.sign) for f in projections], int))
+    vectors = np.concatenate([np.empty((0, len(residual))), *(d.vectors for d in every)]) * root
+    sign = np.concatenate([np.empty(0, int), *(d.sign for d in every)])
+    owner = np.repeat(np.arange(len(every)), np.array([len(d.sign) for d in every], int))
     cleaned = orthogonal(vectors.T, jacobian).T
     square = np.einsum("qm,qm->q", vectors, cleaned)
-    seen = square > _VISIBLE * np.einsum("qm,qm->q", vectors, vectors)
-    size = np.sqrt(np.where(seen, square, 1.0))
-    score = np.where(seen, _one_sided(cleaned @ residual / size, sign), -np.inf)
+    visible = square > rules.visible * np.einsum("qm,qm->q", vectors, vectors)
+    size = np.sqrt(np.where(visible, square, 1.0))
+    score = np.where(visible, _one_sided(cleaned @ residual / size, sign), -np.inf)
     largest = np.empty(0)
     if draws:
-        correlation = np.where(seen[:, None] & seen, (cleaned @ vectors.T) / np.outer(size, size), 0.0)
-        largest = largest_scores(correlation, np.where(seen, sign, 0), draws, seed)
-    return _gathered(projections, owner, score, np.where(seen, size, 0.0), largest)
+        correlation = np.where(visible[:, None] & visible, (cleaned @ vectors.T) / np.outer(size, size), 0.0)
+        largest = largest_scores(correlation, np.where(visible, sign, 0), draws, seed)
+    return _gathered(every, owner, score, np.where(visible, size, 0.0), largest)
 
 
 def largest_scores(correlation, sign, draws=DRAWS, seed=0):
@@ -124,7 +155,7 @@ def _one_sided(score, sign):
     return np.where(sign == 0, np.abs(score), sign * score)
 
 
-def own_name(parameter):
+def short_name(parameter):
     """Name of a parameter without the effect and the place it belongs to."""
     return parameter.name.rpartition(".")[2]
 
@@ -136,8 +167,8 @@ def _trials(candidate, like):
     shares = [ANGLES if parameters[k].unit == "rad" else SHAPES for k in shapes]
     combinations = [[_latent_of(parameters[i], share) for i, share in zip(shapes, each, strict=True)]
                     for each in list(product(*shares))[:_COMBINATIONS]]
-    if shapes and all(own_name(parameters[i]) in like for i in shapes):
-        combinations.append([float(np.clip(parameters[i].prior.latent(like[own_name(parameters[i])]), -2, 2))
+    if shapes and all(short_name(parameters[i]) in like for i in shapes):
+        combinations.append([float(np.clip(parameters[i].prior.latent(like[short_name(parameters[i])]), -2, 2))
                              for i in shapes])
     for k, parameter in enumerate(parameters):
         if parameter.null is None:
@@ -161,11 +192,10 @@ def _latent_of(parameter, share):
     return parameter.prior.latent(parameter.prior.quantile(share))
 
 
-def _gathered(projections, owner, score, power, largest):
-    best = [max(np.flatnonzero(owner == n), key=lambda q: score[q], default=None) for n in range(len(projections))]
+def _gathered(every, owner, score, power, largest):
+    best = [max(np.flatnonzero(owner == n), key=lambda q: score[q], default=None) for n in range(len(every))]
     top = np.array([-np.inf if q is None else score[q] for q in best])
-    starts = tuple(np.zeros(len(f.candidate.parameters)) if q is None else f.tried[q - np.flatnonzero(owner == n)[0]]
-                   for n, (f, q) in enumerate(zip(projections, best, strict=True)))
-    return Screen(tuple(f.candidate for f in projections), top, family_p(top, largest),
-                  np.array([0.0 if q is None else power[q] for q in best]), starts,
-                  tuple(f.failure for f in projections))
+    starts = tuple(np.zeros(len(d.candidate.parameters)) if q is None else d.tried[q - np.flatnonzero(owner == n)[0]]
+                   for n, (d, q) in enumerate(zip(every, best, strict=True)))
+    return Screen(tuple(d.candidate for d in every), top, family_p(top, largest),
+                  np.array([0.0 if q is None else power[q] for q in best]), starts, tuple(d.failure for d in every))

@@ -8,16 +8,16 @@ from scipy import stats
 
 from pipeline.inference.decision.candidate_statistics import (
     _immaterial,
-    contender,
+    candidate_statistics,
     held_out_gains,
-    situation,
+    run_statistics,
     unexplained,
 )
-from pipeline.inference.decision.decision_rules import Rules
 from pipeline.inference.decision.evidence import evidence
 from pipeline.inference.fitting.least_squares import fit
 from pipeline.inference.fitting.parameter_drift import drift
 from pipeline.inference.priors import LATENT_LIMIT, Uniform
+from pipeline.inference.rules import DEFAULTS, DecisionRules
 from tests.inference import linear
 
 
@@ -31,8 +31,8 @@ def fits(truth=None, seed=0, held_out=0, sizes=(2, 1, 1), runs=4):
 
 def seen(whole, catalogue, found, k, held_out=(None, None)):
     null = found[0]
-    return contender(null, evidence(null), catalogue[k - 1], found[k], evidence(found[k]), 0.5, 0.01, held_out,
-                     np.ones(len(null.runs)), Rules())
+    return candidate_statistics(null, evidence(null), catalogue[k - 1], found[k], evidence(found[k]), 0.5, 0.01, held_out,
+                     np.ones(len(null.runs)), DEFAULTS)
 
 
 @pytest.mark.exact
@@ -56,7 +56,7 @@ def _negative(values):
 
 def test_the_right_effect_beats_its_decoy_on_held_out_runs():
     whole, noise, catalogue, found = fits({"effect_1_0": 0.5}, held_out=1)
-    gains = held_out_gains(whole, noise, found[0], {0: found[1], 1: found[2]}, np.array([0.99, 0.001]))
+    gains = held_out_gains(whole, noise, found[0], {0: found[1], 1: found[2]}, np.array([0.99, 0.001]), DEFAULTS)
     assert gains[0][0].errors > 3 and gains[0][1] is True
     assert gains[1][0].errors < 3 and gains[1][1] is None, "the only other candidate is not out of the question"
 
@@ -64,8 +64,8 @@ def test_the_right_effect_beats_its_decoy_on_held_out_runs():
 def test_half_of_an_effect_leaves_a_quarter_of_the_excess():
     whole, _, _, found = fits({"effect_1_0": 4.0})
     half = fit_at(whole, found[1], found[1].latent * [1, 1, 0.5])
-    assert unexplained(found[0], half, Rules(noise_uncertainty=0.0)) == pytest.approx(0.25, abs=0.03)
-    assert unexplained(found[0], found[2], Rules()) > 0.9
+    assert unexplained(found[0], half, replace(DEFAULTS, decision=DecisionRules(noise_uncertainty=0.0))) == pytest.approx(0.25, abs=0.03)
+    assert unexplained(found[0], found[2], DEFAULTS) > 0.9
 
 
 def fit_at(whole, found, latent):
@@ -96,7 +96,7 @@ def misfit(truth, seed):
 @pytest.mark.exact
 def test_held_out_runs_are_off_as_chi_square_is_what_the_values_leave_open():
     """Values that 240 samples tell, of three runs, err in the fourth: (I + J C J') whitens that."""
-    rules = replace(Rules(), noise_uncertainty=0.0)
+    rules = replace(DEFAULTS, decision=DecisionRules(noise_uncertainty=0.0))
     off = [told_of(whole, noise, found[0], rules).held_out for whole, noise, _, found in (
         fits({"nominal_0": 1.0}, seed, held_out=1, sizes=(20,)) for seed in range(60))]
     assert abs(np.mean(off)) < 3.5 / np.sqrt(60) and np.std(off) == pytest.approx(1.0, abs=0.35)
@@ -109,7 +109,7 @@ def test_held_out_runs_that_differ_from_the_fitted_ones_are_seen():
 
 
 def told_of(whole, noise, null, rules=None):
-    return situation(whole, noise, null, np.ones(len(null.runs)), drift(null), rules or Rules())
+    return run_statistics(whole, noise, null, np.ones(len(null.runs)), drift(null), rules or DEFAULTS)
 
 
 def test_what_has_no_optimum_is_compared_only_by_far():
@@ -138,7 +138,7 @@ def test_another_name_for_nearly_the_same_force_is_no_decoy():
     null = fit(whole, noises, whole.nominal, np.zeros(2), whole.training)
     fits = {k: fit(whole, noises, whole.nominal.joined(c), np.zeros(3), whole.training)
             for k, c in enumerate(catalogue)}
-    gains = held_out_gains(whole, noise, null, fits, np.array([0.99, 0.01]))
+    gains = held_out_gains(whole, noise, null, fits, np.array([0.99, 0.01]), DEFAULTS)
     assert gains[0][1] is None and gains[0][0].errors > 3
 
 
@@ -147,4 +147,4 @@ def test_no_change_of_a_value_at_the_end_of_its_prior_is_more_than_its_whole_ran
     own = replace(catalogue[0], parameters=(replace(catalogue[0].parameters[0], prior=Uniform(0.0, 1.0)),))
     ended = fit_at(whole, replace(found[1], hypothesis=whole.nominal.joined(own)),
                    np.append(found[1].latent[:-1], LATENT_LIMIT))
-    assert _immaterial(ended, len(ended.latent) - 1, Rules()) == LATENT_LIMIT
+    assert _immaterial(ended, len(ended.latent) - 1, DEFAULTS.decision) == LATENT_LIMIT

@@ -4,15 +4,23 @@ from dataclasses import replace
 
 import pytest
 
-from pipeline.inference.decision.decision_rules import VERDICTS, Contender, Rules, Situation, decide, objections
+from pipeline.inference.decision.decision_rules import (
+    VERDICTS,
+    CandidateStatistics,
+    RunStatistics,
+    decide,
+    objections,
+)
+from pipeline.inference.rules import DecisionRules
 
-GOOD = Contender("friction", "physics", 0.99, 40.0, 1e-4, 30.0, 15.0, 12.0, 0.8, 0.02, 1.2, True, 0.3, 20.0, 0.01)
-FOUR = Situation(runs=4, points=3, misfit=25.0, held_out=12.0, coherent=True, moved_p=0.0, drift_p=0.001)
+GOOD = CandidateStatistics("friction", "physics", 0.99, 40.0, 1e-4, 30.0, 15.0, 12.0, 0.8, 0.02, 1.2, True, 0.3, 20.0,
+                           0.01)
+FOUR = RunStatistics(runs=4, points=3, misfit=25.0, held_out=12.0, coherent=True, moved_p=0.0, drift_p=0.001)
 FINE = replace(FOUR, misfit=-0.2, held_out=0.3, coherent=False, moved_p=0.4, drift_p=0.3)
 
 
 def verdict(situation, *contenders):
-    told = decide(situation, contenders, Rules())
+    told = decide(situation, contenders, DecisionRules())
     assert told.verdict in VERDICTS and told.reasons
     return told.verdict
 
@@ -34,8 +42,8 @@ def test_without_candidates_the_nominal_model_decides():
 
 def test_values_that_priors_exclude_are_told_where_nothing_is_named():
     situation = replace(FOUR, excluded=("the prior of stiffness excludes the data",))
-    assert situation.excluded[0] in decide(situation, [], Rules()).reasons
-    assert situation.excluded[0] not in decide(situation, [GOOD], Rules()).reasons
+    assert situation.excluded[0] in decide(situation, [], DecisionRules()).reasons
+    assert situation.excluded[0] not in decide(situation, [GOOD], DecisionRules()).reasons
 
 
 @pytest.mark.parametrize("broken, told", [
@@ -53,9 +61,9 @@ def test_values_that_priors_exclude_are_told_where_nothing_is_named():
 ])
 def test_a_single_broken_rule_forbids_the_name_and_is_told(broken, told):
     contender = replace(GOOD, **broken)
-    assert any(told in why for why in objections(contender, FOUR, Rules()))
+    assert any(told in why for why in objections(contender, FOUR, DecisionRules()))
     assert verdict(FOUR, contender) == "unknown" and verdict(FINE, contender) == "consistent"
-    assert any(told in why for why in decide(FOUR, [contender], Rules()).reasons)
+    assert any(told in why for why in decide(FOUR, [contender], DecisionRules()).reasons)
 
 
 @pytest.mark.parametrize("broken", [{"p_value": 0.011}, {"evidence_gain": 4.9}])
@@ -66,7 +74,7 @@ def test_what_is_not_significant_is_not_a_candidate(broken):
 
 def test_two_that_explain_alike_are_a_tie_of_both():
     first, second = replace(GOOD, posterior=0.6), replace(GOOD, name="gap", posterior=0.39)
-    told = decide(FOUR, [second, first], Rules())
+    told = decide(FOUR, [second, first], DecisionRules())
     assert told.verdict == "tie" and [c.name for c in told.named] == ["friction", "gap"]
     assert verdict(FOUR, replace(first, kind="sensor"), replace(second, kind="sensor")) == "sensor"
 
@@ -78,7 +86,7 @@ def test_a_rival_that_breaks_a_rule_leaves_the_other_named():
 
 def test_what_breaks_no_rule_is_not_named_in_place_of_something_more_likely():
     first, second = replace(GOOD, posterior=0.6, held_out_errors=-2.0), replace(GOOD, name="gap", posterior=0.39)
-    told = decide(FOUR, [first, second], Rules())
+    told = decide(FOUR, [first, second], DecisionRules())
     assert told.verdict == "unknown" and "gap: candidates that break a rule are more likely" in told.reasons
 
 
@@ -88,14 +96,14 @@ def test_what_leaves_more_than_a_twentieth_is_unknown():
 
 
 def test_one_run_names_nothing_and_says_so():
-    told = decide(replace(FOUR, runs=1, points=1), [replace(GOOD, held_out_errors=None, beats_decoy=None)], Rules())
+    told = decide(replace(FOUR, runs=1, points=1), [replace(GOOD, held_out_errors=None, beats_decoy=None)], DecisionRules())
     assert told.verdict == "tie" and any("one run only" in why for why in told.reasons)
 
 
 def test_below_three_points_agreement_is_waived_and_told():
-    told = decide(replace(FOUR, runs=3, points=2), [replace(GOOD, disagreement=50.0)], Rules())
+    told = decide(replace(FOUR, runs=3, points=2), [replace(GOOD, disagreement=50.0)], DecisionRules())
     assert told.verdict == "missing" and any("values agree across them was not tested" in why for why in told.reasons)
 
 
 def test_rules_are_the_users():
-    assert decide(FOUR, [replace(GOOD, unexplained=0.15)], Rules(unexplained=0.2)).verdict == "missing"
+    assert decide(FOUR, [replace(GOOD, unexplained=0.15)], DecisionRules(unexplained=0.2)).verdict == "missing"

@@ -8,6 +8,7 @@ from pipeline.inference.fitting import calibration
 from pipeline.inference.fitting.calibration import _under, begun, calibrate, paired_anew
 from pipeline.inference.fitting.least_squares import fit, linearised
 from pipeline.inference.priors import Normal, Parameter
+from pipeline.inference.rules import DEFAULTS
 from tests.inference.curves import curve_problem, either_of_two, features
 
 
@@ -65,7 +66,7 @@ def test_values_that_no_other_start_betters_stay_where_they_are():
     whole, noises = features(6.0, 0.05)
     found = fit(whole, noises, whole.nominal, np.array([5.5]), whole.runs)
     assert found.latent == pytest.approx(6.0, abs=0.05)
-    assert paired_anew(whole, found) is found
+    assert paired_anew(whole, found, DEFAULTS.calibration) is found
 
 
 def test_a_start_where_the_model_fails_is_passed_over_and_told_where_all_fail():

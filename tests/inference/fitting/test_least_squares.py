@@ -8,12 +8,10 @@ from pipeline.inference.fitting.least_squares import (
     TOLERANCE,
     _crawls,
     continued,
-    far,
     fit,
     from_prior_mean,
     linearised,
     orthogonal,
-    promised,
 )
 from pipeline.inference.fitting.noise import budget
 from pipeline.inference.priors import HalfNormal, LogNormal, Normal, Parameter
@@ -92,7 +90,7 @@ def test_bounds_hold_and_the_posterior_covers_its_truth():
 def test_features_that_stay_far_off_crawl():
     whole, noises = features(1.4, 0.001)
     state = linearised(whole, noises, whole.nominal, np.zeros(1), whole.runs)
-    assert far(state) and _crawls(state, [state.objective] * 6)
+    assert state.far and _crawls(state, [state.objective] * 6)
     assert not _crawls(state, [state.objective] * 5), "a trial is not judged"
     slowly = state.objective * 0.96 ** -np.arange(9.0)[::-1]
     assert not _crawls(state, slowly[1:]) and _crawls(state, slowly)
@@ -138,9 +136,9 @@ def test_a_fit_that_is_stopped_is_judged_by_central_differences():
     whole, noise = curve_problem(lambda v, x: 3e4 * v["a"] ** 2 + 0 * x,
                                  (Parameter("a", "1", 0.0, Normal(0.0, 1.0)),), lambda x: -1.0 + 0 * x, 0.1)
     begin = linearised(whole, noise, whole.nominal, np.zeros(1), whole.training)
-    assert promised(begin) > 50, "the error of forward differences"
+    assert begin.promised > 50, "the error of forward differences"
     stopped = continued(whole, begin, iterations=0)
-    assert stopped.converged and promised(stopped) < 1e-2 and stopped.evaluations == begin.evaluations + 2
+    assert stopped.converged and stopped.promised < 1e-2 and stopped.evaluations == begin.evaluations + 2
 
 
 def test_known_columns_are_taken_and_not_called_fresh():

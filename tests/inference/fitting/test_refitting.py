@@ -3,13 +3,12 @@
 import numpy as np
 import pytest
 
-from pipeline.inference.decision.candidate_statistics import reaches_noise
-from pipeline.inference.decision.decision_rules import Rules
 from pipeline.inference.fitting import refitting
 from pipeline.inference.fitting.calibration import calibrate
 from pipeline.inference.fitting.noise import budget
-from pipeline.inference.fitting.refitting import Refits, at_odds
+from pipeline.inference.fitting.refitting import Refitter, at_odds
 from pipeline.inference.procedure import Settings, diagnose
+from pipeline.inference.rules import DEFAULTS
 from tests.inference.oscillator import CATALOGUE, bench
 
 CUBIC = [c.name for c in CATALOGUE].index("cubic")
@@ -28,7 +27,7 @@ def found():
     problem = bench(5, 0.01, stiffness=380.0, extra=cubic)
     noises = tuple(budget(problem)[run.name] for run in problem.training)
     null = calibrate(problem, noises, problem.nominal, [problem.nominal.nominal], problem.training, settled=False)
-    return Refits(problem, null, CATALOGUE, Settings(kept=2), map)
+    return Refitter(problem, null, CATALOGUE, Settings(kept=2), map)
 
 
 def begins(monkeypatch, name="_begun"):
@@ -50,15 +49,16 @@ def test_only_the_best_few_go_on(found):
     starts = [np.zeros(len(c.parameters)) for c in CATALOGUE]
     told = found.of(range(len(CATALOGUE)), starts)
     assert sum(r.fit is not None for r in told.values()) == 2 and told[CUBIC].fit.converged
-    assert reaches_noise(told[CUBIC].fit, Rules())
-    assert not reaches_noise(found.null, Rules()) and not at_odds(found.null)
+    uncertainty = DEFAULTS.decision.noise_uncertainty
+    assert told[CUBIC].fit.reaches_noise(uncertainty)
+    assert not found.null.reaches_noise(uncertainty) and not at_odds(found.null, DEFAULTS.calibration)
 
 
 def test_a_rival_is_found_from_the_nominal_values_of_the_best(found):
     """Of two equal laws one was left where it began: it comes down to the other."""
     twin = type(found)(found.problem, found.null, (CATALOGUE[CUBIC], CATALOGUE[CUBIC]), found.settings, map)
     best = found.of([CUBIC], {CUBIC: np.zeros(1)})[CUBIC]
-    told = twin.from_best({0: best})
+    told = twin.with_imitators({0: best})
     assert [told[k].fit.objective for k in (0, 1)] == pytest.approx([best.fit.objective] * 2, rel=1e-4)
 
 
@@ -72,6 +72,6 @@ def test_where_nothing_explains_more_than_chance_nothing_is_looked_for(monkeypat
 def test_what_is_better_is_kept(found):
     """A rival that ends above what was found before does not take its place."""
     best = found.of([CUBIC], {CUBIC: np.zeros(1)})[CUBIC]
-    told = found.from_best({CUBIC: best})
+    told = found.with_imitators({CUBIC: best})
     assert told[CUBIC] is best
     assert all(r.fit is None or r.fit.objective >= best.fit.objective - 1e-6 for r in told.values())

@@ -1,0 +1,72 @@
+"""Whether a second effect beside a first one is more than an error of the law of the first."""
+
+import numpy as np
+
+from pipeline.inference.decision.candidate_statistics import unfinished
+from pipeline.inference.decision.evidence import evidence
+from pipeline.inference.fitting.effective_sample_size import doubt
+
+#: verdicts that name something
+NAMING = ("missing", "sensor", "numerics")
+
+
+def leading(single, rules, count=2):
+    """Refitted candidates worth taking as known: significant ones, best first, another only if it explains as much."""
+    decision = rules.decision
+    if single.decision.verdict == "missing":
+        return single.named[:1]
+    good = [w for w in single.weighed if w.statistics.p_value <= decision.p_value
+            and w.statistics.evidence_gain >= decision.evidence_gain
+            and w.statistics.unexplained < decision.first_unexplained
+            and not unfinished(w.fit, single.null, rules.evidence)]
+    explained = [w.fit.betters(single.null) for w in good]
+    return [w for w, gained in zip(good[:count], explained, strict=False)
+            if gained >= decision.first_share * max(explained)]
+
+
+def has_room(fit, explained, rules):
+    """Whether a second effect may matter beside a first, whose Fit ``explained`` so much of the objective.
+
+    What the first leaves above the noise is as uncertain as the noise is; values at odds with their priors make up for
+    something.
+    """
+    counts = fit.counts.sum()
+    room = fit.objective - counts + doubt(counts, rules.decision.noise_uncertainty)
+    return room >= rules.decision.second_at_noise * explained or bool(fit.excluded(rules.calibration.excluded))
+
+
+def matters(pair, explained, rules):
+    """Whether a ``pair`` names a second effect that is more than an error of the first, which ``explained`` so much.
+
+    A wrong law of the first is seldom made good down to the noise, on runs that were not fitted too: what does that may
+    be smaller, or give nominal values back to their priors.
+    """
+    decision, excluded = rules.decision, rules.calibration.excluded
+    odd = len(pair.null.excluded(excluded))
+
+    def is_more(second):
+        gained = second.fit.betters(pair.null)
+        if second.fit.reaches_noise(decision.noise_uncertainty) and not second.statistics.held_out_left:
+            return gained >= decision.second_at_noise * explained or len(second.fit.excluded(excluded)) < odd
+        return gained >= decision.second_share * explained
+
+    return pair.decision.verdict in NAMING and any(is_more(second) for second in pair.named)
+
+
+def starts_without(first, pair, catalogue):
+    """{index in ``catalogue``: latent values} of what ``pair`` names, at its values, but without the ``first`` effect.
+
+    Greedy addition may begin with an effect that is not needed once the other one is there.
+    """
+    names, size, skip = [c.name for c in catalogue], len(pair.null.latent), len(first.fit.latent)
+    return {names.index(w.candidate.name): np.concatenate((w.fit.latent[:size], w.fit.latent[skip:]))
+            for w in pair.named}
+
+
+def better_alone(alone, pair):
+    """Whether what a Diagnosis ``alone`` names has more evidence than what ``pair`` names, by the weights of the pair.
+    """
+    def most(diagnosis):
+        return max(evidence(w.fit, pair.weights).log_evidence for w in diagnosis.named)
+
+    return alone.decision.verdict in NAMING and most(alone) > most(pair)

@@ -1,0 +1,108 @@
+"""Evidence of all candidates, refitted or only screened, and the numbers that the rules see."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from pipeline.inference.decision.candidate_statistics import candidate_statistics, held_out_gains, run_statistics
+from pipeline.inference.decision.decision_rules import CandidateStatistics, RunStatistics
+from pipeline.inference.decision.evidence import (
+    Evidence,
+    cautious_prior,
+    evidence,
+    family_wise,
+    posterior,
+    reached,
+    screened,
+)
+from pipeline.inference.fitting.least_squares import Fit
+from pipeline.inference.fitting.parameter_drift import Drift, drift
+from pipeline.inference.problem import Hypothesis
+from pipeline.inference.search.score_screen import Screen, screen
+
+
+@dataclass(frozen=True)
+class Evidences:
+    """``null`` Evidence, that of the refitted candidates {index: Evidence}, and ``log_evidence`` (1 + candidates,).
+
+    Of candidates that were only screened, log evidence is that of their ``screen``; all with ``weights`` (runs,), which
+    are those of the best fit at hand.
+    """
+
+    null: Evidence
+    refitted: dict
+    log_evidence: np.ndarray
+    screen: Screen
+    weights: np.ndarray
+
+    @classmethod
+    def of(cls, null, directions, fits, settings, failed=()):
+        """Evidences at the Fit ``null`` with Directions of all candidates and ``fits`` {index: Fit} of some.
+
+        ``failed``: names of candidates that could not be judged.
+        """
+        weights = min([null, *fits.values()], key=lambda fit: fit.chi_square.sum()).weights
+        scores = screen(null, directions, weights, settings.draws, settings.seed, settings.rules.screening)
+        refitted = {i: (evidence if fit.converged else reached)(fit, weights) for i, fit in fits.items()}
+        base = evidence(null, weights)
+        unrefitted = np.where([d.candidate.name in failed for d in directions], -np.inf,
+                              screened(base.log_evidence, scores.score, scores.power))
+        logs = [refitted[i].log_evidence if i in fits else unrefitted[i] for i in range(len(directions))]
+        return cls(base, refitted, np.array([base.log_evidence, *logs]), scores, weights)
+
+    def overlooked(self, rules):
+        """Indices of candidates that were not refitted, but promise about as much as the best of the others reached."""
+        best = max(e.log_evidence for e in self.refitted.values())
+        return [i for i in self.screen.order() if i not in self.refitted and self.screen.p_value[i] <= rules.p_value
+                and self.log_evidence[1 + i] > best - rules.evidence_gain]
+
+
+@dataclass(frozen=True)
+class Weighed:
+    """A refitted candidate: its Fit, Evidence and the numbers that the rules see."""
+
+    candidate: Hypothesis
+    fit: Fit
+    evidence: Evidence
+    statistics: CandidateStatistics
+
+
+@dataclass(frozen=True)
+class Weighing:
+    """Fourth step: the refitted candidates ``weighed`` (best first), what the runs say of the nominal model.
+
+    ``posterior`` (1 + candidates,) of the nominal hypothesis, then of each screened candidate, 0 where one could not be
+    judged; ``failures`` {candidate: why it was not judged, or not to the end}.
+    """
+
+    runs: RunStatistics
+    weighed: tuple
+    posterior: np.ndarray
+    evidences: Evidences
+    drift: Drift
+    failures: dict
+
+    @classmethod
+    def of(cls, refits, settings):
+        """Weighing of the Refits of a screened catalogue."""
+        problem, budget, null = refits.calibration.problem, refits.calibration.budget, refits.calibration.null
+        fits = {i: r.fit for i, r in refits.results.items() if r.fit is not None}
+        failures = {refits.directions[i].candidate.name: r.failure for i, r in refits.results.items() if r.failure}
+        failures |= {d.candidate.name: d.failure for d in refits.directions if d.failure}
+        evidences = Evidences.of(null, refits.directions, fits, settings, failures)
+        count, weights = len(refits.directions), evidences.weights
+        probability = posterior(evidences.log_evidence, cautious_prior(count))
+        held_out = held_out_gains(problem, budget, null, fits, probability[1:], settings.rules)
+        drifting = drift(null, weights, seed=settings.seed)
+
+        def weighed(i, fit):
+            candidate, own_evidence = refits.directions[i].candidate, evidences.refitted[i]
+            p_value = family_wise(evidences.screen.p_value[i],
+                                  own_evidence.log_evidence - evidences.null.log_evidence, count)
+            return Weighed(candidate, fit, own_evidence, candidate_statistics(
+                null, evidences.null, candidate, fit, own_evidence, probability[1 + i], p_value, held_out[i], weights,
+                settings.rules))
+
+        every = sorted((weighed(i, fit) for i, fit in fits.items()), key=lambda w: -w.evidence.log_evidence)
+        runs = run_statistics(problem, budget, null, weights, drifting, settings.rules)
+        return cls(runs, tuple(every), probability, evidences, drifting, failures)
