@@ -1,19 +1,22 @@
 """Stage diagnosis: deviations between recordings and model, their location, and the missing physics."""
 
 from functools import partial
+from typing import NamedTuple
 
 from pipeline.case_models import virtual_rig as benches
 from pipeline.case_models.effect_block import with_effects
 from pipeline.case_models.force_balance import started
 from pipeline.case_models.runs import recorded
 from pipeline.contract import ConfigError, Context, restored, stage
-from pipeline.diagnosis import force_balance, forced_response, rough_pair, self_excited
+from pipeline.diagnosis.force_balance import force_balance_problem
+from pipeline.diagnosis.forced_response import forced_problem
 from pipeline.diagnosis.output.files import companions
-from pipeline.diagnosis.output.product import answer
-from pipeline.diagnosis.published_lists import Models, published_diagnosis
+from pipeline.diagnosis.output.product import product
+from pipeline.diagnosis.published_lists import Models, published_problem
+from pipeline.diagnosis.rough_pair import rough_pair_problem
+from pipeline.diagnosis.self_excited import pole_problem
 from pipeline.diagnosis.settings import Settings
 from pipeline.diagnosis.signals.substitution import substituted
-from pipeline.inference import procedure as course
 from pipeline.products import (
     Bench,
     ComplexModes,
@@ -55,50 +58,68 @@ def diagnosis(model: ReducedModel | None, effects: Effects | None, recording: Re
     best {kept} were refitted in the full model. An effect is identified only by the rules stated in the report.
     Held-out runs were never fitted.
     """
-    if settings.forward == "lines":
-        result = published_diagnosis(recording, Models(model, structure, modes), settings, context)
-    elif settings.forward == "friction":
-        result = _answered(_of_friction(recording, surface, micro, friction_map, effects, settings, context), settings,
-                         context)
-    else:
-        result = _answered(_of_bench(model, effects, recording, bench, settings), settings, context)
+    inputs = Inputs(model, effects, recording, bench, structure, modes, surface, micro, friction_map)
+    problem = _BUILDERS[settings.forward](inputs, settings, context)
+    context.log(f"{len(problem.candidates)} hypotheses over {len(problem.problem.training)} runs,"
+                f" {len(problem.problem.held_out)} held out")
+    result = product(problem, problem.solved(context.map))
     context.log(f"verdict: {result.verdict.item()}")
     return result
 
 
-def _of_friction(recording, surface, micro, friction_map, effects, settings, context):
-    """Question of measured friction against the rough pair of the case."""
-    if surface is None or micro is None:
+class Inputs(NamedTuple):
+    """What the chain hands to the stage; None where it has no such product."""
+
+    model: ReducedModel | None
+    effects: Effects | None
+    recording: Recording
+    bench: Bench | None
+    structure: Structure | None
+    modes: ComplexModes | None
+    surface: Surface | None
+    micro: MicroFriction | None
+    friction_map: FrictionMap | None
+
+
+def _of_lists(inputs, settings, context):
+    """Published lists against the models of the chain."""
+    return published_problem(inputs.recording, Models(inputs.model, inputs.structure, inputs.modes), settings,
+                             partial(context.map, label="mechanisms"))
+
+
+def _of_friction(inputs, settings, context):
+    """Measured friction against the rough pair of the case."""
+    if inputs.surface is None or inputs.micro is None:
         raise ConfigError("diagnosis.forward", "another forward model, in a chain without micro_friction", "friction")
-    return rough_pair.question(recording, surface, micro, friction_map, effects, settings,
-                           partial(context.map, label="spots of the rough pair"))
+    return rough_pair_problem(inputs.recording, inputs.surface, inputs.micro, inputs.friction_map, inputs.effects,
+                              settings, partial(context.map, label="spots of the rough pair"))
 
 
-def _of_bench(model, effects, recording, bench, settings):
-    """Question of recorded runs against the bench of the case."""
-    if model is None or bench is None:
+def _of_poles(inputs, settings, context):
+    """Poles of recorded free vibrations against eigenvalues of the bench."""
+    bench, rig = _bench(inputs, settings)
+    return pole_problem(bench, recorded(inputs.recording, rig), settings, rig.poles)
+
+
+def _of_signals(inputs, settings, context):
+    """Recorded time signals against simulated ones, or measured motions in the equation of motion."""
+    bench, rig = _bench(inputs, settings)
+    runs = recorded(inputs.recording, rig)
+    if rig.forward == "equation":
+        return force_balance_problem(bench, runs, settings, rig.equation)
+    return substituted(forced_problem(bench, started(bench, runs, rig), settings), inputs.recording, settings)
+
+
+def _bench(inputs, settings):
+    """(Bench with the effects of the case, its settings). ConfigError where the chain has none, or another kind."""
+    if inputs.model is None or inputs.bench is None:
         raise ConfigError("diagnosis.forward", "lines or friction, in a chain without a bench", settings.forward)
-    laid_out = restored(benches.Settings, bench.settings.item())
-    whole = with_effects(benches.built(model, laid_out), effects)
-    return substituted(_question(whole, recorded(recording, laid_out), settings, laid_out), recording, settings)
-
-
-def _answered(asked, settings, context):
-    """Product Diagnosis of a Question."""
-    context.log(f"{len(asked.candidates)} hypotheses over {len(asked.problem.training)} runs,"
-                f" {len(asked.problem.held_out)} held out")
-    result = course.diagnose(asked.problem, asked.budget, asked.candidates, course.Settings(
-        settings.kept, asked.starts, settings.draws, settings.seed, asked.rules), context.map)
-    return answer(asked, result)
-
-
-def _question(whole, runs, settings, laid_out):
-    """What the forward model of the case asks of a Bench and {name: Recorded}."""
-    if (settings.forward == "poles") != (laid_out.poles is not None):
+    rig = restored(benches.Settings, inputs.bench.settings.item())
+    if (settings.forward == "poles") != (rig.poles is not None):
         raise ConfigError("diagnosis.forward", "poles where the section bench.poles is given, and only there",
                           settings.forward, "give both or neither")
-    if laid_out.poles is not None:
-        return self_excited.question(whole, runs, settings, laid_out.poles)
-    if laid_out.forward == "equation":
-        return force_balance.question(whole, runs, settings, laid_out.equation)
-    return forced_response.question(whole, started(whole, runs, laid_out), settings)
+    return with_effects(benches.built(inputs.model, rig), inputs.effects), rig
+
+
+#: how the problem is posed, by the setting ``forward``
+_BUILDERS = {"lines": _of_lists, "friction": _of_friction, "poles": _of_poles, "simulation": _of_signals}

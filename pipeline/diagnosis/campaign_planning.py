@@ -14,7 +14,7 @@ from pipeline.case_models.virtual_rig import only
 from pipeline.contract import ConfigError
 from pipeline.contract.units import to_si
 from pipeline.diagnosis.forced_response import check_names, chosen, nominal_parameters
-from pipeline.diagnosis.question import nominal
+from pipeline.diagnosis.problem import nominal
 from pipeline.diagnosis.signals.forward_model import Simulated, candidates
 from pipeline.inference.fitting.least_squares import linearised, whitened
 from pipeline.inference.fitting.noise import budget

@@ -1,12 +1,12 @@
-"""The question of forced recordings: a bench, its recorded runs, and the section ``diagnosis``."""
+"""The problem of forced recordings: a bench, its recorded runs, and the section ``diagnosis``."""
 
 from pipeline.case_models import corrections
 from pipeline.case_models.effect_block import parameters
 from pipeline.contract import ConfigError
 from pipeline.contract.units import to_si
 from pipeline.diagnosis.experiment_design.next_run import feasible
-from pipeline.diagnosis.question import Question, nominal, nothing
-from pipeline.diagnosis.settings import parameter
+from pipeline.diagnosis.problem import DiagnosisProblem, nominal
+from pipeline.diagnosis.settings import parameter, procedure
 from pipeline.diagnosis.signals.forward_model import Simulated, candidates, largest, observed, reach, solver_candidate
 from pipeline.diagnosis.signals.latent_force import Describe
 from pipeline.diagnosis.signals.localisation import Axes, ForcedAxes
@@ -15,29 +15,35 @@ from pipeline.inference.fitting.noise import budget
 from pipeline.inference.problem import Problem
 
 
-def question(bench, recorded, settings):
-    """Question over {name: Recorded} of a Bench. ConfigError for unknown runs, effects, places and parameters."""
+def forced_problem(bench, recorded, settings):
+    """DiagnosisProblem over {name: Recorded} of a Bench. ConfigError for unknown runs, effects, places and parameters.
+    """
     check_names("held_out", settings.held_out, recorded)
-    runs = {name: one.run for name, one in recorded.items()}
-    shown = {c: u for one in recorded.values() for c, u in zip(one.channels, one.unit, strict=True)}
-    check_names("noise.std", settings.noise.std, shown)
-    given = {c: to_si(v, shown[c], f"diagnosis.noise.std.{c}") for c, v in settings.noise.std.items()}
-    seen = tuple(observed(one, given, name in settings.held_out) for name, one in recorded.items())
-    trained = [recorded[o.name] for o in seen if not o.held_out]
-    after = feasible(bench, settings.next, trained[0]) if trained else ()
-    forward = Simulated(bench, runs | {f.run.name: f.run for f in after}, {f.run.name: f.altered for f in after})
-    problem = Problem(seen, forward, nominal(nominal_parameters(bench, settings)))
-    for one in after:       # what the model cannot do is refused before anything is fitted
-        forward(problem.nominal, problem.nominal.values(problem.nominal.nominal), one.observed)
-    found = candidates(bench, tuple(one.run for one in trained), chosen(settings), settings.places,
-                       reach(bench, trained), settings.priors, largest(trained))
-    noises = budget(problem, above=settings.noise.above)
-    describe = Describe(bench, runs, problem, noises, seed=settings.seed)
-    return Question(problem, noises | {f.run.name: noises[trained[0].run.name] for f in after},
-                    (*found, *([solver_candidate()] if settings.solver else [])), shown,
-                    axes=ForcedAxes(bench, runs, Axes(problem, noises, seed=settings.seed)),
-                    describe=describe, use=describe.use if settings.latent_force.predict else nothing,
-                    next_runs=tuple(f.observed for f in after))
+    runs = {name: record.run for name, record in recorded.items()}
+    units = {c: u for record in recorded.values() for c, u in zip(record.channels, record.unit, strict=True)}
+    noise = stated_noise(settings, units)
+    observations = tuple(observed(record, noise, name in settings.held_out) for name, record in recorded.items())
+    training = [recorded[o.name] for o in observations if not o.held_out]
+    planned = feasible(bench, settings.next, training[0]) if training else ()
+    forward = Simulated(bench, runs | {f.run.name: f.run for f in planned}, {f.run.name: f.altered for f in planned})
+    problem = Problem(observations, forward, nominal(nominal_parameters(bench, settings)))
+    for run in planned:     # what the model cannot do is refused before anything is fitted
+        forward(problem.nominal, problem.nominal.values(problem.nominal.nominal), run.observed)
+    effects = candidates(bench, tuple(record.run for record in training), chosen(settings), settings.places,
+                         reach(bench, training), settings.priors, largest(training))
+    noises, solver = budget(problem, above=settings.noise.above), procedure(settings)
+    return DiagnosisProblem(
+        problem, noises | {f.run.name: noises[training[0].run.name] for f in planned},
+        (*effects, *([solver_candidate()] if settings.solver else [])), units, solver,
+        ForcedAxes(bench, runs, Axes.of(problem, noises, solver)),
+        Describe(bench, runs, problem, noises, solver.rules, seed=settings.seed), settings.latent_force.predict,
+        next_runs=tuple(f.observed for f in planned))
+
+
+def stated_noise(settings, units):
+    """{channel: standard deviation in SI} that the case states, of channels with ``units`` {channel: unit}."""
+    check_names("noise.std", settings.noise.std, units)
+    return {c: to_si(v, units[c], f"diagnosis.noise.std.{c}") for c, v in settings.noise.std.items()}
 
 
 def nominal_parameters(bench, settings):

@@ -1,4 +1,4 @@
-"""The question of measured friction and worn faces: a rough pair, drags over pressure, speed and way.
+"""The problem of measured friction and worn faces: a rough pair, drags over pressure, speed and way.
 
 The contact is solved in a few runs only, from the lowest to the highest pressure that the recordings and the priors
 reach; every prediction is read between them (``physics.spot_table``), by scalings that the tests compare with full
@@ -16,13 +16,12 @@ from pipeline.contract import ConfigError, restored
 from pipeline.contract.units import to_si
 from pipeline.diagnosis.features.worn_faces import FRICTION, UNITS, WEAR, observed, rubbed, shown
 from pipeline.diagnosis.forced_response import check_names, chosen
-from pipeline.diagnosis.question import Question, label, nominal, parameter_name
-from pipeline.diagnosis.settings import parameter
+from pipeline.diagnosis.problem import DiagnosisProblem, label, nominal, parameter_name
+from pipeline.diagnosis.settings import parameter, procedure
 from pipeline.diagnosis.signals.forward_model import candidates, terms
 from pipeline.diagnosis.signals.localisation import INTERPOLATION, MAP, Axes
 from pipeline.effects import CATALOGUE
 from pipeline.effects.effect import compose
-from pipeline.inference.decision.decision_rules import Rules
 from pipeline.inference.fitting.noise import budget
 from pipeline.inference.priors import Normal, Parameter
 from pipeline.inference.problem import Hypothesis, Problem
@@ -36,8 +35,6 @@ UNIT_OF = {"pad.youngs_modulus": "Pa", "disc_strength": "Pa", "pad.wear_coeffici
 SHARE = "share"
 #: stages of the chain that a mismatch of friction can lie in
 _CHAIN = ("micro_friction", MAP)
-#: runs that are compared hold a few dozen points: an effect is named where its evidence is e^3 times that of the next
-RULES = Rules(posterior=0.95)
 
 
 @dataclass(frozen=True)
@@ -59,9 +56,11 @@ class Predicted:
         drag, numbers = self.drags[run.name], {**self.given, **{k: v for k, v in values.items() if k in UNIT_OF}}
         added = (*self.stated, *terms(hypothesis, values))
         pair = compose(corrected(self.rubbing, numbers, self.given), added)
-        told = friction(self.table, pair, drag, self.given["pad.youngs_modulus"] / numbers["pad.youngs_modulus"])
-        told = told + values.get(parameter_name(INTERPOLATION, MAP, SHARE), 0.0) * self.change.get(run.name, 0.0)
-        return shown(told, dict(zip(WEAR, mean_wear(pair, drag), strict=True)), run.channels)
+        softer = self.given["pad.youngs_modulus"] / numbers["pad.youngs_modulus"]
+        predicted = friction(self.table, pair, drag, softer)
+        by_map = values.get(parameter_name(INTERPOLATION, MAP, SHARE), 0.0)
+        predicted = predicted + by_map * self.change.get(run.name, 0.0)
+        return shown(predicted, dict(zip(WEAR, mean_wear(pair, drag), strict=True)), run.channels)
 
 
 def corrected(rubbing, numbers, given):
@@ -75,47 +74,48 @@ def corrected(rubbing, numbers, given):
                          softening=numbers["softening"]))
 
 
-def question(recording, surface, micro, friction_map, effects, settings, fan_out):
-    """Question of a product Recording against the products of the chain; ``effects`` are those of the case, or None.
+def rough_pair_problem(recording, surface, micro, friction_map, effects, settings, fan_out):
+    """DiagnosisProblem of a product Recording against products of the chain and the ``effects`` of the case (or None).
 
     ``fan_out(function, tasks)`` maps as the builtin does. ConfigError for recordings without friction, unknown runs,
     effects and numbers.
     """
     section = restored(Settings, micro.settings.item())
     std = settings.noise.std.get(FRICTION)
-    told = None if std is None else to_si(std, "1", f"diagnosis.noise.std.{FRICTION}")
-    runs = rubbed(recording, section.stroke, told)
+    stated_std = None if std is None else to_si(std, "1", f"diagnosis.noise.std.{FRICTION}")
+    runs = rubbed(recording, section.stroke, stated_std)
     check_names("held_out", settings.held_out, runs)
     bare, stated = rubbing(surface, section), at_asperities(effects)
-    drags = {name: one.drag for name, one in runs.items()}
+    drags = {name: run.drag for name, run in runs.items()}
     pairs = [shifted(bare, offset) for offset in offsets(surface, section)]
     table = spot_table(pairs, *_grid(bare, drags, settings.rubbing), fan_out)
     forward = Predicted(bare, table, drags, _given(section), stated)
     error = float(np.hypot(settings.rubbing.model_error, table.scatter))
-    seen = tuple(observed(one, name in settings.held_out, error) for name, one in runs.items())
-    problem = Problem(seen, forward, nominal(_nominal_parameters(section, settings)))
+    observations = tuple(observed(run, name in settings.held_out, error) for name, run in runs.items())
+    problem = Problem(observations, forward, nominal(_nominal_parameters(section, settings)))
     forward = replace(forward, change=_read_off(problem, friction_map))
     problem = replace(problem, predict=forward)
     check_names("priors", settings.priors, [f"{e.name}.{p.name}" for e in CATALOGUE for p in parameters(e)])
-    known = {term.effect.name for term in stated}
-    weighed = [e for e in chosen(settings) if e.locations(bare) and e.name not in known]
-    found = candidates(bare, tuple(drags[o.name] for o in problem.training), weighed, settings.places,
-                       priors=settings.priors)
-    channels = [c for one in seen for c in one.channels]
-    noises = budget(problem)
-    return Question(problem, noises, (*found, *_map_candidate(forward)), {c: UNITS[c] for c in dict.fromkeys(channels)},
-                    RULES, Axes(problem, noises, seed=settings.seed, stages=_CHAIN))
+    in_case = {term.effect.name for term in stated}
+    weighed = [e for e in chosen(settings) if e.locations(bare) and e.name not in in_case]
+    hypotheses = candidates(bare, tuple(drags[o.name] for o in problem.training), weighed, settings.places,
+                            priors=settings.priors)
+    channels = [c for run in observations for c in run.channels]
+    noises, solver = budget(problem), procedure(settings, few=True)
+    return DiagnosisProblem(problem, noises, (*hypotheses, *_map_candidate(forward)),
+                            {c: UNITS[c] for c in dict.fromkeys(channels)}, solver,
+                            Axes.of(problem, noises, solver, _CHAIN))
 
 
 def _given(section):
     """{name: value} of UNIT_OF in the section micro_friction."""
-    def one(name):
+    def number(name):
         value = section
         for step in name.split("."):
             value = getattr(value, step)
         return float(value)
 
-    return {name: one(name) for name in UNIT_OF}
+    return {name: number(name) for name in UNIT_OF}
 
 
 def _nominal_parameters(section, settings):
@@ -125,17 +125,17 @@ def _nominal_parameters(section, settings):
             for name, prior in settings.parameters.items()]
 
 
-def _grid(rubbing, drags, told):
+def _grid(rubbing, drags, spot_runs):
     """(pressures, wear cycles, speeds) of the runs: those recorded, and beyond them by the factor ``reach``."""
     pressure = [d.pressure for d in drags.values()]
     speed = np.concatenate([d.speed for d in drags.values()])
-    last = max(d.distance.max() for d in drags.values()) / rubbing.wearing.distance * told.reach
-    if not last >= told.distances:
-        raise ConfigError("micro_friction.cycles", f"more than {told.distances} wear cycles within the recorded way",
-                          f"{last:.0f}", "raise cycles")
-    cycles = np.unique(np.round(last * np.linspace(0, 1, told.distances) ** 1.5).astype(int))
-    return (np.geomspace(min(pressure) / told.reach, max(pressure) * told.reach, told.pressures), cycles.tolist(),
-            np.unique(np.geomspace(speed.min(), speed.max(), 3)).tolist())
+    last = max(d.distance.max() for d in drags.values()) / rubbing.wearing.distance * spot_runs.reach
+    if not last >= spot_runs.distances:
+        raise ConfigError("micro_friction.cycles", f"more than {spot_runs.distances} wear cycles within the recorded"
+                          " sliding distance", f"{last:.0f}", "raise cycles")
+    cycles = np.unique(np.round(last * np.linspace(0, 1, spot_runs.distances) ** 1.5).astype(int))
+    pressures = np.geomspace(min(pressure) / spot_runs.reach, max(pressure) * spot_runs.reach, spot_runs.pressures)
+    return (pressures, cycles.tolist(), np.unique(np.geomspace(speed.min(), speed.max(), 3)).tolist())
 
 
 def _read_off(problem, friction_map):
@@ -153,5 +153,5 @@ def _map_candidate(forward):
     """The hypothesis that reading the map makes the difference, where it makes any."""
     if not any(np.any(change) for change in forward.change.values()):
         return ()
-    own = Parameter(parameter_name(INTERPOLATION, MAP, SHARE), "1", 0.0, Normal(0.0, 1.0), 0.0)
-    return (Hypothesis(label(((INTERPOLATION, MAP),)), ((INTERPOLATION, MAP),), (own,), "numerics"),)
+    fraction = Parameter(parameter_name(INTERPOLATION, MAP, SHARE), "1", 0.0, Normal(0.0, 1.0), 0.0)
+    return (Hypothesis(label(((INTERPOLATION, MAP),)), ((INTERPOLATION, MAP),), (fraction,), "numerics"),)

@@ -1,4 +1,4 @@
-"""The question of self-excited recordings: poles and other features of a bench, by complex eigenvalues."""
+"""The problem of self-excited recordings: poles and other features of a bench, by complex eigenvalues."""
 
 from dataclasses import dataclass, field, replace
 
@@ -8,14 +8,13 @@ from pipeline.diagnosis.experiment_design.next_run import altered
 from pipeline.diagnosis.features.limit_cycle_check import Squeals
 from pipeline.diagnosis.features.poles import features, observed, predicted
 from pipeline.diagnosis.forced_response import check_names, chosen, nominal_parameters
-from pipeline.diagnosis.question import Question, nominal, nothing
+from pipeline.diagnosis.problem import DiagnosisProblem, nominal
+from pipeline.diagnosis.rules import DEFAULTS, PoleRules
+from pipeline.diagnosis.settings import procedure
 from pipeline.diagnosis.signals.forward_model import candidates, completed
-from pipeline.inference.decision.decision_rules import Rules
 from pipeline.inference.fitting.noise import budget
 from pipeline.inference.problem import Problem
 
-#: an effect is named where its evidence is e^3 times that of the next: a share of 0.95
-RULES = Rules(posterior=0.95)
 #: where fits of effects begin beside the screen's values: at the medians of their priors. What adds a mode has to be
 #: near a peak that lacks one, and the screen tries shapes off the median alone
 _STARTS = (0.0,)
@@ -25,14 +24,15 @@ _GLIMPSE = 5e-3
 
 @dataclass(frozen=True)
 class Rooted:
-    """Picklable prediction of the features ``seen`` {run: Features}; ``last`` keeps the bench that all runs share.
+    """Picklable prediction of Features ``recorded`` {run: Features}; ``last`` keeps the bench that all runs share.
 
     ``altered`` {name: changes}: records on another bench, see ``next_run``.
     """
 
     bench: object
-    seen: dict
+    recorded: dict
     altered: dict = field(default_factory=dict)
+    rules: PoleRules = DEFAULTS.poles
     last: dict = field(default_factory=dict, compare=False)
 
     def __call__(self, hypothesis, values, run):
@@ -41,44 +41,46 @@ class Rooted:
             self.last.clear()
             self.last[key] = completed(self.bench, hypothesis, values)
         bench = altered(self.last[key], self.altered.get(run.name, {}))
-        return predicted(bench, self.seen[run.name], run.channels)
+        return predicted(bench, self.recorded[run.name], run.channels, self.rules)
 
 
-def question(bench, recorded, settings, band):
-    """Question over {name: Recorded} of a Bench whose section ``bench.poles`` is ``band``.
+def pole_problem(bench, recorded, settings, band):
+    """DiagnosisProblem over {name: Recorded} of a Bench whose section ``bench.poles`` is ``band``.
 
     ConfigError for unknown runs, effects and parameters, and for recordings that show no pole twice.
     """
-    seen = features(bench, recorded, band)
-    check_names("held_out", settings.held_out, seen)
-    told, units = observed(seen, settings.held_out)
-    squeal = nothing
+    solver = procedure(settings, few=True, starts=_STARTS)
+    shown = features(bench, recorded, band, solver.rules.poles)
+    check_names("held_out", settings.held_out, shown)
+    observations, units = observed(shown, settings.held_out)
+    squeals = None
     if settings.saturated_squeal:
         check_names("saturated_squeal.runs", settings.saturated_squeal.runs, recorded)
-        squeal = Squeals(bench, recorded, settings.saturated_squeal, settings.seed)
+        squeals = Squeals(bench, recorded, settings.saturated_squeal, settings.seed)
     if not units:
         raise ConfigError("diagnosis", "poles that two records show", "none", "widen bench.poles, or tap harder")
-    after = planned_records(bench, {o.name: seen[o.name] for o in told if not o.held_out}, settings.next)
-    forward = Rooted(bench, seen | {p.name: p.shown for p in after}, {p.name: p.altered for p in after})
-    problem = Problem(told, forward, nominal(nominal_parameters(bench, settings)))
-    brief = tuple(replace(seen[o.name].run, duration=_GLIMPSE, sample_rate=max(1 / bench.step, 2 / _GLIMPSE), inputs={},
-                          drive=None) for o in problem.training)
-    noises, recorded_as = budget(problem), {o.name: o for o in told}
-    blank = {p.name: replace(recorded_as[p.like], name=p.name, conditions=p.shown.run.conditions) for p in after}
-    return Question(problem, noises | {p.name: noises[p.like] for p in after},
-                    candidates(bench, brief, chosen(settings), settings.places, priors=settings.priors), units, RULES,
-                    starts=_STARTS, next_runs=_predictable(problem, blank.values(), must=bool(settings.next)),
-                    squeal=squeal)
+    planned = planned_records(bench, {o.name: shown[o.name] for o in observations if not o.held_out}, settings.next)
+    forward = Rooted(bench, shown | {p.name: p.shown for p in planned}, {p.name: p.altered for p in planned},
+                     solver.rules.poles)
+    problem = Problem(observations, forward, nominal(nominal_parameters(bench, settings)))
+    brief = tuple(replace(shown[o.name].run, duration=_GLIMPSE, sample_rate=max(1 / bench.step, 2 / _GLIMPSE),
+                          inputs={}, drive=None) for o in problem.training)
+    noises, by_name = budget(problem), {o.name: o for o in observations}
+    blank = {p.name: replace(by_name[p.like], name=p.name, conditions=p.shown.run.conditions) for p in planned}
+    return DiagnosisProblem(
+        problem, noises | {p.name: noises[p.like] for p in planned},
+        candidates(bench, brief, chosen(settings), settings.places, priors=settings.priors), units, solver,
+        squeals=squeals, next_runs=_predictable(problem, blank.values(), must=bool(settings.next)))
 
 
 def _predictable(problem, runs, must):
     """Those ``runs`` (Observed) that the nominal model predicts; where all ``must`` be, its error is raised."""
-    found = []
+    possible = []
     for run in runs:
         try:
             problem.predict(problem.nominal, problem.nominal.values(problem.nominal.nominal), run)
-            found.append(run)
+            possible.append(run)
         except BrakechainError:
             if must:
                 raise
-    return tuple(found)
+    return tuple(possible)

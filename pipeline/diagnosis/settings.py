@@ -1,5 +1,6 @@
 """The section ``diagnosis`` of a case: what may be wrong or missing, what was held out, how noise is known."""
 
+from dataclasses import replace
 from typing import Literal
 
 from pipeline.contract import ConfigError, Quantity, Section, option
@@ -7,7 +8,9 @@ from pipeline.contract.units import to_si
 from pipeline.diagnosis.published.harmonics import Harmonics
 from pipeline.diagnosis.published.mode_table import ModeTable
 from pipeline.diagnosis.published.squeal_frequencies import SquealLines
+from pipeline.diagnosis.rules import DiagnosisRules, RulesSection
 from pipeline.inference.priors import HalfNormal, LogNormal, Normal, Parameter, Uniform
+from pipeline.inference.procedure import Settings as ProcedureSettings
 
 
 class Prior(Section):
@@ -112,6 +115,15 @@ class Settings(Section):
     kept: int = option(8, "candidates that are refitted in the full model", ge=1)
     draws: int = option(20000, "draws of the null of the screen", ge=100)
     seed: int = option(0, "seed of all draws", ge=0)
+    rules: RulesSection = option(RulesSection(), "thresholds of every step, from the recordings to the verdict")
+
+
+def procedure(settings, few=False, starts=ProcedureSettings.starts):
+    """Settings of inference under a filled section ``diagnosis``; ``few``: runs hold a few dozen numbers each."""
+    rules = DiagnosisRules.of(settings)
+    if few:
+        rules = replace(rules, decision=replace(rules.decision, posterior=rules.decision.posterior_of_few))
+    return ProcedureSettings(settings.kept, starts, settings.draws, settings.seed, rules)
 
 
 def parameter(name, unit, value, given, where):
@@ -122,10 +134,10 @@ def parameter(name, unit, value, given, where):
 def prior_of(unit, value, given, where):
     """Prior in ``unit`` about a nominal ``value``, as a section ``given`` states it; ConfigError without a size."""
     def size(key):
-        told = getattr(given, key)
-        if told is None:
+        value = getattr(given, key)
+        if value is None:
             raise ConfigError(f"{where}.{key}", f"a value, because the prior is {given.prior}", "none")
-        return to_si(told, unit, f"{where}.{key}")
+        return to_si(value, unit, f"{where}.{key}")
 
     if given.prior == "log_normal" and not value > 0:
         raise ConfigError(f"{where}.prior", "normal, half_normal or uniform, because the nominal value is not positive",

@@ -113,7 +113,7 @@ class SquealCheck:
     agrees: Array = count("who feature", "1 where the mean lies within the spread of both from that recorded")
 
 
-@product(version=3)
+@product(version=4)
 class Diagnosis:
     """The verdict on recordings: what differs, where, what is missing, how sure, and what to measure next."""
 
@@ -159,4 +159,8 @@ class Diagnosis:
     next_condition: Array = text("next", "conditions of the next experiment, as name = value unit")
     next_separates: Array = text("separated", "hypotheses that it separates best")
     next_value: Array = quantity("1", "", "its expected information gain in nats; 0 without one")
+    threshold: Array = text("threshold", "rules that decided, as named in the settings under `diagnosis.rules`")
+    threshold_value: Array = quantity("1", "threshold", "their values in the unit that `threshold_unit` names")
+    threshold_unit: Array = text("threshold", "their units")
+    threshold_meaning: Array = text("threshold", "what they mean")
     runs: dict[str, DiagnosedRun] = parts("runs by name")

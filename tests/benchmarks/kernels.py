@@ -9,7 +9,7 @@ from pipeline.case_models.effect_block import with_effects
 from pipeline.case_models.runs import recorded
 from pipeline.case_models.virtual_rig import built
 from pipeline.contract.settings import fill
-from pipeline.diagnosis.forced_response import question
+from pipeline.diagnosis.forced_response import forced_problem
 from pipeline.diagnosis.settings import Settings as DiagnosisSettings
 from pipeline.inference.procedure import diagnose
 from pipeline.physics.fem.elasticity import assemble, isotropic
@@ -201,7 +201,7 @@ def diagnosis_of_a_rig(hypotheses=25):
     settings = fill(DiagnosisSettings, {
         "parameters": {"joints.mount.stiffness": {"spread": 0.1}, "joints.mount.damping": {"spread": 0.2}},
         "held_out": ["level_4"], "noise": {"std": {"x": f"{small_rig.NOISE} m"}}}, "diagnosis")
-    asked = question(built(small_rig.model(), laid_out), recorded(recording, laid_out), settings)
+    asked = forced_problem(built(small_rig.model(), laid_out), recorded(recording, laid_out), settings)
     chosen = asked.candidates[:hypotheses]
     return lambda: diagnose(asked.problem, asked.budget, chosen), len(chosen), "hypotheses"
 

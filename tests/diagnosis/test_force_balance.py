@@ -6,9 +6,8 @@ from pipeline.case_models import virtual_rig as benches
 from pipeline.case_models.runs import recorded
 from pipeline.contract import ConfigError
 from pipeline.contract.settings import fill
-from pipeline.diagnosis.force_balance import question
+from pipeline.diagnosis.force_balance import force_balance_problem
 from pipeline.diagnosis.settings import Settings
-from pipeline.inference.procedure import diagnose
 from tests.case_models.test_force_balance import BALANCED
 from tests.diagnosis.small_rig import HIDDEN, laid_out, model, recording
 
@@ -19,13 +18,13 @@ ASKED = {"parameters": {"joints.mount.stiffness": {"spread": 0.1}, "joints.mount
 
 def asked(hidden=None, **more):
     settings = laid_out(**BALANCED)
-    return question(benches.built(model(), settings), recorded(recording(hidden, noise=1e-5), settings),
+    return force_balance_problem(benches.built(model(), settings), recorded(recording(hidden, noise=1e-5), settings),
                     fill(Settings, {**ASKED, **more}, "diagnosis"), settings.equation)
 
 
 def test_cubic_stiffness_is_named_with_its_value():
     given = asked(HIDDEN)
-    found = diagnose(given.problem, given.budget, given.candidates)
+    found = given.solved()
     assert found.decision.verdict == "missing" and found.named[0].candidate.effects == (("cubic_stiffness", "mount"),)
     assert found.named[0].fit.values["cubic_stiffness@mount.coefficient"] == pytest.approx(15000.0, rel=0.02)
     assert "give all 2 coordinates" in found.failures["moving_base at mount"], "a base that is not measured"
@@ -40,10 +39,10 @@ def test_the_noise_is_that_of_the_forces():
 
 def test_the_place_and_the_size_of_the_missing_force_are_told():
     given = asked(HIDDEN)
-    found = diagnose(given.problem, given.budget, given.candidates)
-    axes = given.axes(found)
+    found = given.solved()
+    axes = given.locator.located(found)
     assert axes["place"][0].significant() == ("block",) and {"stage", "run", "band"} <= set(axes)
-    told = given.describe(found, axes)
+    told = given.latent.described(found, axes)
     assert told.place == "block" and {"amplitude", "velocity", "time"} <= set(told.regimes)
     follows = {f.name: f.p_value for f, _ in told.follows}
     assert follows["displacement"] <= 0.01, "a cubic spring follows the displacement"
@@ -51,6 +50,6 @@ def test_the_place_and_the_size_of_the_missing_force_are_told():
 
 def test_where_nothing_is_missing_no_place_is_told_and_no_force():
     given = asked(effects=["cubic_stiffness", "coulomb"])
-    found = diagnose(given.problem, given.budget, given.candidates)
-    axes = given.axes(found)
-    assert not axes["place"][0].significant() and given.describe(found, axes) is None
+    found = given.solved()
+    axes = given.locator.located(found)
+    assert not axes["place"][0].significant() and given.latent.described(found, axes) is None

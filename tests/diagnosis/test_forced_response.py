@@ -7,7 +7,7 @@ from pipeline.case_models import virtual_rig as benches
 from pipeline.case_models.runs import recorded
 from pipeline.contract import ConfigError
 from pipeline.contract.settings import fill
-from pipeline.diagnosis.forced_response import question
+from pipeline.diagnosis.forced_response import forced_problem
 from pipeline.diagnosis.settings import Settings
 from pipeline.inference.priors import HalfNormal
 from tests.diagnosis.small_rig import laid_out, model, recording
@@ -17,7 +17,7 @@ ASKED = {"parameters": {"joints.mount.stiffness": {"spread": 0.1}}, "held_out": 
 
 
 def asked(**more):
-    return question(benches.built(model(), laid_out()), recorded(recording(), laid_out()),
+    return forced_problem(benches.built(model(), laid_out()), recorded(recording(), laid_out()),
                     fill(Settings, {**ASKED, **more}, "diagnosis"))
 
 

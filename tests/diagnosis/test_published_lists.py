@@ -5,14 +5,15 @@ import json
 import numpy as np
 import pytest
 
-from pipeline.contract import ConfigError, Context
+from pipeline.contract import ConfigError
 from pipeline.contract.case import CaseText
 from pipeline.contract.settings import fill
 from pipeline.diagnosis.output.files import companions
-from pipeline.diagnosis.published_lists import Models, published_diagnosis
+from pipeline.diagnosis.published_lists import Models, published_problem
 from pipeline.diagnosis.settings import Settings
 from tests.diagnosis.published import test_mode_table as tables
 from tests.diagnosis.published import test_squeal_frequencies as squeal
+from tests.diagnosis.solving import diagnosis_product
 
 MODES = {"kind": "modes", "measured": "test", "computed": "model"}
 SQUEAL = {"kind": "squeal", "run": "bench", "list": "laser", "low": "15.6 kHz", "high": "18.8 kHz",
@@ -21,7 +22,7 @@ SQUEAL = {"kind": "squeal", "run": "bench", "list": "laser", "low": "15.6 kHz", 
 
 def told(recording, lines, **models):
     settings = fill(Settings, {"forward": "lines", "lines": lines, "draws": 2000}, "diagnosis")
-    return published_diagnosis(recording, Models(**models), settings, Context())
+    return diagnosis_product(published_problem(recording, Models(**models), settings))
 
 
 def test_a_wrong_pair_is_at_most_a_tie_with_what_would_decide():

@@ -12,7 +12,7 @@ from pipeline.contract import ConfigError
 from pipeline.contract.case import CaseText
 from pipeline.contract.settings import fill, without_origins
 from pipeline.diagnosis.output.files import as_json, companions
-from pipeline.diagnosis.rough_pair import question
+from pipeline.diagnosis.rough_pair import rough_pair_problem
 from pipeline.diagnosis.settings import Settings
 from stages.diagnosis import diagnosis
 from stages.friction_map import Settings as MapSettings
@@ -96,7 +96,7 @@ def test_a_map_that_errs_between_its_points_is_a_hypothesis_of_its_own():
     """Recorded friction that follows a coarse map instead of the points that it was made from."""
     mapped = friction_map(micro(), settings=MapSettings())
     coarse = replace(mapped, friction=mapped.friction * (1 + 0.2 * np.sin(2e-6 * mapped.pressure))[:, None, None])
-    asked_of = question(recording(faces=False), rough(), micro(), coarse, None, asked(), map)
+    asked_of = rough_pair_problem(recording(faces=False), rough(), micro(), coarse, None, asked(), map)
     forward, problem = asked_of.problem.predict, asked_of.problem
     nominal = problem.nominal.values(problem.nominal.nominal)
     runs = dict(recording(faces=False).runs)
@@ -109,11 +109,11 @@ def test_a_map_that_errs_between_its_points_is_a_hypothesis_of_its_own():
 
 
 def test_candidates_are_those_of_asperities_that_the_case_does_not_state_already():
-    found = question(recording(), rough(), micro(), None, None, asked(), map)
+    found = rough_pair_problem(recording(), rough(), micro(), None, None, asked(), map)
     assert tuple(c.effects[0][0] for c in found.candidates) == tuple(sorted(NAMES, key=[
         c.effects[0][0] for c in found.candidates].index)) and len(found.candidates) == 4
     assert found.units == {"friction": "1", "pad wear": "m", "disc wear": "m"}
-    stated = question(recording(), rough(), micro(), None, effects(FILM), asked(), map)
+    stated = rough_pair_problem(recording(), rough(), micro(), None, effects(FILM), asked(), map)
     assert {c.effects[0][0] for c in stated.candidates} == set(NAMES) - {"third_body_film"}
 
 
@@ -123,7 +123,7 @@ def test_candidates_are_those_of_asperities_that_the_case_does_not_state_already
     ({"rubbing": {"distances": 40}}, "micro_friction.cycles")])
 def test_unknown_names_are_refused(changes, said):
     with pytest.raises(ConfigError, match=said):
-        question(recording(), rough(), micro(), None, None, asked(**changes), map)
+        rough_pair_problem(recording(), rough(), micro(), None, None, asked(**changes), map)
 
 
 def test_a_chain_without_a_rough_pair_is_refused():

@@ -1,13 +1,13 @@
-"""The question of self-excited recordings, and its answer on a small bench."""
+"""The problem of self-excited recordings, and its answer on a small bench."""
 
 import pytest
 
 from pipeline.contract import ConfigError
 from pipeline.contract.settings import fill
-from pipeline.diagnosis.self_excited import question
+from pipeline.diagnosis.self_excited import pole_problem
 from pipeline.diagnosis.settings import Settings
-from pipeline.inference import procedure as course
 from tests.diagnosis.small_bench import bench, laid_out, recorded
+from tests.diagnosis.solving import solved
 
 ASKED = {"forward": "poles", "solver": False, "effects": ["falling_friction", "contact_stiffness_law", "runout"],
          "parameters": {"bodies.pin.frequency": {"spread": 0.05}, "bodies.carriage.frequency": {"spread": 0.05},
@@ -17,7 +17,7 @@ ASKED = {"forward": "poles", "solver": False, "effects": ["falling_friction", "c
 
 def asked(hidden=None, **more):
     truth = bench(hidden, corrections={"bodies.pin.frequency": 1.03, "friction": 1.1, "contact.stiffness": 0.9})
-    return question(bench(), recorded(truth), fill(Settings, {**ASKED, **more}, "diagnosis"), laid_out().poles)
+    return pole_problem(bench(), recorded(truth), fill(Settings, {**ASKED, **more}, "diagnosis"), laid_out().poles)
 
 
 @pytest.mark.parametrize("hidden, verdict", [
@@ -25,9 +25,7 @@ def asked(hidden=None, **more):
     ({"runout": {"contact": {"amplitude": "3 um", "order": 1, "phase": "0.7 rad"}}}, "unknown")])
 def test_what_was_hidden_is_named_and_wrong_values_are_not_physics(hidden, verdict):
     """One turn alone cannot show runout at two operating points: unknown, not named."""
-    found = asked(hidden)
-    told = course.diagnose(found.problem, found.budget, found.candidates,
-                           course.Settings(kept=2, draws=2000, rules=found.rules))
+    told = solved(asked(hidden), kept=2, draws=2000, starts=(-1.0, 1.0))
     assert told.decision.verdict == verdict
     assert [c.name.split(" at ")[0] for c in told.decision.named] == (list(hidden) if verdict == "missing" else [])
 
@@ -35,6 +33,6 @@ def test_what_was_hidden_is_named_and_wrong_values_are_not_physics(hidden, verdi
 @pytest.mark.parametrize("more, said", [({"held_out": ["never"]}, "diagnosis.held_out"),
                                         ({"saturated_squeal": {"runs": ["never"]}}, "diagnosis.saturated_squeal.runs"),
                                         ({"parameters": {"bodies.pin.colour": {}}}, "diagnosis.parameters")])
-def test_wrong_questions_are_refused(more, said):
+def test_wrong_settings_are_refused(more, said):
     with pytest.raises(ConfigError, match=said):
         asked(**more)

@@ -8,7 +8,7 @@ from pipeline import __version__, effects
 from pipeline.blind_trial.protocol.case_set import canonical, sha256
 from pipeline.contract.fingerprint import digest
 from pipeline.contract.runner import git_commit
-from pipeline.inference.decision.decision_rules import Rules
+from pipeline.inference.rules import DEFAULTS
 
 _ROOT = Path(__file__).parents[3]
 #: what only makes truths, or shows what was found
@@ -39,4 +39,4 @@ def changed(before, now):
 def described():
     """What a set records with its commitment, beside the digests of ``files()``."""
     return {"version": __version__, "commit": git_commit(), "catalogue": [e.name for e in effects.CATALOGUE],
-            "thresholds": asdict(Rules()), "packages": {name: metadata.version(name) for name in _PACKAGES}}
+            "thresholds": asdict(DEFAULTS), "packages": {name: metadata.version(name) for name in _PACKAGES}}

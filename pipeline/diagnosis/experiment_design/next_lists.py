@@ -11,15 +11,11 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from pipeline.diagnosis.rules import DEFAULTS
 from pipeline.inference.fitting.least_squares import linearised
 from pipeline.inference.fitting.noise import budget
 from pipeline.inference.planning.experiment_choice import Prediction, choose, predicted
 from pipeline.inference.problem import Observed, Problem
-
-#: an alternative holds or it does not: half-way is two standard deviations
-_STD = 0.25
-#: nats below which a record tells nothing
-_LEAST = 1e-3
 
 
 @dataclass(frozen=True)
@@ -67,34 +63,36 @@ class _Named:
     name: str
 
 
-def best_check(asked, rivals, checks):
-    """Expected over ``checks`` {condition: Check} of the Question ``asked`` of lists, between Rivals; None where no
-    check tells any of them apart."""
-    undone = Undone(asked.problem.predict, checks)
-    lines = np.hstack([run.noise_std for run in asked.problem.runs])
-    std = {name: np.hstack((lines, np.full((1, len(undone.told(name))), _STD))) for name in checks}
+def best_check(given, rivals, checks, rules=DEFAULTS.lists):
+    """Expected over ``checks`` {condition: Check} of the DiagnosisProblem ``given`` of lists, between Rivals.
+
+    None where no check separates any of them.
+    """
+    undone = Undone(given.problem.predict, checks)
+    lines = np.hstack([run.noise_std for run in given.problem.runs])
+    std = {name: np.hstack((lines, np.full((1, len(undone.told(name))), rules.half_std))) for name in checks}
     runs = tuple(Observed(name, {}, ("change",), np.zeros(own.shape), noise_std=own) for name, own in std.items())
-    problem = Problem(runs, undone, asked.problem.nominal)
+    problem = Problem(runs, undone, given.problem.nominal)
     noises = budget(problem)
 
     def prediction(fit, run):
         there = linearised(problem, [noises[run.name]], fit.hypothesis, fit.latent, [run])
         return predicted(-there.residuals[0], there.jacobians[0], fit.covariance())
 
-    return _best(rivals, {run.name: [prediction(rival.fit, run) for rival in rivals] for run in runs})
+    return _best(rivals, {run.name: [prediction(rival.fit, run) for rival in rivals] for run in runs}, rules)
 
 
-def best_outcome(rivals, outcomes):
+def best_outcome(rivals, outcomes, rules=DEFAULTS.lists):
     """Expected over ``outcomes`` {condition: {hypothesis: (m,), over their standard deviation}} between Rivals; None
     where none tells any of them apart."""
     return _best(rivals, {name: [Prediction(told[r.name], np.zeros((len(told[r.name]), 0))) for r in rivals]
-                          for name, told in outcomes.items()})
+                          for name, told in outcomes.items()}, rules)
 
 
-def _best(rivals, predictions):
+def _best(rivals, predictions, rules):
     share = np.array([rival.share for rival in rivals])
     choice = choose(share / share.sum(), list(predictions.values()))
     value = float(choice.value[choice.index])
-    if value < _LEAST:
+    if value < rules.next_value:
         return None
     return Expected(list(predictions)[choice.index], tuple(rivals[k].name for k in choice.separates), value)

@@ -53,14 +53,14 @@ def feasible(bench, given, like, where="diagnosis.next"):
 
     ConfigError for names that the bench does not have, and units that do not fit.
     """
-    found = []
+    runs = []
     for name, values in given.items():
         for value in values:
             run, altered = changed(bench, like.run, name, value, f"{where}.{name}")
-            told = words(name, value)
-            blank = Observed(told, run.conditions, like.channels, np.zeros(like.samples.shape), run.sample_rate)
-            found.append(Feasible(blank, replace(run, name=told), altered))
-    return tuple(found)
+            condition = words(name, value)
+            blank = Observed(condition, run.conditions, like.channels, np.zeros(like.samples.shape), run.sample_rate)
+            runs.append(Feasible(blank, replace(run, name=condition), altered))
+    return tuple(runs)
 
 
 def words(name, value):
@@ -74,20 +74,20 @@ def altered(bench, changes):
                                          for name, (value, factor) in changes.items()})
 
 
-def next_experiment(question, found):
+def next_experiment(problem, diagnosis):
     """Fields next_condition, next_separates and next_value of the product Diagnosis; empty where nothing is tied.
 
     Predictions are tempered as the evidence was: by the mean weight of the fitted runs. Runs that one of the rivals
     cannot predict are left out.
     """
-    rivals = rivals_of(found)
-    told = [(run, _predictions(question, found, rivals, run)) for run in question.next_runs] if rivals else []
-    told = [(run, predictions) for run, predictions in told if predictions]
-    if not told:
+    rivals = rivals_of(diagnosis)
+    planned = [(run, _predictions(problem, diagnosis, rivals, run)) for run in problem.next_runs] if rivals else []
+    planned = [(run, predictions) for run, predictions in planned if predictions]
+    if not planned:
         return {"next_condition": [], "next_separates": [], "next_value": 0.0}
-    share = np.array([rival.share for rival in rivals])
-    choice = choose(share / share.sum(), [predictions for _, predictions in told])
-    return {"next_condition": [told[choice.index][0].name],
+    probability = np.array([rival.share for rival in rivals])
+    choice = choose(probability / probability.sum(), [predictions for _, predictions in planned])
+    return {"next_condition": [planned[choice.index][0].name],
             "next_separates": [rivals[k].name for k in choice.separates],
             "next_value": float(choice.value[choice.index])}
 
@@ -101,29 +101,30 @@ class Rival:
     fit: object
 
 
-def rivals_of(found):
+def rivals_of(diagnosis):
     """Rivals in a tie, none elsewhere. One that is named alone has the nominal model and the runner-up beside it."""
-    if found.decision.verdict != "tie" or not found.named:
+    if diagnosis.decision.verdict != "tie" or not diagnosis.named:
         return []
-    named = {w.candidate.name for w in found.named}
-    every = [Rival(w.candidate.name, w.contender.posterior, w.fit) for w in found.weighed]
-    own, others = [r for r in every if r.name in named], [r for r in every if r.name not in named]
-    nothing = Rival(found.nominal.name if found.nominal.effects else "nothing missing", found.posterior[0], found.null)
-    return own if len(own) > 1 else [*own, nothing, *others[:1]]
+    names = {w.candidate.name for w in diagnosis.named}
+    every = [Rival(w.candidate.name, w.statistics.posterior, w.fit) for w in diagnosis.weighed]
+    named, others = [r for r in every if r.name in names], [r for r in every if r.name not in names]
+    known = diagnosis.nominal
+    nothing = Rival(known.name if known.effects else "nothing missing", diagnosis.posterior[0], diagnosis.null)
+    return named if len(named) > 1 else [*named, nothing, *others[:1]]
 
 
-def _predictions(question, found, rivals, run):
+def _predictions(problem, diagnosis, rivals, run):
     """Predictions of one run by every rival, or none."""
     try:
-        return [_prediction(question, found, rival.fit, run) for rival in rivals]
+        return [_prediction(problem, diagnosis, rival.fit, run) for rival in rivals]
     except BrakechainError:
         return []
 
 
-def _prediction(question, found, fit, run):
-    noise, weight = question.budget[run.name], np.sqrt(np.mean(found.weights))
-    there = linearised(question.problem, [noise], fit.hypothesis, fit.latent, [run])
-    return predicted(-weight * there.residuals[0], weight * there.jacobians[0], fit.covariance(found.weights))
+def _prediction(problem, diagnosis, fit, run):
+    noise, weight = problem.budget[run.name], np.sqrt(np.mean(diagnosis.weights))
+    there = linearised(problem.problem, [noise], fit.hypothesis, fit.latent, [run])
+    return predicted(-weight * there.residuals[0], weight * there.jacobians[0], fit.covariance(diagnosis.weights))
 
 
 def changed(bench, run, name, value, where):
@@ -132,13 +133,14 @@ def changed(bench, run, name, value, where):
     numbers = corrections.known(bench)
     if name in numbers:
         return run, {name: (value if factor else to_si(value, numbers[name], where), factor)}
-    own = _conditions(bench, run)
-    if name not in own or (name == DRIVE and not factor):
-        raise ConfigError(where, f"one of {', '.join(own)} or a number of the bench ({DRIVE}: a factor)", repr(value))
+    conditions = _conditions(bench, run)
+    if name not in conditions or (name == DRIVE and not factor):
+        known = f"one of {', '.join(conditions)} or a number of the bench ({DRIVE}: a factor)"
+        raise ConfigError(where, known, repr(value))
     if name == DRIVE:
         return replace(run, drive=value * np.asarray(run_drive(bench, run), float)), {}
     unit = "rad/s" if name == "speed" else "N"
-    there = value * np.asarray(own[name], float) if factor else to_si(value, unit, where)
+    there = value * np.asarray(conditions[name], float) if factor else to_si(value, unit, where)
     if name in bench.model.input_name:
         return replace(run, inputs={**run.inputs, name: there}), {}
     drive = None if name == "speed" else run.drive
@@ -148,10 +150,10 @@ def changed(bench, run, name, value, where):
 def _conditions(bench, run):
     """{name: value or samples} of what can be done differently."""
     inputs = dict(zip(bench.model.input_name, run_inputs(bench, run), strict=True))
-    own = {DRIVE: run_drive(bench, run), **inputs}
-    if np.ndim(own[DRIVE]) == 0:
-        own["speed"] = own[DRIVE]
+    conditions = {DRIVE: run_drive(bench, run), **inputs}
+    if np.ndim(conditions[DRIVE]) == 0:
+        conditions["speed"] = conditions[DRIVE]
     contacts = bench.model.contacts
     if len(contacts.fixed) and contacts.fixed.all():
-        own[NORMAL_LOAD] = run.conditions.get(NORMAL_LOAD, contacts.preload.sum())
-    return own
+        conditions[NORMAL_LOAD] = run.conditions.get(NORMAL_LOAD, contacts.preload.sum())
+    return conditions

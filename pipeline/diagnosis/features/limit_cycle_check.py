@@ -64,16 +64,16 @@ class Compared:
 
 @dataclass(frozen=True)
 class Squeals:
-    """The ``squeal`` of a Question over {name: Recorded} of a Bench: called with the Fits of the recalibrated and the
-    completed model, gives {run: Compared}; ``told`` is the section SaturatedSqueal."""
+    """SquealComparison over {name: Recorded} of a Bench: {run: Compared}; ``settings`` the section SaturatedSqueal."""
 
     bench: object
     recorded: dict
-    told: object
+    settings: object
     seed: int = 0
 
-    def __call__(self, null, best):
-        models = {"recalibrated": null} | ({"completed": best} if best.hypothesis.effects else {})
+    def compared(self, recalibrated, completed):
+        models = {"recalibrated": recalibrated}
+        models |= {"completed": completed} if completed.hypothesis.effects else {}
         benches = {who: fitted(self.bench, fit) for who, fit in models.items()}
         return {name: self._compared(benches, records) for name, records in self._points().items()}
 
@@ -82,7 +82,7 @@ class Squeals:
         points = {}
         for name, one in self.recorded.items():
             own = one.repeat_of or name
-            wanted = not self.told.runs or {name, own} & set(self.told.runs)
+            wanted = not self.settings.runs or {name, own} & set(self.settings.runs)
             if wanted and at_begin(self.bench, one.run)[0] and self._motions(one.channels):
                 points.setdefault(own, []).append(one)
         return points
@@ -92,11 +92,11 @@ class Squeals:
                                                   records[0])}, {}
         for who, bench in benches.items():
             try:
-                heard[who] = self._heard(simulated(bench, records[0], self.told, self.seed), records[0])
+                heard[who] = self._heard(simulated(bench, records[0], self.settings, self.seed), records[0])
             except BrakechainError as error:
                 failure[who] = str(error)
         measured = heard["recorded"].values
-        agrees = {who: {f: agree(measured[f], values, self.told.tolerance) for f, values in one.values.items()
+        agrees = {who: {f: agree(measured[f], values, self.settings.tolerance) for f, values in one.values.items()
                         if f in measured} for who, one in heard.items() if who != "recorded"}
         return Compared(heard, agrees, failure)
 
@@ -107,13 +107,13 @@ class Squeals:
     def _heard(self, motions, like):
         """Heard of [{channel: (n,)}] at the rate and with the units of the Recorded ``like``."""
         rate, names = like.run.sample_rate, self._motions(like.channels)
-        size, unit = round(self.told.stretch * rate), dict(zip(like.channels, like.unit, strict=True))
+        size, unit = round(self.settings.stretch * rate), dict(zip(like.channels, like.unit, strict=True))
         states, found, units = [], {}, {}
         for one in motions:
             together = np.array([one[name] for name in names])
             states.append(state(together, size))
             if states[-1] == SATURATED:
-                told = _features(one, names, rate, size, saturated(together, size), self.told.lowest, unit)
+                told = _features(one, names, rate, size, saturated(together, size), self.settings.lowest, unit)
                 units |= {feature: own for feature, (_, own) in told.items()}
                 for feature, (values, _) in told.items():
                     found.setdefault(feature, []).extend(values)

@@ -11,6 +11,7 @@ import numpy as np
 import scipy
 
 from pipeline.contract import ConfigError
+from pipeline.diagnosis.rules import DEFAULTS
 from pipeline.inference.problem import Observed
 from pipeline.physics.signals.pole_identification import (
     Poles,
@@ -25,19 +26,6 @@ from pipeline.physics.virtual_rig.sensor import JOINT_FORCE, VELOCITY
 
 #: orders of the drive that slow turns are read for
 ORDERS = (1, 2, 3)
-#: how far a predicted root may lie from a seen one, as a share of it, before it costs as much as another shape: as far
-#: as stated values put it. Roots that have to pass each other on the way to their peaks are told by their shapes
-_NEAR = 0.1
-#: so many times that, and distance counts less and less: one peak that is no mode does not move all others by one
-_FAR = 3.0
-#: how far a root may be from a peak, as a share of it, before the distance counts less and less
-_REACH = 0.1
-#: poles closer than this share of 1 / length of a record show as one that lies anywhere between
-_UNRESOLVED = 0.05
-#: standard deviations that no sensor beats: of a logarithmic gain, and of a delay in s
-_GAIN, _DELAY = 0.005, 1e-6
-#: sensors of one point are compared by poles that move both by more than this share of what their loudest pole does
-_HEARD = 0.02
 
 
 @dataclass(frozen=True)
@@ -54,7 +42,7 @@ class Features:
     resolved: float = 0.0
 
 
-def features(bench, recorded, settings):
+def features(bench, recorded, settings, rules=DEFAULTS.poles):
     """{run name: Features} of {name: Recorded}; ``settings`` the section ``bench.poles``.
 
     Raises ConfigError where a run of free vibration has no repeat.
@@ -70,13 +58,13 @@ def features(bench, recorded, settings):
         if not again:
             raise ConfigError(f"run {name}", "a repeat: poles count where two records show them", "none",
                               "record it twice and set repeat_of")
-        (first, apart), (second, other) = (_poles(bench, record, settings) for record in (one, again[0]))
+        (first, apart), (second, other) = (_poles(bench, record, settings, rules) for record in (one, again[0]))
         seen = fundamental(confirmed(first, second))
-        found[name] = _told(bench, Features(one.run, seen, {}, {}, max(apart, other)), settings)
+        found[name] = _told(bench, Features(one.run, seen, {}, {}, max(apart, other)), settings, rules)
     return found
 
 
-def _poles(bench, one, settings):
+def _poles(bench, one, settings, rules):
     """(Poles of a run as its motion channels show them, shapes as velocities; rad/s that it tells apart)."""
     seen = [c for c in motions(bench) if c.name in one.channels]
     samples = _unbroken(one)[[one.channels.index(c.name) for c in seen]]
@@ -84,7 +72,7 @@ def _poles(bench, one, settings):
     told = steady_poles(samples, one.run.sample_rate, settings.low, settings.high, count)
     power = np.array([VELOCITY.order - c.measurand.order for c in seen])
     apart = 2 * np.pi * one.run.sample_rate / min(count, samples.shape[1])
-    std = np.hypot(told.std, _UNRESOLVED * apart)
+    std = np.hypot(told.std, rules.unresolved * apart)
     return replace(told, shape=told.shape * told.root[:, None] ** power, std=std), apart
 
 
@@ -98,7 +86,7 @@ def _unbroken(one):
     return one.samples[:, begin:]
 
 
-def _told(bench, one, settings):
+def _told(bench, one, settings, rules):
     """The Features with their values: every pole, and the ratio of every two sensors of one point; none, if no pole."""
     if not len(one.seen.root):
         return one
@@ -109,11 +97,11 @@ def _told(bench, one, settings):
         floor = settings.resolution * root.imag
         std |= {frequency: np.hypot(spread, floor) / (2 * np.pi), growth: np.hypot(spread, floor)}
     for (first, second), (gain, delay) in _pairs(bench).items():
-        heard = one.seen.of(_heard(one.seen.shape[:, [first, second]]))
+        heard = one.seen.of(_heard(one.seen.shape[:, [first, second]], rules))
         ratio = heard.shape[:, second] / heard.shape[:, first]
         trusted = 1 / (heard.std / abs(heard.root) + 1e-3) ** 2
         late = -np.angle(ratio) / heard.root.imag
-        for name, each, floor in ((gain, np.log(abs(ratio)), _GAIN), (delay, late, _DELAY)):
+        for name, each, floor in ((gain, np.log(abs(ratio)), rules.gain_std), (delay, late, rules.delay_std)):
             middle = np.median(each)
             kept = abs(each - middle) <= 3 * np.median(abs(each - middle)) + floor
             values[name] = float(np.average(each[kept], weights=trusted[kept]))
@@ -121,10 +109,10 @@ def _told(bench, one, settings):
     return replace(one, values=values, std=std)
 
 
-def _heard(shape):
+def _heard(shape, rules=DEFAULTS.poles):
     """Indices of the poles of amplitudes (p, 2) that both sensors hear; all where there is none."""
     size = abs(shape)
-    loud = (size > _HEARD * size.max(axis=0, initial=0.0)).all(axis=1)
+    loud = (size > rules.heard * size.max(axis=0, initial=0.0)).all(axis=1)
     return np.flatnonzero(loud | ~loud.any())
 
 
@@ -165,14 +153,14 @@ def observed(found, held_out=()):
     return tuple(told), {name: _unit(name) for name in names}
 
 
-def predicted(bench, one, channels):
+def predicted(bench, one, channels, rules=DEFAULTS.poles):
     """(c, 1) of the features ``channels`` that the bench would have shown where Features ``one`` were seen; 0 for
     those that the run lacks."""
     values = {}
     if one.seen is not None:
         root, shape = modes(bench, one.run)
-        own = merged(one.seen.root, root, assigned(one.seen, root, shape), one.resolved)
-        for k, near in enumerate(nearer(one.seen.root, own), 1):
+        own = merged(one.seen.root, root, assigned(one.seen, root, shape, rules), one.resolved)
+        for k, near in enumerate(nearer(one.seen.root, own, rules), 1):
             values |= dict(zip(_named(k), (near.imag / (2 * np.pi), near.real), strict=True))
         told = motions(bench)
         for (first, second), (gain, delay) in _pairs(bench).items():
@@ -186,13 +174,15 @@ def predicted(bench, one, channels):
     return np.array([[values.get(name, 0.0) if name in one.values else 0.0] for name in channels])
 
 
-def assigned(seen, root, shape):
+def assigned(seen, root, shape, rules=DEFAULTS.poles):
     """Index (p,) of the root (r,) that explains each of the Poles ``seen``, by distance and shape.
 
     Each root explains one; a peak that none is left for, as where the model lacks a mode, falls to the likeliest.
+    Eigenvalues that cross on the way to their peaks are paired by mode shape; a distance of several times the prior
+    error counts less and less, so that a peak that is no mode does not move all others by one.
     """
-    apart = abs(np.subtract.outer(seen.root, root)) / (_NEAR * abs(seen.root))[:, None]
-    cost = apart / np.sqrt(1 + (apart / _FAR) ** 2) + 1 - likeness(seen.shape, shape)
+    apart = abs(np.subtract.outer(seen.root, root)) / (rules.near * abs(seen.root))[:, None]
+    cost = apart / np.sqrt(1 + (apart / rules.far) ** 2) + 1 - likeness(seen.shape, shape)
     found = cost.argmin(axis=1)
     peaks, roots = scipy.optimize.linear_sum_assignment(cost)
     found[peaks] = roots
@@ -213,13 +203,13 @@ def merged(seen, root, own, resolved):
     return found
 
 
-def nearer(seen, root):
-    """Roots (p,) drawn towards those ``seen``: as they are where close, never farther than _REACH of one.
+def nearer(seen, root, rules=DEFAULTS.poles):
+    """Roots (p,) drawn towards those ``seen``: as they are where close, never farther than ``reach`` of one.
 
     A peak that the model does not have is far from any root; how far says nothing.
     """
     apart = root - seen
-    return seen + apart / np.sqrt(1 + abs(apart / (_REACH * seen)) ** 2)
+    return seen + apart / np.sqrt(1 + abs(apart / (rules.reach * seen)) ** 2)
 
 
 def _pairs(bench):

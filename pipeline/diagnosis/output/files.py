@@ -7,7 +7,7 @@ import numpy as np
 
 from pipeline.case_models.effect_block import written
 from pipeline.contract import documents as yaml
-from pipeline.diagnosis.question import split_name
+from pipeline.diagnosis.problem import split_name
 from pipeline.diagnosis.signals.forward_model import NAMES
 from pipeline.diagnosis.signals.latent_force_law import LABEL
 

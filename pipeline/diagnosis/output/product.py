@@ -1,13 +1,12 @@
-"""From the course of a diagnosis to its product: hypotheses, parameters, errors, runs under three models."""
+"""From a solved problem to the product Diagnosis: hypotheses, parameters, errors, runs under three models."""
 
 import numpy as np
 
 from pipeline.diagnosis.experiment_design.next_run import next_experiment
-from pipeline.diagnosis.question import label, split_name
+from pipeline.diagnosis.problem import label, split_name
 from pipeline.diagnosis.signals.localisation import stage_of
 from pipeline.inference.decision.candidate_statistics import unexplained
 from pipeline.inference.decision.held_out import errors
-from pipeline.inference.fitting.effective_sample_size import tempering
 from pipeline.inference.fitting.noise import normalised_error
 from pipeline.products import DiagnosedRun, Diagnosis, Follows, LatentForce, LatentPrediction, Located, SquealCheck
 
@@ -15,28 +14,31 @@ from pipeline.products import DiagnosedRun, Diagnosis, Follows, LatentForce, Lat
 MODELS = ("nominal", "recalibrated", "completed", "noise")
 
 
-def answer(question, found):
-    """Product Diagnosis of a Question and the inference's Diagnosis over it."""
-    first = found.base or found
-    best = _best(found)
-    table = _hypotheses(found)
-    problem = question.problem
-    fits = [errors(problem, question.budget, problem.nominal, first.null, best, part)
-            for part in (problem.training, problem.held_out)]
-    runs = {run.name: _run(question, run, fits[run.held_out]) for run in problem.runs}
-    channels = tuple(question.units)
-    axes = question.axes(found)
-    latent = question.describe(found, axes)
+def product(problem, diagnosis):
+    """Product Diagnosis of a DiagnosisProblem and the inference's Diagnosis of it."""
+    completed, recalibrated, table = diagnosis.completed, diagnosis.recalibrated, _hypotheses(diagnosis)
+    runs = problem.problem
+    fits = [errors(runs, problem.budget, runs.nominal, recalibrated, completed, part)
+            for part in (runs.training, runs.held_out)]
+    axes = problem.locator.located(diagnosis)
+    latent = problem.latent.described(diagnosis, axes) if problem.latent else None
     axes |= latent.regimes if latent else {}
-    use = question.use(found, latent) if latent and found.decision.verdict == "unknown" else None
-    return Diagnosis(
-        verdict=found.decision.verdict, reason=list(found.decision.reasons), channel=channels,
-        channel_unit=[question.units[c] for c in channels], **table, **_parameters(question, found, best, table),
-        fit=[_part(told) for told in fits],
-        unexplained_share=unexplained(first.null, best, question.rules),
-        drift_p_value=found.drift.p_value, location={name: located(*axis) for name, axis in axes.items()},
-        **_latent(latent), **_used(use, problem), **next_experiment(question, found), runs=runs,
-        squeal={name: squeal_check(one) for name, one in (question.squeal(first.null, best) or {}).items()})
+    predicts = latent and problem.predicts_with_force and diagnosis.decision.verdict == "unknown"
+    use = problem.latent.predicted(diagnosis, latent) if predicts else None
+    squeals = problem.squeals.compared(recalibrated, completed) if problem.squeals else {}
+    channels, rows = tuple(problem.units), problem.rules.rows()
+    result = Diagnosis(
+        verdict=diagnosis.decision.verdict, reason=list(diagnosis.decision.reasons), channel=channels,
+        channel_unit=[problem.units[c] for c in channels], **table, **_parameters(diagnosis, completed, table),
+        fit=[_part(part) for part in fits], unexplained_share=unexplained(recalibrated, completed, problem.rules),
+        drift_p_value=diagnosis.weighing.drift.p_value,
+        location={name: located(*axis) for name, axis in axes.items()},
+        **_latent(latent), **_used(use, runs), **next_experiment(problem, diagnosis),
+        runs={run.name: _run(problem, run, fits[run.held_out]) for run in runs.runs},
+        squeal={name: squeal_check(comparison) for name, comparison in squeals.items()},
+        threshold=[row[0] for row in rows], threshold_value=[row[1] for row in rows],
+        threshold_unit=[row[2] for row in rows], threshold_meaning=[row[3] for row in rows])
+    return problem.revision.revised(result, diagnosis) if problem.revision else result
 
 
 def located(location, unit="", edges=None):
@@ -49,18 +51,18 @@ def located(location, unit="", edges=None):
 def squeal_check(compared):
     """Product SquealCheck of a Compared."""
     who, heard = list(compared.heard), list(compared.heard.values())
-    unit = {feature: own for one in heard for feature, own in one.unit.items()}
+    unit = {feature: name for sound in heard for feature, name in sound.unit.items()}
 
     def table(number):
-        return np.array([[number(name, one, f) if f in one.values else 0 for f in unit]
-                         for name, one in compared.heard.items()]).reshape(len(who), len(unit))
+        return np.array([[number(name, sound, f) if f in sound.values else 0 for f in unit]
+                         for name, sound in compared.heard.items()]).reshape(len(who), len(unit))
 
     return SquealCheck(
-        sentence=compared.sentence, who=who, records=[len(one.states) for one in heard],
-        squealing=[one.squealing for one in heard], feature=list(unit), unit=list(unit.values()),
-        known=table(lambda name, one, f: 1), mean=table(lambda name, one, f: one.values[f].mean()),
-        spread=table(lambda name, one, f: one.values[f].std()),
-        agrees=table(lambda name, one, f: int(compared.agrees.get(name, {}).get(f, False))))
+        sentence=compared.sentence, who=who, records=[len(sound.states) for sound in heard],
+        squealing=[sound.squealing for sound in heard], feature=list(unit), unit=list(unit.values()),
+        known=table(lambda name, sound, f: 1), mean=table(lambda name, sound, f: sound.values[f].mean()),
+        spread=table(lambda name, sound, f: sound.values[f].std()),
+        agrees=table(lambda name, sound, f: int(compared.agrees.get(name, {}).get(f, False))))
 
 
 def _latent(description):
@@ -68,8 +70,8 @@ def _latent(description):
     if description is None:
         return {"latent_place": "", "latent_sentence": "", "latent": {}, "follows": {}}
     return {"latent_place": description.place, "latent_sentence": description.sentence,
-            "latent": {name: LatentForce(time=one.time, force=one.force, std=one.std, displacement=one.displacement,
-                                         velocity=one.velocity) for name, one in description.runs.items()},
+            "latent": {name: LatentForce(time=run.time, force=run.force, std=run.std, displacement=run.displacement,
+                                         velocity=run.velocity) for name, run in description.runs.items()},
             "follows": {f.name.replace(" ", "_"): Follows(share=f.share, p_value=f.p_value, unit=unit, centre=f.centre,
                                                           curve=f.curve) for f, unit in description.follows}}
 
@@ -87,53 +89,47 @@ def _used(use, problem):
                 held_out[name], held_out[name].samples - p)) for name, p in use.runs.items()}}
 
 
-def _best(found):
-    """The Fit of the model that the decision completes: that of its first named hypothesis, else the nominal one."""
-    named = [c.name for c in found.decision.named]
-    return next((w.fit for name in named for w in found.weighed if w.candidate.name == name), found.null)
-
-
-def _hypotheses(found):
+def _hypotheses(diagnosis):
     """Columns of the table of everything weighed; its probabilities sum to 1.
 
     Nothing missing first, then what is taken as known, alone, then the catalogue: candidates beside what is known.
     """
-    known, screen = found.nominal.effects, found.screen
-    weighed = {w.candidate.name: w for w in found.weighed}
-    rows, share = [_row("nothing missing", (), "physics", posterior=found.posterior[0])], found.posterior
+    known, screen = diagnosis.nominal.effects, diagnosis.screen
+    weighed = {w.candidate.name: w for w in diagnosis.weighed}
+    rows, posterior = [_row("nothing missing", (), "physics", posterior=diagnosis.posterior[0])], diagnosis.posterior
     if known:
-        nothing = found.base.posterior[0]
-        rows[0]["posterior"], share = nothing, (1 - nothing) * share
-        rows.append(_alone(found) | {"posterior": share[0]})
+        nothing = diagnosis.base.posterior[0]
+        rows[0]["posterior"], posterior = nothing, (1 - nothing) * posterior
+        rows.append(_known(diagnosis) | {"posterior": posterior[0]})
     for k, candidate in enumerate(screen.candidates):
-        own = weighed.get(candidate.name)
-        rows.append(_screened(screen, k, own) | {
-            "posterior": share[1 + k], "objection": _objection(found, candidate, own)})
+        refitted = weighed.get(candidate.name)
+        rows.append(_screened(screen, k, refitted) | {
+            "posterior": posterior[1 + k], "objection": _objection(diagnosis, candidate, refitted)})
     names = [row["hypothesis"] for row in rows]
     return {**{key: [row[key] for row in rows] for key in rows[0]},
-            "named": [names.index(c.name) for c in found.decision.named], "known": [1] if known else []}
+            "named": [names.index(c.name) for c in diagnosis.decision.named], "known": [1] if known else []}
 
 
-def _alone(found):
+def _known(diagnosis):
     """Row of what is taken as known, as it stood when it was weighed alone."""
-    before, effects = found.base, found.nominal.effects
-    k = next(k for k, c in enumerate(before.screen.candidates) if c.effects == effects)
-    own = next(w for w in before.weighed if w.candidate.effects == effects)
-    return _screened(before.screen, k, own)
+    base, effects = diagnosis.base, diagnosis.nominal.effects
+    k = next(k for k, c in enumerate(base.screen.candidates) if c.effects == effects)
+    return _screened(base.screen, k, next(w for w in base.weighed if w.candidate.effects == effects))
 
 
-def _screened(screen, k, own):
-    """Row of the candidate of this index in a Screen; ``own``: it refitted, whose p-value the rule went by, or None."""
-    candidate, judged = screen.candidates[k], own.contender if own else None
+def _screened(screen, k, refitted):
+    """Row of the candidate of this index in a Screen; ``refitted``: its Weighed, whose p-value the rules saw, or None.
+    """
+    candidate, seen = screen.candidates[k], refitted.statistics if refitted else None
     return _row(candidate.name, candidate.effects, candidate.kind, score=max(float(screen.score[k]), -1e3),
-                p_value=float(judged.p_value if judged else screen.p_value[k]), power=float(screen.power[k]),
-                evidence_gain=judged.evidence_gain if judged else 0.0, refitted=int(own is not None))
+                p_value=float(seen.p_value if seen else screen.p_value[k]), power=float(screen.power[k]),
+                evidence_gain=seen.evidence_gain if seen else 0.0, refitted=int(refitted is not None))
 
 
-def _objection(found, candidate, own):
+def _objection(diagnosis, candidate, refitted):
     """Why a candidate was not judged, or what speaks against its fit."""
-    return "; ".join(filter(None, (found.failures.get(candidate.name, ""), own.contender.forbidden if own else "",
-                                   *(own.contender.doubts if own else ()))))
+    against = (refitted.statistics.forbidden, *refitted.statistics.doubts) if refitted else ()
+    return "; ".join(filter(None, (diagnosis.failures.get(candidate.name, ""), *against)))
 
 
 def _row(name, effects, kind, **values):
@@ -143,42 +139,44 @@ def _row(name, effects, kind, **values):
     return row | values
 
 
-def _spread(found, best):
-    """{name: standard deviation} of the values of the Fit ``best``; what a model leaves counts as its noise.
+def _std(diagnosis, completed):
+    """{name: standard deviation} of the values of the Fit ``completed``; what a model leaves counts as its noise.
 
-    Where nothing could be named, values depend on what is missing: they are those of ``best`` or of a refitted
+    Where nothing could be named, values depend on what is missing: they are those of ``completed`` or of a refitted
     candidate that fits better, each as likely as the others since none of them suffices.
     """
-    unknown = found.decision.verdict == "unknown"
-    models = [best, *(w.fit for w in found.weighed if unknown and w.fit.objective < best.objective)]
-    spreads = [fit.spread(tempering(fit.noises, fit.residuals)) for fit in models]
-    return {name: float(np.sqrt(np.mean([std[name] ** 2 + (fit.values[name] - value) ** 2
-                                         for fit, std in zip(models, spreads, strict=True)])))
-            for name, value in best.values.items()}
+    unknown = diagnosis.decision.verdict == "unknown"
+    models = [completed, *(w.fit for w in diagnosis.weighed if unknown and w.fit.objective < completed.objective)]
+    std = [fit.spread(fit.weights) for fit in models]
+    return {name: float(np.sqrt(np.mean([deviation[name] ** 2 + (fit.values[name] - value) ** 2
+                                         for fit, deviation in zip(models, std, strict=True)])))
+            for name, value in completed.values.items()}
 
 
-def _parameters(question, found, best, table):
-    std, values = _spread(found, best), best.values
+def _parameters(diagnosis, completed, table):
+    std, values = _std(diagnosis, completed), completed.values
     owners = dict(zip(table["hypothesis"], range(len(table["hypothesis"])), strict=True))
     rows = []
-    for parameter in best.hypothesis.parameters:
-        effect, place, _ = split_name(parameter.name)
+    for parameter in completed.hypothesis.parameters:
+        effect, location, _ = split_name(parameter.name)
         given = parameter.nominal if parameter.null is None else parameter.null
         rows.append((parameter.name, parameter.unit, given, values[parameter.name], std[parameter.name],
-                     owners.get(label(((effect, place),)), 0)))
+                     owners.get(label(((effect, location),)), 0)))
     keys = ("parameter", "parameter_unit", "parameter_nominal", "parameter_value", "parameter_std", "parameter_owner")
     return {key: [row[k] for row in rows] for k, key in enumerate(keys)}
 
 
-def _part(told):
+def _part(errors):
     """Row of the table of fits from the Errors of one part; zeros where it has no runs."""
-    return [told.before, told.recalibrated, told.after, told.noise_floor] if told.runs else [0.0] * len(MODELS)
+    if not errors.runs:
+        return [0.0] * len(MODELS)
+    return [errors.before, errors.recalibrated, errors.after, errors.noise_floor]
 
 
-def _run(question, run, told):
-    """DiagnosedRun of one run of the Errors ``told``."""
-    nominal, recalibrated, completed = told.predicted[run.name]
+def _run(problem, run, errors):
+    """DiagnosedRun of one run of the Errors of its part."""
+    nominal, recalibrated, completed = errors.predicted[run.name]
     return DiagnosedRun(
         held_out=int(run.held_out), time=np.arange(run.samples.shape[1]) / (run.rate or 1.0), measured=run.samples,
         valid=run.valid.astype(int), nominal=nominal, recalibrated=recalibrated, completed=completed,
-        noise=question.budget[run.name].std, error=told.by_run[run.name])
+        noise=problem.budget[run.name].std, error=errors.by_run[run.name])

@@ -17,7 +17,8 @@ import scipy
 from pipeline.case_models.laws import Laws
 from pipeline.case_models.virtual_rig import about
 from pipeline.contract import BrakechainError, ConfigError, Quantity, Section, option
-from pipeline.diagnosis.published.frequency_lists import Alternative, Features, lines_of, question
+from pipeline.diagnosis.published.frequency_lists import Alternative, Features, lines_of, list_problem
+from pipeline.diagnosis.rules import DEFAULTS
 from pipeline.effects import named
 from pipeline.effects.effect import Term, compose
 from pipeline.physics.friction.dry_friction import constant
@@ -28,8 +29,6 @@ from pipeline.physics.time_stepping.simulate import simulate
 
 #: name of the recorded list of the base frequency
 BASE = "base"
-#: a line stands or it does not: half-way is two standard deviations; where the range ends is known to so many dB
-_STD, _SOFT = 0.25, 10.0
 #: rise of friction at rest over that in sliding, and decay as a share of the sliding speed, of the falling alternative
 _FALLING = (0.2, 1.0)
 #: steps between samples that are kept
@@ -170,21 +169,22 @@ def growing(modes):
     return roots[np.argmax(roots.real)]
 
 
-def harmonics_question(recording, told, motions, modes):
-    """Question over the recorded lines: which of them stand in each spectrum, and their base frequency.
+def harmonics_problem(recording, told, motions, modes, rules=DEFAULTS):
+    """DiagnosisProblem over the recorded lines: which of them stand in each spectrum, and their base frequency.
 
     The nominal model is the small motion of ComplexModes ``modes``: its fastest growing mode and nothing else.
     """
     lists = {name: lines_of(recording, told.run, s.list) for name, s in told.spectra.items()}
     bases = {name: (one.frequency[0], one.frequency_tolerance[0]) for name, one in lists.items()}
     frequency, tolerance = np.mean(list(bases.values()), axis=0)
-    features = {name: Features("line", "1", _stands(one, frequency, told.lines), np.full(told.lines, _STD))
-                for name, one in lists.items()}
+    std = np.full(told.lines, rules.lists.half_std)
+    features = {name: Features("line", "1", _stands(one, frequency, told.lines), std) for name, one in lists.items()}
     features[BASE] = Features("frequency", "Hz", [frequency], [tolerance / 2])
     alone = np.concatenate(([1.0], np.zeros(told.lines - 1)))
     nominal = {**dict.fromkeys(lists, alone), BASE: np.array([_hertz(growing(modes))])}
-    return question(features, nominal, [Alternative(m.name, "contact", _features(motions[m.name], told))
-                                        for m in MECHANISMS])
+    return list_problem(features, nominal, [
+        Alternative(m.name, "contact", _features(motions[m.name], told, rules.lists.soft)) for m in MECHANISMS],
+        rules=rules)
 
 
 def _stands(lines, base, count):
@@ -194,8 +194,8 @@ def _stands(lines, base, count):
     return near.any(axis=1).astype(float)
 
 
-def _features(motion, told):
-    found = {name: scipy.special.ndtr((level + told.spectra[name].range) / _SOFT)
+def _features(motion, told, soft):
+    found = {name: scipy.special.ndtr((level + told.spectra[name].range) / soft)
              for name, level in motion.levels.items()}
     return {**found, BASE: np.array([motion.base])}
 

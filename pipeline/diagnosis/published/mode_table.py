@@ -9,20 +9,10 @@ import scipy
 from pipeline.contract import ConfigError, Section, option
 from pipeline.diagnosis.experiment_design.next_lists import Check
 from pipeline.diagnosis.published.chance_agreement import assigned, chance, covered
-from pipeline.diagnosis.published.frequency_lists import FACTOR, Alternative, Features, lines_of, question
+from pipeline.diagnosis.published.frequency_lists import FACTOR, Alternative, Features, lines_of, list_problem
+from pipeline.diagnosis.rules import DEFAULTS
 from pipeline.inference.priors import LogNormal, Parameter
 from pipeline.physics.modal.disc_modes import describe
-
-#: computed lines closer than this share are one pair of a round disc
-_SPLIT = 0.01
-#: change of a frequency at a share of 1, of alternatives that tell only how it is spread over the modes
-_CHANGE = 0.1
-#: a partner that the table does not print may lie this much farther away than the measured line
-_ANYWHERE = 2.0
-#: modes further apart than this factor are not the same mode
-_FARTHEST = 1.25
-#: probability below which rows do not agree with a table
-_RARE = 0.05
 
 #: what undoes an alternative: {record: Check}
 CHECKS = {"measured = shapes of the lines that differ, counted in nodal diameters and circles":
@@ -68,11 +58,11 @@ class Table:
         return self.test / self.model - 1
 
 
-def table(recording, told):
+def table(recording, told, rules=DEFAULTS.lists):
     """Table of a product Recording under a section ModeTable; the tolerance of a line counts as two deviations."""
     test, model = (lines_of(recording, run, told.list) for run in (told.measured, told.computed))
     names, known = [str(n) for n in test.label], [str(n) for n in model.label]
-    groups = _modes(model)
+    groups = _modes(model, rules.twins)
     pairs = told.pairs or _nearest(names, test, groups)
     wrong = [n for n in (*pairs, *(m for group in pairs.values() for m in group)) if n not in (*names, *known)]
     if wrong or set(pairs) != set(names):
@@ -86,34 +76,36 @@ def table(recording, told):
                  tuple(g for g in groups if not taken & set(g[0])))
 
 
-def mode_question(rows, structure, told):
-    """Question of a Table: the printed pairs as nominal model; other pairs, mesh, support, kind of mode beside it."""
+def mode_problem(rows, structure, told, rules=DEFAULTS):
+    """DiagnosisProblem of a Table: the printed pairs as nominal model, beside it other pairs, mesh, support, kind of
+    mode."""
     features = {n: Features("frequency", "Hz", [t], [s])
                 for n, t, s in zip(rows.name, rows.test, rows.std, strict=True)}
     factor = Parameter(FACTOR, "1", 1.0, LogNormal(1.0, told.factor_spread))
-    return question(features, _shown(rows, rows.model), alternatives(rows, structure), (factor,))
+    others = alternatives(rows, structure, rules.lists)
+    return list_problem(features, _shown(rows, rows.model), others, (factor,), rules)
 
 
-def alternatives(rows, structure=None):
+def alternatives(rows, structure=None, rules=DEFAULTS.lists):
     """Alternatives to the printed pairs; those that need shapes only with a product Structure."""
     found = [Alternative("mis_paired", f"{rows.name[i]} as {'/'.join(g[0])}",
                          {rows.name[i]: np.array([g[1]])}, "sensor") for i, g in nearer(rows)]
     found += [Alternative("mis_paired", f"{rows.name[i]} exchanged with {rows.name[k]}",
                           {rows.name[i]: rows.model[[k]], rows.name[k]: rows.model[[i]]}, "sensor")
               for i, k in exchanges(rows)]
-    found += [Alternative("unlisted_partner", name, {name: rows.test[[i]]}, "sensor", _ANYWHERE)
+    found += [Alternative("unlisted_partner", name, {name: rows.test[[i]]}, "sensor", rules.anywhere)
               for i, name in enumerate(rows.name)]
     rising = rows.model / rows.model.max()
-    found.append(Alternative("rise_with_frequency", "computed modes", _shown(rows, rows.model * (1 - _CHANGE * rising)),
-                             "numerics"))
+    found.append(Alternative("rise_with_frequency", "computed modes",
+                             _shown(rows, rows.model * (1 - rules.change * rising)), "numerics"))
     single = rows.partners == 1
     if single.any() and not single.all():
         for place, sign in (("single modes too stiff", -1), ("single modes too soft", 1)):
             found.append(Alternative("axisymmetric_stiffness", place,
-                                     _shown(rows, rows.model * (1 + sign * _CHANGE * single))))
+                                     _shown(rows, rows.model * (1 + sign * rules.change * single))))
     if structure is not None:
-        found.append(Alternative("support", "computed disc held, measured free", _shown(rows, rows.model
-                                                                                        / held_ratio(rows, structure))))
+        found.append(Alternative("support", "computed disc held, measured free",
+                                 _shown(rows, rows.model / held_ratio(rows, structure, rules))))
     return tuple(found)
 
 
@@ -131,7 +123,7 @@ def exchanges(rows):
     return [(i, k) for i in range(count) for k in range(i + 1, count) if far(i, k) + far(k, i) < far(i, i) + far(k, k)]
 
 
-def held_ratio(rows, structure):
+def held_ratio(rows, structure, rules=DEFAULTS.lists):
     """Frequency (n,) of each row's mode on its mount over that of the free disc, by our own shapes; 1 where unknown."""
     free = _kinds(structure.free_frequency, structure.free_diameters)
     shape = structure.disc.shape
@@ -144,34 +136,34 @@ def held_ratio(rows, structure):
         if len(series):
             apart = np.abs(np.log(series / test))
             order = int(np.argmin(apart))
-            if apart[order] < np.log(_FARTHEST) and order < len(held.get(count, ())):
+            if apart[order] < np.log(rules.farthest) and order < len(held.get(count, ())):
                 ratio[i] = held[count][order] / series[order]
     return ratio
 
 
-def mode_reasons(rows, found):
+def mode_reasons(rows, found, rules=DEFAULTS.lists):
     """Sentences on a Table and the Diagnosis over it, from its numbers."""
     null = found.base.null if found.base else found.null
     off = np.array([r[0] for r in null.residuals])
     told = [f"{rows.name[i]}: {rows.test[i]:.1f} Hz measured beside {rows.model[i]:.1f} Hz computed"
             f" ({rows.difference[i]:+.1%},"
             f" {abs(off[i]):.1f} standard deviations; the tolerance of the row, an inferred number, counts as two)"
-            for i in np.argsort(-np.abs(off)) if abs(off[i]) > 3]
-    told.append(_of_factor(rows, null))
+            for i in np.argsort(-np.abs(off)) if abs(off[i]) > rules.outlying]
+    told.append(_of_factor(rows, null, rules))
     told += [_of_pair(rows, i, mode) for i, mode in nearer(rows)]
     other = {i for i, _ in nearer(rows)} | {i for pair in exchanges(rows) for i in pair}
     told += [f"{rows.name[i]}: no printed mode lies nearer than its partner, alone or exchanged: it is not mis-paired"
-             " within the table" for i in range(len(off)) if abs(off[i]) > 3 and i not in other]
-    signs = {np.sign(off[i]) for i in range(len(off)) if abs(off[i]) > 3}
+             " within the table" for i in range(len(off)) if abs(off[i]) > rules.outlying and i not in other]
+    signs = {np.sign(off[i]) for i in range(len(off)) if abs(off[i]) > rules.outlying}
     if len(signs) == 2:
         told.append("the rows that differ most do so in opposite directions: one added stiffness or mass moves all"
                     " modes the same way and cannot explain both")
     return told
 
 
-def _of_factor(rows, null):
+def _of_factor(rows, null, rules):
     before = float(np.sum(((rows.test - rows.model) / rows.std) ** 2))
-    enough = null.chi_square.sum() <= scipy.stats.chi2.isf(_RARE, len(rows.name))
+    enough = null.chi_square.sum() <= scipy.stats.chi2.isf(rules.factor_p, len(rows.name))
     factor, std, left = null.values[FACTOR], null.spread()[FACTOR], null.chi_square.sum()
     return (f"one factor on all frequencies, as a wrong modulus or density gives, is fitted as {factor:.3f} +-"
             f" {std:.3f} and takes the squared deviations from {before:.1f} to {left:.1f} over"
@@ -195,11 +187,11 @@ def _of_pair(rows, i, mode):
     return told
 
 
-def _modes(lines):
+def _modes(lines, twins):
     """[(names, frequency, partners)] of computed lines, those of one pair together."""
     groups = []
     for k in np.argsort(lines.frequency):
-        near = groups and lines.partners[k] != 1 and np.log(lines.frequency[k] / groups[-1][1][-1]) < _SPLIT
+        near = groups and lines.partners[k] != 1 and np.log(lines.frequency[k] / groups[-1][1][-1]) < twins
         if near:
             groups[-1][0].append(str(lines.label[k]))
             groups[-1][1].append(lines.frequency[k])

@@ -12,15 +12,10 @@ import scipy
 
 from pipeline.contract import ConfigError, Quantity, Section, option
 from pipeline.diagnosis.published.chance_agreement import Match, covered, match
-from pipeline.diagnosis.published.frequency_lists import Alternative, Features, lines_of, question
+from pipeline.diagnosis.published.frequency_lists import Alternative, Features, lines_of, list_problem
+from pipeline.diagnosis.rules import DEFAULTS
 from pipeline.physics.modal.disc_modes import describe
 
-#: explained or not: half-way is two standard deviations
-_STD = 0.25
-#: probability of agreement by chance that all lists share
-_CHANCE = 0.01
-#: modes that hardly move along the axis are not seen by a laser that looks along it
-_AXIAL = 0.5
 #: what makes any mode sound; which of them grow hangs on damping that nobody has measured there
 _ANY_MODE = (("flexible_disc", "multi-body loop"), ("falling_friction", "contact"), ("changing_load", "contact"))
 
@@ -71,21 +66,21 @@ def claims(recording, told, modes):
                  for effect, place, says, lines in listed)
 
 
-def squeal_question(recording, told, found):
-    """Question over which lines are explained: none by forces on a rigid disc, and by each of the Claims."""
+def squeal_problem(recording, told, found, rules=DEFAULTS):
+    """DiagnosisProblem over which lines are explained: none by forces on a rigid disc, and by each of the Claims."""
     seen, tolerance = heard(recording, told)
     names = [str(n) for n in seen.label]
-    features = {n: Features("explained", "1", [1.0], [_STD]) for n in names}
+    features = {n: Features("explained", "1", [1.0], [rules.lists.half_std]) for n in names}
     nothing = {n: np.zeros(1) for n in names}
-    return question(features, nothing, [Alternative(c.effect, c.place, {
+    return list_problem(features, nothing, [Alternative(c.effect, c.place, {
         n: np.array([float(rare and np.any(np.abs(c.lines - f) <= t))])
         for n, f, t in zip(names, seen.frequency, tolerance, strict=True)})
-        for c, rare in zip(found, rarely(found), strict=True)])
+        for c, rare in zip(found, rarely(found, rules.lists), strict=True)], rules=rules)
 
 
-def rarely(found):
+def rarely(found, rules=DEFAULTS.lists):
     """True (c,) for Claims whose agreement is rare by chance, over all of them."""
-    return [c.match.p_value <= _CHANCE / len(found) for c in found]
+    return [c.match.p_value <= rules.chance / len(found) for c in found]
 
 
 def undecided(found, recording, told):
@@ -94,7 +89,7 @@ def undecided(found, recording, told):
     return [i for i, c in enumerate(found) if c.match.found == count]
 
 
-def squeal_reasons(recording, told, found, modes, structure=None):
+def squeal_reasons(recording, told, found, modes, structure=None, rules=DEFAULTS.lists):
     """Sentences from the matches, and what precision or which shape would decide."""
     seen, tolerance = heard(recording, told)
     count, band = len(seen.frequency), (told.low, told.high)
@@ -110,11 +105,11 @@ def squeal_reasons(recording, told, found, modes, structure=None):
         said.append(f"{c.effect} ({c.says}): {own} lines {where}, {c.match.found} of {count} heard ones within"
                     f" tolerance; as many lines at random are met with probability {c.match.p_value:.2g}{gain}")
     spacing = (told.high - told.low) / max(np.count_nonzero(_within(found[-1].lines, band)), 1)
-    needed = needed_tolerance(found[-1].lines, band, count)
-    said.append(f"a mode every {spacing:.0f} Hz: for agreement of {count} lines to be rarer than 1 % by chance they"
-                f" had to be known, and the model right, within {needed:.1f} Hz; print and model leave"
-                f" {tolerance.max():.0f} Hz: frequencies alone cannot decide")
-    return said + (_of_shapes(seen, tolerance, structure) if structure is not None else [])
+    needed = needed_tolerance(found[-1].lines, band, count, rules.chance)
+    said.append(f"a mode every {spacing:.0f} Hz: for agreement of {count} lines to be rarer than"
+                f" {100 * rules.chance:g} % by chance they had to be known, and the model right, within"
+                f" {needed:.1f} Hz; print and model leave {tolerance.max():.0f} Hz: frequencies alone cannot decide")
+    return said + (_of_shapes(seen, tolerance, structure, rules) if structure is not None else [])
 
 
 def _within(lines, band):
@@ -126,12 +121,12 @@ def needed_tolerance(lines, band, count, level=0.01):
     return float(scipy.optimize.brentq(lambda t: covered(lines, t, band) ** count - level, 0.0, band[1] - band[0]))
 
 
-def _of_shapes(seen, tolerance, structure):
+def _of_shapes(seen, tolerance, structure, rules):
     shape = structure.disc.shape
     diameters, axial = describe(structure.disc.node, shape.reshape(len(shape), -1).T)
     said = []
     for line, width in zip(seen.frequency, tolerance, strict=True):
-        near = (np.abs(structure.disc.frequency - line) <= width) & (axial > _AXIAL)
+        near = (np.abs(structure.disc.frequency - line) <= width) & (axial > rules.axial)
         own = ", ".join(str(n) for n in np.unique(diameters[near]))
         if own:
             said.append(f"modes of the disc alone within {width:.0f} Hz of {1e-3 * line:.3g} kHz have {own} nodal"

@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from pipeline.case_models.force_balance import channel_names
+from pipeline.diagnosis.rules import DEFAULTS, DiagnosisRules
 from pipeline.diagnosis.signals.latent_force import Description, LatentRun, dependences, regimes, sentence
 from pipeline.diagnosis.signals.latent_force_law import used
 from pipeline.diagnosis.signals.localisation import Axes, channel_axis, fitted, leading_place, residuals
@@ -18,49 +19,59 @@ PREFIX = "force on "
 
 @dataclass(frozen=True)
 class BalanceAxes:
-    """Axes of residuals, and the place: over the ``channels``, the forces on the coordinates."""
+    """Locator by residuals, and by place: over the ``channels``, the forces on the coordinates."""
 
     channels: tuple
     residual: Axes
 
-    def __call__(self, found):
-        own = self.residual
-        whites = residuals(own.problem, own.budget, (found.base or found).null)
-        place = channel_axis(self.channels, whites, own.budget, own.level, own.draws, own.seed)
-        place = replace(place, items=tuple(name.removeprefix(PREFIX) for name in place.items))
-        return {**own(found), "place": (place, "", None)}
+    def located(self, diagnosis):
+        axes = self.residual
+        whites = residuals(axes.problem, axes.budget, diagnosis.recalibrated)
+        location = channel_axis(self.channels, whites, axes.budget, axes.level, axes.draws, axes.seed)
+        location = replace(location, items=tuple(name.removeprefix(PREFIX) for name in location.items))
+        return {**axes.located(diagnosis), "place": (location, "", None)}
+
+
+@dataclass(frozen=True)
+class BalancedRuns:
+    """Simulator: the forces that the motions of ``balances`` {name: Balance} need on a Bench."""
+
+    balances: dict
+
+    def simulated(self, bench, run):
+        return self.balances[run.name].predicted(bench)
 
 
 @dataclass(frozen=True)
 class DescribeBalance:
-    """The ``describe`` of a Question over ``balances`` {name: Balance} of a Bench: at the leading significant place."""
+    """LatentForces over ``balances`` {name: Balance} of a Bench: at the leading significant place."""
 
     bench: object
     balances: dict
     problem: object
     budget: dict
+    rules: DiagnosisRules = DEFAULTS
     draws: int = 2000
     seed: int = 0
 
-    def __call__(self, found, axes):
-        leader = leading_place(axes)
+    def described(self, diagnosis, axes):
+        leader = leading_place(axes, self.rules.latent_force.place_p)
         if leader is None:
             return None
-        bench = fitted(self.bench, (found.base or found).null)
+        bench = fitted(self.bench, diagnosis.recalibrated)
         runs = {run.name: self._run(bench, run.name, leader) for run in self.problem.runs}
         learned = [runs[run.name] for run in self.problem.training]
-        place, follows = axes["place"][0].items[leader], dependences(learned, self.seed)
-        return Description(place, runs, follows, regimes(learned, self.draws, self.seed),
-                           sentence(place, learned, follows))
+        location, follows = axes["place"][0].items[leader], dependences(learned, self.seed)
+        return Description(location, runs, follows, regimes(learned, self.draws, self.seed),
+                           sentence(location, learned, follows, self.rules.latent_force.dependence_p))
 
-    def use(self, found, description):
+    def predicted(self, diagnosis, description):
         """LatentUse of a Description on the held-out runs: forces that their motions need."""
         names = [name.removeprefix(PREFIX) for name in channel_names(self.bench)]
         return used(self.bench, np.eye(self.bench.model.size)[names.index(description.place)], description,
-                    self.problem, self.budget, (found.base or found).null,
-                    lambda whole, run: self.balances[run.name].predicted(whole))
+                    self.problem, self.budget, diagnosis.recalibrated, BalancedRuns(self.balances), self.rules)
 
     def _run(self, bench, name, coordinate):
-        force, place, speed = (values[coordinate] for values in self.balances[name].left(bench))
+        force, displacement, speed = (values[coordinate] for values in self.balances[name].left(bench))
         std = np.full(len(force), self.budget[name].std[coordinate])
-        return LatentRun(self.balances[name].seen.run.time, force, std, place, speed, None)
+        return LatentRun(self.balances[name].seen.run.time, force, std, displacement, speed, None)

@@ -14,6 +14,7 @@ import numpy as np
 import scipy
 
 from pipeline.contract import BrakechainError
+from pipeline.diagnosis.rules import DEFAULTS
 from pipeline.diagnosis.signals.forward_model import shown
 from pipeline.physics.virtual_rig.response import respond
 from pipeline.physics.virtual_rig.roots import linearised
@@ -23,8 +24,8 @@ from pipeline.physics.virtual_rig.sensor import DISPLACEMENT, VELOCITY, Sensor
 EXTRA = "latent"
 #: share of a run that fades in and out before it is transformed
 FADE = 0.05
-#: power over that of the noise that a frequency needs, over this many neighbours
-ABOVE, NEIGHBOURS = 4.0, 15
+#: neighbouring frequencies over which power is averaged before it is compared with that of the noise
+NEIGHBOURS = 15
 #: samples of the cubic that gives the velocity of a measured displacement
 _SMOOTHING = 7
 
@@ -39,26 +40,26 @@ class Deconvolved:
     highest: float
 
 
-def deconvolved(bench, row, run, observed, noise):
+def deconvolved(bench, row, run, observed, noise, above_noise=DEFAULTS.latent_force.above_noise):
     """Deconvolved of one run along a row (n,); None where no frequency rises above the noise or nothing is linear."""
     residual = np.where(observed.valid, observed.samples - shown(bench, run, observed.channels), 0.0)
     count = residual.shape[1]
     frequency = np.fft.rfftfreq(count, 1 / run.sample_rate)
     try:
-        own, seen_by = receptances(bench, run, row, observed.channels, frequency)
+        direct, transfer = receptances(bench, run, row, observed.channels, frequency)
     except BrakechainError:
         return None
     fade = scipy.signal.windows.tukey(count, 2 * FADE)
     spectrum, precision = np.fft.rfft(residual * fade, axis=1), 1 / noise.std[:, None] ** 2
-    seen = np.sum(np.abs(seen_by) ** 2 * precision, axis=0)
-    force = np.sum(seen_by.conj() * spectrum * precision, axis=0) / np.maximum(seen, 1e-300)
-    power = np.abs(force) ** 2 * seen / np.sum(fade**2)
-    loud = np.flatnonzero(np.convolve(power, np.ones(NEIGHBOURS) / NEIGHBOURS, "same") > ABOVE)
+    gain = np.sum(np.abs(transfer) ** 2 * precision, axis=0)
+    force = np.sum(transfer.conj() * spectrum * precision, axis=0) / np.maximum(gain, 1e-300)
+    power = np.abs(force) ** 2 * gain / np.sum(fade**2)
+    loud = np.flatnonzero(np.convolve(power, np.ones(NEIGHBOURS) / NEIGHBOURS, "same") > above_noise)
     if not len(loud):
         return None
     force[loud[-1] + 1:] = 0.0
     x, v = moved(bench, run, row)
-    moves = own * force
+    moves = direct * force
     return Deconvolved(np.fft.irfft(force, count), x + np.fft.irfft(moves, count),
                        v + np.fft.irfft(2j * np.pi * frequency * moves, count),
                        float(frequency[max(loud[-1], 1)]))
@@ -78,8 +79,8 @@ def motion(bench, row, run, observed, noise):
         gain = np.array([known[observed.channels[k]].gain for k in seen])
         x = weight @ (observed.samples[seen] / gain[:, None])
         return x, scipy.signal.savgol_filter(x, _SMOOTHING, 3, deriv=1, delta=1 / run.sample_rate)
-    found = deconvolved(bench, row, run, observed, noise)
-    return moved(bench, run, row) if found is None else (found.displacement, found.velocity)
+    corrected = deconvolved(bench, row, run, observed, noise)
+    return moved(bench, run, row) if corrected is None else (corrected.displacement, corrected.velocity)
 
 
 def moved(bench, run, row):

@@ -8,7 +8,7 @@ from pipeline.case_models import corrections
 from pipeline.case_models.virtual_rig import only
 from pipeline.contract import ConfigError
 from pipeline.diagnosis.experiment_design.next_run import altered
-from pipeline.diagnosis.question import label, parameter_name, split_name
+from pipeline.diagnosis.problem import label, parameter_name, split_name
 from pipeline.diagnosis.settings import prior_of
 from pipeline.effects import CATALOGUE, named
 from pipeline.effects.effect import Term, compose

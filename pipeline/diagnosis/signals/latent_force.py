@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from pipeline.diagnosis.rules import DEFAULTS, DiagnosisRules
 from pipeline.diagnosis.signals.deconvolution import FADE, deconvolved
 from pipeline.diagnosis.signals.forward_model import shown
 from pipeline.diagnosis.signals.latent_force_law import LABEL, used
@@ -47,58 +48,70 @@ class Description:
 
 @dataclass(frozen=True)
 class Describe:
-    """The ``describe`` of a Question over {name: Run} of a Bench: at the leading place, where it is significant."""
+    """LatentForces over {name: Run} of a Bench: at the leading place, where it is significant."""
 
     bench: object
     runs: dict
     problem: object
     budget: dict
+    rules: DiagnosisRules = DEFAULTS
     draws: int = 2000
     seed: int = 0
 
-    def __call__(self, found, axes):
-        leader = leading_place(axes)
+    def described(self, diagnosis, axes):
+        leader = leading_place(axes, self.rules.latent_force.place_p)
         if leader is None:
             return None
         runs = {r.name: (self.runs[r.name], r, self.budget[r.name]) for r in self.problem.runs}
-        return describe(fitted(self.bench, (found.base or found).null), runs, [r.name for r in self.problem.held_out],
-                        axes["place"][0].items[leader], self.draws, self.seed)
+        return describe(fitted(self.bench, diagnosis.recalibrated), runs, [r.name for r in self.problem.held_out],
+                        axes["place"][0].items[leader], self.draws, self.seed, self.rules.latent_force)
 
-    def use(self, found, description):
+    def predicted(self, diagnosis, description):
         """LatentUse of a Description on the held-out runs."""
         return used(self.bench, places(self.bench)[description.place][0], description, self.problem, self.budget,
-                    (found.base or found).null, lambda whole, run: shown(whole, self.runs[run.name].until(
-                        run.samples.shape[1]), run.channels))
+                    diagnosis.recalibrated, SimulatedRuns(self.runs), self.rules)
 
 
-def describe(bench, runs, held_out, place, draws=2000, seed=0):
+@dataclass(frozen=True)
+class SimulatedRuns:
+    """Simulator: what the channels of ``runs`` {name: Run} show on a Bench."""
+
+    runs: dict
+
+    def simulated(self, bench, run):
+        return shown(bench, self.runs[run.name].until(run.samples.shape[1]), run.channels)
+
+
+def describe(bench, runs, held_out, place, draws=2000, seed=0, rules=DEFAULTS.latent_force):
     """Description of the force missing at ``place`` of a fitted Bench, or None where no frequency rises above noise.
 
     ``runs`` {name: (Run, Observed, Noise)}; runs ``held_out`` are transformed, but nothing is learned from them.
     """
     row = places(bench)[place][0]
-    found = {name: force for name, one in runs.items() if (force := latent_run(bench, row, *one)) is not None}
-    learned = [one for name, one in found.items() if name not in held_out]
+    forces = {name: force for name, parts in runs.items()
+              if (force := latent_run(bench, row, *parts, rules.above_noise)) is not None}
+    learned = [force for name, force in forces.items() if name not in held_out]
     if not learned:
         return None
     follows = dependences(learned, seed)
-    return Description(place, found, follows, regimes(learned, draws, seed), sentence(place, learned, follows))
+    return Description(place, forces, follows, regimes(learned, draws, seed),
+                       sentence(place, learned, follows, rules.dependence_p))
 
 
-def latent_run(bench, row, run, observed, noise):
+def latent_run(bench, row, run, observed, noise, above_noise=DEFAULTS.latent_force.above_noise):
     """LatentRun of one run along a row (n,), or None where the residual says nothing."""
-    found = deconvolved(bench, row, run, observed, noise)
-    if found is None:
+    residual = deconvolved(bench, row, run, observed, noise, above_noise)
+    if residual is None:
         return None
     count = run.samples
-    every = max(1, min(int(run.sample_rate / (4 * found.highest)), int((1 - 2 * FADE) * count) // FEWEST))
-    kept = slice(int(FADE * count), int((1 - FADE) * count), every)
-    raw, rate = found.force[kept], run.sample_rate / every
+    every = max(1, min(int(run.sample_rate / (4 * residual.highest)), int((1 - 2 * FADE) * count) // FEWEST))
+    chosen = slice(int(FADE * count), int((1 - FADE) * count), every)
+    raw, rate = residual.force[chosen], run.sample_rate / every
     learned = gp_latent_force.latent_force(raw[:LEARNED], rate)
     smooth = gp_latent_force.smooth(raw, rate, learned.size, learned.length, learned.noise)
     angle = drive_angle(bench, run)
-    return LatentRun(run.time[kept], smooth.mean, smooth.std, found.displacement[kept], found.velocity[kept],
-                     None if angle is None else angle[kept])
+    return LatentRun(run.time[chosen], smooth.mean, smooth.std, residual.displacement[chosen],
+                     residual.velocity[chosen], None if angle is None else angle[chosen])
 
 
 def dependences(runs, seed=0):
@@ -138,14 +151,14 @@ def regimes(runs, draws=2000, seed=0):
     return found
 
 
-def sentence(place, runs, follows):
+def sentence(place, runs, follows, largest_p=DEFAULTS.latent_force.dependence_p):
     """What the force is and follows, in one sentence."""
     force = np.concatenate([r.force for r in runs])
     power = float(np.mean(force * np.concatenate([r.velocity for r in runs])))
-    clear = sorted((f for f, _ in follows if f.p_value <= 0.01), key=lambda f: -f.share)
-    told = " and ".join(f"the {f.name} ({100 * f.share:.0f} % of its variation)" for f in clear[:2])
+    clear = sorted((f for f, _ in follows if f.p_value <= largest_p), key=lambda f: -f.share)
+    regressors = " and ".join(f"the {f.name} ({100 * f.share:.0f} % of its variation)" for f in clear[:2])
     return (f"At {place} a force of {np.sqrt(np.mean(force**2)):.3g} N root mean square is missing; it"
-            f" {f'follows {told}' if told else 'follows neither displacement nor velocity nor time clearly'} and"
+            f" follows {regressors or 'neither displacement nor velocity nor time clearly'} and"
             f" {'takes' if power < 0 else 'puts'} {abs(power):.3g} W {'out' if power < 0 else 'in'} on average:"
             f" {LABEL}.")
 

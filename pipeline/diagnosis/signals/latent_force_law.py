@@ -7,22 +7,21 @@ regressed on the force of the runs that were fitted; as elements along the place
 fitted once more with its values to what these runs recorded.
 """
 
-from collections.abc import Callable
 from dataclasses import dataclass, replace
+from typing import Protocol
 
 import numpy as np
 
 from pipeline.contract import BrakechainError
-from pipeline.diagnosis.question import parameter_name
+from pipeline.diagnosis.problem import parameter_name
+from pipeline.diagnosis.rules import DEFAULTS
 from pipeline.diagnosis.signals.forward_model import completed
 from pipeline.effects.joint.stick import stick_stiffness
-from pipeline.inference.fitting.least_squares import ended, fit
+from pipeline.inference.fitting.least_squares import fit
 from pipeline.inference.priors import Normal, Parameter
 from pipeline.inference.problem import Problem
 from pipeline.physics.time_stepping.elements import Dry, Element, Polynomial, Power, Wave
 
-#: largest p-value of a dependence that is used
-LEVEL = 0.01
 #: harmonics of the drive's angle
 _ORDERS = (1, 2, 3)
 #: what the force is called wherever it predicts
@@ -78,9 +77,9 @@ class LatentUse:
     sentence: str
 
 
-def regressed(runs, follows):
+def regressed(runs, follows, largest_p=DEFAULTS.latent_force.dependence_p):
     """LatentLaw over LatentRuns ``runs`` that ``follows`` ((Dependence, unit), ...), or None where nothing is clear."""
-    clear = {dependence.name for dependence, _ in follows if dependence.p_value <= LEVEL}
+    clear = {dependence.name for dependence, _ in follows if dependence.p_value <= largest_p}
     x, v, force = (np.concatenate([getattr(run, key) for run in runs]) for key in ("displacement", "velocity", "force"))
     columns = {_CONSTANT: np.ones(len(x))}
     if "displacement" in clear:
@@ -101,58 +100,64 @@ def regressed(runs, follows):
                      (float(abs(x).max()), float(abs(v).max())))
 
 
+class Simulator(Protocol):
+    """(c, n): what the channels of a run (Observed) show on a Bench."""
+
+    def simulated(self, bench, run) -> np.ndarray: ...
+
+
 @dataclass(frozen=True)
 class WithForce:
-    """Picklable prediction of a Bench with a LatentLaw at ``place`` along ``row`` (n,); ``forward(bench, run)`` ->
-    (c, n)."""
+    """Picklable prediction of a Bench with a LatentLaw at ``place`` along ``row`` (n,)."""
 
     bench: object
     row: np.ndarray
     place: str
     law: LatentLaw
-    forward: Callable
+    simulator: Simulator
 
     def __call__(self, hypothesis, values, run):
-        bench, law = completed(self.bench, hypothesis, values), self.told(values)
-        return self.forward(bench.with_elements(*law.elements(bench, self.row)), run)
+        bench, law = completed(self.bench, hypothesis, values), self.law_of(values)
+        return self.simulator.simulated(bench.with_elements(*law.elements(bench, self.row)), run)
 
     def name(self, term):
         """Name of the parameter of a term."""
         return parameter_name(_FORCE, self.place, term)
 
-    def told(self, values):
+    def law_of(self, values):
         """The LatentLaw with the ``values`` {name: value}; terms that resist are never turned round."""
         given = {term: values[self.name(term)] for term in self.law.coefficient}
         return replace(self.law, coefficient={t: min(c, 0.0) if t in _RESISTING else c for t, c in given.items()})
 
 
-def used(bench, row, description, problem, budget, null, forward):
+def used(bench, row, description, problem, budget, null, simulator, rules=DEFAULTS):
     """LatentUse of a Description on the held-out runs of a Problem under {run: Noise} ``budget``.
 
-    ``bench`` is the nominal one, ``null`` the Fit that recalibrates it, ``row`` (n,) that of the place;
-    ``forward(bench, run)`` -> (c, n).
+    ``bench`` is the nominal one, ``null`` the Fit that recalibrates it, ``row`` (n,) that of the place,
+    ``simulator`` a Simulator.
     """
     learned = [description.runs[run.name] for run in problem.training if run.name in description.runs]
-    law = regressed(learned, description.follows)
+    law = regressed(learned, description.follows, rules.latent_force.dependence_p)
     if law is None:
         return LatentUse({}, None, "The latent force follows nothing that a law can use: it predicts nothing.")
-    whole = WithForce(bench, row, description.place, law, forward)
+    whole = WithForce(bench, row, description.place, law, simulator)
     terms = tuple(Parameter(whole.name(t), law.unit(t), c, Normal(c, law.size[t])) for t, c in law.coefficient.items())
     hypothesis = replace(null.hypothesis, name=_FORCE, parameters=null.hypothesis.parameters + terms)
     asked = Problem(problem.runs, whole, hypothesis)
     try:
-        found = fit(asked, [budget[run.name] for run in problem.training], hypothesis,
+        refitted = fit(asked, [budget[run.name] for run in problem.training], hypothesis,
                     np.concatenate((null.latent, np.zeros(len(terms)))), problem.training)
-        runs = {run.name: whole(hypothesis, found.values, run) for run in problem.held_out}
+        runs = {run.name: whole(hypothesis, refitted.values, run) for run in problem.held_out}
     except BrakechainError as error:
         return LatentUse({}, law, f"With the latent force the runs could not be predicted: {error}")
     beyond = [run.name for run in problem.held_out if _beyond(description.runs.get(run.name), law.reach)]
     said = [f"A function of {', '.join(t for t in law.coefficient if t != _CONSTANT)}, fitted to the training runs,"
             f" stands for the latent force at {description.place}, of which it explains {100 * law.share:.0f} %:"
             f" {LABEL}."]
-    said += [] if ended(found, found.explains(null)) else ["Its fit had not converged."]
+    if not refitted.ended(refitted.explains(null), rules.evidence.nothing_more):
+        said.append("Its fit had not converged.")
     said += [f"Beyond what it was learned from: {', '.join(beyond)}."] if beyond else []
-    return LatentUse(runs, whole.told(found.values), " ".join(said))
+    return LatentUse(runs, whole.law_of(refitted.values), " ".join(said))
 
 
 def _fitted(columns, force):
@@ -160,10 +165,10 @@ def _fitted(columns, force):
     while True:
         table = np.column_stack(list(columns.values()))
         size = np.maximum(abs(table).max(axis=0), 1e-300)
-        found = dict(zip(columns, np.linalg.lstsq(table / size, force, rcond=None)[0] / size, strict=True))
-        wrong = max((term for term in _RESISTING if found.get(term, 0.0) > 0), key=found.get, default=None)
+        coefficient = dict(zip(columns, np.linalg.lstsq(table / size, force, rcond=None)[0] / size, strict=True))
+        wrong = max((t for t in _RESISTING if coefficient.get(t, 0.0) > 0), key=coefficient.get, default=None)
         if wrong is None:
-            return {term: float(value) for term, value in found.items()}
+            return {term: float(value) for term, value in coefficient.items()}
         columns = {term: column for term, column in columns.items() if term != wrong}
 
 

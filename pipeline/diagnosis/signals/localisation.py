@@ -15,9 +15,9 @@ from pipeline.diagnosis.signals.forward_model import STEP, completed, shown
 from pipeline.effects import CATALOGUE
 from pipeline.effects.effect import STAGES
 from pipeline.effects.typical import ASPERITIES
-from pipeline.inference.decision.decision_rules import Rules
 from pipeline.inference.fitting.effective_sample_size import effective_share
 from pipeline.inference.fitting.least_squares import whitened
+from pipeline.inference.rules import DEFAULTS
 from pipeline.inference.search import localisation
 from pipeline.physics.virtual_rig.response import run_drive, run_inputs
 
@@ -37,52 +37,59 @@ _ORDERS = 3
 
 @dataclass(frozen=True)
 class Axes:
-    """Axes of a Question that its residuals alone tell: called with the inference's Diagnosis.
+    """Locator by residuals alone: stage, run and frequency band.
 
-    Returns {axis: (Location, unit of its bins or "", edges (n, 2) or None)}; ``stages``: those that the mismatch can
-    lie in.
+    ``level``: power of the noise at most, in units of that of the budget; ``stages``: those that the mismatch can lie
+    in.
     """
 
     problem: object
     budget: dict
-    level: float = 1 + Rules.noise_uncertainty
+    level: float = 1 + DEFAULTS.decision.noise_uncertainty
     draws: int = 2000
     seed: int = 0
     stages: tuple = _STAGES
 
-    def __call__(self, found):
-        own = {"draws": self.draws, "seed": self.seed}
-        whites = residuals(self.problem, self.budget, (found.base or found).null)
-        axes = {"stage": (stage_axis(found, self.stages), "", None),
-                "run": (run_axis(whites, self.budget, self.level, **own), "", None)}
-        if band := band_axis(self.problem.runs, whites, self.budget, self.level, **own):
+    @classmethod
+    def of(cls, problem, budget, settings, stages=_STAGES):
+        """Axes under the settings of inference."""
+        return cls(problem, budget, 1 + settings.rules.decision.noise_uncertainty, seed=settings.seed, stages=stages)
+
+    def located(self, diagnosis):
+        sampling = {"draws": self.draws, "seed": self.seed}
+        whites = residuals(self.problem, self.budget, diagnosis.recalibrated)
+        axes = {"stage": (stage_axis(diagnosis, self.stages), "", None),
+                "run": (run_axis(whites, self.budget, self.level, **sampling), "", None)}
+        if band := band_axis(self.problem.runs, whites, self.budget, self.level, **sampling):
             axes["band"] = band
         return axes
 
 
 @dataclass(frozen=True)
 class ForcedAxes:
-    """``Axes`` and the place, over ``runs`` {name: Run} of a Bench."""
+    """Locator by ``Axes`` and by place, over ``runs`` {name: Run} of a Bench."""
 
     bench: object
     runs: dict
     residual: Axes
 
-    def __call__(self, found):
-        first, own = found.base or found, {"draws": self.residual.draws, "seed": self.residual.seed}
-        axes = self.residual(found)
-        if place := place_axis(fitted(self.bench, first.null), self.runs, first.null, first.weights, **own):
-            axes["place"] = (place, "", None)
+    def located(self, diagnosis):
+        first = diagnosis.base or diagnosis
+        axes = self.residual.located(diagnosis)
+        if location := place_axis(fitted(self.bench, first.null), self.runs, first.null, first.weights,
+                                  self.residual.draws, self.residual.seed):
+            axes["place"] = (location, "", None)
         return axes
 
 
-def leading_place(axes, level=0.05):
-    """Index of the leading item of the axis place among axes of location, or None where none is significant."""
+def leading_place(axes, largest_p=0.05):
+    """Index of the leading item of the axis place among axes of location; None where its p-value exceeds
+    ``largest_p``."""
     if "place" not in axes:
         return None
-    place = axes["place"][0]
-    leader = int(np.argmax(place.score))
-    return leader if place.p_value[leader] <= level else None
+    location = axes["place"][0]
+    leader = int(np.argmax(location.score))
+    return leader if location.p_value[leader] <= largest_p else None
 
 
 def fitted(bench, fit):
@@ -109,10 +116,10 @@ def stage_of(effects):
     return stages.get(effects[0][0], "") if effects else ""
 
 
-def stage_axis(found, names=_STAGES):
+def stage_axis(diagnosis, names=_STAGES):
     """Location over the stages ``names`` from what was screened and refitted (see the head of this file)."""
-    first = found.base or found
-    refitted = {w.candidate.name: w.contender.posterior for w in first.weighed}
+    first = diagnosis.base or diagnosis
+    refitted = {w.candidate.name: w.statistics.posterior for w in first.weighed}
     score, p_value, share = np.full(len(names), -np.inf), np.ones(len(names)), np.zeros(len(names))
     for k, candidate in enumerate(first.screen.candidates):
         row = names.index(stage_of(candidate.effects))

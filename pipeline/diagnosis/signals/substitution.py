@@ -7,13 +7,14 @@ The recalibrated nominal model is simulated again with either; the mismatch lies
 block of the fitted runs.
 """
 
-from collections.abc import Callable
 from dataclasses import dataclass, replace
+from typing import Protocol
 
 import numpy as np
 import scipy
 
 from pipeline.contract import BrakechainError
+from pipeline.diagnosis.problem import Locator
 from pipeline.diagnosis.signals.forward_model import Simulated, shown
 from pipeline.diagnosis.signals.localisation import fitted
 from pipeline.inference.search import localisation
@@ -30,10 +31,9 @@ _NEAR = 0.05
 
 @dataclass(frozen=True)
 class Substituted:
-    """The ``axes`` of a Question, and one over the stages in ``swaps`` {stage: Bench -> Bench} of ``runs``
-    {name: Run}."""
+    """Locator by ``axes``, and by an axis over the stages in ``swaps`` {stage: Swap} of ``runs`` {name: Run}."""
 
-    axes: Callable
+    axes: Locator
     bench: object
     runs: dict
     problem: object
@@ -42,43 +42,49 @@ class Substituted:
     draws: int = 2000
     seed: int = 0
 
-    def __call__(self, found):
-        bench = fitted(self.bench, (found.base or found).null)
-        before, decrease = self._squares(bench), {}
+    def located(self, diagnosis):
+        axes, bench = self.axes.located(diagnosis), fitted(self.bench, diagnosis.recalibrated)
+        modelled, decrease = self._squares(bench), {}
         for stage, swap in self.swaps.items():
             try:
-                decrease[stage] = before - self._squares(swap(bench))
+                decrease[stage] = modelled - self._squares(swap.applied(bench))
             except BrakechainError:     # what cannot be simulated takes nothing away
                 continue
         if not decrease:
-            return self.axes(found)
+            return axes
         stages = localisation.stages(tuple(decrease), decrease, self.draws, self.seed)
-        return self.axes(found) | {AXIS: (stages, "", None)}
+        return axes | {AXIS: (stages, "", None)}
 
     def _squares(self, bench):
         """Squared whitened error (blocks,) of the fitted runs."""
-        found = []
+        squares = []
         for run in self.problem.training:
             left = run.samples - shown(bench, self.runs[run.name], run.channels)
-            found += [part @ part for part in np.array_split(self.budget[run.name].whiten(left), _BLOCKS)]
-        return np.array(found)
+            squares += [part @ part for part in np.array_split(self.budget[run.name].whiten(left), _BLOCKS)]
+        return np.array(squares)
 
 
-def substituted(asked, recording, settings):
-    """The Question ``asked`` of simulated runs, with the axis where its product Recording holds what it takes."""
-    forward = asked.problem.predict
-    if not isinstance(forward, Simulated) or not (found := swaps(recording, forward.bench, settings.held_out)):
-        return asked
-    return replace(asked, axes=Substituted(asked.axes, forward.bench, forward.runs, asked.problem, asked.budget, found,
-                                           seed=settings.seed))
+class Swap(Protocol):
+    """Puts something measured in place of what a Bench models."""
+
+    def applied(self, bench): ...
+
+
+def substituted(problem, recording, settings):
+    """The DiagnosisProblem of simulated runs, with the axis where its product Recording holds what it takes."""
+    forward = problem.problem.predict
+    if not isinstance(forward, Simulated) or not (measured := swaps(recording, forward.bench, settings.held_out)):
+        return problem
+    return replace(problem, locator=Substituted(problem.locator, forward.bench, forward.runs, problem.problem,
+                                                problem.budget, measured, seed=settings.seed))
 
 
 def swaps(recording, bench, held_out=()):
-    """{stage: Bench -> Bench} of what a product Recording holds, runs ``held_out`` left aside."""
+    """{stage: Swap} of what a product Recording holds, runs ``held_out`` left aside."""
     runs = [run for name, run in recording.runs.items() if name not in held_out]
-    curves, modes = ([one for run in runs for one in getattr(run, kind).values()] for kind in ("friction", "modes"))
-    found = {FRICTION: MeasuredCurve(measured_law(curves))} if curves and len(bench.model.contacts.area) else {}
-    return found | ({STRUCTURE: MeasuredShapes(tuple(modes))} if modes else {})
+    curves, modes = ([part for run in runs for part in getattr(run, kind).values()] for kind in ("friction", "modes"))
+    measured = {FRICTION: MeasuredCurve(measured_law(curves))} if curves and len(bench.model.contacts.area) else {}
+    return measured | ({STRUCTURE: MeasuredShapes(tuple(modes))} if modes else {})
 
 
 @dataclass(frozen=True)
@@ -87,15 +93,15 @@ class MeasuredCurve:
 
     law: FrictionLaw
 
-    def __call__(self, bench):
-        return bench.with_friction("contact", lambda own: replace(own, law=self.law, backward=1.0, states=(),
+    def applied(self, bench):
+        return bench.with_friction("contact", lambda friction: replace(friction, law=self.law, backward=1.0, states=(),
                                                                   conditions=()))
 
 
 def measured_law(curves):
     """FrictionLaw over pressure and speed of products MeasuredFriction, means over all else; where a pressure lacks a
     speed, its nearest neighbour counts."""
-    pressure, speed, friction = (np.concatenate([getattr(one, key) for one in curves])
+    pressure, speed, friction = (np.concatenate([getattr(curve, key) for curve in curves])
                                  for key in ("pressure", "speed", "friction"))
     (p, i), (v, j) = (np.unique(values, return_inverse=True) for values in (pressure, speed))
     count, total = np.zeros((2, len(p), len(v)))
@@ -117,26 +123,26 @@ class MeasuredShapes:
 
     measured: tuple
 
-    def __call__(self, bench):
+    def applied(self, bench):
         mass, damping, stiffness = bench.model.supported()
         squared, shape = scipy.linalg.eigh((stiffness + stiffness.T) / 2, mass)
-        own, stiff, lossy = mass @ shape, np.zeros(mass.shape), np.zeros(mass.shape)
-        for one in self.measured:
-            for k, mode in self._pairs(bench, one, np.sqrt(np.maximum(squared, 0.0)), shape):
-                outer, rate = np.outer(own[:, mode], own[:, mode]), 2 * np.pi * one.frequency[k]
+        rows, stiff, lossy = mass @ shape, np.zeros(mass.shape), np.zeros(mass.shape)
+        for modes in self.measured:
+            for k, mode in self._pairs(bench, modes, np.sqrt(np.maximum(squared, 0.0)), shape):
+                outer, rate = np.outer(rows[:, mode], rows[:, mode]), 2 * np.pi * modes.frequency[k]
                 stiff += (rate**2 - squared[mode]) * outer
-                if one.damping_ratio[k] > 0:
+                if modes.damping_ratio[k] > 0:
                     modal = shape[:, mode] @ damping @ shape[:, mode]
-                    lossy += (2 * one.damping_ratio[k] * rate - modal) * outer
+                    lossy += (2 * modes.damping_ratio[k] * rate - modal) * outer
         model = bench.model
         return replace(bench, model=replace(model, stiffness=model.stiffness + stiff, damping=model.damping + lossy))
 
     @staticmethod
-    def _pairs(bench, one, rate, shape):
+    def _pairs(bench, modes, rate, shape):
         """[(measured mode, mode of the model)]."""
-        cost = abs(np.log(np.maximum(rate, 1e-300) / (2 * np.pi * one.frequency[:, None]))) / _NEAR
-        known = [k for k, name in enumerate(one.place) if name in bench.model.sensor_name]
+        cost = abs(np.log(np.maximum(rate, 1e-300) / (2 * np.pi * modes.frequency[:, None]))) / _NEAR
+        known = [k for k, name in enumerate(modes.place) if name in bench.model.sensor_name]
         if len(known) > 1:
-            rows = np.array([bench.sensor(str(one.place[k])) for k in known])
-            cost = cost + 1 - likeness(np.asarray(one.shape)[:, known], (rows @ shape).T)
+            rows = np.array([bench.sensor(str(modes.place[k])) for k in known])
+            cost = cost + 1 - likeness(np.asarray(modes.shape)[:, known], (rows @ shape).T)
         return list(zip(*scipy.optimize.linear_sum_assignment(cost), strict=True))

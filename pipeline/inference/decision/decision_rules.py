@@ -101,7 +101,8 @@ def objections(candidate, runs, rules):
         elif candidate.held_out_left > rules.held_out_left:
             reasons.append(f"it leaves {candidate.held_out_left:.0%} of the excess error on held-out runs")
         elif candidate.growth > rules.growth:
-            reasons.append(f"its squared error on held-out runs is {candidate.growth:.1f} times that on the fitted ones")
+            reasons.append(f"its squared error on held-out runs is {candidate.growth:.1f} times that on the fitted"
+                           " ones")
         if candidate.beats_decoy is False:
             reasons.append("it predicts held-out runs no better than a decoy of equal size")
     return reasons

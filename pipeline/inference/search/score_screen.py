@@ -114,7 +114,7 @@ def directions(problem, null, candidate, like=None):
 
 
 def screen(null, every, weights=None, draws=DRAWS, seed=0, rules=DEFAULTS.screening):
-    """Screen of ``every`` Directions at the Fit ``null``; ``weights`` (runs,) of the runs (see ``effective.tempering``).
+    """Screen of ``every`` Directions at the Fit ``null``; ``weights`` (runs,) of the runs (see ``tempering``).
 
     Without ``draws`` of the null scores are not compared with it, and p-values say nothing.
     """

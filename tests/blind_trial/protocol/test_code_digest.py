@@ -17,5 +17,6 @@ def test_answers_depend_on_the_diagnosis_and_scores_on_the_judging_and_neither_o
 
 def test_a_set_records_catalogue_and_thresholds():
     told = code_digest.described()
-    assert told["catalogue"] == [e.name for e in effects.CATALOGUE] and told["thresholds"]["posterior"] == 0.9
+    assert told["catalogue"] == [e.name for e in effects.CATALOGUE]
+    assert told["thresholds"]["decision"]["posterior"] == 0.9
     assert set(told["packages"]) >= {"numpy", "scipy"}

@@ -8,11 +8,10 @@ from pipeline.contract import ConfigError
 from pipeline.contract.settings import fill
 from pipeline.diagnosis.experiment_design.next_features import planned_records
 from pipeline.diagnosis.features.poles import features
-from pipeline.diagnosis.output.product import answer
-from pipeline.diagnosis.self_excited import question
+from pipeline.diagnosis.self_excited import pole_problem
 from pipeline.diagnosis.settings import Settings
-from pipeline.inference import procedure as course
 from tests.diagnosis.small_bench import bench, laid_out, recorded
+from tests.diagnosis.solving import diagnosis_product
 from tests.diagnosis.test_self_excited import ASKED
 
 
@@ -56,9 +55,8 @@ def told(*runs):
     kept = {name: one for name, one in made.items() if name.removesuffix("_again") in runs}
     given = fill(Settings, {**ASKED, "effects": ["falling_friction", "joint_damping", "pressure_dependent_friction"]},
                  "d")
-    asked = question(bench(), kept, given, laid_out().poles)
-    return answer(asked, course.diagnose(asked.problem, asked.budget, asked.candidates,
-                                         course.Settings(kept=3, draws=2000, rules=asked.rules)))
+    asked = pole_problem(bench(), kept, given, laid_out().poles)
+    return diagnosis_product(asked, kept=3, draws=2000, starts=(-1.0, 1.0))
 
 
 def test_growth_at_one_point_asks_for_another_speed_and_load():

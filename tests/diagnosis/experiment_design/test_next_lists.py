@@ -5,10 +5,10 @@ import pytest
 
 from pipeline.diagnosis.experiment_design.next_lists import Check, best_check, best_outcome
 from pipeline.diagnosis.experiment_design.next_run import Rival
-from pipeline.diagnosis.published.frequency_lists import Alternative, Features, diagnosed, question
+from pipeline.diagnosis.published.frequency_lists import Alternative, Features, list_problem
 from pipeline.inference.fitting.least_squares import linearised
 from pipeline.inference.planning.experiment_choice import divergence, predicted
-from pipeline.inference.procedure import Settings
+from tests.diagnosis.solving import solved
 
 STD = 5.0
 MODEL = {"one": 200.0, "two": 700.0, "three": 1600.0}
@@ -19,7 +19,7 @@ def asked():
     """Lines of which the last lies low: of another mode, or all fall the more the higher they lie."""
     features = {n: Features("frequency", "Hz", [f - 60.0 * (n == "three")], [STD]) for n, f in MODEL.items()}
     lists = {n: np.array([f]) for n, f in MODEL.items()}
-    return question(features, lists, [
+    return list_problem(features, lists, [
         Alternative("mis_paired", "two", {"three": np.array([1540.0])}, "sensor"),
         Alternative("rise", "modes", {n: f * (1 - 0.05 * f / 1600) for n, f in lists.items()}, "numerics"),
         Alternative("unlisted", "three", {"three": np.array([1540.0])}, "sensor")])
@@ -73,5 +73,5 @@ def test_sure_outcomes_differ_by_half_the_squared_distance():
 
 
 def test_the_diagnosis_of_a_list_gives_such_rivals():
-    found = diagnosed(asked(), Settings(kept=3, draws=2000))
+    found = solved(asked(), draws=2000)
     assert {w.candidate.name for w in found.weighed} == {WRONG, RISE, "unlisted at three"}

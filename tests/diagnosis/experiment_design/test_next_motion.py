@@ -10,11 +10,10 @@ from pipeline.contract import ConfigError
 from pipeline.contract.settings import fill
 from pipeline.diagnosis.experiment_design.next_motion import planned_motions
 from pipeline.diagnosis.experiment_design.next_run import altered
-from pipeline.diagnosis.force_balance import question
-from pipeline.diagnosis.output.product import answer
+from pipeline.diagnosis.force_balance import force_balance_problem
 from pipeline.diagnosis.settings import Settings
-from pipeline.inference import procedure as course
 from tests.diagnosis.small_rig import effects, laid_out, model, recording
+from tests.diagnosis.solving import diagnosis_product
 
 PLAIN = {"forward": "equation", "equation": {"corner": "20 Hz"}}
 TIED = {"noise": {"std": {"force on block": "14 N"}}, "parameters": {"joints.mount.stiffness": {"spread": 0.1}},
@@ -86,8 +85,8 @@ def told(**more):
     settings = laid_out(forward="equation", equation={"corner": "20 Hz", "decimation": 4, "trim": 60})
     hidden = {"quadratic_damping": {"mount": {"coefficient": "4 N s^2/m^2"}}}
     runs = recorded(recording(hidden, noise=1e-5, levels=(5.0, 5.0, 5.0)), settings)
-    asked = question(benches.built(model(), settings), runs, fill(Settings, {**TIED, **more}, "d"), settings.equation)
-    return answer(asked, course.diagnose(asked.problem, asked.budget, asked.candidates))
+    section = fill(Settings, {**TIED, **more}, "d")
+    return diagnosis_product(force_balance_problem(benches.built(model(), settings), runs, section, settings.equation))
 
 
 def test_a_tie_of_two_dampings_asks_for_another_motion():

@@ -8,11 +8,10 @@ from pipeline.case_models.runs import recorded
 from pipeline.contract import ConfigError
 from pipeline.contract.settings import fill
 from pipeline.diagnosis.experiment_design.next_run import altered, feasible
-from pipeline.diagnosis.forced_response import question
-from pipeline.diagnosis.output.product import answer
+from pipeline.diagnosis.forced_response import forced_problem
 from pipeline.diagnosis.settings import Settings
-from pipeline.inference import procedure as course
 from tests.diagnosis.pin_rig import MICRO_SLIP, bench, laid_out, recording
+from tests.diagnosis.solving import diagnosis_product
 
 RIVALS = {"compliant_arm at arm", "micro_slip at contact"}
 KNOWN = {"prior": "half_normal", "std": "20 um/N"}
@@ -26,8 +25,7 @@ STROKES = (4e-4, 5e-4, 3.5e-4, 4.5e-4)
 def told(loads):
     """Product Diagnosis of the rig with micro-slip under ``loads`` of its four runs."""
     runs = recorded(recording(loads, STROKES, MICRO_SLIP), laid_out())
-    asked = question(bench(), runs, fill(Settings, ASKED, "diagnosis"))
-    return answer(asked, course.diagnose(asked.problem, asked.budget, asked.candidates, course.Settings(kept=2)))
+    return diagnosis_product(forced_problem(bench(), runs, fill(Settings, ASKED, "diagnosis")))
 
 
 @pytest.mark.slow

@@ -8,15 +8,13 @@ import pytest
 from pipeline.case_models import virtual_rig as benches
 from pipeline.case_models.runs import recorded
 from pipeline.contract.settings import fill
-from pipeline.diagnosis.forced_response import question
+from pipeline.diagnosis.forced_response import forced_problem
 from pipeline.diagnosis.output.files import as_json, completed_name
-from pipeline.diagnosis.output.product import answer, located
+from pipeline.diagnosis.output.product import located, product
 from pipeline.diagnosis.settings import Settings
-from pipeline.inference.fitting.effective_sample_size import tempering
-from pipeline.inference.procedure import Settings as Course
-from pipeline.inference.procedure import diagnose
 from pipeline.inference.search.localisation import against_null
 from tests.diagnosis.small_rig import HIDDEN, NOISE, laid_out, model, recording
+from tests.diagnosis.solving import diagnosis_product, solved
 
 ASKED = {"parameters": {"joints.mount.stiffness": {"spread": 0.1}, "joints.mount.damping": {"spread": 0.2}},
          "held_out": ["level_4"], "noise": {"std": {"x": f"{NOISE} m"}}, "draws": 2000,
@@ -32,8 +30,9 @@ def told(hidden=True, stiffness=None):
 
 def asked_of(given, section):
     """Product Diagnosis of a Recording under a section ``diagnosis``."""
-    asked = question(benches.built(model(), laid_out()), recorded(given, laid_out()), fill(Settings, section, "d"))
-    return answer(asked, diagnose(asked.problem, asked.budget, asked.candidates, Course(kept=3, draws=2000)))
+    settings = fill(Settings, section, "d")
+    return diagnosis_product(forced_problem(benches.built(model(), laid_out()), recorded(given, laid_out()), settings),
+                             kept=3)
 
 
 def test_the_hidden_effect_is_named_with_its_value():
@@ -80,17 +79,16 @@ def test_nothing_missing_and_wrong_values():
 
 def test_where_nothing_is_named_values_are_as_uncertain_as_what_is_missing():
     given = recording(HIDDEN)
-    asked = question(benches.built(model(), laid_out()), recorded(given, laid_out()), fill(
+    asked = forced_problem(benches.built(model(), laid_out()), recorded(given, laid_out()), fill(
         Settings, {**ASKED, "solver": False, "effects": ["coulomb", "quadratic_stiffness"]}, "d"))
-    found = diagnose(asked.problem, asked.budget, asked.candidates, Course(kept=2, draws=2000))
-    product, null = answer(asked, found), found.null
-    assert product.verdict.item() == "unknown" and list(product.parameter) == list(null.values)
+    found = solved(asked, kept=2)
+    written, null = product(asked, found), found.null
+    assert written.verdict.item() == "unknown" and list(written.parameter) == list(null.values)
     better = [w.fit for w in found.weighed if w.fit.objective < null.objective]
     assert better and np.all(null.chi_square > 10 * null.counts)
-    for name, std in zip(product.parameter, product.parameter_std, strict=True):
+    for name, std in zip(written.parameter, written.parameter_std, strict=True):
         apart = max(abs(fit.values[name] - null.values[name]) for fit in better)
-        assert apart / np.sqrt(1 + len(better)) < std < apart + 2 * null.spread(tempering(
-            null.noises, null.residuals))[name]
+        assert apart / np.sqrt(1 + len(better)) < std < apart + 2 * null.spread(null.weights)[name]
 
 
 def test_an_axis_of_names_and_one_of_bins():

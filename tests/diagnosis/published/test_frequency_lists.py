@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 
 from pipeline.contract import ConfigError
-from pipeline.diagnosis.published.frequency_lists import FACTOR, Alternative, Features, diagnosed, lines_of, question
+from pipeline.diagnosis.published.frequency_lists import FACTOR, Alternative, Features, lines_of, list_problem
 from pipeline.inference.priors import LogNormal, Parameter
-from pipeline.inference.procedure import Settings
 from pipeline.products import Recording, Run
+from tests.diagnosis.solving import solved as diagnosed
 
 MODEL = np.array([200.0, 450.0, 700.0, 1100.0, 1600.0, 2300.0])
 NAMES = [f"row_{k}" for k in range(len(MODEL))]
@@ -19,11 +19,11 @@ RISING = Alternative("rise", "modes", {n: np.array([f * (1 - 0.2 * f / 2300)])
 def asked(measured, alternatives=(WRONG, RISING), factor=True):
     features = {n: Features("frequency", "Hz", [m], [0.01 * m]) for n, m in zip(NAMES, measured, strict=True)}
     free = (Parameter(FACTOR, "1", 1.0, LogNormal(1.0, 0.05)),) if factor else ()
-    return question(features, {n: np.array([f]) for n, f in zip(NAMES, MODEL, strict=True)}, alternatives, free)
+    return list_problem(features, {n: np.array([f]) for n, f in zip(NAMES, MODEL, strict=True)}, alternatives, free)
 
 
 def solved(measured, **options):
-    return diagnosed(asked(measured, **options), Settings(draws=2000))
+    return diagnosed(asked(measured, **options), kept=8, draws=2000)
 
 
 def scattered(measured, seed=0):
@@ -44,7 +44,7 @@ def test_the_list_that_differs_is_located_and_its_alternative_named():
     measured = scattered(np.where(MODEL == 700.0, 900.0, MODEL))
     found = solved(measured)
     assert [c.name for c in found.decision.named] == ["mis_paired at row_2"] and found.decision.verdict == "sensor"
-    place = asked(measured).axes(found)["run"][0]
+    place = asked(measured).locator.located(found)["run"][0]
     assert place.significant() == ("row_2",)
 
 

@@ -5,19 +5,18 @@ import pytest
 
 from pipeline.contract import ConfigError
 from pipeline.contract.settings import fill
-from pipeline.diagnosis.published.frequency_lists import diagnosed
 from pipeline.diagnosis.published.harmonics import (
     Harmonics,
     growing,
-    harmonics_question,
+    harmonics_problem,
     harmonics_reasons,
     outcomes,
     shown,
     stepped,
     unstepped,
 )
-from pipeline.inference.procedure import Settings
 from pipeline.products import ComplexModes, Lines, Recording, Run
+from tests.diagnosis.solving import solved as diagnosed
 from tests.stages.test_transient import growing_root, pair
 from tests.views.products_for_views import filled
 
@@ -57,7 +56,7 @@ def test_the_mechanism_whose_lines_were_recorded_is_named(motions):
     standing = seen.levels["x"] > -60
     assert standing.sum() > 1, "the cycle has harmonics"
     recorded = recording(seen.base, standing)
-    found = diagnosed(harmonics_question(recorded, told(), motions, MODES), Settings(kept=9, draws=2000))
+    found = diagnosed(harmonics_problem(recorded, told(), motions, MODES), kept=9, draws=2000)
     assert "stick at contact" in [c.name for c in found.decision.named]
     told_so = harmonics_reasons(recorded, told(), motions, MODES)
     assert any(f"stick: base {seen.base:.0f} Hz" in r for r in told_so)
@@ -65,8 +64,8 @@ def test_the_mechanism_whose_lines_were_recorded_is_named(motions):
 
 def test_one_line_at_the_growing_mode_is_consistent_with_small_motion(motions):
     base = growing_root().imag / (2 * np.pi)
-    asked = harmonics_question(recording(base, [1, 0, 0, 0]), told(), motions, MODES)
-    found = diagnosed(asked, Settings(kept=9, draws=2000))
+    asked = harmonics_problem(recording(base, [1, 0, 0, 0]), told(), motions, MODES)
+    found = diagnosed(asked, kept=9, draws=2000)
     assert found.decision.verdict == "consistent"
 
 

@@ -5,20 +5,19 @@ import pytest
 
 from pipeline.contract import ConfigError
 from pipeline.contract.settings import fill
-from pipeline.diagnosis.published.frequency_lists import diagnosed
 from pipeline.diagnosis.published.mode_table import (
     ModeTable,
     Table,
     alternatives,
     exchanges,
     held_ratio,
-    mode_question,
+    mode_problem,
     mode_reasons,
     nearer,
     table,
 )
-from pipeline.inference.procedure import Settings
 from pipeline.products import Lines, Recording, Run
+from tests.diagnosis.solving import solved as diagnosed
 
 COMPUTED = {"a": 200.0, "b": 450.0, "c": 700.0, "d": 1100.0, "e": 1600.0, "f": 1900.0, "g": 2300.0}
 TOLD = fill(ModeTable, {"kind": "modes", "measured": "test", "computed": "model"}, "diagnosis.lines")
@@ -41,7 +40,7 @@ def recording(measured, computed=None):
 def solved(measured, pairs=None):
     told = TOLD if pairs is None else TOLD.model_copy(update={"pairs": pairs})
     rows = table(recording(measured), told)
-    return rows, diagnosed(mode_question(rows, None, told), Settings(kept=20, draws=2000))
+    return rows, diagnosed(mode_problem(rows, None, told), kept=20, draws=2000)
 
 
 def scattered(share=1.0, **changed):

@@ -5,18 +5,17 @@ import pytest
 
 from pipeline.contract import ConfigError
 from pipeline.contract.settings import fill
-from pipeline.diagnosis.published.frequency_lists import diagnosed
 from pipeline.diagnosis.published.squeal_frequencies import (
     SquealLines,
     claims,
     needed_tolerance,
     rarely,
-    squeal_question,
+    squeal_problem,
     squeal_reasons,
     undecided,
 )
-from pipeline.inference.procedure import Settings
 from pipeline.products import ComplexModes, Lines, Recording, Run
+from tests.diagnosis.solving import solved as diagnosed
 from tests.views.products_for_views import filled
 
 TOLD = fill(SquealLines, {"kind": "squeal", "run": "bench", "list": "laser", "low": "15.6 kHz", "high": "18.8 kHz",
@@ -38,7 +37,7 @@ def modes(frequency, growing=()):
 
 
 def solved(found):
-    return diagnosed(squeal_question(recording(), TOLD, found), Settings(kept=9, draws=2000))
+    return diagnosed(squeal_problem(recording(), TOLD, found), kept=9, draws=2000)
 
 
 def test_a_dense_list_meets_the_lines_and_decides_nothing():

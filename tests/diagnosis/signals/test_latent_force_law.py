@@ -8,18 +8,17 @@ import pytest
 from pipeline.case_models import virtual_rig as benches
 from pipeline.case_models.runs import recorded
 from pipeline.contract.settings import fill
-from pipeline.diagnosis import force_balance, forced_response
+from pipeline.diagnosis.force_balance import force_balance_problem
+from pipeline.diagnosis.forced_response import forced_problem
 from pipeline.diagnosis.output.files import as_json
-from pipeline.diagnosis.output.product import answer
 from pipeline.diagnosis.settings import Settings
 from pipeline.diagnosis.signals.forward_model import shown
 from pipeline.diagnosis.signals.latent_force import LatentRun
 from pipeline.diagnosis.signals.latent_force_law import LABEL, LatentLaw, regressed
-from pipeline.inference.procedure import Settings as Course
-from pipeline.inference.procedure import diagnose
 from pipeline.inference.search.gp_latent_force import Dependence
 from tests.case_models.test_force_balance import BALANCED
 from tests.diagnosis.small_rig import HIDDEN, NOISE, laid_out, model, recording
+from tests.diagnosis.solving import diagnosis_product
 
 TIME = np.linspace(0, 20, 4001)
 X, V = 1e-2 * np.sin(3 * TIME) + 4e-3 * np.cos(7.1 * TIME), 3e-2 * np.cos(3 * TIME) - 2.84e-2 * np.sin(7.1 * TIME)
@@ -63,16 +62,16 @@ def test_as_elements_it_is_the_force_that_was_hidden():
 @cache
 def told(forward, predict):
     """Product Diagnosis of a cubic spring that the weighed effects lack."""
-    settings = laid_out(**(BALANCED if forward is force_balance else {}))
-    noise = {"force on block": "0.2 N"} if forward is force_balance else {"x": f"{NOISE} m"}
+    settings = laid_out(**(BALANCED if forward is force_balance_problem else {}))
+    noise = {"force on block": "0.2 N"} if forward is force_balance_problem else {"x": f"{NOISE} m"}
     section = fill(Settings, {**ASKED, "noise": {"std": noise}, "latent_force": {"predict": predict}}, "d")
-    runs = recorded(recording(HIDDEN, noise=1e-5 if forward is force_balance else NOISE), settings)
+    runs = recorded(recording(HIDDEN, noise=1e-5 if forward is force_balance_problem else NOISE), settings)
     whole = benches.built(model(), settings)
-    asked = forward.question(whole, runs, section, *([settings.equation] if forward is force_balance else []))
-    return answer(asked, diagnose(asked.problem, asked.budget, asked.candidates, Course(kept=2, draws=2000)))
+    equation = [settings.equation] if forward is force_balance_problem else []
+    return diagnosis_product(forward(whole, runs, section, *equation), kept=2)
 
 
-@pytest.mark.parametrize("forward", [forced_response, force_balance])
+@pytest.mark.parametrize("forward", [forced_problem, force_balance_problem])
 def test_held_out_runs_are_predicted_where_asked_and_labelled(forward):
     found = told(forward, True)
     assert found.verdict == "unknown" and LABEL in found.latent_use.item()
@@ -86,7 +85,7 @@ def test_held_out_runs_are_predicted_where_asked_and_labelled(forward):
     assert "with_latent_force" not in as_json(found)["fit"]["training"]
 
 
-@pytest.mark.parametrize("forward", [forced_response, force_balance])
+@pytest.mark.parametrize("forward", [forced_problem, force_balance_problem])
 def test_nothing_is_predicted_with_it_unless_asked(forward):
     found = told(forward, False)
     assert found.verdict == "unknown" and not found.latent_predicted and not found.latent_use.item()

@@ -8,7 +8,7 @@ import pytest
 from pipeline.case_models import virtual_rig as benches
 from pipeline.case_models.runs import recorded
 from pipeline.contract.settings import fill
-from pipeline.diagnosis.forced_response import question
+from pipeline.diagnosis.forced_response import forced_problem
 from pipeline.diagnosis.settings import Settings
 from pipeline.diagnosis.signals.localisation import band_axis, place_axis, places, run_axis, stage_axis, stage_of
 from pipeline.inference.fitting.least_squares import linearised
@@ -75,24 +75,24 @@ def test_the_stage_is_that_of_the_leading_hypotheses():
     assert stage_of((("third_body_film", "contact"),)) == "friction"
     assert stage_of((("interpolation", "friction_map"),)) == "friction_map"
     tried = [SimpleNamespace(name=str(k), effects=e) for k, e in enumerate(effects)]
-    weighed = SimpleNamespace(candidate=tried[1], contender=SimpleNamespace(posterior=0.97))
+    weighed = SimpleNamespace(candidate=tried[1], statistics=SimpleNamespace(posterior=0.97))
     screen = SimpleNamespace(candidates=tried, score=np.array([4.0, 9.0, 1.0]), p_value=np.array([0.02, 0.001, 0.9]))
     found = stage_axis(SimpleNamespace(base=None, screen=screen, weighed=(weighed,)))
     assert found.items == ("structure", "friction", "numerics") and found.members.tolist() == [True, False, False]
     assert found.significant(0.01) == ("structure",)
 
 
-def test_a_question_tells_all_axes():
+def test_forced_runs_are_located_on_all_axes():
     laid, whole = two_masses.LAID, two_masses.built()
-    asked = question(whole, recorded(two_masses.recording({"cubic_stiffness": {"mount": {
+    asked = forced_problem(whole, recorded(two_masses.recording({"cubic_stiffness": {"mount": {
         "coefficient": "3e5 N/m^3"}}}), laid), fill(Settings, two_masses.ASKED, "diagnosis"))
     training = asked.problem.training
     null = linearised(asked.problem, [asked.budget[r.name] for r in training], asked.problem.nominal,
                       asked.problem.nominal.nominal, training)
     screen = SimpleNamespace(candidates=asked.candidates, score=np.ones(len(asked.candidates)),
                              p_value=np.ones(len(asked.candidates)))
-    found = SimpleNamespace(base=None, null=null, screen=screen, weighed=(), weights=None)
-    axes = asked.axes(found)
+    found = SimpleNamespace(base=None, null=null, recalibrated=null, screen=screen, weighed=(), weights=None)
+    axes = asked.locator.located(found)
     assert set(axes) == {"stage", "run", "place", "band"}
-    told = asked.describe(found, axes)
+    told = asked.latent.described(found, axes)
     assert told.place == "mount = left" and set(told.regimes) == {"amplitude", "velocity", "time"}

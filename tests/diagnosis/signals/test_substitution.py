@@ -11,6 +11,7 @@ from pipeline.case_models import corrections
 from pipeline.case_models.runs import recorded
 from pipeline.contract.settings import fill
 from pipeline.diagnosis import forced_response
+from pipeline.diagnosis.problem import Nowhere
 from pipeline.diagnosis.settings import Settings
 from pipeline.diagnosis.signals.substitution import AXIS, MeasuredShapes, Substituted, measured_law, substituted, swaps
 from pipeline.inference.fitting.least_squares import linearised
@@ -51,10 +52,10 @@ def holding(recording, **kinds):
 def axis(recording, bench, runs, asked):
     """The axis ``substitution`` about the nominal values."""
     settings = fill(Settings, {"solver": False, "draws": 2000, **asked}, "d")
-    question = substituted(forced_response.question(bench, runs, settings), recording, settings)
+    question = substituted(forced_response.forced_problem(bench, runs, settings), recording, settings)
     problem, noises = question.problem, [question.budget[run.name] for run in question.problem.training]
     null = linearised(problem, noises, problem.nominal, problem.nominal.nominal, problem.training)
-    return replace(question.axes, axes=lambda found: {})(SimpleNamespace(base=None, null=null))[AXIS]
+    return replace(question.locator, axes=Nowhere()).located(SimpleNamespace(recalibrated=null))[AXIS]
 
 
 @pytest.mark.parametrize("hidden", [True, False])
@@ -84,13 +85,13 @@ def test_measured_modes_in_place_of_others_are_those_of_the_bench_that_has_them(
     bench = two_masses.built()
     softer = replace(bench, model=replace(bench.model, joints=replace(
         bench.model.joints, stiffness=0.81 * bench.model.joints.stiffness, damping=0.5 * bench.model.joints.damping)))
-    changed = MeasuredShapes((modes(softer),))(bench)
+    changed = MeasuredShapes((modes(softer),)).applied(bench)
     _, damping, stiffness = changed.model.supported()
     np.testing.assert_allclose(stiffness, softer.model.supported()[2], rtol=1e-9, atol=1e-9)
     shape = eigh(stiffness, changed.model.mass)[1]
     np.testing.assert_allclose(np.diag(shape.T @ damping @ shape),
                                np.diag(shape.T @ softer.model.supported()[1] @ shape), rtol=1e-9)
-    same = MeasuredShapes((modes(bench),))(bench)
+    same = MeasuredShapes((modes(bench),)).applied(bench)
     np.testing.assert_allclose(same.model.supported()[2], bench.model.supported()[2], rtol=1e-12)
 
 
@@ -106,7 +107,7 @@ def test_a_measured_curve_is_read_where_it_was_measured_and_nearest_else():
 def test_without_measured_quantities_there_is_no_axis():
     told = two_masses.recording({})
     settings = fill(Settings, two_masses.ASKED, "d")
-    asked = forced_response.question(two_masses.built(), recorded(told, two_masses.LAID), settings)
-    assert substituted(asked, told, settings) is asked and not isinstance(asked.axes, Substituted)
+    asked = forced_response.forced_problem(two_masses.built(), recorded(told, two_masses.LAID), settings)
+    assert substituted(asked, told, settings) is asked and not isinstance(asked.locator, Substituted)
     assert swaps(holding(told, friction=curve(False)), two_masses.built()) == {}, "nothing rubs there"
     assert swaps(holding(told, modes=modes(two_masses.built())), two_masses.built(), held_out=("before",)) == {}

@@ -31,8 +31,8 @@ def fits(truth=None, seed=0, held_out=0, sizes=(2, 1, 1), runs=4):
 
 def seen(whole, catalogue, found, k, held_out=(None, None)):
     null = found[0]
-    return candidate_statistics(null, evidence(null), catalogue[k - 1], found[k], evidence(found[k]), 0.5, 0.01, held_out,
-                     np.ones(len(null.runs)), DEFAULTS)
+    return candidate_statistics(null, evidence(null), catalogue[k - 1], found[k], evidence(found[k]), 0.5, 0.01,
+                                held_out, np.ones(len(null.runs)), DEFAULTS)
 
 
 @pytest.mark.exact
@@ -64,7 +64,8 @@ def test_the_right_effect_beats_its_decoy_on_held_out_runs():
 def test_half_of_an_effect_leaves_a_quarter_of_the_excess():
     whole, _, _, found = fits({"effect_1_0": 4.0})
     half = fit_at(whole, found[1], found[1].latent * [1, 1, 0.5])
-    assert unexplained(found[0], half, replace(DEFAULTS, decision=DecisionRules(noise_uncertainty=0.0))) == pytest.approx(0.25, abs=0.03)
+    sure = replace(DEFAULTS, decision=DecisionRules(noise_uncertainty=0.0))
+    assert unexplained(found[0], half, sure) == pytest.approx(0.25, abs=0.03)
     assert unexplained(found[0], found[2], DEFAULTS) > 0.9
 
 

@@ -96,7 +96,8 @@ def test_what_leaves_more_than_a_twentieth_is_unknown():
 
 
 def test_one_run_names_nothing_and_says_so():
-    told = decide(replace(FOUR, runs=1, points=1), [replace(GOOD, held_out_errors=None, beats_decoy=None)], DecisionRules())
+    alone = replace(GOOD, held_out_errors=None, beats_decoy=None)
+    told = decide(replace(FOUR, runs=1, points=1), [alone], DecisionRules())
     assert told.verdict == "tie" and any("one run only" in why for why in told.reasons)
 
 

@@ -2,7 +2,7 @@
 
 import pytest
 
-from pipeline.diagnosis.question import label, nominal, parameter_name, split_name
+from pipeline.diagnosis.problem import label, nominal, parameter_name, split_name
 from pipeline.inference.priors import Normal, Parameter
 
 

@@ -1,0 +1,97 @@
+"""The problem that a diagnosis solves, whatever was recorded: runs, a forward model, hypotheses, noise, and how to read
+what is left."""
+
+from dataclasses import dataclass
+from typing import Any, Protocol
+
+from pipeline.inference.problem import Hypothesis, Problem
+from pipeline.inference.procedure import Diagnosis, Settings, diagnose
+
+
+class Locator(Protocol):
+    """Where the mismatch lies: {axis: (Location, unit of its bins or "", edges (n, 2) or None)}."""
+
+    def located(self, diagnosis: Diagnosis) -> dict: ...
+
+
+class LatentForces(Protocol):
+    """What force is missing at the leading place, whatever its physics."""
+
+    def described(self, diagnosis: Diagnosis, axes: dict) -> Any:
+        """Description of the force, or None where nothing stands out of the noise."""
+
+    def predicted(self, diagnosis: Diagnosis, description: Any) -> Any:
+        """LatentUse: held-out runs with this force."""
+
+
+class SquealComparison(Protocol):
+    """Saturated squeal of recordings beside that of the recalibrated and the completed model (Fits)."""
+
+    def compared(self, recalibrated, completed) -> dict: ...
+
+
+class Revision(Protocol):
+    """What this kind of data adds to the product Diagnosis, or lets it say only with reserve."""
+
+    def revised(self, product, diagnosis: Diagnosis): ...
+
+
+@dataclass(frozen=True)
+class Nowhere:
+    """Locator of data that cannot locate."""
+
+    def located(self, diagnosis):
+        return {}
+
+
+@dataclass(frozen=True)
+class DiagnosisProblem:
+    """Runs, forward model and nominal hypothesis (``problem``), their {run: Noise} ``budget`` and the ``candidates``
+    (Hypotheses of effects alone), solved under ``settings``.
+
+    ``units`` {channel: SI unit}. ``latent`` describes a missing force, which predicts held-out runs where
+    ``predicts_with_force``. ``next_runs`` (Observed, whose samples do not count): what could be recorded next, named by
+    what is changed, each with its budget.
+    """
+
+    problem: Problem
+    budget: dict
+    candidates: tuple
+    units: dict
+    settings: Settings = Settings()
+    locator: Locator = Nowhere()
+    latent: LatentForces | None = None
+    predicts_with_force: bool = False
+    squeals: SquealComparison | None = None
+    revision: Revision | None = None
+    next_runs: tuple = ()
+
+    @property
+    def rules(self):
+        return self.settings.rules
+
+    def solved(self, fan_out=map):
+        """Diagnosis by the five steps of inference."""
+        return diagnose(self.problem, self.budget, self.candidates, self.settings, fan_out)
+
+
+def parameter_name(effect, location, parameter):
+    """Name of a parameter of an effect at a location, among all parameters of a hypothesis."""
+    return f"{effect}@{location}.{parameter}"
+
+
+def split_name(name):
+    """(effect, location, parameter) of such a name, all empty for a nominal one; locations may hold dots."""
+    effect, _, rest = name.partition("@") if "@" in name else ("", "", "")
+    location, _, parameter = rest.rpartition(".")
+    return effect, location, parameter
+
+
+def label(effects):
+    """Name of a hypothesis from its ((effect, location), ...)."""
+    return " + ".join(f"{effect} at {location}" for effect, location in effects)
+
+
+def nominal(parameters):
+    """The hypothesis that nothing is missing."""
+    return Hypothesis("nominal", (), tuple(parameters))
