@@ -5,12 +5,12 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from pipeline.diagnosis.problem import nominal
 
 from pipeline.case_models import virtual_rig as benches
 from pipeline.case_models.effect_block import with_effects
 from pipeline.case_models.runs import recorded
 from pipeline.contract import ConfigError
+from pipeline.diagnosis.problem import nominal
 from pipeline.diagnosis.signals.forward_model import (
     REFINEMENT,
     SOLVER,
