@@ -36,6 +36,18 @@ def test_every_function_on_the_way_of_a_number_exists():
         assert function in {n.name for n in tree.body if isinstance(n, ast.FunctionDef)}, f"{file}:{function}"
 
 
+def test_every_step_from_a_channel_to_the_verdict_exists():
+    page = (ROOT / "docs" / "diagnosis_pipeline.md").read_text()
+    named = re.findall(r"`((?:pipeline|stages)/[\w/]+\.py)(?::([\w.]+))?`", page)
+    assert len(named) > 12
+    for file, name in named:
+        nodes = ast.parse((ROOT / file).read_text()).body
+        for part in filter(None, name.split(".")):
+            node = next((n for n in nodes if getattr(n, "name", None) == part), None)
+            assert node is not None, f"{file}:{name}"
+            nodes = node.body
+
+
 def test_every_product_field_on_the_way_of_a_number_exists():
     by_product = {re.sub(r"(?<!^)(?=[A-Z])", "_", name).lower(): names for name, names in FIELDS.items()}
     named = [(a, b) for a, b in re.findall(r"`(\w+)\.(\w+)`", HOPS) if a in by_product and b != "py"]

@@ -49,18 +49,18 @@ def plan(bench, units, settings):
     ConfigError without planned runs or noise, for unknown inputs and effects.
     """
     runs, costs = planned_runs(bench, settings.plan), [run.cost for run in settings.plan.runs.values()]
-    found = candidates(bench, tuple(runs.values()), chosen(settings), settings.places,
+    effects = candidates(bench, tuple(runs.values()), chosen(settings), settings.places,
                        priors=settings.priors)
-    directions, jacobians = _seen(bench, runs, units, settings, found)
-    names = tuple(c.name for c in found)
+    directions, jacobians = _seen(bench, runs, units, settings, effects)
+    names = tuple(c.name for c in effects)
     needed, everything = settings.plan.needed, range(len(runs))
     whole = mathematics.combined_power(directions, jacobians, everything)
-    wanted = _wanted(settings.plan.wanted, found)
-    reached = [k for k in wanted if whole[k] >= needed]
-    kept = mathematics.cheapest(directions, jacobians, costs, reached, needed) if reached else ()
+    wanted = _wanted(settings.plan.wanted, effects)
+    in_reach = [k for k in wanted if whole[k] >= needed]
+    selected = mathematics.cheapest(directions, jacobians, costs, in_reach, needed) if in_reach else ()
     return Planned(tuple(runs), names, mathematics.power_table(directions, jacobians), whole,
-                   tuple(tuple(runs)[k] for k in kept), mathematics.combined_power(directions, jacobians, kept),
-                   float(sum(costs[k] for k in kept)), tuple(names[k] for k in wanted if k not in reached))
+                   tuple(tuple(runs)[k] for k in selected), mathematics.combined_power(directions, jacobians, selected),
+                   float(sum(costs[k] for k in selected)), tuple(names[k] for k in wanted if k not in in_reach))
 
 
 def table(planned):
@@ -72,10 +72,10 @@ def table(planned):
 
 def conclusion(planned):
     """The cheapest set in one sentence, and what is out of reach."""
-    told = (f"cheapest set: {', '.join(planned.chosen)} (cost {planned.cost:g})" if planned.chosen else
+    sentence = (f"cheapest set: {', '.join(planned.chosen)} (cost {planned.cost:g})" if planned.chosen else
             "no set of these runs names any of the wanted effects")
     lost = f"; out of reach: {', '.join(planned.missed)}" if planned.missed else ""
-    return told + lost
+    return sentence + lost
 
 
 def planned_runs(bench, settings):
@@ -83,14 +83,14 @@ def planned_runs(bench, settings):
     if not settings.runs:
         raise ConfigError("diagnosis.plan.runs", "at least one run that could be recorded", "none",
                           "name runs with their duration, sample_rate and inputs")
-    found = {}
-    for name, given in settings.runs.items():
-        check_names(f"plan.runs.{name}.inputs", given.inputs, bench.model.input_name)
-        drive = {} if given.speed is None else {"drive": given.speed}
-        run = Run(name, given.duration, given.sample_rate, **drive)
-        found[name] = Run(name, given.duration, given.sample_rate,
-                          {key: _sweep(run.time, one) for key, one in given.inputs.items()}, **drive)
-    return found
+    planned = {}
+    for name, stated in settings.runs.items():
+        check_names(f"plan.runs.{name}.inputs", stated.inputs, bench.model.input_name)
+        drive = {} if stated.speed is None else {"drive": stated.speed}
+        run = Run(name, stated.duration, stated.sample_rate, **drive)
+        planned[name] = Run(name, stated.duration, stated.sample_rate,
+                          {key: _sweep(run.time, sweep) for key, sweep in stated.inputs.items()}, **drive)
+    return planned
 
 
 def channel_units(bench):
@@ -103,7 +103,7 @@ def _sweep(time, given):
     return given.amplitude * np.sin(2 * np.pi * (given.start + 0.5 * rise * time) * time)
 
 
-def _seen(bench, runs, units, settings, found):
+def _seen(bench, runs, units, settings, effects):
     """([[(m,) whitened change by each effect] of each run], [(m, k) Jacobian of each run])."""
     names = tuple(c.name for c in bench.channels)
     lacking = [name for name in names if name not in settings.noise.std]
@@ -117,7 +117,7 @@ def _seen(bench, runs, units, settings, found):
     noises, directions, jacobians = budget(problem), [], []
     for run in blank:
         null = linearised(problem, [noises[run.name]], problem.nominal, problem.nominal.nominal, [run])
-        directions.append([_change(problem, null, candidate) for candidate in found])
+        directions.append([_change(problem, null, candidate) for candidate in effects])
         jacobians.append(null.jacobians[0])
     return directions, jacobians
 
@@ -131,8 +131,8 @@ def _change(problem, null, candidate):
     return np.zeros(len(null.residuals[0])) if moved is None else null.residuals[0] - moved[0]
 
 
-def _wanted(names, found):
+def _wanted(names, effects):
     """Indices of the effects that are wanted, by effect or by 'effect at place'; all where none is named."""
-    known = {c.name for c in found} | {c.effects[0][0] for c in found}
-    check_names("plan.wanted", names, known)
-    return [k for k, c in enumerate(found) if not names or c.name in names or c.effects[0][0] in names]
+    known_names = {c.name for c in effects} | {c.effects[0][0] for c in effects}
+    check_names("plan.wanted", names, known_names)
+    return [k for k, c in enumerate(effects) if not names or c.name in names or c.effects[0][0] in names]

@@ -199,7 +199,7 @@ class SquealRevision(ListRevision):
 def _squeal(recording, models, section, rules, fan_out):
     claims = squeal_frequencies.claims(recording, section, models.needed("modes", "complex_modes"))
     problem = squeal_frequencies.squeal_problem(recording, section, claims, rules)
-    undecided = tuple(label(((claims[k].effect, claims[k].place),))
+    undecided = tuple(label(((claims[k].effect, claims[k].location),))
                       for k in squeal_frequencies.undecided(claims, recording, section))
     conditions = (
         "growth phases = at three speeds and one load: falling friction makes growth depend on the speed, flutter"

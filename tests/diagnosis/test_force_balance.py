@@ -43,7 +43,7 @@ def test_the_place_and_the_size_of_the_missing_force_are_told():
     axes = given.locator.located(found)
     assert axes["place"][0].significant() == ("block",) and {"stage", "run", "band"} <= set(axes)
     told = given.latent.described(found, axes)
-    assert told.place == "block" and {"amplitude", "velocity", "time"} <= set(told.regimes)
+    assert told.location == "block" and {"amplitude", "velocity", "time"} <= set(told.regimes)
     follows = {f.name: f.p_value for f, _ in told.follows}
     assert follows["displacement"] <= 0.01, "a cubic spring follows the displacement"
 

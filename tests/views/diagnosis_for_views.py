@@ -57,7 +57,9 @@ def diagnosis(verdict="missing", **values):
         "latent_use": "", "latent_term": [], "latent_coefficient": [], "latent_unit": [], "latent_predicted": {},
         "squeal": {},
         "next_condition": ["level = 8 N"], "next_separates": ["coulomb at guide", "quadratic_damping at arm"],
-        "next_value": 3.2, "runs": {"bang": run(0), "pulses": run(1)}}
+        "next_value": 3.2, "threshold": ["decision.posterior", "poles.delay_std"], "threshold_value": [0.9, 1e-6],
+        "threshold_unit": ["1", "s"], "threshold_meaning": ["posterior of the named set", "least deviation of a delay"],
+        "runs": {"bang": run(0), "pulses": run(1)}}
     return Diagnosis(**{**given, **values})
 
 

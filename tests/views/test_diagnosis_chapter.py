@@ -137,3 +137,8 @@ def test_friction_is_drawn_point_by_point():
     assert pictures.points(changed(rubbed, runs={"bang": few["bang"]})) != shown[0].image
     assert not any(f.caption.startswith("Friction of every run") for f in chapter(whole, Look()).figures)
     assert "in each channel" in chapter(rubbed, Look()).figures[0].caption
+
+
+def test_every_threshold_is_listed_with_its_unit():
+    table = next(t for t in chapter(diagnosis(), Look()).tables if t.title == "Rules by which it was decided")
+    assert [row[:2] for row in table.rows] == [("decision.posterior", "0.9"), ("poles.delay_std", "1e-06\u202fs")]

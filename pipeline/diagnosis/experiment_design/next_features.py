@@ -24,51 +24,52 @@ def planned_records(bench, seen, given, where="diagnosis.next"):
     one was recorded. ConfigError for names that the bench does not have, and units that do not fit.
     """
     kinds = {}
-    for name, one in seen.items():
-        kinds.setdefault(kind(bench, one), {})[name] = one
+    for name, features in seen.items():
+        kinds.setdefault(kind(bench, features), {})[name] = features
     if given:
-        return tuple(_asked(bench, told, members, name, value, f"{where}.{name}") for name, values in given.items()
-                     for value in values for told, members in _of(bench, kinds, name))
-    return tuple(record for told, members in kinds.items() for record in _crossed(bench, seen, told, members))
+        return tuple(_asked(bench, kind_name, members, name, value, f"{where}.{name}") for name, values in given.items()
+                     for value in values for kind_name, members in _of(bench, kinds, name))
+    return tuple(record for kind_name, members in kinds.items() for record in _crossed(bench, seen, kind_name, members))
 
 
-def kind(bench, one):
+def kind(bench, features):
     """How the Features of a run are recorded, in words."""
-    if one.seen is None:
+    if features.seen is None:
         return "slow turn"
-    speed, inputs = at_begin(bench, one.run)
+    speed, inputs = at_begin(bench, features.run)
     return "growth phase" if speed else "hammer at rest" if inputs.any() else _LIFTED
 
 
 def _of(bench, kinds, name):
     """(kind, its members) in which ``name`` can be another: a speed where it slides, a load where something presses."""
     without = {"speed": ("hammer at rest", _LIFTED), **dict.fromkeys(bench.model.input_name, (_LIFTED,))}
-    return [(told, members) for told, members in kinds.items() if told not in without.get(name, ())]
+    return [(kind_name, members) for kind_name, members in kinds.items() if kind_name not in without.get(name, ())]
 
 
-def _asked(bench, told, members, name, value, where):
-    like, one = next(iter(members.items()))
-    run, altered = changed(bench, one.run, name, value, where)
-    own = f"{told}, {words(name, value)}"
-    return Planned(own, like, replace(one, run=replace(run, name=own)), altered)
+def _asked(bench, kind_name, members, name, value, where):
+    like, features = next(iter(members.items()))
+    run, altered = changed(bench, features.run, name, value, where)
+    full_name = f"{kind_name}, {words(name, value)}"
+    return Planned(full_name, like, replace(features, run=replace(run, name=full_name)), altered)
 
 
-def _crossed(bench, seen, told, members):
+def _crossed(bench, seen, kind_name, members):
     """Planned Features of one kind at points (speed, loads) that none of its ``members`` has."""
-    if told == _LIFTED:
+    if kind_name == _LIFTED:
         return
-    every, own = [_point(bench, one) for one in seen.values()], {n: _point(bench, one) for n, one in members.items()}
-    for speed in _beside({speed for speed, _ in own.values()}):
+    every = [_point(bench, features) for features in seen.values()]
+    points = {name: _point(bench, features) for name, features in members.items()}
+    for speed in _beside({speed for speed, _ in points.values()}):
         for load in _beside({load for _, load in every if any(load)}):
             point = speed, load
-            if point not in own.values():
-                like = min(own, key=lambda name: _apart(own[name], point))
-                yield _at(bench, told, like, members[like], point)
+            if point not in points.values():
+                like = min(points, key=lambda name: _apart(points[name], point))
+                yield _at(bench, kind_name, like, members[like], point)
 
 
-def _point(bench, one):
+def _point(bench, features):
     """(speed in rad/s, inputs (i,) in N) of Features."""
-    speed, inputs = at_begin(bench, one.run)
+    speed, inputs = at_begin(bench, features.run)
     return speed, tuple(inputs.tolist())
 
 
@@ -86,11 +87,12 @@ def _apart(first, second):
     return sum(abs(np.log(a / b)) for a, b in zip(*sizes, strict=True) if a and b)
 
 
-def _at(bench, told, like, one, point):
-    """Planned like the Features ``one`` of a run ``like`` at another point."""
+def _at(bench, kind_name, like, features, point):
+    """Planned like the ``features`` of a run ``like`` at another point."""
     speed, load = point
     inputs = dict(zip(bench.model.input_name, load, strict=True))
-    said = [f"{n} = {v:g} N" for n, v in inputs.items()] + ([f"speed = {speed:g} rad/s"] if speed else [])
-    name = f"{told}, {', '.join(said)}"
-    run = replace(one.run, name=name, inputs=inputs, drive=None, conditions={**one.run.conditions, "speed": speed})
-    return Planned(name, like, replace(one, run=run), {})
+    conditions = [f"{n} = {v:g} N" for n, v in inputs.items()] + ([f"speed = {speed:g} rad/s"] if speed else [])
+    name = f"{kind_name}, {', '.join(conditions)}"
+    run = replace(features.run, name=name, inputs=inputs, drive=None,
+                  conditions={**features.run.conditions, "speed": speed})
+    return Planned(name, like, replace(features, run=run), {})

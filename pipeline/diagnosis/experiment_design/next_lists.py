@@ -45,12 +45,12 @@ class Undone:
 
     def __call__(self, hypothesis, values, run):
         check = self.checks[run.name]
-        kept = tuple(pair for pair in hypothesis.effects if pair[0] in check.effects)
+        undone = tuple(pair for pair in hypothesis.effects if pair[0] in check.effects)
         with_them, without = (np.hstack([self.forward(replace(hypothesis, effects=effects), values, _Named(name))
-                                         for name in self.forward.shown]) for effects in (kept, ()))
-        return np.hstack((with_them - without, [[float(pair in kept) for pair in self.told(run.name)]]))
+                                         for name in self.forward.shown]) for effects in (undone, ()))
+        return np.hstack((with_them - without, [[float(pair in undone) for pair in self.distinguished(run.name)]]))
 
-    def told(self, name):
+    def distinguished(self, name):
         """The alternatives ((effect, place), ...) of which a check tells whether they hold."""
         check = self.checks[name]
         return [pair for pair in self.forward.alternatives if check.tells_which and pair[0] in check.effects]
@@ -70,8 +70,9 @@ def best_check(given, rivals, checks, rules=DEFAULTS.lists):
     """
     undone = Undone(given.problem.predict, checks)
     lines = np.hstack([run.noise_std for run in given.problem.runs])
-    std = {name: np.hstack((lines, np.full((1, len(undone.told(name))), rules.half_std))) for name in checks}
-    runs = tuple(Observed(name, {}, ("change",), np.zeros(own.shape), noise_std=own) for name, own in std.items())
+    std = {name: np.hstack((lines, np.full((1, len(undone.distinguished(name))), rules.half_std))) for name in checks}
+    runs = tuple(Observed(name, {}, ("change",), np.zeros(deviation.shape), noise_std=deviation)
+                 for name, deviation in std.items())
     problem = Problem(runs, undone, given.problem.nominal)
     noises = budget(problem)
 
@@ -85,8 +86,8 @@ def best_check(given, rivals, checks, rules=DEFAULTS.lists):
 def best_outcome(rivals, outcomes, rules=DEFAULTS.lists):
     """Expected over ``outcomes`` {condition: {hypothesis: (m,), over their standard deviation}} between Rivals; None
     where none tells any of them apart."""
-    return _best(rivals, {name: [Prediction(told[r.name], np.zeros((len(told[r.name]), 0))) for r in rivals]
-                          for name, told in outcomes.items()}, rules)
+    return _best(rivals, {name: [Prediction(outcome[r.name], np.zeros((len(outcome[r.name]), 0))) for r in rivals]
+                          for name, outcome in outcomes.items()}, rules)
 
 
 def _best(rivals, predictions, rules):

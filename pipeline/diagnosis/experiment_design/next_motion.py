@@ -28,47 +28,48 @@ def planned_motions(bench, recorded, equation, given, where="diagnosis.next"):
     names that neither motions nor the bench have, and units that do not fit.
     """
     widest = max(recorded, key=lambda name: max(map(np.ptp, _measured(bench, recorded[name]).values())))
-    found = []
+    planned = []
     for name, values in (given or WITHIN).items():
         for value in values:
-            told = f"{words(name, value)}, as {widest}"
+            condition = f"{words(name, value)}, as {widest}"
             again, section, altered = _again(bench, recorded[widest], equation, name, value, f"{where}.{name}")
-            again = replace(again, run=replace(again.run, name=told), repeat_of="")
-            found.append(Planned(told, widest, balance(bench, _driven(bench, again, section), section), altered))
-    return tuple(found)
+            again = replace(again, run=replace(again.run, name=condition), repeat_of="")
+            planned.append(Planned(condition, widest, balance(bench, _driven(bench, again, section), section), altered))
+    return tuple(planned)
 
 
-def _again(bench, one, equation, name, value, where):
+def _again(bench, record, equation, name, value, where):
     """(Recorded, section of its equation, altered) with one thing changed."""
     if name in (MOTION, PACE) and not (isinstance(value, (int, float)) and value > 0):
         raise ConfigError(where, "factors above 0", repr(value))
     if name in bench.model.input_name:
         raise ConfigError(where, f"{MOTION}, {PACE} or a number of the bench: inputs are what the motion takes", name)
     if name == MOTION:
-        moves = np.array([_measurand(bench, channel) == DISPLACEMENT for channel in one.channels])[:, None]
-        middle = (one.samples.max(axis=1, keepdims=True) + one.samples.min(axis=1, keepdims=True)) / 2
-        return replace(one, samples=np.where(moves, middle + value * (one.samples - middle), one.samples)), equation, {}
+        moves = np.array([_measurand(bench, channel) == DISPLACEMENT for channel in record.channels])[:, None]
+        middle = (record.samples.max(axis=1, keepdims=True) + record.samples.min(axis=1, keepdims=True)) / 2
+        samples = np.where(moves, middle + value * (record.samples - middle), record.samples)
+        return replace(record, samples=samples), equation, {}
     if name == PACE:
-        run = one.run
+        run = record.run
         drive = None if run.drive is None else value * np.asarray(run.drive, float)
         run = replace(run, duration=run.duration / value, sample_rate=value * run.sample_rate, drive=drive)
         corner = None if equation.corner is None else value * equation.corner
-        return replace(one, run=run), equation.model_copy(update={"corner": corner}), {}
-    run, altered = changed(bench, one.run, name, value, where)
-    return replace(one, run=run), equation, altered
+        return replace(record, run=run), equation.model_copy(update={"corner": corner}), {}
+    run, altered = changed(bench, record.run, name, value, where)
+    return replace(record, run=run), equation, altered
 
 
-def _driven(bench, one, equation):
+def _driven(bench, record, equation):
     """The Recorded with the inputs that its motion takes on the nominal bench."""
-    names, idle = bench.model.input_name, replace(one.run, inputs=dict.fromkeys(bench.model.input_name, 0.0))
-    needed = forces_missing(bench, idle, smoothed(bench, idle, _measured(bench, one), equation.corner))
+    names, idle = bench.model.input_name, replace(record.run, inputs=dict.fromkeys(bench.model.input_name, 0.0))
+    needed = forces_missing(bench, idle, smoothed(bench, idle, _measured(bench, record), equation.corner))
     force = np.linalg.lstsq(bench.model.input_rows.T, needed, rcond=None)[0]
-    return replace(one, run=replace(one.run, inputs=dict(zip(names, force, strict=True))))
+    return replace(record, run=replace(record.run, inputs=dict(zip(names, force, strict=True))))
 
 
-def _measured(bench, one):
+def _measured(bench, record):
     """{channel: (samples,)} of the displacements of a Recorded run."""
-    return {c: s for c, s in zip(one.channels, one.samples, strict=True) if _measurand(bench, c) == DISPLACEMENT}
+    return {c: s for c, s in zip(record.channels, record.samples, strict=True) if _measurand(bench, c) == DISPLACEMENT}
 
 
 def _measurand(bench, channel):

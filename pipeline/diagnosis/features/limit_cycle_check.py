@@ -54,12 +54,13 @@ class Compared:
     @property
     def sentence(self):
         """Who squeals, in words."""
-        sounds = {who: one.squealing + one.growing > 0 for who, one in self.heard.items()}
-        said = [f"{who}: {one.squealing} of {len(one.states)} saturated"
-                + (f", {one.growing} still growing" if one.growing else "") for who, one in self.heard.items()]
-        said += [f"squeals in only one of recording and {who} model" for who, one in sounds.items()
-                 if one != sounds["recorded"]]
-        return "; ".join(said + [f"{who}: {why}" for who, why in self.failure.items()])
+        sounds = {who: sound.squealing + sound.growing > 0 for who, sound in self.heard.items()}
+        sentences = [f"{who}: {sound.squealing} of {len(sound.states)} saturated"
+                     + (f", {sound.growing} still growing" if sound.growing else "")
+                     for who, sound in self.heard.items()]
+        sentences += [f"squeals in only one of recording and {who} model" for who, sound in sounds.items()
+                      if sound != sounds["recorded"]]
+        return "; ".join(sentences + [f"{who}: {why}" for who, why in self.failure.items()])
 
 
 @dataclass(frozen=True)
@@ -80,11 +81,11 @@ class Squeals:
     def _points(self):
         """{run: its records} of runs that slide and show a motion, repeats with the run that they repeat."""
         points = {}
-        for name, one in self.recorded.items():
-            own = one.repeat_of or name
-            wanted = not self.settings.runs or {name, own} & set(self.settings.runs)
-            if wanted and at_begin(self.bench, one.run)[0] and self._motions(one.channels):
-                points.setdefault(own, []).append(one)
+        for name, record in self.recorded.items():
+            point = record.repeat_of or name
+            wanted = not self.settings.runs or {name, point} & set(self.settings.runs)
+            if wanted and at_begin(self.bench, record.run)[0] and self._motions(record.channels):
+                points.setdefault(point, []).append(record)
         return points
 
     def _compared(self, benches, records):
@@ -96,8 +97,8 @@ class Squeals:
             except BrakechainError as error:
                 failure[who] = str(error)
         measured = heard["recorded"].values
-        agrees = {who: {f: agree(measured[f], values, self.settings.tolerance) for f, values in one.values.items()
-                        if f in measured} for who, one in heard.items() if who != "recorded"}
+        agrees = {who: {f: agree(measured[f], values, self.settings.tolerance) for f, values in sound.values.items()
+                        if f in measured} for who, sound in heard.items() if who != "recorded"}
         return Compared(heard, agrees, failure)
 
     def _motions(self, channels):
@@ -108,22 +109,22 @@ class Squeals:
         """Heard of [{channel: (n,)}] at the rate and with the units of the Recorded ``like``."""
         rate, names = like.run.sample_rate, self._motions(like.channels)
         size, unit = round(self.settings.stretch * rate), dict(zip(like.channels, like.unit, strict=True))
-        states, found, units = [], {}, {}
-        for one in motions:
-            together = np.array([one[name] for name in names])
+        states, all_values, units = [], {}, {}
+        for motion in motions:
+            together = np.array([motion[name] for name in names])
             states.append(state(together, size))
             if states[-1] == SATURATED:
-                told = _features(one, names, rate, size, saturated(together, size), self.settings.lowest, unit)
-                units |= {feature: own for feature, (_, own) in told.items()}
-                for feature, (values, _) in told.items():
-                    found.setdefault(feature, []).extend(values)
-        return Heard(tuple(states), {f: np.array(v) for f, v in found.items()}, units)
+                features = _features(motion, names, rate, size, saturated(together, size), self.settings.lowest, unit)
+                units |= {feature: feature_unit for feature, (_, feature_unit) in features.items()}
+                for feature, (stretches, _) in features.items():
+                    all_values.setdefault(feature, []).extend(stretches)
+        return Heard(tuple(states), {f: np.array(v) for f, v in all_values.items()}, units)
 
 
-def simulated(bench, like, told, seed=0):
+def simulated(bench, like, settings, seed=0):
     """[{channel: (n,)}] of the repeats of a Recorded run on a completed Bench, forces of its contacts beside."""
     speed, first = at_begin(bench, like.run)
-    run = replace(like.run, duration=told.duration, drive=speed,
+    run = replace(like.run, duration=settings.duration, drive=speed,
                   inputs=dict(zip(bench.model.input_name, first.tolist(), strict=True)))
     there = loaded(bench, run)
     model = there.model.at_speed(speed)
@@ -134,23 +135,25 @@ def simulated(bench, like, told, seed=0):
     seen = replace(seen, channels=(*seen.channels, Sensor(_NORMAL, NORMAL_FORCE, "contact"),
                                    Sensor(_DRAWN, FRICTION_FORCE, "contact")))
     names = tuple(c.name for c in seen.channels)
-    found = []
-    for repeat in range(told.repeats):
-        start = steady.kicked(random_kick(system, rows, told.kick, [seed, repeat]))
-        found.append(dict(zip(names, shown(seen, replace(run, start=start), names), strict=True)))
-    return found
+    motions = []
+    for repeat in range(settings.repeats):
+        start = steady.kicked(random_kick(system, rows, settings.kick, [seed, repeat]))
+        motions.append(dict(zip(names, shown(seen, replace(run, start=start), names), strict=True)))
+    return motions
 
 
-def _features(one, motions, rate, size, kept, lowest, unit):
+def _features(motion, names, rate, size, stretches, lowest, unit):
     """{feature: (values (k,), unit)} of one motion {channel: (n,)}."""
-    found = {}
-    for name in motions:
-        told = motion_features(one[name], rate, size, kept, lowest)
-        found |= {f"frequency of {name}": (told["frequency"], "Hz"), f"level of {name}": (told["level"], unit[name])}
-        found |= {f"{feature}, {name}": (values, "dB") for feature, values in told.items() if " over " in feature}
-    found |= {f"mean of {name}": (means(one[name], size, kept), unit[name]) for name in unit if name not in motions}
-    if _NORMAL in one:
-        normal, drawn = (means(one[name], size, kept) for name in (_NORMAL, _DRAWN))
-        found["share of time open"] = means(one[_NORMAL] <= 0, size, kept), "1"
-        found["friction over normal force"] = np.abs(drawn) / np.maximum(normal, 1e-300), "1"
-    return found
+    result = {}
+    for name in names:
+        features = motion_features(motion[name], rate, size, stretches, lowest)
+        result |= {f"frequency of {name}": (features["frequency"], "Hz"),
+                   f"level of {name}": (features["level"], unit[name])}
+        result |= {f"{feature}, {name}": (values, "dB") for feature, values in features.items() if " over " in feature}
+    result |= {f"mean of {name}": (means(motion[name], size, stretches), unit[name])
+               for name in unit if name not in names}
+    if _NORMAL in motion:
+        normal, drawn = (means(motion[name], size, stretches) for name in (_NORMAL, _DRAWN))
+        result["share of time open"] = means(motion[_NORMAL] <= 0, size, stretches), "1"
+        result["friction over normal force"] = np.abs(drawn) / np.maximum(normal, 1e-300), "1"
+    return result

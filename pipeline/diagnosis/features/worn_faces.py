@@ -27,46 +27,46 @@ class Rubbed:
     wear: dict
 
 
-def rubbed(recording, stroke, told=None):
+def rubbed(recording, stroke, stated_std=None):
     """{run: Rubbed} of the runs of a product Recording that hold friction.
 
-    ``stroke``: how far the faces passed over each other, m; ``told``: standard deviation of friction where the
+    ``stroke``: how far the faces passed over each other, m; ``stated_std``: standard deviation of friction where the
     recording has none. New faces are those of the run, else the first that any run shows. ConfigError for recordings
     without friction, several pressures in a run, worn faces without new ones.
     """
     runs = {name: run for name, run in recording.runs.items() if run.friction}
     if not runs:
         raise ConfigError("diagnosis.forward", "recordings of friction", f"none in {', '.join(recording.runs)}")
-    return {name: _rubbed(name, run, recording, stroke, told) for name, run in runs.items()}
+    return {name: _rubbed(name, run, recording, stroke, stated_std) for name, run in runs.items()}
 
 
-def observed(one, held_out, model_error):
+def observed(run, held_out, model_error):
     """Observed of a Rubbed: friction point by point, the wear at the end, ``model_error`` relative beside the noise.
 
     Points of one way share their spots, whatever the speed: together they count for one error of the model.
     """
-    shared = np.sqrt(len(one.friction) / len(np.unique(one.drag.distance)))
-    channels = (FRICTION, *one.wear)
-    count = len(one.friction)
+    shared = np.sqrt(len(run.friction) / len(np.unique(run.drag.distance)))
+    channels = (FRICTION, *run.wear)
+    count = len(run.friction)
     samples, std = np.zeros((len(channels), count)), np.ones((len(channels), count))
     valid = np.zeros(samples.shape, bool)
-    samples[0], std[0], valid[0] = one.friction, np.hypot(one.std, shared * model_error * one.friction), True
-    for row, (depth, error) in enumerate(one.wear.values(), 1):
+    samples[0], std[0], valid[0] = run.friction, np.hypot(run.std, shared * model_error * run.friction), True
+    for row, (depth, error) in enumerate(run.wear.values(), 1):
         samples[row, -1], std[row], valid[row, -1] = depth, np.hypot(error, model_error * depth), True
-    return Observed(one.name, {"pressure": one.drag.pressure}, channels, samples, None, valid, noise_std=std,
+    return Observed(run.name, {"pressure": run.drag.pressure}, channels, samples, None, valid, noise_std=std,
                     held_out=held_out)
 
 
 def shown(friction, wear, channels):
     """Samples (c, n) of friction (n,) and wear {channel: m}, as ``observed`` lays them out."""
-    found = np.zeros((len(channels), len(friction)))
-    found[0] = friction
+    samples = np.zeros((len(channels), len(friction)))
+    samples[0] = friction
     for row, channel in enumerate(channels[1:], 1):
-        found[row, -1] = wear[channel]
-    return found
+        samples[row, -1] = wear[channel]
+    return samples
 
 
-def _rubbed(name, run, recording, stroke, told):
+def _rubbed(name, run, recording, stroke, stated_std):
     if len(run.friction) > 1:
         raise ConfigError(f"run {name}: friction", "one table", ", ".join(run.friction), "make them runs of their own")
     table, = run.friction.values()
@@ -77,7 +77,7 @@ def _rubbed(name, run, recording, stroke, told):
     if not np.all(table.speed > 0):
         raise ConfigError(f"run {name}: friction", "sliding speeds above 0", f"{table.speed.min():g} m/s")
     order = np.argsort(table.distance, kind="stable")
-    std = np.where(table.friction_std > 0, table.friction_std, told or 0.0)[order]
+    std = np.where(table.friction_std > 0, table.friction_std, stated_std or 0.0)[order]
     if not np.all(std > 0):
         raise ConfigError(f"run {name}: friction_std", "the scatter of every point", "none at some",
                           "record it, or state diagnosis.noise.std.friction")
@@ -87,7 +87,7 @@ def _rubbed(name, run, recording, stroke, told):
 
 def _worn(name, run, recording, stroke):
     """{channel: (depth, std)} of the bodies whose worn face the run shows."""
-    found, bodies = {}, [channel.split()[0] for channel in WEAR]
+    depths, bodies = {}, [channel.split()[0] for channel in WEAR]
     for channel, body, other in zip(WEAR, bodies, bodies[::-1], strict=True):
         worn = _face(body, "worn", (run,))
         if worn is None:
@@ -98,9 +98,9 @@ def _worn(name, run, recording, stroke):
                               "record it before the test, in this run or another")
         if against is not None and against.height.shape != new.height.shape:
             against = None
-        found[channel] = worn_depth(new.height, worn.height, against and against.height,
+        depths[channel] = worn_depth(new.height, worn.height, against and against.height,
                                     round(stroke / (new.x[1] - new.x[0])) + 1)
-    return found
+    return depths
 
 
 def _face(body, state, runs):

@@ -18,12 +18,12 @@ ALTERNATIVES = 5
 
 def companions(product, case):
     """{file name: text}: diagnosis.json, latent_force.csv where a force was found, the case where it is completed."""
-    found = {"diagnosis.json": json.dumps(as_json(product), indent=2, ensure_ascii=False) + "\n"}
+    files = {"diagnosis.json": json.dumps(as_json(product), indent=2, ensure_ascii=False) + "\n"}
     if product.latent:
-        found["latent_force.csv"] = latent_csv(product)
+        files["latent_force.csv"] = latent_csv(product)
     if case is not None and _completable(case) and (name := completed_name(product, case.name)):
-        found[name] = yaml.yaml_text(completed(product, case))
-    return found
+        files[name] = yaml.yaml_text(completed(product, case))
+    return files
 
 
 def _completable(case):
@@ -34,8 +34,8 @@ def _completable(case):
 def latent_csv(product):
     """The latent force of every run as CSV; its head says that it is a description, not identified physics."""
     rows = [f"# {product.latent_sentence.item()}", "run,time_s,force_N,std_N,displacement_m,velocity_m_per_s"]
-    for name, one in product.latent.items():
-        columns = (one.time, one.force, one.std, one.displacement, one.velocity)
+    for name, force in product.latent.items():
+        columns = (force.time, force.force, force.std, force.displacement, force.velocity)
         rows += [",".join((name, *(f"{value:.9g}" for value in row))) for row in zip(*columns, strict=True)]
     return "\n".join(rows) + "\n"
 
@@ -55,21 +55,21 @@ def completed(product, case):
     document = copy.deepcopy(case.document)
     corrections, effects = {}, {}
     for k, name in enumerate(product.parameter):
-        effect, place, parameter = split_name(str(name))
+        effect, location, parameter = split_name(str(name))
         value = {"value": _written(product, k), "origin": "inferred",
                  "source": f"diagnosis of {case.name}, +- {product.parameter_std[k]:.2g}"}
         if not parameter:
             corrections[str(name)] = value
         else:
-            effects.setdefault(effect, {}).setdefault(place, {})[parameter] = value
+            effects.setdefault(effect, {}).setdefault(location, {})[parameter] = value
     if (document.get("diagnosis") or {}).get("forward") == "friction":
         _correct_rubbing(document, corrections)
     else:
         bench = document.setdefault("bench", {})
         bench["corrections"] = {**(bench.get("corrections") or {}), **corrections}
-    own = document["effects"] = document.get("effects") or {}
+    stated_effects = document["effects"] = document.get("effects") or {}
     for effect, places in effects.items():
-        own[effect] = {**own.get(effect, {}), **places}
+        stated_effects[effect] = {**stated_effects.get(effect, {}), **places}
     document["title"] = f"{document.get('title', case.name)}, completed"
     return document
 
@@ -98,7 +98,7 @@ def as_json(product):
     """The verdict for machines; the schema is that of SCHEMA."""
     named = set(_completing(product)) | set(product.named)
     ordered = sorted(range(len(product.hypothesis)), key=lambda k: -product.posterior[k])
-    told = {
+    document = {
         "schema": SCHEMA, "verdict": product.verdict.item(), "reasons": [str(r) for r in product.reason],
         "effects": [_effect(product, k) for k in (*product.known, *product.named)],
         "alternatives": [_effect(product, k, False) for k in ordered if k not in named][:ALTERNATIVES],
@@ -114,55 +114,55 @@ def as_json(product):
                             "separates": [str(s) for s in product.next_separates], "value": float(product.next_value)},
     }
     if product.squeal:
-        told["saturated_squeal"] = {name: _squeal(one) for name, one in product.squeal.items()}
-    return told
+        document["saturated_squeal"] = {name: _squeal(check) for name, check in product.squeal.items()}
+    return document
 
 
-def _squeal(one):
+def _squeal(check):
     """Saturated squeal of one run, recorded and simulated; for verification only."""
-    return {str(who): {"records": int(one.records[i]), "saturated": int(one.squealing[i]), "features": {
-        str(name): {"unit": str(one.unit[k]), "mean": float(one.mean[i, k]), "spread": float(one.spread[i, k])}
-        | ({"agrees": bool(one.agrees[i, k])} if i and one.known[0, k] else {})
-        for k, name in enumerate(one.feature) if one.known[i, k]}} for i, who in enumerate(one.who)}
+    return {str(who): {"records": int(check.records[i]), "saturated": int(check.squealing[i]), "features": {
+        str(name): {"unit": str(check.unit[k]), "mean": float(check.mean[i, k]), "spread": float(check.spread[i, k])}
+        | ({"agrees": bool(check.agrees[i, k])} if i and check.known[0, k] else {})
+        for k, name in enumerate(check.feature) if check.known[i, k]}} for i, who in enumerate(check.who)}
 
 
 def _effect(product, k, with_parameters=True):
     names = str(product.effect[k]).split(" + ")
     known = k in product.known      # it is part of every hypothesis but that nothing is missing
-    told = {"name": names[0], "place": str(product.place[k]), "kind": str(product.kind[k]),
+    entry = {"name": names[0], "place": str(product.place[k]), "kind": str(product.kind[k]),
             "posterior": float(1 - product.posterior[0] if known else product.posterior[k])}
     if not product.effect[k]:
-        told["name"] = "nothing missing"
+        entry["name"] = "nothing missing"
     if with_parameters:
-        told["parameters"] = {
+        entry["parameters"] = {
             split_name(str(name))[2]: {"value": float(product.parameter_value[i]),
                                        "std": float(product.parameter_std[i]), "unit": str(product.parameter_unit[i])}
             for i, name in enumerate(product.parameter) if product.parameter_owner[i] == k and split_name(str(name))[2]}
-    return told
+    return entry
 
 
 def _location(product):
     """Members of the 95 % set of every axis that was located."""
-    return {axis: [_item(found, k) for k in range(len(found.item)) if found.member[k]]
-            for axis, found in product.location.items()}
+    return {axis: [_item(located, k) for k in range(len(located.item)) if located.member[k]]
+            for axis, located in product.location.items()}
 
 
-def _item(found, k):
-    if found.unit.item():
-        return {"from": float(found.low[k]), "to": float(found.high[k]), "unit": found.unit.item()}
-    return str(found.item[k])
+def _item(located, k):
+    if located.unit.item():
+        return {"from": float(located.low[k]), "to": float(located.high[k]), "unit": located.unit.item()}
+    return str(located.item[k])
 
 
 def _fit(product, row, held_out):
     before, recalibrated, after, noise = (float(v) for v in product.fit[row])
     runs = [name for name, run in product.runs.items() if int(run.held_out) == held_out]
-    told = {"before": before, "recalibrated": recalibrated, "after": after, "noise_floor": noise, "runs": runs}
-    return told | ({"with_latent_force": _with_force(product)} if held_out and product.latent_predicted else {})
+    entry = {"before": before, "recalibrated": recalibrated, "after": after, "noise_floor": noise, "runs": runs}
+    return entry | ({"with_latent_force": _with_force(product)} if held_out and product.latent_predicted else {})
 
 
 def _with_force(product):
     """What the recalibrated nominal model leaves of the held-out runs with the latent force."""
-    by_run = {name: float(one.error) for name, one in product.latent_predicted.items()}
+    by_run = {name: float(prediction.error) for name, prediction in product.latent_predicted.items()}
     return {"label": LABEL, "value": float(np.sqrt(np.mean(np.square(list(by_run.values()))))), "by_run": by_run,
             "place": product.latent_place.item(),
             "force": [{"term": str(term), "value": float(value), "unit": str(unit)} for term, value, unit in zip(

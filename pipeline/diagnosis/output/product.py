@@ -69,7 +69,7 @@ def _latent(description):
     """Fields of the latent force of a Description or None."""
     if description is None:
         return {"latent_place": "", "latent_sentence": "", "latent": {}, "follows": {}}
-    return {"latent_place": description.place, "latent_sentence": description.sentence,
+    return {"latent_place": description.location, "latent_sentence": description.sentence,
             "latent": {name: LatentForce(time=run.time, force=run.force, std=run.std, displacement=run.displacement,
                                          velocity=run.velocity) for name, run in description.runs.items()},
             "follows": {f.name.replace(" ", "_"): Follows(share=f.share, p_value=f.p_value, unit=unit, centre=f.centre,

@@ -14,12 +14,12 @@ DRAWS = 20000
 class Match:
     """Of measured lines against those of a model.
 
-    ``found``: measured lines within their tolerance of a model line, which several may share; ``p_value``: how often as
-    many lines at random in the band are found as well; ``gain``: ln of the density of the measured lines under the
+    ``matched``: measured lines within their tolerance of a model line, which several may share; ``p_value``: how often
+    as many lines at random in the band match as well; ``gain``: ln of the density of the measured lines under the
     model over that of lines anywhere in the band.
     """
 
-    found: int
+    matched: int
     p_value: float
     gain: float
 
@@ -65,18 +65,18 @@ def match(measured, tolerance, model, band, draws=DRAWS, seed=0):
     if not len(model):
         return Match(0, 1.0, -np.inf)
     drawn = np.random.default_rng(seed).uniform(low, high, (draws, len(measured)))
-    found = _found(measured[None], tolerance, model)[0]
-    reached = np.count_nonzero(_found(drawn, tolerance, model) >= found)
+    matched = _matched(measured[None], tolerance, model)[0]
+    reached = np.count_nonzero(_matched(drawn, tolerance, model) >= matched)
     std = tolerance / 2
     density = np.exp(-0.5 * ((measured[:, None] - model) / std[:, None]) ** 2).mean(axis=1) / (std * np.sqrt(2 * np.pi))
     gain = float(np.sum(np.log(np.maximum(density, np.finfo(float).tiny) * (high - low))))
-    return Match(int(found), float((1 + reached) / (1 + draws)), gain)
+    return Match(int(matched), float((1 + reached) / (1 + draws)), gain)
 
 
-def _found(lines, tolerance, model):
+def _matched(lines, tolerance, model):
     """Number (d,) of the lines (d, n) within tolerance of the nearest model line."""
     ordered = np.sort(model)
-    place = np.searchsorted(ordered, lines)
-    left = np.abs(lines - ordered[np.maximum(place - 1, 0)])
-    right = np.abs(ordered[np.minimum(place, len(ordered) - 1)] - lines)
+    index = np.searchsorted(ordered, lines)
+    left = np.abs(lines - ordered[np.maximum(index - 1, 0)])
+    right = np.abs(ordered[np.minimum(index, len(ordered) - 1)] - lines)
     return np.count_nonzero(np.minimum(left, right) <= tolerance, axis=1)

@@ -39,13 +39,13 @@ class Features:
 
 @dataclass(frozen=True)
 class Alternative:
-    """What lists would show if ``effect`` acted at ``place``: ``shown`` {run: (n,)}; runs left out are as nominal.
+    """What lists would show if ``effect`` acted at ``location``: ``shown`` {run: (n,)}; runs left out are as nominal.
 
     ``scale``: prior of its share; above 1 for alternatives that could lie anywhere.
     """
 
     effect: str
-    place: str
+    location: str
     shown: dict
     kind: str = "physics"
     scale: float = 1.0
@@ -53,7 +53,7 @@ class Alternative:
     @property
     def hypothesis(self):
         """Its Hypothesis: one parameter, the fraction of it that acts."""
-        pair = (self.effect, self.place)
+        pair = (self.effect, self.location)
         share = Parameter(parameter_name(*pair, SHARE), "1", 0.0, HalfNormal(self.scale), 0.0)
         return Hypothesis(label((pair,)), (pair,), (share,), self.kind)
 
@@ -81,7 +81,7 @@ def list_problem(features, shown, alternatives, parameters=(), rules=DEFAULTS):
     """
     lists = tuple(Observed(name, {}, (f.channel,), np.asarray(f.samples, float)[None],
                           noise_std=np.asarray(f.std, float)[None]) for name, f in features.items())
-    known = {(a.effect, a.place): a for a in alternatives}
+    known = {(a.effect, a.location): a for a in alternatives}
     problem = Problem(lists, Blended(shown, known), nominal(parameters))
     return DiagnosisProblem(problem, budget(problem), tuple(a.hypothesis for a in alternatives),
                             {f.channel: f.unit for f in features.values()},

@@ -115,47 +115,47 @@ MECHANISMS = (Variant("loss_of_contact", reverses=False), Variant("stick", opens
 _SCALING = {"loss_of_contact": "load", "stick": "speed"}
 
 
-def shown(model, told, fan_out=map):
+def shown(model, section, fan_out=map):
     """{name: Shown} of all variants of a product ReducedModel under a section Harmonics."""
-    missing = set(told.spectra) - {str(n) for n in model.sensor_name}
+    missing = set(section.spectra) - {str(n) for n in model.sensor_name}
     if missing:
         raise ConfigError("diagnosis.lines.spectra", f"sensors among {', '.join(map(str, model.sensor_name))}",
                           ", ".join(sorted(missing)))
-    every = (*MECHANISMS, *([Variant("published", as_published=True)] if told.published else []))
-    return {one.variant.name: one for one in fan_out(partial(_move, model, told), every)}
+    variants = (*MECHANISMS, *([Variant("published", as_published=True)] if section.published else []))
+    return {motion.variant.name: motion for motion in fan_out(partial(_move, model, section), variants)}
 
 
-def _move(model, told, variant):
-    laws, step, duration, every = told, told.step, told.duration, _EVERY
+def _move(model, section, variant):
+    laws, step, duration, every = section, section.step, section.duration, _EVERY
     if variant.as_published:
-        laws, step, duration, every = told.model_copy(update={"rule": "newmark"}), told.published.step, \
-            told.published.window, 1
-    bench = about(model, laws, "diagnosis.lines", 0, told.speed, step)
+        laws, step, duration, every = section.model_copy(update={"rule": "newmark"}), section.published.step, \
+            section.published.window, 1
+    bench = about(model, laws, "diagnosis.lines", 0, section.speed, step)
     if variant.falls:
         rise, share = _FALLING
-        decay = share * told.speed * float(np.mean(model.contact_lever))
+        decay = share * section.speed * float(np.mean(model.contact_lever))
         bench = compose(bench, [Term(named("falling_friction"), "contact", {"rise": rise, "decay_speed": decay})])
-    drive = told.speed * variant.speed * (1.0 if variant.reverses else told.one_way_speed)
-    inputs = model.pressure[0] * model.input_area * variant.load * (1.0 if variant.opens else told.closing_load)
-    system = modal_system(bench.model, "diagonal" if variant.as_published else "full", told.highest_frequency)
+    drive = section.speed * variant.speed * (1.0 if variant.reverses else section.one_way_speed)
+    inputs = model.pressure[0] * model.input_area * variant.load * (1.0 if variant.opens else section.closing_load)
+    system = modal_system(bench.model, "diagonal" if variant.as_published else "full", section.highest_frequency)
     start = steady_start(bench.model, bench.law, constant(0.0) if variant.as_published else bench.friction, inputs)
-    kick = random_kick(system, bench.model.sensor_rows, 0.0 if variant.as_published else told.kick, told.seed)
+    kick = random_kick(system, bench.model.sensor_rows, 0.0 if variant.as_published else section.kick, section.seed)
     motion = simulate(bench.model, bench.law, bench.friction, step=step, duration=duration, inputs=inputs, drive=drive,
                       record_every=every, system=system, start=start.kicked(kick), book=False)
-    return _shown(model, told, variant, motion, step * every)
+    return _shown(model, section, variant, motion, step * every)
 
 
-def _shown(model, told, variant, motion, interval):
+def _shown(model, section, variant, motion, interval):
     names = [str(n) for n in model.sensor_name]
-    window = told.published.window if variant.as_published else told.window
-    signals = {name: motion.velocity[names.index(name)] for name in told.spectra}
-    base = np.mean([cycle(s, interval, window, 1.0, told.lowest_frequency).frequency for s in signals.values()])
+    window = section.published.window if variant.as_published else section.window
+    signals = {name: motion.velocity[names.index(name)] for name in section.spectra}
+    base = np.mean([cycle(s, interval, window, 1.0, section.lowest_frequency).frequency for s in signals.values()])
     levels, strength = {}, {}
     for name, signal in signals.items():
-        amplitude = harmonic_levels(signal[-round(window / interval):], 1 / interval, base, told.lines)
+        amplitude = harmonic_levels(signal[-round(window / interval):], 1 / interval, base, section.lines)
         strength[name] = float(amplitude[0])
-        if told.spectra[name].quantity == "acceleration":
-            amplitude = amplitude * np.arange(1, told.lines + 1)
+        if section.spectra[name].quantity == "acceleration":
+            amplitude = amplitude * np.arange(1, section.lines + 1)
         levels[name] = 20 * np.log10(np.maximum(amplitude / amplitude[0], 1e-15))
     share = np.mean(np.reshape(motion.status_share, (-1, 3)), axis=0)
     return Shown(variant, float(base), levels, strength, float(share[0]), float(share[1]))
@@ -169,21 +169,22 @@ def growing(modes):
     return roots[np.argmax(roots.real)]
 
 
-def harmonics_problem(recording, told, motions, modes, rules=DEFAULTS):
+def harmonics_problem(recording, section, motions, modes, rules=DEFAULTS):
     """DiagnosisProblem over the recorded lines: which of them stand in each spectrum, and their base frequency.
 
     The nominal model is the small motion of ComplexModes ``modes``: its fastest growing mode and nothing else.
     """
-    lists = {name: lines_of(recording, told.run, s.list) for name, s in told.spectra.items()}
-    bases = {name: (one.frequency[0], one.frequency_tolerance[0]) for name, one in lists.items()}
+    lists = {name: lines_of(recording, section.run, s.list) for name, s in section.spectra.items()}
+    bases = {name: (lines.frequency[0], lines.frequency_tolerance[0]) for name, lines in lists.items()}
     frequency, tolerance = np.mean(list(bases.values()), axis=0)
-    std = np.full(told.lines, rules.lists.half_std)
-    features = {name: Features("line", "1", _stands(one, frequency, told.lines), std) for name, one in lists.items()}
+    std = np.full(section.lines, rules.lists.half_std)
+    features = {name: Features("line", "1", _stands(lines, frequency, section.lines), std)
+                for name, lines in lists.items()}
     features[BASE] = Features("frequency", "Hz", [frequency], [tolerance / 2])
-    alone = np.concatenate(([1.0], np.zeros(told.lines - 1)))
+    alone = np.concatenate(([1.0], np.zeros(section.lines - 1)))
     nominal = {**dict.fromkeys(lists, alone), BASE: np.array([_hertz(growing(modes))])}
     return list_problem(features, nominal, [
-        Alternative(m.name, "contact", _features(motions[m.name], told, rules.lists.soft)) for m in MECHANISMS],
+        Alternative(m.name, "contact", _features(motions[m.name], section, rules.lists.soft)) for m in MECHANISMS],
         rules=rules)
 
 
@@ -194,35 +195,36 @@ def _stands(lines, base, count):
     return near.any(axis=1).astype(float)
 
 
-def _features(motion, told, soft):
-    found = {name: scipy.special.ndtr((level + told.spectra[name].range) / soft)
+def _features(motion, section, soft):
+    features = {name: scipy.special.ndtr((level + section.spectra[name].range) / soft)
              for name, level in motion.levels.items()}
-    return {**found, BASE: np.array([motion.base])}
+    return {**features, BASE: np.array([motion.base])}
 
 
-def outcomes(model, told, motions, effects, fan_out=map):
+def outcomes(model, section, motions, effects, fan_out=map):
     """{condition: {effect: (m,), over their standard deviation}} of other records of the ``effects`` of MECHANISMS.
 
     Amplitudes at twice the load and at twice the speed over those of the record are computed by further motions, but
     where the equations scale; a condition under which one of them cannot be computed is left out.
     """
-    found = {"measured = levels of all lines, with the range of the analyser":
-             {e: np.concatenate([np.maximum(level, -told.spectra[name].range) / _LEVEL_STD
+    computed = {
+        "measured = levels of all lines, with the range of the analyser":
+             {e: np.concatenate([np.maximum(level, -section.spectra[name].range) / _LEVEL_STD
                                  for name, level in motions[e].levels.items()]) for e in effects},
              "measured = share of the time that the contact is open, by its resistance":
              {e: np.array([motions[e].open_share / _SHARE_STD]) for e in effects}}
     for name, condition, factors in (("load", "normal_load = twice that of the record", {"load": 2.0}),
-                                     ("speed", f"speed = {2 * told.speed:.4g} rad/s", {"speed": 2.0})):
+                                     ("speed", f"speed = {2 * section.speed:.4g} rad/s", {"speed": 2.0})):
         again = {m.name: replace(m, **factors) for m in MECHANISMS if m.name in effects and m.name not in _SCALING}
-        moved = dict(zip(again, fan_out(partial(_tried, model, told), again.values()), strict=True))
+        moved = dict(zip(again, fan_out(partial(_tried, model, section), again.values()), strict=True))
         if None not in moved.values():
-            found[condition] = {e: _ratio(e, name, motions, moved) / _RATIO_STD for e in effects}
-    return found
+            computed[condition] = {e: _ratio(e, name, motions, moved) / _RATIO_STD for e in effects}
+    return computed
 
 
-def _tried(model, told, variant):
+def _tried(model, section, variant):
     try:
-        return _move(model, told, variant)
+        return _move(model, section, variant)
     except BrakechainError:
         return None
 
@@ -235,20 +237,20 @@ def _ratio(effect, name, motions, moved):
     return np.array([np.log(moved[effect].amplitude[sensor] / a) for sensor, a in before.items()])
 
 
-def harmonics_reasons(recording, told, motions, modes):
+def harmonics_reasons(recording, section, motions, modes):
     """Sentences from the computed motions, and on the published computation where there is one."""
     root = growing(modes)
     reasons = [f"the nominal model, small motion in permanent contact, grows at {_hertz(root):.0f} Hz by"
                f" {root.real:.0f} 1/s: one line and no harmonic"]
-    reasons += [_of_motion(motions[m.name], told) for m in MECHANISMS]
+    reasons += [_of_motion(motions[m.name], section) for m in MECHANISMS]
     reasons.append("with loss of contact alone amplitudes are proportional to the load and do not depend on the"
                    " speed, with stick and reversal alone they are proportional to the speed and do not depend on the"
                    " load (the equations scale): levels at two loads and two speeds tell them apart")
-    return reasons + (_of_published(recording, told, motions, root) if told.published else [])
+    return reasons + (_of_published(recording, section, motions, root) if section.published else [])
 
 
-def _of_motion(motion, told):
-    seen = " and ".join(f"{int((level > -told.spectra[name].range).sum())} of {len(level)} lines at the {name}"
+def _of_motion(motion, section):
+    seen = " and ".join(f"{int((level > -section.spectra[name].range).sum())} of {len(level)} lines at the {name}"
                         f" ({', '.join(f'{v:.0f}' for v in level[1:])} dB)" for name, level in motion.levels.items())
     return (f"{motion.variant.name.replace('_', ' ')}: base {motion.base:.0f} Hz, {seen}; open {motion.open_share:.0%},"
             f" sticking {motion.stick_share:.0%} of the time")
@@ -268,17 +270,17 @@ def _hertz(root):
     return abs(root.imag) / (2 * np.pi)
 
 
-def _of_published(recording, told, motions, root):
-    p, found = told.published, motions["published"]
+def _of_published(recording, section, motions, root):
+    p, motion = section.published, motions["published"]
     line = float(lines_of(recording, p.run, p.list).frequency[0])
-    own, base = _hertz(root), motions["loss_of_contact_and_stick"].base
+    mode, base = _hertz(root), motions["loss_of_contact_and_stick"].base
     return [
         f"{line:.0f} Hz as published: if the trapezoidal rule stepped it by {1e6 * p.step:.3g} us, the mode behind it"
         f" lies at {unstepped(line, p.step):.0f} Hz and {line - unstepped(line, p.step):+.0f} Hz of it are the time"
-        f" step; the growing mode of this model, {own:.0f} Hz, would be shown at {stepped(own, p.step):.0f} Hz"
-        f" ({stepped(own, p.step) - own:+.0f} Hz); lines of {1e3 * p.window:.3g} ms are {1 / p.window:.0f} Hz apart",
+        f" step; the growing mode of this model, {mode:.0f} Hz, would be shown at {stepped(mode, p.step):.0f} Hz"
+        f" ({stepped(mode, p.step) - mode:+.0f} Hz); lines of {1e3 * p.window:.3g} ms are {1 / p.window:.0f} Hz apart",
         f"{1e3 * p.window:.3g} ms: small motion grows {np.exp(root.real * p.window):.3g} times in them; both"
-        f" mechanisms, stepped and windowed as published, {_of_motion(found, told).partition(': ')[2]}; nothing shows"
-        " there that had to settle",
-        f"spectra to {1e-3 * p.band:.3g} kHz hold {int(p.band // base)} of {told.lines} lines of {base:.0f} Hz: the"
+        f" mechanisms, stepped and windowed as published, {_of_motion(motion, section).partition(': ')[2]}; nothing"
+        " shows there that had to settle",
+        f"spectra to {1e-3 * p.band:.3g} kHz hold {int(p.band // base)} of {section.lines} lines of {base:.0f} Hz: the"
         " others could not show, however long the motion"]

@@ -58,15 +58,15 @@ class Table:
         return self.test / self.model - 1
 
 
-def table(recording, told, rules=DEFAULTS.lists):
+def table(recording, section, rules=DEFAULTS.lists):
     """Table of a product Recording under a section ModeTable; the tolerance of a line counts as two deviations."""
-    test, model = (lines_of(recording, run, told.list) for run in (told.measured, told.computed))
+    test, model = (lines_of(recording, run, section.list) for run in (section.measured, section.computed))
     names, known = [str(n) for n in test.label], [str(n) for n in model.label]
     groups = _modes(model, rules.twins)
-    pairs = told.pairs or _nearest(names, test, groups)
+    pairs = section.pairs or _nearest(names, test, groups)
     wrong = [n for n in (*pairs, *(m for group in pairs.values() for m in group)) if n not in (*names, *known)]
     if wrong or set(pairs) != set(names):
-        raise ConfigError("diagnosis.lines.pairs", f"every one of {', '.join(names)}, with lines of {told.computed}",
+        raise ConfigError("diagnosis.lines.pairs", f"every one of {', '.join(names)}, with lines of {section.computed}",
                           ", ".join(wrong or sorted(set(names) - set(pairs))))
     frequency = dict(zip(known, model.frequency, strict=True))
     taken = {m for group in pairs.values() for m in group}
@@ -76,37 +76,37 @@ def table(recording, told, rules=DEFAULTS.lists):
                  tuple(g for g in groups if not taken & set(g[0])))
 
 
-def mode_problem(rows, structure, told, rules=DEFAULTS):
+def mode_problem(rows, structure, section, rules=DEFAULTS):
     """DiagnosisProblem of a Table: the printed pairs as nominal model, beside it other pairs, mesh, support, kind of
     mode."""
     features = {n: Features("frequency", "Hz", [t], [s])
                 for n, t, s in zip(rows.name, rows.test, rows.std, strict=True)}
-    factor = Parameter(FACTOR, "1", 1.0, LogNormal(1.0, told.factor_spread))
+    factor = Parameter(FACTOR, "1", 1.0, LogNormal(1.0, section.factor_spread))
     others = alternatives(rows, structure, rules.lists)
     return list_problem(features, _shown(rows, rows.model), others, (factor,), rules)
 
 
 def alternatives(rows, structure=None, rules=DEFAULTS.lists):
     """Alternatives to the printed pairs; those that need shapes only with a product Structure."""
-    found = [Alternative("mis_paired", f"{rows.name[i]} as {'/'.join(g[0])}",
+    others = [Alternative("mis_paired", f"{rows.name[i]} as {'/'.join(g[0])}",
                          {rows.name[i]: np.array([g[1]])}, "sensor") for i, g in nearer(rows)]
-    found += [Alternative("mis_paired", f"{rows.name[i]} exchanged with {rows.name[k]}",
+    others += [Alternative("mis_paired", f"{rows.name[i]} exchanged with {rows.name[k]}",
                           {rows.name[i]: rows.model[[k]], rows.name[k]: rows.model[[i]]}, "sensor")
               for i, k in exchanges(rows)]
-    found += [Alternative("unlisted_partner", name, {name: rows.test[[i]]}, "sensor", rules.anywhere)
+    others += [Alternative("unlisted_partner", name, {name: rows.test[[i]]}, "sensor", rules.anywhere)
               for i, name in enumerate(rows.name)]
     rising = rows.model / rows.model.max()
-    found.append(Alternative("rise_with_frequency", "computed modes",
+    others.append(Alternative("rise_with_frequency", "computed modes",
                              _shown(rows, rows.model * (1 - rules.change * rising)), "numerics"))
     single = rows.partners == 1
     if single.any() and not single.all():
-        for place, sign in (("single modes too stiff", -1), ("single modes too soft", 1)):
-            found.append(Alternative("axisymmetric_stiffness", place,
+        for change, sign in (("single modes too stiff", -1), ("single modes too soft", 1)):
+            others.append(Alternative("axisymmetric_stiffness", change,
                                      _shown(rows, rows.model * (1 + sign * rules.change * single))))
     if structure is not None:
-        found.append(Alternative("support", "computed disc held, measured free",
+        others.append(Alternative("support", "computed disc held, measured free",
                                  _shown(rows, rows.model / held_ratio(rows, structure, rules))))
-    return tuple(found)
+    return tuple(others)
 
 
 def nearer(rows):
@@ -141,24 +141,23 @@ def held_ratio(rows, structure, rules=DEFAULTS.lists):
     return ratio
 
 
-def mode_reasons(rows, found, rules=DEFAULTS.lists):
+def mode_reasons(rows, diagnosis, rules=DEFAULTS.lists):
     """Sentences on a Table and the Diagnosis over it, from its numbers."""
-    null = found.base.null if found.base else found.null
+    null = diagnosis.base.null if diagnosis.base else diagnosis.null
     off = np.array([r[0] for r in null.residuals])
-    told = [f"{rows.name[i]}: {rows.test[i]:.1f} Hz measured beside {rows.model[i]:.1f} Hz computed"
-            f" ({rows.difference[i]:+.1%},"
-            f" {abs(off[i]):.1f} standard deviations; the tolerance of the row, an inferred number, counts as two)"
-            for i in np.argsort(-np.abs(off)) if abs(off[i]) > rules.outlying]
-    told.append(_of_factor(rows, null, rules))
-    told += [_of_pair(rows, i, mode) for i, mode in nearer(rows)]
+    outlying = [int(i) for i in np.argsort(-np.abs(off)) if abs(off[i]) > rules.outlying]
+    reasons = [f"{rows.name[i]}: {rows.test[i]:.1f} Hz measured beside {rows.model[i]:.1f} Hz computed"
+               f" ({rows.difference[i]:+.1%}, {abs(off[i]):.1f} standard deviations; the tolerance of the row, an"
+               " inferred number, counts as two)" for i in outlying]
+    reasons.append(_of_factor(rows, null, rules))
+    reasons += [_of_pair(rows, i, mode) for i, mode in nearer(rows)]
     other = {i for i, _ in nearer(rows)} | {i for pair in exchanges(rows) for i in pair}
-    told += [f"{rows.name[i]}: no printed mode lies nearer than its partner, alone or exchanged: it is not mis-paired"
-             " within the table" for i in range(len(off)) if abs(off[i]) > rules.outlying and i not in other]
-    signs = {np.sign(off[i]) for i in range(len(off)) if abs(off[i]) > rules.outlying}
-    if len(signs) == 2:
-        told.append("the rows that differ most do so in opposite directions: one added stiffness or mass moves all"
-                    " modes the same way and cannot explain both")
-    return told
+    reasons += [f"{rows.name[i]}: no printed mode lies nearer than its partner, alone or exchanged: it is not"
+                " mis-paired within the table" for i in sorted(outlying) if i not in other]
+    if len({np.sign(off[i]) for i in outlying}) == 2:
+        reasons.append("the rows that differ most do so in opposite directions: one added stiffness or mass moves all"
+                       " modes the same way and cannot explain both")
+    return reasons
 
 
 def _of_factor(rows, null, rules):
@@ -178,13 +177,13 @@ def _of_pair(rows, i, mode):
     every = np.log(np.concatenate((rows.model, [g[1] for g in rows.spare])))
     share = covered(spare, apart, (every.min(), every.max()))
     kind = {1: "single", 2: "a pair"}
-    told = (f"{rows.name[i]}: {frequency:.1f} Hz ({'/'.join(names)}), which the table pairs with nothing, lies"
+    sentence = (f"{rows.name[i]}: {frequency:.1f} Hz ({'/'.join(names)}), which the table pairs with nothing, lies"
             f" {rows.test[i] / frequency - 1:+.1%} away instead of {rows.difference[i]:+.1%}; a line at random finds a"
             f" spare mode as near with probability {share:.0%}, one of {len(rows.name)} with"
             f" {chance(share, len(rows.name)):.0%}, so that frequency alone does not prove it")
     if partners and rows.partners[i] and partners != rows.partners[i]:
-        told += f"; against it: the mode is {kind[partners]}, the row is counted as {kind[int(rows.partners[i])]}"
-    return told
+        sentence += f"; against it: the mode is {kind[partners]}, the row is counted as {kind[int(rows.partners[i])]}"
+    return sentence
 
 
 def _modes(lines, twins):
@@ -209,11 +208,11 @@ def _nearest(names, test, groups):
 
 def _kinds(frequency, diameters):
     """{nodal diameters: frequencies (k,)}, the two of a pair once."""
-    found = {}
+    kinds = {}
     for n in np.unique(diameters):
-        own = np.sort(frequency[diameters == n])
-        found[int(n)] = own[np.concatenate(([True], np.diff(np.log(own)) > 1e-3))]
-    return found
+        frequencies = np.sort(frequency[diameters == n])
+        kinds[int(n)] = frequencies[np.concatenate(([True], np.diff(np.log(frequencies)) > 1e-3))]
+    return kinds
 
 
 def _shown(rows, frequency):

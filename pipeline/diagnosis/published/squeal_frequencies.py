@@ -38,78 +38,80 @@ class Claim:
     """What would sound at ``lines`` (k,) Hz if ``effect`` were what the chain leaves out, and its Match."""
 
     effect: str
-    place: str
+    location: str
     says: str
     lines: np.ndarray
     match: Match
 
 
-def heard(recording, told):
-    """Lines of the section ``told`` and the tolerance (n,) [Hz] of their agreement with a model."""
-    seen = lines_of(recording, told.run, told.list)
-    return seen, np.hypot(seen.frequency_tolerance, told.model_error * seen.frequency)
+def heard(recording, section):
+    """Lines of the section ``section`` and the tolerance (n,) [Hz] of their agreement with a model."""
+    seen = lines_of(recording, section.run, section.list)
+    return seen, np.hypot(seen.frequency_tolerance, section.model_error * seen.frequency)
 
 
-def claims(recording, told, modes):
+def claims(recording, section, modes):
     """Claims on the recorded lines from a product ComplexModes."""
-    seen, tolerance = heard(recording, told)
+    seen, tolerance = heard(recording, section)
     heaviest = np.lexsort((modes.operating_speed, modes.operating_pressure))[-1]
     every = np.unique(np.abs(modes.operating_root[heaviest].imag) / (2 * np.pi))
-    if every.max() < told.high:
+    if every.max() < section.high:
         raise ConfigError("diagnosis.lines.high", f"at most {every.max():.0f} Hz, where the complex modes end",
-                          f"{told.high:.0f} Hz", "raise complex_modes.frequency_max")
+                          f"{section.high:.0f} Hz", "raise complex_modes.frequency_max")
     growing = np.abs(modes.unstable_root.imag) / (2 * np.pi)
-    multiples = np.concatenate([np.empty(0), *(f * np.arange(2, told.high // f + 1) for f in growing)])
+    multiples = np.concatenate([np.empty(0), *(f * np.arange(2, section.high // f + 1) for f in growing)])
     listed = [("saturated_motion", "contact", "multiples of growing complex modes", multiples)]
     listed += [(*pair, "complex modes, growing or not", every) for pair in _ANY_MODE]
-    return tuple(Claim(effect, place, says, lines, match(seen.frequency, tolerance, lines, (told.low, told.high)))
-                 for effect, place, says, lines in listed)
+    band = section.low, section.high
+    return tuple(Claim(effect, location, says, lines, match(seen.frequency, tolerance, lines, band))
+                 for effect, location, says, lines in listed)
 
 
-def squeal_problem(recording, told, found, rules=DEFAULTS):
+def squeal_problem(recording, section, claimed, rules=DEFAULTS):
     """DiagnosisProblem over which lines are explained: none by forces on a rigid disc, and by each of the Claims."""
-    seen, tolerance = heard(recording, told)
+    seen, tolerance = heard(recording, section)
     names = [str(n) for n in seen.label]
     features = {n: Features("explained", "1", [1.0], [rules.lists.half_std]) for n in names}
     nothing = {n: np.zeros(1) for n in names}
-    return list_problem(features, nothing, [Alternative(c.effect, c.place, {
+    return list_problem(features, nothing, [Alternative(c.effect, c.location, {
         n: np.array([float(rare and np.any(np.abs(c.lines - f) <= t))])
         for n, f, t in zip(names, seen.frequency, tolerance, strict=True)})
-        for c, rare in zip(found, rarely(found, rules.lists), strict=True)], rules=rules)
+        for c, rare in zip(claimed, rarely(claimed, rules.lists), strict=True)], rules=rules)
 
 
-def rarely(found, rules=DEFAULTS.lists):
+def rarely(claimed, rules=DEFAULTS.lists):
     """True (c,) for Claims whose agreement is rare by chance, over all of them."""
-    return [c.match.p_value <= rules.chance / len(found) for c in found]
+    return [c.match.p_value <= rules.chance / len(claimed) for c in claimed]
 
 
-def undecided(found, recording, told):
+def undecided(claimed, recording, section):
     """Indices of the Claims that meet every line, though lines at random would too."""
-    count = len(lines_of(recording, told.run, told.list).frequency)
-    return [i for i, c in enumerate(found) if c.match.found == count]
+    count = len(lines_of(recording, section.run, section.list).frequency)
+    return [i for i, c in enumerate(claimed) if c.match.matched == count]
 
 
-def squeal_reasons(recording, told, found, modes, structure=None, rules=DEFAULTS.lists):
+def squeal_reasons(recording, section, claimed, modes, structure=None, rules=DEFAULTS.lists):
     """Sentences from the matches, and what precision or which shape would decide."""
-    seen, tolerance = heard(recording, told)
-    count, band = len(seen.frequency), (told.low, told.high)
-    where = f"between {1e-3 * told.low:.3g} and {1e-3 * told.high:.3g} kHz"
+    seen, tolerance = heard(recording, section)
+    count, band = len(seen.frequency), (section.low, section.high)
+    where = f"between {1e-3 * section.low:.3g} and {1e-3 * section.high:.3g} kHz"
     grow = np.count_nonzero(_within(np.abs(modes.unstable_root.imag) / (2 * np.pi), band))
-    said = ["left out by the chain: the disc is rigid where forces are computed, which then excite its modes one way;"
-            f" {count} lines were heard, and none follows from that",
-            f"{grow or 'none'} of the complex modes {where} {'grow' if grow > 1 else 'grows'} in this model, whose"
-            " pads, joints and damping there are assumed"]
-    for c in found:
-        own = np.count_nonzero(_within(c.lines, band))
-        gain = f", ln density over random lines {c.match.gain:+.1f}" if own else ""
-        said.append(f"{c.effect} ({c.says}): {own} lines {where}, {c.match.found} of {count} heard ones within"
-                    f" tolerance; as many lines at random are met with probability {c.match.p_value:.2g}{gain}")
-    spacing = (told.high - told.low) / max(np.count_nonzero(_within(found[-1].lines, band)), 1)
-    needed = needed_tolerance(found[-1].lines, band, count, rules.chance)
-    said.append(f"a mode every {spacing:.0f} Hz: for agreement of {count} lines to be rarer than"
-                f" {100 * rules.chance:g} % by chance they had to be known, and the model right, within"
-                f" {needed:.1f} Hz; print and model leave {tolerance.max():.0f} Hz: frequencies alone cannot decide")
-    return said + (_of_shapes(seen, tolerance, structure, rules) if structure is not None else [])
+    reasons = ["left out by the chain: the disc is rigid where forces are computed, which then excite its modes one"
+               f" way; {count} lines were heard, and none follows from that",
+               f"{grow or 'none'} of the complex modes {where} {'grow' if grow > 1 else 'grows'} in this model, whose"
+               " pads, joints and damping there are assumed"]
+    for c in claimed:
+        count_in_band = np.count_nonzero(_within(c.lines, band))
+        gain = f", ln density over random lines {c.match.gain:+.1f}" if count_in_band else ""
+        reasons.append(f"{c.effect} ({c.says}): {count_in_band} lines {where}, {c.match.matched} of {count} heard ones"
+                       " within tolerance; as many lines at random are met with probability"
+                       f" {c.match.p_value:.2g}{gain}")
+    spacing = (section.high - section.low) / max(np.count_nonzero(_within(claimed[-1].lines, band)), 1)
+    needed = needed_tolerance(claimed[-1].lines, band, count, rules.chance)
+    reasons.append(f"a mode every {spacing:.0f} Hz: for agreement of {count} lines to be rarer than"
+                   f" {100 * rules.chance:g} % by chance they had to be known, and the model right, within"
+                   f" {needed:.1f} Hz; print and model leave {tolerance.max():.0f} Hz: frequencies alone cannot decide")
+    return reasons + (_of_shapes(seen, tolerance, structure, rules) if structure is not None else [])
 
 
 def _within(lines, band):
@@ -124,12 +126,12 @@ def needed_tolerance(lines, band, count, level=0.01):
 def _of_shapes(seen, tolerance, structure, rules):
     shape = structure.disc.shape
     diameters, axial = describe(structure.disc.node, shape.reshape(len(shape), -1).T)
-    said = []
+    reasons = []
     for line, width in zip(seen.frequency, tolerance, strict=True):
         near = (np.abs(structure.disc.frequency - line) <= width) & (axial > rules.axial)
-        own = ", ".join(str(n) for n in np.unique(diameters[near]))
-        if own:
-            said.append(f"modes of the disc alone within {width:.0f} Hz of {1e-3 * line:.3g} kHz have {own} nodal"
-                        f" diameters: a scan that"
-                        " counts them chooses between modes, which frequencies do not")
-    return said
+        diameters_near = ", ".join(str(n) for n in np.unique(diameters[near]))
+        if diameters_near:
+            reasons.append(f"modes of the disc alone within {width:.0f} Hz of {1e-3 * line:.3g} kHz have"
+                           f" {diameters_near} nodal diameters: a scan that counts them chooses between"
+                           " modes, which frequencies do not")
+    return reasons

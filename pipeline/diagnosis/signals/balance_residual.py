@@ -68,7 +68,7 @@ class DescribeBalance:
     def predicted(self, diagnosis, description):
         """LatentUse of a Description on the held-out runs: forces that their motions need."""
         names = [name.removeprefix(PREFIX) for name in channel_names(self.bench)]
-        return used(self.bench, np.eye(self.bench.model.size)[names.index(description.place)], description,
+        return used(self.bench, np.eye(self.bench.model.size)[names.index(description.location)], description,
                     self.problem, self.budget, diagnosis.recalibrated, BalancedRuns(self.balances), self.rules)
 
     def _run(self, bench, name, coordinate):

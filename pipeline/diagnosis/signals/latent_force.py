@@ -36,10 +36,10 @@ class LatentRun:
 
 @dataclass(frozen=True)
 class Description:
-    """``runs`` {name: LatentRun} of the force at ``place``; ``follows``: (Dependence, unit of its regressor);
+    """``runs`` {name: LatentRun} of the force at ``location``; ``follows``: (Dependence, unit of its regressor);
     ``regimes``: axes of location."""
 
-    place: str
+    location: str
     runs: dict
     follows: tuple
     regimes: dict
@@ -68,7 +68,7 @@ class Describe:
 
     def predicted(self, diagnosis, description):
         """LatentUse of a Description on the held-out runs."""
-        return used(self.bench, places(self.bench)[description.place][0], description, self.problem, self.budget,
+        return used(self.bench, places(self.bench)[description.location][0], description, self.problem, self.budget,
                     diagnosis.recalibrated, SimulatedRuns(self.runs), self.rules)
 
 
@@ -82,20 +82,20 @@ class SimulatedRuns:
         return shown(bench, self.runs[run.name].until(run.samples.shape[1]), run.channels)
 
 
-def describe(bench, runs, held_out, place, draws=2000, seed=0, rules=DEFAULTS.latent_force):
-    """Description of the force missing at ``place`` of a fitted Bench, or None where no frequency rises above noise.
+def describe(bench, runs, held_out, location, draws=2000, seed=0, rules=DEFAULTS.latent_force):
+    """Description of the force missing at ``location`` of a fitted Bench, or None where no frequency rises above noise.
 
     ``runs`` {name: (Run, Observed, Noise)}; runs ``held_out`` are transformed, but nothing is learned from them.
     """
-    row = places(bench)[place][0]
+    row = places(bench)[location][0]
     forces = {name: force for name, parts in runs.items()
               if (force := latent_run(bench, row, *parts, rules.above_noise)) is not None}
     learned = [force for name, force in forces.items() if name not in held_out]
     if not learned:
         return None
     follows = dependences(learned, seed)
-    return Description(place, forces, follows, regimes(learned, draws, seed),
-                       sentence(place, learned, follows, rules.dependence_p))
+    return Description(location, forces, follows, regimes(learned, draws, seed),
+                       sentence(location, learned, follows, rules.dependence_p))
 
 
 def latent_run(bench, row, run, observed, noise, above_noise=DEFAULTS.latent_force.above_noise):
@@ -117,14 +117,14 @@ def latent_run(bench, row, run, observed, noise, above_noise=DEFAULTS.latent_for
 def dependences(runs, seed=0):
     """(Dependence, unit) of the force of LatentRuns on displacement, velocity, angle of the drive and time."""
     force, x, v = (np.concatenate([getattr(r, key) for r in runs]) for key in ("force", "displacement", "velocity"))
-    found = [(gp_latent_force.dependence("displacement", force, x, seed=seed), "m"),
+    follows = [(gp_latent_force.dependence("displacement", force, x, seed=seed), "m"),
              (gp_latent_force.dependence("velocity", force, v, seed=seed), "m/s")]
     if all(r.angle is not None for r in runs):
         angle = np.concatenate([r.angle for r in runs])
         turned = gp_latent_force.dependence("angle of the drive", force, np.mod(angle, 2 * np.pi), seed=seed)
         share, p_value = gp_latent_force.order_locked(force, angle, seed=seed)
-        found.append((replace(turned, share=share, p_value=p_value), "rad"))
-    return (*found, (_drift(max(runs, key=lambda r: len(r.time)), seed), "s"))
+        follows.append((replace(turned, share=share, p_value=p_value), "rad"))
+    return (*follows, (_drift(max(runs, key=lambda r: len(r.time)), seed), "s"))
 
 
 def _drift(run, seed):
@@ -141,23 +141,23 @@ def regimes(runs, draws=2000, seed=0):
     axes = {"amplitude": (np.concatenate([np.abs(r.displacement) for r in runs]), "m"),
             "velocity": (np.concatenate([r.velocity for r in runs]), "m/s"),
             "time": (np.concatenate([r.time for r in runs]), "s")}
-    found = {}
+    located = {}
     for name, (coordinate, unit) in axes.items():
         edges = np.unique(np.quantile(coordinate, np.linspace(0, 1, BINS + 1)))
         if len(edges) > 2 and power.any():
             at = localisation.regimes(power, coordinate, edges, draws, seed)
             named = tuple(f"{low:.3g} to {high:.3g} {unit}" for low, high in at.items)
-            found[name] = (localisation.Location(named, at.score, at.p_value, at.members), unit, np.array(at.items))
-    return found
+            located[name] = (localisation.Location(named, at.score, at.p_value, at.members), unit, np.array(at.items))
+    return located
 
 
-def sentence(place, runs, follows, largest_p=DEFAULTS.latent_force.dependence_p):
+def sentence(location, runs, follows, largest_p=DEFAULTS.latent_force.dependence_p):
     """What the force is and follows, in one sentence."""
     force = np.concatenate([r.force for r in runs])
     power = float(np.mean(force * np.concatenate([r.velocity for r in runs])))
     clear = sorted((f for f, _ in follows if f.p_value <= largest_p), key=lambda f: -f.share)
     regressors = " and ".join(f"the {f.name} ({100 * f.share:.0f} % of its variation)" for f in clear[:2])
-    return (f"At {place} a force of {np.sqrt(np.mean(force**2)):.3g} N root mean square is missing; it"
+    return (f"At {location} a force of {np.sqrt(np.mean(force**2)):.3g} N root mean square is missing; it"
             f" follows {regressors or 'neither displacement nor velocity nor time clearly'} and"
             f" {'takes' if power < 0 else 'puts'} {abs(power):.3g} W {'out' if power < 0 else 'in'} on average:"
             f" {LABEL}.")

@@ -108,11 +108,11 @@ class Simulator(Protocol):
 
 @dataclass(frozen=True)
 class WithForce:
-    """Picklable prediction of a Bench with a LatentLaw at ``place`` along ``row`` (n,)."""
+    """Picklable prediction of a Bench with a LatentLaw at ``location`` along ``row`` (n,)."""
 
     bench: object
     row: np.ndarray
-    place: str
+    location: str
     law: LatentLaw
     simulator: Simulator
 
@@ -122,7 +122,7 @@ class WithForce:
 
     def name(self, term):
         """Name of the parameter of a term."""
-        return parameter_name(_FORCE, self.place, term)
+        return parameter_name(_FORCE, self.location, term)
 
     def law_of(self, values):
         """The LatentLaw with the ``values`` {name: value}; terms that resist are never turned round."""
@@ -140,7 +140,7 @@ def used(bench, row, description, problem, budget, null, simulator, rules=DEFAUL
     law = regressed(learned, description.follows, rules.latent_force.dependence_p)
     if law is None:
         return LatentUse({}, None, "The latent force follows nothing that a law can use: it predicts nothing.")
-    whole = WithForce(bench, row, description.place, law, simulator)
+    whole = WithForce(bench, row, description.location, law, simulator)
     terms = tuple(Parameter(whole.name(t), law.unit(t), c, Normal(c, law.size[t])) for t, c in law.coefficient.items())
     hypothesis = replace(null.hypothesis, name=_FORCE, parameters=null.hypothesis.parameters + terms)
     asked = Problem(problem.runs, whole, hypothesis)
@@ -152,7 +152,7 @@ def used(bench, row, description, problem, budget, null, simulator, rules=DEFAUL
         return LatentUse({}, law, f"With the latent force the runs could not be predicted: {error}")
     beyond = [run.name for run in problem.held_out if _beyond(description.runs.get(run.name), law.reach)]
     said = [f"A function of {', '.join(t for t in law.coefficient if t != _CONSTANT)}, fitted to the training runs,"
-            f" stands for the latent force at {description.place}, of which it explains {100 * law.share:.0f} %:"
+            f" stands for the latent force at {description.location}, of which it explains {100 * law.share:.0f} %:"
             f" {LABEL}."]
     if not refitted.ended(refitted.explains(null), rules.evidence.nothing_more):
         said.append("Its fit had not converged.")

@@ -99,10 +99,10 @@ def fitted(bench, fit):
 
 def residuals(problem, budget, fit):
     """{run name: whitened residual (m,)} of a Fit on all runs, those held out included."""
-    found, error = whitened(problem, [budget[r.name] for r in problem.runs], fit.hypothesis, fit.latent, problem.runs)
+    whites, error = whitened(problem, [budget[r.name] for r in problem.runs], fit.hypothesis, fit.latent, problem.runs)
     if error:
         raise error
-    return {run.name: white for run, white in zip(problem.runs, found, strict=True)}
+    return {run.name: white for run, white in zip(problem.runs, whites, strict=True)}
 
 
 def stage_of(effects):
@@ -150,9 +150,9 @@ def channel_axis(names, whites, budget, level=1.0, draws=2000, seed=0):
 
 def _power_axis(parts, level, draws, seed):
     """Location over the names of {name: [(whitened residual (m,), share of it that is effective)]}."""
-    power = np.array([np.mean(np.concatenate([white for white, _ in own]) ** 2) for own in parts.values()])
-    count = np.array([sum(len(white) for white, _ in own) for own in parts.values()])
-    real = np.array([sum(len(white) * share for white, share in own) for own in parts.values()])
+    power = np.array([np.mean(np.concatenate([white for white, _ in members]) ** 2) for members in parts.values()])
+    count = np.array([sum(len(white) for white, _ in members) for members in parts.values()])
+    real = np.array([sum(len(white) * share for white, share in members) for members in parts.values()])
     random = np.random.default_rng(seed)
     null = (random.gamma(count / 2, 2 / count, (draws, len(count))) - 1) * np.sqrt(count / 2)
     again = power * random.gamma(real / 2, 2 / real, (draws, len(count)))
@@ -167,8 +167,8 @@ def band_axis(runs, whites, budget, level=1.0, draws=2000, seed=0):
     rate = max(rates, key=rates.count)
     parts = [part for run in runs if run.rate == rate for part in budget[run.name].by_channel(whites[run.name])]
     edges = np.concatenate(([0.0], 0.5 * rate * 2.0 ** np.arange(-OCTAVES, 1)))
-    found = localisation.bands(np.concatenate(parts) / np.sqrt(level), rate, edges, draws, seed)
-    return _named(found, "Hz"), "Hz", np.array(found.items)
+    located = localisation.bands(np.concatenate(parts) / np.sqrt(level), rate, edges, draws, seed)
+    return _named(located, "Hz"), "Hz", np.array(located.items)
 
 
 def place_axis(bench, runs, null, weights, draws=2000, seed=0):
@@ -188,15 +188,15 @@ def places(bench):
     Places of parallel rows are one, named ``first = second``, because no recording can tell them apart.
     """
     model, contacts = bench.model, bench.model.contacts
-    found = {str(name): np.atleast_2d(row) for name, row in zip(model.joints.name, model.joints.rows, strict=True)}
+    rows_of = {str(name): np.atleast_2d(row) for name, row in zip(model.joints.name, model.joints.rows, strict=True)}
     for group in dict.fromkeys(("contact", *bench.groups)) if len(contacts.area) else ():
-        own = bench.contacts(group)
-        rows = np.array([contacts.tangent[own].mean(axis=0), contacts.normal[own].mean(axis=0)])
-        found[group] = rows[rows.any(axis=1)]
-    found |= {str(name): np.atleast_2d(row) for name, row in zip(model.sensor_name, model.sensor_rows, strict=True)
-              if name not in found}
+        members = bench.contacts(group)
+        rows = np.array([contacts.tangent[members].mean(axis=0), contacts.normal[members].mean(axis=0)])
+        rows_of[group] = rows[rows.any(axis=1)]
+    rows_of |= {str(name): np.atleast_2d(row) for name, row in zip(model.sensor_name, model.sensor_rows, strict=True)
+              if name not in rows_of}
     merged = []
-    for name, rows in found.items():
+    for name, rows in rows_of.items():
         if not rows.any():
             continue
         twin = next((m for m in merged if _alike(m[1], rows)), None)
@@ -218,8 +218,8 @@ def drive_angle(bench, run):
 def _alike(first, second):
     if len(first) != len(second):
         return False
-    one, other = (r / np.linalg.norm(r, axis=1, keepdims=True) for r in (first, second))
-    return bool((1 - np.abs(np.sum(one * other, axis=1)) < _ALIKE).all())
+    first_rows, second_rows = (r / np.linalg.norm(r, axis=1, keepdims=True) for r in (first, second))
+    return bool((1 - np.abs(np.sum(first_rows * second_rows, axis=1)) < _ALIKE).all())
 
 
 def _force(bench, runs):
@@ -230,28 +230,28 @@ def _force(bench, runs):
 
 
 def _joint_force(bench, runs):
-    found = [0.0]
+    forces = [0.0]
     for row, k, c in zip(bench.model.joints.rows, bench.model.joints.stiffness, bench.model.joints.damping,
                          strict=True):
         for run in runs:
             x, v = moved(bench, run, row)
-            found.append(float(np.sqrt(np.mean((k * x + c * v) ** 2))))
-    return max(found)
+            forces.append(float(np.sqrt(np.mean((k * x + c * v) ** 2))))
+    return max(forces)
 
 
 def _basis(bench, runs, null, rows, size):
     """(q, m) whitened change by a force ``size`` times each function of the motion, along each of ``rows``."""
-    before = [shown(bench, runs[run.name], run.channels) for run in null.runs]
+    unpushed_runs = [shown(bench, runs[run.name], run.channels) for run in null.runs]
     changes = []
     for row in rows:
         pushed = replace(bench, model=replace(bench.model, input_name=(*bench.model.input_name, EXTRA),
                                               input_rows=np.vstack((bench.model.input_rows, row))))
         parts = []
         tables = _tables(bench, runs, null, row)
-        for run, noise, told, table in zip(null.runs, null.noises, before, tables, strict=True):
-            one = runs[run.name]
+        for run, noise, unpushed, table in zip(null.runs, null.noises, unpushed_runs, tables, strict=True):
+            run_model = runs[run.name]
             parts.append(noise.whiten(np.array([
-                shown(pushed, replace(one, inputs={**one.inputs, EXTRA: size * f}), run.channels) - told
+                shown(pushed, replace(run_model, inputs={**run_model.inputs, EXTRA: size * f}), run.channels) - unpushed
                 for f in table])))
         changes.append(np.concatenate(parts, axis=1))
     return np.concatenate(changes)
@@ -267,10 +267,10 @@ def _tables(bench, runs, null, row):
 
 def _functions(x, v, angle):
     """Functions (q, n) of a motion: powers and products, a smooth sign, a constant, harmonics of an angle."""
-    found = [x, v, x**2, x * v, v**2, x**3, x**2 * v, x * v**2, v**3, np.tanh(5 * v), np.ones(len(x))]
+    functions = [x, v, x**2, x * v, v**2, x**3, x**2 * v, x * v**2, v**3, np.tanh(5 * v), np.ones(len(x))]
     if angle is not None:
-        found += [f(k * angle) for k in range(1, _ORDERS + 1) for f in (np.cos, np.sin)]
-    return np.array(found)
+        functions += [f(k * angle) for k in range(1, _ORDERS + 1) for f in (np.cos, np.sin)]
+    return np.array(functions)
 
 
 def _named(location, unit):

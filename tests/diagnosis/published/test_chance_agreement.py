@@ -26,20 +26,20 @@ def test_chance_is_that_of_any_of_independent_lines():
 def test_p_value_is_the_covered_share_to_the_number_of_lines():
     model = np.array([1200.0, 1400.0, 1700.0])
     found = match([1201.0, 1699.0], [10.0, 10.0], model, BAND)
-    assert found.found == 2 and found.p_value == pytest.approx(0.06**2, abs=0.0015)
+    assert found.matched == 2 and found.p_value == pytest.approx(0.06**2, abs=0.0015)
     assert found.gain > 5                                      # two lines, each to 5 Hz out of 1 kHz
 
 
 def test_a_dense_list_meets_anything_and_says_nothing():
     found = match([1234.0, 1777.0], [50.0, 50.0], np.arange(1000.0, 2001.0, 80.0), BAND)
-    assert found.found == 2 and found.p_value == 1.0 and abs(found.gain) < 1
+    assert found.matched == 2 and found.p_value == 1.0 and abs(found.gain) < 1
 
 
 def test_lists_at_random_are_rarely_matched():
     generator = np.random.default_rng(1)
     drawn = [match(generator.uniform(*BAND, 3), np.full(3, 5.0), generator.uniform(*BAND, 10), BAND, draws=2000, seed=k)
              for k in range(100)]
-    assert sum(m.p_value <= 0.01 and m.found == 3 for m in drawn) <= 3
+    assert sum(m.p_value <= 0.01 and m.matched == 3 for m in drawn) <= 3
 
 
 def test_lines_outside_the_band_are_refused():

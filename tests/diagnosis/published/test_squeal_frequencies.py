@@ -54,7 +54,7 @@ def test_multiples_of_a_growing_mode_that_meet_both_lines_are_named():
     """Two lines of four in the band, 20 Hz wide in 3.2 kHz: rare by chance."""
     found = claims(recording(), TOLD, modes([900.0, 16000.0], growing=[1186.0]))
     multiple = next(c for c in found if c.effect == "saturated_motion")
-    assert multiple.match.found == 2 and multiple.match.p_value < 0.01
+    assert multiple.match.matched == 2 and multiple.match.p_value < 0.01
     assert "saturated_motion at contact" in [c.name for c in solved(found).decision.named]
 
 

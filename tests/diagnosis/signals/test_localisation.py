@@ -95,4 +95,4 @@ def test_forced_runs_are_located_on_all_axes():
     axes = asked.locator.located(found)
     assert set(axes) == {"stage", "run", "place", "band"}
     told = asked.latent.described(found, axes)
-    assert told.place == "mount = left" and set(told.regimes) == {"amplitude", "velocity", "time"}
+    assert told.location == "mount = left" and set(told.regimes) == {"amplitude", "velocity", "time"}

@@ -48,7 +48,7 @@ def chapter(product, look):
         " ".join(filter(None, (answers["What is missing"], answers["What it changes"], answers["Measure next"]))),
         tuple(_figures(product)), tuple(filter(None, (
             _errors(product), _with_force(product), *squeal_tables(product), _parameters(product),
-            _hypotheses(product), _location(product)))),
+            _hypotheses(product), _location(product), _thresholds(product)))),
         tuple(_notes(product)))
 
 
@@ -293,6 +293,15 @@ def _parameters(product):
                   number(_distance(product, k), 2)) for k, (name, unit) in enumerate(
                       zip(product.parameter, map(str, product.parameter_unit), strict=True)))
     return Table(("parameter", "given", "fitted", "deviation / sigma"), rows, "Fitted values", (1, 2, 3))
+
+
+def _thresholds(product):
+    """Every threshold between the recordings and the verdict, by its name in the settings."""
+    units = ["" if str(unit) == "1" else f"\u202f{unit}" for unit in product.threshold_unit]
+    rows = tuple((str(name), f"{value:g}{unit}", str(meaning)) for name, value, unit, meaning in zip(
+        product.threshold, product.threshold_value, units, product.threshold_meaning, strict=True))
+    return Table(("diagnosis.rules", "value", "meaning"), rows, "Rules by which it was decided", (1,), (2,),
+                 folded=True) if rows else None
 
 
 def _hypotheses(product):
