@@ -56,6 +56,6 @@ def force_balance_problem(bench, recorded, settings, equation):
     noises, solver = budget(problem, above=settings.noise.above), procedure(settings)
     return DiagnosisProblem(
         problem, noises | {p.name: noises[p.like] for p in planned}, effects, units, solver,
-        BalanceAxes(channel_names(bench), Axes.of(problem, noises, solver)),
+        BalanceAxes(channel_names(bench), Axes.under(problem, noises, solver)),
         DescribeBalance(bench, balances, problem, noises, solver.rules, seed=settings.seed),
         settings.latent_force.predict, next_runs=tuple(observed(p.shown.seen) for p in planned))

@@ -35,7 +35,7 @@ def forced_problem(bench, recorded, settings):
     return DiagnosisProblem(
         problem, noises | {f.run.name: noises[training[0].run.name] for f in planned},
         (*effects, *([solver_candidate()] if settings.solver else [])), units, solver,
-        ForcedAxes(bench, runs, Axes.of(problem, noises, solver)),
+        ForcedAxes(bench, runs, Axes.under(problem, noises, solver)),
         Describe(bench, runs, problem, noises, solver.rules, seed=settings.seed), settings.latent_force.predict,
         next_runs=tuple(f.observed for f in planned))
 

@@ -10,7 +10,7 @@ from pipeline.diagnosis.experiment_design.next_lists import best_check, best_out
 from pipeline.diagnosis.experiment_design.next_run import Rival
 from pipeline.diagnosis.problem import DiagnosisProblem, label
 from pipeline.diagnosis.published import harmonics, mode_table, squeal_frequencies
-from pipeline.diagnosis.rules import DiagnosisRules, ListRules
+from pipeline.diagnosis.rules import ListRules, rules_stated
 from pipeline.inference.decision.second_effect import NAMING
 from pipeline.inference.problem import FanOut
 
@@ -36,7 +36,7 @@ def published_problem(recording, models, settings, fan_out=map):
     if settings.lines is None:
         raise ConfigError("diagnosis.lines", "which lists are compared, because forward is lines", "nothing")
     builder = {"modes": _modes, "harmonics": _harmonics, "squeal": _squeal}[settings.lines.kind]
-    problem = builder(recording, models, settings.lines, DiagnosisRules.of(settings), fan_out)
+    problem = builder(recording, models, settings.lines, rules_stated(settings), fan_out)
     return replace(problem, settings=replace(problem.settings, draws=settings.draws, seed=settings.seed))
 
 

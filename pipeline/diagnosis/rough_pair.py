@@ -104,7 +104,7 @@ def rough_pair_problem(recording, surface, micro, friction_map, effects, setting
     noises, solver = budget(problem), procedure(settings, few=True)
     return DiagnosisProblem(problem, noises, (*hypotheses, *_map_candidate(forward)),
                             {c: UNITS[c] for c in dict.fromkeys(channels)}, solver,
-                            Axes.of(problem, noises, solver, _CHAIN))
+                            Axes.under(problem, noises, solver, _CHAIN))
 
 
 def _given(section):

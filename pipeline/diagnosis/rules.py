@@ -61,10 +61,11 @@ class DiagnosisRules(inference.Rules):
     poles: PoleRules = PoleRules()
     lists: ListRules = ListRules()
 
-    @classmethod
-    def of(cls, settings):
-        """The rules of a filled section ``diagnosis``."""
-        return cls(**{group.name: group.type(**dict(getattr(settings.rules, group.name))) for group in fields(cls)})
+
+def rules_stated(settings):
+    """DiagnosisRules of a filled section ``diagnosis``."""
+    return DiagnosisRules(**{group.name: group.type(**dict(getattr(settings.rules, group.name)))
+                             for group in fields(DiagnosisRules)})
 
 
 #: the rules as they are where a case says nothing else

@@ -8,7 +8,7 @@ from pipeline.contract.units import to_si
 from pipeline.diagnosis.published.harmonics import Harmonics
 from pipeline.diagnosis.published.mode_table import ModeTable
 from pipeline.diagnosis.published.squeal_frequencies import SquealLines
-from pipeline.diagnosis.rules import DiagnosisRules, RulesSection
+from pipeline.diagnosis.rules import RulesSection, rules_stated
 from pipeline.inference.priors import HalfNormal, LogNormal, Normal, Parameter, Uniform
 from pipeline.inference.procedure import Settings as ProcedureSettings
 
@@ -120,7 +120,7 @@ class Settings(Section):
 
 def procedure(settings, few=False, starts=ProcedureSettings.starts):
     """Settings of inference under a filled section ``diagnosis``; ``few``: runs hold a few dozen numbers each."""
-    rules = DiagnosisRules.of(settings)
+    rules = rules_stated(settings)
     if few:
         rules = replace(rules, decision=replace(rules.decision, posterior=rules.decision.posterior_of_few))
     return ProcedureSettings(settings.kept, starts, settings.draws, settings.seed, rules)

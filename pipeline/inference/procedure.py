@@ -13,11 +13,11 @@ from typing import Optional
 from pipeline.contract.errors import ConvergenceError
 from pipeline.inference.decision import second_effect
 from pipeline.inference.decision.decision_rules import Decision, decide
-from pipeline.inference.decision.weighing import Weighing
-from pipeline.inference.fitting.calibration import Calibration
-from pipeline.inference.fitting.refitting import Refits
+from pipeline.inference.decision.weighing import Weighing, weigh
+from pipeline.inference.fitting.calibration import Calibration, recalibrate
+from pipeline.inference.fitting.refitting import refit_catalogue
 from pipeline.inference.rules import DEFAULTS, Rules
-from pipeline.inference.search.score_screen import Screening
+from pipeline.inference.search.score_screen import screen_catalogue
 
 
 @dataclass(frozen=True)
@@ -119,15 +119,15 @@ def diagnose(problem, budget, catalogue, settings=None, fan_out=map):
 
 def _steps(problem, budget, catalogue, settings, fan_out, start=None, base=None):
     """(Refits, Diagnosis) of the five steps; the nominal model is fitted from the Fit ``start``, if there is one."""
-    calibration = Calibration.of(problem, budget, settings.rules.calibration, start)
-    screening = Screening.of(calibration, catalogue, settings, fan_out, base is not None)
-    refits = Refits.of(screening, catalogue, settings, fan_out)
+    calibration = recalibrate(problem, budget, settings.rules.calibration, start)
+    screening = screen_catalogue(calibration, catalogue, settings, fan_out, base is not None)
+    refits = refit_catalogue(screening, catalogue, settings, fan_out)
     return refits, _decided(refits, settings, base)
 
 
 def _decided(refits, settings, base):
     """Diagnosis of Refits: weighing and decision. ConvergenceError where nothing is missing but nothing converged."""
-    weighing = Weighing.of(refits, settings)
+    weighing = weigh(refits, settings)
     decision = decide(weighing.runs, [w.statistics for w in weighing.weighed], settings.rules.decision)
     null = refits.calibration.null
     if not null.converged and decision.verdict in ("consistent", "parameters"):

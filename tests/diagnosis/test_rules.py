@@ -4,7 +4,7 @@ import pytest
 
 from pipeline.contract import ConfigError
 from pipeline.contract.settings import fill
-from pipeline.diagnosis.rules import DEFAULTS, DiagnosisRules
+from pipeline.diagnosis.rules import DEFAULTS, rules_stated
 from pipeline.diagnosis.settings import Settings, procedure
 
 
@@ -13,7 +13,7 @@ def settings(**rules):
 
 
 def test_a_case_that_says_nothing_has_the_defaults():
-    assert DiagnosisRules.of(settings()) == DEFAULTS == procedure(settings()).rules
+    assert rules_stated(settings()) == DEFAULTS == procedure(settings()).rules
 
 
 def test_a_stated_threshold_is_the_one_in_force_and_in_the_table():

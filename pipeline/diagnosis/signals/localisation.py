@@ -51,7 +51,7 @@ class Axes:
     stages: tuple = _STAGES
 
     @classmethod
-    def of(cls, problem, budget, settings, stages=_STAGES):
+    def under(cls, problem, budget, settings, stages=_STAGES):
         """Axes under the settings of inference."""
         return cls(problem, budget, 1 + settings.rules.decision.noise_uncertainty, seed=settings.seed, stages=stages)
 

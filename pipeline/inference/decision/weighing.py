@@ -35,26 +35,26 @@ class Evidences:
     screen: Screen
     weights: np.ndarray
 
-    @classmethod
-    def of(cls, null, directions, fits, settings, failed=()):
-        """Evidences at the Fit ``null`` with Directions of all candidates and ``fits`` {index: Fit} of some.
-
-        ``failed``: names of candidates that could not be judged.
-        """
-        weights = min([null, *fits.values()], key=lambda fit: fit.chi_square.sum()).weights
-        scores = screen(null, directions, weights, settings.draws, settings.seed, settings.rules.screening)
-        refitted = {i: (evidence if fit.converged else reached)(fit, weights) for i, fit in fits.items()}
-        base = evidence(null, weights)
-        unrefitted = np.where([d.candidate.name in failed for d in directions], -np.inf,
-                              screened(base.log_evidence, scores.score, scores.power))
-        logs = [refitted[i].log_evidence if i in fits else unrefitted[i] for i in range(len(directions))]
-        return cls(base, refitted, np.array([base.log_evidence, *logs]), scores, weights)
-
     def overlooked(self, rules):
         """Indices of candidates that were not refitted, but promise about as much as the best of the others reached."""
         best = max(e.log_evidence for e in self.refitted.values())
         return [i for i in self.screen.order() if i not in self.refitted and self.screen.p_value[i] <= rules.p_value
                 and self.log_evidence[1 + i] > best - rules.evidence_gain]
+
+
+def evidence_of_all(null, directions, fits, settings, failed=()):
+    """Evidences at the Fit ``null`` with Directions of all candidates and ``fits`` {index: Fit} of some.
+
+    ``failed``: names of candidates that could not be judged.
+    """
+    weights = min([null, *fits.values()], key=lambda fit: fit.chi_square.sum()).weights
+    scores = screen(null, directions, weights, settings.draws, settings.seed, settings.rules.screening)
+    refitted = {i: (evidence if fit.converged else reached)(fit, weights) for i, fit in fits.items()}
+    base = evidence(null, weights)
+    unrefitted = np.where([d.candidate.name in failed for d in directions], -np.inf,
+                          screened(base.log_evidence, scores.score, scores.power))
+    logs = [refitted[i].log_evidence if i in fits else unrefitted[i] for i in range(len(directions))]
+    return Evidences(base, refitted, np.array([base.log_evidence, *logs]), scores, weights)
 
 
 @dataclass(frozen=True)
@@ -82,27 +82,27 @@ class Weighing:
     drift: Drift
     failures: dict
 
-    @classmethod
-    def of(cls, refits, settings):
-        """Weighing of the Refits of a screened catalogue."""
-        problem, budget, null = refits.calibration.problem, refits.calibration.budget, refits.calibration.null
-        fits = {i: r.fit for i, r in refits.results.items() if r.fit is not None}
-        failures = {refits.directions[i].candidate.name: r.failure for i, r in refits.results.items() if r.failure}
-        failures |= {d.candidate.name: d.failure for d in refits.directions if d.failure}
-        evidences = Evidences.of(null, refits.directions, fits, settings, failures)
-        count, weights = len(refits.directions), evidences.weights
-        probability = posterior(evidences.log_evidence, cautious_prior(count))
-        held_out = held_out_gains(problem, budget, null, fits, probability[1:], settings.rules)
-        drifting = drift(null, weights, seed=settings.seed)
 
-        def weighed(i, fit):
-            candidate, own_evidence = refits.directions[i].candidate, evidences.refitted[i]
-            p_value = family_wise(evidences.screen.p_value[i],
-                                  own_evidence.log_evidence - evidences.null.log_evidence, count)
-            return Weighed(candidate, fit, own_evidence, candidate_statistics(
-                null, evidences.null, candidate, fit, own_evidence, probability[1 + i], p_value, held_out[i], weights,
-                settings.rules))
+def weigh(refits, settings):
+    """Weighing of the Refits of a screened catalogue."""
+    problem, budget, null = refits.calibration.problem, refits.calibration.budget, refits.calibration.null
+    fits = {i: r.fit for i, r in refits.results.items() if r.fit is not None}
+    failures = {refits.directions[i].candidate.name: r.failure for i, r in refits.results.items() if r.failure}
+    failures |= {d.candidate.name: d.failure for d in refits.directions if d.failure}
+    evidences = evidence_of_all(null, refits.directions, fits, settings, failures)
+    count, weights = len(refits.directions), evidences.weights
+    probability = posterior(evidences.log_evidence, cautious_prior(count))
+    held_out = held_out_gains(problem, budget, null, fits, probability[1:], settings.rules)
+    drifting = drift(null, weights, seed=settings.seed)
 
-        every = sorted((weighed(i, fit) for i, fit in fits.items()), key=lambda w: -w.evidence.log_evidence)
-        runs = run_statistics(problem, budget, null, weights, drifting, settings.rules)
-        return cls(runs, tuple(every), probability, evidences, drifting, failures)
+    def weighed(i, fit):
+        candidate, own_evidence = refits.directions[i].candidate, evidences.refitted[i]
+        p_value = family_wise(evidences.screen.p_value[i],
+                              own_evidence.log_evidence - evidences.null.log_evidence, count)
+        return Weighed(candidate, fit, own_evidence, candidate_statistics(
+            null, evidences.null, candidate, fit, own_evidence, probability[1 + i], p_value, held_out[i], weights,
+            settings.rules))
+
+    every = sorted((weighed(i, fit) for i, fit in fits.items()), key=lambda w: -w.evidence.log_evidence)
+    runs = run_statistics(problem, budget, null, weights, drifting, settings.rules)
+    return Weighing(runs, tuple(every), probability, evidences, drifting, failures)

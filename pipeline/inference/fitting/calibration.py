@@ -34,23 +34,23 @@ class Calibration:
     budget: dict
     null: Fit
 
-    @classmethod
-    def of(cls, problem, budget, rules, start=None):
-        """Calibration from the nominal values, or from the Fit ``start`` of the same hypothesis.
-
-        It may not have converged; ConvergenceError where there is no fit at all.
-        """
-        if start and start.converged:
-            return cls(problem, budget, start)
-        runs, hypothesis = problem.training, problem.nominal
-        noises = tuple(budget[run.name] for run in runs)
-        latent = start.latent if start else hypothesis.nominal
-        return cls(problem, budget, calibrate(problem, noises, hypothesis, [latent], runs, False, rules))
-
     def improved(self, fits, rules):
         """This Calibration with the best of further ``fits`` (Fit or None) of the null, where that is better."""
         best = min([self.null, *(fit for fit in fits if fit is not None)], key=lambda fit: fit.objective)
         return replace(self, null=best) if best.objective < self.null.objective - rules.better_null else self
+
+
+def recalibrate(problem, budget, rules, start=None):
+    """Calibration from the nominal values, or from the Fit ``start`` of the same hypothesis.
+
+    It may not have converged; ConvergenceError where there is no fit at all.
+    """
+    if start and start.converged:
+        return Calibration(problem, budget, start)
+    runs, hypothesis = problem.training, problem.nominal
+    noises = tuple(budget[run.name] for run in runs)
+    latent = start.latent if start else hypothesis.nominal
+    return Calibration(problem, budget, calibrate(problem, noises, hypothesis, [latent], runs, False, rules))
 
 
 def calibrate(problem, noises, hypothesis, starts, runs, settled=True, rules=DEFAULTS.calibration):

@@ -8,7 +8,7 @@ import numpy as np
 
 from pipeline.contract.errors import BrakechainError
 from pipeline.inference.decision.candidate_statistics import unexplained
-from pipeline.inference.decision.weighing import Evidences
+from pipeline.inference.decision.weighing import evidence_of_all
 from pipeline.inference.fitting import tone_starts
 from pipeline.inference.fitting.calibration import Calibration, begun, paired_anew
 from pipeline.inference.fitting.least_squares import Fit, continued, linearised
@@ -42,27 +42,27 @@ class Refits:
     results: dict
     refitter: "Refitter"
 
-    @classmethod
-    def of(cls, screening, catalogue, settings, fan_out):
-        """Refits of the promising candidates of a Screening, of their imitators, and of what they overlook."""
-        calibration, starts = screening.calibration, screening.screen.start
-        refitter = Refitter(calibration.problem, calibration.null, tuple(catalogue), settings, fan_out)
-        results = refitter.best_of(screening.promising, starts)
-        fits = {i: r.fit for i, r in results.items() if r.fit is not None}
-        if fits:
-            evidences = Evidences.of(calibration.null, screening.directions, fits, settings)
-            more = evidences.overlooked(settings.rules.decision)[:settings.kept]
-            results = refitter.of(more, starts, results)
-        better = calibration.improved([r.null for r in results.values()], settings.rules.calibration)
-        if better is calibration:
-            return cls(calibration, screening.directions, results, refitter)
-        refitter = replace(refitter, null=better.null)
-        again = tuple(fan_out(partial(directions, better.problem, better.null), catalogue))
-        return cls(better, again, results, refitter)
-
     def begun_anew(self, starts):
         """These Refits with fits begun at the latent values ``starts`` {index: (k,)}, where they are better."""
         return replace(self, results=self.refitter.better(self.results, starts))
+
+
+def refit_catalogue(screening, catalogue, settings, fan_out):
+    """Refits of the promising candidates of a Screening, of their imitators, and of what they overlook."""
+    calibration, starts = screening.calibration, screening.screen.start
+    refitter = Refitter(calibration.problem, calibration.null, tuple(catalogue), settings, fan_out)
+    results = refitter.best_of(screening.promising, starts)
+    fits = {i: r.fit for i, r in results.items() if r.fit is not None}
+    if fits:
+        evidences = evidence_of_all(calibration.null, screening.directions, fits, settings)
+        more = evidences.overlooked(settings.rules.decision)[:settings.kept]
+        results = refitter.of(more, starts, results)
+    better = calibration.improved([r.null for r in results.values()], settings.rules.calibration)
+    if better is calibration:
+        return Refits(calibration, screening.directions, results, refitter)
+    refitter = replace(refitter, null=better.null)
+    again = tuple(fan_out(partial(directions, better.problem, better.null), catalogue))
+    return Refits(better, again, results, refitter)
 
 
 @dataclass(frozen=True)

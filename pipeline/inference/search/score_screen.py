@@ -75,22 +75,22 @@ class Screening:
     screen: Screen
     promising: tuple
 
-    @classmethod
-    def of(cls, calibration, catalogue, settings, fan_out, beside_a_first=False):
-        """Screening of a ``catalogue`` (Hypothesis, ...); ``beside_a_first``: for the second effect of a pair.
 
-        Where the linearisation of the null may fail, all candidates are worth a fit. It holds where the null reaches
-        the noise; of features, which are few and far from linear only where they are paired anew, wherever the null
-        has an optimum.
-        """
-        problem, null, rules = calibration.problem, calibration.null, settings.rules
-        every = tuple(fan_out(partial(directions, problem, null), catalogue))
-        rough = screen(null, every, None, settings.draws, settings.seed, rules.screening)
-        linear = null.reaches_noise(rules.decision.noise_uncertainty) or (null.unordered and null.converged)
-        likely = rules.decision.p_value if beside_a_first else rules.screening.p_value
-        largest = likely if linear else 1.0
-        return cls(calibration, every, rough, tuple(
-            int(i) for i in rough.order() if np.isfinite(rough.score[i]) and rough.p_value[i] <= largest))
+def screen_catalogue(calibration, catalogue, settings, fan_out, beside_a_first=False):
+    """Screening of a ``catalogue`` (Hypothesis, ...); ``beside_a_first``: for the second effect of a pair.
+
+    Where the linearisation of the null may fail, all candidates are worth a fit. It holds where the null reaches
+    the noise; of features, which are few and far from linear only where they are paired anew, wherever the null
+    has an optimum.
+    """
+    problem, null, rules = calibration.problem, calibration.null, settings.rules
+    every = tuple(fan_out(partial(directions, problem, null), catalogue))
+    rough = screen(null, every, None, settings.draws, settings.seed, rules.screening)
+    linear = null.reaches_noise(rules.decision.noise_uncertainty) or (null.unordered and null.converged)
+    likely = rules.decision.p_value if beside_a_first else rules.screening.p_value
+    largest = likely if linear else 1.0
+    return Screening(calibration, every, rough, tuple(
+        int(i) for i in rough.order() if np.isfinite(rough.score[i]) and rough.p_value[i] <= largest))
 
 
 def directions(problem, null, candidate, like=None):
