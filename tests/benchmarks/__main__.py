@@ -1,6 +1,7 @@
 """'make bench': wall and CPU seconds of the kernels, their peers, every stage and the diagnoses, each in one table.
 
-Kernels: median of repeated calls in this process, one thread, after a first call, which compiles.
+Kernels: median of repeated calls in this process, one thread, after a first call, which compiles;
+         "1st CPU": its CPU seconds and those of making its data.
 Peers: the same work done by other programs, where they are installed.
 Stages: the quick case from nothing, seconds as its products record them.
 Diagnoses: the public recordings (where BRAKECHAIN_DATA names them) and one practice file, from nothing to the verdict.
@@ -95,13 +96,14 @@ def kernel_tables(options):
 
 def _kernel_row(make, runs):
     """Row of a kernel or a peer, which is printed; None where its program is not installed, {} where it fails."""
-    from tests.benchmarks.measuring import measured
+    from tests.benchmarks.measuring import cpu_seconds, measured
     from tests.benchmarks.peers import NotInstalled
 
     title = make.__doc__.splitlines()[0]
     try:
+        begin = cpu_seconds()
         call, amount, unit = make()
-        timing = measured(call, runs)
+        timing = measured(call, runs, cpu_seconds() - begin)
     except NotInstalled as missing:
         print(f"{title:<58} not installed: {missing}", flush=True)
         return None

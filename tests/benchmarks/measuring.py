@@ -11,7 +11,7 @@ from pipeline.contract.cpu_time import cpu_seconds
 class Timing:
     """Wall and CPU seconds of calls, which count child processes.
 
-    ``first``: CPU seconds of the call before them, which compiles where nothing is cached.
+    ``first``: CPU seconds of the call before them, which compiles where nothing is cached, and of preparing it.
     """
 
     first: float
@@ -31,8 +31,8 @@ def timed(call):
     return time.perf_counter() - wall, cpu_seconds() - cpu
 
 
-def measured(call, runs):
-    """Timing of one first call and ``runs`` more."""
+def measured(call, runs, preparation=0.0):
+    """Timing of one first call, which took ``preparation`` CPU seconds to prepare, and ``runs`` more."""
     _, first = timed(call)
     wall, cpu = zip(*(timed(call) for _ in range(runs)), strict=True)
-    return Timing(first, wall, cpu)
+    return Timing(preparation + first, wall, cpu)
