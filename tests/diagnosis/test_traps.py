@@ -89,7 +89,7 @@ def test_an_output_error_refit_lets_viscous_damping_absorb_friction_and_breaks_o
     before, after = (square(problem, f, problem.training) for f in (given, null))
     assert null.values["damping"] > 1.2 * DAMPING and after < 0.5 * before
     found = diagnose(problem, budget(problem), CATALOGUE)
-    assert found.drift.p_value < 0.001, "every amplitude asks for its own damping"
+    assert found.weighing.drift.p_value < 0.001, "every amplitude asks for its own damping"
     assert told(found) == ("missing", ["coulomb"])
 
 
