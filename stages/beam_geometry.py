@@ -8,7 +8,7 @@ import scipy
 
 from pipeline.contract import BrakechainError, Context, Quantities, Quantity, Section, option, stage
 from pipeline.physics.friction.dry_friction import constant
-from pipeline.physics.numerics.search import evolve, stretch_samples
+from pipeline.physics.numerics.stretch_moves import stretch_samples
 from pipeline.physics.signals.bursts import bursts, harmonic_lines
 from pipeline.physics.signals.spectra import power_spectrum
 from pipeline.physics.sliding.model import Contacts, Joints, SlidingModel
@@ -45,7 +45,7 @@ class Settings(Section):
     rigid_generations: int = option(60, "generations of the search with rigid supports, linear facts alone", ge=1)
     generations: int = option(120, "generations of the search with supports that yield, linear facts alone", ge=1)
     population: int = option(6, "members of a population per parameter, in both", ge=1)
-    joint_population: int = option(12, "members of the joint search", ge=4)
+    joint_population: int = option(12, "members of the joint search", ge=5)
     joint_generations: int = option(40, "generations of the joint search, linear facts and motion", ge=1)
     walkers: int = option(28, "walkers that sample what the linear facts leave open", ge=24)
     sweeps: int = option(60, "sweeps of the walkers; the first half is dropped", ge=2)
@@ -75,11 +75,11 @@ def beam_geometry(settings: Settings, context: Context) -> BeamGeometry:
     yielding = _linear_search(settings, GEOMETRY, settings.tilts[0], settings.generations)
     context.log(f"linear costs: rigid {', '.join(f'{r.fun:.3g}' for r in rigid)}; yielding {yielding.fun:.3g}")
     joint = _joint_search(settings, yielding.x)
-    sample = _sampled(settings, joint.best[:GEOMETRY])
-    runs = [_motion(settings, joint.best, seed) for seed in settings.motion_seeds]
-    result = linear(joint.best)
+    sample = _sampled(settings, joint.x[:GEOMETRY])
+    runs = [_motion(settings, joint.x, seed) for seed in settings.motion_seeds]
+    result = linear(joint.x)
     return BeamGeometry(
-        parameter=NAMES, best=joint.best, linear_cost=result.cost, cost=joint.cost,
+        parameter=NAMES, best=joint.x, linear_cost=result.cost, cost=joint.fun,
         rigid_tilt=settings.tilts, rigid_cost=[r.fun for r in rigid], rigid_best=[r.x for r in rigid],
         rigid_parameter=NAMES[:_RIGID], yielding_cost=yielding.fun, samples=sample, sampled_parameter=NAMES[:GEOMETRY],
         lower_bound=LOWER[:GEOMETRY], upper_bound=UPPER[:GEOMETRY],
@@ -88,8 +88,8 @@ def beam_geometry(settings: Settings, context: Context) -> BeamGeometry:
         lower=np.maximum([band[0] for band in MOTION.values()], -1e9),
         upper=np.minimum([band[1] for band in MOTION.values()], 1e9),
         motion=[[run[name] for name in MOTION] for run in runs],
-        evaluations=joint.evaluations + yielding.nfev + sum(r.nfev for r in rigid),
-        **_over_damping(settings, joint.best))
+        evaluations=joint.nfev + yielding.nfev + sum(r.nfev for r in rigid),
+        **_over_damping(settings, joint.x))
 
 
 def _linear_search(settings, size, tilt, generations):
@@ -100,14 +100,17 @@ def _linear_search(settings, size, tilt, generations):
 
 
 def _joint_search(settings, geometry):
-    """Evolved population about the linear optimum, and the known geometry where there is one."""
+    """Optimum of an evolution that begins about the linear one, and at the known geometry where there is one."""
     random = np.random.default_rng(settings.seed)
     start = np.concatenate((geometry, (LOWER + UPPER)[GEOMETRY:] / 2))
     centres = [start] + ([np.array(settings.start)] if settings.start is not None else [])
     spread = (UPPER - LOWER) * np.r_[np.full(GEOMETRY, 0.004), 0.15, 0.15, 0.15]
     population = np.array([centres[k % len(centres)] + spread * random.standard_normal(len(LOWER)) * (k >= len(centres))
                            for k in range(settings.joint_population)])
-    return evolve(partial(_cost, settings), population, LOWER, UPPER, settings.joint_generations, settings.seed)
+    return scipy.optimize.differential_evolution(
+        partial(_cost, settings), list(zip(LOWER, UPPER, strict=True)), init=np.clip(population, LOWER, UPPER),
+        strategy="currenttobest1bin", mutation=(0.3, 0.9), recombination=0.9, maxiter=settings.joint_generations,
+        seed=settings.seed, polish=False, tol=0)
 
 
 def _cost(settings, vector):

@@ -5,10 +5,10 @@ from typing import Literal
 import numpy as np
 
 from pipeline.contract import ConfigError, Context, Quantity, Section, option, stage
+from pipeline.physics.friction.dry_friction import evolution_curve
 from pipeline.physics.rough.summit_model import (
     Summits,
     elastic,
-    evolved,
     fit_descriptions,
     gap_at,
     moduli,
@@ -108,7 +108,8 @@ def _shear(summits, pair, pressure, settings):
     fit = fit_descriptions(summits, pair, gap, displacement, shear)
     rows = range(len(pressure))
     return {"displacement": displacement, "shear": shear,
-            "evolution_shear": [evolved(displacement, fit.stiffness[k], fit.limit[k], fit.exponent[k]) for k in rows],
+            "evolution_shear": [evolution_curve(displacement, fit.limit[k], fit.stiffness[k], fit.exponent[k])
+                                for k in rows],
             "elastic_shear": [elastic(displacement, fit.elastic_stiffness[k], fit.limit[k]) for k in rows],
             "tangential_stiffness": fit.stiffness, "limit": fit.limit, "exponent": fit.exponent,
             "elastic_stiffness": fit.elastic_stiffness, "friction": fit.limit / pressure}

@@ -173,23 +173,24 @@ def lumped(settings: Settings, context: Context) -> Lumped:
 
 def _built(settings):
     masses = {name: system.Mass(m.moves, m.mass, m.inertia, m.grounded) for name, m in settings.masses.items()}
-    place = system.coordinates(masses, "lumped.masses")
-    joints, contacts = _joints(settings.springs, place), _contacts(settings.contacts, place)
-    inputs = _inputs(settings, place, joints)
+    coordinates = system.coordinates(masses, "lumped.masses")
+    joints, contacts = _joints(settings.springs, coordinates), _contacts(settings.contacts, coordinates)
+    inputs = _inputs(settings, coordinates, joints)
     sensors = settings.sensors.items()
     return Lumped(
-        body_name=list(masses), coordinate_name=place.names, coordinate_body=place.body,
-        mass=system.mass_matrix(masses, place),
-        gyroscopic=system.gyroscopic_matrix(_gyros(settings.gyros), place, "lumped.gyros"), **joints, **contacts,
+        body_name=list(masses), coordinate_name=coordinates.names, coordinate_body=coordinates.body,
+        mass=system.mass_matrix(masses, coordinates),
+        gyroscopic=system.gyroscopic_matrix(_gyros(settings.gyros), coordinates, "lumped.gyros"), **joints, **contacts,
         **inputs, pressure=settings.load_factors,
-        **_preload(settings, place, joints, contacts, inputs), sensor_name=[name for name, _ in sensors],
-        sensor_rows=_rows([_connected(place, s.along, f"lumped.sensors.{name}.along") for name, s in sensors], place),
+        **_preload(settings, coordinates, joints, contacts, inputs), sensor_name=[name for name, _ in sensors],
+        sensor_rows=_rows([_connected(coordinates, s.along, f"lumped.sensors.{name}.along") for name, s in sensors],
+                          coordinates),
         sensor_quantity=[s.quantity for _, s in sensors], sensor_unit=[s.unit for _, s in sensors],
         sensor_gain=[s.gain for _, s in sensors])
 
 
-def _rows(rows, place):
-    return np.reshape(rows, (len(rows), len(place.names)))
+def _rows(rows, coordinates):
+    return np.reshape(rows, (len(rows), len(coordinates.names)))
 
 
 def _weights(combination, where):
@@ -201,11 +202,11 @@ def _weights(combination, where):
     return weights
 
 
-def _connected(place, combination, where):
-    return place.connected(_weights(combination, where), where)
+def _connected(coordinates, combination, where):
+    return coordinates.connected(_weights(combination, where), where)
 
 
-def _joints(springs, place):
+def _joints(springs, coordinates):
     rows = []
     for name, spring in springs.items():
         where = f"lumped.springs.{name}"
@@ -213,17 +214,17 @@ def _joints(springs, place):
             raise ConfigError(where, "either between or along", "both" if spring.between else "neither",
                               "name what the spring connects, as in between: [block.x, ground]")
         if spring.along is not None:
-            rows.append(_connected(place, spring.along, f"{where}.along"))
+            rows.append(_connected(coordinates, spring.along, f"{where}.along"))
             continue
         first, second = spring.between
-        row = place.row({first: 1.0}, f"{where}.between") - place.row({second: 1.0}, f"{where}.between")
-        rows.append(row if row.any() else place.connected({}, f"{where}.between"))
-    return {"joint_name": list(springs), "joint_rows": _rows(rows, place),
+        row = coordinates.row({first: 1.0}, f"{where}.between") - coordinates.row({second: 1.0}, f"{where}.between")
+        rows.append(row if row.any() else coordinates.connected({}, f"{where}.between"))
+    return {"joint_name": list(springs), "joint_rows": _rows(rows, coordinates),
             "joint_stiffness": [s.stiffness for s in springs.values()],
             "joint_damping": [s.damping for s in springs.values()]}
 
 
-def _contacts(contacts, place):
+def _contacts(contacts, coordinates):
     parts = {"normal": [], "tangent": [], "lateral": []}
     for name, contact in contacts.items():
         where = f"lumped.contacts.{name}"
@@ -234,13 +235,14 @@ def _contacts(contacts, place):
             raise ConfigError(f"{where}.stiffness", "none beside normal_force", f"{contact.stiffness:g} N/m")
         for part, rows in parts.items():
             combination = _weights(getattr(contact, part), f"{where}.{part}")
-            read = place.connected if combination else place.row
+            read = coordinates.connected if combination else coordinates.row
             rows.append(read(combination, f"{where}.{part}"))
         if not contact.tangent:
-            place.connected({}, f"{where}.tangent")
+            coordinates.connected({}, f"{where}.tangent")
     closure, pressure, area = system.normal_law(contacts, "lumped.contacts")
-    return {"contact_name": list(contacts), **{f"contact_{k}": _rows(rows, place) for k, rows in parts.items()},
-            "contact_body": [place.body[np.flatnonzero(row)[0]] for row in parts["tangent"]], "contact_area": area,
+    return {"contact_name": list(contacts), **{f"contact_{k}": _rows(rows, coordinates) for k, rows in parts.items()},
+            "contact_body": [coordinates.body[np.flatnonzero(row)[0]] for row in parts["tangent"]],
+            "contact_area": area,
             "contact_lever": [c.lever for c in contacts.values()], "contact_gap": [c.gap for c in contacts.values()],
             "contact_position": np.reshape([(abs(c.lever) * np.cos(c.angle), abs(c.lever) * np.sin(c.angle), 0.0)
                                             for c in contacts.values()], (-1, 3)),
@@ -251,14 +253,14 @@ def _gyros(gyros):
     return {name: system.Gyro(g.axes, g.polar_inertia) for name, g in gyros.items()}
 
 
-def _inputs(settings, place, joints):
+def _inputs(settings, coordinates, joints):
     """Rows, constant forces (per Pa) and histories of the inputs; a displacement is the force k u + c u'."""
     interval = settings.histories.interval
     time = interval * np.arange(round(settings.histories.duration / interval) + 1)
     rows, constant, samples = [], [], []
     for name, given in settings.inputs.items():
         where = f"lumped.inputs.{name}"
-        row, spring, damper = _input_row(given, place, joints, where)
+        row, spring, damper = _input_row(given, coordinates, joints, where)
         shape = 1.0 if given.history is None else _shape(given.history, time, f"{where}.history")
         size = given.force if given.displaces is None else given.displacement
         rows.append(row)
@@ -267,12 +269,12 @@ def _inputs(settings, place, joints):
                        size * (spring * shape + damper * np.gradient(shape, interval)))
     timed = any(i.history for i in settings.inputs.values())
     drive = [] if settings.drive is None else _shape(settings.drive.history, time, "lumped.drive.history")
-    return {"input_name": list(settings.inputs), "input_rows": _rows(rows, place), "input_area": constant,
+    return {"input_name": list(settings.inputs), "input_rows": _rows(rows, coordinates), "input_area": constant,
             "history_interval": interval if timed or len(drive) else 0.0,
             "input_history": np.transpose(samples) if timed else np.empty((0, len(rows))), "drive_history": drive}
 
 
-def _input_row(given, place, joints, where):
+def _input_row(given, coordinates, joints, where):
     """(row, N per unit, N s per unit) of one input."""
     if (given.along is None) == (given.displaces is None):
         raise ConfigError(where, "either along, for a force, or displaces, for a displacement",
@@ -281,7 +283,7 @@ def _input_row(given, place, joints, where):
     if getattr(given, needed) is None:
         raise ConfigError(f"{where}.{needed}", "a value", "none", "add it to the YAML")
     if given.displaces is None:
-        return _connected(place, given.along, f"{where}.along"), 1.0, 0.0
+        return _connected(coordinates, given.along, f"{where}.along"), 1.0, 0.0
     k = system.index_of(given.displaces, joints["joint_name"], f"{where}.displaces")
     return joints["joint_rows"][k], joints["joint_stiffness"][k], joints["joint_damping"][k]
 
@@ -314,7 +316,7 @@ def _column(table, name, where):
     return values
 
 
-def _preload(settings, place, joints, contacts, inputs):
+def _preload(settings, coordinates, joints, contacts, inputs):
     """Static normal forces and contact stiffnesses of every state."""
     rows, stiffness = joints["joint_rows"], np.array(joints["joint_stiffness"])
     given = list(settings.contacts.values())

@@ -143,7 +143,7 @@ def _parameters(settings, solver):
 
 def _variations(settings):
     """One dict per run of the studies: study and changes of the Parameters."""
-    studies, found = settings.studies, []
+    studies, variations = settings.studies, []
     solids = (settings.upper, settings.lower)
 
     def poisson(ratio):
@@ -153,12 +153,12 @@ def _variations(settings):
     for spacing in studies.spacings or ():
         for memory in (0.0, studies.memory_time):
             mesh = {"upper_spacing": spacing, "lower_spacing": spacing, "memory_time": memory}
-            found.append({"study": "mesh", "changes": mesh})
+            variations.append({"study": "mesh", "changes": mesh})
             if studies.mesh_poisson is not None:
-                found.append({"study": "mesh", "changes": {**mesh, **poisson(studies.mesh_poisson)}})
-    found += [{"study": "stress", "changes": {"ratio": ratio}} for ratio in studies.stress_ratios]
-    found += [{"study": "damping", "changes": {"damping_share": share}} for share in studies.damping_shares]
-    return found + [{"study": "poisson", "changes": poisson(ratio)} for ratio in studies.poisson_ratios]
+                variations.append({"study": "mesh", "changes": {**mesh, **poisson(studies.mesh_poisson)}})
+    variations += [{"study": "stress", "changes": {"ratio": ratio}} for ratio in studies.stress_ratios]
+    variations += [{"study": "damping", "changes": {"damping_share": share}} for share in studies.damping_shares]
+    return variations + [{"study": "poisson", "changes": poisson(ratio)} for ratio in studies.poisson_ratios]
 
 
 def _vary(variation, base, settings):

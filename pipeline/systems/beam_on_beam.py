@@ -169,11 +169,11 @@ def _plane(section, start, direction, stations, member, patch):
     rigid = -1 if patch is None else 0
     basis, section_rows = _with_rigid_end(part, rigid, direction)
     middle = start + np.outer(stations, direction)
-    place = [2 * int(np.argmin(abs(along - s))) for s in stations]
-    rows = [_mean_section(part, k, c) @ basis for k, c in zip(place, middle, strict=True)]
+    position = [2 * int(np.argmin(abs(along - s))) for s in stations]
+    rows = [_mean_section(part, k, c) @ basis for k, c in zip(position, middle, strict=True)]
     rows[rigid] = section_rows
     if patch is not None:
-        rows[1] = _over_patch(part, place[1], middle[1], rows[1], half, basis)
+        rows[1] = _over_patch(part, position[1], middle[1], rows[1], half, basis)
     edge = part.lattice[::2][:, [0, -1]].ravel()
     displacement = basis.toarray().reshape(-1, 2, basis.shape[1])[edge]
     return _Strip(basis.T @ part.stiffness @ basis, basis.T @ part.mass @ basis, tuple(rows), part.node[edge],

@@ -72,8 +72,8 @@ def joints(meshes, parameters):
                       (f"abutment_{name}_{end}_radial", j.abutment_radial_stiffness, spot, None, "radial")]
     for prefix, side, normal, shear in (("finger", OUTER, j.finger_stiffness, j.finger_shear_stiffness),
                                         ("piston", INNER, j.piston_stiffness, j.piston_shear_stiffness)):
-        for place, pad, body in _clamping_spots(meshes, parameters, prefix, side):
-            springs += [(f"{prefix}_{kind}_{place}", stiffness / 4, pad, body, axis) for kind, stiffness, axis in
+        for corner, pad, body in _clamping_spots(meshes, parameters, prefix, side):
+            springs += [(f"{prefix}_{kind}_{corner}", stiffness / 4, pad, body, axis) for kind, stiffness, axis in
                       (("normal", normal, "axial"), ("tangential", shear, "tangential"), ("radial", shear, "radial"))]
     name, stiffness, *_ = zip(*springs, strict=True)
     rows = _stacked([_relative(meshes, first, other, _AXES[axis]) for _, _, first, other, axis in springs])
@@ -115,9 +115,9 @@ def _guide_pin(meshes, parameters, end, sign):
     c, j = parameters.caliper, parameters.joints
     front = meshes[CALIPER].node[:, 2].min() + c.housing_depth
     pins = []
-    for place, depth in (("front", c.housing_depth / 6), ("rear", 5 * c.housing_depth / 6)):
+    for end_name, depth in (("front", c.housing_depth / 6), ("rear", 5 * c.housing_depth / 6)):
         spot = _end_spot(meshes, CALIPER, sign * c.angle / 2, j.guide_pin_radius, front - depth, j.spot_size)
-        pins += [(f"guide_pin_{end}_{kind}_{place}", stiffness / 2, spot, None, kind) for kind, stiffness in
+        pins += [(f"guide_pin_{end}_{kind}_{end_name}", stiffness / 2, spot, None, kind) for kind, stiffness in
                  (("axial", j.guide_pin_axial_stiffness), ("tangential", j.guide_pin_stiffness),
                   ("radial", j.guide_pin_stiffness))]
     return pins

@@ -6,7 +6,7 @@ import pytest
 from pipeline.systems.beam_geometry import GEOMETRY, LOWER, UPPER
 from stages.beam_geometry import Settings, beam_geometry
 
-TINY = {"tilts": ["-5 deg"], "rigid_generations": 1, "generations": 1, "population": 1, "joint_population": 4,
+TINY = {"tilts": ["-5 deg"], "rigid_generations": 1, "generations": 1, "population": 1, "joint_population": 5,
         "joint_generations": 1, "sweeps": 2, "motion_seeds": [1], "duration": "60 ms", "damping_factors": [0.0, 1.0],
         "highest_frequency": "30 kHz",
         "start": [106.6383, 6.9718, -0.3607, 406.766, 25.0489, -0.0277, 3.6919, 7.8838,

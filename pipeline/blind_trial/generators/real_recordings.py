@@ -42,9 +42,9 @@ def write(draw, folder):
     document["recording"] = {"files": [{"kind": "hdf5", "file": "recordings.h5"}]}
     document.pop("based_on", None)
     removed = [_removed(document, draw.system, hidden) for hidden in draw.hidden]
-    for effect, (place, values) in effects.items():
+    for effect, (location, values) in effects.items():
         if effect not in draw.hidden:
-            document.setdefault("effects", {}).setdefault(effect, {})[place] = values
+            document.setdefault("effects", {}).setdefault(effect, {})[location] = values
     case_files.leave(folder, document, runs)
     return {"class": draw.kind, "effects": removed, "system": draw.system, "parameters": {}, "seed": draw.seed}
 

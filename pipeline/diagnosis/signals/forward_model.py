@@ -25,14 +25,14 @@ NAMES = frozenset(effect.name for effect in CATALOGUE)
 
 def observed(recorded, noise_std=None, held_out=False):
     """Observed of a Recorded run; ``noise_std`` {channel: SI value} where it is given, then of all its channels."""
-    one = recorded
-    lacking = [c for c in one.channels if c not in noise_std] if noise_std else []
+    run, channels = recorded.run, recorded.channels
+    lacking = [c for c in channels if c not in noise_std] if noise_std else []
     if lacking:
-        raise ConfigError("diagnosis.noise.std", f"the noise of every channel of run {one.run.name}, or of none",
+        raise ConfigError("diagnosis.noise.std", f"the noise of every channel of run {run.name}, or of none",
                           f"none of {', '.join(lacking)}", "give it too, or leave all to the repeats of runs")
-    told = np.array([noise_std[c] for c in one.channels]) if noise_std else None
-    return Observed(one.run.name, one.run.conditions, one.channels, one.samples, one.run.sample_rate, one.valid,
-                    noise_std=told, held_out=held_out, repeat_of=one.repeat_of)
+    stated = np.array([noise_std[c] for c in channels]) if noise_std else None
+    return Observed(run.name, run.conditions, channels, recorded.samples, run.sample_rate, recorded.valid,
+                    noise_std=stated, held_out=held_out, repeat_of=recorded.repeat_of)
 
 
 def completed(bench, hypothesis, values):
@@ -43,12 +43,12 @@ def completed(bench, hypothesis, values):
 
 def terms(hypothesis, values):
     """Terms of a Hypothesis with its ``values``; what is no effect of the catalogue, as the solver, is none."""
-    found = {pair: {} for pair in hypothesis.effects if pair[0] in NAMES}
+    given = {pair: {} for pair in hypothesis.effects if pair[0] in NAMES}
     for name, value in values.items():
-        effect, place, own = split_name(name)
-        if (effect, place) in found:
-            found[effect, place][own] = value
-    return tuple(Term(named(effect), place, given) for (effect, place), given in found.items())
+        effect, location, parameter = split_name(name)
+        if (effect, location) in given:
+            given[effect, location][parameter] = value
+    return tuple(Term(named(effect), location, numbers) for (effect, location), numbers in given.items())
 
 
 @dataclass(frozen=True)
@@ -64,12 +64,14 @@ class Simulated:
     built: dict = field(default_factory=dict, compare=False)
 
     def __call__(self, hypothesis, values, run):
-        own, kept = self.runs[run.name], run.samples.shape[1]
-        own = own.until(kept) if kept < own.samples else own
+        observed_run, kept = self.runs[run.name], run.samples.shape[1]
+        observed_run = observed_run.until(kept) if kept < observed_run.samples else observed_run
         bench = altered(self._completed(hypothesis, values), self.altered.get(run.name, {}))
-        predicted = shown(bench, own, run.channels)
+        predicted = shown(bench, observed_run, run.channels)
         refinement = values.get(parameter_name(STEP, SOLVER, REFINEMENT), 0.0)
-        return predicted + refinement * halved(bench, own, run.channels, predicted) if refinement else predicted
+        if not refinement:
+            return predicted
+        return predicted + refinement * halved(bench, observed_run, run.channels, predicted)
 
     def _completed(self, hypothesis, values):
         """The bench of a hypothesis, kept as long as run after run asks for the same values."""
@@ -101,22 +103,22 @@ def reach(bench, recorded):
     A resonance that missing physics limits moves much less than its nominal model: priors follow the recording.
     """
     ratios = []
-    for one in recorded:
-        for channel, samples, valid, found in zip(one.channels, one.samples, one.valid,
-                                                  shown(bench, one.run, one.channels), strict=True):
+    for record in recorded:
+        for channel, samples, valid, known in zip(record.channels, record.samples, record.valid,
+                                                  shown(bench, record.run, record.channels), strict=True):
             moves = next(c.moves for c in bench.channels if c.name == channel)
-            if moves and valid.any() and found[valid].any():
-                ratios.append(np.sqrt(np.mean(samples[valid] ** 2) / np.mean(found[valid] ** 2)))
+            if moves and valid.any() and known[valid].any():
+                ratios.append(np.sqrt(np.mean(samples[valid] ** 2) / np.mean(known[valid] ** 2)))
     return float(np.exp(np.mean(np.log(ratios)))) if ratios and min(ratios) > 0 else 1.0
 
 
 def largest(recorded):
     """{channel: largest recorded size of a sample} over [Recorded]."""
-    found = {}
-    for one in recorded:
-        for channel, samples, valid in zip(one.channels, one.samples, one.valid, strict=True):
-            found[channel] = max(found.get(channel, 0.0), float(np.abs(samples[valid]).max(initial=0.0)))
-    return found
+    peaks = {}
+    for record in recorded:
+        for channel, samples, valid in zip(record.channels, record.samples, record.valid, strict=True):
+            peaks[channel] = max(peaks.get(channel, 0.0), float(np.abs(samples[valid]).max(initial=0.0)))
+    return peaks
 
 
 def candidates(bench, runs, catalogue, places=(), scale=1.0, priors=(), peaks=()):
@@ -125,33 +127,34 @@ def candidates(bench, runs, catalogue, places=(), scale=1.0, priors=(), peaks=()
     ``scale``: recorded over nominal motion (see ``reach``); ``peaks``: what channels showed at most (see ``largest``);
     ``priors`` {effect.parameter: section Prior} that are known otherwise.
     """
-    found, sizes = [], {}
+    hypotheses, sizes = [], {}
     for effect in catalogue:
-        for place in effect.locations(bench) if effect.conditions_known(runs) else ():
-            if places and place not in places:
+        for location in effect.locations(bench) if effect.conditions_known(runs) else ():
+            if places and location not in places:
                 continue
-            kind = effect.kind_at(place), place
+            kind = effect.kind_at(location), location
             if kind not in sizes:       # nominal runs are simulated once for all effects of a place
-                own = typical(kind[0], bench, place, runs).scaled(scale)
-                peak = kind[0] == CHANNEL and dict(peaks).get(place)
-                sizes[kind] = replace(own, shown=peak) if peak else own
-            parameters = tuple(_named(p, effect, place, dict(priors)) for p in effect.parameters(sizes[kind]))
-            found.append(Hypothesis(label(((effect.name, place),)), ((effect.name, place),), parameters, effect.kind))
-    return tuple(found)
+                size = typical(kind[0], bench, location, runs).scaled(scale)
+                peak = kind[0] == CHANNEL and dict(peaks).get(location)
+                sizes[kind] = replace(size, shown=peak) if peak else size
+            parameters = tuple(_named(p, effect, location, dict(priors)) for p in effect.parameters(sizes[kind]))
+            pair = effect.name, location
+            hypotheses.append(Hypothesis(label((pair,)), (pair,), parameters, effect.kind))
+    return tuple(hypotheses)
 
 
-def _named(own, effect, place, priors):
+def _named(parameter, effect, location, priors):
     """The parameter of an effect under its name at a place, with the prior that the case states for it, if any.
 
     The size that recordings suggest gives way to the middle of a stated prior that excludes it.
     """
-    key, name = f"{effect.name}.{own.name}", parameter_name(effect.name, place, own.name)
+    key, name = f"{effect.name}.{parameter.name}", parameter_name(effect.name, location, parameter.name)
     if key not in priors:
-        return replace(own, name=name)
-    prior = prior_of(own.unit, own.nominal, priors[key], f"diagnosis.priors.{key}")
+        return replace(parameter, name=name)
+    prior = prior_of(parameter.unit, parameter.nominal, priors[key], f"diagnosis.priors.{key}")
     low, high = prior.support
-    size = own.nominal if low <= own.nominal <= high else prior.quantile(0.5)
-    return Parameter(name, own.unit, size, prior, own.null)
+    size = parameter.nominal if low <= parameter.nominal <= high else prior.quantile(0.5)
+    return Parameter(name, parameter.unit, size, prior, parameter.null)
 
 
 def solver_candidate():

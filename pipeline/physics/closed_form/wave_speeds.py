@@ -13,6 +13,7 @@ import numpy as np
 import scipy
 
 from pipeline.contract.errors import ConfigError
+from pipeline.physics.closed_form.elastic_constants import first_modulus, shear_modulus
 
 
 class Solid(NamedTuple):
@@ -26,14 +27,12 @@ class Solid(NamedTuple):
     @property
     def shear_modulus(self):
         """G in Pa."""
-        return self.youngs_modulus / (2.0 * (1.0 + self.poisson_ratio))
+        return shear_modulus(self.youngs_modulus, self.poisson_ratio)
 
     @property
     def first_modulus(self):
         """Lame's lambda in Pa, of the plane problem."""
-        if self.plane_stress:
-            return self.youngs_modulus * self.poisson_ratio / (1.0 - self.poisson_ratio**2)
-        return 2.0 * self.shear_modulus * self.poisson_ratio / (1.0 - 2.0 * self.poisson_ratio)
+        return first_modulus(self.youngs_modulus, self.poisson_ratio, self.plane_stress)
 
     @property
     def dilatational_speed(self):

@@ -23,9 +23,9 @@ def static_forces(stiffness, load, normal, gap, compliance):
         wanted = np.r_[load, -scale * gap[closed]]
         forces = np.linalg.lstsq(matrix, wanted)[0]
         _check_balance(matrix @ forces - wanted, len(load), max(abs(wanted).max(), abs(forces).max()), scale)
-        place, force = forces[:len(load)] / scale, np.zeros(len(gap))
+        displacement, force = forces[:len(load)] / scale, np.zeros(len(gap))
         force[closed] = forces[len(load):]
-        opened, touching = closed & (force < 0), ~closed & (gap + normal @ place < 0)
+        opened, touching = closed & (force < 0), ~closed & (gap + normal @ displacement < 0)
         if not opened.any() and not touching.any():
             return force
         closed = (closed & ~opened) | touching

@@ -11,6 +11,7 @@ import numpy as np
 import scipy
 
 from pipeline.contract.errors import ConfigError
+from pipeline.physics.closed_form.elastic_constants import shear_modulus
 
 #: corners, edge middles, face middles, centre of the reference cube 0..1, in the order of meshio
 _CUBE = np.array([
@@ -33,8 +34,7 @@ _BATCH = 256
 
 def isotropic(young, poisson):
     """(6, 6) elasticity [Pa] of an isotropic material."""
-    shear = young / (2 * (1 + poisson))
-    return orthotropic((young,) * 3, (poisson,) * 3, (shear,) * 3)
+    return orthotropic((young,) * 3, (poisson,) * 3, (shear_modulus(young, poisson),) * 3)
 
 
 def orthotropic(young, poisson, shear):

@@ -10,6 +10,7 @@ import numpy as np
 import scipy
 
 from pipeline.contract.errors import ConfigError
+from pipeline.physics.closed_form.elastic_constants import plane_strain_modulus
 from pipeline.physics.fem.elasticity import quadrature, reference_vertices, shape_functions
 
 _KIND = "quad9"
@@ -38,15 +39,16 @@ def sheet(start, direction, along, across, section):
     lattice = np.arange(len(node)).reshape(first.shape)
     first = (np.arange(0, len(line) - 1, 2) for line in lines)
     corner = np.stack(np.meshgrid(*first, indexing="ij"), -1).reshape(-1, 2)
-    place = corner[:, None] + (2 * reference_vertices(_KIND)).astype(int)
-    element = lattice[place[..., 0], place[..., 1]]
+    position = corner[:, None] + (2 * reference_vertices(_KIND)).astype(int)
+    element = lattice[position[..., 0], position[..., 1]]
     stiffness, mass = _element_matrices(node[element], section)
     return Sheet(node, lattice, _summed(stiffness, element, len(node)), _summed(mass, element, len(node)))
 
 
 def plane_elasticity(young, poisson):
     """(3, 3) Pa: stresses xx, yy, xy from strains under plane stress."""
-    return young / (1 - poisson**2) * np.array([[1, poisson, 0], [poisson, 1, 0], [0, 0, (1 - poisson) / 2]])
+    shear = (1 - poisson) / 2
+    return plane_strain_modulus(young, poisson) * np.array([[1, poisson, 0], [poisson, 1, 0], [0, 0, shear]])
 
 
 def _halved(line, name):

@@ -14,6 +14,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.polynomial import legendre
 
+from pipeline.physics.closed_form.elastic_constants import shear_modulus
+
 
 @dataclass(frozen=True)
 class BeamSection:
@@ -39,7 +41,7 @@ class BeamSection:
     def shear_stiffness(self):
         """kappa G A, N, with Cowper's kappa = 10 (1 + nu) / (12 + 11 nu) (J. Appl. Mech. 33 (1966) 335)."""
         factor = 10 * (1 + self.poisson) / (12 + 11 * self.poisson)
-        return factor * self.young / (2 * (1 + self.poisson)) * self.area
+        return factor * shear_modulus(self.young, self.poisson) * self.area
 
 
 @dataclass(frozen=True)

@@ -17,7 +17,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from pipeline.contract.errors import ConfigError, ConvergenceError
-from pipeline.physics.friction.dry_friction import DESCRIPTIONS, evolution_rule
+from pipeline.physics.friction.dry_friction import DESCRIPTIONS, evolution_curve
+from pipeline.physics.numerics import newmark
 
 #: Newton iterations before a step counts as diverged; the shortest step as a share of the whole
 ITERATIONS, SHORTEST = 25, 1 / 256
@@ -124,7 +125,7 @@ def run(problem, description, step, steps, consistent=True):
 def curve_error(displacement, force, limit, description, stiffness, exponent=1.0):
     """Root mean square error over ``limit`` of first loading by one description against a curve (k,), (k,)."""
     if description == "evolution":
-        drawn = [evolution_rule(0.0, s, limit, stiffness, exponent)[0] for s in displacement]
+        drawn = evolution_curve(np.asarray(displacement, float), limit, stiffness, exponent)
     elif description == "elastic":
         drawn = np.minimum(stiffness * displacement, limit)
     else:
@@ -146,7 +147,7 @@ class _State:
     def advance(self, time, step):
         """(iterations, sliding share) of one step; None for the share where Newton's method does not converge."""
         p = self.problem
-        ahead, fast = self.place + step * self.speed + step**2 / 4 * self.rate, self.speed + step / 2 * self.rate
+        ahead, fast = newmark.predicted(self.place, self.speed, self.rate, step)
         way, load = _way(p, time, step), p.load * (1 + p.modulation * np.sin(2 * np.pi * p.frequency * (time + step)))
         inertia = 4 / step**2 * p.mass + 2 / step * p.damping + p.stiff
         u, pull, scale = self.place.copy(), self.pull.copy(), np.linalg.norm(p.load)

@@ -219,3 +219,12 @@ def evolution_rule(force, slip, limit, stiffness, exponent):
             base = 1.0 + (exponent - 1.0) * way * missing ** (exponent - 1.0)
             missing = missing * base ** (-1.0 / (exponent - 1.0)) if base > 0.0 else 0.0
     return sign * limit * (1.0 - missing), stiffness * missing**exponent
+
+
+@njit
+def evolution_curve(displacement, limit, stiffness, exponent):
+    """Forces (d,) of the evolution rule at the slips ``displacement`` (d,) from rest."""
+    force = np.empty(len(displacement))
+    for k in range(len(displacement)):
+        force[k] = evolution_rule(0.0, displacement[k], limit, stiffness, exponent)[0]
+    return force

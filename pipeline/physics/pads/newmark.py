@@ -1,8 +1,7 @@
 """Newmark's average-acceleration rule for the pads on the rigid disc, compiled.
 
-    q1 = q0 + h v0 + h^2 (a0 + a1) / 4,   v1 = v0 + h (a0 + a1) / 2   (Newmark, ASCE J. Eng. Mech. Div. 85 (1959) 67),
-second order, without numerical damping: the rule and the tolerance of the exudyn model, which the main job uses. This
-integrator takes a third of its time and serves sweeps, draws and tests; a test holds both together. Each step solves
+The rule and the tolerance of the exudyn model, which the main job uses. This integrator takes a third of its time and
+serves sweeps, draws and tests; a test holds both together. Each step solves
 M a1 + C v1 + K q1 = load + contact force by Newton's method with the inverse of an earlier state, which is renewed
 when it stops contracting.
 """
@@ -11,6 +10,7 @@ import numpy as np
 
 from pipeline.contract.errors import ConvergenceError
 from pipeline.physics.numerics.compiled import njit
+from pipeline.physics.numerics.newmark import correct, predict
 from pipeline.physics.pads.pad_system import STEP_TOLERANCE, force, tangent
 
 ITERATIONS = 30
@@ -54,7 +54,7 @@ def _predicted(motion, step):
     predicted = np.empty((2, motion.shape[1]))
     for i in range(motion.shape[1]):
         q, v, a = motion[0, i], motion[1, i], motion[2, i]
-        predicted[0, i], predicted[1, i] = q + step * v + 0.25 * step**2 * a, v + 0.5 * step * a
+        predicted[0, i], predicted[1, i] = predict(q, v, a, step)
     return predicted
 
 
@@ -67,7 +67,7 @@ def _advance(system, motion, predicted, inverse, step, number, steps, iteration,
     last, q, v, a = np.inf, motion[0], motion[1], motion[2]
     while number <= steps:
         for i in range(q.size):
-            q[i], v[i] = predicted[0, i] + 0.25 * step**2 * a[i], predicted[1, i] + 0.5 * step * a[i]
+            q[i], v[i] = correct(predicted[0, i], predicted[1, i], a[i], step)
         residual, inertia = force(system, number * step, q, v), system.mass @ a
         size = 0.0
         for i in range(q.size):

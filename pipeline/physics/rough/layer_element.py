@@ -8,6 +8,8 @@ from itertools import product
 
 import numpy as np
 
+from pipeline.physics.fem.elasticity import isotropic
+
 GAUSS = (0.5 - 0.5 / np.sqrt(3.0), 0.5 + 0.5 / np.sqrt(3.0))
 
 
@@ -21,15 +23,6 @@ def brick_stiffness(edges, youngs_modulus, poisson_ratio):
     weight = np.prod(edges) / 8.0
     points = [_strain_operator(point, edges) for point in product(GAUSS, repeat=3)]
     return weight * sum(b.T @ elasticity @ b for b in points).reshape((2, 2, 2, 3) * 2)
-
-
-def isotropic(youngs_modulus, poisson_ratio):
-    """Elasticity matrix (6, 6) in Pa, order xx yy zz yz xz xy with engineering shear strains."""
-    shear = youngs_modulus / (2.0 * (1.0 + poisson_ratio))
-    lame = 2.0 * shear * poisson_ratio / (1.0 - 2.0 * poisson_ratio)
-    matrix = np.diag([2.0 * shear] * 3 + [shear] * 3)
-    matrix[:3, :3] += lame
-    return matrix
 
 
 def _strain_operator(point, edges):

@@ -20,6 +20,8 @@ import numpy as np
 import scipy
 
 from pipeline.contract.errors import ConfigError
+from pipeline.physics.closed_form.elastic_constants import plane_strain_modulus, shear_modulus
+from pipeline.physics.friction.dry_friction import evolution_curve
 
 #: distribution of standardised heights (SciPy's name), and the height above which none are counted
 _HEIGHTS = {"gaussian": ("norm", 7.0), "exponential": ("expon", 40.0)}
@@ -61,8 +63,8 @@ def moduli(young, poisson, shear_limit):
     1/E* = sum (1 - nu^2) / E and 1/G* = sum (2 - nu) / G, so that Q = 8 G* a v before slip.
     """
     young, poisson = np.asarray(young, float), np.asarray(poisson, float)
-    rigidity = young / (2 * (1 + poisson))
-    return Moduli(1 / ((1 - poisson**2) / young).sum(), 1 / ((2 - poisson) / rigidity).sum(), shear_limit)
+    shear = shear_modulus(young, poisson)
+    return Moduli(1 / (1 / plane_strain_modulus(young, poisson)).sum(), 1 / ((2 - poisson) / shear).sum(), shear_limit)
 
 
 def summits_of(heights, spacing):
@@ -167,19 +169,11 @@ def fit_descriptions(summits, pair, gap, displacement, shear):
     exponents = np.linspace(0.5, 3.0, 251)
     best, elastic = [], []
     for k in range(len(gap)):
-        curves = np.array([evolved(displacement, stiffness[k], limit[k], m) for m in exponents])
+        curves = np.array([evolution_curve(displacement, limit[k], stiffness[k], m) for m in exponents])
         best.append(exponents[np.argmin(((curves - shear[k]) ** 2).sum(axis=1))])
         missing = np.trapezoid(limit[k] - shear[k], displacement)
         elastic.append(limit[k] ** 2 / (2 * missing))
     return Descriptions(stiffness, limit, np.array(best), np.array(elastic))
-
-
-def evolved(displacement, stiffness, limit, exponent):
-    """Shear stress of the evolution rule from rest: r = 1 - tau / limit obeys dr/dv = -(stiffness / limit) r^m."""
-    way = stiffness / limit * np.asarray(displacement)
-    if exponent == 1:
-        return limit * (1 - np.exp(-way))
-    return limit * (1 - np.maximum(1 + (exponent - 1) * way, 0.0) ** (-1 / (exponent - 1)))
 
 
 def elastic(displacement, stiffness, limit):

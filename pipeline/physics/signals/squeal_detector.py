@@ -127,11 +127,11 @@ def frames(signal, rate, detector):
     return Frames(middle, hop / rate, len(signal) / rate, np.fft.rfftfreq(size, 1 / rate), spectrum)
 
 
-def loudest(found, detector):
+def loudest(spectrum, detector):
     """Level [dB] and frequency [Hz] of the strongest tone of the band in any frame."""
-    inside = _inside(found, detector.band)
-    frame, line = np.unravel_index(np.where(inside, found.spectrum, 0).argmax(), found.spectrum.shape)
-    frequency, root_mean_square = _refine(found, frame, np.array([line]))
+    inside = _inside(spectrum, detector.band)
+    frame, line = np.unravel_index(np.where(inside, spectrum.spectrum, 0).argmax(), spectrum.spectrum.shape)
+    frequency, root_mean_square = _refine(spectrum, frame, np.array([line]))
     return float(level(root_mean_square[0]**2, detector.reference)), float(frequency[0])
 
 

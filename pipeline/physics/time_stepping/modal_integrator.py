@@ -13,6 +13,7 @@ import numpy as np
 import scipy
 
 from pipeline.contract.errors import ConfigError
+from pipeline.physics.numerics import newmark
 
 #: share of the largest squared frequency, and of the largest damping, that counts as rounding
 _ROUNDING = 1e-12
@@ -114,22 +115,21 @@ def _step_matrices(blocks, coupled, step):
 
 
 def newmark_matrices(system, step, gamma):
-    """(E, first, last) as of ``step_matrices``, by Newmark's rule with beta = (gamma + 1/2)^2 / 4.
+    """(E, first, last) as of ``step_matrices``, by Newmark's rule with a = f - D v - W q.
 
-    v1 = v0 + h ((1 - gamma) a0 + gamma a1), q1 = q0 + h v0 + h^2 ((1/2 - beta) a0 + beta a1), where a = f - D v - W q;
-    gamma = 1/2 is the trapezoidal rule, more damps the highest modes. Raises ConfigError for coupled modes.
+    Raises ConfigError for coupled modes.
     """
     if system.coupled:
         raise ConfigError("time stepping: lagrange", "modes that damping does not couple", "coupled modes",
                           "take diagonal modal damping")
-    beta, pull, drag = (gamma + 0.5) ** 2 / 4, system.squared, np.diag(system.damping)
-    inertia = 1 + gamma * step * drag + beta * step**2 * pull
+    pull, drag = system.squared, np.diag(system.damping)
+    inertia = 1 + gamma * step * drag + newmark.beta_of(gamma) * step**2 * pull
     matrices = []
     for q, v, force, force_next in np.eye(4):
         a = force - drag * v - pull * q
-        ahead, fast = q + step * v + step**2 * (0.5 - beta) * a, v + step * (1 - gamma) * a
+        ahead, fast = newmark.predicted(q, v, a, step, gamma)
         a_next = (force_next - drag * fast - pull * ahead) / inertia
-        matrices.append([ahead + step**2 * beta * a_next, fast + step * gamma * a_next])
+        matrices.append(newmark.corrected(ahead, fast, a_next, step, gamma))
     step_matrix = np.moveaxis(np.array(matrices), 2, 0).swapaxes(1, 2)      # (m, 2, 4)
     first, last = (np.stack([np.zeros_like(step_matrix[..., 0]), step_matrix[..., k]], axis=2) for k in (2, 3))
     return step_matrix[..., :2], first, last

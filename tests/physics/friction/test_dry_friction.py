@@ -10,6 +10,7 @@ from pipeline.physics.friction.dry_friction import (
     coefficient,
     constant,
     elastic_stick,
+    evolution_curve,
     evolution_rule,
     falling,
     kernel,
@@ -50,6 +51,15 @@ def test_evolution_rule_solves_its_equation(exponent):
                               (0, abs(slip)), [reference], "DOP853", rtol=1e-12, atol=1e-12).y[0, -1]
         assert force == pytest.approx(reference, rel=1e-9)
         assert slope == pytest.approx(stiffness * (1 - sign * force / limit) ** exponent, rel=1e-9)
+
+
+@pytest.mark.exact
+@pytest.mark.parametrize("exponent", [0.7, 1.0, 2.0])
+def test_the_curve_from_rest_solves_the_equation_of_the_evolution_rule(exponent):
+    slip = np.linspace(0, 1e-6, 20001)
+    force = evolution_curve(slip, 1e5, 1e12, exponent)
+    expected = 1e12 * np.maximum(1 - force[1:-1] / 1e5, 0) ** exponent
+    assert np.gradient(force, slip)[1:-1] == pytest.approx(expected, abs=2e-3 * 1e12)
 
 
 @pytest.mark.exact

@@ -7,10 +7,10 @@ from scipy.integrate import quad
 from pipeline.contract.errors import ConfigError
 from pipeline.physics.closed_form import hertz
 from pipeline.physics.closed_form.rough_summits import exponential_area, exponential_pressure
+from pipeline.physics.friction.dry_friction import evolution_curve
 from pipeline.physics.rough.summit_model import (
     Summits,
     elastic,
-    evolved,
     fit_descriptions,
     gap_at,
     moduli,
@@ -104,16 +104,7 @@ def test_descriptions_meet_the_law_at_rest_and_in_full_slip():
     assert found.limit == pytest.approx(shear[:, -1], rel=1e-3)
     assert found.stiffness == pytest.approx(shear[:, 1] / v[1], rel=0.1)
     for k in range(2):
-        rule = evolved(v, found.stiffness[k], found.limit[k], found.exponent[k])
+        rule = evolution_curve(v, found.limit[k], found.stiffness[k], found.exponent[k])
         assert np.abs(rule - shear[k]).max() < 0.05 * found.limit[k]
         spring = elastic(v, found.elastic_stiffness[k], found.limit[k])
         assert np.trapezoid(spring, v) == pytest.approx(np.trapezoid(shear[k], v), rel=1e-3)
-
-
-def test_evolution_rule_solves_its_equation():
-    v = np.linspace(0, 1e-6, 20001)
-    for exponent in (0.7, 1.0, 2.0):
-        stress = evolved(v, 1e12, 1e5, exponent)
-        slope = np.gradient(stress, v)[1:-1]
-        expected = 1e12 * np.maximum(1 - stress[1:-1] / 1e5, 0) ** exponent
-        assert slope == pytest.approx(expected, abs=2e-3 * 1e12)

@@ -156,8 +156,8 @@ def _planted(random, belt, bare, name, known, noise, wanted, below):
     elif name in IN_RIG:
         piece = HIDDEN[name]
         there = places(piece, len(belt.truth.mass))
-        index, place = there[int(random.integers(len(there)))]
-        start = Planted(piece, place, _spot(belt, bare, piece, index, shape))
+        index, location = there[int(random.integers(len(there)))]
+        start = Planted(piece, location, _spot(belt, bare, piece, index, shape))
     else:
         raise ConfigError(f"trial: {name}", f"one of {', '.join((*FRICTION, *IN_RIG))}")
 

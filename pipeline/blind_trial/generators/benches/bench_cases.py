@@ -82,19 +82,19 @@ def _self_excited(draw, folder, document, runs, hidden, factors):
 
 def _told(name, values, system):
     """{name, place, parameters} of what is hidden, in the words of the catalogue where they mean the same."""
-    place, known = "contact", values
+    location, known = "contact", values
     if name in pin_bench.DECOYS:
-        place = flutter.CHANNELS[values["channel"]] if system == "shoe_on_drum" else values["channel"]
+        location = flutter.CHANNELS[values["channel"]] if system == "shoe_on_drum" else values["channel"]
         known = {key: value for key, value in values.items() if key != "channel"}
     elif name in ("moving_base", "joint_damping"):
-        place = _ARM[system]
+        location = _ARM[system]
     elif name == "doublet_split":
-        place, known = {2: "two 1", 3: "three 1"}[values["order"]], {}
+        location, known = {2: "two 1", 3: "three 1"}[values["order"]], {}
     elif name == "pressure_dependent_friction":
         known = {"exponent": -values["exponent"]}
     elif name == "contact_damping":
         known = {}
-    return {"name": name, "place": place, "parameters": known}
+    return {"name": name, "place": location, "parameters": known}
 
 
 def _neutral(runs):

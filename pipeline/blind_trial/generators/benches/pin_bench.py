@@ -166,8 +166,8 @@ def beam_modes(length=_LENGTH, count=4, elements=30):
         mass[block, block] += m
     squared, shape = eigh(stiffness[2:, 2:], mass[2:, 2:], subset_by_index=(0, count - 1))
     shape = shape / shape[-2]
-    place = size * np.arange(1, elements + 1)
-    seen = [np.interp(length - _HEIGHT, place, column) for column in shape[::2].T]
+    position = size * np.arange(1, elements + 1)
+    seen = [np.interp(length - _HEIGHT, position, column) for column in shape[::2].T]
     modal = np.einsum("ik,ij,jk->k", shape, mass[2:, 2:], shape)
     return modal, np.sqrt(squared) / (2 * np.pi), shape[-1], np.array(seen)
 
@@ -265,17 +265,17 @@ def _steady(bench, load, speed, hidden, gap=0.0):
     stiffness = np.diag(bench.mass * bench.squared) + bench.coupling
     if load == 0:
         return np.zeros(len(bench.mass))
-    force, place = load, None
+    force, displacement = load, None
     for _ in range(_STEADY):
         friction = 0.0 if speed == 0 else _mu(bench.friction, force, speed * RADIUS, hidden)
         drive = bench.normal + friction * bench.tangent
         approach = _approach(bench.contact, force, hidden["contact_stiffness_law"]["exponent"])
         secant = force / approach                           # N = secant a about the present guess
-        place = np.linalg.solve(stiffness + secant * np.outer(drive, bench.normal), bench.press * load
+        displacement = np.linalg.solve(stiffness + secant * np.outer(drive, bench.normal), bench.press * load
                                 - secant * gap * drive)
-        new = max(-secant * (bench.normal @ place + gap), 1e-9)
+        new = max(-secant * (bench.normal @ displacement + gap), 1e-9)
         if abs(new - force) < 1e-12 * load:
-            return place if new > 1e-9 else np.linalg.solve(stiffness, bench.press * load)
+            return displacement if new > 1e-9 else np.linalg.solve(stiffness, bench.press * load)
         force = 0.5 * (force + new)
     raise ConvergenceError("practice bench", f"steady sliding within {_STEADY} iterations",
                            f"a contact force of {force:.6g} N that still changes", "draw another seed")

@@ -183,10 +183,10 @@ def _maps(random, pad, disc, state):
 
 
 def _seen(random, face):
-    place = np.linspace(-0.5, 0.5, len(face))
+    coordinate = np.linspace(-0.5, 0.5, len(face))
     offset, along, across = NOISE["tilt"] * random.standard_normal(3)
     noise = NOISE["height"] * random.standard_normal(face.shape)
-    return face + offset + along * place + across * place[:, None] + noise
+    return face + offset + along * coordinate + across * coordinate[:, None] + noise
 
 
 def _said(description):

@@ -63,14 +63,14 @@ class Waves:
 def thick(disc, order, parts=_PARTS, degree=_DEGREE):
     """Waves of a thick plate, ``parts`` elements of this ``degree`` in web and in ring."""
     edges, thickness = disc.edges(parts)
-    place, weight = legendre.leggauss(degree + 2)
+    point, weight = legendre.leggauss(degree + 2)
     nodes = np.concatenate(([-1], legendre.Legendre.basis(degree).deriv().roots().real, [1]))
-    across = _lagrange(nodes, place)
+    across = _lagrange(nodes, point)
     size = 3 * (degree * len(thickness) + 1)
     stiffness, mass = np.zeros((2, size, size))
     for k, (low, high, h) in enumerate(zip(edges[:-1], edges[1:], thickness, strict=True)):
         half = (high - low) / 2
-        radius = low + half * (1 + place)
+        radius = low + half * (1 + point)
         value, slope = across[0], across[1] / half
         fields = [np.kron(value, row) for row in np.eye(3)], [np.kron(slope, row) for row in np.eye(3)]
         block = slice(3 * degree * k, 3 * degree * (k + 1) + 3)
@@ -101,11 +101,11 @@ def thick(disc, order, parts=_PARTS, degree=_DEGREE):
 def thin(disc, order, parts=2):
     """Waves of a thin plate, ``parts`` cubic cells in web and in ring."""
     edges, thickness = disc.edges(parts)
-    place, weight = legendre.leggauss(5)
+    point, weight = legendre.leggauss(5)
     size = 2 * len(edges)
     stiffness, mass = np.zeros((2, size, size))
     for k, (low, high, h) in enumerate(zip(edges[:-1], edges[1:], thickness, strict=True)):
-        radius = low + (high - low) / 2 * (1 + place)
+        radius = low + (high - low) / 2 * (1 + point)
         value, slope, curve = _hermite(radius, low, high)
         strain, law = _bending(disc, h, order, radius, *_following(order, radius, value, slope, curve))
         share, block = (high - low) / 2 * weight * radius, slice(2 * k, 2 * k + 4)
@@ -154,12 +154,12 @@ def _following(order, radius, value, slope, curve):
     return (-slope, order * value / r), (-curve, order * (slope / r - value / r**2))
 
 
-def _lagrange(nodes, place):
+def _lagrange(nodes, point):
     """(values, slopes), each (q, nodes), of the polynomials that are 1 at one node."""
     degree = len(nodes) - 1
     inverse = np.linalg.inv(legendre.legvander(nodes, degree))
-    rates = np.array([legendre.legval(place, legendre.legder(row)) for row in np.eye(degree + 1)]).T
-    return legendre.legvander(place, degree) @ inverse, rates @ inverse
+    rates = np.array([legendre.legval(point, legendre.legder(row)) for row in np.eye(degree + 1)]).T
+    return legendre.legvander(point, degree) @ inverse, rates @ inverse
 
 
 def _hermite(radius, low, high):

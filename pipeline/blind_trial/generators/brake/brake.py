@@ -177,20 +177,20 @@ def pressed(brake, run):
     exponent = brake.hidden.get("contact_stiffness_law", {}).get("exponent", 0.0)
     stiffness, normal, tangent = parts(brake, run), brake.normal, brake.tangent
     force, reach = REFERENCE * brake.share, (1 + exponent) * REFERENCE / brake.values["contact"]
-    place = np.linalg.lstsq(normal, np.full(len(normal), -reach * (run.load / REFERENCE) ** (1 / (1 + exponent))),
-                            rcond=None)[0]
+    nominal = reach * (run.load / REFERENCE) ** (1 / (1 + exponent))
+    displacement = np.linalg.lstsq(normal, np.full(len(normal), -nominal), rcond=None)[0]
     for _ in range(_ROUNDS):
-        approach = np.maximum(-normal @ place, _OPEN * reach)
+        approach = np.maximum(-normal @ displacement, _OPEN * reach)
         press = force * (approach / reach) ** (1 + exponent)
         slope = (1 + exponent) * press / approach
         drawn, gain, _ = friction(brake, run, press) if run.speed > 0 else np.zeros((3, len(press)))
-        error = stiffness @ place - press @ (normal + drawn[:, None] * tangent) - brake.press * run.load
+        error = stiffness @ displacement - press @ (normal + drawn[:, None] * tangent) - brake.press * run.load
         step = np.linalg.solve(stiffness + ((normal + gain[:, None] * tangent).T * slope) @ normal, error)
-        place = place - step
+        displacement = displacement - step
         if abs(normal @ step).max() < _TOLERANCE * reach:
             break
     else:
         raise ConvergenceError("practice brake", "a steady state", f"none in {run.name}")
-    if (-normal @ place <= _OPEN * reach).any():
+    if (-normal @ displacement <= _OPEN * reach).any():
         raise ConvergenceError("practice brake", "linings that touch all over", f"one that lifts off in {run.name}")
-    return place, press, slope
+    return displacement, press, slope

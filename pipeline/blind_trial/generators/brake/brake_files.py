@@ -138,21 +138,21 @@ def _sizes(random, name):
 
 def _told(name, values):
     """{name, place, parameters} of what is hidden, in the words of the catalogue where they mean the same."""
-    place = {"heated_disc": "disc", "slack_abutment": "abutments"}.get(name, "contact")
+    location = {"heated_disc": "disc", "slack_abutment": "abutments"}.get(name, "contact")
     known = {key: value for key, value in values.items() if key not in ("order", "sensor", "pad", "channel")}
     if name == "doublet_split":
-        place, known = f"{WORDS[values['order']]} 1", {}
+        location, known = f"{WORDS[values['order']]} 1", {}
     elif name == "contact_damping":
         known = {}
     elif name == "pressure_dependent_friction":
         known = {"exponent": -values["exponent"]}
     elif "sensor" in values:
-        place = SOURCES[values["sensor"]]
+        location = SOURCES[values["sensor"]]
     elif "pad" in values:
-        place = JOINTS[values["pad"]]
+        location = JOINTS[values["pad"]]
     elif "channel" in values:
-        place = values["channel"]
-    return {"name": name, "place": place, "parameters": known}
+        location = values["channel"]
+    return {"name": name, "place": location, "parameters": known}
 
 
 def _known(values, shape):

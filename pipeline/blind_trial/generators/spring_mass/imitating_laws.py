@@ -79,11 +79,11 @@ def _laws(hiding, hidden):
     laws = []
     for piece in map(HIDDEN.get, (*KIN.get(hidden.piece.name, ()), *[hidden.piece.name] * hidden.piece.known)):
         itself = piece is hidden.piece
-        there = [(at, place) for at, place in places(piece, masses) if (place != hidden.place) == itself]
-        for at, place in there:
+        there = [(at, location) for at, location in places(piece, masses) if (location != hidden.place) == itself]
+        for at, location in there:
             spot = hiding.spot(piece, at, hidden.spot.shape)
             for speed in _SPEEDS if piece.timed else (1.0,):
-                start = Planted(piece, place, replace(spot, speed=speed * spot.speed))
+                start = Planted(piece, location, replace(spot, speed=speed * spot.speed))
                 try:
                     laws.append(sized(start, hiding.change, wanted))
                 except BrakechainError:

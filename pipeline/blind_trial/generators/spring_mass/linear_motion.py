@@ -23,8 +23,8 @@ def coarse(rig, force, interval, corner):
     instants = np.arange(len(states)) / PARTS
     kept, now, ramp = _held(reach, -reach[0], interval / PARTS)
     displacements = []
-    for place in states[:, :len(rig.mass)].T:
-        straight = np.interp(instants, instants[::PARTS], place[::PARTS])
+    for displacement in states[:, :len(rig.mass)].T:
+        straight = np.interp(instants, instants[::PARTS], displacement[::PARTS])
         fed = now * straight[:-1] + ramp * np.diff(straight)
         displacements.append(lfilter([1.0], [1.0, -kept.item()], np.append(0.0, fed)))
     return np.array(displacements)

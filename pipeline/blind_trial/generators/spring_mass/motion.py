@@ -79,17 +79,17 @@ def rates(world, times, pushed, reach):
     fixed, push = np.array(rig.mass), np.eye(size)[rig.pushed]
 
     def rate(time, state):
-        place, speed = state[:size], state[size:2 * size]
-        total = push * np.interp(time, times, pushed) - stiffness @ place - damping @ speed
+        displacement, speed = state[:size], state[size:2 * size]
+        total = push * np.interp(time, times, pushed) - stiffness @ displacement - damping @ speed
         change, first = np.empty(len(state)), 3 * size
         for law in world.laws:
-            e, v, z = law.row @ place, law.row @ speed, state[first:first + law.states]
+            e, v, z = law.row @ displacement, law.row @ speed, state[first:first + law.states]
             total = total - law.row * law.force(time, e, v, z)
             if law.states:
                 change[first:first + law.states] = law.rates(time, e, v, z)
             first += law.states
         change[:size], change[size:2 * size] = speed, total / (fixed if world.mass is None else world.mass(time))
-        change[2 * size:3 * size] = reach * (place - state[2 * size:3 * size])
+        change[2 * size:3 * size] = reach * (displacement - state[2 * size:3 * size])
         return change
 
     return rate

@@ -52,10 +52,10 @@ class Hiding:
         """How many runs are fitted: all but the last."""
         return len(self.recorder.runs) - 1
 
-    def planted(self, name, place, shape, wanted, below):
+    def planted(self, name, number, shape, wanted, below):
         """The Planted of a piece of HIDDEN at the place of this index."""
         piece = HIDDEN[name]
-        index, where = placed(piece, place, len(self.truth.mass))
+        index, where = placed(piece, number, len(self.truth.mass))
         start = Planted(piece, where, self.spot(piece, index, shape))
         if below:
             return sized(start, self._left, start.spot.between(2, *BELOW))

@@ -24,7 +24,7 @@ def alike(planted, rig):
     same = [(_OF_WALL[name], wall) for name in (planted.piece.name,) if name in _OF_WALL for wall in walls]
     same += [(name, "shaker") for name, other in _OF_WALL.items() if (other, planted.place) in
              [(planted.piece.name, wall) for wall in walls]]
-    return [{"name": name, "place": place} for name, place in same]
+    return [{"name": name, "place": location} for name, location in same]
 
 
 def _wave(spot, low, high):

@@ -107,7 +107,7 @@ def _reach(seen, without):
 
 def _exact(names, indices, masses):
     """Names of values that are stated exactly, as what is hidden would else be a wrong value of them."""
-    pieces = [(HIDDEN[name], place) for name, place in zip(names, indices, strict=False)]
+    pieces = [(HIDDEN[name], index) for name, index in zip(names, indices, strict=False)]
     return tuple(_EXACT[piece.exact].format(_number(piece, placed(piece, at, masses)[0], masses))
                  for piece, at in pieces if piece.exact)
 
