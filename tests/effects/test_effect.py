@@ -13,7 +13,7 @@ from pipeline.effects import CATALOGUE, named
 from pipeline.effects.effect import STAGES, Term, compose, null_values, shaped_values
 from pipeline.effects.typical import ASPERITIES, CHANNEL, Typical
 from pipeline.physics.virtual_rig.force_residual import equation_residual
-from pipeline.physics.virtual_rig.response import respond
+from pipeline.physics.virtual_rig.response import Responder, respond
 from pipeline.physics.virtual_rig.roots import roots
 from tests.effects.benches import pressed, rubbing, tabled
 
@@ -90,6 +90,18 @@ def test_finite_over_the_prior(effect):
             assert all(np.isfinite(v).all() for v in found.values()), values
     either_sign = any(p.null is not None and p.sign == 0 for p in parameters)
     assert refused <= (tried // 2 if either_sign else 0)
+
+
+@each
+def test_runs_that_share_a_set_up_leave_no_trace_in_one_another(effect):
+    """A run after others of the same bench, on the arrays that they share, has the bits of the run alone."""
+    location, parameters = everywhere(effect)[0]
+    bench = effect.on(BASE, location, shaped_values(parameters, UPPER))
+    other = replace(RUN, duration=0.2, inputs={}, drive=None, conditions={**RUN.conditions, "input_1": -55.0})
+    shared, alone = Responder(bench), [respond(bench, run) for run in (RUN, other)]
+    for run, expected in ((RUN, alone[0]), (other, alone[1]), (RUN, alone[0])):
+        for name, values in shared.respond(run).items():
+            np.testing.assert_array_equal(values, expected[name])
 
 
 @each

@@ -15,7 +15,7 @@ from pipeline.effects.effect import Term, compose
 from pipeline.effects.typical import CHANNEL, typical
 from pipeline.inference.priors import Normal, Parameter
 from pipeline.inference.problem import Hypothesis, Observed
-from pipeline.physics.virtual_rig.response import respond
+from pipeline.physics.virtual_rig.response import Responder
 
 #: the solver as a hypothesis: its place, and its parameter: 0 as it is, 1 with half its step (4/3: none, at order 2)
 STEP, SOLVER, REFINEMENT = "time_step", "solver", "refinement"
@@ -55,7 +55,8 @@ def terms(hypothesis, values):
 class Simulated:
     """Picklable prediction, of cut runs too: ``runs`` {name: Run}.
 
-    ``altered`` {name: changes}: runs on another bench, see ``next_run``; ``built`` holds the last bench.
+    ``altered`` {name: changes}: runs on another bench, see ``next_run``; ``built`` holds the last bench and what its
+    runs share, and is left out of pickles.
     """
 
     bench: object
@@ -66,29 +67,43 @@ class Simulated:
     def __call__(self, hypothesis, values, run):
         observed_run, kept = self.runs[run.name], run.samples.shape[1]
         observed_run = observed_run.until(kept) if kept < observed_run.samples else observed_run
-        bench = altered(self._completed(hypothesis, values), self.altered.get(run.name, {}))
-        predicted = shown(bench, observed_run, run.channels)
+        change = self.altered.get(run.name, {})
+        responder = self._responder(hypothesis, values, run.channels, change)
+        predicted = _answer(responder, observed_run, run.channels)
         refinement = values.get(parameter_name(STEP, SOLVER, REFINEMENT), 0.0)
         if not refinement:
             return predicted
-        return predicted + refinement * halved(bench, observed_run, run.channels, predicted)
+        return predicted + refinement * halved(responder.bench, observed_run, run.channels, predicted)
 
-    def _completed(self, hypothesis, values):
-        """The bench of a hypothesis, kept as long as run after run asks for the same values."""
+    def __reduce__(self):
+        return Simulated, (self.bench, self.runs, self.altered)
+
+    def _responder(self, hypothesis, values, channels, change):
+        """Responder of a hypothesis, kept as long as run after run asks for the same values and channels."""
         key = (hypothesis.effects, tuple(values.items()))
         if key not in self.built:
             self.built.clear()
             self.built[key] = completed(self.bench, hypothesis, values)
-        return self.built[key]
+        bench = self.built[key]
+        if change:
+            return Responder(only(altered(bench, change), channels))
+        if channels not in self.built:
+            self.built[channels] = Responder(only(bench, channels))
+        return self.built[channels]
 
 
 def shown(bench, run, channels):
     """Samples (c, n) of ``channels`` in one run; coordinates that an effect adds start at rest."""
+    return _answer(Responder(only(bench, channels)), run, channels)
+
+
+def _answer(responder, run, channels):
+    bench = responder.bench
     if run.start is not None and len(run.start.displacement) < bench.model.size:
         rest = np.zeros(bench.model.size - len(run.start.displacement))
         run = replace(run, start=replace(run.start, displacement=np.append(run.start.displacement, rest),
                                          velocity=np.append(run.start.velocity, rest)))
-    answer = respond(only(bench, channels), run)
+    answer = responder.respond(run)
     return np.array([answer[c] for c in channels])
 
 

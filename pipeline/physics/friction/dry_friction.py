@@ -11,6 +11,7 @@ A contact that sticks is held up to ``static_factor`` times mu at slip speed 0; 
 mu itself can hold it.
 """
 
+import operator
 from dataclasses import dataclass, replace
 from typing import NamedTuple
 
@@ -91,7 +92,8 @@ def under(friction, given, where):
     it asks for and does not find.
     """
     if isinstance(friction, Grouped):
-        return replace(friction, laws=tuple(under(law, given, where) for law in friction.laws))
+        laws = tuple(under(law, given, where) for law in friction.laws)
+        return friction if all(map(operator.is_, laws, friction.laws)) else replace(friction, laws=laws)
     factor = 1.0
     for condition in friction.conditions:
         value = given.get(condition.name)

@@ -35,7 +35,8 @@ from pipeline.physics.time_stepping.normal_laws import (
 )
 from pipeline.physics.time_stepping.step_loop import Record, Schedule, State, System, integrate
 
-__all__ = ["Forward", "Hard", "History", "Lagrange", "Motion", "Penalty", "Start", "Table", "imposed", "simulate"]
+__all__ = ["Forward", "Hard", "History", "Lagrange", "Motion", "Penalty", "Start", "Table", "imposed", "simulate",
+           "stepper"]
 
 
 @dataclass(frozen=True)
@@ -120,29 +121,66 @@ def simulate(model, law, friction=None, *, step, duration, drive=None, inputs=No
     dampers. Raises ConfigError for a step too long, ConvergenceError with time and contact where a step has no
     solution.
     """
-    steps = round(duration / step)
-    if not step > 0 or steps < 1 or record_every < 1:
-        raise ConfigError("time stepping: step", "a positive step, at most as long as the motion",
-                          f"{step:g} s for {duration:g} s")
-    system = modal_system(model) if system is None else system
+    return stepper(model, law, friction, step, system).run(duration, drive, inputs, record_every, start, book)
+
+
+@dataclass(frozen=True)
+class Stepper:
+    """A SlidingModel with the arrays that steps of ``step`` s need, for runs that differ in loads, start and length.
+
+    ``modes``: its ModalSystem; ``system``: what the compiled loop steps.
+    """
+
+    model: object
+    modes: object
+    step: float
+    system: System
+
+    def run(self, duration, drive=None, inputs=None, record_every=1, start=None, book=True):
+        """Motion over ``duration`` s; arguments and errors as of ``simulate``."""
+        model, step = self.model, self.step
+        steps = round(duration / step)
+        if steps < 1 or record_every < 1:
+            raise _too_short(step, duration)
+        rest = np.zeros(model.size)
+        start = Start(rest, rest) if start is None else start
+        system = _fresh(self.system)
+        state = _begin(model, self.modes, system, start, _speed_at_start(model, drive))
+        record = _empty(system.linear, system.elements, steps // record_every + 1)
+        schedule = Schedule(_history(model.speed if drive is None else drive, 1, "drive"), _inputs(model, inputs),
+                            float(start.age), float(step), steps, int(record_every), bool(book))
+        code, number, contact = integrate(system, schedule, state, record)
+        if code != SOLVED:
+            raise _failure(code, number * step, contact, step, model)
+        end = Start(*self.modes.from_pairs(state.pairs), *state.force, state.memory, float(state.angle[0]),
+                    start.age + steps * step, state.worn, state.friction)
+        return _motion(record, step * record_every, steps, end)
+
+
+def stepper(model, law, friction, step, system=None):
+    """Stepper of a SlidingModel; arguments and errors as of ``simulate``."""
+    if not step > 0:
+        raise _too_short(step, 0.0)
+    modes, count = modal_system(model) if system is None else system, len(model.contacts.area)
     friction = friction or constant(0.0)
-    normal, dry = normal_kernel(law, model.contacts), kernel(friction, len(model.contacts.area))
-    linear, states = linear_kernel(model, system, law, dry, step), state_kernel(friction, model.contacts.area)
-    refuse(system, linear, normal, dry, states, model, step)
-    rest = np.zeros(model.size)
-    start = Start(rest, rest) if start is None else start
-    elements = elements_kernel(model, system, linear)
-    state = _begin(model, system, normal, dry, start, _speed_at_start(model, drive), elements, states)
-    record = _empty(linear, elements, steps // record_every + 1)
-    schedule = Schedule(_history(model.speed if drive is None else drive, 1, "drive"), _inputs(model, inputs),
-                        float(start.age), float(step), steps, int(record_every), bool(book))
-    code, number, contact = integrate(
-        System(linear, normal, dry, elements, states, contiguous(model.contacts.lever)), schedule, state, record)
-    if code != SOLVED:
-        raise _failure(code, number * step, contact, step, model)
-    end = Start(*system.from_pairs(state.pairs), *state.force, state.memory, float(state.angle[0]),
-                start.age + steps * step, state.worn, state.friction)
-    return _motion(record, step * record_every, steps, end)
+    normal, dry = normal_kernel(law, model.contacts), kernel(friction, count)
+    linear, states = linear_kernel(model, modes, law, dry, step), state_kernel(friction, model.contacts.area)
+    refuse(modes, linear, normal, dry, states, model, step)
+    elements = elements_kernel(model, modes, linear)
+    return Stepper(model, modes, step, System(linear, normal, dry, elements, states,
+                                              contiguous(model.contacts.lever)))
+
+
+def _fresh(system):
+    """The System with copies of the numbers that a run changes: those of friction with states, of turning dampers."""
+    friction, elements = system.friction, system.elements
+    return system._replace(friction=friction._replace(contact=friction.contact.copy()),
+                           elements=elements._replace(parameter=elements.parameter.copy()))
+
+
+def _too_short(step, duration):
+    return ConfigError("time stepping: step", "a positive step, at most as long as the motion",
+                       f"{step:g} s for {duration:g} s")
 
 
 def imposed(model, joint):
@@ -155,9 +193,10 @@ def imposed(model, joint):
                    input_rows=np.vstack((model.input_rows, row)))
 
 
-def _begin(model, system, normal, dry, start, speed, elements, states):
+def _begin(model, modes, system, start, speed):
     """The State at time 0."""
-    contacts = model.contacts
+    contacts, elements, states = model.contacts, system.elements, system.states
+    normal, dry = system.law, system.friction
     gap = normal.gap + contacts.normal @ start.displacement
     rate, slip = contacts.normal @ start.velocity, contacts.lever * speed - contacts.tangent @ start.velocity
     if start.worn is not None:
@@ -179,7 +218,7 @@ def _begin(model, system, normal, dry, start, speed, elements, states):
     mu = [coefficient(dry, i, force[0, i] / contacts.area[i], slip[i], slip[i]) for i in range(len(gap))]
     force[1] = np.sign(slip) * mu * force[0] if start.friction is None else start.friction
     status = np.where(closed, np.where(slip == 0, STICK, SLIP), OPEN).astype(np.int64)
-    return State(contiguous(system.to_pairs(start.displacement, start.velocity)), force, status,
+    return State(contiguous(modes.to_pairs(start.displacement, start.velocity)), force, status,
                  no_memory(elements, start.age) if start.memory is None else np.array(start.memory, float),
                  np.array(value, float), np.array([float(start.angle)]),
                  np.zeros(len(gap)) if start.worn is None else np.array(start.worn, float))

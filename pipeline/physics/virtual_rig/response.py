@@ -12,7 +12,7 @@ from pipeline.physics.contact.groups import Grouped, changed
 from pipeline.physics.friction.dry_friction import Friction, under
 from pipeline.physics.sliding.model import SlidingModel
 from pipeline.physics.time_stepping.initial_state import steady_start
-from pipeline.physics.time_stepping.simulate import History, Start, simulate
+from pipeline.physics.time_stepping.simulate import History, Start, stepper
 from pipeline.physics.virtual_rig.normal_load import loaded
 from pipeline.physics.virtual_rig.sensor import SimulatedRun, known
 
@@ -128,21 +128,46 @@ def respond(bench, run, system=None):
     Gyroscopic and centrifugal terms are those of the speed with which the run begins, also in ``system``. Raises
     ConfigError for sources that the model does not have, and what ``simulate`` raises.
     """
-    bench = loaded(bench, run)
-    parts = max(1, int(np.ceil(1 / (run.sample_rate * bench.step) * (1 - 1e-12))))
-    step = 1 / run.sample_rate / parts
-    rows, model = _watched(bench)
-    inputs, drive = run_inputs(bench, run), run_drive(bench, run)
-    speed, first = at_begin(bench, run)
-    model, start, friction = model.at_speed(speed), run.start, run_friction(bench, run)
-    if start is None and bench.settled:
-        start = steady_start(model, bench.law, friction, first)
-    steps = (run.samples - 1) * parts
-    motion = simulate(model, bench.law, friction, step=step, duration=steps * step, system=system, start=start,
-                      inputs=_history(inputs, run), drive=_history([drive], run), book=False)
-    simulated = SimulatedRun(bench, run, motion, inputs, step, rows)
-    return {sensor.name: sensor.written(sensor.measurand.history(simulated, sensor), step)[::parts]
-            for sensor in bench.channels}
+    return Responder(bench, system).respond(run)
+
+
+class Responder:
+    """Answers of one Bench to many runs, which share what depends on speed, step and friction alone.
+
+    ``system`` is the ModalSystem of the model, where there is one already.
+    """
+
+    def __init__(self, bench, system=None):
+        self.bench, self._system, self._steppers = bench, system, {}
+        self._rows, self._model = _watched(bench)
+
+    def respond(self, run):
+        """{channel: (samples,)} of a Run; errors as of ``respond``."""
+        bench = self.bench
+        parts = max(1, int(np.ceil(1 / (run.sample_rate * bench.step) * (1 - 1e-12))))
+        step = 1 / run.sample_rate / parts
+        inputs, drive = run_inputs(bench, run), run_drive(bench, run)
+        speed, first = at_begin(bench, run)
+        under_load = loaded(bench, run)
+        friction, stepping = run_friction(under_load, run), self._stepper(under_load, run, speed, step)
+        start, steps = run.start, (run.samples - 1) * parts
+        if start is None and bench.settled:
+            start = steady_start(stepping.model, bench.law, friction, first)
+        motion = stepping.run(steps * step, start=start, inputs=_history(inputs, run), drive=_history([drive], run),
+                              book=False)
+        simulated = SimulatedRun(under_load, run, motion, inputs, step, self._rows)
+        return {sensor.name: sensor.written(sensor.measurand.history(simulated, sensor), step)[::parts]
+                for sensor in bench.channels}
+
+    def _stepper(self, bench, run, speed, step):
+        """Stepper for a run of the bench under its load; the last one of its speed and step where that serves."""
+        friction, key = run_friction(bench, run), (speed, step)
+        model = self._model if bench is self.bench else _watched(bench)[1]
+        known_model, known_friction, made = self._steppers.get(key, (None, None, None))
+        if model is not known_model or friction is not known_friction:
+            made = stepper(model.at_speed(speed), bench.law, friction, step, self._system)
+            self._steppers[key] = model, friction, made
+        return made
 
 
 def at_begin(bench, run):
