@@ -170,14 +170,20 @@ def test_a_drive_that_turns_backwards_under_a_heavy_clamp(tmp_path):
     assert "it locks" in refused(2, "run", PIN, *heavy, "pin_on_disc.pin.tilt=-4 deg")
 
 
+@pytest.fixture(scope="module")
+def pins(tmp_path_factory):
+    """Run folder that the pins share, so that only the stages from the wrong setting on are computed anew."""
+    return tmp_path_factory.mktemp("pins") / "run"
+
+
 @pytest.mark.parametrize("override, message", [
     ("pin_on_disc.pin.length=15 mm", "pin.length: expected a pin longer than its clamp (0.02 m), found 0.015 m"),
     ("pin_on_disc.contact.radius=178 mm", "it never touches; move the pin over the face of the disc"),
     ("transient.step=3 us", "for the stiffness of contact 0, found 3e-06 s; shorten the step"),
 ])
-def test_a_pin_that_cannot_be_built_or_stepped(tmp_path, override, message):
+def test_a_pin_that_cannot_be_built_or_stepped(pins, override, message):
     """With coarse meshes; the stages before the one that refuses are as they were."""
     coarse = ("surface.nodes=128", "surface.patch_length=128 um", "pin_on_disc.frequency_max=3 kHz",
               "pin_on_disc.disc.radial_cells=3", "pin_on_disc.disc.angular_cells=12", "pin_on_disc.disc.axial_cells=1",
               "reduced_model.fixed_below=6 kHz", override)
-    assert message in refused(2, "run", PIN, "--run", tmp_path / "run", *(a for c in coarse for a in ("--set", c)))
+    assert message in refused(2, "run", PIN, "--run", pins, *(a for c in coarse for a in ("--set", c)))

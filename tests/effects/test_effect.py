@@ -12,6 +12,7 @@ from pipeline.contract.errors import BrakechainError, ConfigError
 from pipeline.effects import CATALOGUE, named
 from pipeline.effects.effect import STAGES, Term, compose, null_values, shaped_values
 from pipeline.effects.typical import ASPERITIES, CHANNEL, Typical
+from pipeline.physics.time_stepping.simulate import Start
 from pipeline.physics.virtual_rig.force_residual import equation_residual
 from pipeline.physics.virtual_rig.response import Responder, respond
 from pipeline.physics.virtual_rig.roots import roots
@@ -97,9 +98,10 @@ def test_runs_that_share_a_set_up_leave_no_trace_in_one_another(effect):
     """A run after others of the same bench, on the arrays that they share, has the bits of the run alone."""
     location, parameters = everywhere(effect)[0]
     bench = effect.on(BASE, location, shaped_values(parameters, UPPER))
-    other = replace(RUN, duration=0.2, inputs={}, drive=None, conditions={**RUN.conditions, "input_1": -55.0})
-    shared, alone = Responder(bench), [respond(bench, run) for run in (RUN, other)]
-    for run, expected in ((RUN, alone[0]), (other, alone[1]), (RUN, alone[0])):
+    rest = np.zeros(bench.model.size)
+    steady, pressed_on = RUN.until(101), replace(RUN.until(41), start=Start(rest - 3e-3, rest + 0.1))
+    shared, alone = Responder(bench), [respond(bench, run) for run in (steady, pressed_on)]
+    for run, expected in ((steady, alone[0]), (pressed_on, alone[1]), (steady, alone[0])):
         for name, values in shared.respond(run).items():
             np.testing.assert_array_equal(values, expected[name])
 
