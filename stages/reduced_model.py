@@ -25,6 +25,9 @@ class Settings(Section):
     residual_below: Quantity("Hz", gt=0) = option(
         "400 kHz", "limit of the pseudo-frequencies of residual shapes: the disc's response to contact forces, the"
         " inertia that moving interfaces leave to pads and caliper")
+    load_patterns: tuple[int, int] | None = option(
+        None, "polynomial orders of contact force along and across each contact face, for which static responses are"
+        " kept; none = the force of every contact by itself, which suits a few dozen contacts")
 
 
 @stage
@@ -43,7 +46,7 @@ def reduced_model(structure: Structure | PinOnDisc | BeamOnBeam | Lumped, settin
 
 def _from_solids(structure, settings, context):
     """Brake or pin on disc, whose bodies are finite elements with supports or interfaces."""
-    bodies = [elastic_body(structure, name) for name in structure.body_name]
+    bodies = [elastic_body(structure, name, settings.load_patterns) for name in structure.body_name]
     reduce = partial(reduce_body, fixed_below=settings.fixed_below, residual_below=settings.residual_below,
                      solver=context.solver)
     terms = context.map(reduce, bodies, "reducing bodies")

@@ -69,6 +69,9 @@ class Pad(Section):
     patches_radial: int = option(3, "contact patches across", ge=1)
     cells_per_patch: int = option(2, "elements per patch and direction", ge=1)
     lining_layers: int = option(2, "elements through the lining", ge=1)
+    contact_points: int | None = option(None, "contact points per direction on each element face of the lining, which"
+                                        " are its integration points; none = one contact for each patch, at its mean",
+                                        ge=1)
 
 
 class Caliper(Section):

@@ -28,7 +28,7 @@ class _Spot:
 
 
 def contacts(meshes, parameters):
-    """Patches of both pads; pad and disc are read at the same points, so forces keep resultant and moment."""
+    """Contacts of both pads; pad and disc are read at the same points, so forces keep resultant and moment."""
     read = [_pad_patches(meshes, parameters, pad) for pad in (OUTER, INNER)]
     pad, position, area = (np.concatenate([r[k] for r in read]) for k in range(3))
     radial = position * (1, 1, 0) / np.hypot(position[:, 0], position[:, 1])[:, None]
@@ -44,14 +44,14 @@ def contacts(meshes, parameters):
 
 
 def _pad_patches(meshes, parameters, pad):
-    """Body, centroids, areas and the (patches, nodes) means on pad and disc of one pad."""
+    """Body, centroids, areas and the (contacts, nodes) means on pad and disc of one pad, patches or single points."""
     p, mesh = parameters.pad, meshes[pad]
     face = faces_towards(mesh, -1 if pad == OUTER else 1)
-    point, area = (a.reshape(-1, *a.shape[2:]) for a in face_points(mesh.node, face))
+    point, area = (a.reshape(-1, *a.shape[2:]) for a in face_points(mesh.node, face, p.contact_points))
     radius, angle = np.hypot(point[:, 0], point[:, 1]), np.arctan2(point[:, 1], point[:, 0])
     across = np.floor((radius - p.inner_radius) / (p.outer_radius - p.inner_radius) * p.patches_radial)
     along = np.floor((angle / p.angle + 0.5) * p.patches_angular)
-    group = (along * p.patches_radial + across).astype(int)
+    group = (along * p.patches_radial + across).astype(int) if p.contact_points is None else np.arange(len(point))
     total = np.bincount(group, area)
     centre = np.stack([np.bincount(group, area * x) for x in point.T], axis=1) / total[:, None]
     rows = surface_rows(mesh.node, face, point, area, group, "structure.pad: contact face")

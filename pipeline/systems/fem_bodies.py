@@ -4,6 +4,7 @@ import numpy as np
 import scipy
 
 from pipeline.physics.reduction.body import ElasticBody
+from pipeline.physics.reduction.load_patterns import load_patterns
 from pipeline.products import Body, Incidence, PinOnDisc, Structure
 
 #: what presses the contacts of a system, in its fields <input>_rows and <input>_area
@@ -48,18 +49,31 @@ def row_fields(system):
             "sensor_rows")
 
 
-def elastic_body(system, name):
-    """ElasticBody of the body ``name`` of a product, with its part of every row; modes only where it is supported."""
+def elastic_body(system, name, orders=None):
+    """ElasticBody of the body ``name`` of a product, with its part of every row.
+
+    ``orders``: of the patterns that contacts are loaded in (see ``load_patterns``); None = every contact by itself, and
+    modes only where the body is supported.
+    """
     body, index = getattr(system, name), list(system.body_name).index(name)
     incidences = [getattr(system, field) for field in row_fields(system)]
     rows = scipy.sparse.vstack([body_rows(i, index, len(body.node)) for i in incidences], format="csr")
-    count = len(body.frequency) if len(body.supported) else 0
+    patterns = None if orders is None else force_patterns(system, orders)
+    count = len(body.frequency) if len(body.supported) or orders is not None else 0
     return ElasticBody(
         name=name, node=body.node, element=body.element, kind=str(body.kind), material=body.element_material,
         density=body.density, elasticity=body.elasticity, damping_ratio=float(body.damping_ratio),
         supported=body.supported, rows=rows, interface=np.arange(sum(int(i.rows) for i in incidences[:-1])),
         turns=name == "disc", frequency=body.frequency[:count],
-        modes=body.shape[:count].reshape(count, 3 * len(body.node)).T)
+        modes=body.shape[:count].reshape(count, 3 * len(body.node)).T, patterns=patterns)
+
+
+def force_patterns(system, orders):
+    """(forces, p) sparse: patterns of the contact forces in each of three directions, joints and inputs one by one."""
+    contacts = load_patterns(system.contact_position, system.contact_area, system.contact_body, orders)
+    rows = [getattr(system, field).rows for field in row_fields(system)]
+    first, last = scipy.sparse.identity(int(rows[0])), scipy.sparse.identity(int(rows[4]))
+    return scipy.sparse.csr_matrix(scipy.sparse.block_diag([first, contacts, contacts, contacts, last]))
 
 
 def body_rows(incidence, body, nodes):

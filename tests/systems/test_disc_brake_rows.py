@@ -64,3 +64,17 @@ def test_patches_fill_the_pad(brake):
 def test_sensors_read_their_direction(brake):
     shift = rigid(brake, lambda x: np.broadcast_to([0, 0, 2.0], x.shape))
     assert brake.sensors.matrix @ shift == pytest.approx(2)
+
+
+def test_contact_at_integration_points_has_the_area_and_the_rows_of_its_faces():
+    """Points of a patch together carry what its mean carries."""
+    coarse = {**COARSE, "pad": COARSE["pad"].model_copy(update={"contact_points": 3})}
+    points, patches = build(Settings(**coarse)), build(Settings(**COARSE))
+    assert len(points.contacts.body) == 9 * len(patches.contacts.body)
+    near = np.argmin(np.linalg.norm(points.contacts.position[:, None] - patches.contacts.position, axis=2), axis=1)
+    assert np.bincount(near, points.contacts.area) == pytest.approx(patches.contacts.area)
+    share = np.zeros((len(patches.contacts.body), len(near)))
+    share[near, np.arange(len(near))] = points.contacts.area / patches.contacts.area[near]
+    for name in ("normal", "lateral"):
+        mean, rows = (getattr(b.contacts, name).matrix for b in (patches, points))
+        assert abs(share @ rows - mean).max() < 0.02 * abs(mean).max()

@@ -17,10 +17,13 @@ _NEWTON_STEPS = 12
 _SLACK = 1e-6
 
 
-def face_points(node, face):
-    """Gauss points (f, q, 3) [m] of the faces and the area (f, q) [m^2] that each stands for."""
+def face_points(node, face, count=None):
+    """Gauss points (f, q, 3) [m] of the faces and the area (f, q) [m^2] that each stands for.
+
+    ``count``: points per direction of quadrilateral faces; by default as many as the kind of face asks for.
+    """
     kind = face_kind(face)
-    point, weight = quadrature(kind)
+    point, weight = quadrature(kind, count and 2 * count - 1)
     shape, gradient = shape_functions(kind, point)
     tangent = np.einsum("fvx,qvr->fqrx", node[face], gradient)
     area = np.linalg.norm(np.cross(tangent[..., 0, :], tangent[..., 1, :]), axis=-1)

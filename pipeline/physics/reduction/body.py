@@ -1,8 +1,8 @@
 """One finite-element body in reduced coordinates: matrices, rows of the sliding model and shapes of its surface.
 
-A body without rigid supports keeps interface coordinates, fixed-interface modes and the residual inertia of its moving
-interface (Craig-Bampton); a supported body keeps its modes and its residual static response to interface forces. A body
-that turns about z gets gyroscopic and centrifugal terms.
+A supported body keeps its modes and its residual static response to the forces on it, and so does a free body that is
+loaded in patterns. A free body without them keeps interface coordinates, fixed-interface modes and the residual inertia
+of its moving interface (Craig-Bampton). A body that turns about z gets gyroscopic and centrifugal terms.
 """
 
 from dataclasses import dataclass
@@ -23,13 +23,17 @@ from pipeline.physics.reduction.craig_bampton import (
     projected,
 )
 
+#: inertia that holds a free body acts at this share of the frequency of its last mode
+_INERTIA_SHARE = 0.05
+
 
 @dataclass(frozen=True)
 class ElasticBody:
     """Mesh, materials and supports of a body; degree of freedom = 3 node + axis.
 
-    ``rows`` (r, 3n) sparse are all displacement rows that the model reads; those numbered in ``interface`` carry
-    forces. ``frequency`` (m,) Hz and ``modes`` (3n, m) are needed of a supported body only.
+    ``rows`` (r, 3n) sparse are all displacement rows that the model reads; those numbered in ``interface`` (i,) carry
+    forces. ``patterns`` (i, p) sparse: forces on these that static responses are kept for; None = each by itself.
+    ``frequency`` (m,) Hz and ``modes`` (3n, m) are not needed of a free body without patterns.
     """
 
     name: str
@@ -46,6 +50,7 @@ class ElasticBody:
     turns: bool
     frequency: np.ndarray
     modes: np.ndarray
+    patterns: "scipy.sparse.csr_matrix | None" = None
 
     def matrices(self):
         """Stiffness and mass (3n, 3n) sparse of the body, supports not yet held."""
@@ -70,26 +75,40 @@ class BodyTerms:
 def reduce_body(body, fixed_below, residual_below, solver):
     """BodyTerms of an ElasticBody.
 
-    ``fixed_below`` [Hz] limits the fixed-interface modes of a free body, ``residual_below`` [Hz] the pseudo-frequencies
-    of the residual shapes of both kinds. Raises ConfigError for a turning body without supports.
+    ``fixed_below`` [Hz] limits the fixed-interface modes of a free body without patterns, ``residual_below`` [Hz] the
+    pseudo-frequencies of the residual shapes of all kinds. Raises ConfigError for a turning body without supports.
     """
     stiffness, mass = body.matrices()
     free = free_freedoms(len(body.node), body.supported)
     stiffness, mass, rows = stiffness[free][:, free], mass[free][:, free], scipy.sparse.csr_matrix(body.rows)[:, free]
-    interface = rows[body.interface]
-    interface = interface[independent_rows(interface)]
-    if len(body.supported):
-        factor = factorise(stiffness, solver)
-        reduced = attachment(stiffness, mass, interface, body.frequency, body.modes[free], residual_below, factor)
-    elif body.turns:
+    interface, factor = _loads(rows[body.interface], body.patterns), None
+    if body.turns and not len(body.supported):
         raise ConfigError(f"reduced model: {body.name}", "a turning body on rigid supports", "none",
                           "hold the nodes of its mount")
+    if len(body.supported) or body.patterns is not None:
+        held = stiffness if len(body.supported) else _held_by_inertia(stiffness, mass, body.frequency)
+        factor = factorise(held, solver)
+        reduced = attachment(stiffness, mass, interface, body.frequency, body.modes[free], residual_below, factor)
     else:
         reduced = craig_bampton(stiffness, mass, interface, fixed_below, solver, residual_below)
     size = reduced.shape.shape[1]
     whirl, centrifugal = _rotation(body, free, factor, reduced.shape) if body.turns else (np.zeros((size, size)),) * 2
     return BodyTerms(reduced.mass, modal_damping(reduced.mass, reduced.stiffness, body.damping_ratio), whirl,
                      reduced.stiffness, centrifugal, rows @ reduced.shape, *_surface(body, free, reduced.shape))
+
+
+def _loads(rows, patterns):
+    """Independent rows (k, n) sparse along which static responses are kept."""
+    loads = rows if patterns is None else scipy.sparse.csr_matrix(patterns.T @ rows)
+    return loads[independent_rows(loads)]
+
+
+def _held_by_inertia(stiffness, mass, frequency):
+    """The stiffness of a free body, regular by w^2 M with w far below its modes that are left out."""
+    if not len(frequency):
+        raise ConfigError("reduced model", "rigid motions among the modes of a free body", "no mode",
+                          "raise structure.frequency_max")
+    return stiffness + (2 * np.pi * _INERTIA_SHARE * frequency[-1]) ** 2 * mass
 
 
 def _rotation(body, free, factor, shape):

@@ -65,11 +65,12 @@ def craig_bampton(stiffness, mass, rows, below, solver, residual_below=None):
 
 
 def attachment(stiffness, mass, rows, frequency, modes, below, factor):
-    """Given mass-normalised modes of a supported body, with the residual static response to forces on ``rows``.
+    """Given mass-normalised modes of a body, with the residual static response to forces on ``rows``.
 
     The static responses K^-1 R^T are freed of their share in ``modes`` (n, m), ``frequency`` (m,) Hz; what is left is
     turned into mass-orthonormal pseudo-modes, of which those below the frequency ``below`` [Hz] are kept. With all of
-    them the static response to interface forces is exact. ``factor`` is that of the stiffness.
+    them the static response to interface forces is exact. ``factor`` is that of the stiffness, of a free body that of
+    K + w^2 M with w well below its modes that are not given.
     """
     static = factor.solve(scipy.sparse.csr_matrix(rows).T.toarray())
     pseudo_frequency, pseudo = _pseudo_modes(stiffness, mass, _without(modes, mass, static), below)
