@@ -54,7 +54,7 @@ def _from_solids(structure, settings, context):
     counts = (f"{name} {size}" for name, size in zip(structure.body_name, sizes, strict=True))
     context.log(f"reduced coordinates: {', '.join(counts)}")
     matrices = {name: scipy.linalg.block_diag(*(getattr(t, name) for t in terms))
-                for name in ("mass", "damping", "gyroscopic", "stiffness", "centrifugal")}
+                for name in ("mass", "damping", "gyroscopic", "stiffness", "centrifugal", "loss")}
     rows = _split_rows(structure, np.hstack([t.rows for t in terms]))
     return ReducedModel(
         body_name=structure.body_name, coordinate_body=np.repeat(np.arange(len(terms)), sizes), **matrices, **rows,
@@ -67,7 +67,7 @@ def _from_beams(beams, settings, context):
     area, force = beams.contact_area, float(beams.force)
     return ReducedModel(
         body_name=beams.body_name, coordinate_body=beams.mode_body, mass=np.eye(size),
-        damping=np.diag(beams.mode_damping), gyroscopic=none, centrifugal=none,
+        damping=np.diag(beams.mode_damping), gyroscopic=none, centrifugal=none, loss=none, joint_loss_factor=[],
         stiffness=np.diag((2 * np.pi * beams.mode_frequency) ** 2), joint_name=[], joint_rows=np.zeros((0, size)),
         joint_stiffness=[], joint_damping=[], contact_body=[0], contact_position=beams.contact_position,
         contact_area=area, contact_lever=[1.0], contact_gap=[0.0], contact_normal=beams.contact_normal,
@@ -85,8 +85,9 @@ def _from_lumps(lumped, settings, context):
     size, sensors = len(lumped.mass), len(lumped.sensor_name)
     none, names = np.zeros((size, size)), {f.name for f in fields(ReducedModel)} & {f.name for f in fields(Lumped)}
     return ReducedModel(
-        damping=none, stiffness=none, centrifugal=none,
-        sensor_position=np.zeros((sensors, 3)), sensor_direction=np.tile([1.0, 0.0, 0.0], (sensors, 1)),
+        damping=none, stiffness=none, centrifugal=none, loss=none,
+        joint_loss_factor=np.zeros(len(lumped.joint_name)), sensor_position=np.zeros((sensors, 3)),
+        sensor_direction=np.tile([1.0, 0.0, 0.0], (sensors, 1)),
         visible_position=np.empty((0, 3)), visible_body=[], visible_face=np.empty((0, 4), int),
         recovery=np.empty((0, 3, size)), **NO_SHEAR, **{name: getattr(lumped, name) for name in sorted(names)})
 
@@ -107,8 +108,8 @@ def _split_rows(structure, rows):
 
 def _copied(structure):
     """What the reduction leaves as it is; parts touch without being pressed, and loads are constant."""
-    kept = ("joint_name", "joint_stiffness", "joint_damping", "contact_body", "contact_position", "contact_area",
-            "pressure", "preload", "contact_stiffness", "law_closure", "law_pressure", "sensor_name",
+    kept = ("joint_name", "joint_stiffness", "joint_damping", "joint_loss_factor", "contact_body", "contact_position",
+            "contact_area", "pressure", "preload", "contact_stiffness", "law_closure", "law_pressure", "sensor_name",
             "sensor_position", "sensor_direction")
     tangential = {name: getattr(structure, name, none) for name, none in NO_SHEAR.items()}
     radius = np.hypot(structure.contact_position[:, 0], structure.contact_position[:, 1])

@@ -164,7 +164,8 @@ def _turning_disc(structure, model, multibody, settings):
     directions = _chosen(settings, normal, tangent)
     positions = np.tile(structure.contact_position, (len(directions) // len(outwards), 1))
     seen = structure.sensor_position[sensors]
-    base = _Superposition(angular, 2 * disc.damping_ratio * angular, read(positions, directions),
+    damping = (2 * disc.damping_ratio + disc.loss_factor.max(initial=0.0)) * angular
+    base = _Superposition(angular, damping, read(positions, directions),
                           read(seen, _cylindrical(seen, structure.sensor_direction[sensors])))
     return sensors, [replace(base, turning=speed) for speed in multibody.speed]
 

@@ -3,7 +3,7 @@
 from pipeline.contract import Array, count, product, quantity, text
 
 
-@product(version=1)
+@product(version=2)
 class Body:
     """One elastic body: FE mesh, materials and real modes on its supports."""
 
@@ -14,7 +14,8 @@ class Body:
     material_name: Array = text("material", "material names")
     density: Array = quantity("kg/m^3", "material", "density")
     elasticity: Array = quantity("Pa", "material voigt strain", "elastic constants, order xx yy zz yz xz xy")
-    damping_ratio: Array = quantity("1", "", "damping ratio of the elastic modes of the body")
+    loss_factor: Array = quantity("1", "material", "loss factor: lost per cycle over 2 pi times the strain energy")
+    damping_ratio: Array = quantity("1", "", "damping ratio of the elastic modes of the body, beside its loss factors")
     frequency: Array = quantity("Hz", "mode", "natural frequencies of the body on its supports alone")
     shape: Array = quantity("1/kg^0.5", "mode nodes xyz", "mass-normalised mode shapes")
     supported: Array = count("support", "nodes held in all directions (rigid supports; none = empty)")

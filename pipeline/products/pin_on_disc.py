@@ -6,7 +6,7 @@ from pipeline.contract import Array, count, part, product, quantity, text
 from pipeline.products.bodies import Body, Incidence
 
 
-@product(version=2)
+@product(version=3)
 class PinOnDisc:
     """Pin and disc as FE bodies with hub, clamp and guide, their contact and sensors, and the load states.
 
@@ -19,7 +19,8 @@ class PinOnDisc:
     joint_name: Array = text("joint", "joint names, e.g. guide")
     joint_rows: Incidence = part("joint elongation rows; all joints of the clamp end on the ground")
     joint_stiffness: Array = quantity("N/m", "joint", "joint stiffness")
-    joint_damping: Array = quantity("N s/m", "joint", "joint damping")
+    joint_damping: Array = quantity("N s/m", "joint", "joint damping, beside the loss factor")
+    joint_loss_factor: Array = quantity("1", "joint", "imaginary over real part of the joint stiffness")
     contact_body: Array = count("contact", "body that slides on the disc at the contact, index into body_name")
     contact_position: Array = quantity("m", "contact xyz", "centroid of the contact patch on the disc face")
     contact_area: Array = quantity("m^2", "contact", "area of the contact patch")

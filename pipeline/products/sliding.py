@@ -5,7 +5,7 @@ import numpy as np
 from pipeline.contract import Array, count, product, quantity, text
 
 
-@product(version=4)
+@product(version=5)
 class ReducedModel:
     """The reduced sliding model: everything that a solver or an effect needs to know of a sliding system.
 
@@ -24,10 +24,12 @@ class ReducedModel:
     gyroscopic: Array = quantity("N s^2/m", "coordinate column", "gyroscopic matrix per rad/s of disc speed")
     stiffness: Array = quantity("N/m", "coordinate column", "reduced stiffness of the bodies, without joints and contacts")
     centrifugal: Array = quantity("kg", "coordinate column", "stiffness per squared disc speed")
+    loss: Array = quantity("N/m", "coordinate column", "imaginary part of the stiffness of the bodies, by loss factors")
     joint_name: Array = text("joint", "joint names")
     joint_rows: Array = quantity("1", "joint coordinate", "joint elongation rows")
     joint_stiffness: Array = quantity("N/m", "joint", "joint stiffness")
-    joint_damping: Array = quantity("N s/m", "joint", "joint damping")
+    joint_damping: Array = quantity("N s/m", "joint", "joint damping, beside the loss factor")
+    joint_loss_factor: Array = quantity("1", "joint", "imaginary over real part of the joint stiffness")
     contact_body: Array = count("contact", "body that slides on the drive at the contact")
     contact_position: Array = quantity("m", "contact xyz", "centroid of the contact patch")
     contact_area: Array = quantity("m^2", "contact", "area of the contact patch")

@@ -4,7 +4,7 @@ from pipeline.contract import Array, count, part, product, quantity, text
 from pipeline.products.bodies import Body, Incidence
 
 
-@product(version=2)
+@product(version=3)
 class Structure:
     """FE bodies of the brake, their joints, contacts and sensors, and the solved preload."""
 
@@ -19,7 +19,8 @@ class Structure:
     joint_name: Array = text("joint", "joint names, e.g. abutment_outer_leading")
     joint_rows: Incidence = part("joint elongation rows (both ends included; a joint to ground has one end)")
     joint_stiffness: Array = quantity("N/m", "joint", "joint stiffness, linearised about the preload")
-    joint_damping: Array = quantity("N s/m", "joint", "joint damping")
+    joint_damping: Array = quantity("N s/m", "joint", "joint damping, beside the loss factor")
+    joint_loss_factor: Array = quantity("1", "joint", "imaginary over real part of the joint stiffness")
     contact_body: Array = count("contact", "body that slides on the disc at the contact, index into body_name")
     contact_position: Array = quantity("m", "contact xyz", "centroid of the contact patch on the disc face")
     contact_area: Array = quantity("m^2", "contact", "area of the contact patch")

@@ -53,7 +53,8 @@ def disc(parameters):
     mesh = read_mesh(parameters.mesh_file) if parameters.mesh_file else disc_mesh(parameters)
     elasticity = isotropic(parameters.young, parameters.poisson)
     return Solid(mesh, np.zeros(len(mesh.element), int), ("cast iron",), np.array([parameters.density]),
-                       elasticity[None], parameters.damping_ratio, clamped_nodes(mesh, parameters))
+                       elasticity[None], parameters.damping_ratio, clamped_nodes(mesh, parameters),
+                       np.array([parameters.loss_factor]))
 
 
 def disc_mesh(parameters):
@@ -114,7 +115,7 @@ def pad(parameters, side):
     return Solid(mesh, (layer == p.lining_layers).astype(int), ("lining", "steel"),
                        np.array([p.lining_density, p.backplate_density]),
                        np.array([lining, isotropic(p.backplate_young, p.backplate_poisson)]), p.damping_ratio,
-                       np.empty(0, int))
+                       np.empty(0, int), np.array([p.lining_loss_factor, p.backplate_loss_factor]))
 
 
 def caliper(parameters):
@@ -129,7 +130,8 @@ def caliper(parameters):
     mask[:-1, :, (middle > front) & (middle < back)] = False
     mesh = revolve(radius, np.linspace(-p.angle / 2, p.angle / 2, p.angular_cells + 1), line, mask)
     return Solid(mesh, np.zeros(len(mesh.element), int), ("ductile iron",), np.array([p.density]),
-                       isotropic(p.young, p.poisson)[None], p.damping_ratio, np.empty(0, int))
+                       isotropic(p.young, p.poisson)[None], p.damping_ratio, np.empty(0, int),
+                       np.array([p.loss_factor]))
 
 
 def pad_height(parameters):

@@ -61,7 +61,7 @@ def _pad_patches(meshes, parameters, pad):
 
 
 def joints(meshes, parameters):
-    """All declared joints; ``loss_time`` is damping over stiffness."""
+    """All declared joints; ``loss_time`` is damping over stiffness, loss factors those of the kinds of joint."""
     j, springs = parameters.joints, []
     for end, sign in (("leading", -1), ("trailing", 1)):
         springs += _guide_pin(meshes, parameters, end, sign)
@@ -77,7 +77,13 @@ def joints(meshes, parameters):
                       (("normal", normal, "axial"), ("tangential", shear, "tangential"), ("radial", shear, "radial"))]
     name, stiffness, *_ = zip(*springs, strict=True)
     rows = _stacked([_relative(meshes, first, other, _AXES[axis]) for _, _, first, other, axis in springs])
-    return Joints(name, np.array(stiffness), np.array(stiffness) * j.loss_time, rows)
+    loss = np.array([getattr(j, f"{_kind(each)}_loss_factor") for each in name])
+    return Joints(name, np.array(stiffness), np.array(stiffness) * j.loss_time, rows, loss)
+
+
+def _kind(name):
+    """Kind of a joint: abutment, finger, piston or guide_pin."""
+    return next(kind for kind in ("abutment", "finger", "piston", "guide_pin") if name.startswith(kind))
 
 
 def piston_rows(meshes, parameters):

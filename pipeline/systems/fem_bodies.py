@@ -17,7 +17,8 @@ def body_product(solid, frequency=(), shape=None):
     shape = np.zeros((3 * len(mesh.node), 0)) if shape is None else shape
     return Body(node=mesh.node, element=mesh.element, kind=mesh.kind, element_material=solid.element_material,
                 material_name=solid.material_name, density=solid.density, elasticity=solid.elasticity,
-                damping_ratio=solid.damping_ratio, frequency=frequency,
+                loss_factor=np.broadcast_to(solid.loss_factor, len(solid.density)), damping_ratio=solid.damping_ratio,
+                frequency=frequency,
                 shape=shape.T.reshape(count, len(mesh.node), 3), supported=solid.supported)
 
 
@@ -36,7 +37,8 @@ def assembly_fields(assembly):
     joints, contacts = assembly.joints, assembly.contacts
     return {
         "joint_name": joints.name, "joint_rows": incidence(joints.rows), "joint_stiffness": joints.stiffness,
-        "joint_damping": joints.damping, "contact_body": contacts.body, "contact_position": contacts.position,
+        "joint_damping": joints.damping, "joint_loss_factor": np.broadcast_to(joints.loss_factor, len(joints.name)),
+        "contact_body": contacts.body, "contact_position": contacts.position,
         "contact_area": contacts.area, "contact_normal": incidence(contacts.normal),
         "contact_tangent": incidence(contacts.tangent), "contact_lateral": incidence(contacts.lateral),
         "sensor_position": assembly.sensor_position, "sensor_direction": assembly.sensor_direction,
@@ -65,7 +67,8 @@ def elastic_body(system, name, orders=None):
         density=body.density, elasticity=body.elasticity, damping_ratio=float(body.damping_ratio),
         supported=body.supported, rows=rows, interface=np.arange(sum(int(i.rows) for i in incidences[:-1])),
         turns=name == "disc", frequency=body.frequency[:count],
-        modes=body.shape[:count].reshape(count, 3 * len(body.node)).T, patterns=patterns)
+        modes=body.shape[:count].reshape(count, 3 * len(body.node)).T, patterns=patterns,
+        loss_factor=body.loss_factor)
 
 
 def force_patterns(system, orders):

@@ -14,7 +14,8 @@ from pipeline.physics.fem.mesh import Mesh
 
 @dataclass(frozen=True)
 class Solid:
-    """Mesh, material row of each element, material table, rigidly held nodes."""
+    """Mesh, material row of each element, material table, rigidly held nodes; ``loss_factor`` (materials,), none by
+    default."""
 
     mesh: Mesh
     element_material: np.ndarray
@@ -23,6 +24,7 @@ class Solid:
     elasticity: np.ndarray
     damping_ratio: float
     supported: np.ndarray
+    loss_factor: np.ndarray | float = 0.0
 
     def matrices(self):
         """Stiffness and mass (3n, 3n) sparse of the body, supports not yet held."""
@@ -44,12 +46,13 @@ class Rows:
 
 @dataclass(frozen=True)
 class Joints:
-    """Springs [N/m] and dampers [N s/m] along rows."""
+    """Springs [N/m] with loss factors and dampers [N s/m] along rows."""
 
     name: tuple
     stiffness: np.ndarray
     damping: np.ndarray
     rows: Rows
+    loss_factor: np.ndarray | float = 0.0
 
 
 @dataclass(frozen=True)

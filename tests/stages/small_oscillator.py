@@ -14,8 +14,9 @@ def small_oscillator(on_belt=False, hard=False):
     row = np.ones((count, 1))
     return ReducedModel(
         body_name=["block"], coordinate_body=[0], mass=[[MASS]], damping=[[DAMPING]], gyroscopic=[[0.0]],
-        stiffness=[[STIFFNESS]], centrifugal=[[0.0]], joint_name=[], joint_rows=np.empty((0, 1)), joint_stiffness=[],
-        joint_damping=[], contact_body=[0] * count, contact_position=np.zeros((count, 3)), contact_area=np.ones(count),
+        stiffness=[[STIFFNESS]], centrifugal=[[0.0]], loss=[[0.0]], joint_name=[],
+        joint_rows=np.empty((0, 1)), joint_stiffness=[], joint_damping=[], joint_loss_factor=[],
+        contact_body=[0] * count, contact_position=np.zeros((count, 3)), contact_area=np.ones(count),
         contact_lever=np.ones(count), contact_gap=np.zeros(count), contact_normal=float(hard) * row,
         contact_tangent=row, contact_lateral=0 * row, pressure=[1.0], preload=np.full((1, count), NORMAL_FORCE),
         contact_stiffness=np.zeros((1, count)), **NO_SHEAR, law_closure=[], law_pressure=[], input_name=[],

@@ -27,6 +27,7 @@ def small_structure(pad_modulus=1e9, caliper_stiffness=3e7, modes_below=12e3):
     return Structure(
         body_name=NAMES, **bodies, free_frequency=[1.0], free_diameters=[2], free_out_of_plane=[1.0],
         joint_name=names, joint_rows=incidence(joints), joint_damping=np.full(len(names), 20.0),
+        joint_loss_factor=np.zeros(len(names)),
         joint_stiffness=np.where(np.array(names) == "finger", caliper_stiffness, 1e7),
         contact_body=pads, contact_position=place, contact_area=area, **contact_rows(meshes, place, pads),
         pressure=[1e6, 2e6], preload=np.outer([1e6, 2e6], area),
@@ -62,7 +63,7 @@ def small_body(mesh, modulus, density, supported, modes_below):
         frequency, modes = held_modes(*matrices, supported, "superlu", below=modes_below)
         shape = modes.T
     return Body(node=mesh.node, element=mesh.element, kind=mesh.kind, element_material=cells, material_name=["one"],
-                density=[density], elasticity=[elastic], damping_ratio=0.002, frequency=frequency,
+                density=[density], elasticity=[elastic], loss_factor=[0.0], damping_ratio=0.002, frequency=frequency,
                 shape=shape.reshape(len(frequency), -1, 3), supported=supported)
 
 

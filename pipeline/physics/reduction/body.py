@@ -33,7 +33,8 @@ class ElasticBody:
 
     ``rows`` (r, 3n) sparse are all displacement rows that the model reads; those numbered in ``interface`` (i,) carry
     forces. ``patterns`` (i, p) sparse: forces on these that static responses are kept for; None = each by itself.
-    ``frequency`` (m,) Hz and ``modes`` (3n, m) are not needed of a free body without patterns.
+    ``loss_factor`` (materials,) of the materials. ``frequency`` (m,) Hz and ``modes`` (3n, m) are not needed of a free
+    body without patterns.
     """
 
     name: str
@@ -51,15 +52,24 @@ class ElasticBody:
     frequency: np.ndarray
     modes: np.ndarray
     patterns: "scipy.sparse.csr_matrix | None" = None
+    loss_factor: np.ndarray | float = 0.0
 
     def matrices(self):
         """Stiffness and mass (3n, 3n) sparse of the body, supports not yet held."""
         return assemble(self.node, self.element, self.kind, self.material, self.density, self.elasticity)
 
+    def loss(self):
+        """Imaginary part (3n, 3n) sparse of the stiffness: that of its materials times their loss factors."""
+        lost = np.broadcast_to(self.loss_factor, len(self.density))[:, None, None] * self.elasticity
+        return assemble(self.node, self.element, self.kind, self.material, self.density, lost)[0]
+
 
 @dataclass(frozen=True)
 class BodyTerms:
-    """Matrices (k, k), rows (r, k), and the surface: positions (v, 3), quadrilaterals (f, 4), recovery (v, 3, k)."""
+    """Matrices (k, k), rows (r, k), and the surface: positions (v, 3), quadrilaterals (f, 4), recovery (v, 3, k).
+
+    ``loss`` is the imaginary part of the stiffness.
+    """
 
     mass: np.ndarray
     damping: np.ndarray
@@ -70,6 +80,7 @@ class BodyTerms:
     position: np.ndarray
     face: np.ndarray
     recovery: np.ndarray
+    loss: np.ndarray | float = 0.0
 
 
 def reduce_body(body, fixed_below, residual_below, solver):
@@ -94,7 +105,16 @@ def reduce_body(body, fixed_below, residual_below, solver):
     size = reduced.shape.shape[1]
     whirl, centrifugal = _rotation(body, free, factor, reduced.shape) if body.turns else (np.zeros((size, size)),) * 2
     return BodyTerms(reduced.mass, modal_damping(reduced.mass, reduced.stiffness, body.damping_ratio), whirl,
-                     reduced.stiffness, centrifugal, rows @ reduced.shape, *_surface(body, free, reduced.shape))
+                     reduced.stiffness, centrifugal, rows @ reduced.shape, *_surface(body, free, reduced.shape),
+                     _loss(body, free, reduced))
+
+
+def _loss(body, free, reduced):
+    """(k, k) N/m, imaginary part of the reduced stiffness."""
+    factors = np.unique(body.loss_factor)
+    if len(factors) == 1:
+        return factors[0] * reduced.stiffness
+    return projected(body.loss()[free][:, free], reduced.shape)
 
 
 def _loads(rows, patterns):

@@ -5,13 +5,19 @@ from dataclasses import replace
 import numpy as np
 import scipy
 
+from pipeline.contract.errors import ConfigError
+
 
 def exchanged(model, body, terms):
     """The SlidingModel with the coordinates of the named ``body`` replaced by its BodyTerms ``terms``.
 
     Rows of ``terms`` are stacked as joints, normal, tangent and lateral contact rows, inputs, sensors. The new
-    coordinates stand last. Joints, contacts and states stay as they are.
+    coordinates stand last. Joints, contacts and states stay as they are. Raises ConfigError for a body with loss
+    factors, whose damping depends on the modes of the whole system.
     """
+    if np.any(terms.loss):
+        raise ConfigError(f"exchanged body {body}", "materials without loss factors", "one that has some",
+                          "give it a damping ratio instead")
     index = model.body_name.index(body)
     kept = np.flatnonzero(model.coordinate_body != index)
     matrices = {name: scipy.linalg.block_diag(getattr(model, name)[np.ix_(kept, kept)], getattr(terms, name))

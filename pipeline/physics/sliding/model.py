@@ -22,6 +22,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from pipeline.contract.errors import ConfigError
+from pipeline.physics.sliding.structural_damping import equivalent_damping
 
 
 @dataclass(frozen=True)
@@ -212,9 +213,11 @@ def sliding_model(reduced, state, speed):
     """The sliding model of a product ReducedModel (or any object with its fields).
 
     ``state`` is the row of its preload table, ``speed`` the speed of the drive in rad/s; a belt counts as a drum of
-    radius 1 m.
+    radius 1 m. Loss factors join the damping of the bodies, by the real modes of that state (see
+    ``structural_damping``).
     """
     joints = Joints(tuple(reduced.joint_name), reduced.joint_rows, reduced.joint_stiffness, reduced.joint_damping)
+    loss = reduced.loss + spread(joints.rows, reduced.joint_loss_factor * joints.stiffness, joints.rows)
     contacts = Contacts(
         normal=reduced.contact_normal, tangent=reduced.contact_tangent, lateral=reduced.contact_lateral,
         position=reduced.contact_position, area=reduced.contact_area,
@@ -222,10 +225,14 @@ def sliding_model(reduced, state, speed):
         preload=reduced.preload[state], stiffness=reduced.contact_stiffness[state],
         damping=np.zeros(len(reduced.contact_area)), gap=reduced.contact_gap)
     matrices = {name: getattr(reduced, name) for name in ("mass", "damping", "gyroscopic", "stiffness", "centrifugal")}
-    return SlidingModel(
+    model = SlidingModel(
         body_name=tuple(reduced.body_name), coordinate_body=reduced.coordinate_body, **matrices, joints=joints,
         contacts=contacts, input_name=tuple(reduced.input_name), input_rows=reduced.input_rows,
         sensor_name=tuple(reduced.sensor_name), sensor_rows=reduced.sensor_rows, speed=float(speed))
+    if not loss.any():
+        return model
+    mass, _, stiffness = model.frictionless(gyroscopic=False, centrifugal=False)
+    return replace(model, damping=model.damping + equivalent_damping(loss, stiffness, mass))
 
 
 def spread(left, weight, right):

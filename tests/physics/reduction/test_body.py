@@ -88,6 +88,25 @@ def test_free_body_keeps_its_rows_and_does_not_turn(ring):
     assert not terms.gyroscopic.any() and not terms.centrifugal.any()
 
 
+@pytest.mark.exact
+def test_loss_factors_make_the_imaginary_stiffness_of_their_materials(ring):
+    """One for all is that share of the stiffness; each of two materials adds its own part."""
+    inner = np.hypot(*ring.node[ring.element].mean(axis=1)[:, :2].T) < 0.06
+    halves = replace(ring, material=inner.astype(int), density=np.repeat(ring.density, 2),
+                     elasticity=np.repeat(ring.elasticity, 2, axis=0))
+
+    def loss(body, *factors):
+        return reduce_body(replace(body, loss_factor=np.array(factors)), 30e3, 200e3, "superlu").loss
+
+    stiffness = reduce_body(ring, 30e3, 200e3, "superlu").stiffness
+    scale = abs(stiffness).max()
+    np.testing.assert_allclose(loss(ring, 0.03), 0.03 * stiffness, atol=1e-12 * scale)
+    first, second = loss(halves, 1.0, 0.0), loss(halves, 0.0, 1.0)
+    np.testing.assert_allclose(first + second, stiffness, atol=1e-9 * scale)
+    np.testing.assert_allclose(loss(halves, 0.02, 0.07), 0.02 * first + 0.07 * second, atol=1e-9 * scale)
+    assert np.linalg.eigvalsh(first).min() > -1e-9 * scale and abs(first).max() > 0.01 * scale
+
+
 def test_turning_body_needs_a_mount(ring):
     with pytest.raises(ConfigError, match="rigid supports"):
         reduce_body(replace(ring, supported=np.empty(0, int)), 2e3, 1e5, "superlu")
