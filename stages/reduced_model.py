@@ -12,7 +12,7 @@ import scipy
 from pipeline.contract import Context, Quantity, Section, option, stage
 from pipeline.physics.reduction.body import reduce_body
 from pipeline.products import BeamOnBeam, Lumped, PinOnDisc, ReducedModel, Structure
-from pipeline.systems.fem_bodies import INPUTS, elastic_body, row_fields
+from pipeline.systems.fem_bodies import INPUTS, elastic_body, force_patterns, row_fields
 
 #: the tangential law of a system that has none: its friction comes from a map or from settings
 NO_SHEAR = {f"shear_{name}": [] for name in ("pressure", "friction", "stiffness", "elastic_stiffness", "exponent")}
@@ -46,7 +46,8 @@ def reduced_model(structure: Structure | PinOnDisc | BeamOnBeam | Lumped, settin
 
 def _from_solids(structure, settings, context):
     """Brake or pin on disc, whose bodies are finite elements with supports or interfaces."""
-    bodies = [elastic_body(structure, name, settings.load_patterns) for name in structure.body_name]
+    patterns = None if settings.load_patterns is None else force_patterns(structure, settings.load_patterns)
+    bodies = [elastic_body(structure, name, patterns) for name in structure.body_name]
     reduce = partial(reduce_body, fixed_below=settings.fixed_below, residual_below=settings.residual_below,
                      solver=context.solver)
     terms = context.map(reduce, bodies, "reducing bodies")

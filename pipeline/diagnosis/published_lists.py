@@ -1,5 +1,6 @@
 """The problem of published lines: mode tables, harmonics, squeal frequencies."""
 
+from abc import ABC, abstractmethod
 from dataclasses import dataclass, field, replace
 from typing import Any
 
@@ -41,7 +42,7 @@ def published_problem(recording, models, settings, fan_out=map):
 
 
 @dataclass(frozen=True)
-class ListRevision:
+class ListRevision(ABC):
     """Revision of what one published list says: at most a tie, with its reasons and what would decide next.
 
     ``conditions`` of a better recording in words; ``undecided``: hypotheses that meet all lines as lines at random
@@ -52,9 +53,9 @@ class ListRevision:
     conditions: tuple
     undecided: tuple = ()
 
+    @abstractmethod
     def reasons(self, diagnosis):
         """Sentences from the numbers of the lists."""
-        raise NotImplementedError
 
     def best(self, rivals):
         """Expected of the record that separates the Rivals best; None where none is computed."""

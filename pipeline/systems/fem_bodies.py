@@ -51,17 +51,15 @@ def row_fields(system):
             "sensor_rows")
 
 
-def elastic_body(system, name, orders=None):
+def elastic_body(system, name, patterns=None):
     """ElasticBody of the body ``name`` of a product, with its part of every row.
 
-    ``orders``: of the patterns that contacts are loaded in (see ``load_patterns``); None = every contact by itself, and
-    modes only where the body is supported.
+    ``patterns``: those of ``force_patterns``; None = every force by itself, and modes only where the body is supported.
     """
     body, index = getattr(system, name), list(system.body_name).index(name)
     incidences = [getattr(system, field) for field in row_fields(system)]
     rows = scipy.sparse.vstack([body_rows(i, index, len(body.node)) for i in incidences], format="csr")
-    patterns = None if orders is None else force_patterns(system, orders)
-    count = len(body.frequency) if len(body.supported) or orders is not None else 0
+    count = len(body.frequency) if len(body.supported) or patterns is not None else 0
     return ElasticBody(
         name=name, node=body.node, element=body.element, kind=str(body.kind), material=body.element_material,
         density=body.density, elasticity=body.elasticity, damping_ratio=float(body.damping_ratio),
@@ -72,11 +70,14 @@ def elastic_body(system, name, orders=None):
 
 
 def force_patterns(system, orders):
-    """(forces, p) sparse: patterns of the contact forces in each of three directions, joints and inputs one by one."""
+    """(forces, p) sparse: patterns of the contact forces in each of three directions, joints and inputs one by one.
+
+    ``orders``: see ``load_patterns``. Forces stand in the order of ``row_fields``.
+    """
     contacts = load_patterns(system.contact_position, system.contact_area, system.contact_body, orders)
-    rows = [getattr(system, field).rows for field in row_fields(system)]
-    first, last = scipy.sparse.identity(int(rows[0])), scipy.sparse.identity(int(rows[4]))
-    return scipy.sparse.csr_matrix(scipy.sparse.block_diag([first, contacts, contacts, contacts, last]))
+    blocks = [contacts if field.startswith("contact_") else scipy.sparse.identity(int(getattr(system, field).rows))
+              for field in row_fields(system)[:-1]]
+    return scipy.sparse.block_diag(blocks, format="csr")
 
 
 def body_rows(incidence, body, nodes):

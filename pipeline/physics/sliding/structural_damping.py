@@ -22,8 +22,6 @@ def equivalent_damping(loss, stiffness, mass):
     ``stiffness`` (n, n) N/m and ``mass`` (n, n) kg: whose real modes these are, with that of closed contacts. Rigid
     motions, which strain nothing, are not damped.
     """
-    if not loss.any():
-        return np.zeros_like(loss)
     square, modes = scipy.linalg.eigh(stiffness, mass)
     angular = np.sqrt(np.maximum(square, 0.0))
     moving = angular > _RIGID * angular[-1]

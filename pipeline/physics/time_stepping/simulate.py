@@ -141,7 +141,7 @@ class Stepper:
         model, step = self.model, self.step
         steps = round(duration / step)
         if steps < 1 or record_every < 1:
-            raise _too_short(step, duration)
+            raise _no_step(f"{step:g} s for {duration:g} s")
         rest = np.zeros(model.size)
         start = Start(rest, rest) if start is None else start
         system = _fresh(self.system)
@@ -160,7 +160,7 @@ class Stepper:
 def stepper(model, law, friction, step, system=None):
     """Stepper of a SlidingModel; arguments and errors as of ``simulate``."""
     if not step > 0:
-        raise _too_short(step, 0.0)
+        raise _no_step(f"{step:g} s")
     modes, count = modal_system(model) if system is None else system, len(model.contacts.area)
     friction = friction or constant(0.0)
     normal, dry = normal_kernel(law, model.contacts), kernel(friction, count)
@@ -178,9 +178,8 @@ def _fresh(system):
                            elements=elements._replace(parameter=elements.parameter.copy()))
 
 
-def _too_short(step, duration):
-    return ConfigError("time stepping: step", "a positive step, at most as long as the motion",
-                       f"{step:g} s for {duration:g} s")
+def _no_step(found):
+    return ConfigError("time stepping: step", "a positive step, at most as long as the motion", found)
 
 
 def imposed(model, joint):

@@ -149,7 +149,8 @@ class Responder:
         inputs, drive = run_inputs(bench, run), run_drive(bench, run)
         speed, first = at_begin(bench, run)
         under_load = loaded(bench, run)
-        friction, stepping = run_friction(under_load, run), self._stepper(under_load, run, speed, step)
+        friction = run_friction(under_load, run)
+        stepping = self._stepper(under_load, friction, speed, step)
         start, steps = run.start, (run.samples - 1) * parts
         if start is None and bench.settled:
             start = steady_start(stepping.model, bench.law, friction, first)
@@ -159,15 +160,16 @@ class Responder:
         return {sensor.name: sensor.written(sensor.measurand.history(simulated, sensor), step)[::parts]
                 for sensor in bench.channels}
 
-    def _stepper(self, bench, run, speed, step):
-        """Stepper for a run of the bench under its load; the last one of its speed and step where that serves."""
-        friction, key = run_friction(bench, run), (speed, step)
-        model = self._model if bench is self.bench else _watched(bench)[1]
-        known_model, known_friction, made = self._steppers.get(key, (None, None, None))
-        if model is not known_model or friction is not known_friction:
-            made = stepper(model.at_speed(speed), bench.law, friction, step, self._system)
-            self._steppers[key] = model, friction, made
-        return made
+    def _stepper(self, bench, friction, speed, step):
+        """Stepper of the bench under the load of a run; runs without one share that of their speed, step and friction.
+        """
+        if bench is not self.bench:
+            return stepper(_watched(bench)[1].at_speed(speed), bench.law, friction, step, self._system)
+        shared_friction, shared = self._steppers.get((speed, step), (None, None))
+        if friction is not shared_friction:
+            shared = stepper(self._model.at_speed(speed), bench.law, friction, step, self._system)
+            self._steppers[speed, step] = friction, shared
+        return shared
 
 
 def at_begin(bench, run):

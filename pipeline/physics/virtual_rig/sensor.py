@@ -8,6 +8,7 @@ values in a simulated run and its response to small motions. A sensor writes
 Contact forces, known as means over steps, are interpolated to instants, so that no channel lags by half a step.
 """
 
+from abc import ABC, abstractmethod
 from dataclasses import dataclass
 
 import numpy as np
@@ -32,7 +33,7 @@ class SimulatedRun:
 
 
 @dataclass(frozen=True)
-class Measurand:
+class Measurand(ABC):
     """A quantity that a sensor measures at a ``source``, in SI ``unit``; its ``name`` is that of YAML and products.
 
     ``in_model``: whether the model alone has all sources, before effects add theirs.
@@ -42,16 +43,17 @@ class Measurand:
     unit: str
     in_model = True
 
+    @abstractmethod
     def sources(self, bench):
         """Names of the parts of a Bench that it can be read from."""
-        raise NotImplementedError
 
     def row(self, bench, source, sensor):
         """Displacement row (n,) whose motion it is read from, None where it needs none; ``sensor`` for messages."""
+        return
 
+    @abstractmethod
     def history(self, simulated, sensor):
         """Values (steps + 1,) of a Sensor in a SimulatedRun."""
-        raise NotImplementedError
 
     def response(self, bench, source, moves, rate):
         """(f,) where the coordinates move by ``moves`` (n, f) exp(``rate`` t); 0 for forces in contacts and inputs."""
