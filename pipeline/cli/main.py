@@ -107,7 +107,8 @@ def _job(config, folder, overrides):
 def _report(state, seconds):
     if seconds is None:
         return
-    click.echo(f"{state.stage.name:<16} {seconds:8.1f} s   {_because(state.reasons)}")
+    name = f"  {state.variant}: {state.stage.name}" if state.variant else state.stage.name
+    click.echo(f"{name:<16} {seconds:8.1f} s   {_because(state.reasons)}")
 
 
 def _because(reasons, most=3, longest=100):

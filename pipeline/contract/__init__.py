@@ -14,8 +14,8 @@ from pipeline.contract.settings import (
     section,
     stored,
 )
-from pipeline.contract.stage import Products, Stage, stage
+from pipeline.contract.stage import Products, Stage, Variants, stage
 
 __all__ = ["Array", "BrakechainError", "ConfigError", "Context", "ConvergenceError", "InputFile", "ProductError",
-           "OneOf", "Products", "Quantities", "Quantity", "Section", "Stage", "count", "option", "part", "parts",
+           "OneOf", "Products", "Quantities", "Quantity", "Section", "Stage", "Variants", "count", "option", "part", "parts",
            "product", "quantity", "restored", "section", "stage", "stored", "text"]

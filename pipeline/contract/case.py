@@ -2,7 +2,8 @@
 
 import hashlib
 import json
-from dataclasses import asdict, dataclass
+from copy import deepcopy
+from dataclasses import asdict, dataclass, replace
 from difflib import get_close_matches
 from functools import cached_property
 from pathlib import Path
@@ -54,6 +55,13 @@ class CaseFile:
         context = {"folders": self.folders, "measured": self.measured}
         return {s.name: settings.fill(s.settings, self._plain[s.name], f"{self.path}: {s.name}", context)
                 for s in self.stages if s.name not in self.unread}
+
+    def varied(self, changes):
+        """The case with ``changes`` {'stage.key': value} to its settings, as a YAML would give them."""
+        document = deepcopy(self.document)
+        for key, value in changes.items():
+            _set(document, key.split("."), value, f"variant: {key}")
+        return replace(self, document=document)
 
     def given(self, stage):
         """The settings of a stage as the YAML gives them, with origins."""
@@ -165,6 +173,11 @@ def _override(document, item):
     steps = key.split(".")
     if not equals or len(steps) < 2:
         raise ConfigError(f"--set {item}", "stage.key=value", repr(item))
+    _set(document, steps, documents.parse_value(text), f"--set {item}")
+
+
+def _set(document, steps, value, item):
+    """Set the value at ``steps`` of a document in place; ``item`` says in errors who asked for it."""
     node = document
     for step in steps[:-1]:
         inner = _step(node, step, item)
@@ -173,9 +186,9 @@ def _override(document, item):
         node = inner
     last = int(steps[-1]) if isinstance(node, list) and steps[-1].isdigit() else steps[-1]
     try:
-        node[last] = documents.parse_value(text)
+        node[last] = value
     except (IndexError, TypeError):
-        raise ConfigError(f"--set {item}", f"a mapping that can hold '{steps[-1]}'", repr(node)[:60]) from None
+        raise ConfigError(item, f"a mapping that can hold '{steps[-1]}'", repr(node)[:60]) from None
 
 
 def _step(node, step, item):
@@ -185,7 +198,7 @@ def _step(node, step, item):
         return node[step]
     if isinstance(node, list) and step.isdigit() and int(step) < len(node):
         return node[int(step)]
-    raise ConfigError(f"--set {item}", f"a mapping that holds '{step}'", repr(node)[:60])
+    raise ConfigError(item, f"a mapping that holds '{step}'", repr(node)[:60])
 
 
 def _check_keys(path, document, stages):

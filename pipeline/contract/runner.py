@@ -8,7 +8,7 @@ import platform
 import subprocess
 import time
 from contextlib import contextmanager
-from dataclasses import asdict, dataclass, field
+from dataclasses import asdict, dataclass, field, replace
 from functools import partial
 from importlib import metadata
 from pathlib import Path
@@ -31,6 +31,7 @@ class State:
     stage: object
     reasons: tuple      # why it must run; empty if up to date
     path: Path
+    variant: str = ""   # of the case, for which the stage runs
 
 
 @dataclass(frozen=True)
@@ -40,13 +41,15 @@ class ChainRun:
     case: object        # case.CaseFile
     folder: Path
     solver: str         # resolved, joins every hash
+    variant: str = ""   # name of the variant of another run that this is
+    shared: dict = field(default_factory=dict)      # product name -> its path, where another run holds the same
     code: dict = field(init=False)      # stage -> digests of its code when this run began
 
     def __post_init__(self):
         object.__setattr__(self, "code", {s.name: fingerprint.code_of(s.run.__module__) for s in self.case.stages})
 
     def path(self, product):
-        return self.folder / f"{product.name}.h5"
+        return self.shared.get(product.name, self.folder / f"{product.name}.h5")
 
     def producer(self, products):
         """The stage of this chain that writes one of ``products``, or None."""
@@ -69,16 +72,35 @@ class ChainRun:
             chosen[name] = writer.output if writer else None
         return chosen
 
+    def variants(self, stage):
+        """(name, run of the variant, its last stage, argument) for each variant that ``stage`` takes products from."""
+        made = stage.variants(self.case.sections)
+        return [(name, self._varied(name, changes), self.producer((product,)), argument)
+                for argument, product in stage.varied.items() for name, changes in made.items()]
+
+    def _varied(self, name, changes):
+        """The run of a variant, which shares what its changes leave as it is."""
+        changed, shared = {key.partition(".")[0] for key in changes}, {}
+        for stage in self.case.stages:
+            parts = [p.name for p in self.filled(stage).values() if p] if not stage.reads_all else [""]
+            if stage.name not in changed and all(part in shared for part in parts):
+                shared[stage.output.name] = self.path(stage.output)
+        return ChainRun(self.case.varied(changes), self.folder / "variants" / name, self.solver, name, shared)
+
+    def _ingredients(self, stage):
+        """(key, product, path) of everything that ``stage`` reads."""
+        found = [(name, product, self.path(product)) for name, product in self.filled(stage).items() if product]
+        return found + [(f"{argument} of {name}", last.output, run.path(last.output))
+                        for name, run, last, argument in self.variants(stage)]
+
     def fingerprint(self, stage):
         """What the output of ``stage`` currently depends on; None while an input is missing."""
         inputs = {}
-        for name, product in self.filled(stage).items():
-            if product is None:
-                continue
-            identity = store.identity(self.path(product))
+        for key, product, path in self._ingredients(stage):
+            identity = store.identity(path)
             if identity is None or identity[:2] != (product.name, product.version):
                 return None
-            inputs[name] = [product.name, identity[2]]
+            inputs[key] = [product.name, identity[2]]
         settings = fingerprint.settings_of(self.case.sections[stage.name])
         digest = self.case.digest if stage.reads_case else ""
         code = self.code[stage.name]
@@ -94,10 +116,29 @@ class ChainRun:
         elif stored["companions"] and not all((self.folder / name).exists() for name in stored["companions"]):
             reasons.append("a companion file is missing")
         renewed = [p.name for p in self.filled(stage).values() if p and p.name in stale]
+        renewed += [f"{argument} of {name}" for name, run, last, argument in self.variants(stage)
+                    if any(each.reasons for each in run.needed(last, stale))]
         reasons += [f"input {name} is computed anew" for name in renewed if f"input {name} changed" not in reasons]
         if current is None and not reasons:
             reasons = ["an input is missing"]
         return State(stage, tuple(reasons), path)
+
+    def needed(self, last, stale=frozenset()):
+        """States of the stages that this run of a variant computes for ``last``; ``stale`` as of ``state``."""
+        stale, states = set(stale), []
+        for stage in self._towards(last):
+            states.append(self.state(stage, stale))
+            stale.update({stage.output.name} if states[-1].reasons else ())
+        return states
+
+    def _towards(self, last):
+        """The stages whose products ``last`` depends on, and itself, less those whose product another run holds."""
+        wanted, found = {last.output.name}, []
+        for stage in reversed(self.case.stages):
+            if stage.output.name in wanted and stage.output.name not in self.shared:
+                found.insert(0, stage)
+                wanted.update(p.name for p in self.filled(stage).values() if p)
+        return found
 
     def plan(self, first=None, last=None, force=frozenset()):
         """States of the stages from ``first`` to ``last`` in a run that starts now."""
@@ -105,7 +146,7 @@ class ChainRun:
         for stage in self._span(first, last):
             state = self.state(stage, stale)
             if stage.name in force:
-                state = State(stage, ("forced", *state.reasons), state.path)
+                state = replace(state, reasons=("forced", *state.reasons))
             stale.update({stage.output.name} if state.reasons else ())
             states.append(state)
         return states
@@ -132,24 +173,29 @@ class ChainRun:
 
         Returns the number of stages computed.
         """
-        computed = 0
         with locked(self.folder):
-            for stage in self._span(first, last):
-                state = self.state(stage)
-                if stage.name in force:
-                    state = State(stage, ("forced", *state.reasons), state.path)
-                seconds = self._compute(stage, context) if state.reasons else None
-                computed += bool(state.reasons)
-                report(state, seconds)
-        return computed
+            return sum(self._bring(stage, context, force, report) for stage in self._span(first, last))
+
+    def _bring(self, stage, context, force, report):
+        """Bring the product of ``stage`` up to date, those of variants that it reads first; number computed."""
+        computed = 0
+        for _, run, last, _ in self.variants(stage):
+            with locked(run.folder):
+                computed += sum(run._bring(each, context, frozenset(), report) for each in run._towards(last))
+        state = self.state(stage)
+        if stage.name in force:
+            state = replace(state, reasons=("forced", *state.reasons))
+        seconds = self._compute(stage, context) if state.reasons else None
+        report(replace(state, variant=self.variant), seconds)
+        return computed + bool(state.reasons)
 
     def _compute(self, stage, context):
         if not os.access(self.folder, os.W_OK | os.X_OK):      # at once, not after minutes of computing
             raise _closed(self.folder, os.strerror(errno.EACCES))
         inputs, current = self._inputs(stage), self.fingerprint(stage)
-        for product in self.filled(stage).values():     # also those that a stage which reads all might never read
-            if current is None and product and store.identity(self.path(product)) is None:
-                store.read(product, self.path(product))     # says what is wrong with it
+        for _, product, path in self._ingredients(stage):   # also those that a stage which reads all might never read
+            if current is None and store.identity(path) is None:
+                store.read(product, path)       # says what is wrong with it
         wall, cpu = time.perf_counter(), cpu_seconds() + context.spent_elsewhere()
         with context.stage(stage):
             output = stage(**inputs, settings=self.case.sections[stage.name], context=context)
@@ -176,7 +222,10 @@ class ChainRun:
                    for name, product in self.filled(stage).items()}
         if stage.reads_all:
             return {"products": Products(readers)}
-        return {name: read() for name, read in readers.items()}
+        varied = {argument: {} for argument in stage.varied}
+        for name, run, last, argument in self.variants(stage):
+            varied[argument][name] = store.read(last.output, run.path(last.output))
+        return {name: read() for name, read in readers.items()} | varied
 
 
 def _stored(path):

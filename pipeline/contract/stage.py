@@ -4,12 +4,20 @@ import inspect
 import types
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from functools import partial
 from typing import Union, get_args, get_origin, get_type_hints
 
 from pipeline.contract.context import Context
 from pipeline.contract.errors import ConfigError, ProductError
 from pipeline.contract.product import is_product
 from pipeline.contract.settings import Section
+
+
+class Variants(dict):
+    """name -> product that a variant of the case leads to; annotated as ``Variants[Product]`` in a stage.
+
+    A variant is the same chain with some settings changed, computed up to that product before the stage runs.
+    """
 
 
 class Products(Mapping):
@@ -47,6 +55,8 @@ class Stage:
     companions: Callable | None     # (product, CaseText) -> {file name: str or bytes}, written beside it
     reads_case: bool    # True for the report: everything that it may say about the case joins its hash
     check: Callable     # {stage: settings} -> None; raises for settings that contradict those of other stages
+    varied: dict        # argument name -> product class, for arguments that take it from each variant of the case
+    variants: Callable  # {stage: settings} -> {name of a variant: {'stage.key': value}}
 
     def __call__(self, *args, **kwargs):
         """Run the pure function; ``context`` and optional inputs may be left out.
@@ -69,20 +79,27 @@ class Stage:
         return key and f"{self.name}.{key} ({part})"
 
 
-def stage(run=None, *, companions=None, reads_case=False, check=lambda sections: None):
-    """Turn ``def name(a: ProductA, settings: Settings, context: Context) -> Name`` into a Stage."""
-    if run is None:
-        return lambda function: stage(function, companions=companions, reads_case=reads_case, check=check)
+def stage(run=None, **options):
+    """Turn ``def name(a: ProductA, settings: Settings, context: Context) -> Name`` into a Stage.
+
+    Options: ``companions``, ``reads_case``, ``check`` and ``variants``, see Stage.
+    """
+    return partial(_stage, **options) if run is None else _stage(run, **options)
+
+
+def _stage(run, *, companions=None, reads_case=False, check=lambda sections: None, variants=None):
     hints = get_type_hints(run)
     output, settings = hints.pop("return", None), hints.pop("settings", None)
     context = hints.pop("context", None)
     reads_all = hints.get("products") is Products and hints.pop("products") is Products
+    varied = {name: get_args(hints.pop(name))[0] for name in list(hints) if get_origin(hints[name]) is Variants}
     inputs = {name: _options(hint) for name, hint in hints.items()}
     fits = (is_product(output) and isinstance(settings, type) and issubclass(settings, Section)
-            and context is Context and all(inputs.values()))
+            and context is Context and all(inputs.values()) and all(map(is_product, varied.values()))
+            and bool(varied) == (variants is not None))
     if not fits:
         raise ProductError(f"stage {run.__name__}: annotate the products read, 'settings', 'context' and"
-                           f" the product written")
+                           f" the product written; Variants of a product go with 'variants'")
     doc, file = inspect.getdoc(run) or "", run.__module__.rpartition(".")[2]
     if not file == run.__name__ == output.name or "Method:" not in doc:
         raise ProductError(f"stage {run.__name__}: file, function and product share one name"
@@ -90,7 +107,8 @@ def stage(run=None, *, companions=None, reads_case=False, check=lambda sections:
     summary, _, method = doc.partition("Method:")
     optional = frozenset(name for name, hint in hints.items() if type(None) in get_args(hint))
     return Stage(run.__name__, run, inputs, optional, reads_all, output, settings, summary.strip().splitlines()[0],
-                 " ".join(method.split()), companions, reads_case, check)
+                 " ".join(method.split()), companions, reads_case, check, varied,
+                 variants or (lambda sections: {}))
 
 
 def _options(hint):

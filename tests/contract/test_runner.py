@@ -10,7 +10,7 @@ import pytest
 from pipeline import sources
 from pipeline.contract import ConfigError, Context, ProductError, case, fingerprint, runner, store
 from tests.contract.toy import CHAINS, load
-from tests.contract.toy.products import Doubled
+from tests.contract.toy.products import Compared, Doubled
 
 ROOT = Path(__file__).parents[2]
 
@@ -131,6 +131,33 @@ def test_from_takes_earlier_products_as_they_are(config):
 def test_bad_ends_are_refused(config, first, last):
     with pytest.raises(ConfigError):
         job(config).plan(first, last)
+
+
+@pytest.fixture
+def varied(tmp_path):
+    path = tmp_path / "varied.yaml"
+    path.write_text("chain: varied\nsource: {level: {value: 1 kPa, origin: stated}}\n")
+    return path
+
+
+def test_variants_of_a_case_are_computed_for_the_stage_that_compares_them(varied):
+    told, folder = [], varied.parent / "run"
+    assert job(varied).execute(Context(), report=lambda state, _: told.append((state.variant, state.stage.name))) == 6
+    assert told == [("", "source"), ("", "doubled"), ("louder", "source"), ("louder", "doubled"),
+                    ("stronger", "doubled"), ("", "compared")]
+    found = store.read(Compared, folder / "compared.h5")
+    assert dict(zip(found.variant, found.ratio, strict=True)) == {"louder": 3.0, "stronger": 2.5}
+    assert not (folder / "variants" / "stronger" / "source.h5").exists()
+    assert job(varied).execute(Context()) == 0 and not any(why(job(varied)).values())
+
+
+def test_a_variant_that_is_out_of_date_is_told_and_computed_anew(varied):
+    job(varied).execute(Context())
+    changed = job(varied, "doubled.factor=5")
+    assert why(changed)["compared"] == ("input doubled is computed anew", "input others of louder is computed anew")
+    assert changed.execute(Context()) == 4      # "stronger" leads where the case stands by now: its file is as it was
+    (varied.parent / "run" / "variants" / "louder" / "doubled.h5").unlink()
+    assert changed.execute(Context()) == 1
 
 
 def _hold(folder, ready, free):

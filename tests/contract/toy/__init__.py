@@ -1,8 +1,8 @@
-"""A chain of two stages, for tests of the house that need no physics."""
+"""Chains of two and three stages, for tests of the house that need no physics."""
 
 from importlib import import_module
 
-CHAINS = {"toy": ("source", "doubled")}
+CHAINS = {"toy": ("source", "doubled"), "varied": ("source", "doubled", "compared")}
 
 
 def load(name):

@@ -31,6 +31,14 @@ class Doubled:
 
 
 @product(version=1)
+class Compared:
+    """How variants of a case differ from it."""
+
+    variant: Array = text("variant", "names of the variants")
+    ratio: Array = quantity("1", "variant", "their signal over that of the case")
+
+
+@product(version=1)
 class Shelf:
     """Nested products by name."""
 
