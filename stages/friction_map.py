@@ -2,14 +2,18 @@
 
 import numpy as np
 
-from pipeline.contract import Context, Section, option, stage
+from pipeline.contract import Context, ConvergenceError, Section, option, stage
 from pipeline.physics.friction.friction_table import refine
+from pipeline.physics.friction.pressure_law import levelling_axis, polynomial_fit
 from pipeline.products import FrictionMap, MicroFriction
 
 
 class Settings(Section):
-    """Refinement of the computed points."""
+    """Law over pressure, and refinement of the computed points."""
 
+    order: int | None = option(
+        None, "order of the polynomial in the logarithm of pressure that is fitted to the computed points by weight of"
+        " their standard errors; none = a curve through every point", ge=1)
     pressure_subdivisions: int = option(10, "parts of each interval between computed pressures", ge=1)
     speed_subdivisions: int = option(5, "parts of each interval between computed speeds", ge=1)
     distance_subdivisions: int = option(5, "parts of each interval between recorded distances", ge=1)
@@ -27,16 +31,43 @@ def companions(product, case=None):
 def friction_map(micro_friction: MicroFriction, settings: Settings, context: Context) -> FrictionMap:
     """Map the friction coefficient over pressure, speed and sliding distance.
 
+    Where 'order' is given, a polynomial in the logarithm of pressure is fitted instead of interpolating: scatter of the
+    computed points then does not become a slope of friction over pressure, which decides on flutter. Beyond the
+    computed pressures it levels off within a factor of two.
+
     Method:
     The computed points were interpolated by monotone cubics (PCHIP along pressure, speed and distance, each interval
-    divided into {pressure_subdivisions}, {speed_subdivisions} and {distance_subdivisions} parts). The map is read by
-    multilinear interpolation and, as in the paper, is constant outside the computed range.
+    divided into {pressure_subdivisions}, {speed_subdivisions} and {distance_subdivisions} parts), over pressure by a
+    fitted polynomial in its logarithm where an order is given (order: {order}). The map is read by multilinear
+    interpolation and is constant outside its range.
     """
     parts = (settings.pressure_subdivisions, settings.speed_subdivisions, settings.distance_subdivisions)
     axes = (micro_friction.pressure, micro_friction.speed, micro_friction.distance)
     fine, friction = refine(axes, micro_friction.friction, parts)
     _, scatter = refine(axes, micro_friction.friction_std, parts)
     _, stiffness = refine(axes[::2], micro_friction.normal_stiffness.mean(axis=1), parts[::2])
+    if settings.order is not None:
+        fine, friction, scatter, stiffness = _fitted(micro_friction, settings, fine, stiffness)
     return FrictionMap(pressure=fine[0], speed=fine[1], distance=fine[2], friction=friction, friction_std=scatter,
                        normal_stiffness=stiffness, computed_pressure=micro_friction.pressure,
                        computed_speed=micro_friction.speed)
+
+
+def _fitted(computed, settings, fine, stiffness):
+    """(axes, friction, its standard error, stiffness) with the fitted law over pressure.
+
+    The stiffness beyond the computed pressures is proportional to pressure below them, and constant above.
+    """
+    pressure = levelling_axis(computed.pressure, settings.pressure_subdivisions)
+    weights = computed.friction_std.mean(axis=(1, 2))
+    fit = polynomial_fit(computed.pressure, weights, settings.order, pressure)
+    parts = (1, settings.speed_subdivisions, settings.distance_subdivisions)
+    axes = pressure, computed.speed, computed.distance
+    friction = refine(axes, np.einsum("fp,pvs->fvs", fit, computed.friction), parts)[1]
+    scatter = refine(axes, np.sqrt(np.einsum("fp,pvs->fvs", fit**2, computed.friction_std**2)), parts)[1]
+    if friction.min() <= 0:
+        raise ConvergenceError("friction_map.order", "a law of friction above 0", f"{friction.min():.3g}",
+                               "lower the order, or interpolate")
+    inside = np.array([np.interp(pressure, fine[0], column) for column in stiffness.T]).T
+    below = np.minimum(pressure / computed.pressure[0], 1.0)[:, None]
+    return (pressure, *fine[1:]), friction, scatter, below * inside

@@ -33,6 +33,19 @@ def test_computed_points_stay_and_nothing_overshoots(computed):
     np.testing.assert_allclose(made.normal_stiffness[::4, ::5], computed.normal_stiffness.mean(axis=1), rtol=1e-14)
 
 
+def test_a_fitted_law_is_smooth_and_reaches_beyond_the_computed_pressures(computed):
+    made = friction_map(computed, settings=Settings(order=1))
+    assert made.pressure[0] == 0.5e6 and made.pressure[-1] == 6e6
+    inside = np.isin(made.pressure, computed.pressure)
+    line = np.polynomial.Polynomial.fit(np.log(computed.pressure), computed.friction[:, 0, 0], 1,
+                                        w=1 / computed.friction_std.mean(axis=(1, 2)))
+    np.testing.assert_allclose(made.friction[inside, 0, 0], line(np.log(computed.pressure)), rtol=1e-12)
+    assert (made.friction_std > 0).all() and (np.diff(made.friction[:, 0, 0]) >= -1e-15).all()
+    stiffness = computed.normal_stiffness.mean(axis=1)
+    np.testing.assert_allclose(made.normal_stiffness[inside][:, ::5], stiffness, rtol=1e-12)
+    np.testing.assert_allclose(made.normal_stiffness[[0, -1]][:, ::5], [stiffness[0] / 2, stiffness[-1]], rtol=1e-12)
+
+
 def test_csv_holds_every_point_with_units(computed):
     made = friction_map(computed, settings=Settings())
     rows = list(csv.reader(io.StringIO(friction_map.companions(made)["friction_map.csv"])))
