@@ -24,6 +24,8 @@ from pipeline.physics.numerics.compiled import njit
 from pipeline.physics.time_stepping.coupled_solver import surface_shift
 
 SUB_DISCS = 4
+#: sums may be reordered to use the width of the processor; nothing else is relaxed
+_FAST = {"reassoc", "contract", "nsz"}
 
 
 class PatchContact(NamedTuple):
@@ -119,6 +121,10 @@ def sub_disc_friction(pressure, slip, share, distance, pressures, speeds, distan
 
     ``first`` is the row where its table begins.
     """
+    if distance[0] == distance[1] == distance[2] == distance[3]:
+        mu, over_pressure, over_slip, _ = friction_at(pressure, slip, distance[0], pressures, speeds, distances, table,
+                                                      first)
+        return mu, over_pressure, over_slip
     mu, over_pressure, over_slip = 0.0, 0.0, 0.0
     for d in range(SUB_DISCS):
         if share[d] > 0.0:
@@ -149,13 +155,24 @@ def scattered(contact, time):
     return factor
 
 
+@njit(fastmath=_FAST)
+def _motion_at(normal, tangent, lateral, displacement, velocity):
+    """(displacement along the normal row, speeds along the normal, tangent and lateral row), (n,) each, in one pass."""
+    moved, opening, along, aside = 0.0, 0.0, 0.0, 0.0
+    for k in range(displacement.size):
+        moved += normal[k] * displacement[k]
+        opening += normal[k] * velocity[k]
+        along += tangent[k] * velocity[k]
+        aside += lateral[k] * velocity[k]
+    return moved, opening, along, aside
+
+
 @njit
 def contact_state(contact, time, displacement, velocity):
     """ContactState at generalised ``displacement`` (n,) and ``velocity`` (n,)."""
-    size, n = contact.rows.shape[1:]
+    size = contact.rows.shape[1]
     shift, factor = surface(contact, time), scattered(contact, time)
-    moved = contact.rows[0] @ displacement
-    speed = (contact.rows.reshape(3 * size, n) @ velocity).reshape(3, size)
+    rows = contact.rows
     shares = patch_shares(contact.angle, contact.half_angle, contact.disc_speed * time, contact.sectors)
     ramp, distance = friction_share(time, contact.ramp), np.empty(SUB_DISCS)
     for d in range(SUB_DISCS):
@@ -166,14 +183,15 @@ def contact_state(contact, time, displacement, velocity):
     friction, coupling, drag = np.zeros((size, 2)), np.zeros((size, 2)), np.zeros((size, 3))
     for i in range(size):
         first = contact.law_first[i]
-        elastic, slope = normal_law(-(moved[i] + contact.opening[i] + shift[0, i]), contact.closure,
+        moved, opening, along, aside = _motion_at(rows[0, i], rows[1, i], rows[2, i], displacement, velocity)
+        elastic, slope = normal_law(-(moved + contact.opening[i] + shift[0, i]), contact.closure,
                                     contact.pressure[first:first + contact.closure.size])
-        growth = 1.0 - (speed[0, i] + shift[1, i]) / contact.damping_speed[i]
+        growth = 1.0 - (opening + shift[1, i]) / contact.damping_speed[i]
         if slope == 0.0 or growth <= 0.0:
             continue
         pressure, damping[i] = elastic * growth, contact.area[i] * elastic / contact.damping_speed[i]
         normal[i], stiffness[i] = contact.area[i] * pressure, contact.area[i] * slope * growth
-        slip_x, slip_y = contact.disc_speed * contact.radius[i] - speed[1, i], -speed[2, i]
+        slip_x, slip_y = contact.disc_speed * contact.radius[i] - along, -aside
         slip = np.hypot(slip_x, slip_y)
         mu, over_pressure, over_slip = sub_disc_friction(
             pressure, slip, shares[i], distance, pressures, speeds, distances, table, contact.friction_first[i])
@@ -192,12 +210,13 @@ def contact_state(contact, time, displacement, velocity):
 @njit(inline="always")
 def contact_force(contact, time, displacement, velocity):
     """Generalised force (n,) of all contacts on the pads."""
-    state = contact_state(contact, time, displacement, velocity)
-    size, n = contact.rows.shape[1:]
-    forces = np.empty(3 * size)
-    for i in range(size):
-        forces[i], forces[size + i], forces[2 * size + i] = state.normal[i], state.friction[i, 0], state.friction[i, 1]
-    return forces @ contact.rows.reshape(3 * size, n)
+    state, rows, result = contact_state(contact, time, displacement, velocity), contact.rows, np.zeros(displacement.size)
+    for i in range(rows.shape[1]):
+        if state.normal[i] != 0.0:
+            normal, along, aside = state.normal[i], state.friction[i, 0], state.friction[i, 1]
+            for k in range(result.size):
+                result[k] += normal * rows[0, i, k] + along * rows[1, i, k] + aside * rows[2, i, k]
+    return result
 
 
 @njit(inline="always")
