@@ -23,6 +23,7 @@ from pipeline.physics.friction.tangential_law import tangential_law
 from pipeline.physics.modal.quadratic_eigenproblem import (
     by_frequency,
     follow_roots,
+    polished,
     quadratic_modes,
     quadratic_roots,
     upper_half,
@@ -36,6 +37,8 @@ from pipeline.products import ComplexModes, Effects, FrictionMap, ReducedModel
 
 #: friction values of one task of the fan-out
 _CHUNK = 7
+#: growth rates above this negative share of the frequency are computed in the whole model, not on the basis alone
+_NEARLY = 1e-3
 
 
 class Settings(Section):
@@ -126,7 +129,8 @@ def complex_modes(model: ReducedModel, friction_map: FrictionMap | None, effects
     Method:
     All complex modes were computed at {friction_steps} friction coefficients from 0 to {friction_max} and at the
     operating points, each about its own steady sliding state, in a basis of the real modes below
-    {frequency_max} and their friction corrections. A closing speed of {damping_speed} doubles the contact pressure
+    {frequency_max} and their friction corrections; at the operating points, roots that grow or nearly do were then
+    solved for in the whole reduced model. A closing speed of {damping_speed} doubles the contact pressure
     (contact damping). A mode is unstable if its growth rate exceeds {neutral} times its angular frequency.
     """
     terms, loads = _told(physics_terms(effects), context), model.pressure[:, None] * model.input_area
@@ -233,10 +237,28 @@ def _operate(settings, law, task):
     about = model if is_hard(model) else model.projected(basis.shape)
     matrices, beside = _linearised(about, sliding, basis, settings, settings.friction_slopes)
     modes = quadratic_modes(*matrices, beside=beside)
-    root, limit = modes.value, 2 * np.pi * settings.frequency_max
-    grows = (root.real > settings.neutral * abs(root)) & (root.imag >= 0) & (abs(root) < limit)
-    return _Outcome(model.speed, sliding, root[upper_half(root, len(matrices[0]))], root[grows],
-                    basis.shape @ modes.right[:, grows], basis.corrections)
+    root, shape = _whole(model, sliding, modes.value, basis.shape @ modes.right, settings)
+    grows = (root.real > settings.neutral * abs(root)) & (root.imag >= 0)
+    grows &= abs(root) < 2 * np.pi * settings.frequency_max
+    return _Outcome(model.speed, sliding, root[upper_half(root, len(matrices[0]))], root[grows], shape[:, grows],
+                    basis.corrections)
+
+
+def _whole(model, sliding, roots, shapes, settings):
+    """Roots and shapes (n, g), those that grow, or nearly do, as they are in the whole reduced model."""
+    near = (roots.imag > 0) & (abs(roots) < 2 * np.pi * settings.frequency_max)
+    near &= roots.real > -_NEARLY * abs(roots)
+    if is_hard(model) or not near.any():
+        return roots, shapes
+    friction, beside = sliding.acting(settings.friction_slopes), sliding.beside(model, settings.friction_slopes)
+    matrices = model.linearised(friction, settings.friction_damping, settings.gyroscopic, settings.centrifugal)
+    roots, shapes = roots.copy(), shapes.copy()
+    for k in np.flatnonzero(near):
+        conjugate = np.argmin(abs(roots - roots[k].conj()))
+        roots[k], better = polished(*matrices, roots[k], shapes[:, k], beside)
+        shapes[:, k] = better / np.sqrt(abs(better.conj() @ matrices[0] @ better))
+        roots[conjugate], shapes[:, conjugate] = roots[k].conj(), shapes[:, k].conj()
+    return roots, shapes
 
 
 def _linearised(model, sliding, basis, settings, slopes=True):

@@ -14,7 +14,7 @@ from pipeline.contract.errors import ConfigError
 @click.option("--only", metavar="A,B", help="keys of the facts to show, in this order  [default: all testable ones]")
 @click.option("--markdown", is_flag=True, help="print the table as Markdown, as in README.md")
 @click.option("--record", "file", metavar="FILE", type=click.Path(path_type=Path),
-              help="write the numbers to FILE, e.g. data/reference/computed/disc_brake.json")
+              help="write the numbers to FILE, e.g. data/reference/computed/disc_brake_paper_joints.json")
 @options("debug")
 def facts(sources, only, markdown, file):
     """Show published facts beside the numbers of RUN, with the product field that each comes from.

@@ -17,5 +17,5 @@ from pipeline.contract.settings import (
 from pipeline.contract.stage import Products, Stage, Variants, stage
 
 __all__ = ["Array", "BrakechainError", "ConfigError", "Context", "ConvergenceError", "InputFile", "ProductError",
-           "OneOf", "Products", "Quantities", "Quantity", "Section", "Stage", "Variants", "count", "option", "part", "parts",
-           "product", "quantity", "restored", "section", "stage", "stored", "text"]
+           "OneOf", "Products", "Quantities", "Quantity", "Section", "Stage", "Variants", "count", "option", "part",
+           "parts", "product", "quantity", "restored", "section", "stage", "stored", "text"]

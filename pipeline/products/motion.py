@@ -25,6 +25,29 @@ class ComplexModes:
     corrections: Array = count("", "correction vectors for friction and damping added to the real modes")
 
 
+@product(version=1)
+class Convergence:
+    """Unstable modes of one operating point beside those of refined models."""
+
+    pressure: Array = quantity("Pa", "", "nominal pressure of the operating point")
+    speed: Array = quantity("rad/s", "", "speed of the drive")
+    refinement: Array = text("refinement", "what is refined: contact, pad_mesh, disc_mesh or bases")
+    root: Array = quantity("1/s", "unstable", "unstable roots of the case, strongest first", complex)
+    refined_root: Array = quantity("1/s", "refinement unstable", "the same in the refined models; that of the case where not found", complex)
+    found: Array = count("refinement unstable", "1 where the refined model has a root within 2 % of the frequency")
+    held: Array = count("refinement unstable", "1 where it moved by no more than the tolerances")
+    added: Array = count("refinement", "unstable modes that only the refined model has, beyond neutral ones")
+    contacts: Array = count("", "contact points of the case")
+    refined_contacts: Array = count("refinement", "contact points of the refined model")
+    frequency_change: Array = quantity("1", "", "largest change of a frequency, as a share of it")
+    growth_change: Array = quantity("1/s", "", "largest change of a growth rate")
+    growth_share: Array = quantity("1", "", "largest change of a growth rate, as a share of it")
+    frequency_tolerance: Array = quantity("1", "", "largest change of a frequency that counts as converged")
+    growth_tolerance: Array = quantity("1", "", "largest change of a growth rate that does, as a share of it")
+    neutral: Array = quantity("1/s", "", "change of a growth rate that always does")
+    converged: Array = count("", "1 if all unstable modes are those of all refined models within the tolerances")
+
+
 @product(version=2)
 class Multibody:
     """Motion of the flexible pads on four rigid sub-discs of friction patches, per operating point."""

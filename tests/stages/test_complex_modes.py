@@ -71,8 +71,9 @@ def basis_errors(model, smallest, friction_damping, damping_speed):
                             damping_speed=f"{damping_speed} m/s")
         roots = complex_modes(model, small_friction_map(), settings=settings).operating_root[0]
         slow = roots[(abs(roots) < np.pi * 8e3) & (roots.imag > 10 * abs(roots.real))]
-        assert len(slow) > 15
-        errors.append((abs(direct[:, None] - slow).min(axis=0) / abs(slow)).max())
+        error, near = abs(direct[:, None] - slow).min(axis=0) / abs(slow), slow.real > -1e-3 * abs(slow)
+        assert len(slow) > 15 and error[near].max(initial=0.0) < 1e-9    # solved for in the whole model
+        errors.append(error[~near].max())
     return errors
 
 
@@ -89,7 +90,7 @@ def test_roots_converge_to_those_of_the_whole_reduced_model(model, friction_damp
 def test_roots_converge_with_damped_contacts(model, friction_damping):
     """Damping of the contacts loads them locally as well and needs more corrections."""
     errors = basis_errors(model, (1e-2, 1e-3, 1e-4), friction_damping, 1.0)
-    assert errors[0] > 2 * errors[1] and errors[1] > 2 * errors[2] and errors[2] < 5e-4
+    assert errors[2] < min(errors[:2]) / 2 and errors[2] < 5e-4
 
 
 def test_unstable_modes_come_strongest_first_with_their_shapes(model):

@@ -10,6 +10,7 @@ from pipeline.products import (
     Body,
     Comparison,
     ComplexModes,
+    Convergence,
     FrictionMap,
     InterfaceLaw,
     LockIn,
@@ -151,6 +152,22 @@ def complex_modes(stable=False):
         operating_open=np.ones(9, dtype=int), operating_root=at, unstable_operating=operating[order],
         unstable_root=at[operating, which][order],
         unstable_shape=shape, corrections=55)
+
+
+def convergence(converged=True):
+    """Three unstable modes, four refinements; if not converged, the second mode vanishes with a finer contact."""
+    root = np.array([360 + 50.5e3j, 220 + 68.2e3j, 8 + 47.2e3j])
+    refined = root * (1 + 1e-3 * np.array([[1], [-2], [3], [1j]]))
+    found = np.ones((4, 3), int)
+    if not converged:
+        refined[0, 1], found[0, 1], refined[2, 0] = root[1], 0, 250 + 50.4e3j
+    held = found.copy()
+    held[2, 0] = int(converged)
+    return filled(
+        Convergence, pressure=3e6, speed=10.25, refinement=["contact", "pad_mesh", "disc_mesh", "bases"], root=root,
+        refined_root=refined, found=found, held=held, added=[0, 0 if converged else 1, 0, 0], contacts=1296,
+        refined_contacts=[2304, 2304, 1296, 1296], frequency_change=0.003, growth_change=50.5, growth_share=0.03,
+        frequency_tolerance=0.005, growth_tolerance=0.1, neutral=10.0, converged=int(converged))
 
 
 def multibody(samples=3000):

@@ -11,8 +11,10 @@ from dataclasses import dataclass
 import numpy as np
 import scipy
 
-from pipeline.contract.errors import ConfigError
+from pipeline.contract.errors import ConfigError, ConvergenceError
 
+#: Newton steps at most, and the step, as a share of the root, that ends them
+_POLISHINGS, _POLISHED = 12, 1e-10
 #: part of the largest root below which two frequencies differ by rounding alone
 _ROUNDING = 1e-10
 
@@ -46,6 +48,31 @@ def quadratic_modes(mass, damping, stiffness, left=False, beside=None):
     order, n = by_frequency(roots), len(mass)
     right = _physical(vectors[-1][:n, order], factor)
     return QuadraticModes(roots[order], right, _physical(vectors[0][n:2 * n, order], factor) if left else None)
+
+
+def polished(mass, damping, stiffness, root, vector, beside=None):
+    """(root 1/s, vector (n,)) of (s^2 M + s C + K) x = 0 from an approximate pair: Newton's method in both.
+
+    Arguments as of ``quadratic_modes``. Raises ConvergenceError where no root lies close by.
+    """
+    s, x, step = complex(root), vector / np.linalg.norm(vector), np.inf
+    for _ in range(_POLISHINGS):
+        operator, slope = s**2 * mass + s * damping + stiffness, 2 * s * mass + damping
+        if beside is not None and beside.decay.size:
+            answer = 1 / (s + beside.decay)
+            heard = beside.by_place + s * beside.by_speed
+            operator = operator - (beside.push * answer) @ heard
+            slope = slope - (beside.push * answer) @ (beside.by_speed - answer[:, None] * heard)
+        better = np.linalg.solve(operator, slope @ x)
+        overlap = x.conj() @ better
+        if overlap == 0:
+            break
+        step = 1 / overlap
+        s, x = s - step, better / np.linalg.norm(better)
+        if abs(step) <= _POLISHED * abs(s):
+            return s, x
+    raise ConvergenceError("complex modes", f"a root near {root:.6g} 1/s", f"steps of {abs(step):.2g} 1/s",
+                           "lower smallest_correction")
 
 
 def by_frequency(roots):

@@ -210,7 +210,8 @@ def contact_state(contact, time, displacement, velocity):
 @njit(inline="always")
 def contact_force(contact, time, displacement, velocity):
     """Generalised force (n,) of all contacts on the pads."""
-    state, rows, result = contact_state(contact, time, displacement, velocity), contact.rows, np.zeros(displacement.size)
+    state, rows = contact_state(contact, time, displacement, velocity), contact.rows
+    result = np.zeros(displacement.size)
     for i in range(rows.shape[1]):
         if state.normal[i] != 0.0:
             normal, along, aside = state.normal[i], state.friction[i, 0], state.friction[i, 1]

@@ -10,6 +10,7 @@ from pipeline.views.figures.number_format import number, quantity, span
 from pipeline.views.figures.scene import render
 
 TWO_PI = 2.0 * np.pi
+MAP_CAPTION = "Largest growth rate at each operating point, and its frequency. Above zero, steady sliding is unstable."
 NEUTRAL = 1e-6     # growth rates below this fraction of the angular frequency are rounding
 
 

@@ -40,6 +40,8 @@ LIMITS = (
      " omitted."),
     (("complex_modes",), "Complex modes are linear: no limit cycle, no amplitude, no dependence on the angular position"
      " of the disc."),
+    (("convergence",), "No motion over time: whether an unstable mode grows to an audible level, or is limited before,"
+     " is not computed in this chain. Modes above complex_modes.frequency_max are not judged."),
     (("multibody",), "In the pad motion the disc is rigid and its speed constant, as in the paper: disc modes cannot"
      " draw energy from friction there."),
     (("response",), "One-way coupling: the contact forces excite the elastic brake, whose vibration does not change"

@@ -5,6 +5,7 @@ from functools import partial
 from pipeline.views.chapters import (
     comparison,
     complex_modes,
+    convergence,
     friction,
     friction_descriptions,
     pad_motion,
@@ -15,6 +16,7 @@ from pipeline.views.chapters import (
 from pipeline.views.chapters.bench import bench, diagnosis, recording
 from pipeline.views.chapters.chapter import Figure
 from pipeline.views.chapters.models import beam_on_beam, lock_in, lumped, rupture, transient
+from pipeline.views.figures import complex_modes as stability_pictures
 from pipeline.views.figures import vibration as sound_pictures
 from pipeline.views.figures.models import rupture as rupture_pictures
 from pipeline.views.pages import case_settings as case_view
@@ -35,6 +37,7 @@ CHAPTERS = {
     "beam_on_beam": (beam_on_beam.beams, ("complex_modes", "comparison")),
     "lumped": (lumped.chapter, ("transient",)),
     "complex_modes": (complex_modes.chapter, ("reduced_model", _PUBLISHED)),
+    "convergence": (convergence.chapter, ()),
     "multibody": (pad_motion.chapter, ()),
     "transient": (transient.chapter, ()),
     "lock_in": (lock_in.lock_in, ()),
@@ -79,7 +82,8 @@ def _key_figure(products, look):
     if squeal is None and broken is not None:
         return Figure(rupture_pictures.slip_profiles(broken), rupture.headline(broken))
     if squeal is None:
-        return None
+        modes = products.get("complex_modes") if products.get("convergence") is not None else None
+        return modes and Figure(stability_pictures.operating_growth(modes, look.dpi), complex_modes.MAP_CAPTION)
     if len(squeal.pressure) == 1 and products.get("transient") is not None:
         return transient.loudest(products["transient"], squeal, look)
     return Figure(sound_pictures.occurrence(squeal, look.dpi), vibration.occurrence_caption(squeal))

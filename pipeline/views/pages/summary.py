@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from pipeline.views.chapters import convergence
 from pipeline.views.chapters.bench import diagnosis
 from pipeline.views.chapters.complex_modes import distinct_unstable
 from pipeline.views.chapters.models.rupture import headline as rupture_headline
@@ -58,6 +59,8 @@ def _headline(products):
     squeal, modes = products.get("squeal"), products.get("complex_modes")
     if products.get("rupture") is not None:
         return rupture_headline(products["rupture"]), "warning"
+    if products.get("convergence") is not None:
+        return _onset(modes, products["convergence"])
     unstable = 0 if modes is None else len(distinct_unstable(modes, len(modes.unstable_root)))
     if squeal is not None and len(squeal.event_level):
         if len(squeal.pressure) == 1:
@@ -75,6 +78,17 @@ def _headline(products):
     if squeal is None and (cycle := _settled_cycle(products.get("transient"))):
         return f"Vibration at {quantity(cycle, 'Hz', 3)} although no mode is unstable", "warning"
     return "No squeal predicted", "quiet"
+
+
+def _onset(modes, convergence):
+    """Headline of a case that ends with complex modes: whether squeal can start, and whether that is converged."""
+    points, starts = len(modes.operating_speed), len(np.unique(modes.unstable_operating))
+    doubt = "" if convergence.converged.item() else " (not converged)"
+    if not starts:
+        return f"Steady sliding is stable at all {points} operating points{doubt}", "quiet" if not doubt else "warning"
+    strongest = quantity(modes.unstable_root[0].imag / TWO_PI, "Hz", 3)
+    return f"Squeal can start at {starts} of {points} operating points, most strongly at {strongest}{doubt}", \
+           "squeal" if not doubt else "warning"
 
 
 def _settled_cycle(transient):
@@ -141,12 +155,13 @@ def _compared(products):
 
 
 def _sure(products):
-    comparison = _compared(products)
+    comparison, refined = _compared(products), products.get("convergence")
+    converged = "" if refined is None else f"{convergence.statement(refined)} "
     if comparison is None:
-        return "There is no published result to compare with."
+        return f"{converged}There is no published result to compare with."
     within = judged(comparison, "within")
     tuned = sum(bool(comparison.tuned[row]) for row in within)
-    return (f"Of {len(comparison.row)} published facts, {len(judged(comparison))} are testable with this"
+    return (f"{converged}Of {len(comparison.row)} published facts, {len(judged(comparison))} are testable with this"
             f" chain; {len(within)} are met within tolerance, {tuned or 'none'} of them because the model was tuned to"
             f" them. At most {len(within) - tuned} are independent evidence for the model.")
 

@@ -3,11 +3,12 @@
 import numpy as np
 import pytest
 
-from pipeline.contract.errors import ConfigError
+from pipeline.contract.errors import ConfigError, ConvergenceError
 from pipeline.physics.closed_form.two_mode_flutter import onset_friction, roots_over_friction
 from pipeline.physics.modal.quadratic_eigenproblem import (
     by_frequency,
     follow_roots,
+    polished,
     quadratic_modes,
     quadratic_roots,
     upper_half,
@@ -58,6 +59,26 @@ def test_left_and_right_vectors_solve_the_quadratic_problem():
         assert np.linalg.norm(y.conj() @ dynamic) < 1e-11 * np.linalg.norm(stiffness)
         assert np.vdot(x, mass @ x).real == pytest.approx(1.0)
     np.testing.assert_allclose(quadratic_roots(mass, damping, stiffness), modes.value, rtol=1e-9)
+
+
+@pytest.mark.exact
+def test_polished_roots_are_those_of_the_problem():
+    mass, damping, stiffness = random_system(7)
+    exact = quadratic_modes(mass, damping, stiffness)
+    rng = np.random.default_rng(3)
+    beside = Settling(*map(rng.standard_normal, ((7, 2), (2, 7), (2, 7))), np.array([30.0, 400.0]))
+    coupled = quadratic_modes(mass, damping, stiffness, beside=beside)
+    for modes, settling in ((exact, None), (coupled, beside)):
+        for k in np.flatnonzero(modes.value.imag > 0):
+            vector = modes.right[:, k] * (1 + 1e-3 * rng.standard_normal(7))
+            root, shape = polished(mass, damping, stiffness, modes.value[k] * (1 + 1e-4), vector, settling)
+            assert root == pytest.approx(modes.value[k], rel=1e-8)
+            assert abs(np.vdot(shape, modes.right[:, k])) == pytest.approx(np.linalg.norm(modes.right[:, k]), rel=1e-6)
+
+
+def test_polishing_without_a_root_nearby_is_refused():
+    with pytest.raises(ConvergenceError, match="complex modes"):
+        polished(np.eye(1), np.zeros((1, 1)), np.eye(1), 0.0, np.ones(1))     # between two roots
 
 
 @pytest.mark.exact

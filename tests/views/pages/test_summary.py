@@ -51,6 +51,20 @@ def test_quiet_and_unstable_brakes_are_told_apart():
     assert verdict(still, ()).tone == "quiet"
 
 
+def test_a_chain_that_ends_with_complex_modes_says_whether_squeal_can_start_and_whether_that_is_converged():
+    ending = {"complex_modes": small.complex_modes(), "convergence": small.convergence()}
+    told = verdict(ending, ())
+    assert told.headline.startswith("Squeal can start at 9 of 9 operating points, most strongly at 16.6")
+    assert told.tone == "squeal" and "within 3\u202f%" in words(told)
+    assert "Converged: every refinement leaves the same unstable modes" in words(told)
+    told = verdict({**ending, "convergence": small.convergence(converged=False)}, ())
+    assert told.headline.endswith("(not converged)") and told.tone == "warning"
+    assert "contact points (10.85\u202fkHz is gone)" in words(told) and "1 further unstable mode" in words(told)
+    assert "mesh of the disc (8.037\u202fkHz: 360 becomes 250 1/s)" in words(told)
+    stable = verdict({"complex_modes": small.complex_modes(stable=True), "convergence": small.convergence()}, ())
+    assert stable.headline == "Steady sliding is stable at all 9 operating points" and stable.tone == "quiet"
+
+
 def test_a_cycle_without_an_unstable_mode_is_told():
     """Stick-slip: steady sliding is stable, the motion is not quiet. A motion that has not settled is no cycle."""
     stable = {"complex_modes": small.complex_modes(stable=True)}
