@@ -20,6 +20,7 @@ from pipeline.contract import ConfigError, Context, Quantities, Quantity, Sectio
 from pipeline.physics.friction.dry_friction import Friction, constant, falling
 from pipeline.physics.friction.friction_table import FrictionLaw, refuse_beyond
 from pipeline.physics.friction.tangential_law import tangential_law
+from pipeline.physics.modal.disc_modes import describe
 from pipeline.physics.modal.quadratic_eigenproblem import (
     by_frequency,
     follow_roots,
@@ -32,9 +33,11 @@ from pipeline.physics.sliding.equilibrium import ClosureResponse, closure_respon
 from pipeline.physics.sliding.model import SlidingModel
 from pipeline.physics.stability.constrained_modes import allowed_motions, hard_sliding, is_hard
 from pipeline.physics.stability.friction_basis import FrictionBasis, friction_basis
+from pipeline.physics.stability.growth_balance import body_shares, growth_terms
 from pipeline.physics.time_stepping.simulate import Table
 from pipeline.products import ComplexModes, Effects, FrictionMap, ReducedModel
 
+DISC = "disc"
 #: friction values of one task of the fan-out
 _CHUNK = 7
 #: growth rates above this negative share of the frequency are computed in the whole model, not on the basis alone
@@ -111,6 +114,8 @@ class _Outcome:
     growing: np.ndarray
     motion: np.ndarray
     corrections: int
+    terms: tuple            # of the growing ones: {term: part of the growth rate}
+    shares: np.ndarray      # (g, b) of the bodies in their kinetic energy
 
     @property
     def mean_friction(self):
@@ -142,7 +147,7 @@ def complex_modes(model: ReducedModel, friction_map: FrictionMap | None, effects
     roots = _sweep(states, friction, settings, context)
     law = _friction_law(friction_map, model, settings)
     points = [(m.at_speed(speed), load) for m, load in models for speed in settings.speeds]
-    outcomes = context.map(partial(_operate, settings, law), points, "operating points")
+    outcomes = context.map(partial(_operate, settings, law, model.contact_body), points, "operating points")
     branches = min(max(len(s.basis.frequency) for s in states), *(s.model.size for s in states))
     return ComplexModes(
         pressure=model.pressure, friction=friction, root=[r[:, :branches] for r in roots],
@@ -151,7 +156,7 @@ def complex_modes(model: ReducedModel, friction_map: FrictionMap | None, effects
         operating_speed=[o.speed for o in outcomes], operating_friction=[o.mean_friction for o in outcomes],
         operating_force=[o.sliding.contact.force for o in outcomes],
         operating_open=[np.sum(o.sliding.contact.force == 0) for o in outcomes],
-        operating_root=[_lowest(o.root, branches) for o in outcomes], **_unstable(outcomes, model.recovery),
+        operating_root=[_lowest(o.root, branches) for o in outcomes], **_unstable(outcomes, model),
         corrections=max([s.basis.corrections for s in states] + [o.corrections for o in outcomes]))
 
 
@@ -227,7 +232,7 @@ def _roots_over_friction(settings, task):
     return np.array(roots)
 
 
-def _operate(settings, law, task):
+def _operate(settings, law, contact_body, task):
     """Sliding state with friction of the law, and the modes about it on a basis of its own."""
     case, input_force = task
     response, seeking = _response(case, settings), case.condensed() if case.moved else case
@@ -241,7 +246,17 @@ def _operate(settings, law, task):
     grows = (root.real > settings.neutral * abs(root)) & (root.imag >= 0)
     grows &= abs(root) < 2 * np.pi * settings.frequency_max
     return _Outcome(model.speed, sliding, root[upper_half(root, len(matrices[0]))], root[grows], shape[:, grows],
-                    basis.corrections)
+                    basis.corrections, *_balances(model, sliding, root[grows], shape[:, grows], contact_body,
+                                                  settings))
+
+
+def _balances(model, sliding, roots, shapes, contact_body, settings):
+    """(terms of the growth rate of each root, shares (g, b) of the bodies)."""
+    friction = sliding.acting(settings.friction_slopes)
+    terms = tuple(growth_terms(model, friction, root, shape, contact_body, settings.friction_damping)
+                  for root, shape in zip(roots, shapes.T, strict=True))
+    shares = [body_shares(model, shape) for shape in shapes.T]
+    return terms, np.reshape(shares, (len(roots), len(model.body_name)))
 
 
 def _whole(model, sliding, roots, shapes, settings):
@@ -272,14 +287,28 @@ def _linearised(model, sliding, basis, settings, slopes=True):
                             centrifugal=settings.centrifugal), beside
 
 
-def _unstable(outcomes, recovery):
-    """Growing modes below the frequency limit, strongest first, with their shapes on the surface."""
-    unstable = [(number, root, motion) for number, outcome in enumerate(outcomes)
-             for root, motion in zip(outcome.growing, outcome.motion.T, strict=True)]
+def _unstable(outcomes, model):
+    """Growing modes below the frequency limit, strongest first: shapes on the surface, what moves, what feeds them."""
+    recovery, names = model.recovery, list(model.body_name)
+    unstable = [(number, *mode) for number, o in enumerate(outcomes)
+                for mode in zip(o.growing, o.motion.T, o.terms, o.shares, strict=True)]
     unstable.sort(key=lambda f: -f[1].real)
-    shapes = [_normalised(recovery @ q[:recovery.shape[2]].astype(np.complex64)) for _, _, q in unstable]
+    shapes = [_normalised(recovery @ f[2][:recovery.shape[2]].astype(np.complex64)) for f in unstable]
+    shapes = np.array(shapes).reshape(len(unstable), *recovery.shape[:2])
+    terms = list(unstable[0][3]) if unstable else []
     return {"unstable_operating": [f[0] for f in unstable], "unstable_root": [f[1] for f in unstable],
-            "unstable_shape": np.array(shapes).reshape(len(unstable), *recovery.shape[:2])}
+            "unstable_shape": shapes, "unstable_diameters": _diameters(model, shapes), "body_name": names,
+            "unstable_share": np.reshape([f[4] for f in unstable], (len(unstable), len(names))), "growth_term": terms,
+            "unstable_growth": np.reshape([list(f[3].values()) for f in unstable], (len(unstable), len(terms)))}
+
+
+def _diameters(model, shapes):
+    """Nodal diameters (g,) of the disc in the ``shapes`` (g, v, 3) on the surface; -1 without a disc."""
+    names = list(model.body_name)
+    if DISC not in names or not len(shapes):
+        return np.full(len(shapes), -1)
+    on_disc = model.visible_body == names.index(DISC)
+    return describe(model.visible_position[on_disc], shapes[:, on_disc].reshape(len(shapes), -1).T)[0]
 
 
 def _normalised(shape):

@@ -11,7 +11,11 @@ class Settings(Section):
     mode_pictures: int = option(6, "mode shapes drawn of the disc and of the unstable brake, each", ge=0, le=40)
 
 
-@stage(companions=lambda product, case: {"report.html": product.html.item()}, reads_case=True)
+def _companions(product, case):
+    return {"report.html": product.html.item(), "verdict.json": product.verdict.item()}
+
+
+@stage(companions=_companions, reads_case=True)
 def report(products: Products, settings: Settings, context: Context) -> Report:
     """Write the HTML report with figures, tables, settings and methods.
 
@@ -21,6 +25,8 @@ def report(products: Products, settings: Settings, context: Context) -> Report:
     """
     from pipeline.views.chapters.chapter import Look
     from pipeline.views.pages.report import page, plan
+    from pipeline.views.pages.summary import verdict
+    from pipeline.views.pages.verdict_file import verdict_text
 
     look = Look(settings.dots_per_inch, settings.mode_pictures)
     chapters = []
@@ -29,4 +35,5 @@ def report(products: Products, settings: Settings, context: Context) -> Report:
         for build in builders:
             chapters.append(build())
             progress.advance()
-    return Report(html=page(chapters, products, context.case, look))
+    return Report(html=page(chapters, products, context.case, look),
+                  verdict=verdict_text(verdict(products, ()), products))

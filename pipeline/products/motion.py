@@ -5,7 +5,7 @@ import numpy as np
 from pipeline.contract import Array, count, product, quantity, text
 
 
-@product(version=3)
+@product(version=4)
 class ComplexModes:
     """Complex modes of the sliding system over friction, and at each operating point of the map."""
 
@@ -22,6 +22,11 @@ class ComplexModes:
     unstable_operating: Array = count("unstable", "operating point of the unstable mode")
     unstable_root: Array = quantity("1/s", "unstable", "roots with positive real part, strongest first", complex)
     unstable_shape: Array = quantity("1", "unstable visible xyz", "their shapes on the surface nodes, largest = 1", complex)
+    unstable_diameters: Array = count("unstable", "nodal diameters of the disc in it; -1 in a system without a disc")
+    body_name: Array = text("body", "bodies in order")
+    unstable_share: Array = quantity("1", "unstable body", "share of each body in its kinetic energy")
+    growth_term: Array = text("term", "what feeds or dissipates energy: friction at a body, contact damping, ...; their sum is the growth rate")
+    unstable_growth: Array = quantity("1/s", "unstable term", "part of each term in the growth rate")
     corrections: Array = count("", "correction vectors for friction and damping added to the real modes")
 
 

@@ -25,8 +25,9 @@ class Comparison:
     note: Array = text("row", "how our value was formed")
 
 
-@product(version=1)
+@product(version=2)
 class Report:
-    """The report page of a case."""
+    """The report page of a case, and its verdict for other programs."""
 
     html: Array = text("", "self-contained page")
+    verdict: Array = text("", "verdict.json, schema brakechain-verdict/1: SI units, null where unknown")

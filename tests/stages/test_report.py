@@ -21,9 +21,10 @@ def test_the_same_products_give_the_same_bytes_and_others_give_others():
     assert some(squeal=small.squeal(quiet=True)).html.item() != first.html.item()
 
 
-def test_the_page_is_the_companion_file():
+def test_page_and_verdict_are_the_companion_files():
     product = written()
-    assert report.companions(product, None) == {"report.html": product.html.item()}
+    assert report.companions(product, None) == {"report.html": product.html.item(),
+                                                  "verdict.json": product.verdict.item()}
 
 
 def test_missing_products_leave_out_their_chapters_only():

@@ -151,7 +151,12 @@ def complex_modes(stable=False):
         operating_force=OPERATING_PRESSURE[:, None] * 2e-4 * np.append(np.linspace(2.2, 0.4, 11), 0.0),
         operating_open=np.ones(9, dtype=int), operating_root=at, unstable_operating=operating[order],
         unstable_root=at[operating, which][order],
-        unstable_shape=shape, corrections=55)
+        unstable_shape=shape, unstable_diameters=np.full(len(operating), 5),
+        body_name=["disc", "pad_outer", "pad_inner", "caliper"],
+        unstable_share=np.tile([0.7, 0.2, 0.1, 0.0], (len(operating), 1)),
+        growth_term=["friction at pad_outer", "friction at pad_inner", "contact damping",
+                     "friction turning with the slip", "friction over slip speed", "bodies and joints"],
+        unstable_growth=np.tile([300.0, 100.0, -150.0, -100.0, -30.0, -42.6], (len(operating), 1)), corrections=55)
 
 
 def convergence(converged=True):

@@ -6,7 +6,7 @@ from pipeline.views.chapters.chapter import Chapter, Figure, Table
 from pipeline.views.chapters.structure import COLOURS, NO_PICTURES
 from pipeline.views.figures import complex_modes as pictures
 from pipeline.views.figures import mode_shapes
-from pipeline.views.figures.number_format import number, quantity, span
+from pipeline.views.figures.number_format import number, percent, quantity, span
 from pipeline.views.figures.scene import render
 
 TWO_PI = 2.0 * np.pi
@@ -98,4 +98,25 @@ def _table(modes, most=12):
                      quantity(modes.operating_speed[point], "rad/s"), number(modes.operating_friction[point], 3),
                      str(modes.operating_open[point])))
     head = "frequency", "growth rate", "damping ratio / %", "pressure", "speed", "friction", "open contacts"
-    return (Table(head, tuple(rows), "Unstable modes, most unstable first, each frequency once", tuple(range(7))),)
+    title = "Unstable modes, most unstable first, each frequency once"
+    return Table(head, tuple(rows), title, tuple(range(7))), _reasons(modes, chosen)
+
+
+def _reasons(modes, chosen):
+    """What moves in each mode, and what feeds or dissipates its energy."""
+    rows = []
+    for index in chosen:
+        diameters, share = modes.unstable_diameters[index], modes.unstable_share[index]
+        bodies = ", ".join(f"{words(modes.body_name[b])} {percent(share[b])}" for b in np.argsort(-share)[:3]
+                           if share[b] > 0.005)
+        rows.append((quantity(modes.unstable_root[index].imag / TWO_PI, "Hz", 5),
+                     str(diameters) if diameters >= 0 else "", bodies,
+                     *(f"{value:+.0f}" for value in modes.unstable_growth[index])))
+    head = ("frequency", "nodal diameters", "kinetic energy in", *(words(term) for term in modes.growth_term))
+    return Table(head, tuple(rows), "What feeds them (+) and what dissipates (-): parts of the growth rate in 1/s",
+                 (0, 1, *range(3, len(head))))
+
+
+def words(name):
+    """A name of a body or term as words."""
+    return str(name).replace("_", " ")

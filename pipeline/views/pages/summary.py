@@ -6,7 +6,7 @@ import numpy as np
 
 from pipeline.views.chapters import convergence
 from pipeline.views.chapters.bench import diagnosis
-from pipeline.views.chapters.complex_modes import distinct_unstable
+from pipeline.views.chapters.complex_modes import distinct_unstable, words
 from pipeline.views.chapters.models.rupture import headline as rupture_headline
 from pipeline.views.chapters.pad_motion import extremes, point, rate_in_words
 from pipeline.views.chapters.vibration import origin
@@ -135,7 +135,7 @@ def _why(products):
     strongest = (f"The most unstable mode, {quantity(frequencies[0], 'Hz')}, has a growth rate of"
                  f" {quantity(modes.unstable_root[0].real, '1/s', 3)}.")
     if squeal is None:
-        return strongest
+        return f"{strongest}{_fed(modes)}"
     peak = squeal.peak_frequency.flat[np.argmax(squeal.peak_level)]
     nearest = frequencies[np.argmin(np.abs(frequencies - peak))]
     apart = abs(nearest / peak - 1)
@@ -146,6 +146,18 @@ def _why(products):
     return (f"{strongest} No unstable mode lies within {percent(NEAR)} of the loudest peak (nearest"
             f" {quantity(nearest, 'Hz')})"
             f"{forced if products.get('multibody') is not None else ''}.")
+
+
+def _fed(modes):
+    """What moves in the most unstable mode, and the largest part of its growth rate on either side."""
+    share, growth = modes.unstable_share[0], modes.unstable_growth[0]
+    moving = words(modes.body_name[np.argmax(share)])
+    diameters = modes.unstable_diameters[0]
+    shape = f" with {plural(int(diameters), 'nodal diameter')}" if diameters >= 0 else ""
+    feeds, takes = np.argmax(growth), np.argmin(growth)
+    return (f" {percent(share.max())} of its kinetic energy is in the {moving}{shape}. Of its growth rate,"
+            f" {growth[feeds]:+.0f} 1/s come from {words(modes.growth_term[feeds])}, {growth[takes]:+.0f} 1/s from"
+            f" {words(modes.growth_term[takes])}.")
 
 
 def _compared(products):

@@ -8,7 +8,7 @@ from pipeline.views.pages.summary import published_squeal, verdict
 from tests.views import products_for_views as small
 
 
-def words(given):
+def said(given):
     return " ".join(answer for _, answer in given.answers)
 
 
@@ -16,13 +16,13 @@ def test_squeal_is_told_with_place_level_and_frequency():
     told = verdict(small.products(), (("micro_friction.shear_limit", "13.5 MPa"),))
     assert told.tone == "squeal"
     assert told.headline == "Squeal at 2 of 9 operating points"
-    assert "3\u202fMPa, 12\u202frad/s" in words(told)
-    assert "92 dB" in words(told)
-    assert "16.6\u202fkHz" in words(told)
+    assert "3\u202fMPa, 12\u202frad/s" in said(told)
+    assert "92 dB" in said(told)
+    assert "16.6\u202fkHz" in said(told)
 
 
 def test_agreement_counts_only_what_was_not_tuned():
-    told = words(verdict(small.products(), ()))
+    told = said(verdict(small.products(), ()))
     assert "Of 7 published facts, 5 are testable" in told
     assert "4 are met within tolerance, 3 of them because the model was tuned" in told
     assert "At most 1 are independent evidence" in told
@@ -31,16 +31,16 @@ def test_agreement_counts_only_what_was_not_tuned():
 def test_a_peak_without_unstable_mode_is_called_forced():
     squeal = small.squeal()
     moved = replace(squeal, peak_frequency=0.8 * squeal.peak_frequency)
-    assert "it is forced by the pads" in words(verdict(small.products(squeal=moved), ()))
-    assert "it is forced by the pads" not in words(verdict(small.products(), ()))
+    assert "it is forced by the pads" in said(verdict(small.products(squeal=moved), ()))
+    assert "it is forced by the pads" not in said(verdict(small.products(), ()))
     stable = verdict(small.products(complex_modes=small.complex_modes(stable=True)), ())
-    assert "No mode is unstable" in words(stable)
+    assert "No mode is unstable" in said(stable)
 
 
 def test_a_loudest_peak_that_is_a_harmonic_is_told_as_one():
-    told = words(verdict(small.products(squeal=small.squeal(harmonic=True)), ()))
+    told = said(verdict(small.products(squeal=small.squeal(harmonic=True)), ()))
     assert "It is the 20th harmonic of 0.83\u202fkHz. Harmonics of a lower fundamental: 1 of 2 events." in told
-    assert "harmonic" not in words(verdict(small.products(), ()))
+    assert "harmonic" not in said(verdict(small.products(), ()))
 
 
 def test_quiet_and_unstable_brakes_are_told_apart():
@@ -55,12 +55,12 @@ def test_a_chain_that_ends_with_complex_modes_says_whether_squeal_can_start_and_
     ending = {"complex_modes": small.complex_modes(), "convergence": small.convergence()}
     told = verdict(ending, ())
     assert told.headline.startswith("Squeal can start at 9 of 9 operating points, most strongly at 16.6")
-    assert told.tone == "squeal" and "within 3\u202f%" in words(told)
-    assert "Converged: every refinement leaves the same unstable modes" in words(told)
+    assert told.tone == "squeal" and "within 3\u202f%" in said(told)
+    assert "Converged: every refinement leaves the same unstable modes" in said(told)
     told = verdict({**ending, "convergence": small.convergence(converged=False)}, ())
     assert told.headline.endswith("(not converged)") and told.tone == "warning"
-    assert "contact points (10.85\u202fkHz is gone)" in words(told) and "1 further unstable mode" in words(told)
-    assert "mesh of the disc (8.037\u202fkHz: 360 becomes 250 1/s)" in words(told)
+    assert "contact points (10.85\u202fkHz is gone)" in said(told) and "1 further unstable mode" in said(told)
+    assert "mesh of the disc (8.037\u202fkHz: 360 becomes 250 1/s)" in said(told)
     stable = verdict({"complex_modes": small.complex_modes(stable=True), "convergence": small.convergence()}, ())
     assert stable.headline == "Steady sliding is stable at all 9 operating points" and stable.tone == "quiet"
 
@@ -90,7 +90,7 @@ def test_a_comparison_with_nothing_is_none():
     comparison = small.comparison()
     none = replace(comparison, **{f.name: getattr(comparison, f.name)[:0] for f in fields(comparison)
                                   if f.metadata.get("dims", ("",))[0] == "row"})
-    told = words(verdict(small.products(comparison=none), (("a.b", "1"),)))
+    told = said(verdict(small.products(comparison=none), (("a.b", "1"),)))
     assert "no published result to compare with" in told and "published facts" not in told
     assert "does not state on which facts" not in told
 
@@ -99,6 +99,6 @@ def test_tuned_settings_without_tuned_facts_are_told():
     comparison = small.comparison()
     untold = replace(comparison, tuned=[""] * len(comparison.row))
     settings = (("micro_friction.shear_limit", "13.5 MPa"),)
-    assert "does not state on which facts" in words(verdict(small.products(comparison=untold), settings))
-    assert "does not state on which facts" not in words(verdict(small.products(), settings))
-    assert "Nothing in this case is marked as tuned" in words(verdict(small.products(comparison=untold), ()))
+    assert "does not state on which facts" in said(verdict(small.products(comparison=untold), settings))
+    assert "does not state on which facts" not in said(verdict(small.products(), settings))
+    assert "Nothing in this case is marked as tuned" in said(verdict(small.products(comparison=untold), ()))

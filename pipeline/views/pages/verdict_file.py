@@ -1,0 +1,65 @@
+"""verdict.json: what the first screen says, for other programs."""
+
+import json
+
+import numpy as np
+
+from pipeline.views.chapters.convergence import WORDS, statement
+
+SCHEMA = "brakechain-verdict/1"
+TWO_PI = 2.0 * np.pi
+
+
+def verdict_text(verdict, products):
+    """JSON text of a Verdict and the ``products`` (name -> product or None) behind it; SI units, null where unknown."""
+    modes, refined = products.get("complex_modes"), products.get("convergence")
+    document = {"schema": SCHEMA, "headline": verdict.headline, "squeal_can_start": _can_start(modes),
+                "probability": None, "unstable_modes": [] if modes is None else _unstable(modes),
+                "convergence": None if refined is None else _convergence(refined), "transient": None,
+                "warnings": _warnings(modes, refined)}
+    return json.dumps(document, indent=1) + "\n"
+
+
+def _can_start(modes):
+    return None if modes is None else bool(len(modes.unstable_root))
+
+
+def _unstable(modes):
+    """One entry for each unstable mode at each operating point, strongest first."""
+    found = []
+    for k, (root, point) in enumerate(zip(modes.unstable_root, modes.unstable_operating, strict=True)):
+        diameters = int(modes.unstable_diameters[k])
+        found.append({
+            "frequency": root.imag / TWO_PI, "growth_rate": root.real, "damping_ratio": -root.real / abs(root),
+            "nodal_diameters": diameters if diameters >= 0 else None,
+            "pressure": float(modes.operating_pressure[point]), "speed": float(modes.operating_speed[point]),
+            "friction": float(modes.operating_friction[point]),
+            "bodies": _named(modes.body_name, modes.unstable_share[k]),
+            "growth_by_term": _named(modes.growth_term, modes.unstable_growth[k])})
+    return found
+
+
+def _named(names, values):
+    return {str(name): float(value) for name, value in zip(names, values, strict=True)}
+
+
+def _convergence(refined):
+    per_refinement = {}
+    for r, name in enumerate(refined.refinement):
+        modes = [{"frequency": root.imag / TWO_PI, "frequency_change": float(new.imag / root.imag - 1),
+                  "growth_change": float(new.real - root.real), "found": bool(found)}
+                 for root, new, found in zip(refined.root, refined.refined_root[r], refined.found[r], strict=True)]
+        per_refinement[str(name)] = {"modes": modes, "added_modes": int(refined.added[r])}
+    return {"converged": bool(refined.converged.item()), "pressure": float(refined.pressure),
+            "speed": float(refined.speed), "largest_frequency_change": float(refined.frequency_change),
+            "largest_growth_change": float(refined.growth_change), "refinements": per_refinement}
+
+
+def _warnings(modes, refined):
+    told = []
+    if refined is not None and not refined.converged.item():
+        told.append(statement(refined))
+    if modes is not None and refined is None:
+        told.append("convergence was not examined")
+    missing = [name for name in WORDS if refined is not None and name not in list(map(str, refined.refinement))]
+    return told + [f"not refined: {WORDS[name]}" for name in missing]

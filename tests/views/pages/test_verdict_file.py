@@ -1,0 +1,41 @@
+"""verdict.json says what the products say, in plain JSON."""
+
+import json
+
+import numpy as np
+import pytest
+
+from pipeline.views.pages.summary import verdict
+from pipeline.views.pages.verdict_file import SCHEMA, verdict_text
+from tests.views import products_for_views as small
+
+
+def written(products):
+    return json.loads(verdict_text(verdict(products, ()), products))
+
+
+def test_modes_convergence_and_headline_are_there():
+    modes, refined = small.complex_modes(), small.convergence()
+    told = written({"complex_modes": modes, "convergence": refined})
+    assert told["schema"] == SCHEMA and told["squeal_can_start"] is True and told["probability"] is None
+    assert told["headline"].startswith("Squeal can start") and told["warnings"] == []
+    first = told["unstable_modes"][0]
+    assert first["frequency"] == pytest.approx(modes.unstable_root[0].imag / (2 * np.pi))
+    assert first["growth_rate"] == modes.unstable_root[0].real and first["damping_ratio"] < 0
+    assert first["nodal_diameters"] == 5 and first["bodies"]["disc"] == 0.7
+    assert set(first["growth_by_term"]) == set(map(str, modes.growth_term))
+    assert told["convergence"]["converged"] and set(told["convergence"]["refinements"]) == set(refined.refinement)
+
+
+def test_what_is_not_converged_or_not_examined_is_a_warning():
+    modes = small.complex_modes()
+    doubtful = written({"complex_modes": modes, "convergence": small.convergence(converged=False)})
+    assert doubtful["warnings"][0].startswith("Not converged") and not doubtful["convergence"]["converged"]
+    assert not doubtful["convergence"]["refinements"]["contact"]["modes"][1]["found"]
+    alone = written({"complex_modes": modes})
+    assert alone["warnings"] == ["convergence was not examined"] and alone["convergence"] is None
+
+
+def test_cases_without_complex_modes_have_a_verdict_too():
+    told = written({})
+    assert told["squeal_can_start"] is None and told["unstable_modes"] == [] and told["warnings"] == []
