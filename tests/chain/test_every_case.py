@@ -6,14 +6,14 @@ import numpy as np
 import pytest
 
 from pipeline.contract import store
-from pipeline.products import Comparison, LockIn
+from pipeline.products import Comparison, Convergence, LockIn
 from pipeline.views.pages import facts
 from tests.chain.conftest import ROOT, brakechain
 from tests.studies import self_excited, worn
 
 #: cases in full resolution; disc_brake_scanned needs recordings as well
-SLOW = {**dict.fromkeys(("disc_brake", "bimaterial_rupture", "bimaterial_rupture_fine", "pin_on_disc",
-                         "pin_on_disc_paper_step", "beam_geometry"), [pytest.mark.slow]),
+SLOW = {**dict.fromkeys(("disc_brake", "disc_brake_paper_joints", "bimaterial_rupture", "bimaterial_rupture_fine",
+                         "pin_on_disc", "pin_on_disc_paper_step", "beam_geometry"), [pytest.mark.slow]),
         **dict.fromkeys(("pin_on_disc_bench", "worn_pad", "disc_table1", "disc_brake_lines", "pin_on_disc_lines"),
                         [pytest.mark.slow, pytest.mark.study]),
         **dict.fromkeys(("emps", "silverbox", "tribometer"),
@@ -45,6 +45,9 @@ def test_a_case_runs_to_its_report(case, tmp_path):
     if recorded.exists():
         fresh = facts.record([store.read(Comparison, tmp_path / "run" / "comparison.h5")], [])["facts"]
         assert not facts.deviations(json.loads(recorded.read_text())["facts"], fresh)
+    if case.stem == "disc_brake":
+        refined = store.read(Convergence, tmp_path / "run" / "convergence.h5")
+        assert len(refined.root) >= 3 and refined.converged == 1, refined
     if case.stem not in (*CLOSED_FORM, *NOT_MET):
         return
     found = store.read(Comparison, tmp_path / "run" / "comparison.h5")

@@ -1,6 +1,6 @@
 """What makes a mode grow: its growth rate as a sum over friction, contacts and damping, and the bodies that move.
 
-A root s = sigma + i w of M x'' + C x' + K x = 0 and its vector x obey x^H (s^2 M + s C + K) x = 0. Its imaginary part is
+A root s = sigma + i w of M x'' + C x' + K x = 0 and its vector x obey x^H (s^2 M + s C + K) x = 0, so that
 
     sigma = - sum_j Im(s x^H C_j x + x^H K_j x) / (2 w x^H M x),
 
