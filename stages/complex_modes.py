@@ -30,7 +30,7 @@ from pipeline.physics.modal.quadratic_eigenproblem import (
     upper_half,
 )
 from pipeline.physics.sliding.equilibrium import ClosureResponse, closure_response, falling_with_speed, from_map
-from pipeline.physics.sliding.model import SlidingModel
+from pipeline.physics.sliding.model import SlidingModel, loss_stiffness
 from pipeline.physics.stability.constrained_modes import allowed_motions, hard_sliding, is_hard
 from pipeline.physics.stability.friction_basis import FrictionBasis, friction_basis
 from pipeline.physics.stability.growth_balance import body_shares, growth_terms
@@ -41,7 +41,7 @@ DISC = "disc"
 #: friction values of one task of the fan-out
 _CHUNK = 7
 #: growth rates above this negative share of the frequency are computed in the whole model, not on the basis alone
-_NEARLY = 1e-3
+_NEARLY = 5e-4
 
 
 class Settings(Section):
@@ -66,6 +66,9 @@ class Settings(Section):
     friction_damping: bool = option(True, "friction that turns with the slip velocity damps sideways motion")
     damping_speed: Quantity("m/s", gt=0) = option(
         "1 m/s", "closing speed that doubles the contact pressure: damping of the normal contact, as in multibody")
+    hysteretic: bool = option(
+        True, "loss factors as imaginary stiffness, in roots that grow or nearly do at the operating points; false: the"
+        " viscous damping equivalent to them, as in the sweep and in motions over time")
     gyroscopic: bool = option(True, "gyroscopic terms of the disc")
     centrifugal: bool = option(True, "centrifugal terms of the disc")
     neutral: float = option(1e-6, "growth below this share of abs(s) counts as neither growth nor decay", ge=0)
@@ -124,6 +127,20 @@ class _Outcome:
         return float(force @ coefficient / force.sum()) if force.any() else 0.0
 
 
+@dataclass(frozen=True)
+class _Losses:
+    """Of a product ReducedModel: body of each contact (c,), imaginary stiffness (n, n) and damping (n, n) of bodies."""
+
+    contact_body: np.ndarray
+    stiffness: np.ndarray
+    damping: np.ndarray
+
+    def change(self, model):
+        """(damping, stiffness) that make loss factors hysteretic in a SlidingModel with their viscous equivalent; None
+        without loss factors."""
+        return (self.damping - model.damping, 1j * self.stiffness) if self.stiffness.any() else None
+
+
 @stage(check=_check)
 def complex_modes(model: ReducedModel, friction_map: FrictionMap | None, effects: Effects | None, settings: Settings,
                   context: Context) -> ComplexModes:
@@ -135,8 +152,9 @@ def complex_modes(model: ReducedModel, friction_map: FrictionMap | None, effects
     All complex modes were computed at {friction_steps} friction coefficients from 0 to {friction_max} and at the
     operating points, each about its own steady sliding state, in a basis of the real modes below
     {frequency_max} and their friction corrections; at the operating points, roots that grow or nearly do were then
-    solved for in the whole reduced model. A closing speed of {damping_speed} doubles the contact pressure
-    (contact damping). A mode is unstable if its growth rate exceeds {neutral} times its angular frequency.
+    solved for in the whole reduced model, with loss factors as imaginary stiffness (hysteretic: {hysteretic}). A
+    closing speed of {damping_speed} doubles the contact pressure (contact damping). A mode is unstable if its growth
+    rate exceeds {neutral} times its angular frequency.
     """
     terms, loads = _told(physics_terms(effects), context), model.pressure[:, None] * model.input_area
     models = [(posed(model, k, np.mean(settings.speeds), settings.damping_speed, terms, conditions(effects)), load)
@@ -147,7 +165,8 @@ def complex_modes(model: ReducedModel, friction_map: FrictionMap | None, effects
     roots = _sweep(states, friction, settings, context)
     law = _friction_law(friction_map, model, settings)
     points = [(m.at_speed(speed), load) for m, load in models for speed in settings.speeds]
-    outcomes = context.map(partial(_operate, settings, law, model.contact_body), points, "operating points")
+    losses = _Losses(model.contact_body, loss_stiffness(model), model.damping)
+    outcomes = context.map(partial(_operate, settings, law, losses), points, "operating points")
     branches = min(max(len(s.basis.frequency) for s in states), *(s.model.size for s in states))
     return ComplexModes(
         pressure=model.pressure, friction=friction, root=[r[:, :branches] for r in roots],
@@ -232,7 +251,7 @@ def _roots_over_friction(settings, task):
     return np.array(roots)
 
 
-def _operate(settings, law, contact_body, task):
+def _operate(settings, law, losses, task):
     """Sliding state with friction of the law, and the modes about it on a basis of its own."""
     case, input_force = task
     response, seeking = _response(case, settings), case.condensed() if case.moved else case
@@ -242,12 +261,13 @@ def _operate(settings, law, contact_body, task):
     about = model if is_hard(model) else model.projected(basis.shape)
     matrices, beside = _linearised(about, sliding, basis, settings, settings.friction_slopes)
     modes = quadratic_modes(*matrices, beside=beside)
-    root, shape = _whole(model, sliding, modes.value, basis.shape @ modes.right, settings)
+    hysteretic = losses.change(case.base.model) if settings.hysteretic else None
+    root, shape = _whole(model, sliding, modes.value, basis.shape @ modes.right, settings, hysteretic)
     grows = (root.real > settings.neutral * abs(root)) & (root.imag >= 0)
     grows &= abs(root) < 2 * np.pi * settings.frequency_max
     return _Outcome(model.speed, sliding, root[upper_half(root, len(matrices[0]))], root[grows], shape[:, grows],
-                    basis.corrections, *_balances(model, sliding, root[grows], shape[:, grows], contact_body,
-                                                  settings))
+                    basis.corrections, *_balances(model, sliding, root[grows], shape[:, grows],
+                                                  losses.contact_body, settings))
 
 
 def _balances(model, sliding, roots, shapes, contact_body, settings):
@@ -259,14 +279,19 @@ def _balances(model, sliding, roots, shapes, contact_body, settings):
     return terms, np.reshape(shares, (len(roots), len(model.body_name)))
 
 
-def _whole(model, sliding, roots, shapes, settings):
-    """Roots and shapes (n, g), those that grow, or nearly do, as they are in the whole reduced model."""
+def _whole(model, sliding, roots, shapes, settings, hysteretic=None):
+    """Roots and shapes (n, g), those that grow, or nearly do, as they are in the whole reduced model.
+
+    ``hysteretic``: what to add to its damping and its stiffness (imaginary), as of ``_Losses.change``, or None.
+    """
     near = (roots.imag > 0) & (abs(roots) < 2 * np.pi * settings.frequency_max)
     near &= roots.real > -_NEARLY * abs(roots)
     if is_hard(model) or not near.any():
         return roots, shapes
     friction, beside = sliding.acting(settings.friction_slopes), sliding.beside(model, settings.friction_slopes)
     matrices = model.linearised(friction, settings.friction_damping, settings.gyroscopic, settings.centrifugal)
+    if hysteretic is not None:
+        matrices = matrices[0], matrices[1] + hysteretic[0], matrices[2] + hysteretic[1]
     roots, shapes = roots.copy(), shapes.copy()
     for k in np.flatnonzero(near):
         conjugate = np.argmin(abs(roots - roots[k].conj()))

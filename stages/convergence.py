@@ -26,7 +26,7 @@ class Settings(Section):
     contact_points: int | None = option(
         None, "refined contact points per direction on an element face; none = one more", ge=1)
     bases: float = option(
-        1.5, "factor on the frequency limit of the bases, and on the orders of the load patterns", gt=1)
+        1.35, "factor on the frequency limit of the bases, and on the orders of the load patterns", gt=1)
     frequency_tolerance: float = option(0.005, "largest change of a frequency, as a share of it", gt=0)
     growth_tolerance: float = option(0.1, "largest change of a growth rate, as a share of it", gt=0)
     neutral: Quantity("1/s", gt=0) = option("10 1/s", "a growth rate that changes by less, or is less, may")

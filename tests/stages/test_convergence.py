@@ -33,8 +33,8 @@ def test_everything_is_refined_in_turn_at_one_operating_point():
     assert made["pad_mesh"]["structure.pad.cells_per_patch"] == 4
     assert made["pad_mesh"]["structure.pad.contact_points"] == 2      # on four times as many faces
     assert made["disc_mesh"]["structure.disc.angular_cells"] == 128
-    assert made["bases"]["structure.frequency_max"] == "30000.0 Hz"
-    assert made["bases"]["reduced_model.load_patterns"] == [15, 9]
+    assert made["bases"]["structure.frequency_max"] == "27000.0 Hz"
+    assert made["bases"]["reduced_model.load_patterns"] == [14, 9]
 
 
 def test_contact_patches_are_refined_without_the_mesh():

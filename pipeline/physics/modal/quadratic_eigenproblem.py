@@ -13,8 +13,8 @@ import scipy
 
 from pipeline.contract.errors import ConfigError, ConvergenceError
 
-#: Newton steps at most, and the step, as a share of the root, that ends them
-_POLISHINGS, _POLISHED = 12, 1e-10
+#: factorisations at most, iterations with each, and the step, as a share of the root, that ends them
+_FACTORISATIONS, _POLISHINGS, _POLISHED = 4, 8, 1e-11
 #: part of the largest root below which two frequencies differ by rounding alone
 _ROUNDING = 1e-10
 
@@ -51,28 +51,46 @@ def quadratic_modes(mass, damping, stiffness, left=False, beside=None):
 
 
 def polished(mass, damping, stiffness, root, vector, beside=None):
-    """(root 1/s, vector (n,)) of (s^2 M + s C + K) x = 0 from an approximate pair: Newton's method in both.
+    """(root 1/s, vector (n,)) of (s^2 M + s C + K) x = 0 from an approximate pair, by residual inverse iteration.
 
-    Arguments as of ``quadratic_modes``. Raises ConvergenceError where no root lies close by.
+    Arguments as of ``quadratic_modes``; matrices may be complex. One factorisation serves all iterations, and another
+    where they slow down (Neumaier, SIAM J. Numer. Anal. 22 (1985) 914). Raises ConvergenceError where no root lies
+    close by.
     """
     s, x, step = complex(root), vector / np.linalg.norm(vector), np.inf
-    for _ in range(_POLISHINGS):
-        operator, slope = s**2 * mass + s * damping + stiffness, 2 * s * mass + damping
-        if beside is not None and beside.decay.size:
-            answer = 1 / (s + beside.decay)
-            heard = beside.by_place + s * beside.by_speed
-            operator = operator - (beside.push * answer) @ heard
-            slope = slope - (beside.push * answer) @ (beside.by_speed - answer[:, None] * heard)
-        better = np.linalg.solve(operator, slope @ x)
-        overlap = x.conj() @ better
-        if overlap == 0:
-            break
-        step = 1 / overlap
-        s, x = s - step, better / np.linalg.norm(better)
-        if abs(step) <= _POLISHED * abs(s):
-            return s, x
+    for _ in range(_FACTORISATIONS):
+        factor = scipy.linalg.lu_factor(_operator(mass, damping, stiffness, s, beside)[0], check_finite=False)
+        left = scipy.linalg.lu_solve(factor, x, trans=2, check_finite=False).conj()
+        for _ in range(_POLISHINGS):
+            operator, slope = _operator(mass, damping, stiffness, s, beside, x)
+            along = left @ slope
+            if along == 0 or not np.isfinite(along):
+                break
+            step = (left @ operator) / along
+            s = s - step
+            x = x - scipy.linalg.lu_solve(factor, operator - step * slope, check_finite=False)
+            x = x / np.linalg.norm(x)
+            if abs(step) <= _POLISHED * abs(s):
+                return s, x
     raise ConvergenceError("complex modes", f"a root near {root:.6g} 1/s", f"steps of {abs(step):.2g} 1/s",
                            "lower smallest_correction")
+
+
+def _operator(mass, damping, stiffness, s, beside, x=None):
+    """T(s) = s^2 M + s C + K less what settles beside it, and dT/ds; both times ``x`` where it is given."""
+    settles = beside is not None and beside.decay.size
+    if settles:
+        answer, push = 1 / (s + beside.decay), beside.push
+        heard = beside.by_place + s * beside.by_speed
+    if x is None:
+        whole = s**2 * mass + s * damping + stiffness
+        return (whole - (push * answer) @ heard if settles else whole), None
+    inertia, drag = mass @ x, damping @ x
+    operator, slope = s**2 * inertia + s * drag + stiffness @ x, 2 * s * inertia + drag
+    if settles:
+        operator = operator - push @ (answer * (heard @ x))
+        slope = slope - push @ (answer * (beside.by_speed @ x - answer * (heard @ x)))
+    return operator, slope
 
 
 def by_frequency(roots):

@@ -217,7 +217,7 @@ def sliding_model(reduced, state, speed):
     ``structural_damping``).
     """
     joints = Joints(tuple(reduced.joint_name), reduced.joint_rows, reduced.joint_stiffness, reduced.joint_damping)
-    loss = reduced.loss + spread(joints.rows, reduced.joint_loss_factor * joints.stiffness, joints.rows)
+    loss = loss_stiffness(reduced)
     contacts = Contacts(
         normal=reduced.contact_normal, tangent=reduced.contact_tangent, lateral=reduced.contact_lateral,
         position=reduced.contact_position, area=reduced.contact_area,
@@ -233,6 +233,12 @@ def sliding_model(reduced, state, speed):
         return model
     mass, _, stiffness = model.frictionless(gyroscopic=False, centrifugal=False)
     return replace(model, damping=model.damping + equivalent_damping(loss, stiffness, mass))
+
+
+def loss_stiffness(reduced):
+    """Imaginary part (n, n) N/m of the stiffness of bodies and joints of a product ReducedModel, by loss factors."""
+    rows = reduced.joint_rows
+    return reduced.loss + spread(rows, reduced.joint_loss_factor * reduced.joint_stiffness, rows)
 
 
 def spread(left, weight, right):
