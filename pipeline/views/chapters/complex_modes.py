@@ -1,5 +1,7 @@
 """Chapter: complex modes in steady sliding."""
 
+import re
+
 import numpy as np
 
 from pipeline.views.chapters.chapter import Chapter, Figure, Table
@@ -11,6 +13,9 @@ from pipeline.views.figures.scene import render
 
 TWO_PI = 2.0 * np.pi
 MAP_CAPTION = "Largest growth rate at each operating point, and its frequency. Above zero, steady sliding is unstable."
+#: heads of columns for terms of the growth rate
+_SHORT = {"friction turning with the slip": "turning slip", "friction over slip speed": "slip speed",
+          "bodies and joints": "bodies, joints"}
 NEUTRAL = 1e-6     # growth rates below this fraction of the angular frequency are rounding
 
 
@@ -107,16 +112,21 @@ def _reasons(modes, chosen):
     rows = []
     for index in chosen:
         diameters, share = modes.unstable_diameters[index], modes.unstable_share[index]
-        bodies = ", ".join(f"{words(modes.body_name[b])} {percent(share[b])}" for b in np.argsort(-share)[:3]
-                           if share[b] > 0.005)
-        rows.append((quantity(modes.unstable_root[index].imag / TWO_PI, "Hz", 5),
+        bodies = ", ".join(f"{words(modes.body_name[b])} {percent(share[b], 2)}" for b in np.argsort(-share)[:2])
+        rows.append((quantity(modes.unstable_root[index].imag / TWO_PI, "Hz", 4),
                      str(diameters) if diameters >= 0 else "", bodies,
-                     *(f"{value:+.0f}" for value in modes.unstable_growth[index])))
-    head = ("frequency", "nodal diameters", "kinetic energy in", *(words(term) for term in modes.growth_term))
-    return Table(head, tuple(rows), "What feeds them (+) and what dissipates (-): parts of the growth rate in 1/s",
-                 (0, 1, *range(3, len(head))))
+                     *map(signed, modes.unstable_growth[index])))
+    head = ("frequency", "diameters", "kinetic energy", *(_SHORT.get(str(t), words(t)) for t in modes.growth_term))
+    title = ("What feeds them (+) and what dissipates (\N{MINUS SIGN}): parts of the growth rate in 1/s; nodal"
+             " diameters of the disc; the bodies that move most")
+    return Table(head, tuple(rows), title, (0, 1, *range(3, len(head))))
 
 
 def words(name):
-    """A name of a body or term as words."""
-    return str(name).replace("_", " ")
+    """A name of a body, or of a term with one, as words: 'pad_inner' is 'inner pad'."""
+    return re.sub(r"\bpad (\w+)", r"\1 pad", str(name).replace("_", " "))
+
+
+def signed(value):
+    """A growth rate with its sign, in whole 1/s."""
+    return f"{value:+.0f}".replace("-", "\N{MINUS SIGN}")

@@ -84,4 +84,5 @@ def _cell(convergence, refinement, mode):
     if not convergence.found[refinement, mode]:
         return "gone"
     root, refined = convergence.root[mode], convergence.refined_root[refinement, mode]
-    return f"{100 * (refined.imag / root.imag - 1):+.2f} %, {refined.real - root.real:+.1f}"
+    text = f"{100 * (refined.imag / root.imag - 1):+.2f} %, {refined.real - root.real:+.1f}"
+    return text.replace("-", "\N{MINUS SIGN}")

@@ -6,7 +6,7 @@ import numpy as np
 
 from pipeline.views.chapters import convergence
 from pipeline.views.chapters.bench import diagnosis
-from pipeline.views.chapters.complex_modes import distinct_unstable, words
+from pipeline.views.chapters.complex_modes import distinct_unstable, signed, words
 from pipeline.views.chapters.models.rupture import headline as rupture_headline
 from pipeline.views.chapters.pad_motion import extremes, point, rate_in_words
 from pipeline.views.chapters.vibration import origin
@@ -156,8 +156,8 @@ def _fed(modes):
     shape = f" with {plural(int(diameters), 'nodal diameter')}" if diameters >= 0 else ""
     feeds, takes = np.argmax(growth), np.argmin(growth)
     return (f" {percent(share.max())} of its kinetic energy is in the {moving}{shape}. Of its growth rate,"
-            f" {growth[feeds]:+.0f} 1/s come from {words(modes.growth_term[feeds])}, {growth[takes]:+.0f} 1/s from"
-            f" {words(modes.growth_term[takes])}.")
+            f" {signed(growth[feeds])} 1/s come from {words(modes.growth_term[feeds])}, {signed(growth[takes])} 1/s"
+            f" from {words(modes.growth_term[takes])}.")
 
 
 def _compared(products):
@@ -209,9 +209,10 @@ def _contact(product):
 
 
 def _modes(product):
-    frequencies = np.sort([product.unstable_root[i].imag / TWO_PI for i in distinct_unstable(product, 99)])
+    frequencies = product.unstable_root.imag / TWO_PI
+    most = np.bincount(product.unstable_operating.astype(int), minlength=1).max() if len(frequencies) else 0
     shown = f": {span(frequencies, 'Hz')}" if len(frequencies) else ""
-    return "unstable modes", f"{len(frequencies)}{shown}"
+    return "unstable modes at one operating point", f"{'up to ' if most else ''}{most}{shown}"
 
 
 def _motion(product):
