@@ -58,17 +58,22 @@ def _finer_contact(pad, settings):
 
 
 def _finer_pads(pad):
-    """Twice the elements in every direction; fewer contact points on each face, not fewer of them in all."""
-    changes = {"structure.pad.cells_per_patch": 2 * pad.cells_per_patch,
-               "structure.pad.lining_layers": 2 * pad.lining_layers}
-    points = {} if pad.contact_points is None else {"structure.pad.contact_points": math.ceil(pad.contact_points / 2)}
-    return changes | points
+    """Twice the elements or more, by the root of two in every direction; not fewer contact points in all."""
+    cells = _root_two(pad.cells_per_patch)
+    changes = {"structure.pad.cells_per_patch": cells, "structure.pad.lining_layers": _root_two(pad.lining_layers)}
+    if pad.contact_points is not None:
+        changes["structure.pad.contact_points"] = math.ceil(pad.contact_points * pad.cells_per_patch / cells)
+    return changes
 
 
 def _finer_disc(disc):
     """Twice the elements: by the root of two around and across."""
-    return {f"structure.disc.{name}": math.ceil(math.sqrt(2) * getattr(disc, name))
+    return {f"structure.disc.{name}": _root_two(getattr(disc, name))
             for name in ("web_cells", "ring_cells", "angular_cells")}
+
+
+def _root_two(count):
+    return math.ceil(math.sqrt(2) * count)
 
 
 def _larger_bases(brake, reduction, settings):
