@@ -66,6 +66,24 @@ def _convergence(product):
                    " friction."),)
 
 
+#: share of the contact force outside the computed pressures from which on it is told
+_TOLD = 0.01
+
+
+def outside_computed(products):
+    """Sentence on contact force at pressures at which friction was not computed; '' where there is next to none."""
+    law, modes, model = (products.get(name) for name in ("friction_map", "complex_modes", "reduced_model"))
+    if law is None or modes is None or model is None or modes.operating_force.shape[1] != len(model.contact_area):
+        return ""
+    pressure, computed = modes.operating_force / model.contact_area, law.computed_pressure
+    beyond = (pressure < computed.min()) | (pressure > computed.max())
+    share = ((modes.operating_force * beyond).sum(axis=1) / modes.operating_force.sum(axis=1)).max()
+    if share < _TOLD:
+        return ""
+    return (f"Up to {percent(share, 2)} of the contact force acts at pressures outside {span(computed, 'Pa')}, where"
+            " friction was not computed: widen micro_friction.pressures.")
+
+
 def friction_map(product, look):
     """Chapter of the product FrictionMap."""
     last = product.friction[:, :, -1]

@@ -7,6 +7,7 @@ import numpy as np
 from pipeline.views.chapters import convergence
 from pipeline.views.chapters.bench import diagnosis
 from pipeline.views.chapters.complex_modes import distinct_unstable, signed, words
+from pipeline.views.chapters.friction import outside_computed
 from pipeline.views.chapters.models.rupture import headline as rupture_headline
 from pipeline.views.chapters.pad_motion import extremes, point, rate_in_words
 from pipeline.views.chapters.vibration import origin
@@ -169,6 +170,8 @@ def _compared(products):
 def _sure(products):
     comparison, refined = _compared(products), products.get("convergence")
     converged = "" if refined is None else f"{convergence.statement(refined)} "
+    if outside := outside_computed(products):
+        converged += f"{outside} "
     if comparison is None:
         return f"{converged}There is no published result to compare with."
     within = judged(comparison, "within")

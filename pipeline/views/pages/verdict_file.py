@@ -5,6 +5,7 @@ import json
 import numpy as np
 
 from pipeline.views.chapters.convergence import WORDS, statement
+from pipeline.views.chapters.friction import outside_computed
 
 SCHEMA = "brakechain-verdict/1"
 TWO_PI = 2.0 * np.pi
@@ -16,7 +17,7 @@ def verdict_text(verdict, products):
     document = {"schema": SCHEMA, "headline": verdict.headline, "squeal_can_start": _can_start(modes),
                 "probability": None, "unstable_modes": [] if modes is None else _unstable(modes),
                 "convergence": None if refined is None else _convergence(refined), "transient": None,
-                "warnings": _warnings(modes, refined)}
+                "warnings": _warnings(modes, refined) + [w for w in [outside_computed(products)] if w]}
     return json.dumps(document, indent=1) + "\n"
 
 

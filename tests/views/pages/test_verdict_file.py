@@ -1,6 +1,8 @@
 """verdict.json says what the products say, in plain JSON."""
 
 import json
+from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -34,6 +36,19 @@ def test_what_is_not_converged_or_not_examined_is_a_warning():
     assert not doubtful["convergence"]["refinements"]["contact"]["modes"][1]["found"]
     alone = written({"complex_modes": modes})
     assert alone["warnings"] == ["convergence was not examined"] and alone["convergence"] is None
+
+
+def test_contact_force_outside_the_computed_pressures_is_a_warning():
+    modes, law = small.complex_modes(), small.friction_map()
+    pressure = np.full((9, 12), 2e6)
+    pressure[:, 0] = 2 * law.computed_pressure.max()
+    products = {"complex_modes": replace(modes, operating_force=pressure * 1e-4), "friction_map": law,
+                "reduced_model": SimpleNamespace(contact_area=np.full(12, 1e-4))}
+    share = pressure[0, 0] / pressure[0].sum()
+    said = written(products)["warnings"][-1]
+    assert said.startswith(f"Up to {100 * share:.2g}") and "widen micro_friction.pressures" in said
+    inside = replace(modes, operating_force=np.full((9, 12), 2e6 * 1e-4))
+    assert written({**products, "complex_modes": inside})["warnings"] == ["convergence was not examined"]
 
 
 def test_cases_without_complex_modes_have_a_verdict_too():
