@@ -330,9 +330,9 @@ def _unstable(outcomes, model):
 def _diameters(model, shapes):
     """Nodal diameters (g,) of the disc in the ``shapes`` (g, v, 3) on the surface; -1 without a disc."""
     names = list(model.body_name)
-    if DISC not in names or not len(shapes):
+    on_disc = model.visible_body == (names.index(DISC) if DISC in names else -1)
+    if not on_disc.any() or not len(shapes):
         return np.full(len(shapes), -1)
-    on_disc = model.visible_body == names.index(DISC)
     return describe(model.visible_position[on_disc], shapes[:, on_disc].reshape(len(shapes), -1).T)[0]
 
 

@@ -58,12 +58,9 @@ def _finer_contact(pad, settings):
 
 
 def _finer_pads(pad):
-    """Twice the elements or more, by the root of two in every direction; not fewer contact points in all."""
-    cells = _root_two(pad.cells_per_patch)
-    changes = {"structure.pad.cells_per_patch": cells, "structure.pad.lining_layers": _root_two(pad.lining_layers)}
-    if pad.contact_points is not None:
-        changes["structure.pad.contact_points"] = math.ceil(pad.contact_points * pad.cells_per_patch / cells)
-    return changes
+    """Twice the elements or more, by the root of two in every direction; contact points per face as they are."""
+    return {"structure.pad.cells_per_patch": _root_two(pad.cells_per_patch),
+            "structure.pad.lining_layers": _root_two(pad.lining_layers)}
 
 
 def _finer_disc(disc):

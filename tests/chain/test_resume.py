@@ -9,7 +9,7 @@ NAMES = CHAINS["disc_brake"]
 
 
 def test_every_product_is_there(finished):
-    assert set(contents(finished)) == {*NAMES, "friction_map.csv", "report.html"}
+    assert set(contents(finished)) == {*NAMES, "friction_map.csv", "report.html", "verdict.json"}
     assert (finished / "report.html").stat().st_size > 50_000 and (finished / "friction_map.csv").exists()
     assert not [p.name for p in finished.glob(".*") if p.name != ".lock"]
 

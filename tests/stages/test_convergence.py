@@ -31,7 +31,7 @@ def test_everything_is_refined_in_turn_at_one_operating_point():
         assert changes["structure.pressures"] == ["3000000.0 Pa"] and changes["complex_modes.speeds"] == ["10.25 rad/s"]
     assert made["contact"]["structure.pad.contact_points"] == 4
     assert made["pad_mesh"]["structure.pad.cells_per_patch"] == made["pad_mesh"]["structure.pad.lining_layers"] == 3
-    assert made["pad_mesh"]["structure.pad.contact_points"] == 2      # on more than twice as many faces
+    assert "structure.pad.contact_points" not in made["pad_mesh"]      # as many on each of more faces
     assert made["disc_mesh"]["structure.disc.angular_cells"] == 128
     assert made["bases"]["structure.frequency_max"] == "27000.0 Hz"
     assert made["bases"]["reduced_model.load_patterns"] == [14, 9]
