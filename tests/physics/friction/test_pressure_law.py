@@ -29,7 +29,7 @@ def test_it_levels_off_without_a_kink():
     end = 0.13 - 0.12 * np.log(6)
     assert slope[5000] == pytest.approx(end, abs=1e-4) and np.abs(np.diff(slope)).max() < 1e-3
     np.testing.assert_allclose(slope[10000], end / 2, rtol=1e-3)      # half way over ln p
-    assert np.ptp(value[15001:]) == 0.0
+    assert np.ptp(value[15001:]) <= 2 * np.spacing(value[-1])     # equal rows of a product, up to its last bits
 
 
 def test_weights_are_those_of_the_standard_errors():
