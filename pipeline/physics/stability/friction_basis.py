@@ -29,13 +29,14 @@ class FrictionBasis:
 
 
 def friction_basis(model, below, friction_damping=True, smallest=1e-3, contact_stiffness=0.0, centrifugal=True,
-                   others=None):
+                   others=None, adjoint=None):
     """Real modes of a SlidingModel below a frequency [Hz] and their corrections, largest first.
 
     The real modes are those of closed contacts without friction, damping and gyroscopic terms. Corrections with
     amplitudes up to ``smallest`` per unit of modal amplitude are left out; ``smallest`` = inf leaves out all. Where the
     basis shall serve states whose contacts are stiffer or softer, corrections for a change by ``contact_stiffness``
     (() or (c,) N/m) join them, and where ``others`` (n, n) N/m act, as Maxwell branches do at once, those for these.
+    With ``adjoint``, the FrictionState of the system, left vectors and gyroscopic terms are served as well.
     Raises ConfigError where no mode lies below the frequency.
     """
     mass, damping, stiffness = model.frictionless(gyroscopic=False, centrifugal=centrifugal)
@@ -50,6 +51,10 @@ def friction_basis(model, below, friction_damping=True, smallest=1e-3, contact_s
     force = [follower @ real, spread(rows, contact_stiffness, rows) @ real,
              (damping + drag) @ real * (2 * np.pi * frequency[low])]
     force += [] if others is None else [others @ real]
+    if adjoint is not None:
+        drag, follower = model.friction_matrices(adjoint, friction_damping)
+        pace = 2 * np.pi * frequency[low]
+        force += [follower.T @ real, drag.T @ real * pace, model.speed * model.gyroscopic @ real * pace]
     response = (high.T @ np.hstack(force)) / (square[~low, None] - np.tile(square[low], len(force)))
     direction, size, _ = np.linalg.svd(response, full_matrices=False)
     corrections = high @ direction[:, size > smallest]

@@ -1,0 +1,1 @@
+"""Nonlinear motion about steady sliding, in the complex modes of the sliding system."""

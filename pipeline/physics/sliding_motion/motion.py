@@ -1,0 +1,197 @@
+"""Motion of a sliding system from small to large: its modes, its contact patches, and integration over time.
+
+    system = sliding_motion(model, closure, friction, law, modes, ...)      # once an operating point
+    run = system.run(start, step=2e-6, duration=0.05)
+
+The linear motion is that of the complex modes, root by root; what the contacts do beyond it (opening, stiffening,
+sticking, friction that changes with load and slip) acts through patches of contacts.
+"""
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from pipeline.contract.errors import ConfigError, ConvergenceError
+from pipeline.physics.friction.dry_friction import BACKWARD, FIRST, READ_AT, kernel
+from pipeline.physics.friction.friction_table import friction_at
+from pipeline.physics.sliding_motion.exponential_step import (
+    ADDED,
+    DONE,
+    LOSS,
+    STORED,
+    WORK,
+    EnergyKernel,
+    Record,
+    advance,
+    step_kernel,
+)
+from pipeline.physics.sliding_motion.patch_forces import PatchKernel, beyond_linear
+from pipeline.physics.sliding_motion.patches import contact_patches
+from pipeline.physics.time_stepping.normal_laws import normal_kernel
+
+#: rows of the tables of normal force on either side of steady sliding, and the share of the law that they span at least
+_ROWS, _RESTING, _LAWS = 1600, 2400, 4
+
+
+@dataclass(frozen=True)
+class Run:
+    """States (r, m) at ``time`` (r,) s; ``open`` and ``stick`` (r,) shares of contacts and patches; energies (r,) J
+    since the begin (0 without a book): ``work`` of the contact forces, ``loss`` in bodies and joints, ``added`` in the
+    damping of moved roots, ``stored``; ``sweeps`` a step of the iteration; ``end``, where another run may start."""
+
+    time: np.ndarray
+    state: np.ndarray
+    open: np.ndarray
+    stick: np.ndarray
+    work: np.ndarray
+    loss: np.ndarray
+    added: np.ndarray
+    stored: np.ndarray
+    sweeps: float
+    end: tuple
+
+    @property
+    def imbalance(self):
+        """Largest error of the energy balance over the largest energy that has passed; 0 without a book."""
+        passed = [each - each[0] for each in (self.stored, self.work, self.loss, self.added)]
+        error, largest = passed[0] - passed[1] + passed[2] + passed[3], max(abs(each).max() for each in passed)
+        return float(abs(error).max() / largest) if largest else 0.0
+
+
+@dataclass(frozen=True)
+class SlidingMotion:
+    """A sliding system about steady sliding: its SlidingModes and PatchKernel, rows of the patches (4p, 2m) and modal
+    forces (3p, 2m) as in a StepKernel, and the forms of its energy."""
+
+    modes: object
+    patches: PatchKernel
+    motion: np.ndarray
+    force: np.ndarray
+    energy: EnergyKernel
+
+    def velocity_rows(self, rows):
+        """(r, m): Re(result @ z) is the velocity along ``rows`` (r, n)."""
+        modes = self.modes
+        return modes.weight * ((rows @ modes.basis) @ modes.right) * modes.own
+
+    def run(self, start, step, duration, every=1, book=False):
+        """Run from ``start``: modal coordinates (m,), or the ``end`` of an earlier run, kept every so many steps.
+
+        Raises ConfigError without a step, ConvergenceError with the time where a step has no solution.
+        """
+        count = round(duration / step) if step > 0 else 0
+        if count < every:
+            raise ConfigError("sliding motion: step", "a positive step, at most as long as the motion",
+                              f"{step:g} s for {duration:g} s")
+        state, rest, previous = (each.copy() for each in (start if isinstance(start, tuple) else self._begin(start)))
+        rows = count // every
+        record = Record(np.empty((rows, len(state))), np.empty((rows, 2)), np.zeros((rows, 4)))
+        energy = self.energy if book else EnergyKernel(*np.empty((4, 0, 0)))
+        steps = step_kernel(self.modes.root, self.motion, self.force, step)
+        code, number, sweeps = advance(self.patches, steps, energy, state, rest, previous, count, every, record)
+        if code != DONE:
+            raise ConvergenceError(f"sliding motion at t = {number * step:.6g} s", "contact forces that settle",
+                                   "none after the last iteration", "take a shorter step, or raise the stick speed")
+        half, energies = len(state) // 2, record.energy.T
+        return Run(step * every * np.arange(1, rows + 1), record.state[:, :half] + 1j * record.state[:, half:],
+                   *record.share.T, energies[WORK], energies[LOSS], energies[ADDED], energies[STORED], sweeps / count,
+                   (state, rest, previous))
+
+    def _begin(self, start):
+        """(state, contact forces beyond the linear, the same) at modal coordinates (m,)."""
+        p = len(self.patches.load)
+        state, rest = np.concatenate((start.real, start.imag)), np.zeros((3, p))
+        beyond_linear(self.patches, (self.motion @ state).reshape(4, -1), rest, np.zeros((p, 3, 4)))
+        return state, rest, rest
+
+    def rate(self, start):
+        """dz/dt (m,) at modal coordinates (m,): for other integrators and for tests."""
+        _, rest, _ = self._begin(start)
+        force, half = rest.ravel() @ self.force, len(start)
+        return self.modes.root * start + force[:half] + 1j * force[half:]
+
+    @cached_property
+    def reach(self):
+        """(m,) amplitude of each modal coordinate at which a patch moves by the scale of the contact law."""
+        m, p = len(self.modes.root), len(self.patches.load)
+        largest = np.hypot(self.motion[:p, :m], self.motion[:p, m:]).max(axis=0)
+        return self.patches.scale / np.maximum(largest, np.finfo(float).tiny)
+
+
+def sliding_motion(model, closure, friction, law, modes, group, largest, stick_speed):
+    """SlidingMotion of a SlidingModel linearised about its contacts.
+
+    ``closure`` (c,) m in steady sliding; ``friction``: Friction of the contacts, without states; ``law``: Table;
+    ``modes``: SlidingModes; ``group`` (c,) number of the face of each contact, ``largest`` number of contacts in a
+    patch; ``stick_speed`` m/s.
+    """
+    contacts = model.contacts
+    patches = contact_patches(contacts.position, contacts.stiffness, group, largest)
+    rows = np.vstack([patches.mean @ (each @ modes.basis)
+                      for each in (contacts.normal, contacts.tangent, contacts.lateral)])
+    position, force = modes.weight * (rows @ modes.right), rows @ modes.left
+    p = len(patches.first) - 1
+    return SlidingMotion(
+        modes, _patch_kernel(model, closure, friction, law, patches, stick_speed),
+        np.ascontiguousarray(_real(np.vstack((position[:p], position * modes.own)))),
+        np.ascontiguousarray(np.hstack((force.real, force.imag))), _energy(model, modes))
+
+
+def _real(rows):
+    """(r, 2m) of complex rows (r, m): their real part at (Re z, Im z)."""
+    return np.hstack((rows.real, -rows.imag))
+
+
+def _patch_kernel(model, closure, friction, law, patches, stick_speed):
+    contacts = model.contacts
+    normal, dry = normal_kernel(law, contacts), kernel(friction, len(contacts.area))
+    lowest, interval, force, closed = _normal_tables(normal, closure, patches)
+    load, speed = patches.summed(contacts.preload), patches.mean @ model.sliding_speed
+    per_load = 1 / patches.summed(contacts.area)
+    np.divide(patches.summed(contacts.preload * contacts.pressure), load**2, out=per_load, where=load > 0)
+    first = patches.member[patches.first[:-1]]
+    table, read = (dry.pressure, dry.speed, dry.distance, dry.table), dry.contact[first]
+    states = [friction_at(p, v, s, *table, int(row))[:3] for p, v, s, row in
+              zip(load * per_load, abs(speed), read[:, READ_AT], read[:, FIRST], strict=True)]
+    mu, over_pressure, over_slip = np.array(states).T * np.where(speed < 0, read[:, BACKWARD], 1.0)
+    load, stiffness, damping = force[:, _RESTING], *map(patches.summed, (contacts.stiffness, contacts.damping))
+    coupling = np.sign(speed) * (mu + load * per_load * over_pressure)
+    linear = np.array([stiffness, damping, coupling * stiffness, coupling * damping, load * over_slip,
+                       np.divide(mu * load, abs(speed), out=np.zeros(len(load)), where=speed != 0)])
+    return PatchKernel(
+        lowest, interval, force, closed, len(closure), normal.damping_speed[first], load, np.sign(speed) * mu * load,
+        speed, per_load, *table, read[:, FIRST].astype(np.int64), read[:, READ_AT].copy(), read[:, BACKWARD].copy(),
+        linear, float(stick_speed), float(load.sum() / stiffness.sum()))
+
+
+def _normal_tables(law, closure, patches):
+    """(first displacement m, interval m, force (p, k) N, closed contacts (p, k)) of the patches over displacement.
+
+    Steady sliding is the row _RESTING; the tables end where no contact is closed.
+    """
+    reach = max(closure.max(), law.closure[-1] / _LAWS)
+    interval = reach / _ROWS
+    moved = interval * np.arange(-_RESTING, _ROWS + 2)
+    last = len(law.closure) - 2
+    force, closed = np.zeros((2, len(closure), len(moved)))
+    for j, area in enumerate(law.area):
+        rise = law.pressure[law.first[j]:law.first[j] + len(law.closure)]
+        depth = np.maximum(closure[j] - moved, 0.0)
+        beyond = (rise[last + 1] - rise[last]) / (law.closure[last + 1] - law.closure[last])
+        force[j] = area * (np.interp(depth, law.closure, rise) + beyond * np.maximum(depth - law.closure[-1], 0.0))
+        closed[j] = depth > 0
+    grouped = (np.add.reduceat(each[patches.member], patches.first[:-1], axis=0) for each in (force, closed))
+    return float(moved[0]), float(interval), *map(np.ascontiguousarray, grouped)
+
+
+def _energy(model, modes):
+    """EnergyKernel of bodies and joints, on which the contacts do work."""
+    mass, damping, stiffness = (modes.basis.T @ each @ modes.basis for each in model.supported(gyroscopic=False))
+    right = modes.weight * modes.right
+    position, rate = _real(right), _real(right * modes.own)
+    moved, quickened = (_real(each * (modes.root - modes.own)) for each in (right, right * modes.own))
+    contact = -(rate.T @ (modes.damping - damping) @ rate + rate.T @ (modes.stiffness - stiffness) @ position)
+    added = -(position.T @ stiffness @ moved + rate.T @ mass @ quickened)
+    forms = (0.5 * (position.T @ stiffness @ position + rate.T @ mass @ rate), contact, rate.T @ damping @ rate, added)
+    return EnergyKernel(*(np.ascontiguousarray((form + form.T) / 2) for form in forms))

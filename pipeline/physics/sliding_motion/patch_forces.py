@@ -1,0 +1,111 @@
+"""Contact forces of patches in a given motion, compiled: normal law and friction.
+
+Patch i moves by u along its normal (positive opens), at the velocities (u', v, w) along its normal, tangent and lateral
+rows. Its contacts j carry
+
+    N = (1 - u' / vd) sum_j A_j p_j(c_j - u),      F = N mu(p, |s|) g(|s|) s / |s|,      s = (v0 - v, -w),
+
+p being the mean pressure of its closed contacts and g = 1 except for sticking, which is creep slower than
+``stick_speed``. The sum is a table over u, finer than the law grows by more than a few per mille in a row.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from pipeline.physics.friction.friction_table import friction_at
+from pipeline.physics.numerics.compiled import njit
+from pipeline.physics.pads.patch_contact import sliding_part
+
+
+class PatchKernel(NamedTuple):
+    """p patches, SI units."""
+
+    lowest: float           # m, displacement at which the tables of the normal force begin
+    interval: float         # m, between their rows
+    normal: np.ndarray      # (p, k) N, normal force without damping
+    closed: np.ndarray      # (p, k) contacts that are closed
+    contacts: int           # of all patches
+    damping_speed: np.ndarray   # (p,) m/s, vd
+    load: np.ndarray        # (p,) N, N in steady sliding
+    drawn: np.ndarray       # (p,) N, friction along the tangent rows in steady sliding
+    speed: np.ndarray       # (p,) m/s, v0, signed
+    pressure_per_load: np.ndarray   # (p,) 1/m^2
+    pressures: np.ndarray   # (P,) Pa, axes of the friction table
+    speeds: np.ndarray      # (V,) m/s
+    distances: np.ndarray   # (S,) m
+    table: np.ndarray       # (g P, V, S)
+    row: np.ndarray         # (p,) row where the table of a patch begins
+    distance: np.ndarray    # (p,) m, at which it is read
+    backward: np.ndarray    # (p,) factor on friction of slip below 0
+    linear: np.ndarray      # (6, p) slopes: see ``linear_forces``
+    stick_speed: float      # m/s
+    scale: float            # m, closure in which the law grows by e
+
+
+@njit
+def normal_at(k, i, moved, rate):
+    """(N, dN/dmoved, dN/drate) of patch i displaced by ``moved``, opening at ``rate``."""
+    position = (moved - k.lowest) / k.interval
+    low = min(max(int(position), 0), k.normal.shape[1] - 2)
+    factor = 1.0 - rate / k.damping_speed[i]
+    rise = k.normal[i, low + 1] - k.normal[i, low]
+    normal = k.normal[i, low] + rise * (position - low)
+    if factor <= 0.0 or normal <= 0.0:
+        return 0.0, 0.0, 0.0
+    return factor * normal, factor * rise / k.interval, -normal / k.damping_speed[i]
+
+
+@njit
+def friction_force(k, i, normal, along, aside):
+    """((T, L), their slopes over N, over ``along``, over ``aside``) of patch i under ``normal`` N.
+
+    ``along`` and ``aside`` are the slip velocities of the drive against the patch in m/s.
+    """
+    slip = np.hypot(along, aside)
+    if normal <= 0.0:
+        return (0.0, 0.0), (0.0, 0.0), (0.0, 0.0), (0.0, 0.0)
+    pressure = normal * k.pressure_per_load[i]
+    mu, over_pressure, over_slip, _ = friction_at(pressure, slip, k.distance[i], k.pressures, k.speeds, k.distances,
+                                                  k.table, k.row[i])
+    part, fall = sliding_part(slip, k.stick_speed)
+    if along < 0.0:
+        part, fall = k.backward[i] * part, k.backward[i] * fall
+    if slip == 0.0:
+        return (0.0, 0.0), (0.0, 0.0), (normal * mu * fall, 0.0), (0.0, normal * mu * fall)
+    x, y, force = along / slip, aside / slip, mu * part
+    radial, turning = normal * (over_slip * part + mu * fall), normal * force / slip
+    slide = (mu + pressure * over_pressure) * part
+    mixed = (radial - turning) * x * y
+    return ((normal * force * x, normal * force * y), (slide * x, slide * y),
+            (radial * x * x + turning * y * y, mixed), (mixed, radial * y * y + turning * x * x))
+
+
+@njit
+def linear_forces(k, i, y):
+    """Deviations (N, T, L) of the forces of patch i in the linearised system; ``y`` (4, p): u, u', v, w."""
+    a = k.linear
+    return (-a[0, i] * y[0, i] - a[1, i] * y[1, i],
+            -a[2, i] * y[0, i] - a[3, i] * y[1, i] - a[4, i] * y[2, i], -a[5, i] * y[3, i])
+
+
+@njit
+def beyond_linear(k, y, rest, slope):
+    """Fill ``rest`` (3, p) with what the forces at ``y`` (4, p) hold beyond steady and linear ones, and ``slope``
+    (p, 3, 4) with its derivatives."""
+    a = k.linear
+    for i in range(k.load.size):
+        normal, rise, drag = normal_at(k, i, y[0, i], y[1, i])
+        force, by_normal, by_along, by_aside = friction_force(k, i, normal, k.speed[i] - y[2, i], -y[3, i])
+        linear = linear_forces(k, i, y)
+        rest[0, i] = normal - k.load[i] - linear[0]
+        rest[1, i] = force[0] - k.drawn[i] - linear[1]
+        rest[2, i] = force[1] - linear[2]
+        slope[i, 0, 0], slope[i, 0, 1] = rise + a[0, i], drag + a[1, i]
+        for f in range(2):
+            slope[i, f + 1, 0], slope[i, f + 1, 1] = by_normal[f] * rise, by_normal[f] * drag
+            slope[i, f + 1, 2], slope[i, f + 1, 3] = -by_along[f], -by_aside[f]
+        slope[i, 1, 0] += a[2, i]
+        slope[i, 1, 1] += a[3, i]
+        slope[i, 1, 2] += a[4, i]
+        slope[i, 2, 3] += a[5, i]
