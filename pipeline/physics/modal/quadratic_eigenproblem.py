@@ -50,17 +50,21 @@ def quadratic_modes(mass, damping, stiffness, left=False, beside=None):
     return QuadraticModes(roots[order], right, _physical(vectors[0][n:2 * n, order], factor) if left else None)
 
 
-def polished(mass, damping, stiffness, root, vector, beside=None):
-    """(root 1/s, vector (n,)) of (s^2 M + s C + K) x = 0 from an approximate pair, by residual inverse iteration.
+def polished(mass, damping, stiffness, root, vector, beside=None, factorised=None, factor=None, accuracy=_POLISHED):
+    """(root 1/s, vector (n,), factor) of T(s) x = (s^2 M + s C + K) x = 0 from an approximate pair, by residual inverse
+    iteration.
 
-    Arguments as of ``quadratic_modes``; matrices may be complex. One factorisation serves all iterations, and another
-    where they slow down (Neumaier, SIAM J. Numer. Anal. 22 (1985) 914). Raises ConvergenceError where no root lies
-    close by.
+    Arguments as of ``quadratic_modes``; matrices may be complex, and sparse where ``factorised`` makes a factor of them
+    with ``solve(rhs, adjoint)``. One factor of T serves all iterations, ``factor`` if it is given, and another where
+    they slow down (Neumaier, SIAM J. Numer. Anal. 22 (1985) 914). They end with a step below ``accuracy`` times the
+    root. Raises ConvergenceError where no root lies close by.
     """
-    s, x, step = complex(root), vector / np.linalg.norm(vector), np.inf
+    start = s, x = complex(root), vector / np.linalg.norm(vector)
+    step, foreign = np.inf, factor is not None
     for _ in range(_FACTORISATIONS):
-        factor = scipy.linalg.lu_factor(_operator(mass, damping, stiffness, s, beside)[0], check_finite=False)
-        left = scipy.linalg.lu_solve(factor, x, trans=2, check_finite=False).conj()
+        if factor is None:
+            factor = (factorised or _Dense)(_operator(mass, damping, stiffness, s, beside)[0])
+        left = factor.solve(x, adjoint=True).conj()
         for _ in range(_POLISHINGS):
             operator, slope = _operator(mass, damping, stiffness, s, beside, x)
             along = left @ slope
@@ -68,12 +72,23 @@ def polished(mass, damping, stiffness, root, vector, beside=None):
                 break
             step = (left @ operator) / along
             s = s - step
-            x = x - scipy.linalg.lu_solve(factor, operator - step * slope, check_finite=False)
+            x = x - factor.solve(operator - step * slope)
             x = x / np.linalg.norm(x)
-            if abs(step) <= _POLISHED * abs(s):
-                return s, x
+            if abs(step) <= accuracy * abs(s):
+                return s, x, factor
+        factor, (s, x), foreign = None, start if foreign else (s, x), False
     raise ConvergenceError("complex modes", f"a root near {root:.6g} 1/s", f"steps of {abs(step):.2g} 1/s",
                            "lower smallest_correction")
+
+
+class _Dense:
+    """LU factor of a dense matrix, with the interface of those of sparse ones."""
+
+    def __init__(self, matrix):
+        self._factor = scipy.linalg.lu_factor(matrix, check_finite=False)
+
+    def solve(self, rhs, adjoint=False):
+        return scipy.linalg.lu_solve(self._factor, rhs, trans=2 if adjoint else 0, check_finite=False)
 
 
 def _operator(mass, damping, stiffness, s, beside, x=None):
