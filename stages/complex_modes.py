@@ -73,8 +73,8 @@ class Settings(Section):
     gyroscopic: bool = option(True, "gyroscopic terms of the disc")
     centrifugal: bool = option(True, "centrifugal terms of the disc")
     residual_tolerance: float | None = option(
-        1e-6, "largest residual, over its stiffness forces, of a mode on the full finite-element matrices of a brake, in"
-        " which roots that grow or nearly do are solved for; none = in the reduced model alone", gt=0)
+        1e-6, "largest residual of a mode, over its stiffness forces, on the full finite-element matrices of a brake,"
+        " where roots that grow or nearly do are solved for; none = in the reduced model alone", gt=0)
     neutral: float = option(1e-6, "growth below this share of abs(s) counts as neither growth nor decay", ge=0)
 
 

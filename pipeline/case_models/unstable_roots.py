@@ -30,7 +30,7 @@ def in_whole_model(model, sliding, roots, shapes, settings, hysteretic=None):
     roots, shapes = roots.copy(), shapes.copy()
     for k in np.flatnonzero(near):
         conjugate = np.argmin(abs(roots - roots[k].conj()))
-        roots[k], better, _ = polished(*matrices, roots[k], shapes[:, k], beside)
+        roots[k], better = polished(*matrices, roots[k], shapes[:, k], beside)
         shapes[:, k] = better / np.sqrt(abs(better.conj() @ matrices[0] @ better))
         roots[conjugate], shapes[:, conjugate] = roots[k].conj(), shapes[:, k].conj()
     return roots, shapes

@@ -67,6 +67,14 @@ def test_small_changes_are_converged_and_told(modes):
     assert made.growth_share == pytest.approx(3.0 / made.root[0].real) and made.contacts == 12
 
 
+def test_changes_are_those_of_the_reduced_model(modes):
+    """Roots of the full matrices stay apart from those of the reduced model, which alone is refined."""
+    full = replace(modes, unstable_reduced=modes.unstable_root, unstable_root=modes.unstable_root - 6 + 2j)
+    made = convergence(full, {"bases": refined(modes, shift=-3)}, settings=Settings())
+    np.testing.assert_allclose(made.refined_root - made.root, -3.0)
+    assert made.root[0] in full.unstable_root and made.growth_change == pytest.approx(3.0)
+
+
 @pytest.mark.parametrize("change", [{"factor": 1.006}, {"shift": -30}, {"factor": 1.05}], ids=["f", "growth", "gone"])
 def test_large_changes_are_not(modes, change):
     made = convergence(modes, {"contact": refined(modes), "disc_mesh": refined(modes, **change)}, settings=Settings())

@@ -50,21 +50,21 @@ def quadratic_modes(mass, damping, stiffness, left=False, beside=None):
     return QuadraticModes(roots[order], right, _physical(vectors[0][n:2 * n, order], factor) if left else None)
 
 
-def polished(mass, damping, stiffness, root, vector, beside=None, factorised=None, factor=None, accuracy=_POLISHED):
-    """(root 1/s, vector (n,), factor) of T(s) x = (s^2 M + s C + K) x = 0 from an approximate pair, by residual inverse
-    iteration.
+def polished(mass, damping, stiffness, root, vector, beside=None, factors=None, accuracy=_POLISHED):
+    """(root 1/s, vector (n,)) of T(s) x = (s^2 M + s C + K) x = 0 from an approximate pair.
 
-    Arguments as of ``quadratic_modes``; matrices may be complex, and sparse where ``factorised`` makes a factor of them
-    with ``solve(rhs, adjoint)``. One factor of T serves all iterations, ``factor`` if it is given, and another where
-    they slow down (Neumaier, SIAM J. Numer. Anal. 22 (1985) 914). They end with a step below ``accuracy`` times the
+    Arguments as of ``quadratic_modes``; matrices may be complex, and sparse with ``factors`` (see ``DenseFactors``) of
+    such. Residual inverse iteration: one factor of T serves all steps, that of ``factors`` if it is ready, and another
+    where they slow down (Neumaier, SIAM J. Numer. Anal. 22 (1985) 914). The last step is below ``accuracy`` times the
     root. Raises ConvergenceError where no root lies close by.
     """
     start = s, x = complex(root), vector / np.linalg.norm(vector)
-    step, foreign = np.inf, factor is not None
-    for _ in range(_FACTORISATIONS):
-        if factor is None:
-            factor = (factorised or _Dense)(_operator(mass, damping, stiffness, s, beside)[0])
-        left = factor.solve(x, adjoint=True).conj()
+    factors, step = DenseFactors() if factors is None else factors, np.inf
+    given = factors.ready
+    for attempt in range(_FACTORISATIONS):
+        if attempt or not given:
+            factors.renew(_operator(mass, damping, stiffness, s, beside)[0])
+        left = factors.solve(x, adjoint=True).conj()
         for _ in range(_POLISHINGS):
             operator, slope = _operator(mass, damping, stiffness, s, beside, x)
             along = left @ slope
@@ -72,22 +72,27 @@ def polished(mass, damping, stiffness, root, vector, beside=None, factorised=Non
                 break
             step = (left @ operator) / along
             s = s - step
-            x = x - factor.solve(operator - step * slope)
+            x = x - factors.solve(operator - step * slope)
             x = x / np.linalg.norm(x)
             if abs(step) <= accuracy * abs(s):
-                return s, x, factor
-        factor, (s, x), foreign = None, start if foreign else (s, x), False
+                return s, x
+        if given and not attempt:
+            s, x = start
     raise ConvergenceError("complex modes", f"a root near {root:.6g} 1/s", f"steps of {abs(step):.2g} 1/s",
                            "lower smallest_correction")
 
 
-class _Dense:
-    """LU factor of a dense matrix, with the interface of those of sparse ones."""
+class DenseFactors:
+    """The LU factor in use, if it is ``ready``; another takes its place and its memory."""
 
-    def __init__(self, matrix):
-        self._factor = scipy.linalg.lu_factor(matrix, check_finite=False)
+    ready = False
+
+    def renew(self, matrix):
+        """Factorise ``matrix`` (n, n)."""
+        self._factor, self.ready = scipy.linalg.lu_factor(matrix, check_finite=False), True
 
     def solve(self, rhs, adjoint=False):
+        """x (n,) of A x = rhs, or A^H x = rhs."""
         return scipy.linalg.lu_solve(self._factor, rhs, trans=2 if adjoint else 0, check_finite=False)
 
 

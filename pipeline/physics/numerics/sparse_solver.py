@@ -112,6 +112,9 @@ def _lu(columns, order, threshold):
                                         options={"SymmetricMode": order == _PATTERN})
     except RuntimeError as error:
         raise _singular(columns, str(error)) from None
+    except MemoryError:
+        raise ConfigError("memory", f"room for a factor of {columns.shape[0]} degrees of freedom", "less",
+                          "use fewer workers, a coarser mesh or the solver pypardiso") from None
 
 
 class _Pardiso(_Factor):

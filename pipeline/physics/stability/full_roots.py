@@ -11,7 +11,6 @@ contacts then move as in the reduced mode.
 """
 
 from dataclasses import dataclass, replace
-from functools import partial
 
 import numpy as np
 import scipy
@@ -46,7 +45,7 @@ class Guess:
 
 @dataclass(frozen=True)
 class FullRoot:
-    """A root (1/s), its vector (n,), its residual |T(s) x| / |K x|, and the MAC of its contact motion with the guess."""
+    """A root (1/s), its vector (n,), its residual |T(s) x| / |K x|, the MAC of its contact motion with the guess."""
 
     root: complex
     vector: np.ndarray
@@ -61,58 +60,66 @@ def sliding_as(full, model):
 
 
 def families(roots, state):
-    """Indices of ``roots`` (r,) of one ``state`` (r,) and nearly one frequency, a list of arrays."""
+    """Indices of ``roots`` (r,) of one ``state`` (r,) and nearly one frequency: arrays, from the middle out."""
     order = np.lexsort((roots.imag, state))
     frequency, state = roots.imag[order], np.asarray(state)[order]
     apart = (np.diff(state) != 0) | (np.diff(frequency) > _FAMILY * frequency[1:])
-    return np.split(order, np.flatnonzero(apart) + 1)
+    return [group[np.argsort(abs(roots[group] - roots[group].mean()), kind="stable")]
+            for group in np.split(order, np.flatnonzero(apart) + 1)]
 
 
 def full_roots(guesses, solver, tolerance):
-    """A FullRoot for each Guess of a family of operating points.
+    """A FullRoot for each Guess of a family of operating points, the first of which should be in its middle.
 
     Raises ConvergenceError where a residual exceeds ``tolerance`` or no such mode lies near the guess.
     """
-    factor, solved = None, []
+    factors, solved = _Factors(solver), []
     for guess in guesses:
-        mode = None
-        if factor is not None:
-            mode, factor = _from(guess, factor, solver, tolerance)
-            mode = mode if mode.likeness > _ALIKE else None
-        if mode is None:
-            mode, factor = _from(guess, _factor(_operator(guess), solver), solver, tolerance)
+        mode = _from(guess, factors, tolerance) if factors.ready else None
+        if mode is None or mode.likeness < _ALIKE:
+            mass, damping, stiffness = guess.matrices
+            factors.renew(guess.root**2 * mass + guess.root * damping + stiffness)
+            mode = _from(guess, factors, tolerance)
         if not mode.residual <= tolerance or mode.likeness < _SAME or abs(mode.root / guess.root - 1) > _FARTHEST:
             raise _not_there(guess, mode, tolerance)
         solved.append(mode)
     return solved
 
 
-def _from(guess, factor, solver, tolerance):
-    """(FullRoot, factor) from a Guess and a factor of T near it, which may have given way to another."""
+class _Factors:
+    """The sparse factor in use, if it is ``ready``; another takes its place after its memory was released."""
+
+    def __init__(self, solver):
+        self._solver, self._factor = solver, None
+
+    @property
+    def ready(self):
+        return self._factor is not None
+
+    def renew(self, matrix):
+        self._factor = None
+        self._factor = factorise(matrix, self._solver, symmetric=False)
+
+    def solve(self, rhs, adjoint=False):
+        return self._factor.solve(rhs, adjoint)
+
+
+def _from(guess, factors, tolerance):
+    """FullRoot from a Guess and a factor of T near it, which may give way to another."""
     (mass, damping, stiffness), root = guess.matrices, guess.root
-    x, residual = factor.solve(guess.rows.T @ guess.motion), np.inf
+    x, residual, norm = factors.solve(guess.rows.T @ guess.motion), np.inf, np.linalg.norm
     for _ in range(_STARTS):
-        x = x / np.linalg.norm(x)
-        x = factor.solve(2 * root * (mass @ x) + damping @ x)
+        x = x / norm(x)
+        x = factors.solve(2 * root * (mass @ x) + damping @ x)
     for _ in range(_ROUNDS):
-        root, x, factor = polished(mass, damping, stiffness, root, x, factorised=partial(_factor, solver=solver),
-                                   factor=factor, accuracy=tolerance)
+        root, x = polished(mass, damping, stiffness, root, x, factors=factors, accuracy=tolerance)
         forces = stiffness @ x
-        residual = np.linalg.norm(root * (root * (mass @ x) + damping @ x) + forces) / np.linalg.norm(forces)
+        residual = norm(root * (root * (mass @ x) + damping @ x) + forces) / norm(forces)
         if residual <= tolerance:
             break
-    moved, norm = guess.rows @ x, np.linalg.norm
+    moved = guess.rows @ x
     likeness = (abs(np.vdot(moved, guess.motion)) / (norm(moved) * norm(guess.motion))) ** 2
-    return FullRoot(root, x, float(residual), float(likeness)), factor
-
-
-def _operator(guess):
-    mass, damping, stiffness = guess.matrices
-    return guess.root**2 * mass + guess.root * damping + stiffness
-
-
-def _factor(matrix, solver):
-    return factorise(matrix, solver, symmetric=False)
+    return FullRoot(root, x, float(residual), float(likeness))
 
 
 def _not_there(guess, mode, tolerance):
