@@ -16,7 +16,6 @@ MAP_CAPTION = "Largest growth rate at each operating point, and its frequency. A
 #: heads of columns for terms of the growth rate
 _SHORT = {"friction turning with the slip": "turning slip", "friction over slip speed": "slip speed",
           "bodies and joints": "bodies, joints"}
-MINUS = "\N{MINUS SIGN}"
 NEUTRAL = 1e-6     # growth rates below this fraction of the angular frequency are rounding
 
 
@@ -102,31 +101,10 @@ def _table(modes, most=12):
         rows.append((quantity(root.imag / TWO_PI, "Hz", 5), quantity(root.real, "1/s", 3),
                      number(-root.real / abs(root) * 100, 2), quantity(modes.operating_pressure[point], "Pa", 3),
                      quantity(modes.operating_speed[point], "rad/s"), number(modes.operating_friction[point], 3),
-                     str(modes.operating_open[point]), *_full_matrices(modes, index)))
-    head = ("frequency", "growth rate", "damping ratio / %", "pressure", "speed", "friction", "open contacts",
-            "reduced model / %", "reduced model / 1/s", "residual")
+                     str(modes.operating_open[point])))
+    head = "frequency", "growth rate", "damping ratio / %", "pressure", "speed", "friction", "open contacts"
     title = "Unstable modes, most unstable first, each frequency once"
-    if solved_in_full(modes):
-        title += ("; solved for on the full finite-element matrices, with the distance of the reduced model in"
-                  " frequency and growth rate, and the residual over the stiffness forces")
-    columns = len(head) if solved_in_full(modes) else 7
-    return Table(head[:columns], tuple(rows), title, tuple(range(columns))), _reasons(modes, chosen)
-
-
-def solved_in_full(modes):
-    """Whether any unstable mode was solved for on the full finite-element matrices."""
-    return bool((modes.unstable_residual >= 0).any())
-
-
-def _full_matrices(modes, index):
-    """Cells of one mode: distance of the reduced model from the full matrices, and residual there; none without."""
-    if not solved_in_full(modes):
-        return ()
-    if modes.unstable_residual[index] < 0:
-        return ("",) * 3
-    root, reduced = modes.unstable_root[index], modes.unstable_reduced[index]
-    return (f"{100 * (reduced.imag / root.imag - 1):+.3f}".replace("-", MINUS),
-            f"{reduced.real - root.real:+.1f}".replace("-", MINUS), f"{modes.unstable_residual[index]:.0e}")
+    return Table(head, tuple(rows), title, tuple(range(7))), _reasons(modes, chosen), *_in_full(modes, chosen)
 
 
 def _reasons(modes, chosen):
@@ -139,9 +117,26 @@ def _reasons(modes, chosen):
                      str(diameters) if diameters >= 0 else "", bodies,
                      *map(signed, modes.unstable_growth[index])))
     head = ("frequency", "diameters", "kinetic energy", *(_SHORT.get(str(t), words(t)) for t in modes.growth_term))
-    title = (f"What feeds them (+) and what dissipates ({MINUS}): parts of the growth rate in 1/s; nodal"
+    title = ("What feeds them (+) and what dissipates (\N{MINUS SIGN}): parts of the growth rate in 1/s; nodal"
              " diameters of the disc; the bodies that move most")
     return Table(head, tuple(rows), title, (0, 1, *range(3, len(head))))
+
+
+def _in_full(modes, chosen):
+    """Residuals of modes on the full finite-element matrices, and how far the reduced model is; none without these."""
+    root, reduced, residual = modes.unstable_root, modes.unstable_reduced, modes.unstable_residual
+    solved = residual >= 0
+    if not solved[list(chosen)].any():
+        return ()
+    frequency, growth = reduced.imag / root.imag - 1, reduced.real - root.real
+    rows = [(quantity(root[k].imag / TWO_PI, "Hz", 5), quantity(root[k].real, "1/s", 4),
+             quantity(reduced[k].real, "1/s", 4), f"{100 * frequency[k]:+.3f}".replace("-", "\N{MINUS SIGN}"),
+             f"{residual[k]:.0e}") for k in chosen if solved[k]]
+    head = "frequency", "growth rate", "in the reduced model", "its frequency / %", "residual"
+    farthest = percent(abs(frequency[solved]).max(), 2), quantity(abs(growth[solved]).max(), "1/s", 2)
+    title = ("The same modes solved for on the full finite-element matrices, with their residuals over the stiffness"
+             f" forces; at all operating points the reduced model is within {' and '.join(farthest)} of these")
+    return (Table(head, tuple(rows), title, tuple(range(5))),)
 
 
 def words(name):
@@ -151,4 +146,4 @@ def words(name):
 
 def signed(value):
     """A growth rate with its sign, in whole 1/s."""
-    return f"{value:+.0f}".replace("-", MINUS)
+    return f"{value:+.0f}".replace("-", "\N{MINUS SIGN}")
