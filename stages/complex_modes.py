@@ -313,8 +313,8 @@ def _replaced(outcome, solved):
     terms, shares = list(outcome.terms), outcome.shares.copy()
     for k, mode in enumerate(solved):
         if mode is not None:
-            root[np.argmin(abs(root - near[k]))] = near[k] = mode.root
-            residual[k], terms[k], shares[k] = mode.residual, mode.terms, mode.shares
+            root[np.argmin(abs(root - near[k]))] = mode.root
+            near[k], residual[k], terms[k], shares[k] = mode.root, mode.residual, mode.terms, mode.shares
     return replace(outcome, root=root, near=near, residual=residual, terms=tuple(terms), shares=shares)
 
 

@@ -4,9 +4,14 @@ from dataclasses import dataclass
 from functools import partial
 
 import numpy as np
+import scipy
 
+from pipeline.contract import ConvergenceError
 from pipeline.physics.stability.constrained_modes import is_hard
 from pipeline.physics.stability.full_roots import Guess, families, full_roots, sliding_as
+
+#: roots of one operating point that differ by less than this share are the same
+_SAME = 1e-6
 
 
 @dataclass(frozen=True)
@@ -62,18 +67,38 @@ def full_modes(full_model, models, slidings, modes, describe, settings, context)
     full = full_model()
     about = [sliding_as(full, model) for model in models]
     groups = families(*(np.array([getattr(modes[k], name) for k in oscillating]) for name in ("root", "state")))
-    tasks = [[(about[m.operating], slidings[m.operating], m.root, models[m.operating].contacts.normal @ m.motion)
+    tasks = [[(about[m.operating], slidings[m.operating], m.root,
+               np.concatenate([rows @ m.motion for rows in _rows(models[m.operating])]))
               for m in (modes[k] for k in oscillating[group])] for group in groups]
     results = context.map(partial(_family, describe, settings, context.solver), tasks, "full finite-element matrices")
     for group, found in zip(groups, results, strict=True):
         for k, mode in zip(oscillating[group], found, strict=True):
             solved[k] = mode
+    _refuse_same(modes, solved)
     return solved
+
+
+def _rows(model):
+    """Rows of the contacts of a SlidingModel in all three directions."""
+    return model.contacts.normal, model.contacts.tangent, model.contacts.lateral
+
+
+def _refuse_same(modes, solved):
+    """ConvergenceError where two modes of one operating point led to the same root of the full matrices."""
+    operating = np.array([mode.operating for mode, s in zip(modes, solved, strict=True) if s is not None])
+    every_root = np.array([s.root for s in solved if s is not None])
+    for number in np.unique(operating):
+        roots = every_root[operating == number]
+        apart = abs(roots[:, None] - roots) + np.diag(np.full(len(roots), np.inf))
+        if (apart < _SAME * abs(roots)).any():
+            raise ConvergenceError("complex modes: full finite-element matrices", "a root for each mode",
+                                   f"one near {roots[apart.min(axis=0).argmin()]:.6g} 1/s for two of them",
+                                   "set complex_modes.residual_tolerance: null")
 
 
 def _family(describe, settings, solver, task):
     """A FullMode for each operating point of a family of roots."""
-    guesses = (Guess(root, motion, model.contacts.normal, model.linearised(
+    guesses = (Guess(root, motion, scipy.sparse.vstack(_rows(model), format="csr"), model.linearised(
         sliding.acting(settings.friction_slopes), settings.friction_damping, settings.gyroscopic, settings.centrifugal))
         for model, sliding, root, motion in task)
     solved, found = full_roots(guesses, solver, settings.residual_tolerance), []

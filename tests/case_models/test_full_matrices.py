@@ -8,7 +8,7 @@ import pytest
 import scipy
 
 from pipeline.case_models.full_matrices import Mode, full_modes, has_full_matrices
-from pipeline.contract import Context
+from pipeline.contract import Context, ConvergenceError
 from pipeline.physics.sliding.model import Contacts, FrictionState, Joints, SlidingModel
 
 SETTINGS = SimpleNamespace(residual_tolerance=1e-8, hysteretic=True, friction_slopes=True, friction_damping=False,
@@ -67,7 +67,9 @@ def masses():
 def test_modes_are_those_of_the_full_model_in_the_state_of_the_reduced_one():
     """The reduced model holds the first two masses; its contacts and their drag stand for those of the full one."""
     full = masses()
-    seen = replace(full.contacts, normal=np.eye(3)[:, :2], stiffness=np.full(3, CONTACT), damping=np.full(3, 2.0))
+    none = np.zeros((3, 2))
+    seen = replace(full.contacts, normal=np.eye(3)[:, :2], tangent=none, lateral=none, stiffness=np.full(3, CONTACT),
+                   damping=np.full(3, 2.0))
     reduced = replace(full, contacts=seen)
     sliding = SimpleNamespace(acting=lambda slopes: FrictionState(0.3))
     exact = [np.roots([m, 2.0, STIFFNESS + CONTACT])[0] for m in MASS]
@@ -79,6 +81,16 @@ def test_modes_are_those_of_the_full_model_in_the_state_of_the_reduced_one():
         assert mode.root == pytest.approx(root, rel=1e-9) and mode.residual <= 1e-8
     assert found[0].terms == {"drag": pytest.approx(2.0)} and found[2].shares.argmax() == 1
     assert full_modes(None, [reduced], [sliding], modes[1:2], _described, SETTINGS, Context()) == [None]
+
+
+@pytest.mark.exact
+def test_two_modes_that_lead_to_one_root_are_refused():
+    full = masses()
+    reduced = replace(full, contacts=replace(full.contacts, stiffness=np.full(3, CONTACT)))
+    mode = Mode(0, 0, complex(np.roots([MASS[0], 0.0, STIFFNESS + CONTACT])[0] * 1.001), np.array([1.0, 0.0, 0.0]))
+    sliding = SimpleNamespace(acting=lambda slopes: FrictionState(0.3))
+    with pytest.raises(ConvergenceError, match="one near .* for two of them"):
+        full_modes(lambda: full, [reduced], [sliding], [mode, mode], _described, SETTINGS, Context())
 
 
 def _described(model, sliding, roots, vectors):
