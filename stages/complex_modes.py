@@ -10,12 +10,15 @@ unknown.
 
 from dataclasses import dataclass, replace
 from functools import partial
+from itertools import compress
 
 import numpy as np
 import scipy
 
 from pipeline.case_models.effect_block import conditions, physics_terms
+from pipeline.case_models.full_matrices import Mode, full_modes, has_full_matrices
 from pipeline.case_models.steady_sliding import Posed, Steady, branch_stiffness, posed, refuse_twice
+from pipeline.case_models.unstable_roots import in_whole_model, nearly
 from pipeline.contract import ConfigError, Context, Quantities, Quantity, Section, option, stage
 from pipeline.physics.friction.dry_friction import Friction, constant, falling
 from pipeline.physics.friction.friction_table import FrictionLaw, refuse_beyond
@@ -24,7 +27,6 @@ from pipeline.physics.modal.disc_modes import describe
 from pipeline.physics.modal.quadratic_eigenproblem import (
     by_frequency,
     follow_roots,
-    polished,
     quadratic_modes,
     quadratic_roots,
     upper_half,
@@ -35,13 +37,12 @@ from pipeline.physics.stability.constrained_modes import allowed_motions, hard_s
 from pipeline.physics.stability.friction_basis import FrictionBasis, friction_basis
 from pipeline.physics.stability.growth_balance import body_shares, growth_terms
 from pipeline.physics.time_stepping.simulate import Table
-from pipeline.products import ComplexModes, Effects, FrictionMap, ReducedModel
+from pipeline.products import ComplexModes, Effects, FrictionMap, ReducedModel, Structure
+from pipeline.systems.fem_bodies import full_model
 
 DISC = "disc"
 #: friction values of one task of the fan-out
 _CHUNK = 7
-#: growth rates above this negative share of the frequency are computed in the whole model, not on the basis alone
-_NEARLY = 5e-4
 
 
 class Settings(Section):
@@ -71,6 +72,9 @@ class Settings(Section):
         " viscous damping equivalent to them, as in the sweep and in motions over time")
     gyroscopic: bool = option(True, "gyroscopic terms of the disc")
     centrifugal: bool = option(True, "centrifugal terms of the disc")
+    residual_tolerance: float | None = option(
+        1e-6, "largest residual of a mode, over its stiffness forces, on the full finite-element matrices of a brake,"
+        " where roots that grow or nearly do are solved for; none = in the reduced model alone", gt=0)
     neutral: float = option(1e-6, "growth below this share of abs(s) counts as neither growth nor decay", ge=0)
 
 
@@ -109,16 +113,18 @@ class _State:
 
 @dataclass(frozen=True)
 class _Outcome:
-    """One operating point: its sliding state, its roots, and the motion (n, g) of the growing ones."""
+    """One operating point: its sliding state, its roots, and the motion (n, g) of those that grow or nearly do."""
 
     speed: float
     sliding: Steady
     root: np.ndarray
-    growing: np.ndarray
+    near: np.ndarray        # (g,) roots that grow or nearly do
     motion: np.ndarray
     corrections: int
-    terms: tuple            # of the growing ones: {term: part of the growth rate}
+    terms: tuple            # of these: {term: part of the growth rate}
     shares: np.ndarray      # (g, b) of the bodies in their kinetic energy
+    reduced: np.ndarray     # (g,) the same roots in the reduced model
+    residual: np.ndarray    # (g,) on the full finite-element matrices, -1 without these
 
     @property
     def mean_friction(self):
@@ -142,8 +148,8 @@ class _Losses:
 
 
 @stage(check=_check)
-def complex_modes(model: ReducedModel, friction_map: FrictionMap | None, effects: Effects | None, settings: Settings,
-                  context: Context) -> ComplexModes:
+def complex_modes(model: ReducedModel, friction_map: FrictionMap | None, effects: Effects | None,
+                  structure: Structure | None, settings: Settings, context: Context) -> ComplexModes:
     """Compute complex modes over friction and at the operating points.
 
     Effects of the case are linearised about the sliding state; in the friction sweep they add to each coefficient.
@@ -152,9 +158,10 @@ def complex_modes(model: ReducedModel, friction_map: FrictionMap | None, effects
     All complex modes were computed at {friction_steps} friction coefficients from 0 to {friction_max} and at the
     operating points, each about its own steady sliding state, in a basis of the real modes below
     {frequency_max} and their friction corrections; at the operating points, roots that grow or nearly do were then
-    solved for in the whole reduced model, with loss factors as imaginary stiffness (hysteretic: {hysteretic}). A
-    closing speed of {damping_speed} doubles the contact pressure (contact damping). A mode is unstable if its growth
-    rate exceeds {neutral} times its angular frequency.
+    solved for in the whole reduced model, with loss factors as imaginary stiffness (hysteretic: {hysteretic}), and then
+    in the full finite-element matrices where a brake has these (largest residual: {residual_tolerance}). A closing
+    speed of {damping_speed} doubles the contact pressure (contact damping). A mode is unstable if its growth rate
+    exceeds {neutral} times its angular frequency.
     """
     terms, loads = _told(physics_terms(effects), context), model.pressure[:, None] * model.input_area
     models = [(posed(model, k, np.mean(settings.speeds), settings.damping_speed, terms, conditions(effects)), load)
@@ -167,6 +174,9 @@ def complex_modes(model: ReducedModel, friction_map: FrictionMap | None, effects
     points = [(m.at_speed(speed), load) for m, load in models for speed in settings.speeds]
     losses = _Losses(model.contact_body, loss_stiffness(model), model.damping)
     outcomes = context.map(partial(_operate, settings, law, losses), points, "operating points")
+    if has_full_matrices(structure, models[0][0], settings, context):
+        outcomes = _in_full(structure, points, outcomes, losses.contact_body, settings, context)
+    outcomes = [_growing(o, settings) for o in outcomes]
     branches = min(max(len(s.basis.frequency) for s in states), *(s.model.size for s in states))
     return ComplexModes(
         pressure=model.pressure, friction=friction, root=[r[:, :branches] for r in roots],
@@ -262,12 +272,19 @@ def _operate(settings, law, losses, task):
     matrices, beside = _linearised(about, sliding, basis, settings, settings.friction_slopes)
     modes = quadratic_modes(*matrices, beside=beside)
     hysteretic = losses.change(case.base.model) if settings.hysteretic else None
-    root, shape = _whole(model, sliding, modes.value, basis.shape @ modes.right, settings, hysteretic)
-    grows = (root.real > settings.neutral * abs(root)) & (root.imag >= 0)
-    grows &= abs(root) < 2 * np.pi * settings.frequency_max
-    return _Outcome(model.speed, sliding, root[upper_half(root, len(matrices[0]))], root[grows], shape[:, grows],
-                    basis.corrections, *_balances(model, sliding, root[grows], shape[:, grows],
-                                                  losses.contact_body, settings))
+    root, shape = in_whole_model(model, sliding, modes.value, basis.shape @ modes.right, settings, hysteretic)
+    near = nearly(root, settings) & (root.imag >= 0)
+    return _Outcome(model.speed, sliding, root[upper_half(root, len(matrices[0]))], root[near], shape[:, near],
+                    basis.corrections, *_balances(model, sliding, root[near], shape[:, near], losses.contact_body,
+                                                  settings), root[near], np.full(near.sum(), -1.0))
+
+
+def _growing(outcome, settings):
+    """The outcome with those of its roots that grow alone."""
+    grows = outcome.near.real > settings.neutral * abs(outcome.near)
+    return replace(outcome, near=outcome.near[grows], motion=outcome.motion[:, grows],
+                   terms=tuple(compress(outcome.terms, grows)), shares=outcome.shares[grows],
+                   reduced=outcome.reduced[grows], residual=outcome.residual[grows])
 
 
 def _balances(model, sliding, roots, shapes, contact_body, settings):
@@ -279,26 +296,26 @@ def _balances(model, sliding, roots, shapes, contact_body, settings):
     return terms, np.reshape(shares, (len(roots), len(model.body_name)))
 
 
-def _whole(model, sliding, roots, shapes, settings, hysteretic=None):
-    """Roots and shapes (n, g), those that grow, or nearly do, as they are in the whole reduced model.
+def _in_full(structure, points, outcomes, contact_body, settings, context):
+    """The outcomes with roots that grow or nearly do, and what feeds them, on the full finite-element matrices."""
+    modes = [Mode(number, number // len(settings.speeds), root, motion) for number, o in enumerate(outcomes)
+             for root, motion in zip(o.near, o.motion.T, strict=True)]
+    models = [o.sliding.about(p[0].bench.model) for p, o in zip(points, outcomes, strict=True)]
+    solved = full_modes(partial(full_model, structure, context.solver), models, [o.sliding for o in outcomes], modes,
+                        partial(_balances, contact_body=contact_body, settings=settings), settings, context)
+    return [_replaced(o, [s for s, m in zip(solved, modes, strict=True) if m.operating == number])
+            for number, o in enumerate(outcomes)]
 
-    ``hysteretic``: what to add to its damping and its stiffness (imaginary), as of ``_Losses.change``, or None.
-    """
-    near = (roots.imag > 0) & (abs(roots) < 2 * np.pi * settings.frequency_max)
-    near &= roots.real > -_NEARLY * abs(roots)
-    if is_hard(model) or not near.any():
-        return roots, shapes
-    friction, beside = sliding.acting(settings.friction_slopes), sliding.beside(model, settings.friction_slopes)
-    matrices = model.linearised(friction, settings.friction_damping, settings.gyroscopic, settings.centrifugal)
-    if hysteretic is not None:
-        matrices = matrices[0], matrices[1] + hysteretic[0], matrices[2] + hysteretic[1]
-    roots, shapes = roots.copy(), shapes.copy()
-    for k in np.flatnonzero(near):
-        conjugate = np.argmin(abs(roots - roots[k].conj()))
-        roots[k], better = polished(*matrices, roots[k], shapes[:, k], beside)
-        shapes[:, k] = better / np.sqrt(abs(better.conj() @ matrices[0] @ better))
-        roots[conjugate], shapes[:, conjugate] = roots[k].conj(), shapes[:, k].conj()
-    return roots, shapes
+
+def _replaced(outcome, solved):
+    """The outcome with those of its near roots that were ``solved`` for on the full matrices; None = not."""
+    root, near, residual = outcome.root.copy(), outcome.near.copy(), outcome.residual.copy()
+    terms, shares = list(outcome.terms), outcome.shares.copy()
+    for k, mode in enumerate(solved):
+        if mode is not None:
+            root[np.argmin(abs(root - near[k]))] = mode.root
+            near[k], residual[k], terms[k], shares[k] = mode.root, mode.residual, mode.terms, mode.shares
+    return replace(outcome, root=root, near=near, residual=residual, terms=tuple(terms), shares=shares)
 
 
 def _linearised(model, sliding, basis, settings, slopes=True):
@@ -316,12 +333,13 @@ def _unstable(outcomes, model):
     """Growing modes below the frequency limit, strongest first: shapes on the surface, what moves, what feeds them."""
     recovery, names = model.recovery, list(model.body_name)
     unstable = [(number, *mode) for number, o in enumerate(outcomes)
-                for mode in zip(o.growing, o.motion.T, o.terms, o.shares, strict=True)]
+                for mode in zip(o.near, o.motion.T, o.terms, o.shares, o.reduced, o.residual, strict=True)]
     unstable.sort(key=lambda f: -f[1].real)
     shapes = [_normalised(recovery @ f[2][:recovery.shape[2]].astype(np.complex64)) for f in unstable]
     shapes = np.array(shapes).reshape(len(unstable), *recovery.shape[:2])
     terms = list(unstable[0][3]) if unstable else []
     return {"unstable_operating": [f[0] for f in unstable], "unstable_root": [f[1] for f in unstable],
+            "unstable_reduced": [f[5] for f in unstable], "unstable_residual": [f[6] for f in unstable],
             "unstable_shape": shapes, "unstable_diameters": _diameters(model, shapes), "body_name": names,
             "unstable_share": np.reshape([f[4] for f in unstable], (len(unstable), len(names))), "growth_term": terms,
             "unstable_growth": np.reshape([list(f[3].values()) for f in unstable], (len(unstable), len(terms)))}

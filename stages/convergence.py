@@ -33,11 +33,11 @@ class Settings(Section):
 
 
 def _variants(sections):
-    """The refined cases, each at one operating point, without a friction sweep."""
+    """The refined cases, each at one operating point, without a friction sweep, in the reduced model alone."""
     settings, brake, modes = sections["convergence"], sections["structure"], sections["complex_modes"]
     pressure, speed = operating_point(settings, brake.pressures, modes.speeds)
     once = {"structure.pressures": [f"{pressure!r} Pa"], "complex_modes.speeds": [f"{speed!r} rad/s"],
-            "complex_modes.friction_steps": 2}
+            "complex_modes.friction_steps": 2, "complex_modes.residual_tolerance": None}
     changes = {CONTACT: _finer_contact(brake.pad, settings), PAD_MESH: _finer_pads(brake.pad),
                DISC_MESH: _finer_disc(brake.disc), BASES: _larger_bases(brake, sections["reduced_model"], settings)}
     return {name: {**once, **changes[name]} for name in settings.refinements}
@@ -88,8 +88,8 @@ def convergence(modes: ComplexModes, refined: Variants[ComplexModes], settings: 
     """Compare unstable modes with those of finer contact, meshes and bases.
 
     A mode that is unstable in one model only counts as a difference unless it grows by no more than 'neutral'. The
-    modes are those of steady sliding at one operating point; what is not refined here, such as the friction map or the
-    law of the interface, is not judged.
+    modes are those of steady sliding at one operating point, their changes those of the reduced model; what is not
+    refined here, such as the friction map or the law of the interface, is not judged.
 
     Method:
     Contact points, meshes of pads and disc, and bases of the reduced model ({refinements}) were refined in turn, and
@@ -99,11 +99,11 @@ def convergence(modes: ComplexModes, refined: Variants[ComplexModes], settings: 
     """
     pressure, speed = operating_point(settings, modes.operating_pressure, modes.operating_speed)
     here = _nearest(modes, pressure, speed)
-    unstable = _unstable(modes, here)
-    found = [moved_roots(unstable, each.operating_root[0], settings.neutral) for each in refined.values()]
+    unstable, reduced = _unstable(modes, here)
+    found = [moved_roots(reduced, each.operating_root[0], settings.neutral) for each in refined.values()]
     root = np.array([each.root for each in found]).reshape(len(found), len(unstable))
     there = np.isfinite(root)
-    root = np.where(there, root, unstable)
+    root = np.where(there, root + (unstable - reduced), unstable)
     frequency = np.where(there, root.imag / unstable.imag - 1, 0.0)
     growth = root.real - unstable.real
     allowed = np.maximum(settings.growth_tolerance * unstable.real, settings.neutral)
@@ -127,6 +127,7 @@ def _nearest(modes, pressure, speed):
 
 
 def _unstable(modes, operating):
-    """Unstable roots (g,) at one operating point, strongest first."""
-    roots = modes.unstable_root[modes.unstable_operating == operating]
-    return roots[np.argsort(-roots.real, kind="stable")]
+    """Unstable roots (g,) at one operating point, strongest first, and the same in the reduced model."""
+    here = np.flatnonzero(modes.unstable_operating == operating)
+    here = here[np.argsort(-modes.unstable_root[here].real, kind="stable")]
+    return modes.unstable_root[here], modes.unstable_reduced[here]

@@ -5,7 +5,7 @@ import numpy as np
 from pipeline.contract import Array, count, product, quantity, text
 
 
-@product(version=4)
+@product(version=5)
 class ComplexModes:
     """Complex modes of the sliding system over friction, and at each operating point of the map."""
 
@@ -21,6 +21,8 @@ class ComplexModes:
     operating_root: Array = quantity("1/s", "operating branch", "roots at the operating point", complex)
     unstable_operating: Array = count("unstable", "operating point of the unstable mode")
     unstable_root: Array = quantity("1/s", "unstable", "roots with positive real part, strongest first", complex)
+    unstable_reduced: Array = quantity("1/s", "unstable", "the same roots in the reduced model", complex)
+    unstable_residual: Array = quantity("1", "unstable", "residual on the full finite-element matrices over its stiffness forces; -1 without these")
     unstable_shape: Array = quantity("1", "unstable visible xyz", "their shapes on the surface nodes, largest = 1", complex)
     unstable_diameters: Array = count("unstable", "nodal diameters of the disc in it; -1 in a system without a disc")
     body_name: Array = text("body", "bodies in order")

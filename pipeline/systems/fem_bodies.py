@@ -3,8 +3,11 @@
 import numpy as np
 import scipy
 
-from pipeline.physics.reduction.body import ElasticBody
+from pipeline.physics.fem.supports import free_freedoms
+from pipeline.physics.numerics.sparse_solver import factorise
+from pipeline.physics.reduction.body import ElasticBody, rotation
 from pipeline.physics.reduction.load_patterns import load_patterns
+from pipeline.physics.sliding.model import Contacts, Joints, SlidingModel
 from pipeline.products import Body, Incidence, PinOnDisc, Structure
 
 #: what presses the contacts of a system, in its fields <input>_rows and <input>_area
@@ -85,3 +88,39 @@ def body_rows(incidence, body, nodes):
     chosen = incidence.body == body
     place = incidence.row[chosen], 3 * incidence.node[chosen] + incidence.axis[chosen]
     return scipy.sparse.csr_matrix((incidence.weight[chosen], place), (int(incidence.rows), 3 * nodes))
+
+
+def full_model(system, solver):
+    """SlidingModel of the finite elements of a product without any reduction: sparse, supported nodes left out.
+
+    Loss factors are the imaginary parts of the stiffnesses. A damping ratio of a body, which says what its modes lose
+    and no more, does not enter. Contacts are in the first state of the preload; the drive is at rest.
+    """
+    bodies = [elastic_body(system, name) for name in system.body_name]
+    free = [free_freedoms(len(b.node), b.supported) for b in bodies]
+    parts = zip(*(_full_matrices(*each, solver) for each in zip(bodies, free, strict=True)), strict=True)
+    names, sizes = ("mass", "stiffness", "gyroscopic", "centrifugal"), [len(each) for each in free]
+    matrices = {name: scipy.sparse.block_diag(part, format="csr") for name, part in zip(names, parts, strict=True)}
+    fields, name = row_fields(system), INPUTS[type(system)]
+    rows = [scipy.sparse.hstack([body_rows(getattr(system, field), k, len(b.node))[:, f]
+                                 for k, (b, f) in enumerate(zip(bodies, free, strict=True))], format="csr")
+            for field in fields]
+    joints, normal, tangent, lateral, inputs, sensors = rows
+    area, position = system.contact_area, system.contact_position
+    return SlidingModel(
+        body_name=tuple(system.body_name), coordinate_body=np.repeat(np.arange(len(sizes)), sizes), **matrices,
+        damping=scipy.sparse.csr_matrix((sum(sizes),) * 2),
+        joints=Joints(tuple(system.joint_name), joints, system.joint_stiffness * (1 + 1j * system.joint_loss_factor),
+                      system.joint_damping),
+        contacts=Contacts(normal, tangent, lateral, position, area, np.hypot(*position[:, :2].T), system.preload[0],
+                          system.contact_stiffness[0], np.zeros(len(area))),
+        input_name=tuple(f"{name}_{k + 1}" for k in range(inputs.shape[0])), input_rows=inputs,
+        sensor_name=tuple(system.sensor_name), sensor_rows=sensors, speed=0.0)
+
+
+def _full_matrices(body, free, solver):
+    """Mass, complex stiffness, gyroscopic and centrifugal matrix of an ElasticBody in its freedoms ``free``."""
+    stiffness, mass = (matrix[free][:, free] for matrix in body.matrices())
+    none = scipy.sparse.csr_matrix(mass.shape)
+    turning = rotation(body, free, factorise(stiffness, solver)) if body.turns else (none, none)
+    return mass, (stiffness + 1j * body.loss()[free][:, free]).tocsr(), *turning

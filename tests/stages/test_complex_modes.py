@@ -8,10 +8,11 @@ import pytest
 from pipeline.contract.errors import ConfigError, ConvergenceError
 from pipeline.physics.modal.quadratic_eigenproblem import quadratic_roots
 from pipeline.physics.sliding.equilibrium import closure_response, model_about, steady_sliding
-from pipeline.physics.sliding.model import sliding_model
+from pipeline.physics.sliding.model import FrictionState, sliding_model
 from stages.complex_modes import Settings, complex_modes
 from stages.reduced_model import Settings as Reduction
 from stages.reduced_model import reduced_model
+from tests.stages.finite_elements import FiniteElements
 from tests.stages.small_oscillator import DAMPING, MASS, NORMAL_FORCE, STIFFNESS, small_oscillator
 from tests.stages.small_structure import small_friction_map, small_structure
 
@@ -226,3 +227,48 @@ def test_friction_comes_from_one_source(chain, friction, found):
     sections = {"complex_modes": Settings(friction=friction), **dict.fromkeys(chain)}
     with pytest.raises(ConfigError, match=found):
         complex_modes.check(sections)
+
+
+@pytest.fixture(scope="module")
+def lossy():
+    """A Structure with loss factors in place of damping ratios, and its model in a coarse basis."""
+    structure = small_structure(modes_below=7e3)
+    bodies = {name: changed(getattr(structure, name), damping_ratio=0.0, loss_factor=[loss])
+              for name, loss in zip(structure.body_name, (0.001, 0.01, 0.02, 0.002), strict=True)}
+    joints = len(structure.joint_name)
+    structure = changed(structure, **bodies, joint_loss_factor=np.linspace(0.0, 0.05, joints))
+    return structure, reduced_model(structure, settings=Reduction(fixed_below="7 kHz", residual_below="10 kHz"))
+
+
+IN_FULL = SETTINGS | {"friction_damping": False, "centrifugal": False}
+
+
+@pytest.mark.exact
+def test_unstable_roots_are_those_of_the_full_finite_element_matrices(lossy):
+    """Assembled anew, solved by another factorisation; the basis is coarse enough for the reduced roots to be off."""
+    structure, model = lossy
+    modes = complex_modes(model, small_friction_map(), None, structure, settings=Settings(**IN_FULL))
+    elements, checked = FiniteElements(structure), []
+    for number, speed in enumerate((8.0, 12.0, 8.0, 12.0)):
+        about, force = sliding(model, number // 2, speed, 0.5)
+        np.testing.assert_allclose(modes.operating_force[number], force, rtol=1e-6)
+        matrices = elements.about(about, FrictionState(0.5), friction_damping=False)
+        for k in np.flatnonzero(modes.unstable_operating == number):
+            root, reduced = modes.unstable_root[k], modes.unstable_reduced[k]
+            direct, _ = elements.root_near(root, *matrices)
+            assert abs(root - direct) < 1e-6 * abs(direct) and modes.unstable_residual[k] <= 1e-6
+            assert root in modes.operating_root[number]
+            assert modes.unstable_growth[k].sum() == pytest.approx(root.real)
+            assert modes.unstable_share[k].sum() == pytest.approx(1.0)
+            checked.append(abs(reduced - direct))
+    assert len(checked) >= 4 and max(checked) > 1.0
+
+
+def test_without_full_matrices_roots_are_those_of_the_reduced_model(lossy):
+    structure, model = lossy
+    plain = complex_modes(model, small_friction_map(), settings=Settings(**IN_FULL))
+    off = complex_modes(model, small_friction_map(), None, structure,
+                        settings=Settings(**IN_FULL, residual_tolerance=None))
+    for modes in (plain, off):
+        np.testing.assert_array_equal(modes.unstable_root, modes.unstable_reduced)
+        assert (modes.unstable_residual == -1).all() and len(modes.unstable_root)

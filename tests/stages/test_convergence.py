@@ -41,8 +41,8 @@ def test_contact_patches_are_refined_without_the_mesh():
     made = variants(Brake(), refinements=("contact",), pressure="1 MPa", speed="12 rad/s")
     assert made == {"contact": {
         "structure.pressures": ["1000000.0 Pa"], "complex_modes.speeds": ["12.0 rad/s"],
-        "complex_modes.friction_steps": 2, "structure.pad.patches_angular": 12, "structure.pad.patches_radial": 6,
-        "structure.pad.cells_per_patch": 1}}
+        "complex_modes.friction_steps": 2, "complex_modes.residual_tolerance": None,
+        "structure.pad.patches_angular": 12, "structure.pad.patches_radial": 6, "structure.pad.cells_per_patch": 1}}
 
 
 @pytest.fixture
@@ -65,6 +65,14 @@ def test_small_changes_are_converged_and_told(modes):
     assert made.converged == 1 and made.held.all() and list(made.refinement) == ["contact", "bases"]
     assert made.frequency_change == pytest.approx(1e-3) and made.growth_change == pytest.approx(3.0)
     assert made.growth_share == pytest.approx(3.0 / made.root[0].real) and made.contacts == 12
+
+
+def test_changes_are_those_of_the_reduced_model(modes):
+    """Roots of the full matrices stay apart from those of the reduced model, which alone is refined."""
+    full = replace(modes, unstable_reduced=modes.unstable_root, unstable_root=modes.unstable_root - 6 + 2j)
+    made = convergence(full, {"bases": refined(modes, shift=-3)}, settings=Settings())
+    np.testing.assert_allclose(made.refined_root - made.root, -3.0)
+    assert made.root[0] in full.unstable_root and made.growth_change == pytest.approx(3.0)
 
 
 @pytest.mark.parametrize("change", [{"factor": 1.006}, {"shift": -30}, {"factor": 1.05}], ids=["f", "growth", "gone"])

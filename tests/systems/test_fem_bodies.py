@@ -1,14 +1,17 @@
 """Solids and rows as products, and back: nothing is lost on the way."""
 
-from dataclasses import fields
+from dataclasses import fields, replace
 
 import numpy as np
 import pytest
 import scipy.sparse as sp
 
 from pipeline.physics.fem.supports import free_freedoms
+from pipeline.physics.numerics.sparse_solver import factorise
+from pipeline.physics.reduction.body import rotation
+from pipeline.physics.sliding.model import FrictionState
 from pipeline.products import PinOnDisc, Structure
-from pipeline.systems.fem_bodies import body_product, body_rows, elastic_body, incidence, row_fields
+from pipeline.systems.fem_bodies import body_product, body_rows, elastic_body, full_model, incidence, row_fields
 from pipeline.systems.solids import Rows
 from tests.stages.small_structure import small_structure
 from tests.systems.test_solids import solid
@@ -51,3 +54,43 @@ def test_an_elastic_body_has_the_matrices_of_the_solid_that_it_was():
 @pytest.mark.parametrize("product", [Structure, PinOnDisc])
 def test_the_rows_that_are_read_are_fields_of_the_product(product):
     assert set(row_fields(product.__new__(product))) <= {f.name for f in fields(product)}
+
+
+def test_the_full_model_has_the_matrices_and_rows_of_all_bodies():
+    """Supported nodes are left out; loss factors are imaginary stiffness of bodies and joints."""
+    structure = small_structure()
+    lossy = {f.name: getattr(structure, f.name) for f in fields(structure)}
+    lossy["joint_loss_factor"] = np.linspace(0.0, 0.1, len(structure.joint_name))
+    lossy["pad_outer"] = replace(structure.pad_outer, loss_factor=np.array([0.03]))
+    structure = Structure(**lossy)
+    full = full_model(structure, "superlu")
+    bodies = [elastic_body(structure, name) for name in structure.body_name]
+    free = [free_freedoms(len(b.node), b.supported) for b in bodies]
+    ends = np.cumsum([0, *map(len, free)])
+    assert np.array_equal(np.bincount(full.coordinate_body), np.diff(ends))
+    for k, (body, f) in enumerate(zip(bodies, free, strict=True)):
+        here = slice(ends[k], ends[k + 1])
+        stiffness, mass = (matrix[f][:, f] for matrix in body.matrices())
+        assert abs(full.mass[here, here] - mass).max() == 0
+        assert abs(full.stiffness[here, here] - stiffness - 1j * body.loss()[f][:, f]).max() == 0
+        rows = body_rows(structure.contact_tangent, k, len(body.node))[:, f]
+        assert abs(full.contacts.tangent[:, here] - rows).max() == 0
+        turning = rotation(body, f, factorise(stiffness, "superlu")) if body.turns else (0 * mass, 0 * mass)
+        for found, expected in zip((full.gyroscopic, full.centrifugal), turning, strict=True):
+            assert abs(found[here, here] - expected).max() == 0
+    np.testing.assert_allclose(full.joints.stiffness.imag, structure.joint_loss_factor * structure.joint_stiffness)
+
+
+@pytest.mark.parametrize("friction_damping", [True, False])
+def test_a_sparse_model_is_linearised_as_a_dense_one(friction_damping):
+    full = replace(full_model(small_structure(), "superlu"), speed=10.0)
+    names = ("mass", "damping", "gyroscopic", "stiffness", "centrifugal")
+    contacts = replace(full.contacts, damping=np.full(len(full.contacts.area), 3.0))
+    dense = replace(full, **{name: getattr(full, name).toarray() for name in names},
+                    joints=replace(full.joints, rows=full.joints.rows.toarray()),
+                    contacts=replace(contacts, **{name: getattr(contacts, name).toarray()
+                                                  for name in ("normal", "tangent", "lateral")}))
+    friction = FrictionState(0.4, 1e-8, -0.02)
+    sparse = replace(full, contacts=contacts).linearised(friction, friction_damping)
+    for found, expected in zip(sparse, dense.linearised(friction, friction_damping), strict=True):
+        assert abs(found.toarray() - expected).max() <= 1e-12 * abs(expected).max()

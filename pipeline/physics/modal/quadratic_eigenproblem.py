@@ -50,17 +50,21 @@ def quadratic_modes(mass, damping, stiffness, left=False, beside=None):
     return QuadraticModes(roots[order], right, _physical(vectors[0][n:2 * n, order], factor) if left else None)
 
 
-def polished(mass, damping, stiffness, root, vector, beside=None):
-    """(root 1/s, vector (n,)) of (s^2 M + s C + K) x = 0 from an approximate pair, by residual inverse iteration.
+def polished(mass, damping, stiffness, root, vector, beside=None, factors=None, accuracy=_POLISHED):
+    """(root 1/s, vector (n,)) of T(s) x = (s^2 M + s C + K) x = 0 from an approximate pair.
 
-    Arguments as of ``quadratic_modes``; matrices may be complex. One factorisation serves all iterations, and another
-    where they slow down (Neumaier, SIAM J. Numer. Anal. 22 (1985) 914). Raises ConvergenceError where no root lies
-    close by.
+    Arguments as of ``quadratic_modes``; matrices may be complex, and sparse with ``factors`` (see ``DenseFactors``) of
+    such. Residual inverse iteration: one factor of T serves all steps, that of ``factors`` if it is ready, and another
+    where they slow down (Neumaier, SIAM J. Numer. Anal. 22 (1985) 914). The last step is below ``accuracy`` times the
+    root. Raises ConvergenceError where no root lies close by.
     """
-    s, x, step = complex(root), vector / np.linalg.norm(vector), np.inf
-    for _ in range(_FACTORISATIONS):
-        factor = scipy.linalg.lu_factor(_operator(mass, damping, stiffness, s, beside)[0], check_finite=False)
-        left = scipy.linalg.lu_solve(factor, x, trans=2, check_finite=False).conj()
+    start = s, x = complex(root), vector / np.linalg.norm(vector)
+    factors, step = DenseFactors() if factors is None else factors, np.inf
+    given = factors.ready
+    for attempt in range(_FACTORISATIONS):
+        if attempt or not given:
+            factors.renew(_operator(mass, damping, stiffness, s, beside)[0])
+        left = factors.solve(x, adjoint=True).conj()
         for _ in range(_POLISHINGS):
             operator, slope = _operator(mass, damping, stiffness, s, beside, x)
             along = left @ slope
@@ -68,12 +72,28 @@ def polished(mass, damping, stiffness, root, vector, beside=None):
                 break
             step = (left @ operator) / along
             s = s - step
-            x = x - scipy.linalg.lu_solve(factor, operator - step * slope, check_finite=False)
+            x = x - factors.solve(operator - step * slope)
             x = x / np.linalg.norm(x)
-            if abs(step) <= _POLISHED * abs(s):
+            if abs(step) <= accuracy * abs(s):
                 return s, x
+        if given and not attempt:
+            s, x = start
     raise ConvergenceError("complex modes", f"a root near {root:.6g} 1/s", f"steps of {abs(step):.2g} 1/s",
                            "lower smallest_correction")
+
+
+class DenseFactors:
+    """The LU factor in use, if it is ``ready``; another takes its place and its memory."""
+
+    ready = False
+
+    def renew(self, matrix):
+        """Factorise ``matrix`` (n, n)."""
+        self._factor, self.ready = scipy.linalg.lu_factor(matrix, check_finite=False), True
+
+    def solve(self, rhs, adjoint=False):
+        """x (n,) of A x = rhs, or A^H x = rhs."""
+        return scipy.linalg.lu_solve(self._factor, rhs, trans=2 if adjoint else 0, check_finite=False)
 
 
 def _operator(mass, damping, stiffness, s, beside, x=None):

@@ -12,15 +12,22 @@ import numpy as np
 import scipy
 
 from pipeline.contract.errors import ConfigError, ConvergenceError
+from pipeline.physics.numerics.memory import refuse_beyond_memory
 
 #: matrix types of PARDISO by (complex, symmetric)
 _MATRIX_TYPE = {(False, True): -2, (False, False): 11, (True, True): 6, (True, False): 13}
 _SEQUENTIAL, _CONDITIONAL_BITS_AUTO = 1, 2      # constants of mkl_service.h
-_ANALYSE_AND_FACTORISE, _SOLVE, _RELEASE = 12, 33, -1
+_ANALYSE, _FACTORISE, _SOLVE, _RELEASE = 11, 22, 33, -1
+#: kB of PARDISO by its analysis: its peak, what stays of it, the factor (indices of its parameters)
+_PEAK, _PERMANENT, _FACTOR = 14, 15, 16
+_ADJOINT = 11       # index of the parameter that solves with A^H
 #: a factor whose solution misses a seeded right-hand side by more is that of a singular matrix
 _SINGULAR = 1e-4
-#: a factor without row exchanges is kept while it is as good as this
+#: a factor without row exchanges, or with few, is kept while it is as good as this
 _ACCURATE = 1e-8
+#: orders of columns and thresholds of row exchanges that SuperLU tries, by symmetry
+_PATTERN = "MMD_AT_PLUS_A"
+_ORDERS = {True: ((_PATTERN, 0.0), (_PATTERN, 1.0)), False: ((_PATTERN, 0.01), ("COLAMD", 1.0))}
 
 
 def available():
@@ -39,10 +46,12 @@ def factorise(matrix, solver, symmetric=True):
 
     Returns
     -------
-    Factor with ``solve(rhs)`` for (n,) and (n, m) right-hand sides and, for real symmetric
-    matrices, ``negative``, the number of negative eigenvalues (Sylvester's law of inertia).
+    Factor with ``solve(rhs)`` for (n,) and (n, m) right-hand sides, ``solve(rhs, adjoint=True)`` for those of
+    A^H x = rhs and, for real symmetric matrices, ``negative``, the number of negative eigenvalues (Sylvester's law of
+    inertia).
 
-    Raises ConvergenceError for a singular matrix, ConfigError for an unknown solver.
+    Raises ConvergenceError for a singular matrix, ConfigError for an unknown solver and, with PARDISO, where the factor
+    would not fit into the memory that is available, before it is computed.
     """
     if solver not in _BACKENDS:
         raise ConfigError("linear solver", f"one of {', '.join(_BACKENDS)}", repr(solver))
@@ -64,23 +73,24 @@ class _Factor:
 
     negative = None
 
-    def solve(self, rhs):
-        """x of A x = rhs, same shape as ``rhs``; complex right-hand sides are welcome."""
+    def solve(self, rhs, adjoint=False):
+        """x of A x = rhs, or A^H x = rhs, same shape as ``rhs``; complex right-hand sides are welcome."""
         rhs = np.asarray(rhs)
         if np.iscomplexobj(rhs) and self.dtype == np.float64:
-            return self.solve(rhs.real) + 1j * self.solve(rhs.imag)
+            return self.solve(rhs.real, adjoint) + 1j * self.solve(rhs.imag, adjoint)
         columns = np.asfortranarray(rhs.reshape(len(rhs), -1), dtype=self.dtype)
-        return self._solve(columns).reshape(rhs.shape)
+        return self._solve(columns, adjoint).reshape(rhs.shape)
 
 
 class _SuperLU(_Factor):
-    """Symmetric matrices are first tried without row exchanges, which keeps the inertia readable."""
+    """Symmetric matrices are first tried without row exchanges, which keeps the inertia readable; others with few of
+    them in the order of a symmetric pattern, which those of bodies in contact nearly have."""
 
     def __init__(self, matrix, symmetric):
         self.dtype = np.result_type(matrix.dtype, np.float64)
         columns = matrix.astype(self.dtype).tocsc()
-        for threshold in (0.0, 1.0) if symmetric else (1.0,):
-            self._factor = _lu(columns, symmetric, threshold)
+        for order, threshold in _ORDERS[symmetric]:
+            self._factor = _lu(columns, order, threshold)
             if _miss(matrix, self) < _ACCURATE:
                 break
         if symmetric and self.dtype == np.float64:
@@ -92,16 +102,19 @@ class _SuperLU(_Factor):
             return None
         return int((self._factor.U.diagonal() < 0).sum())
 
-    def _solve(self, columns):
-        return self._factor.solve(columns)
+    def _solve(self, columns, adjoint):
+        return self._factor.solve(columns, "H" if adjoint else "N")
 
 
-def _lu(columns, symmetric, threshold):
+def _lu(columns, order, threshold):
     try:
-        return scipy.sparse.linalg.splu(columns, permc_spec="MMD_AT_PLUS_A" if symmetric else "COLAMD",
-                                        diag_pivot_thresh=threshold, options={"SymmetricMode": symmetric})
+        return scipy.sparse.linalg.splu(columns, permc_spec=order, diag_pivot_thresh=threshold,
+                                        options={"SymmetricMode": order == _PATTERN})
     except RuntimeError as error:
         raise _singular(columns, str(error)) from None
+    except MemoryError:
+        raise ConfigError("memory", f"room for a factor of {columns.shape[0]} degrees of freedom", "less",
+                          "use fewer workers, a coarser mesh or the solver pypardiso") from None
 
 
 class _Pardiso(_Factor):
@@ -109,13 +122,17 @@ class _Pardiso(_Factor):
         complex_ = np.iscomplexobj(matrix)
         self.dtype = np.dtype(complex if complex_ else float)
         stored = _upper_triangle(matrix) if symmetric else matrix
-        self._call = _PardisoCall(stored.astype(self.dtype), _MATRIX_TYPE[complex_, symmetric])
-        self._call(_ANALYSE_AND_FACTORISE)
+        self._call = _PardisoCall(stored.astype(self.dtype, copy=False), _MATRIX_TYPE[complex_, symmetric])
+        weakref.finalize(self, self._call, _RELEASE)
+        self._call(_ANALYSE)
+        peak, permanent, factor = (1024 * int(self._call.parameter[k]) for k in (_PEAK, _PERMANENT, _FACTOR))
+        refuse_beyond_memory(max(peak, permanent + factor), f"a factor of {matrix.shape[0]} degrees of freedom")
+        self._call(_FACTORISE)
         if symmetric and not complex_:
             self.negative = int(self._call.parameter[22])
-        weakref.finalize(self, self._call, _RELEASE)
 
-    def _solve(self, columns):
+    def _solve(self, columns, adjoint):
+        self._call.parameter[_ADJOINT] = int(adjoint)
         return self._call(_SOLVE, columns)
 
 

@@ -103,7 +103,8 @@ def reduce_body(body, fixed_below, residual_below, solver):
     else:
         reduced = craig_bampton(stiffness, mass, interface, fixed_below, solver, residual_below)
     size = reduced.shape.shape[1]
-    whirl, centrifugal = _rotation(body, free, factor, reduced.shape) if body.turns else (np.zeros((size, size)),) * 2
+    whirl, centrifugal = ((projected(a, reduced.shape) for a in rotation(body, free, factor)) if body.turns
+                          else (np.zeros((size, size)),) * 2)
     return BodyTerms(reduced.mass, modal_damping(reduced.mass, reduced.stiffness, body.damping_ratio), whirl,
                      reduced.stiffness, centrifugal, rows @ reduced.shape, *_surface(body, free, reduced.shape),
                      _loss(body, free, reduced))
@@ -131,14 +132,17 @@ def _held_by_inertia(stiffness, mass, frequency):
     return stiffness + (2 * np.pi * _INERTIA_SHARE * frequency[-1]) ** 2 * mass
 
 
-def _rotation(body, free, factor, shape):
-    """Reduced gyroscopic matrix per speed; stress stiffening less convective inertia, per squared speed."""
+def rotation(body, free, factor):
+    """Gyroscopic matrix per speed; stress stiffening less convective inertia, per squared speed: (f, f) sparse.
+
+    ``free`` (f,): degrees of freedom of the ElasticBody that are not held; ``factor``: of their stiffness.
+    """
     mesh = body.node, body.element, body.kind, body.material
     whirl, convective = gyroscopic(*mesh, body.density)
     stretched = np.zeros(3 * len(body.node))
     stretched[free] = factor.solve(centrifugal_load(*mesh, body.density)[free])
     stiffening = geometric_stiffness(*mesh, body.elasticity, stretched) - convective
-    return tuple(projected(a[free][:, free], shape) for a in (whirl, stiffening))
+    return whirl[free][:, free], stiffening[free][:, free]
 
 
 def _surface(body, free, shape):

@@ -20,6 +20,7 @@ is the force k u along its row.
 from dataclasses import dataclass, replace
 
 import numpy as np
+import scipy
 
 from pipeline.contract.errors import ConfigError
 from pipeline.physics.sliding.structural_damping import equivalent_damping
@@ -82,6 +83,9 @@ class FrictionState:
 @dataclass(frozen=True)
 class SlidingModel:
     """Matrices (n, n) of the bodies, without joints and contacts; input rows (i, n), sensor rows (s, n).
+
+    Matrices and rows of joints and contacts may be sparse, for which ``supported``, ``frictionless``,
+    ``friction_matrices`` and ``linearised`` serve, and stiffnesses complex: loss factors are their imaginary part.
 
     ``gyroscopic`` is per unit of ``speed``, ``centrifugal`` per squared speed; ``coordinate_body`` (n,) is the index of
     the body of each coordinate in ``body_name``. ``elements``: each a nonlinear Element, which only transients see.
@@ -201,7 +205,7 @@ class SlidingModel:
 
     def _turning_drag(self, coefficient):
         """mu N0 / |v| (c,) in N s/m of equation (3); 0 without a friction force, or where nothing moves sideways."""
-        sideways = self.contacts.lateral.any(axis=1)
+        sideways = np.asarray(abs(self.contacts.lateral).sum(axis=1)).ravel() > 0
         force, speed = np.where(sideways, coefficient * self.contacts.preload, 0.0), abs(self.sliding_speed)
         if np.any((force != 0) & (speed == 0)):
             raise ConfigError("friction-induced damping", "every loaded contact to slide", "a sliding speed of 0",
@@ -242,5 +246,7 @@ def loss_stiffness(reduced):
 
 
 def spread(left, weight, right):
-    """sum_i weight_i left_i^T right_i, (n, n), of rows (r, n)."""
+    """sum_i weight_i left_i^T right_i, (n, n), of rows (r, n), dense or sparse."""
+    if scipy.sparse.issparse(left):
+        return left.T @ (scipy.sparse.diags(np.broadcast_to(weight, left.shape[0])) @ right)
     return (left.T * np.broadcast_to(weight, len(left))) @ right

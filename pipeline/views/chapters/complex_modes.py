@@ -104,7 +104,7 @@ def _table(modes, most=12):
                      str(modes.operating_open[point])))
     head = "frequency", "growth rate", "damping ratio / %", "pressure", "speed", "friction", "open contacts"
     title = "Unstable modes, most unstable first, each frequency once"
-    return Table(head, tuple(rows), title, tuple(range(7))), _reasons(modes, chosen)
+    return Table(head, tuple(rows), title, tuple(range(7))), _reasons(modes, chosen), *_in_full(modes, chosen)
 
 
 def _reasons(modes, chosen):
@@ -120,6 +120,23 @@ def _reasons(modes, chosen):
     title = ("What feeds them (+) and what dissipates (\N{MINUS SIGN}): parts of the growth rate in 1/s; nodal"
              " diameters of the disc; the bodies that move most")
     return Table(head, tuple(rows), title, (0, 1, *range(3, len(head))))
+
+
+def _in_full(modes, chosen):
+    """Residuals of modes on the full finite-element matrices, and how far the reduced model is; none without these."""
+    root, reduced, residual = modes.unstable_root, modes.unstable_reduced, modes.unstable_residual
+    solved = residual >= 0
+    if not solved[list(chosen)].any():
+        return ()
+    frequency, growth = reduced.imag / root.imag - 1, reduced.real - root.real
+    rows = [(quantity(root[k].imag / TWO_PI, "Hz", 5), quantity(root[k].real, "1/s", 4),
+             quantity(reduced[k].real, "1/s", 4), f"{100 * frequency[k]:+.3f}".replace("-", "\N{MINUS SIGN}"),
+             f"{residual[k]:.0e}") for k in chosen if solved[k]]
+    head = "frequency", "growth rate", "in the reduced model", "its frequency / %", "residual"
+    farthest = percent(abs(frequency[solved]).max(), 2), quantity(abs(growth[solved]).max(), "1/s", 2)
+    title = ("The same modes solved for on the full finite-element matrices, with their residuals over the stiffness"
+             f" forces; at all operating points the reduced model is within {' and '.join(farthest)} of these")
+    return (Table(head, tuple(rows), title, tuple(range(5))),)
 
 
 def words(name):

@@ -36,8 +36,17 @@ def _unstable(modes):
             "pressure": float(modes.operating_pressure[point]), "speed": float(modes.operating_speed[point]),
             "friction": float(modes.operating_friction[point]),
             "bodies": _named(modes.body_name, modes.unstable_share[k]),
-            "growth_by_term": _named(modes.growth_term, modes.unstable_growth[k])})
+            "growth_by_term": _named(modes.growth_term, modes.unstable_growth[k]),
+            "finite_elements": _finite_elements(root, modes.unstable_reduced[k], modes.unstable_residual[k])})
     return found
+
+
+def _finite_elements(root, reduced, residual):
+    """How far the reduced model is from the full matrices, and the residual there; None without these."""
+    if residual < 0:
+        return None
+    return {"residual": float(residual), "reduced_frequency_change": float(reduced.imag / root.imag - 1),
+            "reduced_growth_change": float(reduced.real - root.real)}
 
 
 def _named(names, values):

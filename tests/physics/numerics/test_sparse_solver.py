@@ -5,6 +5,7 @@ import pytest
 import scipy.sparse as sp
 
 from pipeline.contract.errors import ConfigError, ConvergenceError
+from pipeline.physics.numerics import memory
 from pipeline.physics.numerics.sparse_solver import available, factorise
 
 pytestmark = pytest.mark.exact
@@ -37,8 +38,9 @@ def test_unsymmetric_and_complex(solver):
     matrix = laplacian() + sp.random(512, 512, 0.01, random_state=2)
     rhs = random.standard_normal(512) + 1j * random.standard_normal(512)
     for a, symmetric in ((matrix, False), (laplacian() + 0.3j * sp.identity(512), True), (matrix * (1 + 0.1j), False)):
-        x = factorise(a, solver, symmetric).solve(rhs)
-        assert np.linalg.norm(a @ x - rhs) < 1e-10 * np.linalg.norm(rhs)
+        factor = factorise(a, solver, symmetric)
+        for operator, adjoint in ((a, False), (a.conj().T, True), (a, False)):
+            assert np.linalg.norm(operator @ factor.solve(rhs, adjoint) - rhs) < 1e-10 * np.linalg.norm(rhs)
 
 
 def test_saddle_point_with_empty_diagonal(solver):
@@ -64,3 +66,11 @@ def test_singular_matrix_is_refused(solver, broken):
 def test_unknown_solver():
     with pytest.raises(ConfigError, match="superlu"):
         factorise(laplacian(), "abacus")
+
+
+def test_a_factor_beyond_the_memory_is_refused_before_it_is_computed(monkeypatch):
+    if "pypardiso" not in available():
+        pytest.skip("PARDISO alone knows what its factor needs")
+    monkeypatch.setattr(memory, "available_memory", lambda: 1000)
+    with pytest.raises(ConfigError, match="a factor of 512 degrees of freedom"):
+        factorise(laplacian(), "pypardiso")

@@ -25,8 +25,20 @@ def test_modes_convergence_and_headline_are_there():
     assert first["frequency"] == pytest.approx(modes.unstable_root[0].imag / (2 * np.pi))
     assert first["growth_rate"] == modes.unstable_root[0].real and first["damping_ratio"] < 0
     assert first["nodal_diameters"] == 5 and first["bodies"]["disc"] == 0.7
-    assert set(first["growth_by_term"]) == set(map(str, modes.growth_term))
+    assert set(first["growth_by_term"]) == set(map(str, modes.growth_term)) and first["finite_elements"] is None
     assert told["convergence"]["converged"] and set(told["convergence"]["refinements"]) == set(refined.refinement)
+
+
+def test_modes_solved_for_on_the_full_matrices_state_residual_and_distance():
+    modes = small.complex_modes()
+    residual = np.full(len(modes.unstable_root), -1.0)
+    residual[0] = 3e-7
+    moved = replace(modes, unstable_residual=residual, unstable_reduced=modes.unstable_root * (1 + 1e-4) + 5)
+    first, second = written({"complex_modes": moved})["unstable_modes"][:2]
+    root, reduced = moved.unstable_root[0], moved.unstable_reduced[0]
+    assert second["finite_elements"] is None and first["finite_elements"] == {
+        "residual": 3e-7, "reduced_frequency_change": pytest.approx(reduced.imag / root.imag - 1),
+        "reduced_growth_change": pytest.approx(reduced.real - root.real)}
 
 
 def test_what_is_not_converged_or_not_examined_is_a_warning():

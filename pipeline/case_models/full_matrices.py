@@ -1,0 +1,108 @@
+"""Modes of a case that grow, or nearly do, on the finite-element matrices behind its reduced model."""
+
+from dataclasses import dataclass
+from functools import partial
+
+import numpy as np
+import scipy
+
+from pipeline.contract import ConvergenceError
+from pipeline.physics.stability.constrained_modes import is_hard
+from pipeline.physics.stability.full_roots import Guess, families, full_roots, sliding_as
+
+#: roots of one operating point that differ by less than this share are the same
+_SAME = 1e-6
+
+
+@dataclass(frozen=True)
+class Mode:
+    """A root (1/s) of the reduced model at one operating point and its pressure, by numbers, and its motion (n,)."""
+
+    operating: int
+    state: int
+    root: complex
+    motion: np.ndarray
+
+
+@dataclass(frozen=True)
+class FullMode:
+    """The root (1/s) on the full matrices, its residual, terms of its growth rate and shares (b,) of the bodies."""
+
+    root: complex
+    residual: float
+    terms: dict
+    shares: np.ndarray
+
+
+def has_full_matrices(structure, posed, settings, context):
+    """Whether a product Structure, or None, has all that the reduced model of a case has; what it lacks is told.
+
+    ``posed``: a Posed of the case; ``settings``: the section ``complex_modes``.
+    """
+    if structure is None or settings.residual_tolerance is None or is_hard(posed.base.model):
+        return False
+    bodies = [getattr(structure, str(name)) for name in structure.body_name]
+    loses = structure.joint_loss_factor.any() or any(body.loss_factor.any() for body in bodies)
+    reasons = {"effects of the case": bool(posed.terms),
+               "damping ratios of bodies": any(body.damping_ratio > 0 for body in bodies),
+               "viscous equivalents of loss factors": loses and not settings.hysteretic}
+    lacking = [reason for reason, holds in reasons.items() if holds]
+    if lacking:
+        context.log(f"the full finite-element matrices are without {' and '.join(lacking)}: unstable roots are those of"
+                    " the reduced model")
+    return not lacking
+
+
+def full_modes(full_model, models, slidings, modes, describe, settings, context):
+    """A FullMode for each Mode that oscillates, None for others.
+
+    ``full_model()``: the sparse SlidingModel of the finite elements, called where there is such a mode; ``models`` and
+    ``slidings``: the reduced SlidingModel about steady sliding and the Steady of each operating point;
+    ``describe(model, sliding, roots, vectors)``: (terms, shares) of each root.
+    """
+    solved = [None] * len(modes)
+    oscillating = np.array([k for k, mode in enumerate(modes) if mode.root.imag > 0], int)
+    if not len(oscillating):
+        return solved
+    full = full_model()
+    about = [sliding_as(full, model) for model in models]
+    groups = families(*(np.array([getattr(modes[k], name) for k in oscillating]) for name in ("root", "state")))
+    tasks = [[(about[m.operating], slidings[m.operating], m.root,
+               np.concatenate([rows @ m.motion for rows in _rows(models[m.operating])]))
+              for m in (modes[k] for k in oscillating[group])] for group in groups]
+    results = context.map(partial(_family, describe, settings, context.solver), tasks, "full finite-element matrices")
+    for group, found in zip(groups, results, strict=True):
+        for k, mode in zip(oscillating[group], found, strict=True):
+            solved[k] = mode
+    _refuse_same(modes, solved)
+    return solved
+
+
+def _rows(model):
+    """Rows of the contacts of a SlidingModel in all three directions."""
+    return model.contacts.normal, model.contacts.tangent, model.contacts.lateral
+
+
+def _refuse_same(modes, solved):
+    """ConvergenceError where two modes of one operating point led to the same root of the full matrices."""
+    operating = np.array([mode.operating for mode, s in zip(modes, solved, strict=True) if s is not None])
+    every_root = np.array([s.root for s in solved if s is not None])
+    for number in np.unique(operating):
+        roots = every_root[operating == number]
+        apart = abs(roots[:, None] - roots) + np.diag(np.full(len(roots), np.inf))
+        if (apart < _SAME * abs(roots)).any():
+            raise ConvergenceError("complex modes: full finite-element matrices", "a root for each mode",
+                                   f"one near {roots[apart.min(axis=0).argmin()]:.6g} 1/s for two of them",
+                                   "set complex_modes.residual_tolerance: null")
+
+
+def _family(describe, settings, solver, task):
+    """A FullMode for each operating point of a family of roots."""
+    guesses = (Guess(root, motion, scipy.sparse.vstack(_rows(model), format="csr"), model.linearised(
+        sliding.acting(settings.friction_slopes), settings.friction_damping, settings.gyroscopic, settings.centrifugal))
+        for model, sliding, root, motion in task)
+    solved, found = full_roots(guesses, solver, settings.residual_tolerance), []
+    for (model, sliding, *_), mode in zip(task, solved, strict=True):
+        (terms,), (shares,) = describe(model, sliding, np.array([mode.root]), mode.vector[:, None])
+        found.append(FullMode(mode.root, mode.residual, terms, shares))
+    return found

@@ -1,0 +1,120 @@
+"""Roots on full matrices against dense algebra: families of one factor, and what is not there."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+import scipy
+
+from pipeline.contract.errors import ConvergenceError
+from pipeline.physics.sliding.model import Contacts, Joints, SlidingModel
+from pipeline.physics.stability import full_roots as module
+from pipeline.physics.stability.full_roots import Guess, families, full_roots, sliding_as
+
+pytestmark = pytest.mark.exact
+SIZE, CONTACTS = 120, 12
+FRICTION = (0.50, 0.51, 0.52)
+
+
+@pytest.fixture(scope="module")
+def full():
+    """A chain of masses with a loss factor; friction of every third of the first ones turns its neighbour by an arm."""
+    chain = scipy.sparse.diags([-1.0, 2.05, -1.0], [-1, 0, 1], shape=(SIZE, SIZE), format="csr")
+    normal, tangent = (scipy.sparse.csr_matrix((np.full(CONTACTS, arm), (range(CONTACTS), 3 * np.arange(CONTACTS) + k)),
+                                               (CONTACTS, SIZE)) for k, arm in ((0, 1.0), (1, 10.0)))
+    zero = scipy.sparse.csr_matrix((SIZE, SIZE))
+    each = np.ones(CONTACTS)
+    contacts = Contacts(normal, tangent, 0 * normal, np.zeros((CONTACTS, 3)), each, each, 100 * each, 3e5 * each,
+                        0.5 * each)
+    joints = Joints((), scipy.sparse.csr_matrix((0, SIZE)), np.empty(0), np.empty(0))
+    return SlidingModel(("chain",), np.zeros(SIZE, int), scipy.sparse.identity(SIZE, format="csr"), zero, zero,
+                        1e6 * (1 + 0.002j) * chain, zero, joints, contacts, (), normal[:0], (), normal[:0], 1.0)
+
+
+def matrices(model, friction):
+    return model.linearised(friction, friction_damping=False)
+
+
+def dense_modes(mass, damping, stiffness):
+    """Roots and vectors of the companion matrix; unit masses."""
+    zero, one = np.zeros((SIZE, SIZE)), np.eye(SIZE)
+    root, vector = np.linalg.eig(np.block([[zero, one], [-stiffness.toarray(), -damping.toarray()]]))
+    return root, vector[:SIZE]
+
+
+@pytest.fixture(scope="module")
+def growing(full):
+    """(root, contact motion) of the mode with the largest growth rate, and of the same one with more friction."""
+    modes = [dense_modes(*matrices(full, mu)) for mu in FRICTION]
+    first = max((r for r in modes[0][0] if r.imag > 0), key=lambda r: r.real)
+    assert first.real > 10.0
+    motions = [full.contacts.normal @ vector for _, vector in modes]
+    before, followed = motions[0][:, modes[0][0] == first][:, 0], []
+    for (roots, _), motion in zip(modes, motions, strict=True):
+        alike = abs(before.conj() @ motion) / np.linalg.norm(motion, axis=0)
+        k = np.argmax(alike / (1 + abs(roots - first)))
+        followed.append((roots[k], motion[:, k]))
+    return followed
+
+
+def guessed(full, growing, error=1e-4):
+    """Guesses whose roots and motions are a little wrong."""
+    random = np.random.default_rng(0)
+    return [Guess(root * (1 + error), motion * (1 + 0.05 * random.standard_normal(CONTACTS)), full.contacts.normal,
+                  matrices(full, mu)) for (root, motion), mu in zip(growing, FRICTION, strict=True)]
+
+
+def counted(monkeypatch):
+    """Counts the factors that are made."""
+    factors, factorise = [], module.factorise
+
+    def counting(*args, **options):
+        factors.append(args)
+        return factorise(*args, **options)
+
+    monkeypatch.setattr(module, "factorise", counting)
+    return factors
+
+
+def test_roots_of_a_family_are_those_of_dense_algebra(full, growing, monkeypatch):
+    """A neighbour that a factor of another operating point leads to is seen by its motion: another factor then."""
+    factors, guesses = counted(monkeypatch), guessed(full, growing)
+    solved = full_roots(guesses, "superlu", 1e-9)
+    np.testing.assert_allclose([mode.root for mode in solved], [root for root, _ in growing], rtol=1e-9)
+    assert 1 < len(factors) <= 3
+    for mode, guess in zip(solved, guesses, strict=True):
+        mass, damping, stiffness = guess.matrices
+        force = stiffness @ mode.vector
+        missed = mode.root**2 * (mass @ mode.vector) + mode.root * (damping @ mode.vector) + force
+        assert mode.residual == pytest.approx(np.linalg.norm(missed) / np.linalg.norm(force)) and mode.residual <= 1e-9
+        assert mode.likeness > 0.95
+
+
+def test_one_factor_serves_operating_points_that_differ_little(full, growing, monkeypatch):
+    factors, (guess, *_) = counted(monkeypatch), guessed(full, growing)
+    nearby = [replace(guess, matrices=matrices(full, FRICTION[0] + step)) for step in (0.0, 1e-4, 2e-4)]
+    solved = full_roots(nearby, "superlu", 1e-9)
+    assert len(factors) == 1
+    for mode, point in zip(solved, nearby, strict=True):
+        assert abs(dense_modes(*point.matrices)[0] - mode.root).min() < 1e-9 * abs(mode.root)
+
+
+def test_a_guess_far_from_every_root_is_refused(full, growing):
+    guess = guessed(full, growing)[0]
+    with pytest.raises(ConvergenceError, match="full finite-element matrices: expected the mode of the reduced model"):
+        full_roots([replace(guess, root=3 * guess.root)], "superlu", 1e-9)
+
+
+def test_families_are_of_one_state_and_nearly_one_frequency_from_the_middle_out():
+    roots = 10 + 1j * np.array([1000.0, 1003.0, 1500.0, 1001.0, 1502.0, 1007.0])
+    found = [group.tolist() for group in families(roots, [0, 0, 0, 1, 1, 0])]
+    assert found == [[1, 0, 5], [2], [3], [4]]
+
+
+def test_the_full_model_slides_as_the_reduced_one(full):
+    basis = np.linalg.qr(np.random.default_rng(1).standard_normal((SIZE, 20)))[0]
+    contacts = replace(full.contacts, normal=full.contacts.normal @ basis, stiffness=np.arange(1.0, CONTACTS + 1))
+    reduced = replace(full, contacts=contacts, speed=7.0)
+    about = sliding_as(full, reduced)
+    assert about.speed == 7.0 and about.contacts.stiffness[-1] == CONTACTS
+    assert about.contacts.normal is full.contacts.normal and about.mass is full.mass
