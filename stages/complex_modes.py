@@ -15,6 +15,7 @@ import numpy as np
 import scipy
 
 from pipeline.case_models.effect_block import conditions, physics_terms
+from pipeline.case_models.friction_paths import OverFriction, followed, over_friction, path_fields
 from pipeline.case_models.steady_sliding import Posed, Steady, branch_stiffness, posed, refuse_twice
 from pipeline.contract import ConfigError, Context, Quantities, Quantity, Section, option, stage
 from pipeline.physics.friction.dry_friction import Friction, constant, falling
@@ -30,10 +31,11 @@ from pipeline.physics.modal.quadratic_eigenproblem import (
     upper_half,
 )
 from pipeline.physics.sliding.equilibrium import ClosureResponse, closure_response, falling_with_speed, from_map
-from pipeline.physics.sliding.model import SlidingModel, loss_stiffness
+from pipeline.physics.sliding.model import SlidingModel
 from pipeline.physics.stability.constrained_modes import allowed_motions, hard_sliding, is_hard
 from pipeline.physics.stability.friction_basis import FrictionBasis, friction_basis
-from pipeline.physics.stability.growth_balance import body_shares, growth_terms
+from pipeline.physics.stability.friction_path import first_of_each
+from pipeline.physics.stability.growth_balance import EFFECTS, HARD, Losses, body_shares, growth_terms
 from pipeline.physics.time_stepping.simulate import Table
 from pipeline.products import ComplexModes, Effects, FrictionMap, ReducedModel
 
@@ -71,6 +73,9 @@ class Settings(Section):
         " viscous damping equivalent to them, as in the sweep and in motions over time")
     gyroscopic: bool = option(True, "gyroscopic terms of the disc")
     centrifugal: bool = option(True, "centrifugal terms of the disc")
+    followed: int = option(
+        8, "unstable modes, strongest first and each frequency once, that are followed from the friction of their"
+        " operating point down to none", ge=0)
     neutral: float = option(1e-6, "growth below this share of abs(s) counts as neither growth nor decay", ge=0)
 
 
@@ -118,27 +123,15 @@ class _Outcome:
     motion: np.ndarray
     corrections: int
     terms: tuple            # of the growing ones: {term: part of the growth rate}
+    contacts: np.ndarray    # (g, c) parts of the contacts in it
     shares: np.ndarray      # (g, b) of the bodies in their kinetic energy
+    over_friction: OverFriction | None
 
     @property
     def mean_friction(self):
         """Friction coefficient, mean over the contacts weighted by their force; 0 where nothing presses."""
         force, coefficient = self.sliding.contact.force, self.sliding.friction.coefficient
         return float(force @ coefficient / force.sum()) if force.any() else 0.0
-
-
-@dataclass(frozen=True)
-class _Losses:
-    """Of a product ReducedModel: body of each contact (c,), imaginary stiffness (n, n) and damping (n, n) of bodies."""
-
-    contact_body: np.ndarray
-    stiffness: np.ndarray
-    damping: np.ndarray
-
-    def change(self, model):
-        """(damping, stiffness) that make loss factors hysteretic in a SlidingModel with their viscous equivalent; None
-        without loss factors."""
-        return (self.damping - model.damping, 1j * self.stiffness) if self.stiffness.any() else None
 
 
 @stage(check=_check)
@@ -165,7 +158,7 @@ def complex_modes(model: ReducedModel, friction_map: FrictionMap | None, effects
     roots = _sweep(states, friction, settings, context)
     law = _friction_law(friction_map, model, settings)
     points = [(m.at_speed(speed), load) for m, load in models for speed in settings.speeds]
-    losses = _Losses(model.contact_body, loss_stiffness(model), model.damping)
+    losses = Losses.of(model)
     outcomes = context.map(partial(_operate, settings, law, losses), points, "operating points")
     branches = min(max(len(s.basis.frequency) for s in states), *(s.model.size for s in states))
     return ComplexModes(
@@ -176,6 +169,7 @@ def complex_modes(model: ReducedModel, friction_map: FrictionMap | None, effects
         operating_force=[o.sliding.contact.force for o in outcomes],
         operating_open=[np.sum(o.sliding.contact.force == 0) for o in outcomes],
         operating_root=[_lowest(o.root, branches) for o in outcomes], **_unstable(outcomes, model),
+        **_followed(outcomes, model, settings, context),
         corrections=max([s.basis.corrections for s in states] + [o.corrections for o in outcomes]))
 
 
@@ -265,18 +259,24 @@ def _operate(settings, law, losses, task):
     root, shape = _whole(model, sliding, modes.value, basis.shape @ modes.right, settings, hysteretic)
     grows = (root.real > settings.neutral * abs(root)) & (root.imag >= 0)
     grows &= abs(root) < 2 * np.pi * settings.frequency_max
+    hysteretic = None if is_hard(model) else hysteretic
+    viscous = losses.viscous_motion(case.base.model, shape[:, grows]) if hysteretic is None and grows.any() else None
     return _Outcome(model.speed, sliding, root[upper_half(root, len(matrices[0]))], root[grows], shape[:, grows],
-                    basis.corrections, *_balances(model, sliding, root[grows], shape[:, grows],
-                                                  losses.contact_body, settings))
+                    basis.corrections, *_balances(model, sliding, root[grows], shape[:, grows], losses, viscous,
+                                                  settings),
+                    over_friction(partial(_linearised, settings=settings, slopes=settings.friction_slopes), model,
+                                  sliding, basis, shape[:, grows], hysteretic) if settings.followed else None)
 
 
-def _balances(model, sliding, roots, shapes, contact_body, settings):
-    """(terms of the growth rate of each root, shares (g, b) of the bodies)."""
-    friction = sliding.acting(settings.friction_slopes)
-    terms = tuple(growth_terms(model, friction, root, shape, contact_body, settings.friction_damping)
-                  for root, shape in zip(roots, shapes.T, strict=True))
+def _balances(model, sliding, roots, shapes, losses, viscous, settings):
+    """(terms of the growth rate of each root, parts (g, c) of the contacts in it, shares (g, b) of the bodies)."""
+    friction, counts = sliding.acting(settings.friction_slopes), (len(roots), len(model.contacts.area))
+    remainder = HARD if is_hard(model) else None if sliding.states is None else EFFECTS
+    told = [growth_terms(model, friction, root, shapes[:, k], losses, settings.friction_damping, settings.gyroscopic,
+                         None if viscous is None else viscous[:, k], remainder) for k, root in enumerate(roots)]
     shares = [body_shares(model, shape) for shape in shapes.T]
-    return terms, np.reshape(shares, (len(roots), len(model.body_name)))
+    return (tuple(terms for terms, _ in told), np.reshape([parts for _, parts in told], counts),
+            np.reshape(shares, (len(roots), len(model.body_name))))
 
 
 def _whole(model, sliding, roots, shapes, settings, hysteretic=None):
@@ -315,16 +315,33 @@ def _linearised(model, sliding, basis, settings, slopes=True):
 def _unstable(outcomes, model):
     """Growing modes below the frequency limit, strongest first: shapes on the surface, what moves, what feeds them."""
     recovery, names = model.recovery, list(model.body_name)
-    unstable = [(number, *mode) for number, o in enumerate(outcomes)
-                for mode in zip(o.growing, o.motion.T, o.terms, o.shares, strict=True)]
-    unstable.sort(key=lambda f: -f[1].real)
+    unstable = _strongest_first(outcomes)
     shapes = [_normalised(recovery @ f[2][:recovery.shape[2]].astype(np.complex64)) for f in unstable]
     shapes = np.array(shapes).reshape(len(unstable), *recovery.shape[:2])
     terms = list(unstable[0][3]) if unstable else []
     return {"unstable_operating": [f[0] for f in unstable], "unstable_root": [f[1] for f in unstable],
             "unstable_shape": shapes, "unstable_diameters": _diameters(model, shapes), "body_name": names,
             "unstable_share": np.reshape([f[4] for f in unstable], (len(unstable), len(names))), "growth_term": terms,
-            "unstable_growth": np.reshape([list(f[3].values()) for f in unstable], (len(unstable), len(terms)))}
+            "unstable_growth": np.reshape([list(f[3].values()) for f in unstable], (len(unstable), len(terms))),
+            "unstable_contact": np.reshape([f[5] for f in unstable], (len(unstable), len(model.contact_area))),
+            "unstable_first": first_of_each(np.array([f[1] for f in unstable], complex))}
+
+
+def _strongest_first(outcomes):
+    """(operating point, root, motion, terms, shares, parts of the contacts) of all growing modes."""
+    unstable = [(number, *mode) for number, o in enumerate(outcomes)
+                for mode in zip(o.growing, o.motion.T, o.terms, o.shares, o.contacts, strict=True)]
+    return sorted(unstable, key=lambda f: -f[1].real)
+
+
+def _followed(outcomes, model, settings, context):
+    """Fields of the paths over friction: of the strongest unstable modes, each frequency once."""
+    unstable = _strongest_first(outcomes)
+    chosen = np.unique(first_of_each(np.array([f[1] for f in unstable], complex)))[:settings.followed]
+    tasks = [(outcomes[unstable[k][0]].over_friction, *unstable[k][1:3]) for k in chosen]
+    friction = np.array([outcomes[unstable[k][0]].mean_friction for k in chosen])
+    paths = context.map(partial(followed, model.mass, settings.neutral), tasks, "paths over friction")
+    return path_fields(chosen, paths, friction, model, partial(_diameters, model))
 
 
 def _diameters(model, shapes):

@@ -5,7 +5,7 @@ import numpy as np
 from pipeline.contract import Array, count, product, quantity, text
 
 
-@product(version=4)
+@product(version=5)
 class ComplexModes:
     """Complex modes of the sliding system over friction, and at each operating point of the map."""
 
@@ -25,8 +25,21 @@ class ComplexModes:
     unstable_diameters: Array = count("unstable", "nodal diameters of the disc in it; -1 in a system without a disc")
     body_name: Array = text("body", "bodies in order")
     unstable_share: Array = quantity("1", "unstable body", "share of each body in its kinetic energy")
-    growth_term: Array = text("term", "what feeds or dissipates energy: friction at a body, contact damping, ...; their sum is the growth rate")
+    growth_term: Array = text("term", "what feeds or dissipates energy: friction at a body, contact damping, damping of a body or at a group of joints, ...; their sum is the growth rate")
     unstable_growth: Array = quantity("1/s", "unstable term", "part of each term in the growth rate")
+    unstable_contact: Array = quantity("1/s", "unstable contact", "part of each contact in the growth rate: its friction and its damping")
+    unstable_first: Array = count("unstable", "index of the most unstable mode of the same frequency, within 0.5 %")
+    followed_mode: Array = count("followed", "index of the unstable mode that was followed over friction, down to none at the operating point's contact forces")
+    followed_critical: Array = quantity("1", "followed", "friction coefficient from which on it is unstable, 0 at any; mean weighted by normal force")
+    followed_alike: Array = quantity("1", "followed", "largest MAC, on its path, with the mode it meets")
+    followed_nearest: Array = quantity("Hz", "followed", "smallest distance of their frequencies on the path, 0 without another mode")
+    pair_root: Array = quantity("1/s", "followed pair", "roots without friction of the mode and of the one it meets, 0 where not known", complex)
+    pair_body: Array = count("followed pair", "body with most of their kinetic energy there, -1 where not known")
+    pair_diameters: Array = count("followed pair", "nodal diameters of the disc in them there, -1 where not known or without a disc")
+    path_mode: Array = count("path_point", "index of the unstable mode that the point of a path belongs to")
+    path_friction: Array = quantity("1", "path_point", "friction coefficient, mean weighted by normal force, rising along each path")
+    path_root: Array = quantity("1/s", "path_point", "root of the mode, that of the operating point at the end", complex)
+    path_meeting: Array = quantity("1/s", "path_point", "root of the mode it meets, 0 where not known", complex)
     corrections: Array = count("", "correction vectors for friction and damping added to the real modes")
 
 

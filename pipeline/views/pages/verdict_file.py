@@ -6,6 +6,7 @@ import numpy as np
 
 from pipeline.views.chapters.convergence import WORDS, statement
 from pipeline.views.chapters.friction import outside_computed
+from pipeline.views.chapters.unstable_modes import losses, mechanism, onset, pair
 
 SCHEMA = "brakechain-verdict/1"
 TWO_PI = 2.0 * np.pi
@@ -36,8 +37,16 @@ def _unstable(modes):
             "pressure": float(modes.operating_pressure[point]), "speed": float(modes.operating_speed[point]),
             "friction": float(modes.operating_friction[point]),
             "bodies": _named(modes.body_name, modes.unstable_share[k]),
-            "growth_by_term": _named(modes.growth_term, modes.unstable_growth[k])})
+            "growth_by_term": _named(modes.growth_term, modes.unstable_growth[k]), "damping": losses(modes, k),
+            "same_mode_as": int(modes.unstable_first[k]), **_over_friction(modes, k)})
     return found
+
+
+def _over_friction(modes, index):
+    """Critical friction, mechanism, and the modes without friction that it is made of; null where not followed."""
+    members = [{"frequency": frequency, "body": body, "nodal_diameters": lines}
+               for frequency, body, lines in pair(modes, index)]
+    return {"critical_friction": onset(modes, index), "mechanism": mechanism(modes, index), "pair": members or None}
 
 
 def _named(names, values):
