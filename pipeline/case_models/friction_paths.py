@@ -55,8 +55,8 @@ def path_fields(index, paths, friction, model, diameters):
     (shapes (g, v, 3)): nodal diameters of the disc in them.
     """
     lengths = [len(p.share) for p in paths]
-    starts = np.array([shape for p in paths for shape in p.start.T]).reshape(2 * len(paths), -1)
-    moves = starts.any(axis=1) if starts.size else np.zeros(len(starts), bool)
+    starts = np.reshape([shape for p in paths for shape in p.start.T], (2 * len(paths), len(model.mass)))
+    moves = starts.any(axis=1)
     body, lines = np.full(len(starts), -1), np.full(len(starts), -1)
     body[moves] = [np.argmax(body_shares(model, shape)) for shape in starts[moves]]
     if moves.any():
@@ -74,6 +74,9 @@ def path_fields(index, paths, friction, model, diameters):
 
 
 def _nearest(path):
-    """Smallest distance (Hz) of the frequencies of the two modes on the path; 0 without a second one."""
+    """Smallest distance (Hz) of the frequencies of the two modes on the path; 0 where they cross, or without a second
+    one."""
     known = path.meeting != 0
-    return abs(path.root.imag - path.meeting.imag)[known].min(initial=np.inf) / (2 * np.pi) if known.any() else 0.0
+    distance = (path.root.imag - path.meeting.imag)[known]
+    crossing = (np.sign(distance) != np.sign(distance[:1])).any()
+    return 0.0 if crossing or not known.any() else abs(distance).min() / (2 * np.pi)

@@ -126,8 +126,11 @@ def lumped():
 
 def reduced_model():
     """The visible surface of the ring."""
-    disc = structure().disc
-    return filled(ReducedModel, body_name=["disc"], visible_position=disc.node, visible_face=disc.element[:, 4:8])
+    built = structure()
+    disc = built.disc
+    return filled(ReducedModel, body_name=["disc"], visible_position=disc.node, visible_face=disc.element[:, 4:8],
+                  visible_body=np.zeros(len(disc.node), int), contact_body=built.contact_body,
+                  contact_position=built.contact_position, contact_area=built.contact_area)
 
 
 def complex_modes(stable=False):

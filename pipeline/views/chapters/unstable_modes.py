@@ -16,6 +16,8 @@ MEETING = 0.5
 COUPLING, FALLING, SINGLE = "mode coupling", "falling friction", "friction on a single mode"
 #: parts of the growth rate below this share of the largest are not listed
 _SMALL = 0.05
+_PATH_CAPTION = ("Path over friction at the contact forces of the operating point, which is the dot. From the dotted"
+                 " line on the mode is unstable.")
 
 
 def distinct_unstable(modes, count):
@@ -65,7 +67,8 @@ def _block(modes, model, follow, animation, look):
     title = (f"{quantity(root.imag / TWO_PI, 'Hz', 4)}, growth rate {quantity(root.real, '1/s', 3)}, at"
              f" {quantity(modes.operating_pressure[point], 'Pa', 3)} and"
              f" {quantity(modes.operating_speed[point], 'rad/s')}")
-    figures = [Figure(friction_paths.path(modes, follow), _path_caption(modes, follow), small=True)]
+    other = "the mode it meets" if mechanism(modes, index) == COUPLING else "the mode most like it"
+    figures = [Figure(friction_paths.path(modes, follow, other), _PATH_CAPTION, small=True)]
     if _mappable(modes, model):
         figures.append(_contacts(modes, model, index, look))
     if animation is not None:
@@ -81,12 +84,13 @@ def told(modes, index):
     names = [_named(*member) for member in pair(modes, index)]
     start = (f"Unstable from friction {number(onset(modes, index), 3)} on"
              f" ({number(modes.operating_friction[point], 3)} at the operating point).")
-    near = quantity(modes.followed_nearest[follow], "Hz", 2)
+    near = modes.followed_nearest[follow]
+    apart = f"come within {quantity(near, 'Hz', 2)}" if near else "cross"
     alike = number(modes.followed_alike[follow], 2)
     if kind == COUPLING:
         other = names[1] if len(names) > 1 else "a mode that could not be followed down to no friction"
-        return (f"Mode coupling: with rising friction, {names[0]} meets {other}. Their frequencies come within {near},"
-                f" their shapes to a MAC of {alike}. {start}")
+        return (f"Mode coupling: with rising friction, {names[0]} meets {other}. Their frequencies {apart}, their"
+                f" shapes come to a MAC of {alike}. {start}")
     reason = ("Friction that falls with slip speed feeds it most" if kind == FALLING
               else "Friction feeds a single mode")
     return (f"{reason}: without friction it is {names[0]}, and no other comes close in shape on the way (largest MAC"
@@ -110,13 +114,11 @@ def budget(modes, index):
 
 
 def summed(modes, index):
-    """(names, values 1/s) of the terms of the growth rate, those of bodies and those of joints as one each."""
+    """(names, values 1/s) of the terms of the growth rate, those of bodies and joints as one."""
     growth, terms = modes.unstable_growth[index], list(map(str, modes.growth_term))
-    plain = [k for k, term in enumerate(terms) if not term.startswith((BODY, JOINTS))]
-    values = [growth[k] for k in plain]
-    for start in (BODY, JOINTS):
-        values.append(sum(growth[k] for k, term in enumerate(terms) if term.startswith(start)))
-    return [*(terms[k] for k in plain), "bodies", "joints"], values
+    inside = np.array([term.startswith((BODY, JOINTS)) for term in terms], bool)
+    names = [term for term, hidden in zip(terms, inside, strict=True) if not hidden]
+    return [*names, "bodies, joints"], [*growth[~inside], growth[inside].sum()]
 
 
 def losses(modes, index):
@@ -124,13 +126,6 @@ def losses(modes, index):
     values = dict(zip(map(str, modes.growth_term), modes.unstable_growth[index], strict=True))
     return {name: {term.removeprefix(start): float(value) for term, value in values.items() if term.startswith(start)}
             for name, start in (("bodies", BODY), ("joints", JOINTS))}
-
-
-def _path_caption(modes, follow):
-    known = modes.path_meeting[modes.path_mode == modes.followed_mode[follow]].any()
-    met = " Dashed: the mode it meets." if known else ""
-    return (f"Path over friction, at the contact forces of the operating point (dot).{met} Dotted: from here on it is"
-            " unstable.")
 
 
 def _mappable(modes, model):

@@ -18,15 +18,15 @@ from pipeline.views.figures.style import (
 TWO_PI = 2.0 * np.pi
 
 
-def path(modes, follow):
-    """SVG of frequency and growth rate over friction of the followed mode number ``follow`` and of the one it meets."""
+def path(modes, follow, other):
+    """SVG of frequency and growth rate over friction of a followed mode, by number, and of the one called ``other``."""
     members = modes.path_mode == modes.followed_mode[follow]
     friction, roots = modes.path_friction[members], (modes.path_root[members], modes.path_meeting[members])
     critical = modes.followed_critical[follow]
     scale, unit = (1e3, "kHz") if roots[0].imag.max() > TWO_PI * 1e3 else (1.0, "Hz")
-    with drawing(4.0) as figure:
+    with drawing(4.0, left=0.92) as figure:
         upper, lower = figure.subplots(2, 1, sharex=True, gridspec_kw={"hspace": 0.12})
-        for root, colour, line, name in zip(roots, (RED, BLUE), ("-", "--"), ("this mode", "the mode it meets"),
+        for root, colour, line, name in zip(roots, (RED, BLUE), ("-", "--"), ("this mode", other),
                                             strict=True):
             known = root != 0
             if known.any():
@@ -40,15 +40,17 @@ def path(modes, follow):
         lower.axhline(0.0, color=INK, lw=0.9)
         upper.set(ylabel=f"frequency / {unit}")
         upper.ticklabel_format(axis="y", useOffset=False)
-        lower.set(xlabel="coefficient of friction", ylabel="growth rate / 1/s", ylim=_shown(roots[0].real))
+        lower.set(xlabel="coefficient of friction", ylabel="growth rate / 1/s",
+                  ylim=_shown(*(root.real for root in roots)))
         legend(upper)
         return svg(figure)
 
 
-def _shown(growth):
-    """Limits around the growth rates of the mode itself: one that is damped far more strongly may leave the picture."""
+def _shown(growth, other):
+    """Limits around the growth rates of the mode; an ``other`` that is damped far more strongly leaves the picture."""
     margin = 0.15 * max(np.ptp(growth), 1.0)
-    return growth.min() - margin, max(growth.max(), 0.0) + margin
+    low = max(min(growth.min(), other.min()), growth.min() - np.ptp(growth))
+    return low - margin, max(growth.max(), 0.0) + margin
 
 
 def contact_maps(position, area, body, parts, names, dpi):
@@ -66,11 +68,11 @@ def contact_maps(position, area, body, parts, names, dpi):
         for axes, number, name in zip(panels, bodies, names, strict=True):
             members = body == number
             shown = PolyCollection(_cells(position[members], area[members]), array=density[members], cmap=SIGNED,
-                                   clim=(-limit, limit), lw=0)
+                                   clim=(-limit, limit), lw=0.8, edgecolors="face")
             axes.add_collection(shown)
             axes.autoscale_view()
-            axes.set(title=name, aspect="equal", xticks=(), yticks=())
-            axes.grid(False)
+            axes.set(title=name, aspect="equal")
+            axes.set_axis_off()
         bar = colour_bar(panels[-1], shown, "1/s per cm²")
         bar.ax.ticklabel_format(useOffset=False)
         return png(figure, dpi)

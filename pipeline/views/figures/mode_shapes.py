@@ -27,13 +27,22 @@ def disc_mode(disc, mode):
 def unstable_mode(model, modes, index):
     """Scene of one period of an unstable complex mode, from its instant of largest displacement on.
 
-    Colour = axial displacement.
+    Colour = axial displacement; bodies without contacts are translucent.
     """
     shape, points = modes.unstable_shape[index], np.asarray(model.visible_position)
     motion = shape * np.exp(-0.5j * np.angle(np.sum(shape**2)))
-    size = np.ptp(points, axis=0).max() / max(np.linalg.norm(motion, axis=1).max(), 1e-300)
-    solid = Solid(points, model.visible_face, "quad", motion=_EXAGGERATED * size * motion)
-    return Scene((solid,), size=(600, 460), frames=_FRAMES)
+    motion = motion * _EXAGGERATED * np.ptp(points, axis=0).max() / max(np.linalg.norm(motion, axis=1).max(), 1e-300)
+    limit = max(np.percentile(np.abs(motion[:, 2]), 92), 1e-300)
+    solids = tuple(Solid(points, faces, "quad", motion=motion, limit=limit, opacity=opacity)
+                   for faces, opacity in _visible_bodies(model))
+    return Scene(solids, size=(600, 460), frames=_FRAMES)
+
+
+def _visible_bodies(model):
+    """(faces, opacity) of each body with a surface: those that neither rub nor are rubbed are translucent."""
+    face, body = np.asarray(model.visible_face), np.asarray(model.visible_body)
+    rubbing = {*map(int, model.contact_body), *np.flatnonzero(np.array(model.body_name) == "disc")}
+    return [(face[body[face[:, 0]] == b], 1.0 if b in rubbing else 0.3) for b in np.unique(body[face[:, 0]])]
 
 
 def diameters(disc, mode):

@@ -35,6 +35,7 @@ class Solid:
     edges: bool = False
     opacity: float = 1.0
     motion: np.ndarray | None = None    # (point, xyz) complex, in m about points at rest; colour = its axial part
+    limit: float = 1.0          # axial motion of full colour, in m
 
 
 @dataclass(frozen=True)
@@ -87,7 +88,7 @@ def _add(plotter, solid, pyvista):
     vertices, name = CELLS[solid.kind]
     cells = {pyvista.CellType[name]: solid.cells[:, :vertices]}
     grid = pyvista.UnstructuredGrid(cells, np.asarray(solid.points, dtype=float))
-    scalar = solid.scalar if solid.motion is None else solid.motion[:, 2].real
+    scalar = solid.scalar if solid.motion is None else solid.motion[:, 2].real / solid.limit
     if scalar is not None:
         grid.point_data["colour"] = scalar
     skin = grid.extract_surface(algorithm="dataset_surface", nonlinear_subdivision=0 if solid.edges else 2)
@@ -96,8 +97,7 @@ def _add(plotter, solid, pyvista):
     if scalar is None:
         plotter.add_mesh(skin, color=solid.colour, **look)
     else:
-        limit = 1.0 if solid.motion is None else max(np.percentile(np.abs(solid.motion[:, 2]), 92), 1e-300)
-        plotter.add_mesh(skin, scalars="colour", cmap="PuOr_r", clim=(-limit, limit), show_scalar_bar=False, **look)
+        plotter.add_mesh(skin, scalars="colour", cmap="PuOr_r", clim=(-1, 1), show_scalar_bar=False, **look)
     return skin
 
 
@@ -106,7 +106,7 @@ def _move(solid, skin, phase):
     if solid.motion is not None:
         corner = skin.point_data["vtkOriginalPointIds"]
         moved = (solid.motion * phase).real[corner]
-        skin.points, skin.point_data["colour"] = solid.points[corner] + moved, moved[:, 2]
+        skin.points, skin.point_data["colour"] = solid.points[corner] + moved, moved[:, 2] / solid.limit
 
 
 def _rows(picture):
