@@ -272,17 +272,18 @@ def _balances(model, sliding, roots, shapes, losses, viscous, settings):
     """(terms of the growth rate of each root, parts (g, c) of the contacts in it, shares (g, b) of the bodies)."""
     friction, counts = sliding.acting(settings.friction_slopes), (len(roots), len(model.contacts.area))
     remainder = HARD if is_hard(model) else None if sliding.states is None else EFFECTS
-    told = [growth_terms(model, friction, root, shapes[:, k], losses, settings.friction_damping, settings.gyroscopic,
-                         None if viscous is None else viscous[:, k], remainder) for k, root in enumerate(roots)]
+    balances = [growth_terms(model, friction, root, shapes[:, k], losses, settings.friction_damping,
+                             settings.gyroscopic, None if viscous is None else viscous[:, k], remainder)
+                for k, root in enumerate(roots)]
     shares = [body_shares(model, shape) for shape in shapes.T]
-    return (tuple(terms for terms, _ in told), np.reshape([parts for _, parts in told], counts),
+    return (tuple(terms for terms, _ in balances), np.reshape([parts for _, parts in balances], counts),
             np.reshape(shares, (len(roots), len(model.body_name))))
 
 
 def _whole(model, sliding, roots, shapes, settings, hysteretic=None):
     """Roots and shapes (n, g), those that grow, or nearly do, as they are in the whole reduced model.
 
-    ``hysteretic``: what to add to its damping and its stiffness (imaginary), as of ``_Losses.change``, or None.
+    ``hysteretic``: what to add to its damping and its stiffness (imaginary), as of ``Losses.change``, or None.
     """
     near = (roots.imag > 0) & (abs(roots) < 2 * np.pi * settings.frequency_max)
     near &= roots.real > -_NEARLY * abs(roots)

@@ -226,3 +226,53 @@ def test_friction_comes_from_one_source(chain, friction, found):
     sections = {"complex_modes": Settings(friction=friction), **dict.fromkeys(chain)}
     with pytest.raises(ConfigError, match=found):
         complex_modes.check(sections)
+
+
+@pytest.fixture(scope="module")
+def growing(model):
+    """Modes that grow, with loss factors, of which every frequency is followed once."""
+    lossy = changed(model, loss=1e-3 * model.stiffness)
+    settings = Settings(**SETTINGS | {"friction_steps": 2, "friction_damping": False})
+    return lossy, settings, complex_modes(lossy, small_friction_map(), settings=settings)
+
+
+@pytest.mark.exact
+def test_the_growth_rate_is_the_sum_of_what_friction_contacts_bodies_and_joints_do(growing):
+    _, _, modes = growing
+    assert len(modes.unstable_root) > 1
+    np.testing.assert_allclose(modes.unstable_growth.sum(axis=1), modes.unstable_root.real, atol=1e-6)
+    inside = [str(term).startswith(("damping of", "damping at")) for term in modes.growth_term]
+    assert "damping of pad_inner" in modes.growth_term and "damping at abutment" in modes.growth_term
+    assert (modes.unstable_growth[:, inside] <= 0).all()
+    outside = modes.unstable_growth[:, np.invert(inside)].sum(axis=1)
+    np.testing.assert_allclose(modes.unstable_contact.sum(axis=1), outside)
+
+
+@pytest.mark.exact
+def test_the_viscous_equivalent_is_split_as_well(growing):
+    lossy, settings, _ = growing
+    viscous = Settings(**SETTINGS | {"friction_steps": 2, "friction_damping": False}, hysteretic=False)
+    modes = complex_modes(lossy, small_friction_map(), settings=viscous)
+    np.testing.assert_allclose(modes.unstable_growth.sum(axis=1), modes.unstable_root.real, atol=1e-6)
+
+
+@pytest.mark.exact
+def test_paths_end_in_their_modes_and_cross_zero_at_the_critical_friction(growing):
+    _, settings, modes = growing
+    assert modes.followed_mode.tolist() == np.unique(modes.unstable_first).tolist() and settings.followed > 1
+    for number, index in enumerate(modes.followed_mode):
+        on_path = modes.path_mode == index
+        friction, root = modes.path_friction[on_path], modes.path_root[on_path]
+        assert root[-1] == pytest.approx(modes.unstable_root[index], rel=1e-8)
+        assert friction[0] == 0 and friction[-1] == modes.operating_friction[modes.unstable_operating[index]]
+        critical = modes.followed_critical[number]
+        assert (root.real[friction > critical] > 0).all() and root.real[friction < critical][-1] < 1e-6 * abs(root[0])
+        assert modes.pair_root[number, 0] == root[0] and modes.pair_body[number, 0] in range(4)
+
+
+def test_paths_can_be_left_out(growing):
+    lossy, settings, modes = growing
+    chosen = Settings(**SETTINGS | {"friction_steps": 2, "friction_damping": False}, followed=0)
+    without = complex_modes(lossy, small_friction_map(), settings=chosen)
+    assert not len(without.followed_mode) and not len(without.path_root)
+    np.testing.assert_array_equal(without.unstable_root, modes.unstable_root)

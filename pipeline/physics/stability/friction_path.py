@@ -88,10 +88,11 @@ def friction_path(system, root, vector, neutral=1e-6):
     system has no such root at share 1.
     """
     first = _Point.near(system, 1.0, root)
-    index = int(np.argmax(first.mac(vector / first.size(vector))))
-    if abs(first.root[index] - root) > _SAME * abs(root):
+    here = abs(first.root - root) <= _SAME * abs(root)
+    if not here.any():
         raise ConvergenceError("path over friction", f"the root {root:.6g} 1/s in the system at its operating point",
-                               f"{first.root[index]:.6g} 1/s", "lower smallest_correction")
+                               f"{first.root[:1]} 1/s nearest to it", "lower smallest_correction")
+    index = int(np.argmax(np.where(here, first.mac(vector / first.size(vector)), -1.0)))
     points, chosen = _followed(system, first, index)
     roots = np.array([p.root[k] for p, k in zip(points, chosen, strict=True)])
     critical = _critical(system, points, chosen, roots, neutral)

@@ -55,7 +55,7 @@ def pair(modes, index):
     return known if mechanism(modes, index) == COUPLING else known[:1]
 
 
-def onset(modes, index):
+def critical_friction(modes, index):
     """Friction coefficient from which on mode ``index`` is unstable; None if it was not followed."""
     follow = np.flatnonzero(modes.followed_mode == index)
     return float(modes.followed_critical[follow[0]]) if len(follow) else None
@@ -74,15 +74,15 @@ def _block(modes, model, follow, animation, look):
     if animation is not None:
         figures.append(Figure(animation, "One period of the mode, strongly enlarged and slowed down; colour: axial"
                               " displacement.", small=True))
-    return Block(title, f"{told(modes, index)} {budget(modes, index)}", tuple(figures))
+    return Block(title, f"{explanation(modes, index)} {budget(modes, index)}", tuple(figures))
 
 
-def told(modes, index):
+def explanation(modes, index):
     """Sentences on mechanism and pair of a followed mode."""
     follow = int(np.flatnonzero(modes.followed_mode == index)[0])
     point, kind = modes.unstable_operating[index], mechanism(modes, index)
     names = [_named(*member) for member in pair(modes, index)]
-    start = (f"Unstable from friction {number(onset(modes, index), 3)} on"
+    start = (f"Unstable from friction {number(critical_friction(modes, index), 3)} on"
              f" ({number(modes.operating_friction[point], 3)} at the operating point).")
     near = modes.followed_nearest[follow]
     apart = f"come within {quantity(near, 'Hz', 2)}" if near else "cross"

@@ -79,6 +79,7 @@ def draw(scene):
     for frame in range(scene.frames):
         for solid, skin in zip(scene.solids, skins, strict=True):
             _move(solid, skin, np.exp(2j * np.pi * frame / scene.frames))
+        plotter.render()
         pictures.append(plotter.screenshot(return_img=True))
     plotter.close()
     return _encoded(pictures[0]) if scene.frames == 1 else _animated(np.array(pictures))

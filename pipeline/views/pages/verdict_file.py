@@ -6,7 +6,7 @@ import numpy as np
 
 from pipeline.views.chapters.convergence import WORDS, statement
 from pipeline.views.chapters.friction import outside_computed
-from pipeline.views.chapters.unstable_modes import losses, mechanism, onset, pair
+from pipeline.views.chapters.unstable_modes import critical_friction, losses, mechanism, pair
 
 SCHEMA = "brakechain-verdict/1"
 TWO_PI = 2.0 * np.pi
@@ -46,7 +46,8 @@ def _over_friction(modes, index):
     """Critical friction, mechanism, and the modes without friction that it is made of; null where not followed."""
     members = [{"frequency": frequency, "body": body, "nodal_diameters": lines}
                for frequency, body, lines in pair(modes, index)]
-    return {"critical_friction": onset(modes, index), "mechanism": mechanism(modes, index), "pair": members or None}
+    return {"critical_friction": critical_friction(modes, index), "mechanism": mechanism(modes, index),
+            "pair": members or None}
 
 
 def _named(names, values):

@@ -17,7 +17,7 @@ OPERATING = 0.3
 
 
 def flutter(damping=0.0, bystanders=()):
-    """FrictionSystem of the two modes up to the friction OPERATING, and of further masses that friction leaves alone."""
+    """FrictionSystem of the two modes up to the friction OPERATING, and of masses that friction leaves alone."""
     n = 2 + len(bystanders)
     still, coupled = np.diag([K11, K22, *bystanders]), np.zeros((n, n))
     still[0, 1] = still[1, 0] = K12
