@@ -74,7 +74,7 @@ class Settings(Section):
     gyroscopic: bool = option(True, "gyroscopic terms of the disc")
     centrifugal: bool = option(True, "centrifugal terms of the disc")
     followed: int = option(
-        8, "unstable modes, strongest first and each frequency once, that are followed from the friction of their"
+        12, "unstable modes, strongest first and each frequency once, that are followed from the friction of their"
         " operating point down to none", ge=0)
     neutral: float = option(1e-6, "growth below this share of abs(s) counts as neither growth nor decay", ge=0)
 
@@ -147,7 +147,8 @@ def complex_modes(model: ReducedModel, friction_map: FrictionMap | None, effects
     {frequency_max} and their friction corrections; at the operating points, roots that grow or nearly do were then
     solved for in the whole reduced model, with loss factors as imaginary stiffness (hysteretic: {hysteretic}). A
     closing speed of {damping_speed} doubles the contact pressure (contact damping). A mode is unstable if its growth
-    rate exceeds {neutral} times its angular frequency.
+    rate exceeds {neutral} times its angular frequency. Up to {followed} unstable modes were followed from the friction
+    of their operating point down to none, at its contact forces, by the modal assurance criterion.
     """
     terms, loads = _told(physics_terms(effects), context), model.pressure[:, None] * model.input_area
     models = [(posed(model, k, np.mean(settings.speeds), settings.damping_speed, terms, conditions(effects)), load)

@@ -10,6 +10,9 @@ from pipeline.physics.stability.constrained_modes import is_hard
 from pipeline.physics.stability.friction_path import FrictionSystem, enriched, friction_path
 from pipeline.physics.stability.growth_balance import body_shares
 
+#: difference of two frequencies, as a share of them, that is rounding next to a coalescence
+_EQUAL = 1e-7
+
 
 @dataclass(frozen=True)
 class OverFriction:
@@ -74,9 +77,9 @@ def path_fields(index, paths, friction, model, diameters):
 
 
 def _nearest(path):
-    """Smallest distance (Hz) of the frequencies of the two modes on the path; 0 where they cross, or without a second
-    one."""
+    """Smallest distance (Hz) of the frequencies of the two modes on the path; 0 where they become equal, but for
+    rounding, or without a second one."""
     known = path.meeting != 0
     distance = (path.root.imag - path.meeting.imag)[known]
-    crossing = (np.sign(distance) != np.sign(distance[:1])).any()
-    return 0.0 if crossing or not known.any() else abs(distance).min() / (2 * np.pi)
+    equal = (np.sign(distance) != np.sign(distance[:1])).any() or (abs(distance) < _EQUAL * path.root[-1].imag).any()
+    return 0.0 if equal or not known.any() else abs(distance).min() / (2 * np.pi)

@@ -32,7 +32,7 @@ class ComplexModes:
     followed_mode: Array = count("followed", "index of the unstable mode that was followed over friction, down to none at the operating point's contact forces")
     followed_critical: Array = quantity("1", "followed", "friction coefficient from which on it is unstable, 0 at any; mean weighted by normal force")
     followed_alike: Array = quantity("1", "followed", "largest MAC, on its path, with the mode it meets")
-    followed_nearest: Array = quantity("Hz", "followed", "smallest distance of their frequencies on the path, 0 where they cross or without another mode")
+    followed_nearest: Array = quantity("Hz", "followed", "smallest distance of their frequencies on the path, 0 where they become equal or without another mode")
     pair_root: Array = quantity("1/s", "followed pair", "roots without friction of the mode and of the one it meets, 0 where not known", complex)
     pair_body: Array = count("followed pair", "body with most of their kinetic energy there, -1 where not known")
     pair_diameters: Array = count("followed pair", "nodal diameters of the disc in them there, -1 where not known or without a disc")

@@ -15,10 +15,10 @@ from pipeline.contract import Context, case
 from pipeline.physics.fem.elasticity import gyroscopic
 from pipeline.physics.fem.supports import free_freedoms
 from pipeline.physics.numerics.sparse_solver import available
-from pipeline.physics.sliding.model import loss_stiffness
+from pipeline.physics.stability.growth_balance import Losses
 from pipeline.recordings import registry
 from pipeline.systems.fem_bodies import body_rows, elastic_body
-from stages.complex_modes import _friction_law, _Losses, _operate
+from stages.complex_modes import _friction_law, _operate
 from tests.chain.conftest import ROOT
 
 SPEED = 10.25
@@ -96,7 +96,7 @@ def test_unstable_roots_are_those_of_the_full_matrices():
     structure = stages.load("structure")(product, settings=chosen["structure"], context=context)
     model = stages.load("reduced_model")(structure, settings=chosen["reduced_model"], context=context)
     settings, elements, compared = chosen["complex_modes"], FiniteElements(structure), 0
-    losses = _Losses(model.contact_body, loss_stiffness(model), model.damping)
+    losses = Losses.of(model)
     for state, pressure in enumerate(model.pressure):
         there = posed(model, state, SPEED, settings.damping_speed)
         law = _friction_law(product, model, settings)

@@ -9,7 +9,7 @@ class Look:
     """How pictures are drawn."""
 
     dpi: int = 150
-    shapes: int = 6     # mode shape pictures, of each kind
+    shapes: int = 6     # mode shapes of the disc; 0: none, and no unstable mode in motion
 
 
 @dataclass(frozen=True)

@@ -14,13 +14,14 @@ TWO_PI = 2.0 * np.pi
 MAP_CAPTION = "Largest growth rate at each operating point, and its frequency. Above zero, steady sliding is unstable."
 #: heads of columns for terms of the growth rate
 _SHORT = {"friction turning with the slip": "turning slip", "friction over slip speed": "slip speed"}
+_FRICTION = "friction at "
 NEUTRAL = 1e-6     # growth rates below this fraction of the angular frequency are rounding
 
 
 def chapter(modes, model, published, look):
     """Chapter of the product ComplexModes; ``model`` gives the surface for the shapes, or is None."""
     drawable = model is not None and len(model.visible_face)
-    chosen = list(map(int, modes.followed_mode[:look.shapes])) if drawable else []
+    chosen = list(map(int, modes.followed_mode)) if drawable and look.shapes else []
     rendered = render([mode_shapes.unstable_mode(model, modes, index) for index in chosen])
     pictures = dict(zip(chosen, rendered or (), strict=False))
     return Chapter(
@@ -96,7 +97,8 @@ def _reasons(modes, chosen):
         rows.append((quantity(modes.unstable_root[index].imag / TWO_PI, "Hz", 4),
                      str(diameters) if diameters >= 0 else "", bodies,
                      *map(signed, summed(modes, index)[1])))
-    head = ("frequency", "diameters", "kinetic energy", *(_SHORT.get(t, words(t)) for t in summed(modes, chosen[0])[0]))
-    title = ("What feeds them (+) and what dissipates (\N{MINUS SIGN}): parts of the growth rate in 1/s; nodal"
-             " diameters of the disc; the bodies that move most")
+    head = ("frequency", "diameters", "kinetic energy", *(_SHORT.get(t, words(t).replace(_FRICTION, "at "))
+                                                       for t in summed(modes, chosen[0])[0]))
+    title = ("What feeds them (+) and what dissipates (\N{MINUS SIGN}): parts of the growth rate in 1/s, first"
+             " of friction at each body; nodal diameters of the disc; the bodies that move most")
     return Table(head, tuple(rows), title, (0, 1, *range(3, len(head))))

@@ -85,7 +85,7 @@ def explanation(modes, index):
     start = (f"Unstable from friction {number(critical_friction(modes, index), 3)} on"
              f" ({number(modes.operating_friction[point], 3)} at the operating point).")
     near = modes.followed_nearest[follow]
-    apart = f"come within {quantity(near, 'Hz', 2)}" if near else "cross"
+    apart = f"come within {quantity(near, 'Hz', 2)}" if near else "become equal"
     alike = number(modes.followed_alike[follow], 2)
     if kind == COUPLING:
         other = names[1] if len(names) > 1 else "a mode that could not be followed down to no friction"

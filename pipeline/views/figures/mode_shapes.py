@@ -8,7 +8,7 @@ from pipeline.views.figures.style import BLUE, GREEN, ORANGE, SKY
 BODY_COLOURS = {"disc": "#b8bec6", "pad_outer": ORANGE, "pad_inner": GREEN, "caliper": BLUE}
 
 #: largest displacement drawn, as a share of the size of the body; pictures of one period
-_EXAGGERATED, _FRAMES = 0.06, 20
+_EXAGGERATED, _FRAMES = 0.06, 16
 
 
 def assembly(structure):

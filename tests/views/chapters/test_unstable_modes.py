@@ -35,7 +35,7 @@ def test_a_coupled_mode_says_whom_it_meets_and_from_when_on(modes):
     assert mechanism(modes, 0) == COUPLING
     assert "16.6 kHz of the disc with 5 nodal diameters meets 16.4 kHz of the inner pad." in text
     assert "come within 3 Hz" in text and "MAC of 0.9" in text and "Unstable from friction 0.4 on" in text
-    assert "frequencies cross" in explanation(replace(modes, followed_nearest=[0.0]), 0)
+    assert "frequencies become equal" in explanation(replace(modes, followed_nearest=[0.0]), 0)
     lost = replace(modes, pair_body=[[0, -1]])
     assert "could not be followed" in explanation(lost, 0) and len(pair(lost, 0)) == 1
 

@@ -34,8 +34,8 @@ def test_an_unstable_mode_moves_through_one_period_for_ever(pictures):
 
     moving = Image.open(BytesIO(pictures[4]))
     frames = [np.asarray(frame.convert("L"), float) for frame in ImageSequence.Iterator(moving)]
-    assert moving.format == "WEBP" and moving.info["loop"] == 0 and len(frames) == moving.n_frames == 20
-    changes = [abs(frames[k] - frames[k - 1]).mean() for k in range(20)]    # last to first as well
+    assert moving.format == "WEBP" and moving.info["loop"] == 0 and len(frames) == moving.n_frames == 16
+    changes = [abs(frames[k] - frames[k - 1]).mean() for k in range(16)]    # last to first as well
     assert max(changes) < 3 * min(changes) and min(changes) > 0.05
 
 
