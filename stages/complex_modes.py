@@ -256,6 +256,7 @@ def _operate(settings, law, losses, task):
     about = model if is_hard(model) else model.projected(basis.shape)
     matrices, beside = _linearised(about, sliding, basis, settings, settings.friction_slopes)
     modes = quadratic_modes(*matrices, beside=beside)
+    losses = losses.enlarged(model.size)
     hysteretic = losses.change(case.base.model) if settings.hysteretic else None
     root, shape = _whole(model, sliding, modes.value, basis.shape @ modes.right, settings, hysteretic)
     grows = (root.real > settings.neutral * abs(root)) & (root.imag >= 0)
@@ -323,7 +324,8 @@ def _unstable(outcomes, model):
     terms = list(unstable[0][3]) if unstable else []
     return {"unstable_operating": [f[0] for f in unstable], "unstable_root": [f[1] for f in unstable],
             "unstable_shape": shapes, "unstable_diameters": _diameters(model, shapes), "body_name": names,
-            "unstable_share": np.reshape([f[4] for f in unstable], (len(unstable), len(names))), "growth_term": terms,
+            "unstable_share": np.reshape([f[4][:len(names)] for f in unstable], (len(unstable), len(names))),
+            "growth_term": terms,
             "unstable_growth": np.reshape([list(f[3].values()) for f in unstable], (len(unstable), len(terms))),
             "unstable_contact": np.reshape([f[5] for f in unstable], (len(unstable), len(model.contact_area))),
             "unstable_first": first_of_each(np.array([f[1] for f in unstable], complex))}
@@ -342,7 +344,7 @@ def _followed(outcomes, model, settings, context):
     chosen = np.unique(first_of_each(np.array([f[1] for f in unstable], complex)))[:settings.followed]
     tasks = [(outcomes[unstable[k][0]].over_friction, *unstable[k][1:3]) for k in chosen]
     friction = np.array([outcomes[unstable[k][0]].mean_friction for k in chosen])
-    paths = context.map(partial(followed, model.mass, settings.neutral), tasks, "paths over friction")
+    paths = context.map(partial(followed, settings.neutral), tasks, "paths over friction")
     return path_fields(chosen, paths, friction, model, partial(_diameters, model))
 
 

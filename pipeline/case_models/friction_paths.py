@@ -16,10 +16,14 @@ _EQUAL = 1e-7
 
 @dataclass(frozen=True)
 class OverFriction:
-    """``system`` ((M, C, K), Settling or None) over the share of friction, in the coordinates of ``basis`` (n, m)."""
+    """``system`` ((M, C, K), Settling or None) over the share of friction, in the coordinates of ``basis`` (n, m).
+
+    ``inverse`` (m, n): coordinates of a motion that the basis holds.
+    """
 
     system: Callable
     basis: np.ndarray
+    inverse: np.ndarray
 
 
 def over_friction(linearised, model, sliding, basis, shapes, hysteretic):
@@ -31,23 +35,24 @@ def over_friction(linearised, model, sliding, basis, shapes, hysteretic):
     if not shapes.size:
         return None
     if is_hard(model):
-        return OverFriction(partial(_with_share, linearised, model, sliding, basis), basis.shape)
+        system = partial(_with_share, linearised, model, sliding, basis)
+        return OverFriction(system, basis.shape, basis.shape.T @ model.mass)
     whole = replace(basis, shape=enriched(basis.shape, model.mass, shapes))
     about = model.projected(whole.shape)
     system = FrictionSystem(*(_with_share(linearised, about, sliding, whole, share) for share in (0.0, 1.0)))
     if hysteretic is not None:
         system = system.with_losses(*(whole.shape.T @ part @ whole.shape for part in hysteretic))
-    return OverFriction(system, whole.shape)
+    return OverFriction(system, whole.shape, whole.shape.T @ model.mass)
 
 
 def _with_share(linearised, model, sliding, basis, share):
     return linearised(model, sliding.with_share(share), basis)
 
 
-def followed(mass, neutral, task):
+def followed(neutral, task):
     """FrictionPath, its shapes in all coordinates, of a ``task`` (OverFriction, root, motion (n,))."""
     over, root, motion = task
-    path = friction_path(over.system, root, over.basis.T @ (mass @ motion), neutral)
+    path = friction_path(over.system, root, over.inverse @ motion, neutral)
     return replace(path, start=over.basis @ path.start)
 
 
@@ -58,7 +63,8 @@ def path_fields(index, paths, friction, model, diameters):
     (shapes (g, v, 3)): nodal diameters of the disc in them.
     """
     lengths = [len(p.share) for p in paths]
-    starts = np.reshape([shape for p in paths for shape in p.start.T], (2 * len(paths), len(model.mass)))
+    starts = np.array([shape[:len(model.mass)] for p in paths for shape in p.start.T])
+    starts = starts.reshape(2 * len(paths), len(model.mass))        # without coordinates that effects add
     moves = starts.any(axis=1)
     body, lines = np.full(len(starts), -1), np.full(len(starts), -1)
     body[moves] = [np.argmax(body_shares(model, shape)) for shape in starts[moves]]

@@ -61,7 +61,7 @@ def test_along_the_path_roots_are_those_of_the_whole_model_with_less_friction(po
     model, sliding, more, root, motion = point
     basis = friction_basis(model, 1e7, friction_damping=False, smallest=np.inf)      # all of them
     over = over_friction(LINEARISED, model, sliding, basis, motion[:, None], more)
-    path = followed(model.mass, 1e-6, (over, root, motion))
+    path = followed(1e-6, (over, root, motion))
     assert path.root[-1] == pytest.approx(root, rel=1e-8) and path.start.shape == (model.size, 2)
     assert 0 < path.critical < 1 and path.alike > 0.5
     for k in range(0, len(path.share), 7):

@@ -9,7 +9,7 @@ Symmetric stiffnesses contribute nothing, dampers and imaginary stiffnesses (los
 what it feeds in.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -61,16 +61,31 @@ class Losses:
                    tuple(map(joint_group, reduced.joint_name)), reduced.joint_rows, reduced.joint_damping,
                    reduced.joint_loss_factor * reduced.joint_stiffness)
 
+    def enlarged(self, size):
+        """The same with further coordinates, such as effects add, behind those of the product: ``size`` in all."""
+        more = size - len(self.damping)
+        square, rows = ((0, more), (0, more)), ((0, 0), (0, more))
+        return replace(self, damping=np.pad(self.damping, square), loss=np.pad(self.loss, square),
+                       total=np.pad(self.total, square), rows=np.pad(self.rows, rows))
+
     def change(self, model):
-        """(damping, stiffness) that make loss factors hysteretic in a SlidingModel with their viscous equivalent; None
-        without loss factors."""
-        return (self.damping - model.damping, 1j * self.total) if self.total.any() else None
+        """(damping, stiffness) that make loss factors hysteretic in a SlidingModel with their viscous equivalent, of
+        the product alone; None without loss factors."""
+        if not self.total.any():
+            return None
+        damping, known = self.damping.copy(), slice(0, model.size)
+        damping[known, known] -= model.damping
+        return damping, 1j * self.total
 
     def viscous_motion(self, model, shape):
         """The motion whose loss in the imaginary stiffness is, times the angular frequency, that of ``shape`` (n,) in
-        the equivalent damping of a SlidingModel."""
+        the equivalent damping of a SlidingModel, of the product alone."""
+        if not self.total.any():
+            return shape
         mass, _, stiffness = model.frictionless(gyroscopic=False, centrifugal=False)
-        return equivalent_motion(shape, stiffness, mass) if self.total.any() else shape
+        moved = np.zeros_like(shape)
+        moved[:model.size] = equivalent_motion(shape[:model.size], stiffness, mass)
+        return moved
 
     def parts(self, model, root, shape, viscous=None):
         """{term: Im(s x^H C x + x^H K x)} of each body and group of joints that dissipates.

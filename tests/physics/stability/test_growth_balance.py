@@ -169,3 +169,16 @@ def test_shares_of_the_bodies():
     alone = np.zeros(model.size, complex)
     alone[0] = 1j
     np.testing.assert_array_equal(body_shares(model, alone), [1, 0, 0, 0])
+
+
+@pytest.mark.exact
+def test_coordinates_that_effects_add_lose_nothing():
+    product = lossy_brake()
+    model, losses = about(product), Losses.of(product)
+    larger = losses.enlarged(model.size + 1)
+    for more, given in zip(larger.change(model), losses.change(model), strict=True):
+        np.testing.assert_array_equal(more, np.pad(given, ((0, 1), (0, 1))))
+    shape = np.random.default_rng(1).standard_normal(model.size + 1) + 0j
+    moved = larger.viscous_motion(model, shape)
+    np.testing.assert_allclose(moved[:-1], losses.viscous_motion(model, shape[:-1]))
+    assert moved[-1] == 0
