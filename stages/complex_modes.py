@@ -10,20 +10,20 @@ unknown.
 
 from dataclasses import dataclass, replace
 from functools import partial
-from itertools import compress
 
 import numpy as np
 import scipy
 
 from pipeline.case_models.effect_block import conditions, physics_terms
-from pipeline.case_models.full_matrices import Mode, full_modes, has_full_matrices
+from pipeline.case_models.friction_paths import OverFriction, over_friction
+from pipeline.case_models.full_matrices import has_full_matrices
+from pipeline.case_models.operating_modes import balances, growing, in_full, path_fields_of, unstable_fields
 from pipeline.case_models.steady_sliding import Posed, Steady, branch_stiffness, posed, refuse_twice
 from pipeline.case_models.unstable_roots import in_whole_model, nearly
 from pipeline.contract import ConfigError, Context, Quantities, Quantity, Section, option, stage
 from pipeline.physics.friction.dry_friction import Friction, constant, falling
 from pipeline.physics.friction.friction_table import FrictionLaw, refuse_beyond
 from pipeline.physics.friction.tangential_law import tangential_law
-from pipeline.physics.modal.disc_modes import describe
 from pipeline.physics.modal.quadratic_eigenproblem import (
     by_frequency,
     follow_roots,
@@ -32,15 +32,14 @@ from pipeline.physics.modal.quadratic_eigenproblem import (
     upper_half,
 )
 from pipeline.physics.sliding.equilibrium import ClosureResponse, closure_response, falling_with_speed, from_map
-from pipeline.physics.sliding.model import SlidingModel, loss_stiffness
+from pipeline.physics.sliding.model import SlidingModel
 from pipeline.physics.stability.constrained_modes import allowed_motions, hard_sliding, is_hard
 from pipeline.physics.stability.friction_basis import FrictionBasis, friction_basis
-from pipeline.physics.stability.growth_balance import body_shares, growth_terms
+from pipeline.physics.stability.growth_balance import Losses
 from pipeline.physics.time_stepping.simulate import Table
 from pipeline.products import ComplexModes, Effects, FrictionMap, ReducedModel, Structure
 from pipeline.systems.fem_bodies import full_model
 
-DISC = "disc"
 #: friction values of one task of the fan-out
 _CHUNK = 7
 
@@ -75,6 +74,9 @@ class Settings(Section):
     residual_tolerance: float | None = option(
         1e-6, "largest residual of a mode, over its stiffness forces, on the full finite-element matrices of a brake,"
         " where roots that grow or nearly do are solved for; none = in the reduced model alone", gt=0)
+    followed: int = option(
+        12, "unstable modes, strongest first and each frequency once, that are followed from the friction of their"
+        " operating point down to none", ge=0)
     neutral: float = option(1e-6, "growth below this share of abs(s) counts as neither growth nor decay", ge=0)
 
 
@@ -122,29 +124,17 @@ class _Outcome:
     motion: np.ndarray
     corrections: int
     terms: tuple            # of these: {term: part of the growth rate}
+    contacts: np.ndarray    # (g, c) parts of the contacts in it
     shares: np.ndarray      # (g, b) of the bodies in their kinetic energy
     reduced: np.ndarray     # (g,) the same roots in the reduced model
     residual: np.ndarray    # (g,) on the full finite-element matrices, -1 without these
+    over_friction: OverFriction | None      # of the reduced model
 
     @property
     def mean_friction(self):
         """Friction coefficient, mean over the contacts weighted by their force; 0 where nothing presses."""
         force, coefficient = self.sliding.contact.force, self.sliding.friction.coefficient
         return float(force @ coefficient / force.sum()) if force.any() else 0.0
-
-
-@dataclass(frozen=True)
-class _Losses:
-    """Of a product ReducedModel: body of each contact (c,), imaginary stiffness (n, n) and damping (n, n) of bodies."""
-
-    contact_body: np.ndarray
-    stiffness: np.ndarray
-    damping: np.ndarray
-
-    def change(self, model):
-        """(damping, stiffness) that make loss factors hysteretic in a SlidingModel with their viscous equivalent; None
-        without loss factors."""
-        return (self.damping - model.damping, 1j * self.stiffness) if self.stiffness.any() else None
 
 
 @stage(check=_check)
@@ -161,7 +151,8 @@ def complex_modes(model: ReducedModel, friction_map: FrictionMap | None, effects
     solved for in the whole reduced model, with loss factors as imaginary stiffness (hysteretic: {hysteretic}), and then
     in the full finite-element matrices where a brake has these (largest residual: {residual_tolerance}). A closing
     speed of {damping_speed} doubles the contact pressure (contact damping). A mode is unstable if its growth rate
-    exceeds {neutral} times its angular frequency.
+    exceeds {neutral} times its angular frequency. Up to {followed} unstable modes were followed in the reduced model
+    from the friction of their operating point down to none, at its contact forces, by the modal assurance criterion.
     """
     terms, loads = _told(physics_terms(effects), context), model.pressure[:, None] * model.input_area
     models = [(posed(model, k, np.mean(settings.speeds), settings.damping_speed, terms, conditions(effects)), load)
@@ -172,11 +163,12 @@ def complex_modes(model: ReducedModel, friction_map: FrictionMap | None, effects
     roots = _sweep(states, friction, settings, context)
     law = _friction_law(friction_map, model, settings)
     points = [(m.at_speed(speed), load) for m, load in models for speed in settings.speeds]
-    losses = _Losses(model.contact_body, loss_stiffness(model), model.damping)
+    losses = Losses.of(model)
     outcomes = context.map(partial(_operate, settings, law, losses), points, "operating points")
     if has_full_matrices(structure, models[0][0], settings, context):
-        outcomes = _in_full(structure, points, outcomes, losses.contact_body, settings, context)
-    outcomes = [_growing(o, settings) for o in outcomes]
+        outcomes = in_full(partial(full_model, structure, context.solver), points, outcomes, model.contact_body,
+                           settings, context)
+    outcomes = [growing(o, settings) for o in outcomes]
     branches = min(max(len(s.basis.frequency) for s in states), *(s.model.size for s in states))
     return ComplexModes(
         pressure=model.pressure, friction=friction, root=[r[:, :branches] for r in roots],
@@ -185,7 +177,8 @@ def complex_modes(model: ReducedModel, friction_map: FrictionMap | None, effects
         operating_speed=[o.speed for o in outcomes], operating_friction=[o.mean_friction for o in outcomes],
         operating_force=[o.sliding.contact.force for o in outcomes],
         operating_open=[np.sum(o.sliding.contact.force == 0) for o in outcomes],
-        operating_root=[_lowest(o.root, branches) for o in outcomes], **_unstable(outcomes, model),
+        operating_root=[_lowest(o.root, branches) for o in outcomes], **unstable_fields(outcomes, model),
+        **path_fields_of(outcomes, model, settings, context),
         corrections=max([s.basis.corrections for s in states] + [o.corrections for o in outcomes]))
 
 
@@ -271,51 +264,17 @@ def _operate(settings, law, losses, task):
     about = model if is_hard(model) else model.projected(basis.shape)
     matrices, beside = _linearised(about, sliding, basis, settings, settings.friction_slopes)
     modes = quadratic_modes(*matrices, beside=beside)
+    losses = losses.enlarged(model.size)
     hysteretic = losses.change(case.base.model) if settings.hysteretic else None
     root, shape = in_whole_model(model, sliding, modes.value, basis.shape @ modes.right, settings, hysteretic)
     near = nearly(root, settings) & (root.imag >= 0)
+    hysteretic = None if is_hard(model) else hysteretic
+    viscous = losses.viscous_motion(case.base.model, shape[:, near]) if hysteretic is None and near.any() else None
+    over = over_friction(partial(_linearised, settings=settings, slopes=settings.friction_slopes), model, sliding,
+                         basis, shape[:, near], hysteretic) if settings.followed else None
     return _Outcome(model.speed, sliding, root[upper_half(root, len(matrices[0]))], root[near], shape[:, near],
-                    basis.corrections, *_balances(model, sliding, root[near], shape[:, near], losses.contact_body,
-                                                  settings), root[near], np.full(near.sum(), -1.0))
-
-
-def _growing(outcome, settings):
-    """The outcome with those of its roots that grow alone."""
-    grows = outcome.near.real > settings.neutral * abs(outcome.near)
-    return replace(outcome, near=outcome.near[grows], motion=outcome.motion[:, grows],
-                   terms=tuple(compress(outcome.terms, grows)), shares=outcome.shares[grows],
-                   reduced=outcome.reduced[grows], residual=outcome.residual[grows])
-
-
-def _balances(model, sliding, roots, shapes, contact_body, settings):
-    """(terms of the growth rate of each root, shares (g, b) of the bodies)."""
-    friction = sliding.acting(settings.friction_slopes)
-    terms = tuple(growth_terms(model, friction, root, shape, contact_body, settings.friction_damping)
-                  for root, shape in zip(roots, shapes.T, strict=True))
-    shares = [body_shares(model, shape) for shape in shapes.T]
-    return terms, np.reshape(shares, (len(roots), len(model.body_name)))
-
-
-def _in_full(structure, points, outcomes, contact_body, settings, context):
-    """The outcomes with roots that grow or nearly do, and what feeds them, on the full finite-element matrices."""
-    modes = [Mode(number, number // len(settings.speeds), root, motion) for number, o in enumerate(outcomes)
-             for root, motion in zip(o.near, o.motion.T, strict=True)]
-    models = [o.sliding.about(p[0].bench.model) for p, o in zip(points, outcomes, strict=True)]
-    solved = full_modes(partial(full_model, structure, context.solver), models, [o.sliding for o in outcomes], modes,
-                        partial(_balances, contact_body=contact_body, settings=settings), settings, context)
-    return [_replaced(o, [s for s, m in zip(solved, modes, strict=True) if m.operating == number])
-            for number, o in enumerate(outcomes)]
-
-
-def _replaced(outcome, solved):
-    """The outcome with those of its near roots that were ``solved`` for on the full matrices; None = not."""
-    root, near, residual = outcome.root.copy(), outcome.near.copy(), outcome.residual.copy()
-    terms, shares = list(outcome.terms), outcome.shares.copy()
-    for k, mode in enumerate(solved):
-        if mode is not None:
-            root[np.argmin(abs(root - near[k]))] = mode.root
-            near[k], residual[k], terms[k], shares[k] = mode.root, mode.residual, mode.terms, mode.shares
-    return replace(outcome, root=root, near=near, residual=residual, terms=tuple(terms), shares=shares)
+                    basis.corrections, *balances(model, sliding, root[near], shape[:, near], losses, viscous,
+                                                 settings), root[near], np.full(near.sum(), -1.0), over)
 
 
 def _linearised(model, sliding, basis, settings, slopes=True):
@@ -327,38 +286,6 @@ def _linearised(model, sliding, basis, settings, slopes=True):
         return (np.eye(len(allowed.stiffness)), allowed.damping, allowed.stiffness), beside
     return model.linearised(friction, friction_damping=settings.friction_damping, gyroscopic=settings.gyroscopic,
                             centrifugal=settings.centrifugal), beside
-
-
-def _unstable(outcomes, model):
-    """Growing modes below the frequency limit, strongest first: shapes on the surface, what moves, what feeds them."""
-    recovery, names = model.recovery, list(model.body_name)
-    unstable = [(number, *mode) for number, o in enumerate(outcomes)
-                for mode in zip(o.near, o.motion.T, o.terms, o.shares, o.reduced, o.residual, strict=True)]
-    unstable.sort(key=lambda f: -f[1].real)
-    shapes = [_normalised(recovery @ f[2][:recovery.shape[2]].astype(np.complex64)) for f in unstable]
-    shapes = np.array(shapes).reshape(len(unstable), *recovery.shape[:2])
-    terms = list(unstable[0][3]) if unstable else []
-    return {"unstable_operating": [f[0] for f in unstable], "unstable_root": [f[1] for f in unstable],
-            "unstable_reduced": [f[5] for f in unstable], "unstable_residual": [f[6] for f in unstable],
-            "unstable_shape": shapes, "unstable_diameters": _diameters(model, shapes), "body_name": names,
-            "unstable_share": np.reshape([f[4] for f in unstable], (len(unstable), len(names))), "growth_term": terms,
-            "unstable_growth": np.reshape([list(f[3].values()) for f in unstable], (len(unstable), len(terms)))}
-
-
-def _diameters(model, shapes):
-    """Nodal diameters (g,) of the disc in the ``shapes`` (g, v, 3) on the surface; -1 without a disc."""
-    names = list(model.body_name)
-    on_disc = model.visible_body == (names.index(DISC) if DISC in names else -1)
-    if not on_disc.any() or not len(shapes):
-        return np.full(len(shapes), -1)
-    return describe(model.visible_position[on_disc], shapes[:, on_disc].reshape(len(shapes), -1).T)[0]
-
-
-def _normalised(shape):
-    """The shape with its largest component 1, which also fixes its phase."""
-    if not shape.size:
-        return shape
-    return shape / shape.ravel()[abs(shape).argmax()]
 
 
 def _lowest(roots, count):

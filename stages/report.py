@@ -8,7 +8,7 @@ class Settings(Section):
     """Figures of the report."""
 
     dots_per_inch: int = option(150, "resolution of the pictures that are not line drawings", ge=50, le=600)
-    mode_pictures: int = option(6, "mode shapes drawn of the disc and of the unstable brake, each", ge=0, le=40)
+    mode_pictures: int = option(6, "mode shapes drawn of the disc; 0 = none, and no unstable mode moves", ge=0, le=40)
 
 
 def _companions(product, case):
@@ -21,7 +21,7 @@ def report(products: Products, settings: Settings, context: Context) -> Report:
 
     Method:
     Figures were drawn from the data products only ({dots_per_inch} dots per inch, up to {mode_pictures} mode shapes
-    of each kind); every number in this report is read from a product or from the settings.
+    of the disc); every number in this report is read from a product or from the settings.
     """
     from pipeline.views.chapters.chapter import Look
     from pipeline.views.pages.report import page, plan

@@ -26,11 +26,13 @@ class Mode:
 
 @dataclass(frozen=True)
 class FullMode:
-    """The root (1/s) on the full matrices, its residual, terms of its growth rate and shares (b,) of the bodies."""
+    """The root (1/s) on the full matrices, its residual, terms of its growth rate, parts (c,) of the contacts in it
+    and shares (b,) of the bodies."""
 
     root: complex
     residual: float
     terms: dict
+    contacts: np.ndarray
     shares: np.ndarray
 
 
@@ -58,7 +60,7 @@ def full_modes(full_model, models, slidings, modes, describe, settings, context)
 
     ``full_model()``: the sparse SlidingModel of the finite elements, called where there is such a mode; ``models`` and
     ``slidings``: the reduced SlidingModel about steady sliding and the Steady of each operating point;
-    ``describe(model, sliding, roots, vectors)``: (terms, shares) of each root.
+    ``describe(model, sliding, roots, vectors)``: (terms, contacts, shares) of each root, as ``balances``.
     """
     solved = [None] * len(modes)
     oscillating = np.array([k for k, mode in enumerate(modes) if mode.root.imag > 0], int)
@@ -103,6 +105,6 @@ def _family(describe, settings, solver, task):
         for model, sliding, root, motion in task)
     solved, found = full_roots(guesses, solver, settings.residual_tolerance), []
     for (model, sliding, *_), mode in zip(task, solved, strict=True):
-        (terms,), (shares,) = describe(model, sliding, np.array([mode.root]), mode.vector[:, None])
-        found.append(FullMode(mode.root, mode.residual, terms, shares))
+        (terms,), (contacts,), (shares,) = describe(model, sliding, np.array([mode.root]), mode.vector[:, None])
+        found.append(FullMode(mode.root, mode.residual, terms, contacts, shares))
     return found

@@ -50,6 +50,12 @@ class Steady:
         whole = self._friction(slopes)
         return whole if self.states is None else present(whole, self.states)
 
+    def with_share(self, share):
+        """The same state with a ``share`` of its friction; forces, stiffnesses and damping stay."""
+        parts = (share * part for part in (self.friction.coefficient, self.friction.pressure_slope,
+                                           self.friction.speed_slope))
+        return replace(self, friction=FrictionState(*parts))
+
     def beside(self, model, slopes=True):
         """Settling of a model linearised ``about`` this state, in its coordinates; None where nothing settles."""
         return None if self.states is None else settling(model, self._friction(slopes), self.states)

@@ -80,6 +80,7 @@ def test_modes_are_those_of_the_full_model_in_the_state_of_the_reduced_one():
     for mode, root in ((found[0], exact[0]), (found[2], exact[1])):
         assert mode.root == pytest.approx(root, rel=1e-9) and mode.residual <= 1e-8
     assert found[0].terms == {"drag": pytest.approx(2.0)} and found[2].shares.argmax() == 1
+    assert found[0].contacts.tolist() == [1.0, 1.0, 1.0]
     assert full_modes(None, [reduced], [sliding], modes[1:2], _described, SETTINGS, Context()) == [None]
 
 
@@ -94,4 +95,4 @@ def test_two_modes_that_lead_to_one_root_are_refused():
 
 
 def _described(model, sliding, roots, vectors):
-    return [{"drag": model.contacts.damping[0]}], [abs(vectors[:, 0])]
+    return [{"drag": model.contacts.damping[0]}], [model.contacts.preload], [abs(vectors[:, 0])]

@@ -78,3 +78,17 @@ def test_branches_and_turning_friction():
 def test_places_of_all_effects_are_checked():
     with pytest.raises(ConfigError, match="effect wear: location"):
         case({"wear": {"nowhere": {"rate": "1e-12 m^2/N"}}})
+
+
+@pytest.mark.exact
+def test_a_share_of_the_friction_leaves_the_contacts_as_they_are():
+    """All that friction adds to the matrices is that share of it, also what settles beside the motion."""
+    remembering = case({"falling_friction": {"contact": {"rise": 0.5, "decay_speed": "2 m/s"}}})
+    whole = sliding(remembering)
+    part, model = whole.with_share(0.3), whole.about(remembering.bench.model)
+    assert part.contact is whole.contact and part.states is whole.states
+    for less, full in zip(model.friction_matrices(part.acting()), model.friction_matrices(whole.acting()), strict=True):
+        assert full.any()
+        np.testing.assert_allclose(less, 0.3 * full, atol=1e-12 * abs(full).max())
+    none, less, full = (s.beside(model) for s in (whole.with_share(0.0), part, whole))
+    np.testing.assert_allclose(less.push - none.push, 0.3 * (full.push - none.push))

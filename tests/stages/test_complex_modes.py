@@ -249,6 +249,10 @@ def test_unstable_roots_are_those_of_the_full_finite_element_matrices(lossy):
     structure, model = lossy
     modes = complex_modes(model, small_friction_map(), None, structure, settings=Settings(**IN_FULL))
     elements, checked = FiniteElements(structure), []
+    inside = [str(term).startswith(("damping of", "damping at")) for term in modes.growth_term]
+    outside = np.invert(inside)
+    assert {f"damping of {name}" for name in structure.body_name} <= set(modes.growth_term) and outside.any()
+    assert (modes.unstable_growth[:, inside] <= 0).all()
     for number, speed in enumerate((8.0, 12.0, 8.0, 12.0)):
         about, force = sliding(model, number // 2, speed, 0.5)
         np.testing.assert_allclose(modes.operating_force[number], force, rtol=1e-6)
@@ -259,9 +263,12 @@ def test_unstable_roots_are_those_of_the_full_finite_element_matrices(lossy):
             assert abs(root - direct) < 1e-6 * abs(direct) and modes.unstable_residual[k] <= 1e-6
             assert root in modes.operating_root[number]
             assert modes.unstable_growth[k].sum() == pytest.approx(root.real)
+            assert modes.unstable_contact[k].sum() == pytest.approx(modes.unstable_growth[k, outside].sum())
             assert modes.unstable_share[k].sum() == pytest.approx(1.0)
             checked.append(abs(reduced - direct))
     assert len(checked) >= 4 and max(checked) > 1.0
+    for index in modes.followed_mode:
+        assert modes.path_root[modes.path_mode == index][-1] == pytest.approx(modes.unstable_reduced[index], rel=1e-8)
 
 
 def test_without_full_matrices_roots_are_those_of_the_reduced_model(lossy):
@@ -272,3 +279,53 @@ def test_without_full_matrices_roots_are_those_of_the_reduced_model(lossy):
     for modes in (plain, off):
         np.testing.assert_array_equal(modes.unstable_root, modes.unstable_reduced)
         assert (modes.unstable_residual == -1).all() and len(modes.unstable_root)
+
+
+@pytest.fixture(scope="module")
+def growing(model):
+    """Modes that grow, with loss factors, of which every frequency is followed once."""
+    lossy = changed(model, loss=1e-3 * model.stiffness)
+    settings = Settings(**SETTINGS | {"friction_steps": 2, "friction_damping": False})
+    return lossy, settings, complex_modes(lossy, small_friction_map(), settings=settings)
+
+
+@pytest.mark.exact
+def test_the_growth_rate_is_the_sum_of_what_friction_contacts_bodies_and_joints_do(growing):
+    _, _, modes = growing
+    assert len(modes.unstable_root) > 1
+    np.testing.assert_allclose(modes.unstable_growth.sum(axis=1), modes.unstable_root.real, atol=1e-6)
+    inside = [str(term).startswith(("damping of", "damping at")) for term in modes.growth_term]
+    assert "damping of pad_inner" in modes.growth_term and "damping at abutment" in modes.growth_term
+    assert (modes.unstable_growth[:, inside] <= 0).all()
+    outside = modes.unstable_growth[:, np.invert(inside)].sum(axis=1)
+    np.testing.assert_allclose(modes.unstable_contact.sum(axis=1), outside)
+
+
+@pytest.mark.exact
+def test_the_viscous_equivalent_is_split_as_well(growing):
+    lossy, settings, _ = growing
+    viscous = Settings(**SETTINGS | {"friction_steps": 2, "friction_damping": False}, hysteretic=False)
+    modes = complex_modes(lossy, small_friction_map(), settings=viscous)
+    np.testing.assert_allclose(modes.unstable_growth.sum(axis=1), modes.unstable_root.real, atol=1e-6)
+
+
+@pytest.mark.exact
+def test_paths_end_in_their_modes_and_cross_zero_at_the_critical_friction(growing):
+    _, settings, modes = growing
+    assert modes.followed_mode.tolist() == np.unique(modes.unstable_first).tolist() and settings.followed > 1
+    for number, index in enumerate(modes.followed_mode):
+        on_path = modes.path_mode == index
+        friction, root = modes.path_friction[on_path], modes.path_root[on_path]
+        assert root[-1] == pytest.approx(modes.unstable_root[index], rel=1e-8)
+        assert friction[0] == 0 and friction[-1] == modes.operating_friction[modes.unstable_operating[index]]
+        critical = modes.followed_critical[number]
+        assert (root.real[friction > critical] > 0).all() and root.real[friction < critical][-1] < 1e-6 * abs(root[0])
+        assert modes.pair_root[number, 0] == root[0] and modes.pair_body[number, 0] in range(4)
+
+
+def test_paths_can_be_left_out(growing):
+    lossy, settings, modes = growing
+    chosen = Settings(**SETTINGS | {"friction_steps": 2, "friction_damping": False}, followed=0)
+    without = complex_modes(lossy, small_friction_map(), settings=chosen)
+    assert not len(without.followed_mode) and not len(without.path_root)
+    np.testing.assert_array_equal(without.unstable_root, modes.unstable_root)

@@ -126,8 +126,11 @@ def lumped():
 
 def reduced_model():
     """The visible surface of the ring."""
-    disc = structure().disc
-    return filled(ReducedModel, body_name=["disc"], visible_position=disc.node, visible_face=disc.element[:, 4:8])
+    built = structure()
+    disc = built.disc
+    return filled(ReducedModel, body_name=["disc"], visible_position=disc.node, visible_face=disc.element[:, 4:8],
+                  visible_body=np.zeros(len(disc.node), int), contact_body=built.contact_body,
+                  contact_position=built.contact_position, contact_area=built.contact_area)
 
 
 def complex_modes(stable=False):
@@ -156,8 +159,25 @@ def complex_modes(stable=False):
         body_name=["disc", "pad_outer", "pad_inner", "caliper"],
         unstable_share=np.tile([0.7, 0.2, 0.1, 0.0], (len(operating), 1)),
         growth_term=["friction at pad_outer", "friction at pad_inner", "contact damping",
-                     "friction turning with the slip", "friction over slip speed", "bodies and joints"],
-        unstable_growth=np.tile([300.0, 100.0, -150.0, -100.0, -30.0, -42.6], (len(operating), 1)), corrections=55)
+                     "friction turning with the slip", "friction over slip speed", "damping of disc",
+                     "damping of pad_inner", "damping at abutment"],
+        unstable_growth=np.tile([300.0, 100.0, -150.0, -100.0, -30.0, -2.6, -30.0, -10.0], (len(operating), 1)),
+        **_path(len(operating)), corrections=55)
+
+
+def _path(unstable):
+    """The strongest mode meets another of the inner pad at friction 0.4."""
+    count = min(unstable, 1)
+    share = np.linspace(0, 1, 9 * count)
+    gap = 2 * np.pi * 200 * np.sqrt(np.maximum(1 - share / 0.8, 0))
+    root = -50 + 150 * share + 1j * (2 * np.pi * SQUEAL_LINE + gap)
+    return {"unstable_contact": np.tile(np.linspace(-40, 60, 12), (unstable, 1)),
+            "unstable_first": np.zeros(unstable, int), "followed_mode": np.arange(count),
+            "followed_critical": np.full(count, 0.4), "followed_alike": np.full(count, 0.9),
+            "followed_nearest": np.full(count, 3.0), "pair_body": np.tile([0, 2], (count, 1)),
+            "pair_root": np.tile(2j * np.pi * np.array([SQUEAL_LINE, SQUEAL_LINE - 200]), (count, 1)),
+            "pair_diameters": np.tile([5, 5], (count, 1)), "path_mode": np.zeros(len(share), int),
+            "path_friction": 0.5 * share, "path_root": root, "path_meeting": root - 2j * gap - 200 * share}
 
 
 def convergence(converged=True):

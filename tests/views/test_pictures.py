@@ -10,6 +10,7 @@ from pipeline.views.figures import (
     complex_modes,
     contact_spots,
     friction,
+    friction_paths,
     pad_motion,
     preload,
     surfaces,
@@ -44,6 +45,8 @@ PICTURES = {
     "growth sweep": (complex_modes.growth_over_friction, small.complex_modes, "root"),
     "lock in": (complex_modes.lock_in, small.complex_modes, "root"),
     "operating roots": (lambda p: complex_modes.operating_growth(p, 60), small.complex_modes, "operating_root"),
+    "path": (lambda p: friction_paths.path(p, 0, "the other"), small.complex_modes, "path_root"),
+    "contacts": (lambda p: _contact_map(p.unstable_contact[0]), small.complex_modes, "unstable_contact"),
     "motion": (lambda p: pad_motion.pad_motion(p, 8, 60), small.multibody, "pad_motion"),
     "forces": (lambda p: pad_motion.patch_forces(p, 8, 0, 60), small.multibody, "patch_force"),
     "growth": (lambda p: pad_motion.growth(p, 60), small.multibody, "growth_rate"),
@@ -66,6 +69,12 @@ PICTURES = {
     "rupture preload": (rupture.static_state, small.rupture, "static_shear"),
     "agreement": (agreement.agreement, small.comparison, "ours"),
 }
+
+
+def _contact_map(parts):
+    model = small.reduced_model()
+    return friction_paths.contact_maps(model.contact_position, model.contact_area, model.contact_body, parts,
+                                       ("outer pad", "inner pad"), 60)
 
 
 @pytest.mark.parametrize("name", PICTURES)

@@ -63,7 +63,7 @@ class Contacts:
     @property
     def fixed(self):
         """True (c,) for friction joints, which nothing presses but their preload."""
-        return ~self.normal.any(axis=1)
+        return np.ravel(abs(self.normal).sum(axis=1)) == 0
 
     @property
     def pressure(self):

@@ -22,10 +22,24 @@ def equivalent_damping(loss, stiffness, mass):
     ``stiffness`` (n, n) N/m and ``mass`` (n, n) kg: whose real modes these are, with that of closed contacts. Rigid
     motions, which strain nothing, are not damped.
     """
+    weighted, inertia = _weighted_modes(stiffness, mass)
+    small = weighted.T @ loss @ weighted
+    return inertia @ ((small + small.T) / 2) @ inertia.T
+
+
+def equivalent_motion(shape, stiffness, mass):
+    """z (n,) of a motion ``shape`` x (n,): z^H L z = x^H C x with the equivalent damping C of any loss L, symmetric.
+
+    The equivalent damping is linear in the loss, so z tells what each part of it dissipates.
+    """
+    weighted, inertia = _weighted_modes(stiffness, mass)
+    return weighted @ (inertia.T @ shape)
+
+
+def _weighted_modes(stiffness, mass):
+    """(modes over the root of their angular frequency, mass times modes), each (n, m), without rigid motions."""
     square, modes = scipy.linalg.eigh(stiffness, mass)
     angular = np.sqrt(np.maximum(square, 0.0))
     moving = angular > _RIGID * angular[-1]
     modes, root = modes[:, moving], np.sqrt(angular[moving])
-    inertia, weighted = mass @ modes, modes / root
-    small = weighted.T @ loss @ weighted
-    return inertia @ ((small + small.T) / 2) @ inertia.T
+    return modes / root, mass @ modes

@@ -1,42 +1,152 @@
-"""What makes a mode grow: its growth rate as a sum over friction, contacts and damping, and the bodies that move.
+"""What makes a mode grow: its growth rate as a sum over friction, contacts, bodies and joints; the bodies that move.
 
-A root s = sigma + i w of M x'' + C x' + K x = 0 and its vector x obey x^H (s^2 M + s C + K) x = 0, so that
+A root s = sigma + i w of M x'' + (C + W G) x' + K x = 0 and its vector x obey x^H (s^2 M + s (C + W G) + K) x = 0. With
+x^H G x = i g of the gyroscopic matrix, which does no work, the growth rate is a sum over the parts C_j, K_j:
 
-    sigma = - sum_j Im(s x^H C_j x + x^H K_j x) / (2 w x^H M x),
+    sigma = - sum_j Im(s x^H C_j x + x^H K_j x) / (2 w x^H M x + W g).                                             (1)
 
-a sum over the parts C_j and K_j of the matrices. Symmetric stiffnesses contribute nothing, dampers what they dissipate,
-friction what it feeds in.
+Symmetric stiffnesses contribute nothing, dampers and imaginary stiffnesses (loss factors) what they dissipate, friction
+what it feeds in.
 """
+
+from dataclasses import dataclass, replace
 
 import numpy as np
 
+from pipeline.physics.sliding.model import spread
+from pipeline.physics.sliding.structural_damping import equivalent_motion
+
 #: terms beside those of the friction at the contacts of each body, in order
 CONTACT, TURNING, SLIP = "contact damping", "friction turning with the slip", "friction over slip speed"
-BODIES = "bodies and joints"
+#: how the terms of a body and of a group of joints begin
+BODY, JOINTS = "damping of ", "damping at "
+#: names of a remainder: friction at contacts that do not yield, or the effects of a case
+HARD, EFFECTS = "friction at hard contacts", "effects of the case"
+#: words in the name of a joint from which on it says where, not what
+_WHERE = {"leading", "trailing", "inner", "outer", "front", "rear", "left", "right", "upper", "lower", "normal",
+          "tangential", "radial", "axial", "along", "across", "tilt"}
 
 
-def growth_terms(model, friction, root, shape, contact_body, friction_damping=True):
-    """{term: part of the growth rate in 1/s} of a root of a SlidingModel linearised about steady sliding.
+def joint_group(name):
+    """What a joint is, without where: 'guide_pin' of 'guide_pin_leading_axial_front'."""
+    first, *others = str(name).split("_")
+    for count, word in enumerate(others):
+        if word in _WHERE or word.isdigit():
+            return "_".join([first, *others[:count]])
+    return str(name)
 
-    ``friction`` FrictionState or coefficient; ``shape`` (n,) complex; ``contact_body`` (c,): the friction of the
-    contacts of each body is a term, 'friction at <body>'. What all of them leave of the growth rate is that of bodies
-    and joints, so that the terms add up to it.
+
+@dataclass(frozen=True)
+class Losses:
+    """What bodies and joints dissipate, and the body of each contact (c,).
+
+    ``damping`` N s/m and ``loss`` N/m (n, n) of the bodies, the latter the imaginary part of their stiffness; ``group``
+    (j,) of the joints with ``rows`` (j, n), ``joint_damping`` (j,) N s/m and ``joint_loss`` (j,) N/m. Matrices and rows
+    may be sparse, for ``parts`` alone.
+    """
+
+    contact_body: np.ndarray
+    damping: np.ndarray
+    loss: np.ndarray
+    group: tuple
+    rows: np.ndarray
+    joint_damping: np.ndarray
+    joint_loss: np.ndarray
+
+    @classmethod
+    def of(cls, reduced):
+        """Of a product ReducedModel, or any object with its fields."""
+        return cls(reduced.contact_body, reduced.damping, reduced.loss,
+                   tuple(map(joint_group, reduced.joint_name)), reduced.joint_rows, reduced.joint_damping,
+                   reduced.joint_loss_factor * reduced.joint_stiffness)
+
+    @classmethod
+    def within(cls, model, contact_body):
+        """Of a SlidingModel, dense or sparse, whose loss factors are the imaginary parts of its stiffnesses."""
+        return cls(contact_body, model.damping, model.stiffness.imag, tuple(map(joint_group, model.joints.name)),
+                   model.joints.rows, model.joints.damping, np.imag(model.joints.stiffness))
+
+    @property
+    def total(self):
+        """(n, n) N/m imaginary part of the stiffness of bodies and joints."""
+        return self.loss + spread(self.rows, self.joint_loss, self.rows)
+
+    def enlarged(self, size):
+        """The same with further coordinates, such as effects add, behind those of the product: ``size`` in all."""
+        more = size - len(self.damping)
+        square, rows = ((0, more), (0, more)), ((0, 0), (0, more))
+        return replace(self, damping=np.pad(self.damping, square), loss=np.pad(self.loss, square),
+                       rows=np.pad(self.rows, rows))
+
+    def change(self, model):
+        """(damping, stiffness) that make loss factors hysteretic in a SlidingModel with their viscous equivalent, of
+        the product alone; None without loss factors."""
+        total = self.total
+        if not total.any():
+            return None
+        damping, known = self.damping.copy(), slice(0, model.size)
+        damping[known, known] -= model.damping
+        return damping, 1j * total
+
+    def viscous_motion(self, model, shape):
+        """The motion whose loss in the imaginary stiffness is, times the angular frequency, that of ``shape`` (n,) in
+        the equivalent damping of a SlidingModel, of the product alone."""
+        if not self.total.any():
+            return shape
+        mass, _, stiffness = model.frictionless(gyroscopic=False, centrifugal=False)
+        moved = np.zeros_like(shape)
+        moved[:model.size] = equivalent_motion(shape[:model.size], stiffness, mass)
+        return moved
+
+    def parts(self, model, root, shape, viscous=None):
+        """{term: Im(s x^H C x + x^H K x)} of each body and group of joints that dissipates.
+
+        ``viscous``: motion as of ``viscous_motion`` where loss factors act by their viscous equivalent, else None.
+        """
+        moved, rate = (shape, 1.0) if viscous is None else (viscous, root.imag)
+        drag = (shape.conj() * (self.damping @ shape)).real * root.imag
+        lost = drag + (moved.conj() * (self.loss @ moved)).real * rate
+        bodies = np.bincount(model.coordinate_body, lost, len(model.body_name))
+        acts = np.bincount(model.coordinate_body, sum(np.ravel(abs(part).sum(axis=1)) for part in
+                                                      (self.damping, self.loss)), len(model.body_name)) > 0
+        terms = {f"{BODY}{name}": bodies[b] for b, name in enumerate(model.body_name) if acts[b]}
+        joints = (self.joint_damping * abs(self.rows @ shape) ** 2 * root.imag
+                  + self.joint_loss * abs(self.rows @ moved) ** 2 * rate)
+        for name in dict.fromkeys(self.group):
+            members = np.array([g == name for g in self.group])
+            if self.joint_damping[members].any() or self.joint_loss[members].any():
+                terms[f"{JOINTS}{name}"] = joints[members].sum()
+        return terms
+
+
+def growth_terms(model, friction, root, shape, losses, friction_damping=True, gyroscopic=True, viscous=None,
+                 remainder=None):
+    """({term: part of the growth rate in 1/s}, parts (c,) of the contacts) of a root of a SlidingModel.
+
+    ``friction``: FrictionState or coefficient of steady sliding, ``shape`` (n,) complex, ``losses``: its Losses.
+    ``viscous``: see ``Losses.parts``. The friction of the contacts of each body is a term, 'friction at <body>'; the
+    part of a contact is that of its friction of all kinds and of its damping. Terms add up to the growth rate, by what
+    is left of it if that has the name ``remainder``.
     """
     contacts, coefficient = model.contacts, getattr(friction, "coefficient", friction)
     inertia = 2 * root.imag * (shape.conj() @ model.mass @ shape).real
+    if gyroscopic:
+        inertia += model.speed * (shape.conj() @ model.gyroscopic @ shape).imag
     normal, tangent, lateral = (rows @ shape for rows in (contacts.normal, contacts.tangent, contacts.lateral))
-    slopes = (getattr(friction, name, 0.0) for name in ("pressure_slope", "speed_slope"))
-    by_pressure, by_speed = slopes
+    by_pressure, by_speed = (getattr(friction, name, 0.0) for name in ("pressure_slope", "speed_slope"))
     coupling = model.direction() * (coefficient + contacts.pressure * by_pressure)
-    drawn = tangent.conj() * coupling * (contacts.stiffness + root * contacts.damping) * normal
-    terms = {f"friction at {model.body_name[body]}": -drawn[contact_body == body].sum().imag / inertia
-             for body in np.unique(contact_body)}
+    drawn = -(tangent.conj() * coupling * (contacts.stiffness + root * contacts.damping) * normal).imag / inertia
     rate = root.imag / inertia
-    terms[CONTACT] = -rate * (contacts.damping @ abs(normal) ** 2)
-    terms[TURNING] = -rate * (_turning(model, coefficient) @ abs(lateral) ** 2) if friction_damping else 0.0
-    terms[SLIP] = -rate * ((contacts.preload * by_speed) @ abs(tangent) ** 2)
-    terms[BODIES] = root.real - sum(terms.values())
-    return {name: float(value) for name, value in terms.items()}
+    local = {CONTACT: -rate * contacts.damping * abs(normal) ** 2,
+             TURNING: -rate * friction_damping * _turning(model, coefficient) * abs(lateral) ** 2,
+             SLIP: -rate * contacts.preload * by_speed * abs(tangent) ** 2}
+    terms = {f"friction at {model.body_name[body]}": drawn[losses.contact_body == body].sum()
+             for body in np.unique(losses.contact_body)}
+    terms |= {name: part.sum() for name, part in local.items()}
+    terms |= {name: -lost / inertia for name, lost in losses.parts(model, root, shape, viscous).items()}
+    if remainder is not None:
+        terms[remainder] = root.real - sum(terms.values())
+    return {name: float(value) for name, value in terms.items()}, drawn + sum(local.values())
 
 
 def _turning(model, coefficient):
@@ -47,7 +157,7 @@ def _turning(model, coefficient):
 
 
 def body_shares(model, shape):
-    """(b,) share of the kinetic energy of the motion ``shape`` (n,) in each body of a SlidingModel."""
+    """(b,) share of the kinetic energy of the motion ``shape`` (n,) in each body of a SlidingModel or ReducedModel."""
     moved = (shape.conj() * (model.mass @ shape)).real
     energy = np.bincount(model.coordinate_body, moved, len(model.body_name))
     return energy / energy.sum()

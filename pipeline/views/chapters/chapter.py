@@ -9,12 +9,12 @@ class Look:
     """How pictures are drawn."""
 
     dpi: int = 150
-    shapes: int = 6     # mode shape pictures, of each kind
+    shapes: int = 6     # mode shapes of the disc; 0: none, and no unstable mode in motion
 
 
 @dataclass(frozen=True)
 class Figure:
-    """A picture (PNG bytes or SVG text) and a caption that states its numbers."""
+    """A picture (PNG or WebP bytes, or SVG text) and a caption that states its numbers."""
 
     image: bytes | str
     caption: str
@@ -23,7 +23,7 @@ class Figure:
     @property
     def uri(self):
         """The picture as a data URI."""
-        kind = "svg+xml" if isinstance(self.image, str) else "png"
+        kind = "svg+xml" if isinstance(self.image, str) else "webp" if self.image[:4] == b"RIFF" else "png"
         data = self.image.encode() if isinstance(self.image, str) else self.image
         return f"data:image/{kind};base64,{base64.b64encode(data).decode()}"
 
@@ -45,6 +45,15 @@ class Table:
 
 
 @dataclass(frozen=True)
+class Block:
+    """One thing of several alike: what there is to say of it, and its figures side by side."""
+
+    title: str
+    text: str
+    figures: tuple = ()
+
+
+@dataclass(frozen=True)
 class Chapter:
     """One step of the chain on the page: what is shown, what follows from it."""
 
@@ -55,3 +64,4 @@ class Chapter:
     figures: tuple = ()
     tables: tuple = ()
     notes: tuple = ()
+    blocks: tuple = ()

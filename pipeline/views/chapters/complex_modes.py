@@ -1,11 +1,10 @@
 """Chapter: complex modes in steady sliding."""
 
-import re
-
 import numpy as np
 
 from pipeline.views.chapters.chapter import Chapter, Figure, Table
 from pipeline.views.chapters.structure import COLOURS, NO_PICTURES
+from pipeline.views.chapters.unstable_modes import blocks, distinct_unstable, signed, summed, words
 from pipeline.views.figures import complex_modes as pictures
 from pipeline.views.figures import mode_shapes
 from pipeline.views.figures.number_format import number, percent, quantity, span
@@ -14,42 +13,31 @@ from pipeline.views.figures.scene import render
 TWO_PI = 2.0 * np.pi
 MAP_CAPTION = "Largest growth rate at each operating point, and its frequency. Above zero, steady sliding is unstable."
 #: heads of columns for terms of the growth rate
-_SHORT = {"friction turning with the slip": "turning slip", "friction over slip speed": "slip speed",
-          "bodies and joints": "bodies, joints"}
+_SHORT = {"friction turning with the slip": "turning slip", "friction over slip speed": "slip speed"}
+_FRICTION = "friction at "
 NEUTRAL = 1e-6     # growth rates below this fraction of the angular frequency are rounding
 
 
 def chapter(modes, model, published, look):
     """Chapter of the product ComplexModes; ``model`` gives the surface for the shapes, or is None."""
     drawable = model is not None and len(model.visible_face)
-    chosen = distinct_unstable(modes, look.shapes) if drawable else []
+    chosen = list(map(int, modes.followed_mode)) if drawable and look.shapes else []
     rendered = render([mode_shapes.unstable_mode(model, modes, index) for index in chosen])
-    figures = _maps(modes, published, look)
-    figures += tuple(Figure(picture, _shape_caption(modes, index), small=True)
-                     for index, picture in zip(chosen, rendered or (), strict=False))
+    pictures = dict(zip(chosen, rendered or (), strict=False))
     return Chapter(
         "complex_modes", "Stability of steady sliding",
         "Complex modes with sliding friction: a mode with a positive growth rate grows until a nonlinearity"
         f" limits it. Friction is swept over {span(modes.friction, '1')} at"
         f" {span(modes.pressure, 'Pa')}; {modes.corrections.item()} static friction corrections complete the modal"
         f" basis.{f' {COLOURS}' if drawable else ''}",
-        _conclusion(modes), figures, _table(modes),
-        (NO_PICTURES,) if rendered is None else ())
+        _conclusion(modes), _maps(modes, published, look), _table(modes),
+        (NO_PICTURES,) if rendered is None else (), blocks(modes, model, pictures, look))
 
 
 def onset(modes):
     """Lowest friction of the sweep with an unstable root, per pressure; None where all are stable."""
     unstable = (modes.root.real > NEUTRAL * np.abs(modes.root)).any(axis=2)
     return [modes.friction[np.argmax(row)] if row.any() else None for row in unstable]
-
-
-def distinct_unstable(modes, count):
-    """Indices of unstable modes, most unstable first, each frequency once (within 0.5 %)."""
-    chosen = []
-    for index, root in enumerate(modes.unstable_root):
-        if len(chosen) < count and all(abs(root.imag / modes.unstable_root[k].imag - 1) > 5e-3 for k in chosen):
-            chosen.append(index)
-    return chosen
 
 
 def _conclusion(modes):
@@ -84,13 +72,6 @@ def _maps(modes, published, look):
                " together are modes coupled by friction."))
 
 
-def _shape_caption(modes, index):
-    root, point = modes.unstable_root[index], modes.unstable_operating[index]
-    return (f"Unstable mode at {quantity(root.imag / TWO_PI, 'Hz')}, growth {quantity(root.real, '1/s', 3)}, at"
-            f" {quantity(modes.operating_pressure[point], 'Pa', 3)},"
-            f" {quantity(modes.operating_speed[point], 'rad/s')}.")
-
-
 def _table(modes, most=12):
     chosen = distinct_unstable(modes, most)
     if not chosen:
@@ -115,10 +96,11 @@ def _reasons(modes, chosen):
         bodies = ", ".join(f"{words(modes.body_name[b])} {percent(share[b], 2)}" for b in np.argsort(-share)[:2])
         rows.append((quantity(modes.unstable_root[index].imag / TWO_PI, "Hz", 4),
                      str(diameters) if diameters >= 0 else "", bodies,
-                     *map(signed, modes.unstable_growth[index])))
-    head = ("frequency", "diameters", "kinetic energy", *(_SHORT.get(str(t), words(t)) for t in modes.growth_term))
-    title = ("What feeds them (+) and what dissipates (\N{MINUS SIGN}): parts of the growth rate in 1/s; nodal"
-             " diameters of the disc; the bodies that move most")
+                     *map(signed, summed(modes, index)[1])))
+    head = ("frequency", "diameters", "kinetic energy", *(_SHORT.get(t, words(t).replace(_FRICTION, "at "))
+                                                       for t in summed(modes, chosen[0])[0]))
+    title = ("What feeds them (+) and what dissipates (\N{MINUS SIGN}): parts of the growth rate in 1/s, first"
+             " of friction at each body; nodal diameters of the disc; the bodies that move most")
     return Table(head, tuple(rows), title, (0, 1, *range(3, len(head))))
 
 
@@ -137,13 +119,3 @@ def _in_full(modes, chosen):
     title = ("The same modes solved for on the full finite-element matrices, with their residuals over the stiffness"
              f" forces; at all operating points the reduced model is within {' and '.join(farthest)} of these")
     return (Table(head, tuple(rows), title, tuple(range(5))),)
-
-
-def words(name):
-    """A name of a body, or of a term with one, as words: 'pad_inner' is 'inner pad'."""
-    return re.sub(r"\bpad (\w+)", r"\1 pad", str(name).replace("_", " "))
-
-
-def signed(value):
-    """A growth rate with its sign, in whole 1/s."""
-    return f"{value:+.0f}".replace("-", "\N{MINUS SIGN}")

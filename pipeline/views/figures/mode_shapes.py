@@ -7,6 +7,9 @@ from pipeline.views.figures.style import BLUE, GREEN, ORANGE, SKY
 
 BODY_COLOURS = {"disc": "#b8bec6", "pad_outer": ORANGE, "pad_inner": GREEN, "caliper": BLUE}
 
+#: largest displacement drawn, as a share of the size of the body; pictures of one period
+_EXAGGERATED, _FRAMES = 0.06, 16
+
 
 def assembly(structure):
     """Scene of all bodies with the edges of their elements."""
@@ -22,10 +25,24 @@ def disc_mode(disc, mode):
 
 
 def unstable_mode(model, modes, index):
-    """Scene of one unstable complex mode at its instant of largest displacement; colour = axial displacement."""
-    shape = modes.unstable_shape[index]
-    phase = np.exp(-0.5j * np.angle(np.sum(shape**2)))
-    return Scene((_displaced(model.visible_position, model.visible_face, "quad", (shape * phase).real),))
+    """Scene of one period of an unstable complex mode, from its instant of largest displacement on.
+
+    Colour = axial displacement; bodies without contacts are translucent.
+    """
+    shape, points = modes.unstable_shape[index], np.asarray(model.visible_position)
+    motion = shape * np.exp(-0.5j * np.angle(np.sum(shape**2)))
+    motion = motion * _EXAGGERATED * np.ptp(points, axis=0).max() / max(np.linalg.norm(motion, axis=1).max(), 1e-300)
+    limit = max(np.percentile(np.abs(motion[:, 2]), 92), 1e-300)
+    solids = tuple(Solid(points, faces, "quad", motion=motion, limit=limit, opacity=opacity)
+                   for faces, opacity in _visible_bodies(model))
+    return Scene(solids, size=(600, 460), frames=_FRAMES)
+
+
+def _visible_bodies(model):
+    """(faces, opacity) of each body with a surface: those that neither rub nor are rubbed are translucent."""
+    face, body = np.asarray(model.visible_face), np.asarray(model.visible_body)
+    rubbing = {*map(int, model.contact_body), *np.flatnonzero(np.array(model.body_name) == "disc")}
+    return [(face[body[face[:, 0]] == b], 1.0 if b in rubbing else 0.3) for b in np.unique(body[face[:, 0]])]
 
 
 def diameters(disc, mode):
@@ -49,4 +66,4 @@ def _displaced(points, cells, kind, displacement):
     size = np.ptp(points, axis=0).max()
     largest = max(np.linalg.norm(displacement, axis=1).max(), 1e-300)
     axial = displacement[:, 2] / max(np.percentile(np.abs(displacement[:, 2]), 92), 1e-300)
-    return Solid(points + 0.06 * size / largest * displacement, cells, kind, scalar=axial)
+    return Solid(points + _EXAGGERATED * size / largest * displacement, cells, kind, scalar=axial)

@@ -19,6 +19,9 @@ from pipeline.contract.errors import BrakechainError
 CELLS = {"hexahedron": (8, "HEXAHEDRON"), "hexahedron20": (20, "QUADRATIC_HEXAHEDRON"),
          "hexahedron27": (20, "QUADRATIC_HEXAHEDRON"), "quad": (4, "QUAD")}
 
+#: ms that one period of an animation takes
+_PERIOD = 1600
+
 
 @dataclass(frozen=True)
 class Solid:
@@ -31,19 +34,22 @@ class Solid:
     colour: str = "#9aa3ad"
     edges: bool = False
     opacity: float = 1.0
+    motion: np.ndarray | None = None    # (point, xyz) complex, in m about points at rest; colour = its axial part
+    limit: float = 1.0          # axial motion of full colour, in m
 
 
 @dataclass(frozen=True)
 class Scene:
-    """Solids seen from ``direction`` (towards the camera), z upwards."""
+    """Solids seen from ``direction`` (towards the camera), z upwards; ``frames`` of a period, one for a still."""
 
     solids: tuple
     direction: tuple = (0.45, -1.0, 1.1)
     size: tuple = (840, 640)
+    frames: int = 1
 
 
 def render(scenes):
-    """PNG bytes of each scene, or None where this machine cannot draw (no OpenGL)."""
+    """PNG bytes of each scene, WebP of those with frames, or None where this machine cannot draw (no OpenGL)."""
     if not scenes:
         return []
     root = Path(__file__).resolve().parents[3]
@@ -59,35 +65,69 @@ def render(scenes):
 
 
 def draw(scene):
-    """PNG bytes of one scene; needs OpenGL in this process."""
+    """PNG or, of several frames, WebP bytes of one scene; needs OpenGL in this process."""
     import pyvista
 
     plotter = pyvista.Plotter(off_screen=True, window_size=list(scene.size), lighting="three lights")
     plotter.enable_anti_aliasing("msaa", multi_samples=8)
     plotter.set_background("white")
-    for solid in scene.solids:
-        _add(plotter, solid, pyvista)
+    skins = [_add(plotter, solid, pyvista) for solid in scene.solids]
     plotter.enable_parallel_projection()
     plotter.view_vector(scene.direction, viewup=(0, 0, 1))
     plotter.camera.zoom(1.25)
-    picture = plotter.screenshot(return_img=True)
+    pictures = []
+    for frame in range(scene.frames):
+        for solid, skin in zip(scene.solids, skins, strict=True):
+            _move(solid, skin, np.exp(2j * np.pi * frame / scene.frames))
+        plotter.render()
+        pictures.append(plotter.screenshot(return_img=True))
     plotter.close()
-    return _encoded(picture)
+    return _encoded(pictures[0]) if scene.frames == 1 else _animated(np.array(pictures))
 
 
 def _add(plotter, solid, pyvista):
     vertices, name = CELLS[solid.kind]
     cells = {pyvista.CellType[name]: solid.cells[:, :vertices]}
     grid = pyvista.UnstructuredGrid(cells, np.asarray(solid.points, dtype=float))
-    if solid.scalar is not None:
-        grid.point_data["colour"] = solid.scalar
+    scalar = solid.scalar if solid.motion is None else solid.motion[:, 2].real / solid.limit
+    if scalar is not None:
+        grid.point_data["colour"] = scalar
     skin = grid.extract_surface(algorithm="dataset_surface", nonlinear_subdivision=0 if solid.edges else 2)
     look = {"show_edges": solid.edges, "edge_color": "#3a4048", "line_width": 1, "smooth_shading": False,
             "opacity": solid.opacity}
-    if solid.scalar is None:
+    if scalar is None:
         plotter.add_mesh(skin, color=solid.colour, **look)
     else:
         plotter.add_mesh(skin, scalars="colour", cmap="PuOr_r", clim=(-1, 1), show_scalar_bar=False, **look)
+    return skin
+
+
+def _move(solid, skin, phase):
+    """Put the skin of a moving solid where it is at a ``phase`` of its period."""
+    if solid.motion is not None:
+        corner = skin.point_data["vtkOriginalPointIds"]
+        moved = (solid.motion * phase).real[corner]
+        skin.points, skin.point_data["colour"] = solid.points[corner] + moved, moved[:, 2] / solid.limit
+
+
+def _rows(picture):
+    """First and last row, with a margin, of what a picture (rows, columns, colours) shows."""
+    rows = np.flatnonzero((picture < 250).any(axis=(1, 2)))
+    first, last = (rows[0], rows[-1]) if len(rows) else (0, len(picture))
+    return slice(max(first - 16, 0), last + 17)
+
+
+def _animated(pictures):
+    """WebP bytes of the pictures (frames, rows, columns, colours) of one period, repeated for ever."""
+    from io import BytesIO
+
+    from PIL import Image
+
+    stream, shown = BytesIO(), _rows(pictures.min(axis=0))
+    first, *others = (Image.fromarray(picture[shown]) for picture in pictures)
+    first.save(stream, format="WEBP", save_all=True, append_images=others, duration=_PERIOD // len(pictures), loop=0,
+               quality=70, method=4)
+    return stream.getvalue()
 
 
 def _encoded(picture):
@@ -96,9 +136,7 @@ def _encoded(picture):
 
     from PIL import Image
 
-    rows = np.flatnonzero((picture < 250).any(axis=(1, 2)))
-    first, last = (rows[0], rows[-1]) if len(rows) else (0, len(picture))
-    stream, cut = BytesIO(), Image.fromarray(picture[max(first - 16, 0):last + 17])
+    stream, cut = BytesIO(), Image.fromarray(picture[_rows(picture)])
     reduced = cut.quantize(200, method=Image.Quantize.MEDIANCUT, dither=Image.Dither.NONE)
     reduced.save(stream, format="PNG", optimize=True)
     return stream.getvalue()

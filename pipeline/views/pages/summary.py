@@ -6,10 +6,10 @@ import numpy as np
 
 from pipeline.views.chapters import convergence
 from pipeline.views.chapters.bench import diagnosis
-from pipeline.views.chapters.complex_modes import distinct_unstable, signed, words
 from pipeline.views.chapters.friction import outside_computed
 from pipeline.views.chapters.models.rupture import headline as rupture_headline
 from pipeline.views.chapters.pad_motion import extremes, point, rate_in_words
+from pipeline.views.chapters.unstable_modes import distinct_unstable, explanation, signed, words
 from pipeline.views.chapters.vibration import origin
 from pipeline.views.figures.agreement import judged
 from pipeline.views.figures.number_format import number, percent, plural, quantity, span
@@ -158,7 +158,8 @@ def _fed(modes):
     feeds, takes = np.argmax(growth), np.argmin(growth)
     return (f" {percent(share.max())} of its kinetic energy is in the {moving}{shape}. Of its growth rate,"
             f" {signed(growth[feeds])} 1/s come from {words(modes.growth_term[feeds])}, {signed(growth[takes])} 1/s"
-            f" from {words(modes.growth_term[takes])}.")
+            f" from {words(modes.growth_term[takes])}."
+            + (f" {explanation(modes, 0)}" if 0 in modes.followed_mode else ""))
 
 
 def _compared(products):

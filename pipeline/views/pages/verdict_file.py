@@ -6,6 +6,7 @@ import numpy as np
 
 from pipeline.views.chapters.convergence import WORDS, statement
 from pipeline.views.chapters.friction import outside_computed
+from pipeline.views.chapters.unstable_modes import critical_friction, losses, mechanism, pair
 
 SCHEMA = "brakechain-verdict/1"
 TWO_PI = 2.0 * np.pi
@@ -36,8 +37,9 @@ def _unstable(modes):
             "pressure": float(modes.operating_pressure[point]), "speed": float(modes.operating_speed[point]),
             "friction": float(modes.operating_friction[point]),
             "bodies": _named(modes.body_name, modes.unstable_share[k]),
-            "growth_by_term": _named(modes.growth_term, modes.unstable_growth[k]),
-            "finite_elements": _finite_elements(root, modes.unstable_reduced[k], modes.unstable_residual[k])})
+            "growth_by_term": _named(modes.growth_term, modes.unstable_growth[k]), "damping": losses(modes, k),
+            "finite_elements": _finite_elements(root, modes.unstable_reduced[k], modes.unstable_residual[k]),
+            "same_mode_as": int(modes.unstable_first[k]), **_over_friction(modes, k)})
     return found
 
 
@@ -47,6 +49,14 @@ def _finite_elements(root, reduced, residual):
         return None
     return {"residual": float(residual), "reduced_frequency_change": float(reduced.imag / root.imag - 1),
             "reduced_growth_change": float(reduced.real - root.real)}
+
+
+def _over_friction(modes, index):
+    """Critical friction, mechanism, and the modes without friction that it is made of; null where not followed."""
+    members = [{"frequency": frequency, "body": body, "nodal_diameters": lines}
+               for frequency, body, lines in pair(modes, index)]
+    return {"critical_friction": critical_friction(modes, index), "mechanism": mechanism(modes, index),
+            "pair": members or None}
 
 
 def _named(names, values):

@@ -8,7 +8,7 @@ import scipy
 
 from pipeline.physics.modal.quadratic_eigenproblem import quadratic_roots
 from pipeline.physics.sliding.model import sliding_model
-from pipeline.physics.sliding.structural_damping import equivalent_damping
+from pipeline.physics.sliding.structural_damping import equivalent_damping, equivalent_motion
 from tests.stages.small_brake import small_brake
 
 pytestmark = pytest.mark.exact
@@ -71,3 +71,13 @@ def test_joints_of_a_product_lose_by_their_factors():
     expected = equivalent_damping(0.1 * model.joint_stiffness[joint] * np.outer(row, row),
                                   undamped.frictionless(False, False)[2], undamped.mass)
     np.testing.assert_allclose(damped.damping - undamped.damping, expected, rtol=1e-9, atol=1e-9 * abs(expected).max())
+
+
+def test_each_part_of_the_loss_has_its_part_of_the_equivalent_damping():
+    parts, mass = chain()
+    stiffness = parts.sum(axis=0)
+    x = np.random.default_rng(1).standard_normal(6) + 1j
+    z = equivalent_motion(x, stiffness, mass)
+    for part in parts:
+        damping = equivalent_damping(0.1 * part, stiffness, mass)
+        assert np.vdot(z, 0.1 * part @ z) == pytest.approx(np.vdot(x, damping @ x))

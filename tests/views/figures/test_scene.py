@@ -22,9 +22,21 @@ def pictures():
 
 def test_scenes_become_pictures_with_the_same_bytes_for_the_same_scene(pictures):
     assert len(pictures) == 5
-    assert all(picture.startswith(b"\x89PNG") for picture in pictures)
+    assert all(picture.startswith(b"\x89PNG") for picture in pictures[:4])
     assert pictures[1] == pictures[2]
     assert pictures[1] != pictures[3]
+
+
+def test_an_unstable_mode_moves_through_one_period_for_ever(pictures):
+    from io import BytesIO
+
+    from PIL import Image, ImageSequence
+
+    moving = Image.open(BytesIO(pictures[4]))
+    frames = [np.asarray(frame.convert("L"), float) for frame in ImageSequence.Iterator(moving)]
+    assert moving.format == "WEBP" and moving.info["loop"] == 0 and len(frames) == moving.n_frames == 16
+    changes = [abs(frames[k] - frames[k - 1]).mean() for k in range(16)]    # last to first as well
+    assert max(changes) < 3 * min(changes) and min(changes) > 0.05
 
 
 def test_a_picture_is_not_empty(pictures):

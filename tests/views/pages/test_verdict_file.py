@@ -41,6 +41,16 @@ def test_modes_solved_for_on_the_full_matrices_state_residual_and_distance():
         "reduced_growth_change": pytest.approx(reduced.real - root.real)}
 
 
+def test_every_mode_says_what_damps_it_and_those_followed_where_they_come_from():
+    first, *others = written({"complex_modes": small.complex_modes()})["unstable_modes"]
+    assert first["damping"] == {"bodies": {"disc": -2.6, "pad_inner": -30.0}, "joints": {"abutment": -10.0}}
+    assert first["critical_friction"] == 0.4 and first["mechanism"] == "mode coupling" and first["same_mode_as"] == 0
+    assert first["pair"] == [{"frequency": pytest.approx(16600), "body": "disc", "nodal_diameters": 5},
+                             {"frequency": pytest.approx(16400), "body": "pad_inner", "nodal_diameters": 5}]
+    assert others and all(mode["pair"] is mode["critical_friction"] is mode["mechanism"] is None for mode in others)
+    assert {mode["same_mode_as"] for mode in others} == {0}
+
+
 def test_what_is_not_converged_or_not_examined_is_a_warning():
     modes = small.complex_modes()
     doubtful = written({"complex_modes": modes, "convergence": small.convergence(converged=False)})

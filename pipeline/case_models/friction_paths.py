@@ -1,0 +1,91 @@
+"""Unstable modes of a case followed over friction: the system at shares of the friction, and fields of the product."""
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from functools import partial
+
+import numpy as np
+
+from pipeline.physics.stability.constrained_modes import is_hard
+from pipeline.physics.stability.friction_path import FrictionSystem, enriched, friction_path
+from pipeline.physics.stability.growth_balance import body_shares
+
+#: difference of two frequencies, as a share of them, that is rounding next to a coalescence
+_EQUAL = 1e-7
+
+
+@dataclass(frozen=True)
+class OverFriction:
+    """``system`` ((M, C, K), Settling or None) over the share of friction, in the coordinates of ``basis`` (n, m).
+
+    ``inverse`` (m, n): coordinates of a motion that the basis holds.
+    """
+
+    system: Callable
+    basis: np.ndarray
+    inverse: np.ndarray
+
+
+def over_friction(linearised, model, sliding, basis, shapes, hysteretic):
+    """OverFriction of an operating point, with the growing modes ``shapes`` (n, g) exactly; None where none grows.
+
+    ``linearised`` (model, Steady, basis) gives the matrices; ``model`` is a SlidingModel about ``sliding``, a Steady,
+    ``basis`` a FrictionBasis; ``hysteretic``: (damping, stiffness), each (n, n), that its loss factors add, or None.
+    """
+    if not shapes.size:
+        return None
+    if is_hard(model):
+        system = partial(_with_share, linearised, model, sliding, basis)
+        return OverFriction(system, basis.shape, basis.shape.T @ model.mass)
+    whole = replace(basis, shape=enriched(basis.shape, model.mass, shapes))
+    about = model.projected(whole.shape)
+    system = FrictionSystem(*(_with_share(linearised, about, sliding, whole, share) for share in (0.0, 1.0)))
+    if hysteretic is not None:
+        system = system.with_losses(*(whole.shape.T @ part @ whole.shape for part in hysteretic))
+    return OverFriction(system, whole.shape, whole.shape.T @ model.mass)
+
+
+def _with_share(linearised, model, sliding, basis, share):
+    return linearised(model, sliding.with_share(share), basis)
+
+
+def followed(neutral, task):
+    """FrictionPath, its shapes in all coordinates, of a ``task`` (OverFriction, root, motion (n,))."""
+    over, root, motion = task
+    path = friction_path(over.system, root, over.inverse @ motion, neutral)
+    return replace(path, start=over.basis @ path.start)
+
+
+def path_fields(index, paths, friction, model, diameters):
+    """Fields of ComplexModes of the FrictionPaths of unstable modes number ``index`` (f,).
+
+    ``friction`` (f,): coefficient at the operating point of each; ``model``: product ReducedModel; ``diameters``
+    (shapes (g, v, 3)): nodal diameters of the disc in them.
+    """
+    lengths = [len(p.share) for p in paths]
+    starts = np.array([shape[:len(model.mass)] for p in paths for shape in p.start.T])
+    starts = starts.reshape(2 * len(paths), len(model.mass))        # without coordinates that effects add
+    moves = starts.any(axis=1)
+    body, lines = np.full(len(starts), -1), np.full(len(starts), -1)
+    body[moves] = [np.argmax(body_shares(model, shape)) for shape in starts[moves]]
+    if moves.any():
+        surface = np.einsum("vxn,gn->gvx", model.recovery, starts[moves].astype(np.complex64))
+        lines[moves] = diameters(surface)
+    roots, others = ([getattr(p, name) for p in paths] for name in ("root", "meeting"))
+    pair = [(root[0], other[0]) for root, other in zip(roots, others, strict=True)]
+    return {"followed_mode": index, "followed_critical": friction * [p.critical for p in paths],
+            "followed_alike": [p.alike for p in paths], "followed_nearest": [_nearest(p) for p in paths],
+            "pair_root": np.reshape(pair, (len(paths), 2)), "pair_body": body.reshape(-1, 2),
+            "pair_diameters": lines.reshape(-1, 2), "path_mode": np.repeat(index, lengths),
+            "path_friction": np.concatenate([[]] + [f * p.share for f, p in zip(friction, paths, strict=True)]),
+            "path_root": np.concatenate([np.empty(0, complex), *roots]),
+            "path_meeting": np.concatenate([np.empty(0, complex), *others])}
+
+
+def _nearest(path):
+    """Smallest distance (Hz) of the frequencies of the two modes on the path; 0 where they become equal, but for
+    rounding, or without a second one."""
+    known = path.meeting != 0
+    distance = (path.root.imag - path.meeting.imag)[known]
+    equal = (np.sign(distance) != np.sign(distance[:1])).any() or (abs(distance) < _EQUAL * path.root[-1].imag).any()
+    return 0.0 if equal or not known.any() else abs(distance).min() / (2 * np.pi)

@@ -1,0 +1,133 @@
+"""Modes of the operating points of a case: what feeds them, on the full matrices where there are, and their fields.
+
+An outcome is one operating point: ``sliding``, its Steady, and of the modes that grow or nearly do ``near`` (g,) 1/s,
+``motion`` (n, g) and ``reduced`` (g,) in the reduced model, ``residual`` (g,), ``terms``, ``contacts`` (g, c) and
+``shares`` (g, b), ``over_friction``; ``root`` (r,) are all roots.
+"""
+
+from dataclasses import replace
+from functools import partial
+from itertools import compress
+
+import numpy as np
+
+from pipeline.case_models.friction_paths import followed, path_fields
+from pipeline.case_models.full_matrices import Mode, full_modes
+from pipeline.physics.modal.disc_modes import describe
+from pipeline.physics.stability.constrained_modes import is_hard
+from pipeline.physics.stability.friction_path import first_of_each
+from pipeline.physics.stability.growth_balance import EFFECTS, HARD, Losses, body_shares, growth_terms
+
+DISC = "disc"
+#: arrays of an outcome with one row for each of its modes
+_OF_MODES = "contacts", "shares", "reduced", "residual"
+
+
+def balances(model, sliding, roots, shapes, losses, viscous, settings):
+    """(terms of the growth rate of each root, parts (g, c) of the contacts in it, shares (g, b) of the bodies).
+
+    ``roots`` (g,) and ``shapes`` (n, g) of a SlidingModel about ``sliding``, a Steady; ``losses``: its Losses;
+    ``viscous`` (n, g): see ``Losses.parts``, or None; ``settings``: the section ``complex_modes``.
+    """
+    friction, counts = sliding.acting(settings.friction_slopes), (len(roots), len(model.contacts.area))
+    remainder = HARD if is_hard(model) else None if sliding.states is None else EFFECTS
+    found = [growth_terms(model, friction, root, shapes[:, k], losses, settings.friction_damping, settings.gyroscopic,
+                          None if viscous is None else viscous[:, k], remainder) for k, root in enumerate(roots)]
+    shares = [body_shares(model, shape) for shape in shapes.T]
+    return (tuple(terms for terms, _ in found), np.reshape([parts for _, parts in found], counts),
+            np.reshape(shares, (len(roots), len(model.body_name))))
+
+
+def growing(outcome, settings):
+    """The outcome with those of its modes that grow alone."""
+    grows = outcome.near.real > settings.neutral * abs(outcome.near)
+    return replace(outcome, near=outcome.near[grows], motion=outcome.motion[:, grows],
+                   terms=tuple(compress(outcome.terms, grows)),
+                   **{name: getattr(outcome, name)[grows] for name in _OF_MODES})
+
+
+def in_full(full_model, points, outcomes, contact_body, settings, context):
+    """The outcomes with roots that grow or nearly do, and what feeds them, on the full finite-element matrices.
+
+    ``full_model()``: see ``full_modes``; ``points``: (Posed, input force) of each outcome; ``contact_body`` (c,).
+    """
+    modes = [Mode(number, number // len(settings.speeds), root, motion) for number, o in enumerate(outcomes)
+             for root, motion in zip(o.near, o.motion.T, strict=True)]
+    models = [o.sliding.about(p[0].bench.model) for p, o in zip(points, outcomes, strict=True)]
+    solved = full_modes(full_model, models, [o.sliding for o in outcomes], modes,
+                        partial(_full_balances, contact_body, settings), settings, context)
+    return [_replaced(o, [s for s, m in zip(solved, modes, strict=True) if m.operating == number])
+            for number, o in enumerate(outcomes)]
+
+
+def _full_balances(contact_body, settings, model, sliding, roots, vectors):
+    """``balances`` of a SlidingModel with complex stiffnesses, with all that its imaginary parts dissipate."""
+    return balances(model, sliding, roots, vectors, Losses.within(model, contact_body), None, settings)
+
+
+def _replaced(outcome, solved):
+    """The outcome with those of its near modes that were ``solved`` for on the full matrices; None = not."""
+    root, near, residual = outcome.root.copy(), outcome.near.copy(), outcome.residual.copy()
+    terms, contacts, shares = list(outcome.terms), outcome.contacts.copy(), outcome.shares.copy()
+    for k, mode in enumerate(solved):
+        if mode is not None:
+            root[np.argmin(abs(root - near[k]))] = mode.root
+            near[k], residual[k], terms[k] = mode.root, mode.residual, mode.terms
+            contacts[k], shares[k] = mode.contacts, mode.shares
+    return replace(outcome, root=root, near=near, residual=residual, terms=tuple(terms), contacts=contacts,
+                   shares=shares)
+
+
+def _strongest_first(outcomes):
+    """(operating point, its outcome, number of the mode in it) of all growing modes."""
+    unstable = [(number, o, k) for number, o in enumerate(outcomes) for k in range(len(o.near))]
+    return sorted(unstable, key=lambda mode: -mode[1].near[mode[2]].real)
+
+
+def unstable_fields(outcomes, model):
+    """Fields of ComplexModes of the modes of ``growing`` outcomes, strongest first: shapes on the surface, what moves
+    and what feeds them. ``model``: product ReducedModel."""
+    unstable, recovery, names = _strongest_first(outcomes), model.recovery, list(model.body_name)
+    count = len(unstable)
+    shapes = [_normalised(recovery @ o.motion[:recovery.shape[2], k].astype(np.complex64)) for _, o, k in unstable]
+    shapes = np.array(shapes).reshape(count, *recovery.shape[:2])
+    growth = [o.terms[k] for _, o, k in unstable]
+    terms = list(growth[0]) if unstable else []
+    roots, reduced, residual = ([getattr(o, name)[k] for _, o, k in unstable]
+                                for name in ("near", "reduced", "residual"))
+    return {"unstable_operating": [number for number, *_ in unstable], "unstable_root": roots,
+            "unstable_reduced": reduced, "unstable_residual": residual, "unstable_shape": shapes,
+            "unstable_diameters": diameters(model, shapes), "body_name": names,
+            "unstable_share": np.reshape([o.shares[k][:len(names)] for _, o, k in unstable], (count, len(names))),
+            "growth_term": terms, "unstable_growth": np.reshape([list(g.values()) for g in growth],
+                                                                (count, len(terms))),
+            "unstable_contact": np.reshape([o.contacts[k] for _, o, k in unstable], (count, len(model.contact_area))),
+            "unstable_first": first_of_each(np.array(roots, complex))}
+
+
+def path_fields_of(outcomes, model, settings, context):
+    """Fields of ComplexModes of the paths over friction, in the reduced model: of the strongest unstable modes, each
+    frequency once."""
+    unstable = _strongest_first(outcomes)
+    first = first_of_each(np.array([o.near[k] for _, o, k in unstable], complex))
+    chosen = np.unique(first)[:settings.followed]
+    tasks = [(o.over_friction, o.reduced[k], o.motion[:, k]) for _, o, k in (unstable[c] for c in chosen)]
+    friction = np.array([unstable[c][1].mean_friction for c in chosen])
+    paths = context.map(partial(followed, settings.neutral), tasks, "paths over friction")
+    return path_fields(chosen, paths, friction, model, partial(diameters, model))
+
+
+def diameters(model, shapes):
+    """Nodal diameters (g,) of the disc in the ``shapes`` (g, v, 3) on the surface; -1 without a disc."""
+    names = list(model.body_name)
+    on_disc = model.visible_body == (names.index(DISC) if DISC in names else -1)
+    if not on_disc.any() or not len(shapes):
+        return np.full(len(shapes), -1)
+    return describe(model.visible_position[on_disc], shapes[:, on_disc].reshape(len(shapes), -1).T)[0]
+
+
+def _normalised(shape):
+    """The shape with its largest component 1, which also fixes its phase."""
+    if not shape.size:
+        return shape
+    return shape / shape.ravel()[abs(shape).argmax()]
