@@ -9,7 +9,7 @@ from pipeline.contract import ConfigError
 from pipeline.effects import CATALOGUE
 from pipeline.effects.effect import compose
 from pipeline.physics.contact.groups import parts
-from pipeline.physics.friction.dry_friction import FIRST, Friction, kernel, under
+from pipeline.physics.friction.dry_friction import Friction, kernel, under
 from pipeline.physics.friction.state_variables import Scatter
 from pipeline.physics.pads.pad_system import pad_elements
 from pipeline.physics.sliding.doublets import doublets
@@ -41,11 +41,8 @@ def with_terms(bench, terms, conditions):
 def _dressed(system, model, law, friction):
     """A PadSystem with the laws of contact and friction, and the surfaces and elements of its SlidingModel."""
     count = len(model.contacts.area)
-    normal, dry = normal_kernel(law, model.contacts), kernel(friction, count)
     contact = system.contact._replace(
-        opening=normal.gap, closure=normal.closure, pressure=normal.pressure, law_first=normal.first,
-        damping_speed=normal.damping_speed, friction_pressure=dry.pressure, friction_speed=dry.speed,
-        friction_distance=dry.distance, friction=dry.table, friction_first=dry.contact[:, FIRST].astype(np.int64),
+        law=normal_kernel(law, model.contacts), dry=kernel(friction, count),
         waviness=wave_table(model.contacts.waviness), scatter=_scatter(friction, count))
     _refuse_memory(model.elements)
     return system._replace(contact=contact, elements=pad_elements(model.elements, model.size))

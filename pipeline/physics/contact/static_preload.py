@@ -1,7 +1,7 @@
 """Static preload of elastic bodies through contact patches with a nonlinear normal law.
 
-Each patch i of area A_i carries N_i = A_i p(c_i) at its closure c_i = -(n_i u); p is a table, zero
-at and below zero closure. The bodies are condensed to the patches: c = c_free - compliance N.
+Each patch i of area A_i carries N_i = A_i p(c_i) at its closure c_i = -(n_i u); p is the table of
+``closure_law``. The bodies are condensed to the patches: c = c_free - compliance N.
 """
 
 from dataclasses import dataclass
@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from pipeline.contract.errors import ConfigError, ConvergenceError
+from pipeline.physics.contact.closure_law import force_at_rest
 from pipeline.physics.numerics.sparse_solver import factorise
 
 _STEPS = 100
@@ -73,13 +74,13 @@ def solve_preload(compliance, free_closure, area, law_closure, law_pressure):
         raise ConfigError("preload", "pads that touch the disc under the load",
                           f"gaps of at least {-free_closure.max():g} m", "check the piston force and the positions")
     closure, first = np.full_like(free_closure, law_closure[1]), first_slope(area, law_closure, law_pressure)
-    force, slope = normal_force(closure, area, law_closure, law_pressure)
+    force, slope = force_at_rest(closure, area, law_closure, law_pressure)
     miss = closure - free_closure + compliance @ force
     for _ in range(_STEPS):
         step = np.linalg.solve(np.eye(len(area)) + compliance * slope, miss)
         for halving in range(_HALVINGS):
             trial = closure - step / 2**halving
-            force, slope = normal_force(trial, area, law_closure, law_pressure)
+            force, slope = force_at_rest(trial, area, law_closure, law_pressure)
             trial_miss = trial - free_closure + compliance @ force
             if np.linalg.norm(trial_miss) < np.linalg.norm(miss) or halving == _HALVINGS - 1:
                 break
@@ -96,13 +97,3 @@ def solve_preload(compliance, free_closure, area, law_closure, law_pressure):
 def first_slope(area, law_closure, law_pressure):
     """Stiffness (c,) N/m of patches that have just closed."""
     return area * law_pressure[1] / law_closure[1]
-
-
-def normal_force(closure, area, law_closure, law_pressure):
-    """Force and stiffness of each patch; the last slope of the table continues beyond its end."""
-    last = len(law_closure) - 2
-    low = np.clip(np.searchsorted(law_closure, closure, side="right") - 1, 0, last)
-    slope = np.diff(law_pressure)[low] / np.diff(law_closure)[low]
-    pressure = law_pressure[low] + slope * (closure - law_closure[low])
-    closed = closure > 0
-    return np.where(closed, area * pressure, 0.0), np.where(closed, area * slope, 0.0)

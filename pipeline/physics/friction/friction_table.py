@@ -103,7 +103,13 @@ def _locate(axis, value):
         return 0, 0, 0.0, 0.0, 1 if value != axis[0] else 0
     if value >= axis[last]:
         return last, last, 0.0, 0.0, 1 if value > axis[last] else 0
-    low = np.searchsorted(axis, value, side="right") - 1
+    low, high = 0, last
+    while high - low > 1:       # in less time than np.searchsorted
+        middle = (low + high) // 2
+        if axis[middle] <= value:
+            low = middle
+        else:
+            high = middle
     length = axis[low + 1] - axis[low]
     return low, low + 1, (value - axis[low]) / length, 1.0 / length, 0
 

@@ -4,7 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from pipeline.physics.friction.friction_table import friction_at
+from pipeline.physics.friction.dry_friction import characteristic
 from pipeline.physics.numerics.compiled import njit
 from pipeline.physics.pads.patch_contact import SUB_DISCS, contact_state
 
@@ -28,8 +28,6 @@ def contact_history(contact, pad, pads, time, displacement, velocity):
     size, samples = pad.size, time.size
     normal, friction = np.empty((size, samples)), np.empty((size, samples))
     patch, separated, outside, evaluations = np.zeros((pads, SUB_DISCS, samples)), 0, 0, 0
-    pressures, speeds = contact.friction_pressure, contact.friction_speed
-    distances, table = contact.friction_distance, contact.friction
     for k in range(samples):
         state = contact_state(contact, time[k], displacement[k], velocity[k])
         along, aside = contact.rows[1] @ velocity[k], contact.rows[2] @ velocity[k]
@@ -43,7 +41,6 @@ def contact_history(contact, pad, pads, time, displacement, velocity):
                 patch[pad[i], d, k] += state.share[i, d] * state.normal[i]
                 if state.share[i, d] > 0.0:
                     evaluations += 1
-                    outside += friction_at(
-                        state.normal[i] / contact.area[i], slip, contact.bedding[d] + contact.bedding_speed * time[k],
-                        pressures, speeds, distances, table, contact.friction_first[i])[3]
+                    outside += characteristic(contact.dry, i, state.normal[i] / contact.law.area[i], slip,
+                                              contact.bedding[d] + contact.bedding_speed * time[k], 1.0)[3]
     return ContactHistory(normal, friction, patch, separated / (size * samples), outside / max(evaluations, 1))

@@ -6,10 +6,12 @@ import numpy as np
 import scipy
 
 from pipeline.contract.errors import ConfigError, ConvergenceError
+from pipeline.physics.friction.dry_friction import Friction, kernel
 from pipeline.physics.numerics.compiled import njit
 from pipeline.physics.pads.patch_contact import SUB_DISCS, PatchContact, add, contact_force, contact_tangent
 from pipeline.physics.time_stepping.element_forces import LawKernel, element_force
 from pipeline.physics.time_stepping.elements import alone
+from pipeline.physics.time_stepping.normal_laws import Table, first_slopes, normal_kernel
 
 #: residual of a time step, as a share of the load
 STEP_TOLERANCE = 1e-8
@@ -60,15 +62,13 @@ def pad_system(sliding, input_force, closure, pressure, friction, bedding, beddi
     count = len(contacts.area)
     contact = PatchContact(
         rows=np.array([contacts.normal, contacts.tangent, contacts.lateral]),
-        opening=np.zeros(count), area=contacts.area, radius=contacts.lever,
+        law=normal_kernel(Table(closure, pressure, damping_speed), contacts), dry=kernel(Friction(friction), count),
+        radius=contacts.lever,
         angle=np.arctan2(contacts.position[:, 1], contacts.position[:, 0]),
-        half_angle=half_angles(contacts.position, contacts.area), closure=closure, pressure=pressure,
-        law_first=np.zeros(count, int), friction_first=np.zeros(count, int),
-        friction_pressure=friction.pressure, friction_speed=friction.speed, friction_distance=friction.distance,
-        friction=friction.friction, bedding=np.array(bedding),
+        half_angle=half_angles(contacts.position, contacts.area), bedding=np.array(bedding),
         bedding_speed=bedding_share * sliding.speed * np.mean(contacts.lever), disc_speed=float(sliding.speed),
         sectors=int(sectors), ramp=float(ramp), stick_speed=float(stick_speed),
-        damping_speed=np.full(count, float(damping_speed)), waviness=np.empty((0, 6)), scatter=np.empty((0, 4)))
+        waviness=np.empty((0, 6)), scatter=np.empty((0, 4)))
     arrays = {name: np.array(value) for name, value in contact._asdict().items() if isinstance(value, np.ndarray)}
     return PadSystem(mass, damping, stiffness, input_force @ sliding.input_rows, contact._replace(**arrays),
                      pad_elements((), sliding.size))
@@ -140,17 +140,16 @@ def _element(system, k, time, displacement, velocity):
 
 def without_friction(system):
     """The same system with a friction coefficient of zero everywhere."""
-    return system._replace(contact=system.contact._replace(friction=np.zeros_like(system.contact.friction)))
+    dry = system.contact.dry
+    return system._replace(contact=system.contact._replace(dry=dry._replace(table=np.zeros_like(dry.table))))
 
 
 def static_start(system, where="static start"):
     """Displacement (n,) in equilibrium with the load before friction acts. Raises ConvergenceError."""
-    frictionless, contact, normal = without_friction(system), system.contact, system.contact.rows[0]
-    first = contact.law_first
-    rise = contact.pressure[first + 1] - contact.pressure[first]
-    slope = contact.area * rise / (contact.closure[1] - contact.closure[0])
+    frictionless, law, normal = without_friction(system), system.contact.law, system.contact.rows[0]
+    slope = first_slopes(law)
     closed = system.stiffness + (normal.T * slope) @ normal
-    guess = scipy.linalg.cho_solve(scipy.linalg.cho_factor(closed), system.load - normal.T @ (slope * contact.opening))
+    guess = scipy.linalg.cho_solve(scipy.linalg.cho_factor(closed), system.load - normal.T @ (slope * law.gap))
     return _equilibrium(frictionless, guess, where)
 
 

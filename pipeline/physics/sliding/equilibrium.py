@@ -19,7 +19,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from pipeline.contract.errors import ConfigError, ConvergenceError
-from pipeline.physics.contact.static_preload import Preload, first_slope, normal_force
+from pipeline.physics.contact.closure_law import force_at_rest
+from pipeline.physics.contact.static_preload import Preload, first_slope
 from pipeline.physics.friction.friction_table import friction_at
 from pipeline.physics.sliding.model import FrictionState, SlidingModel
 
@@ -142,7 +143,7 @@ class _Equilibrium:
     def contact(self, closure):
         """Force (c,) N and its slope (c,) N/m at ``closure``."""
         contacts = self.model.contacts
-        force, slope = normal_force(closure, contacts.area, self.law_closure, self.law_pressure)
+        force, slope = force_at_rest(closure, contacts.area, self.law_closure, self.law_pressure)
         return np.where(contacts.fixed, contacts.preload, force), np.where(contacts.fixed, 0.0, slope)
 
     def contacts_balance(self, closure, slope, step):
