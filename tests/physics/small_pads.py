@@ -6,6 +6,7 @@ import numpy as np
 
 from pipeline.physics.friction.dry_friction import Friction, kernel
 from pipeline.physics.friction.friction_table import FrictionLaw
+from pipeline.physics.friction.state_variables import state_kernel
 from pipeline.physics.pads.pad_system import PadSystem
 from pipeline.physics.pads.patch_contact import PatchContact
 from pipeline.physics.time_stepping.normal_laws import Table, normal_kernel
@@ -31,7 +32,8 @@ def contacts(normal, tangent, lateral=None, friction=0.4, speed=10.0, stiffness=
         rows=np.array([normal, tangent, lateral]), law=normal_kernel(law, pressed),
         dry=kernel(Friction(friction), count), radius=np.full(count, 0.1), angle=np.linspace(-0.5, 0.5, count),
         half_angle=np.full(count, 0.05), bedding=np.full(4, 0.5), bedding_speed=0.0, disc_speed=speed, sectors=16,
-        ramp=0.0, stick_speed=1e-3, waviness=np.empty((0, 6)), scatter=np.empty((0, 4)))
+        ramp=0.0, stick_speed=1e-3, waviness=np.empty((0, 6)), scatter=np.empty((0, 4)),
+        states=state_kernel(Friction(friction), pressed.area), wear=np.zeros(count), receded=np.zeros((2, count)))
     return contact._replace(**more)
 
 

@@ -6,6 +6,7 @@ import numpy as np
 
 from pipeline.physics.friction.dry_friction import characteristic
 from pipeline.physics.numerics.compiled import njit
+from pipeline.physics.pads.memory import accept_contact, begun_contact
 from pipeline.physics.pads.patch_contact import SUB_DISCS, contact_state
 
 
@@ -19,17 +20,26 @@ class ContactHistory(NamedTuple):
     outside: float          # share of the friction evaluations outside the friction table
 
 
-@njit
 def contact_history(contact, pad, pads, time, displacement, velocity):
     """ContactHistory of the motion ``displacement``, ``velocity`` (m, n) at ``time`` (m,).
 
-    ``pad`` (c,) is the number of the pad of each contact, out of ``pads``.
+    ``pad`` (c,) is the number of the pad of each contact, out of ``pads``. Contacts that remember need every step.
     """
+    step = float(time[1] - time[0]) if len(time) > 1 else 0.0
+    return _history(*begun_contact(contact, displacement[0], step), pad, pads, time, displacement, velocity, step)
+
+
+@njit
+def _history(contact, memory, pad, pads, time, displacement, velocity, step):
     size, samples = pad.size, time.size
     normal, friction = np.empty((size, samples)), np.empty((size, samples))
     patch, separated, outside, evaluations = np.zeros((pads, SUB_DISCS, samples)), 0, 0, 0
+    recalls = contact.states.kind.size > 0 or contact.wear.any()
     for k in range(samples):
-        state = contact_state(contact, time[k], displacement[k], velocity[k])
+        if k > 0 and recalls:
+            state = accept_contact(contact, memory, time[k], displacement[k], velocity[k], step)
+        else:
+            state = contact_state(contact, time[k], displacement[k], velocity[k])
         along, aside = contact.rows[1] @ velocity[k], contact.rows[2] @ velocity[k]
         for i in range(size):
             normal[i, k], friction[i, k] = state.normal[i], state.friction[i, 0]

@@ -16,8 +16,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from pipeline.physics.friction.dry_friction import FrictionKernel, characteristic
+from pipeline.physics.friction.dry_friction import LOAD_KEPT, LOAD_SHARE, FrictionKernel, characteristic
 from pipeline.physics.friction.sliding_friction import sliding_friction
+from pipeline.physics.friction.state_kernels import StateKernel
 from pipeline.physics.numerics.compiled import njit
 from pipeline.physics.time_stepping.contact_solver import NormalKernel, yielding_force
 from pipeline.physics.time_stepping.coupled_solver import surface_shift
@@ -44,6 +45,9 @@ class PatchContact(NamedTuple):
     stick_speed: float          # m/s, slip below which friction is regularised
     waviness: np.ndarray        # (w, 6) waves of the surface, as of ``wave_table``
     scatter: np.ndarray         # (s, 4) contact, amplitude, order, phase (rad) of friction around the disc
+    states: StateKernel         # what friction remembers
+    wear: np.ndarray            # (c,) 1/N, depth by which a contact recedes per normal force and way
+    receded: np.ndarray         # (2, c) m and m/s: what wear adds to the gap at the end of the step, and to its rate
 
 
 class ContactState(NamedTuple):
@@ -106,10 +110,13 @@ def sub_disc_friction(friction, i, pressure, slip, share, distance):
 
 @njit
 def surface(contact, time):
-    """(2, c): what waves of the surface add to the opening of each contact, in m, and to its rate, in m/s."""
+    """(2, c): what waves and wear of the surface add to the gap of each contact, in m, and to its rate, in m/s."""
     shift = np.zeros((2, contact.law.area.size))
     if contact.waviness.shape[0] > 0:
         surface_shift(contact.waviness, (time, contact.disc_speed * time, contact.disc_speed), shift)
+    for i in range(contact.receded.shape[1]):
+        shift[0, i] += contact.receded[0, i]
+        shift[1, i] += contact.receded[1, i]
     return shift
 
 
@@ -154,14 +161,16 @@ def contact_state(contact, time, displacement, velocity):
                                                              -(opening + shift[1, i]))
         if stiffness[i] == 0.0:
             continue
-        slip_x, slip_y, pressure = contact.disc_speed * contact.radius[i] - along, -aside, normal[i] / law.area[i]
+        share, slip_x, slip_y = dry.contact[i, LOAD_SHARE], contact.disc_speed * contact.radius[i] - along, -aside
+        heard = dry.contact[i, LOAD_KEPT] + share * normal[i]
+        pressure = heard / law.area[i]
         slip = np.sqrt(slip_x * slip_x + slip_y * slip_y)
         mu, by_pressure, by_slip = sub_disc_friction(dry, i, pressure, slip, shares[i], distance)
         grown = ramp * factor[i]
-        force = sliding_friction(normal[i], pressure, slip, slip_x, slip_y, grown * mu, grown * by_pressure,
+        force = sliding_friction(heard, pressure, slip, slip_x, slip_y, grown * mu, grown * by_pressure,
                                  grown * by_slip, contact.stick_speed)
         friction[i, 0], friction[i, 1] = force.x, force.y
-        coupling[i, 0], coupling[i, 1] = force.x_by_normal, force.y_by_normal
+        coupling[i, 0], coupling[i, 1] = share * force.x_by_normal, share * force.y_by_normal
         drag[i, 0], drag[i, 1], drag[i, 2] = force.xx, force.xy, force.yy
     return ContactState(normal, friction, stiffness, damping, coupling, drag, shares)
 
