@@ -175,7 +175,8 @@ def complex_modes(model: ReducedModel, friction_map: FrictionMap | None, effects
         operating_speed=[o.speed for o in outcomes], operating_friction=[o.mean_friction for o in outcomes],
         operating_force=[o.sliding.contact.force for o in outcomes],
         operating_open=[np.sum(o.sliding.contact.force == 0) for o in outcomes],
-        operating_root=[_lowest(o.root, branches) for o in outcomes], **_unstable(outcomes, model),
+        operating_root=[_lowest(o.root, branches) for o in outcomes],
+        **_unstable(outcomes, model, models[0][0].bench.model.body_name),
         corrections=max([s.basis.corrections for s in states] + [o.corrections for o in outcomes]))
 
 
@@ -312,9 +313,12 @@ def _linearised(model, sliding, basis, settings, slopes=True):
                             centrifugal=settings.centrifugal), beside
 
 
-def _unstable(outcomes, model):
-    """Growing modes below the frequency limit, strongest first: shapes on the surface, what moves, what feeds them."""
-    recovery, names = model.recovery, list(model.body_name)
+def _unstable(outcomes, model, bodies):
+    """Growing modes below the frequency limit, strongest first: shapes on the surface, what moves, what feeds them.
+
+    ``bodies``: names of those that move, with what effects add to the model.
+    """
+    recovery, names = model.recovery, list(bodies)
     unstable = [(number, *mode) for number, o in enumerate(outcomes)
                 for mode in zip(o.growing, o.motion.T, o.terms, o.shares, strict=True)]
     unstable.sort(key=lambda f: -f[1].real)
