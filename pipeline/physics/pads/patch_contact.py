@@ -16,7 +16,16 @@ from typing import NamedTuple
 
 import numpy as np
 
-from pipeline.physics.friction.dry_friction import LOAD_KEPT, LOAD_SHARE, FrictionKernel, characteristic
+from pipeline.physics.friction.dry_friction import (
+    FACTOR,
+    FIRST,
+    LOAD_KEPT,
+    LOAD_SHARE,
+    SPEED_KEPT,
+    SPEED_SHARE,
+    FrictionKernel,
+)
+from pipeline.physics.friction.friction_table import mean_friction_at
 from pipeline.physics.friction.sliding_friction import sliding_friction
 from pipeline.physics.friction.state_kernels import StateKernel
 from pipeline.physics.numerics.compiled import njit
@@ -96,16 +105,11 @@ def sub_disc_friction(friction, i, pressure, slip, share, distance):
 
     ``friction`` is a FrictionKernel.
     """
-    alike = distance[0] == distance[1] == distance[2] == distance[3]
-    mu, by_pressure, by_slip = 0.0, 0.0, 0.0
-    for d in range(1 if alike else SUB_DISCS):
-        weight = 1.0 if alike else share[d]
-        if weight > 0.0:
-            value, pressure_slope, slip_slope, _ = characteristic(friction, i, pressure, slip, distance[d], 1.0)
-            mu += weight * value
-            by_pressure += weight * pressure_slope
-            by_slip += weight * slip_slope
-    return mu, by_pressure, by_slip
+    contact = friction.contact
+    factor, heard = contact[i, FACTOR], contact[i, SPEED_KEPT] + contact[i, SPEED_SHARE] * slip
+    mu, by_pressure, by_slip = mean_friction_at(pressure, heard, distance, share, friction.pressure, friction.speed,
+                                                friction.distance, friction.table, int(contact[i, FIRST]))
+    return factor * mu, factor * by_pressure, factor * contact[i, SPEED_SHARE] * by_slip
 
 
 @njit
