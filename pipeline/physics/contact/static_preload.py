@@ -15,7 +15,7 @@ from pipeline.physics.numerics.sparse_solver import factorise
 _STEPS = 100
 _HALVINGS = 30
 #: largest accepted imbalance of a contact force, as a share of the largest
-_TOLERANCE = 1e-10
+BALANCED = 1e-10
 
 
 @dataclass(frozen=True)
@@ -73,25 +73,43 @@ def solve_preload(compliance, free_closure, area, law_closure, law_pressure):
     if (free_closure <= 0).all():
         raise ConfigError("preload", "pads that touch the disc under the load",
                           f"gaps of at least {-free_closure.max():g} m", "check the piston force and the positions")
-    closure, first = np.full_like(free_closure, law_closure[1]), first_slope(area, law_closure, law_pressure)
-    force, slope = force_at_rest(closure, area, law_closure, law_pressure)
-    miss = closure - free_closure + compliance @ force
+    first = first_slope(area, law_closure, law_pressure)
+
+    def equation(closure):
+        force, slope = force_at_rest(closure, area, law_closure, law_pressure)
+        return closure - free_closure + compliance @ force, force, slope, np.eye(len(area)) + compliance * slope
+
+    closure, imbalance = balance(equation, np.full_like(free_closure, law_closure[1]), first,
+                                 (first * np.abs(free_closure)).max())
+    if not imbalance <= BALANCED:
+        raise ConvergenceError("preload", f"contact forces that balance within {BALANCED:g}", f"{imbalance:.1e}",
+                               "raise the load or soften the contact law")
+    return Preload(*force_at_rest(closure, area, law_closure, law_pressure), closure)
+
+
+def balance(equation, closure, first, reference):
+    """(closures (c,) m, imbalance): Newton's method on ``equation``, from ``closure``, steps halved where needed.
+
+    ``equation(closure)`` gives what is missing (c,) m, force (c,) N, its slope (c,) N/m and the derivative (c, c) of
+    what is missing. The imbalance is the largest change of a force that one more step would make, as a share of the
+    largest force or of ``reference`` N; an open contact counts with the stiffness ``first`` (c,) N/m of one that has
+    just closed. At most BALANCED where the method converged, infinite where the derivative is singular.
+    """
+    miss, force, slope, derivative = equation(closure)
     for _ in range(_STEPS):
-        step = np.linalg.solve(np.eye(len(area)) + compliance * slope, miss)
-        for halving in range(_HALVINGS):
-            trial = closure - step / 2**halving
-            force, slope = force_at_rest(trial, area, law_closure, law_pressure)
-            trial_miss = trial - free_closure + compliance @ force
-            if np.linalg.norm(trial_miss) < np.linalg.norm(miss) or halving == _HALVINGS - 1:
+        try:
+            step = np.linalg.solve(derivative, miss)
+        except np.linalg.LinAlgError:
+            return closure, np.inf
+        imbalance = np.abs(np.maximum(slope, first) * step).max() / (max(force.max(), reference) or 1.0)
+        if imbalance <= BALANCED:
+            break
+        for length in 0.5 ** np.arange(_HALVINGS):
+            trial = equation(closure - length * step)
+            if np.linalg.norm(trial[0]) < np.linalg.norm(miss):
                 break
-        closure, miss = trial, trial_miss
-        # an open patch counts as if it were just closed
-        balance = np.linalg.solve(np.eye(len(area)) + compliance * slope, miss) * np.maximum(slope, first)
-        largest = max(force.max(), (first * np.abs(free_closure)).max())
-        if np.abs(balance).max() <= _TOLERANCE * largest:
-            return Preload(force, slope, closure)
-    raise ConvergenceError("preload", f"contact forces that balance within {_TOLERANCE:g}",
-                           f"{np.abs(balance).max() / largest:.1e}", "raise the load or soften the contact law")
+        closure, (miss, force, slope, derivative) = closure - length * step, trial
+    return closure, imbalance
 
 
 def first_slope(area, law_closure, law_pressure):
