@@ -2,9 +2,9 @@
 
 The whole reduced assembly is one ``ObjectGenericODE2`` whose user functions are the compiled contact force and its
 exact tangent. The four jointed sub-discs turn at a prescribed speed and need no coordinates of their own: they enter
-through the patches (a test holds the jointed bodies against this form). Memory of friction, wear and elements goes on
-after every accepted step. Time stepping is exudyn's implicit
-trapezoidal rule with modified Newton iterations and a fixed step.
+through the patches (a test holds the jointed bodies against this form). Time stepping is exudyn's implicit
+trapezoidal rule with modified Newton iterations and a fixed step, after which memory of friction, wear and elements
+goes on.
 """
 
 from functools import partial
@@ -29,11 +29,11 @@ def integrate(system, start, step, steps, record_every=1, scale=None):
     import exudyn
 
     scale = np.linalg.norm(system.load) if scale is None else scale
-    multibody, recalls, (system, memory) = (exudyn.SystemContainer().AddSystem(), remembers(system),
-                                            begun(system, start, step))
+    multibody = exudyn.SystemContainer().AddSystem()
+    system, memory = begun(system, start, step)
     _add_assembly(multibody, system, start)
     multibody.Assemble()
-    accepted = partial(accept, system, memory) if recalls else None
+    accepted = partial(accept, system, memory) if remembers(system) else None
     states = _record(multibody, start, step, steps, record_every, accepted)
     solver = exudyn.MainSolverImplicitSecondOrder()
     if not _solve(exudyn, solver, multibody, _settings(exudyn, step, steps, STEP_TOLERANCE * scale)):

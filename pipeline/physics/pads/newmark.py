@@ -26,7 +26,8 @@ def integrate(system, start, step, steps, record_every=1, scale=None, tolerance=
     the system's coordinates; default the load). Raises ConvergenceError naming the time and the residual otherwise.
     """
     scale = np.linalg.norm(system.load) if scale is None else scale
-    recalls, (system, memory) = remembers(system), begun(system, start, step)
+    system, memory = begun(system, start, step)
+    recalls = remembers(system)
     motion = np.zeros((3, np.size(start)))
     motion[0] = start
     motion[2] = np.linalg.solve(system.mass, force(system, 0.0, motion[0], motion[1]))
