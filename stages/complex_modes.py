@@ -177,7 +177,8 @@ def complex_modes(model: ReducedModel, friction_map: FrictionMap | None, effects
         operating_speed=[o.speed for o in outcomes], operating_friction=[o.mean_friction for o in outcomes],
         operating_force=[o.sliding.contact.force for o in outcomes],
         operating_open=[np.sum(o.sliding.contact.force == 0) for o in outcomes],
-        operating_root=[_lowest(o.root, branches) for o in outcomes], **unstable_fields(outcomes, model),
+        operating_root=[_lowest(o.root, branches) for o in outcomes],
+        **unstable_fields(outcomes, model, models[0][0].bench.model.body_name),
         **path_fields_of(outcomes, model, settings, context),
         corrections=max([s.basis.corrections for s in states] + [o.corrections for o in outcomes]))
 

@@ -6,7 +6,7 @@ from functools import partial
 import numpy as np
 
 from pipeline.contract import ConfigError, Context, Quantities, Quantity, Section, option, stage
-from pipeline.physics.contact.static_preload import normal_force
+from pipeline.physics.contact.closure_law import force_at_rest
 from pipeline.physics.fem.supports import held_modes
 from pipeline.physics.friction.dry_friction import constant
 from pipeline.physics.friction.tangential_law import tangential_law
@@ -191,7 +191,7 @@ def _pressed(system, model, settings, point):
         raise ConfigError("lock_in", "a contact with the interface law", "a hard one", "pin_on_disc.contact.hard:"
                                                                                        " false")
     closure = np.interp(force / system.contact_area, system.law_pressure, system.law_closure)
-    stiffness = normal_force(closure, system.contact_area, system.law_closure, system.law_pressure)[1]
+    stiffness = force_at_rest(closure, system.contact_area, system.law_closure, system.law_pressure)[1]
     return replace(sliding, contacts=replace(sliding.contacts, preload=np.array([force]), stiffness=stiffness,
                                              damping=np.array([settings.contact_damping])))
 

@@ -13,6 +13,7 @@ from pipeline.contract import ConfigError, Context, Quantities, Quantity, Sectio
 from pipeline.physics.friction.friction_table import FrictionLaw
 from pipeline.physics.pads import exudyn_model, newmark
 from pipeline.physics.pads.contact_history import contact_history
+from pipeline.physics.pads.memory import remembers
 from pipeline.physics.pads.pad_motion import gravity_rows, sliding_axes
 from pipeline.physics.pads.pad_system import pad_system, static_start
 from pipeline.physics.pads.preloaded_modes import preloaded_modes
@@ -82,8 +83,10 @@ def multibody(model: ReducedModel, friction_map: FrictionMap, effects: Effects |
     refused. Opening contacts require 5 us in any case.
 
     Effects act on friction and contact laws of the patches, on the disc surface, and on pads, caliper and
-    joints. Friction over distance uses the distance on the friction map. Effects with memory, with wear or
-    of the flexible disc cannot act here and are refused unless 'without' names them.
+    joints. Memory of friction, wear and hysteresis goes on once per accepted step; the stability map reads
+    friction as it stands without memory, and elements as loaded for the first time. Friction over distance
+    uses the distance on the friction map. Refused, unless 'without' names them: effects of the flexible
+    disc, which is rigid here, and friction-induced damping, which friction in two directions already has.
 
     Method:
     Reduced pads and caliper were coupled to a rigid disc ({coupling} coupling) whose {sectors} sectors belong
@@ -136,20 +139,24 @@ def _operate(point, posed, model, settings):
     system = build(1.0, 1.0)
     start = static_start(system, _where(point))
     modal, modes = preloaded_modes(system, start, settings.highest_frequency, settings.correction_damping)
+    every = 1 if remembers(modal) else settings.record_every      # what remembers is followed step by step
     time, displacement, velocity = INTEGRATORS[settings.integrator](
-        modal, np.zeros(modes.shape[1]), settings.step, round(settings.duration / settings.step),
-        settings.record_every, scale=np.linalg.norm(modes.T @ system.load))
+        modal, np.zeros(modes.shape[1]), settings.step, round(settings.duration / settings.step), every,
+        scale=np.linalg.norm(modes.T @ system.load))
     pads, names = _pads(model)
     history = contact_history(modal.contact, np.searchsorted(pads, model.contact_body), len(names), time, displacement,
                               velocity)
+    kept = slice(None, None, settings.record_every // every)
+    time, displacement = time[kept], displacement[kept]
+    normal, friction = history.normal[:, kept], history.friction[:, kept]
     rows = _motion_rows(model, pads, len(start))
     motion = (rows @ modes) @ displacement.T + (rows @ start)[:, :, None]
     stability, root = stability_map(build, settings.caliper_factors, settings.abutment_factors,
                                     settings.stability_frequency, settings.correction_damping)
     return _Run(time, {
-        "pad_motion": motion, "patch_force": history.patch, "normal_force": history.normal.astype(np.float32),
-        "friction_force": history.friction.astype(np.float32),
-        "mean_friction": _mean_friction(history, time >= settings.settling),
+        "pad_motion": motion, "patch_force": history.patch[..., kept], "normal_force": normal.astype(np.float32),
+        "friction_force": friction.astype(np.float32),
+        "mean_friction": _mean_friction(normal, friction, time >= settings.settling),
         "separated_share": history.separated, "outside_map_share": history.outside, "stability": stability,
         "stability_root": root, **_oscillation(motion[:, 0], time, settings)})
 
@@ -191,8 +198,8 @@ def _motion_rows(model, pads, size):
     return np.pad(rows[:, :, kept], ((0, 0), (0, 0), (0, added))) if added else rows[:, :, kept]
 
 
-def _mean_friction(history, settled):
-    return history.friction[:, settled].sum() / history.normal[:, settled].sum()
+def _mean_friction(normal, friction, settled):
+    return friction[:, settled].sum() / normal[:, settled].sum()
 
 
 def _oscillation(along, time, settings):

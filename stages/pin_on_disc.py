@@ -7,7 +7,8 @@ from typing import Literal
 import numpy as np
 
 from pipeline.contract import ConfigError, Context, Quantities, Quantity, Section, option, stage
-from pipeline.physics.contact.static_preload import contact_law, normal_force
+from pipeline.physics.contact.closure_law import force_at_rest
+from pipeline.physics.contact.static_preload import contact_law
 from pipeline.physics.fem.supports import held_modes
 from pipeline.physics.friction.tangential_law import TangentialLaw
 from pipeline.physics.modal.disc_modes import describe
@@ -146,7 +147,7 @@ def _law(interface_law, pressure, settings):
     thinned = slice(None, None, _LAW_STRIDE)
     closure, carried = contact_law(interface_law.gap_pressure[thinned], interface_law.normal_stiffness[thinned],
                                    interface_law.gap_pressure[-1])
-    stiffness = [normal_force(np.interp([p], carried, closure), np.array([area]), closure, carried)[1]
+    stiffness = [force_at_rest(np.interp([p], carried, closure), np.array([area]), closure, carried)[1]
                  for p in pressure]
     return {**read, "law_closure": closure, "law_pressure": carried, "contact_stiffness": stiffness}
 

@@ -21,8 +21,9 @@ _SAMPLES_PER_PERIOD = 2.5
 class Settings(Section):
     """Load on the elastic brake, and the modes that respond."""
 
-    coupling: Literal["assembly", "disc"] = option(
-        "disc", "disc: the disc alone, turning; assembly: the whole brake, as in the paper, its contact counted twice")
+    coupling: Literal["disc", "released", "assembly"] = option(
+        "disc", "disc: the disc alone, turning; released: the whole brake with open contacts; assembly: with closed"
+        " contacts as in the paper, which counts them twice")
     forces: Literal["friction", "friction_and_normal"] = option(
         "friction_and_normal", "which contact forces are applied")
     load: Literal["fluctuation", "whole"] = option(
@@ -69,18 +70,25 @@ def response(structure: Structure, model: ReducedModel, multibody: Multibody, se
              context: Context) -> Response:
     """Compute the response of the elastic brake to the contact forces by modal superposition.
 
-    Coupling 'disc' is the consistent one-way result: the contact forces were computed on a rigid disc and
-    act on the elastic disc alone, in its rotating frame, at points fixed in space (gyroscopic and
+    The forces were computed on a rigid disc and contain all that the contact does, the reaction of the
+    pads included. They are the only thing that passes between pads and disc, so each side must carry them
+    without contact springs.
+
+    Coupling 'disc': the elastic disc alone, in its rotating frame, at points fixed in space (gyroscopic and
     centrifugal terms are neglected: the disc rotates by a hundredth of a radian per radian of its slowest
-    mode).
+    mode). Coupling 'released': the whole brake with open contacts. Its disc is the same but does not turn;
+    pads and caliper repeat the motion that they had in the multibody simulation, so that sensors may lie
+    on them.
 
     Coupling 'assembly' is the paper's variant (section 2.1.6): the modes of the whole brake, with contact
     springs between pads and disc. It counts the contact twice. The normal forces already include the
     spring forces due to the pad motion, and load the same springs again; along sliding, the pads respond
     a second time, at resonance, to friction forces that already follow their motion. Tones at the pad
     frequencies are exaggerated: at 7 kHz the normal forces add 10 to 50 % to the response to friction.
-    The disc alone, on the other hand, lacks the support of the pads and responds several times as
-    strongly below 1 kHz. Only an elastic disc in the multibody simulation itself resolves both.
+
+    The disc without the pads, on the other hand, lacks their support and responds several times as
+    strongly below 1 kHz. That is the limit of every one-way analysis: only an elastic disc in the
+    simulation of the contact itself resolves it.
 
     'forces: friction' omits the normal forces.
 
@@ -94,7 +102,8 @@ def response(structure: Structure, model: ReducedModel, multibody: Multibody, se
     diagonal modal damping. Spectra are Welch estimates with a resolution of {resolution}, after {settling}.
     """
     step = _checked_step(multibody.time, settings)
-    build = {"assembly": _assembly, "disc": _turning_disc}[settings.coupling]
+    build = {"assembly": partial(_brake, closed=True), "released": partial(_brake, closed=False),
+             "disc": _turning_disc}[settings.coupling]
     sensors, superpositions = build(structure, model, multibody, settings)
     components = {"friction": (multibody.friction_force,),
                   "friction_and_normal": (multibody.normal_force, multibody.friction_force)}[settings.forces]
@@ -121,12 +130,12 @@ def _checked_step(time, settings):
     return step
 
 
-def _assembly(structure, model, multibody, settings):
-    """Sensors and, per operating point, the modes of the whole brake about the preload of its pressure."""
+def _brake(structure, model, multibody, settings, closed):
+    """Sensors and, per operating point, the modes of the whole brake, contacts ``closed`` about its preload or open."""
     superpositions = []
     for pressure, speed in zip(multibody.pressure, multibody.speed, strict=True):
         sliding = sliding_model(model, _preload_state(model, pressure), speed)
-        mass, damping, stiffness = sliding.frictionless(gyroscopic=False)
+        mass, damping, stiffness = (sliding.frictionless if closed else sliding.supported)(gyroscopic=False)
         angular, shape = undamped_modes(mass, stiffness, settings.highest_frequency)
         rows = _chosen(settings, sliding.contacts.normal, sliding.contacts.tangent)
         superpositions.append(_Superposition(angular, np.einsum("cm,cm->m", shape, damping @ shape),

@@ -84,10 +84,13 @@ def _strongest_first(outcomes):
     return sorted(unstable, key=lambda mode: -mode[1].near[mode[2]].real)
 
 
-def unstable_fields(outcomes, model):
+def unstable_fields(outcomes, model, bodies):
     """Fields of ComplexModes of the modes of ``growing`` outcomes, strongest first: shapes on the surface, what moves
-    and what feeds them. ``model``: product ReducedModel."""
-    unstable, recovery, names = _strongest_first(outcomes), model.recovery, list(model.body_name)
+    and what feeds them.
+
+    ``model``: product ReducedModel; ``bodies``: names of all that move, with what effects add to it.
+    """
+    unstable, recovery, names = _strongest_first(outcomes), model.recovery, list(bodies)
     count = len(unstable)
     shapes = [_normalised(recovery @ o.motion[:recovery.shape[2], k].astype(np.complex64)) for _, o, k in unstable]
     shapes = np.array(shapes).reshape(count, *recovery.shape[:2])
@@ -98,7 +101,7 @@ def unstable_fields(outcomes, model):
     return {"unstable_operating": [number for number, *_ in unstable], "unstable_root": roots,
             "unstable_reduced": reduced, "unstable_residual": residual, "unstable_shape": shapes,
             "unstable_diameters": diameters(model, shapes), "body_name": names,
-            "unstable_share": np.reshape([o.shares[k][:len(names)] for _, o, k in unstable], (count, len(names))),
+            "unstable_share": np.reshape([o.shares[k] for _, o, k in unstable], (count, len(names))),
             "growth_term": terms, "unstable_growth": np.reshape([list(g.values()) for g in growth],
                                                                 (count, len(terms))),
             "unstable_contact": np.reshape([o.contacts[k] for _, o, k in unstable], (count, len(model.contact_area))),

@@ -9,18 +9,19 @@ from pipeline.contract import ConfigError
 from pipeline.effects import CATALOGUE
 from pipeline.effects.effect import compose
 from pipeline.physics.contact.groups import parts
-from pipeline.physics.friction.dry_friction import FIRST, Friction, kernel, under
-from pipeline.physics.friction.state_variables import Scatter
-from pipeline.physics.pads.pad_system import pad_elements
+from pipeline.physics.friction.dry_friction import Friction, under
+from pipeline.physics.friction.state_kernels import DISTANCE, SCATTER
+from pipeline.physics.friction.state_variables import Scatter, state_kernel
+from pipeline.physics.pads.pad_system import pad_elements, pad_friction
 from pipeline.physics.sliding.doublets import doublets
 from pipeline.physics.sliding.model import sliding_model
-from pipeline.physics.time_stepping.elements import Gap, Polynomial, Power, Softening, Wave, wave_table
+from pipeline.physics.time_stepping.elements import Turning, wave_table
 from pipeline.physics.time_stepping.normal_laws import normal_kernel
 from pipeline.physics.time_stepping.simulate import Table
 from pipeline.physics.virtual_rig.response import Bench
 
-#: laws of elements without memory
-_WITHOUT_MEMORY = (Polynomial, Power, Gap, Softening, Wave)
+#: states of friction that pads have otherwise: by the distance of the sub-discs, and around the disc
+_BY_THE_SUB_DISCS = (DISTANCE, SCATTER)
 
 
 def braked(model, friction, speed, settings):
@@ -41,13 +42,15 @@ def with_terms(bench, terms, conditions):
 def _dressed(system, model, law, friction):
     """A PadSystem with the laws of contact and friction, and the surfaces and elements of its SlidingModel."""
     count = len(model.contacts.area)
-    normal, dry = normal_kernel(law, model.contacts), kernel(friction, count)
+    states = state_kernel(friction, model.contacts.area)
+    acting = ~np.isin(states.kind, _BY_THE_SUB_DISCS)
     contact = system.contact._replace(
-        opening=normal.gap, closure=normal.closure, pressure=normal.pressure, law_first=normal.first,
-        damping_speed=normal.damping_speed, friction_pressure=dry.pressure, friction_speed=dry.speed,
-        friction_distance=dry.distance, friction=dry.table, friction_first=dry.contact[:, FIRST].astype(np.int64),
-        waviness=wave_table(model.contacts.waviness), scatter=_scatter(friction, count))
-    _refuse_memory(model.elements)
+        law=normal_kernel(law, model.contacts), dry=pad_friction(friction, count),
+        waviness=wave_table(model.contacts.waviness), scatter=_scatter(friction, count),
+        states=states._replace(kind=states.kind[acting], contact=states.contact[acting],
+                               parameter=states.parameter[acting], begin=0 * states.begin),
+        wear=np.array(np.broadcast_to(model.contacts.wear, count), float))
+    _refuse_turning(model.elements)
     return system._replace(contact=contact, elements=pad_elements(model.elements, model.size))
 
 
@@ -58,10 +61,10 @@ def _scatter(friction, count):
     return np.array(rows, float).reshape(-1, 4)
 
 
-def _refuse_memory(elements):
+def _refuse_turning(elements):
     for element in elements:
-        if not isinstance(element.law, _WITHOUT_MEMORY):
-            raise refused(element.name.split()[0], "has a memory there, or turns friction that turns anyway")
+        if isinstance(element.law, Turning):
+            raise refused(element.name.split()[0], "turns friction that turns anyway")
 
 
 def kept(terms, without):

@@ -20,7 +20,7 @@ class Response:
     mode_operating: Array = count("mode", "operating point of the superposed mode")
     mode_frequency: Array = quantity("Hz", "mode", "its natural frequency")
     mode_damping: Array = quantity("1", "mode", "its damping ratio, 0 for a rigid motion")
-    coupling: Array = text("", "how forces enter: assembly or disc")
+    coupling: Array = text("", "how forces enter: disc, released (open contacts) or assembly (closed contacts)")
 
 
 @product(version=3)
@@ -30,7 +30,7 @@ class Squeal:
     pressure: Array = quantity("Pa", "operating", "nominal pad pressure")
     speed: Array = quantity("rad/s", "operating", "disc speed")
     sensor_name: Array = text("sensor", "sensor names")
-    coupling: Array = text("", "how forces entered the response: assembly or disc")
+    coupling: Array = text("", "how forces entered the response: disc, released (open contacts) or assembly (closed contacts)")
     reference: Array = quantity("m/s", "", "reference velocity of the level")
     threshold: Array = quantity("1", "", "level above which a peak is a squeal event, dB")
     peak_level: Array = quantity("1", "operating sensor", "highest level in the squeal band, dB")

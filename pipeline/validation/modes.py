@@ -16,6 +16,8 @@ _FARTHEST = 1.25
 _NEVER = 1e3
 #: half-width of the band in which neighbours of a squeal frequency are counted [Hz]
 _NEIGHBOURHOOD = 1000.0
+#: what responds, by the coupling of the stage response
+_RESPONDING = {"disc": "disc alone", "released": "brake with open contacts", "assembly": "whole assembly"}
 #: squeal events closer than this are one squeal frequency [Hz]: the last digit of the paper's
 _ONE_LINE = 100.0
 
@@ -84,7 +86,7 @@ def squeal_rows(squeal, known):
     """
     frequency = np.sort(squeal.event_frequency[squeal.event_order == 1])
     lines = np.count_nonzero(np.diff(frequency) > _ONE_LINE) + bool(len(frequency))
-    source = f"response of the {'disc alone' if squeal.coupling == 'disc' else 'whole assembly'}"
+    source = f"response of the {_RESPONDING[str(squeal.coupling)]}"
     harmonics, constant = squeal.event_frequency.size - len(frequency), "our pressure and speed are constant"
     basis = f"{source}; {harmonics or 'no'} harmonic{'' if harmonics == 1 else 's'} of lower tones excluded"
     rows = {"squeal_lines": ours(lines, f"distinct frequencies, more than {_ONE_LINE:.0f} Hz apart; {basis}"),

@@ -45,15 +45,16 @@ def test_modes_that_decay_are_dropped_with_all_that_is_theirs():
 
 
 def test_fields_stand_strongest_first_whatever_the_operating_point():
-    """Shares end at the bodies of the product: effects may have added others behind them."""
     model = small_brake()
-    made = unstable_fields([outcome(5 + 1000j), outcome(6 + 2000j, 9 + 1001j)], model)
+    bodies = (*model.body_name, "body that an effect adds")
+    made = unstable_fields([outcome(5 + 1000j), outcome(6 + 2000j, 9 + 1001j)], model, bodies)
     assert made["unstable_root"] == [9 + 1001j, 6 + 2000j, 5 + 1000j] and made["unstable_operating"] == [1, 1, 0]
     assert made["unstable_first"].tolist() == [0, 1, 0] and made["growth_term"] == ["fed"]
     assert made["unstable_growth"].tolist() == [[1.0], [0.0], [0.0]]
-    assert made["unstable_share"].shape == (3, len(model.body_name)) and made["unstable_contact"].shape == (3, 6)
+    assert made["unstable_share"].shape == (3, 5) and made["body_name"] == list(bodies)
+    assert made["unstable_contact"].shape == (3, 6)
     assert made["unstable_reduced"][0] == 10 + 1001j and made["unstable_residual"] == [1e-7, 0.0, 0.0]
-    none = unstable_fields([outcome()], model)
+    none = unstable_fields([outcome()], model, model.body_name)
     assert none["growth_term"] == [] and none["unstable_growth"].shape == (0, 0) and len(none["unstable_shape"]) == 0
     assert all(len(v) == 0 for v in path_fields_of([outcome()], model, SETTINGS, Context()).values())
 

@@ -75,12 +75,22 @@ def test_runout_moves_the_pads_and_leaves_the_stability_map_alone():
 
 
 def test_what_does_not_act_is_refused_or_left_out_by_name():
-    for name, values in (("wear", {"rate": "1e-12 m^2/N"}), ("contact_memory", {"length": "1 mm"})):
-        with pytest.raises(ConfigError, match=f"effects.{name}: expected .*stage multibody.*without: .{name}"):
-            braking({name: {"contact": values}})
-        same(braking({name: {"contact": values}}, without=(name,)), braking(), rtol=0)
-    with pytest.raises(ConfigError, match="stage multibody"):
-        braking({"viscoelastic_pad": {"piston": {"share": 0.3, "time": "1 ms"}}})
+    name = "friction_induced_damping"
+    block = {name: {"contact": {"share": 1.0}}}
+    with pytest.raises(ConfigError, match=f"effects.{name}: expected .*stage multibody.*without: .{name}"):
+        braking(block)
+    same(braking(block, without=(name,)), braking(), rtol=0)
+
+
+@pytest.mark.parametrize("block", [
+    {"wear": {"contact": {"rate": "1e-12 m^2/N"}}}, {"contact_memory": {"contact": {"length": "1 mm"}}},
+    {"viscoelastic_pad": {"piston": {"share": 0.3, "time": "1 ms"}}}])
+def test_what_remembers_acts_alike_in_both_integrators(block):
+    compiled, multibody = braking(block), braking(block, integrator="exudyn")
+    plain, size = braking(), np.abs(compiled.pad_motion).max()
+    moved = np.abs(compiled.pad_motion - plain.pad_motion).max()
+    assert np.abs(multibody.pad_motion - compiled.pad_motion).max() < min(1e-6 * size, 1e-2 * moved)
+    assert np.abs(multibody.normal_force - compiled.normal_force).max() < 1e-4 * compiled.normal_force.max()
 
 
 def test_an_effect_of_the_flexible_disc_alone_is_refused():

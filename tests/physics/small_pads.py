@@ -1,28 +1,39 @@
 """Small systems of pads on the rigid disc for tests: a block on a belt, a two-mode flutter model, a random assembly."""
 
+from dataclasses import replace
+
 import numpy as np
 
+from pipeline.physics.friction.dry_friction import Friction, kernel
+from pipeline.physics.friction.friction_table import FrictionLaw
+from pipeline.physics.friction.state_variables import state_kernel
 from pipeline.physics.pads.pad_system import PadSystem
 from pipeline.physics.pads.patch_contact import PatchContact
+from pipeline.physics.time_stepping.normal_laws import Table, normal_kernel
+from tests.physics.lumps import lumps
 
 FAR = 1e-2
 
 
-def contacts(normal, tangent, lateral=None, friction=0.4, speed=10.0, stiffness=1e8, damping_speed=np.inf, **more):
-    """PatchContact with a linear law of ``stiffness`` per contact of 1 cm^2; ``friction``: a number or a table."""
-    count, area = len(normal), 1e-4
-    lateral = np.zeros_like(tangent) if lateral is None else lateral
-    friction = np.full((2, 2, 2), friction) if np.isscalar(friction) else friction
+def contacts(normal, tangent, lateral=None, friction=0.4, speed=10.0, stiffness=1e8, damping_speed=np.inf, law=None,
+             area=1e-4, **more):
+    """PatchContact with a linear law of ``stiffness`` N/m per contact of ``area`` m^2, or with a ``law``, a Table.
+
+    ``friction``: a number or a FrictionLaw.
+    """
+    count, lateral = len(normal), np.zeros_like(tangent) if lateral is None else lateral
+    if np.isscalar(friction):
+        friction = FrictionLaw([0.0, 1e9], [0.0, 100.0], [0.0, 1.0], np.full((2, 2, 2), friction))
     closure = np.array([0.0, FAR / 2, FAR])
+    law = law or Table(closure, stiffness / area * closure, damping_speed)
+    pressed = replace(lumps(np.ones(np.shape(normal)[1]), normal=normal, tangent=tangent).contacts,
+                      area=np.full(count, area))
     contact = PatchContact(
-        rows=np.array([normal, tangent, lateral]), opening=np.zeros(count), area=np.full(count, area),
-        radius=np.full(count, 0.1), angle=np.linspace(-0.5, 0.5, count), half_angle=np.full(count, 0.05),
-        closure=closure, pressure=stiffness / area * closure, friction_pressure=np.array([0.0, 1e9]),
-        friction_speed=np.array([0.0, 100.0]), friction_distance=np.array([0.0, 1.0]),
-        friction=friction, bedding=np.full(4, 0.5), bedding_speed=0.0, disc_speed=speed,
-        sectors=16, ramp=0.0, stick_speed=1e-3, damping_speed=np.full(count, damping_speed),
-        law_first=np.zeros(count, int), friction_first=np.zeros(count, int), waviness=np.empty((0, 6)),
-        scatter=np.empty((0, 4)))
+        rows=np.array([normal, tangent, lateral]), law=normal_kernel(law, pressed),
+        dry=kernel(Friction(friction), count), radius=np.full(count, 0.1), angle=np.linspace(-0.5, 0.5, count),
+        half_angle=np.full(count, 0.05), bedding=np.full(4, 0.5), bedding_speed=0.0, disc_speed=speed, sectors=16,
+        ramp=0.0, stick_speed=1e-3, waviness=np.empty((0, 6)), scatter=np.empty((0, 4)),
+        states=state_kernel(Friction(friction), pressed.area), wear=np.zeros(count), receded=np.zeros((2, count)))
     return contact._replace(**more)
 
 
@@ -50,12 +61,11 @@ def random_assembly(seed=1, size=12, count=8):
     pressures, speeds, distances = np.array([0, 1e6, 2e6, 9e6]), np.array([0.1, 0.9, 1.5]), np.array([0, 5e-3, 1e-2])
     friction = (0.35 + 0.05 * np.sqrt(pressures / 1e6)[:, None, None] - 0.06 * speeds[:, None]
                 + 8.0 * distances)
-    pressure, area, preload = 2e11 * closure + 1e17 * closure**2, np.full(count, 5e-5), np.full(count, 60.0)
+    pressure, area, preload = 2e11 * closure + 1e17 * closure**2, 5e-5, np.full(count, 60.0)
+    law = Table(closure, pressure, 2.0, gap=-np.interp(preload / area, pressure, closure))
     contact = contacts(
-        *rows, closure=closure, pressure=pressure, opening=-np.interp(preload / area, pressure, closure), area=area,
-        friction_pressure=pressures, friction_speed=speeds, friction_distance=distances, friction=friction,
-        bedding=np.array([1, 3, 5, 7]) * 1e-3, bedding_speed=0.02, speed=9.0, ramp=1e-3,
-        damping_speed=2.0, half_angle=np.full(count, 0.3))
+        *rows, law=law, area=area, friction=FrictionLaw(pressures, speeds, distances, friction),
+        bedding=np.array([1, 3, 5, 7]) * 1e-3, bedding_speed=0.02, speed=9.0, ramp=1e-3, half_angle=np.full(count, 0.3))
     basis, _ = np.linalg.qr(rng.normal(size=(size, size)))
     stiffness = 0.05 * (basis * (2 * np.pi * np.geomspace(300, 2e4, size)) ** 2) @ basis.T
     stiffness = (stiffness + stiffness.T) / 2

@@ -6,9 +6,13 @@ import numpy as np
 import pytest
 
 from pipeline.contract.errors import ConfigError, ConvergenceError
+from pipeline.physics.friction.dry_friction import Friction
+from pipeline.physics.friction.friction_table import FrictionLaw
 from pipeline.physics.modal.quadratic_eigenproblem import quadratic_roots
 from pipeline.physics.sliding.equilibrium import closure_response, model_about, steady_sliding
 from pipeline.physics.sliding.model import FrictionState, sliding_model
+from pipeline.physics.time_stepping.initial_state import steady_start
+from pipeline.physics.time_stepping.simulate import Table
 from stages.complex_modes import Settings, complex_modes
 from stages.reduced_model import Settings as Reduction
 from stages.reduced_model import reduced_model
@@ -48,6 +52,20 @@ def test_without_friction_every_root_decays_or_is_neutral(model):
     modes = complex_modes(model, small_friction_map(0.0), settings=Settings(**SETTINGS))
     assert len(modes.unstable_root) == 0 and not modes.operating_friction.any()
     assert (modes.operating_root.real < 1e-6 * abs(modes.operating_root)).all()
+
+
+@pytest.mark.exact
+def test_a_transient_starts_from_the_sliding_state_of_the_complex_modes(model, modes):
+    """Solved for displacements and forces together by ``steady_start``, for closures alone by the stage."""
+    mapped = small_friction_map()
+    law = FrictionLaw(mapped.pressure, mapped.speed, mapped.distance, mapped.friction)
+    friction = Friction(law, distance=Settings().sliding_distance)
+    points = zip(modes.operating_pressure, modes.operating_speed, modes.operating_force, strict=True)
+    for pressure, speed, force in points:
+        state = int(np.flatnonzero(model.pressure == pressure)[0])
+        start = steady_start(sliding_model(model, state, speed), Table(model.law_closure, model.law_pressure),
+                             friction, pressure * model.input_area)
+        np.testing.assert_allclose(start.normal, force, rtol=1e-8)
 
 
 @pytest.mark.exact

@@ -1,7 +1,7 @@
 """Static preload of elastic bodies through contact patches with a nonlinear normal law.
 
-Each patch i of area A_i carries N_i = A_i p(c_i) at its closure c_i = -(n_i u); p is a table, zero
-at and below zero closure. The bodies are condensed to the patches: c = c_free - compliance N.
+Each patch i of area A_i carries N_i = A_i p(c_i) at its closure c_i = -(n_i u); p is the table of
+``closure_law``. The bodies are condensed to the patches: c = c_free - compliance N.
 """
 
 from dataclasses import dataclass
@@ -9,12 +9,13 @@ from dataclasses import dataclass
 import numpy as np
 
 from pipeline.contract.errors import ConfigError, ConvergenceError
+from pipeline.physics.contact.closure_law import force_at_rest
 from pipeline.physics.numerics.sparse_solver import factorise
 
 _STEPS = 100
 _HALVINGS = 30
 #: largest accepted imbalance of a contact force, as a share of the largest
-_TOLERANCE = 1e-10
+BALANCED = 1e-10
 
 
 @dataclass(frozen=True)
@@ -72,37 +73,45 @@ def solve_preload(compliance, free_closure, area, law_closure, law_pressure):
     if (free_closure <= 0).all():
         raise ConfigError("preload", "pads that touch the disc under the load",
                           f"gaps of at least {-free_closure.max():g} m", "check the piston force and the positions")
-    closure, first = np.full_like(free_closure, law_closure[1]), first_slope(area, law_closure, law_pressure)
-    force, slope = normal_force(closure, area, law_closure, law_pressure)
-    miss = closure - free_closure + compliance @ force
+    first = first_slope(area, law_closure, law_pressure)
+
+    def equation(closure):
+        force, slope = force_at_rest(closure, area, law_closure, law_pressure)
+        return closure - free_closure + compliance @ force, force, slope, np.eye(len(area)) + compliance * slope
+
+    closure, imbalance = balance(equation, np.full_like(free_closure, law_closure[1]), first,
+                                 (first * np.abs(free_closure)).max())
+    if not imbalance <= BALANCED:
+        raise ConvergenceError("preload", f"contact forces that balance within {BALANCED:g}", f"{imbalance:.1e}",
+                               "raise the load or soften the contact law")
+    return Preload(*force_at_rest(closure, area, law_closure, law_pressure), closure)
+
+
+def balance(equation, closure, first, reference):
+    """(closures (c,) m, imbalance): Newton's method on ``equation``, from ``closure``, steps halved where needed.
+
+    ``equation(closure)`` gives what is missing (c,) m, force (c,) N, its slope (c,) N/m and the derivative (c, c) of
+    what is missing. The imbalance is the largest change of a force that one more step would make, as a share of the
+    largest force or of ``reference`` N; an open contact counts with the stiffness ``first`` (c,) N/m of one that has
+    just closed. At most BALANCED where the method converged, infinite where the derivative is singular.
+    """
+    miss, force, slope, derivative = equation(closure)
     for _ in range(_STEPS):
-        step = np.linalg.solve(np.eye(len(area)) + compliance * slope, miss)
-        for halving in range(_HALVINGS):
-            trial = closure - step / 2**halving
-            force, slope = normal_force(trial, area, law_closure, law_pressure)
-            trial_miss = trial - free_closure + compliance @ force
-            if np.linalg.norm(trial_miss) < np.linalg.norm(miss) or halving == _HALVINGS - 1:
+        try:
+            step = np.linalg.solve(derivative, miss)
+        except np.linalg.LinAlgError:
+            return closure, np.inf
+        imbalance = np.abs(np.maximum(slope, first) * step).max() / (max(force.max(), reference) or 1.0)
+        if imbalance <= BALANCED:
+            break
+        for length in 0.5 ** np.arange(_HALVINGS):
+            trial = equation(closure - length * step)
+            if np.linalg.norm(trial[0]) < np.linalg.norm(miss):
                 break
-        closure, miss = trial, trial_miss
-        # an open patch counts as if it were just closed
-        balance = np.linalg.solve(np.eye(len(area)) + compliance * slope, miss) * np.maximum(slope, first)
-        largest = max(force.max(), (first * np.abs(free_closure)).max())
-        if np.abs(balance).max() <= _TOLERANCE * largest:
-            return Preload(force, slope, closure)
-    raise ConvergenceError("preload", f"contact forces that balance within {_TOLERANCE:g}",
-                           f"{np.abs(balance).max() / largest:.1e}", "raise the load or soften the contact law")
+        closure, (miss, force, slope, derivative) = closure - length * step, trial
+    return closure, imbalance
 
 
 def first_slope(area, law_closure, law_pressure):
     """Stiffness (c,) N/m of patches that have just closed."""
     return area * law_pressure[1] / law_closure[1]
-
-
-def normal_force(closure, area, law_closure, law_pressure):
-    """Force and stiffness of each patch; the last slope of the table continues beyond its end."""
-    last = len(law_closure) - 2
-    low = np.clip(np.searchsorted(law_closure, closure, side="right") - 1, 0, last)
-    slope = np.diff(law_pressure)[low] / np.diff(law_closure)[low]
-    pressure = law_pressure[low] + slope * (closure - law_closure[low])
-    closed = closure > 0
-    return np.where(closed, area * pressure, 0.0), np.where(closed, area * slope, 0.0)

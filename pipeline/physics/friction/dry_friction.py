@@ -181,15 +181,27 @@ def coefficients(friction, speed, pressure):
 @njit
 def coefficient(friction, i, pressure, speed, sign):
     """mu of contact ``i`` at a pressure and a slip speed whose sign counts as ``sign``."""
-    contact = friction.contact
     if friction.table.size == 1:
-        mu = friction.table[0, 0, 0]
-    else:
-        heard = contact[i, SPEED_KEPT] + contact[i, SPEED_SHARE] * abs(speed)
-        mu = friction_at(pressure, heard, contact[i, READ_AT], friction.pressure, friction.speed, friction.distance,
-                         friction.table, int(contact[i, FIRST]))[0]
-    mu *= contact[i, FACTOR]
-    return mu * contact[i, BACKWARD] if sign < 0 else mu
+        mu = friction.contact[i, FACTOR] * friction.table[0, 0, 0]
+        return mu * friction.contact[i, BACKWARD] if sign < 0 else mu
+    return characteristic(friction, i, pressure, speed, friction.contact[i, READ_AT], sign)[0]
+
+
+@njit(inline="always")
+def characteristic(friction, i, pressure, speed, distance, sign):
+    """(mu, dmu/dpressure in 1/Pa, dmu/dspeed in s/m, outside) of contact ``i`` of a FrictionKernel.
+
+    At a ``pressure`` Pa, a slip ``speed`` m/s whose sign counts as ``sign``, and a sliding ``distance`` m; ``outside``
+    is 1 where the table does not reach.
+    """
+    contact = friction.contact
+    factor = contact[i, FACTOR]
+    if sign < 0:
+        factor *= contact[i, BACKWARD]
+    heard = contact[i, SPEED_KEPT] + contact[i, SPEED_SHARE] * abs(speed)
+    mu, by_pressure, by_speed, outside = friction_at(pressure, heard, distance, friction.pressure, friction.speed,
+                                                     friction.distance, friction.table, int(contact[i, FIRST]))
+    return factor * mu, factor * by_pressure, factor * contact[i, SPEED_SHARE] * by_speed, outside
 
 
 @njit

@@ -103,7 +103,13 @@ def _locate(axis, value):
         return 0, 0, 0.0, 0.0, 1 if value != axis[0] else 0
     if value >= axis[last]:
         return last, last, 0.0, 0.0, 1 if value > axis[last] else 0
-    low = np.searchsorted(axis, value, side="right") - 1
+    low, high = 0, last
+    while high - low > 1:       # in less time than np.searchsorted
+        middle = (low + high) // 2
+        if axis[middle] <= value:
+            low = middle
+        else:
+            high = middle
     length = axis[low + 1] - axis[low]
     return low, low + 1, (value - axis[low]) / length, 1.0 / length, 0
 
@@ -117,18 +123,50 @@ def friction_at(pressure, speed, distance, pressures, speeds, distances, table, 
     where several laws on the same axes are stacked.
     """
     p0, p1, wp, ip, outside_p = _locate(pressures, pressure)
-    p0, p1 = first + p0, first + p1
     v0, v1, wv, iv, outside_v = _locate(speeds, speed)
     s0, s1, ws, _, outside_s = _locate(distances, distance)
-    m00 = table[p0, v0, s0] * (1.0 - ws) + table[p0, v0, s1] * ws
-    m01 = table[p0, v1, s0] * (1.0 - ws) + table[p0, v1, s1] * ws
-    m10 = table[p1, v0, s0] * (1.0 - ws) + table[p1, v0, s1] * ws
-    m11 = table[p1, v1, s0] * (1.0 - ws) + table[p1, v1, s1] * ws
+    corners = _over_distance(table, first + p0, first + p1, v0, v1, s0, s1, ws)
+    mu, slope_p, slope_v = _over_pressure_and_speed(corners, wp, ip, wv, iv)
+    return mu, slope_p, slope_v, 1 if outside_p + outside_v + outside_s > 0 else 0
+
+
+@njit
+def mean_friction_at(pressure, speed, distance, share, pressures, speeds, distances, table, first):
+    """(mu, dmu/dpressure, dmu/dspeed): those of ``friction_at``, mean over ``distance`` (d,) m by ``share`` (d,).
+
+    As cheap as one reading and a part of one for each further distance. Shares sum to 1.
+    """
+    p0, p1, wp, ip, _ = _locate(pressures, pressure)
+    v0, v1, wv, iv, _ = _locate(speeds, speed)
+    m00, m01, m10, m11 = 0.0, 0.0, 0.0, 0.0
+    for d in range(distance.size):
+        if share[d] > 0.0:
+            s0, s1, ws, _, _ = _locate(distances, distance[d])
+            corners = _over_distance(table, first + p0, first + p1, v0, v1, s0, s1, ws)
+            m00 += share[d] * corners[0]
+            m01 += share[d] * corners[1]
+            m10 += share[d] * corners[2]
+            m11 += share[d] * corners[3]
+    return _over_pressure_and_speed((m00, m01, m10, m11), wp, ip, wv, iv)
+
+
+@njit(inline="always")
+def _over_distance(table, p0, p1, v0, v1, s0, s1, weight):
+    """Values at the corners (pressure, speed) of a cell, interpolated over distance."""
+    return (table[p0, v0, s0] * (1.0 - weight) + table[p0, v0, s1] * weight,
+            table[p0, v1, s0] * (1.0 - weight) + table[p0, v1, s1] * weight,
+            table[p1, v0, s0] * (1.0 - weight) + table[p1, v0, s1] * weight,
+            table[p1, v1, s0] * (1.0 - weight) + table[p1, v1, s1] * weight)
+
+
+@njit(inline="always")
+def _over_pressure_and_speed(corners, wp, ip, wv, iv):
+    """(mu, dmu/dpressure, dmu/dspeed) from the corners of a cell."""
+    m00, m01, m10, m11 = corners
     low = m00 * (1.0 - wv) + m01 * wv
     high = m10 * (1.0 - wv) + m11 * wv
     slope_v = ((m01 - m00) * (1.0 - wp) + (m11 - m10) * wp) * iv
-    outside = 1 if outside_p + outside_v + outside_s > 0 else 0
-    return low * (1.0 - wp) + high * wp, (high - low) * ip, slope_v, outside
+    return low * (1.0 - wp) + high * wp, (high - low) * ip, slope_v
 
 
 @njit

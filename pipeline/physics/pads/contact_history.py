@@ -4,8 +4,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from pipeline.physics.friction.friction_table import friction_at
+from pipeline.physics.friction.dry_friction import characteristic
 from pipeline.physics.numerics.compiled import njit
+from pipeline.physics.pads.memory import accept_contact, begun_contact
 from pipeline.physics.pads.patch_contact import SUB_DISCS, contact_state
 
 
@@ -19,19 +20,26 @@ class ContactHistory(NamedTuple):
     outside: float          # share of the friction evaluations outside the friction table
 
 
-@njit
 def contact_history(contact, pad, pads, time, displacement, velocity):
     """ContactHistory of the motion ``displacement``, ``velocity`` (m, n) at ``time`` (m,).
 
-    ``pad`` (c,) is the number of the pad of each contact, out of ``pads``.
+    ``pad`` (c,) is the number of the pad of each contact, out of ``pads``. Contacts that remember need every step.
     """
+    step = float(time[1] - time[0]) if len(time) > 1 else 0.0
+    return _history(*begun_contact(contact, displacement[0], step), pad, pads, time, displacement, velocity, step)
+
+
+@njit
+def _history(contact, memory, pad, pads, time, displacement, velocity, step):
     size, samples = pad.size, time.size
     normal, friction = np.empty((size, samples)), np.empty((size, samples))
     patch, separated, outside, evaluations = np.zeros((pads, SUB_DISCS, samples)), 0, 0, 0
-    pressures, speeds = contact.friction_pressure, contact.friction_speed
-    distances, table = contact.friction_distance, contact.friction
+    recalls = contact.states.kind.size > 0 or contact.wear.any()
     for k in range(samples):
-        state = contact_state(contact, time[k], displacement[k], velocity[k])
+        if k > 0 and recalls:
+            state = accept_contact(contact, memory, time[k], displacement[k], velocity[k], step)
+        else:
+            state = contact_state(contact, time[k], displacement[k], velocity[k])
         along, aside = contact.rows[1] @ velocity[k], contact.rows[2] @ velocity[k]
         for i in range(size):
             normal[i, k], friction[i, k] = state.normal[i], state.friction[i, 0]
@@ -43,7 +51,6 @@ def contact_history(contact, pad, pads, time, displacement, velocity):
                 patch[pad[i], d, k] += state.share[i, d] * state.normal[i]
                 if state.share[i, d] > 0.0:
                     evaluations += 1
-                    outside += friction_at(
-                        state.normal[i] / contact.area[i], slip, contact.bedding[d] + contact.bedding_speed * time[k],
-                        pressures, speeds, distances, table, contact.friction_first[i])[3]
+                    outside += characteristic(contact.dry, i, state.normal[i] / contact.law.area[i], slip,
+                                              contact.bedding[d] + contact.bedding_speed * time[k], 1.0)[3]
     return ContactHistory(normal, friction, patch, separated / (size * samples), outside / max(evaluations, 1))

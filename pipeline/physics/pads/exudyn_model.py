@@ -3,12 +3,16 @@
 The whole reduced assembly is one ``ObjectGenericODE2`` whose user functions are the compiled contact force and its
 exact tangent. The four jointed sub-discs turn at a prescribed speed and need no coordinates of their own: they enter
 through the patches (a test holds the jointed bodies against this form). Time stepping is exudyn's implicit
-trapezoidal rule with modified Newton iterations and a fixed step.
+trapezoidal rule with modified Newton iterations and a fixed step, after which memory of friction, wear and elements
+goes on.
 """
+
+from functools import partial
 
 import numpy as np
 
 from pipeline.contract.errors import ConvergenceError
+from pipeline.physics.pads.memory import accept, begun, remembers
 from pipeline.physics.pads.pad_system import STEP_TOLERANCE, force, tangent
 
 #: the Jacobian is renewed when an iteration leaves more than this part of the residual
@@ -26,9 +30,11 @@ def integrate(system, start, step, steps, record_every=1, scale=None):
 
     scale = np.linalg.norm(system.load) if scale is None else scale
     multibody = exudyn.SystemContainer().AddSystem()
+    system, memory = begun(system, start, step)
     _add_assembly(multibody, system, start)
     multibody.Assemble()
-    states = _record(multibody, start, step, steps, record_every)
+    accepted = partial(accept, system, memory) if remembers(system) else None
+    states = _record(multibody, start, step, steps, record_every, accepted)
     solver = exudyn.MainSolverImplicitSecondOrder()
     if not _solve(exudyn, solver, multibody, _settings(exudyn, step, steps, STEP_TOLERANCE * scale)):
         raise ConvergenceError(f"multibody: exudyn at t = {solver.it.currentTime:.6g} s",
@@ -66,13 +72,16 @@ def _sparse(matrix):
     return container
 
 
-def _record(multibody, start, step, steps, record_every):
-    """(2, m, n) array that the solver fills with displacement and velocity as it goes."""
+def _record(multibody, start, step, steps, record_every, accepted):
+    """(2, m, n) array that the solver fills with displacement and velocity as it goes, and tells ``accepted``."""
     states = np.zeros((2, steps // record_every + 1, np.size(start)))
     states[0, 0] = start
 
     def after_step(multibody, time):
         count = round(time / step)
+        if accepted is not None:
+            accepted(time, np.array(multibody.systemData.GetODE2Coordinates()),
+                     np.array(multibody.systemData.GetODE2Coordinates_t()), step)
         if count % record_every == 0:
             states[:, count // record_every] = (multibody.systemData.GetODE2Coordinates(),
                                                 multibody.systemData.GetODE2Coordinates_t())

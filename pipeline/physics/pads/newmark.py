@@ -11,6 +11,7 @@ import numpy as np
 from pipeline.contract.errors import ConvergenceError
 from pipeline.physics.numerics.compiled import njit
 from pipeline.physics.numerics.newmark import correct, predict
+from pipeline.physics.pads.memory import accept, begun, remembers
 from pipeline.physics.pads.pad_system import STEP_TOLERANCE, force, tangent
 
 ITERATIONS = 30
@@ -25,6 +26,8 @@ def integrate(system, start, step, steps, record_every=1, scale=None, tolerance=
     the system's coordinates; default the load). Raises ConvergenceError naming the time and the residual otherwise.
     """
     scale = np.linalg.norm(system.load) if scale is None else scale
+    system, memory = begun(system, start, step)
+    recalls = remembers(system)
     motion = np.zeros((3, np.size(start)))
     motion[0] = start
     motion[2] = np.linalg.solve(system.mass, force(system, 0.0, motion[0], motion[1]))
@@ -33,8 +36,8 @@ def integrate(system, start, step, steps, record_every=1, scale=None, tolerance=
     predicted, code, number, iteration = _predicted(motion, step), _RENEW, 1, 0
     while code == _RENEW:
         inverse = _inverse(system, number * step, motion, step)
-        code, number, iteration, residual = _advance(system, motion, predicted, inverse, step, number, steps, iteration,
-                                                     tolerance * scale, recorded, record_every)
+        code, number, iteration, residual = _advance(system, memory, recalls, motion, predicted, inverse, step, number,
+                                                     steps, iteration, tolerance * scale, recorded, record_every)
     if code == _FAILED:
         raise ConvergenceError(f"multibody: newmark at t = {number * step:.6g} s",
                                f"a residual below {tolerance:g} of the load", f"{residual / scale:.3g}",
@@ -59,7 +62,8 @@ def _predicted(motion, step):
 
 
 @njit
-def _advance(system, motion, predicted, inverse, step, number, steps, iteration, tolerance, recorded, record_every):
+def _advance(system, memory, recalls, motion, predicted, inverse, step, number, steps, iteration, tolerance, recorded,
+             record_every):
     """(code, step, iteration, residual) after stepping ``motion``: displacement, velocity and acceleration, (3, n).
 
     Goes on from ``iteration`` of step ``number`` to the last step, or to one that needs another ``inverse`` or fails.
@@ -78,6 +82,8 @@ def _advance(system, motion, predicted, inverse, step, number, steps, iteration,
             if number % record_every == 0:
                 for i in range(q.size):
                     recorded[0, number // record_every, i], recorded[1, number // record_every, i] = q[i], v[i]
+            if recalls:
+                accept(system, memory, number * step, q, v, step)
             end = _predicted(motion, step)
             for i in range(q.size):
                 predicted[0, i], predicted[1, i] = end[0, i], end[1, i]

@@ -6,10 +6,23 @@ import numpy as np
 import scipy
 
 from pipeline.contract.errors import ConfigError, ConvergenceError
+from pipeline.physics.friction.dry_friction import (
+    BACKWARD,
+    EXPONENT,
+    READ_AT,
+    RIGID,
+    STATIC,
+    STIFFNESS,
+    Friction,
+    kernel,
+)
+from pipeline.physics.friction.state_variables import state_kernel
 from pipeline.physics.numerics.compiled import njit
 from pipeline.physics.pads.patch_contact import SUB_DISCS, PatchContact, add, contact_force, contact_tangent
-from pipeline.physics.time_stepping.element_forces import LawKernel, element_force
+from pipeline.physics.time_stepping.coupled_solver import no_memory
+from pipeline.physics.time_stepping.element_forces import DRY, LawKernel, element_force
 from pipeline.physics.time_stepping.elements import alone
+from pipeline.physics.time_stepping.normal_laws import Table, first_slopes, normal_kernel
 
 #: residual of a time step, as a share of the load
 STEP_TOLERANCE = 1e-8
@@ -21,18 +34,22 @@ SAME_CIRCLE = 1e-6
 
 
 class PadElements(NamedTuple):
-    """e nonlinear elements without memory on the assembly."""
+    """e nonlinear elements on the assembly, and the memory of those that have one."""
 
     law: LawKernel
     rows: np.ndarray        # (e, n) elongation
     offset: np.ndarray      # (e,) m, elongation where all coordinates are zero
+    begin: np.ndarray       # (e,) m, elongation after the last accepted step
+    memory: np.ndarray      # (s,) what they remember from there
+    ahead: np.ndarray       # (s,) what they would remember after the motion that was seen last
 
 
 def pad_elements(elements, size):
-    """PadElements of Elements (without memory) of ``size`` coordinates n."""
+    """PadElements of Elements of ``size`` coordinates n."""
     rows = np.array([e.row for e in elements], float).reshape(len(elements), size)
     kernel = alone(elements)
-    return PadElements(LawKernel(*(getattr(kernel, name) for name in LawKernel._fields)), rows, np.zeros(len(rows)))
+    return PadElements(LawKernel(*(getattr(kernel, name) for name in LawKernel._fields)), rows, np.zeros(len(rows)),
+                       np.zeros(len(rows)), no_memory(kernel), no_memory(kernel))
 
 
 class PadSystem(NamedTuple):
@@ -60,18 +77,28 @@ def pad_system(sliding, input_force, closure, pressure, friction, bedding, beddi
     count = len(contacts.area)
     contact = PatchContact(
         rows=np.array([contacts.normal, contacts.tangent, contacts.lateral]),
-        opening=np.zeros(count), area=contacts.area, radius=contacts.lever,
+        law=normal_kernel(Table(closure, pressure, damping_speed), contacts),
+        dry=pad_friction(Friction(friction), count), radius=contacts.lever,
         angle=np.arctan2(contacts.position[:, 1], contacts.position[:, 0]),
-        half_angle=half_angles(contacts.position, contacts.area), closure=closure, pressure=pressure,
-        law_first=np.zeros(count, int), friction_first=np.zeros(count, int),
-        friction_pressure=friction.pressure, friction_speed=friction.speed, friction_distance=friction.distance,
-        friction=friction.friction, bedding=np.array(bedding),
+        half_angle=half_angles(contacts.position, contacts.area), bedding=np.array(bedding),
         bedding_speed=bedding_share * sliding.speed * np.mean(contacts.lever), disc_speed=float(sliding.speed),
         sectors=int(sectors), ramp=float(ramp), stick_speed=float(stick_speed),
-        damping_speed=np.full(count, float(damping_speed)), waviness=np.empty((0, 6)), scatter=np.empty((0, 4)))
+        waviness=np.empty((0, 6)), scatter=np.empty((0, 4)), states=state_kernel(Friction(friction), contacts.area),
+        wear=np.zeros(count), receded=np.zeros((2, count)))
     arrays = {name: np.array(value) for name, value in contact._asdict().items() if isinstance(value, np.ndarray)}
     return PadSystem(mass, damping, stiffness, input_force @ sliding.input_rows, contact._replace(**arrays),
                      pad_elements((), sliding.size))
+
+
+def pad_friction(friction, count):
+    """FrictionKernel of a Friction, Grouped or not, without what contacts ask for that stick or slide backwards.
+
+    Pads do neither: friction is regularised, and read at the distance of the sub-discs.
+    """
+    dry = kernel(friction, count)
+    contact = dry.contact.copy()
+    contact[:, [READ_AT, STATIC, BACKWARD, STIFFNESS, EXPONENT]] = 0.0
+    return dry._replace(contact=contact, description=RIGID)
 
 
 def half_angles(position, area):
@@ -107,7 +134,7 @@ def force(system, time, displacement, velocity):
     for i in range(result.size):
         result[i] = system.load[i] + result[i] - (elastic[i] + viscous[i])
     for k in range(system.elements.offset.size):
-        element = _element(system, k, time, displacement, velocity)[0]
+        element = element_at(system, k, time, displacement, velocity)[0]
         for i in range(result.size):
             result[i] -= element * system.elements.rows[k, i]
     return result
@@ -120,7 +147,7 @@ def tangent(system, time, displacement, velocity):
     add(stiffness, system.stiffness)
     add(damping, system.damping)
     for k in range(system.elements.offset.size):
-        _, slope, drag = _element(system, k, time, displacement, velocity)
+        _, slope, drag = element_at(system, k, time, displacement, velocity)
         row = system.elements.rows[k]
         for i in range(row.size):
             for j in range(row.size):
@@ -130,33 +157,41 @@ def tangent(system, time, displacement, velocity):
 
 
 @njit
-def _element(system, k, time, displacement, velocity):
-    """(F, dF/de, dF/dv) of element ``k``."""
-    elements, speed, nothing = system.elements, system.contact.disc_speed, np.zeros(0)
+def element_at(system, k, time, displacement, velocity):
+    """(F, dF/de, dF/dv) of element ``k``; fills ``ahead`` with what it would remember there."""
+    elements, speed = system.elements, system.contact.disc_speed
     row = elements.rows[k]
     elongation, instant = elements.offset[k] + row @ displacement, (time, speed * time, speed)
-    return element_force(elements.law, k, elongation, row @ velocity, 0.0, nothing, nothing, instant)
+    return element_force(elements.law, k, elongation, row @ velocity, elements.begin[k], elements.memory,
+                         elements.ahead, instant)
 
 
 def without_friction(system):
     """The same system with a friction coefficient of zero everywhere."""
-    return system._replace(contact=system.contact._replace(friction=np.zeros_like(system.contact.friction)))
+    dry = system.contact.dry
+    return system._replace(contact=system.contact._replace(dry=dry._replace(table=np.zeros_like(dry.table))))
+
+
+def without_dry_elements(system):
+    """The same system whose elements with dry friction hold nothing: they do not bear loads at rest."""
+    law = system.elements.law
+    parameter = law.parameter.copy()
+    parameter[law.kind == DRY, 0] = 0.0
+    return system._replace(elements=system.elements._replace(law=law._replace(parameter=parameter)))
 
 
 def static_start(system, where="static start"):
     """Displacement (n,) in equilibrium with the load before friction acts. Raises ConvergenceError."""
-    frictionless, contact, normal = without_friction(system), system.contact, system.contact.rows[0]
-    first = contact.law_first
-    rise = contact.pressure[first + 1] - contact.pressure[first]
-    slope = contact.area * rise / (contact.closure[1] - contact.closure[0])
+    frictionless, law, normal = without_friction(system), system.contact.law, system.contact.rows[0]
+    slope = first_slopes(law)
     closed = system.stiffness + (normal.T * slope) @ normal
-    guess = scipy.linalg.cho_solve(scipy.linalg.cho_factor(closed), system.load - normal.T @ (slope * contact.opening))
-    return _equilibrium(frictionless, guess, where)
+    guess = scipy.linalg.cho_solve(scipy.linalg.cho_factor(closed), system.load - normal.T @ (slope * law.gap))
+    return _equilibrium(without_dry_elements(frictionless), guess, where)
 
 
 def sliding_state(system, start, where="steady sliding"):
     """Displacement (n,) in equilibrium with the load and full friction, from ``start``. Raises ConvergenceError."""
-    return _equilibrium(system._replace(contact=system.contact._replace(ramp=0.0)), start, where)
+    return _equilibrium(without_dry_elements(system._replace(contact=system.contact._replace(ramp=0.0))), start, where)
 
 
 def linearised(system, displacement):

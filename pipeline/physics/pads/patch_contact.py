@@ -6,21 +6,30 @@ distance and therefore has its own friction. A contact patch overlaps one sector
 shared by overlap, so that all forces stay continuous while the disc turns.
 
 At contact i, with the rows n_i (positive opens), t_i (along sliding) and l_i (lateral) of the pad's motion:
-    closure c = -(n_i q + opening),  N = A p(c) (1 + c' / damping_speed), never negative,
+    closure c = -(n_i q + gap_i),  N by ``closure_law``,
     slip of the disc against the pad v = (Omega r_i - t_i q', -l_i q'),
-    friction on the pad F = ramp(t) N sum_d w_id(t) mu(p, |v|, s_d(t)) g(|v|) v / |v|.
-Waves of the disc's surface add to the opening, scatter of friction around it is a factor on mu; both turn with it.
-g = 1 except for |v| < stick_speed, where it is the cubic x (3 - x^2) / 2 of x = |v| / stick_speed: sticking is replaced
-by creep slower than that. The damping of the normal law follows Hunt & Crossley (J. Appl. Mech. 42 (1975) 440): it
-vanishes with the pressure, so that no force jumps where contact opens.
+    friction on the pad F = ramp(t) N sum_d w_id(t) mu(p, |v|, s_d(t)) g(|v|) v / |v| by ``sliding_friction``.
+Waves of the disc's surface add to the gap, scatter of friction around it is a factor on mu; both turn with it.
 """
 
 from typing import NamedTuple
 
 import numpy as np
 
-from pipeline.physics.friction.friction_table import friction_at
+from pipeline.physics.friction.dry_friction import (
+    FACTOR,
+    FIRST,
+    LOAD_KEPT,
+    LOAD_SHARE,
+    SPEED_KEPT,
+    SPEED_SHARE,
+    FrictionKernel,
+)
+from pipeline.physics.friction.friction_table import mean_friction_at
+from pipeline.physics.friction.sliding_friction import sliding_friction
+from pipeline.physics.friction.state_kernels import StateKernel
 from pipeline.physics.numerics.compiled import njit
+from pipeline.physics.time_stepping.contact_solver import NormalKernel, yielding_force
 from pipeline.physics.time_stepping.coupled_solver import surface_shift
 
 SUB_DISCS = 4
@@ -32,28 +41,22 @@ class PatchContact(NamedTuple):
     """Contact points of pads on the sub-discs, all in SI units; c contacts, n coordinates."""
 
     rows: np.ndarray            # (3, c, n) rows of the motion: normal (positive opens), along sliding, lateral
-    opening: np.ndarray         # (c,) m, normal displacement where all coordinates are zero
-    area: np.ndarray            # (c,) m^2
+    law: NormalKernel           # of contacts that yield; its gap belongs to coordinates of zero
+    dry: FrictionKernel         # friction, read at the distance of the sub-discs
     radius: np.ndarray          # (c,) m, distance from the disc axis
     angle: np.ndarray           # (c,) rad, position on the disc face
     half_angle: np.ndarray      # (c,) rad, half of the angle that the patch spans
-    closure: np.ndarray         # (k,) m, from 0: axis of the normal laws
-    pressure: np.ndarray        # (g k,) Pa, each law from 0, rising
-    law_first: np.ndarray       # (c,) where the law of each contact begins
-    friction_pressure: np.ndarray   # (P,) Pa, axes of the friction table
-    friction_speed: np.ndarray      # (V,) m/s
-    friction_distance: np.ndarray   # (S,) m
-    friction: np.ndarray        # (g P, V, S) coefficient of friction
-    friction_first: np.ndarray  # (c,) row where the table of each contact begins
     bedding: np.ndarray         # (4,) m, distance on the friction map of each sub-disc at time 0
     bedding_speed: float        # m/s, gain of that distance with time
     disc_speed: float           # rad/s
     sectors: int                # per revolution, a multiple of 4
     ramp: float                 # s, time in which friction rises from nothing
     stick_speed: float          # m/s, slip below which friction is regularised
-    damping_speed: np.ndarray   # (c,) m/s, closing speed that doubles the contact pressure
     waviness: np.ndarray        # (w, 6) waves of the surface, as of ``wave_table``
     scatter: np.ndarray         # (s, 4) contact, amplitude, order, phase (rad) of friction around the disc
+    states: StateKernel         # what friction remembers
+    wear: np.ndarray            # (c,) 1/N, depth by which a contact recedes per normal force and way
+    receded: np.ndarray         # (2, c) m and m/s: what wear adds to the gap at the end of the step, and to its rate
 
 
 class ContactState(NamedTuple):
@@ -66,16 +69,6 @@ class ContactState(NamedTuple):
     coupling: np.ndarray        # (c, 2) d friction / dN = (mu + p dmu/dp) v / |v|
     drag: np.ndarray            # (c, 3) N s/m, d friction / dv: along-along, along-lateral, lateral-lateral
     share: np.ndarray           # (c, 4) part of the patch on each sub-disc
-
-
-@njit
-def normal_law(closure, closures, pressures):
-    """(pressure in Pa, slope in Pa/m) of a piecewise linear law: zero in separation, last slope beyond the table."""
-    if closure <= 0.0:
-        return 0.0, 0.0
-    low = min(np.searchsorted(closures, closure, side="right"), closures.size - 1) - 1
-    slope = (pressures[low + 1] - pressures[low]) / (closures[low + 1] - closures[low])
-    return pressures[low] + slope * (closure - closures[low]), slope
 
 
 @njit
@@ -99,15 +92,6 @@ def _length_on(sub_disc, position):
 
 
 @njit
-def sliding_part(slip, stick_speed):
-    """(g, dg/dslip in s/m): 1 from the stick speed on, a cubic without kinks below it; slip >= 0."""
-    x = slip / stick_speed
-    if x >= 1.0:
-        return 1.0, 0.0
-    return x * (3.0 - x * x) / 2.0, 1.5 * (1.0 - x * x) / stick_speed
-
-
-@njit
 def friction_share(time, ramp):
     """Part of the friction that acts ``time`` seconds after the friction-free start; smooth, from 0 to 1."""
     if time >= ramp:
@@ -115,40 +99,35 @@ def friction_share(time, ramp):
     return 0.5 * (1.0 - np.cos(np.pi * max(time, 0.0) / ramp))
 
 
-@njit
-def sub_disc_friction(pressure, slip, share, distance, pressures, speeds, distances, table, first):
-    """(mu, dmu/dpressure, dmu/dslip) of a patch with ``share`` (4,) on sub-discs that have slid ``distance`` (4,).
+@njit(inline="always")
+def sub_disc_friction(friction, i, pressure, slip, share, distance):
+    """(mu, dmu/dpressure, dmu/dslip) of patch ``i`` with ``share`` (4,) on sub-discs that have slid ``distance`` (4,).
 
-    ``first`` is the row where its table begins.
+    ``friction`` is a FrictionKernel.
     """
-    if distance[0] == distance[1] == distance[2] == distance[3]:
-        mu, over_pressure, over_slip, _ = friction_at(pressure, slip, distance[0], pressures, speeds, distances, table,
-                                                      first)
-        return mu, over_pressure, over_slip
-    mu, over_pressure, over_slip = 0.0, 0.0, 0.0
-    for d in range(SUB_DISCS):
-        if share[d] > 0.0:
-            value, pressure_slope, slip_slope, _ = friction_at(
-                pressure, slip, distance[d], pressures, speeds, distances, table, first)
-            mu += share[d] * value
-            over_pressure += share[d] * pressure_slope
-            over_slip += share[d] * slip_slope
-    return mu, over_pressure, over_slip
+    contact = friction.contact
+    factor, heard = contact[i, FACTOR], contact[i, SPEED_KEPT] + contact[i, SPEED_SHARE] * slip
+    mu, by_pressure, by_slip = mean_friction_at(pressure, heard, distance, share, friction.pressure, friction.speed,
+                                                friction.distance, friction.table, int(contact[i, FIRST]))
+    return factor * mu, factor * by_pressure, factor * contact[i, SPEED_SHARE] * by_slip
 
 
 @njit
 def surface(contact, time):
-    """(2, c): what waves of the surface add to the opening of each contact, in m, and to its rate, in m/s."""
-    shift = np.zeros((2, contact.area.size))
+    """(2, c): what waves and wear of the surface add to the gap of each contact, in m, and to its rate, in m/s."""
+    shift = np.zeros((2, contact.law.area.size))
     if contact.waviness.shape[0] > 0:
         surface_shift(contact.waviness, (time, contact.disc_speed * time, contact.disc_speed), shift)
+    for i in range(contact.receded.shape[1]):
+        shift[0, i] += contact.receded[0, i]
+        shift[1, i] += contact.receded[1, i]
     return shift
 
 
 @njit
 def scattered(contact, time):
     """(c,) factor on the friction of each contact after ``time`` s of turning."""
-    factor = np.ones(contact.area.size)
+    factor = np.ones(contact.law.area.size)
     for k in range(contact.scatter.shape[0]):
         i, amplitude, order, phase = contact.scatter[k]
         factor[int(i)] *= 1.0 + amplitude * np.cos(order * contact.disc_speed * time - phase)
@@ -177,33 +156,26 @@ def contact_state(contact, time, displacement, velocity):
     ramp, distance = friction_share(time, contact.ramp), np.empty(SUB_DISCS)
     for d in range(SUB_DISCS):
         distance[d] = contact.bedding[d] + contact.bedding_speed * time
-    pressures, speeds = contact.friction_pressure, contact.friction_speed
-    distances, table = contact.friction_distance, contact.friction
+    law, dry = contact.law, contact.dry
     normal, stiffness, damping = np.zeros(size), np.zeros(size), np.zeros(size)
     friction, coupling, drag = np.zeros((size, 2)), np.zeros((size, 2)), np.zeros((size, 3))
     for i in range(size):
-        first = contact.law_first[i]
         moved, opening, along, aside = _motion_at(rows[0, i], rows[1, i], rows[2, i], displacement, velocity)
-        elastic, slope = normal_law(-(moved + contact.opening[i] + shift[0, i]), contact.closure,
-                                    contact.pressure[first:first + contact.closure.size])
-        growth = 1.0 - (opening + shift[1, i]) / contact.damping_speed[i]
-        if slope == 0.0 or growth <= 0.0:
+        normal[i], stiffness[i], damping[i] = yielding_force(law, i, -(moved + law.gap[i] + shift[0, i]),
+                                                             -(opening + shift[1, i]))
+        if stiffness[i] == 0.0:
             continue
-        pressure, damping[i] = elastic * growth, contact.area[i] * elastic / contact.damping_speed[i]
-        normal[i], stiffness[i] = contact.area[i] * pressure, contact.area[i] * slope * growth
-        slip_x, slip_y = contact.disc_speed * contact.radius[i] - along, -aside
-        slip = np.hypot(slip_x, slip_y)
-        mu, over_pressure, over_slip = sub_disc_friction(
-            pressure, slip, shares[i], distance, pressures, speeds, distances, table, contact.friction_first[i])
-        mu, over_pressure, over_slip = factor[i] * mu, factor[i] * over_pressure, factor[i] * over_slip
-        part, part_slope = sliding_part(slip, contact.stick_speed)
-        x, y = (slip_x / slip, slip_y / slip) if slip > 0.0 else (1.0, 0.0)
-        force, slide = ramp * normal[i] * mu * part, ramp * part * (mu + pressure * over_pressure)
-        radial = ramp * normal[i] * (mu * part_slope + over_slip * part)
-        turning = force / slip if slip > 0.0 else radial
-        friction[i, 0], friction[i, 1], coupling[i, 0], coupling[i, 1] = force * x, force * y, slide * x, slide * y
-        drag[i, 0], drag[i, 2] = radial * x * x + turning * y * y, radial * y * y + turning * x * x
-        drag[i, 1] = (radial - turning) * x * y
+        share, slip_x, slip_y = dry.contact[i, LOAD_SHARE], contact.disc_speed * contact.radius[i] - along, -aside
+        heard = dry.contact[i, LOAD_KEPT] + share * normal[i]
+        pressure = heard / law.area[i]
+        slip = np.sqrt(slip_x * slip_x + slip_y * slip_y)
+        mu, by_pressure, by_slip = sub_disc_friction(dry, i, pressure, slip, shares[i], distance)
+        grown = ramp * factor[i]
+        force = sliding_friction(heard, pressure, slip, slip_x, slip_y, grown * mu, grown * by_pressure,
+                                 grown * by_slip, contact.stick_speed)
+        friction[i, 0], friction[i, 1] = force.x, force.y
+        coupling[i, 0], coupling[i, 1] = share * force.x_by_normal, share * force.y_by_normal
+        drag[i, 0], drag[i, 1], drag[i, 2] = force.xx, force.xy, force.yy
     return ContactState(normal, friction, stiffness, damping, coupling, drag, shares)
 
 

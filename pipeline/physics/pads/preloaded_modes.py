@@ -30,8 +30,9 @@ def preloaded_modes(system, start, highest_frequency=np.inf, correction_damping=
     corrections, pace = _corrections(system, stiffness, modes[:, kept])
     basis = np.ascontiguousarray(np.hstack((modes[:, kept], corrections)))
     extra = np.diag(np.concatenate((np.zeros(kept.sum()), 2 * correction_damping * pace)))
-    contact = system.contact._replace(
-        rows=system.contact.rows @ basis, opening=system.contact.opening + system.contact.rows[0] @ start)
+    law = system.contact.law
+    contact = system.contact._replace(rows=system.contact.rows @ basis,
+                                      law=law._replace(gap=law.gap + system.contact.rows[0] @ start))
     return PadSystem(
         mass=np.eye(basis.shape[1]), damping=basis.T @ system.damping @ basis + extra,
         stiffness=basis.T @ system.stiffness @ basis, load=basis.T @ (system.load - system.stiffness @ start),

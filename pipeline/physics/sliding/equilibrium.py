@@ -9,24 +9,22 @@ and the bodies are condensed to the closures, G_n, G_t and G_f being their answe
 
     c = G_f f - g + G_n (N - k (c + g)) + G_t s mu N.                                                              (1)
 
-Newton's method solves (1) for the closures. Friction rises from nothing in as few steps as converge, so that the
-state found is the one which the static start leads to.
+Newton's method of the static preload, which is (1) without friction, solves it for the closures. Friction rises from
+nothing in as few steps as converge, so that the state found is the one which the static start leads to.
 """
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 
 from pipeline.contract.errors import ConfigError, ConvergenceError
-from pipeline.physics.contact.static_preload import Preload, first_slope, normal_force
+from pipeline.physics.contact.closure_law import force_at_rest
+from pipeline.physics.contact.static_preload import BALANCED, Preload, balance, first_slope
 from pipeline.physics.friction.friction_table import friction_at
 from pipeline.physics.sliding.model import FrictionState, SlidingModel
 
-_ITERATIONS = 60
-_HALVINGS = 20
-#: largest accepted imbalance of a contact force, as a share of the largest
-_TOLERANCE = 1e-10
 #: shortest step of the rising friction, as a share of the whole
 _SMALLEST_RISE = 1 / 64
 
@@ -88,7 +86,7 @@ def steady_sliding(model, response, input_force, law_closure, law_pressure, fric
         else:
             break
     if reached < 1:
-        raise ConvergenceError("steady sliding", f"contact forces that balance within {_TOLERANCE:g}",
+        raise ConvergenceError("steady sliding", f"contact forces that balance within {BALANCED:g}",
                                f"none beyond {reached:.3g} of the friction", "lower friction, or raise the load")
     force, stiffness = equilibrium.contact(closure)
     return SlidingState(Preload(force, stiffness, closure), equilibrium.friction_state(force))
@@ -142,38 +140,22 @@ class _Equilibrium:
     def contact(self, closure):
         """Force (c,) N and its slope (c,) N/m at ``closure``."""
         contacts = self.model.contacts
-        force, slope = normal_force(closure, contacts.area, self.law_closure, self.law_pressure)
+        force, slope = force_at_rest(closure, contacts.area, self.law_closure, self.law_pressure)
         return np.where(contacts.fixed, contacts.preload, force), np.where(contacts.fixed, 0.0, slope)
-
-    def contacts_balance(self, closure, slope, step):
-        """Whether a ``step`` changes no force; an open contact counts as if it were just closed."""
-        first = np.where(self.model.contacts.fixed, 0.0,
-                         first_slope(self.model.contacts.area, self.law_closure, self.law_pressure))
-        largest = max(self.contact(closure)[0].max(), (first * np.abs(self.free)).max())
-        return np.abs(np.maximum(slope, first) * step).max() <= _TOLERANCE * largest
 
     def friction_state(self, force):
         return self.friction(force / self.model.contacts.area, abs(self.model.sliding_speed))
 
     def solve(self, closure, share):
         """Closures (c,) with a ``share`` of the friction, or None where Newton's method does not get there."""
-        miss, slope, tangent = self._miss(closure, share)
-        for _ in range(_ITERATIONS):
-            try:
-                step = np.linalg.solve(tangent, miss)
-            except np.linalg.LinAlgError:
-                return None
-            if self.contacts_balance(closure, slope, step):
-                return closure
-            for length in 0.5 ** np.arange(_HALVINGS):
-                trial = self._miss(closure - length * step, share)
-                if np.linalg.norm(trial[0]) < np.linalg.norm(miss):
-                    break
-            closure, (miss, slope, tangent) = closure - length * step, trial
-        return None
+        contacts = self.model.contacts
+        first = np.where(contacts.fixed, 0.0, first_slope(contacts.area, self.law_closure, self.law_pressure))
+        closure, imbalance = balance(partial(self._miss, share=share), closure, first,
+                                     (first * np.abs(self.free)).max())
+        return closure if imbalance <= BALANCED else None
 
     def _miss(self, closure, share):
-        """(c less the right side of (1), dN/dc, derivative of the former) at ``closure``."""
+        """(c less the right side of (1), N, dN/dc, derivative of the first) at ``closure``."""
         response, springs = self.response, self.response.stiffness
         force, slope = self.contact(closure)
         state = self.friction_state(force)
@@ -182,4 +164,4 @@ class _Equilibrium:
         reached = (self.free + response.normal @ (force - springs * closure)
                  + response.tangent @ (sign * state.coefficient * force))
         tangent = np.eye(len(closure)) - response.normal * (slope - springs) - response.tangent * (coupling * slope)
-        return closure - reached, slope, tangent
+        return closure - reached, force, slope, tangent

@@ -7,16 +7,17 @@ rigid sticking are set on velocities, their forces constant over the step (Morea
     0 <= N  _|_  n q'(end) + e n q'(begin) >= 0        where the motion without force would close the gap,
     T such that the slip ends at 0, while |T| <= mu N;
 
-``penalty`` N = k c + d c' and ``table`` N = A p(c) (1 + c' / v0) (Hunt & Crossley 1975) hold at the end of the step,
-as do the elastic and the evolution description of friction; ``lagrange`` asks n q(end) + gap >= 0. The contacts are
-visited in turn (Gauss-Seidel), the two forces of one contact solved together, until no force changes. A friction joint
-has a normal force of its own that never changes.
+``penalty`` and ``table``, the laws of ``closure_law``, hold at the end of the step, as do the elastic and the evolution
+description of friction; ``lagrange`` asks n q(end) + gap >= 0. The contacts are visited in turn (Gauss-Seidel), the two
+forces of one contact solved together, until no force changes. A friction joint has a normal force of its own that never
+changes.
 """
 
 from typing import NamedTuple
 
 import numpy as np
 
+from pipeline.physics.contact.closure_law import penalty_law, table_law
 from pipeline.physics.friction.dry_friction import (
     DELAYED,
     EVOLUTION,
@@ -73,20 +74,12 @@ class ContactStep(NamedTuple):
     before: np.ndarray      # (c,) work: status at the begin, SLIP once a contact has broken loose
 
 
-@njit
-def table_force(law, i, closure, rate):
-    """(N, dN/dclosure, dN/drate) of contact i; beyond its last row the table goes on along its last slope."""
-    if closure <= 0.0:
-        return 0.0, 0.0, 0.0
-    last = law.closure.size - 2
-    k = min(max(np.searchsorted(law.closure, closure) - 1, 0), last)
-    first = law.first[i] + k
-    slope = (law.pressure[first + 1] - law.pressure[first]) / (law.closure[k + 1] - law.closure[k])
-    force = law.area[i] * (law.pressure[first] + slope * (closure - law.closure[k]))
-    factor = 1.0 + rate / law.damping_speed[i]
-    if factor <= 0.0:
-        return 0.0, 0.0, 0.0
-    return force * factor, law.area[i] * slope * factor, force / law.damping_speed[i]
+@njit(inline="always")
+def yielding_force(law, i, closure, rate):
+    """(N, dN/dclosure, dN/drate) of contact i of a NormalKernel, penalty or table."""
+    if law.kind == PENALTY or law.first[i] < 0:
+        return penalty_law(closure, rate, law.stiffness[i], law.damping[i])
+    return table_law(closure, rate, law.area[i], law.closure, law.pressure, law.first[i], law.damping_speed[i])
 
 
 @njit
@@ -268,7 +261,8 @@ def _normal(law, i, y, r, past, fixed, slope, guess):
         return (max(-(k * gap + d * rate) / against, 0.0), SOLVED) if against > 0.0 else (0.0, JAMMED)
     normal = guess
     for _ in range(ITERATIONS):
-        force, k, d = table_force(law, i, -gap - flexible * normal, -rate - mobile * normal)
+        force, k, d = table_law(-gap - flexible * normal, -rate - mobile * normal, law.area[i], law.closure,
+                                law.pressure, law.first[i], law.damping_speed[i])
         against = 1.0 + k * flexible + d * mobile
         if k * r[0][0] > LARGEST_STIFFNESS:
             return 0.0, TOO_LONG

@@ -12,6 +12,7 @@ the first time, dry friction none.
 """
 
 import numpy as np
+import scipy
 
 from pipeline.contract.errors import ConfigError, ConvergenceError
 from pipeline.physics.contact.groups import read
@@ -98,13 +99,26 @@ def _solve(stiffness, load, normal, pushed, gap, give, closed):
     matrix = np.zeros((size + len(active),) * 2)
     matrix[:size, :size], matrix[:size, size:] = stiffness, -pushed[active].T
     matrix[size:, :size], matrix[size:, size:] = normal[active], np.diag(give[active])
-    scale = np.sqrt(abs(np.diag(stiffness)).max(initial=0.0)) or 1.0      # bodies and contacts of one size
-    weight = np.r_[np.full(size, 1 / scale), np.full(len(active), scale)]
+    weight = _weights(stiffness, normal[active], give[active])
     scaled = weight[:, None] * matrix * weight
-    if np.linalg.cond(scaled, 1) > 1 / np.finfo(float).eps:
+    factors, pivots, singular = scipy.linalg.lapack.dgetrf(scaled)
+    if singular or scipy.linalg.lapack.dgecon(factors, abs(scaled).sum(axis=0).max())[0] < np.finfo(float).eps:
         raise ConfigError("steady sliding", "joints and closed contacts that hold every body", "a body that is free",
                           "support it, press it on, or start at rest")
-    solution = weight * np.linalg.solve(scaled, weight * np.r_[load, -gap[active]])
+    solution = weight * scipy.linalg.lapack.dgetrs(factors, pivots, weight * np.r_[load, -gap[active]])[0]
     force = np.zeros(len(closed))
     force[active] = solution[size:]
     return solution[:size], force
+
+
+def _weights(stiffness, normal, give):
+    """(n + a,) weights that give every coordinate, and every closed contact, an entry of about one on the diagonal.
+
+    Coordinates count with the contacts that yield on them: stiffnesses of the vibration modes of a body exceed those of
+    its soft joints by many powers of ten, and one weight for all would make a body on soft joints look free.
+    """
+    yields = give > 0
+    held = abs(np.diag(stiffness)) + (normal[yields] ** 2 / give[yields, None]).sum(axis=0)
+    coordinates = 1 / np.sqrt(np.where(held > 0, held, held.max(initial=0.0) or 1.0))
+    reach = give + ((normal * coordinates) ** 2).sum(axis=1)
+    return np.r_[coordinates, 1 / np.sqrt(np.where(reach > 0, reach, 1.0))]

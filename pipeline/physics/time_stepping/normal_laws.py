@@ -5,9 +5,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from pipeline.contract.errors import ConfigError
+from pipeline.physics.contact.closure_law import force_at_rest, penalty_forces, table_forces
 from pipeline.physics.contact.groups import parts, read
 from pipeline.physics.friction.friction_table import straight_slope
-from pipeline.physics.time_stepping.contact_solver import HARD, LAGRANGE, PENALTY, TABLE, NormalKernel, table_force
+from pipeline.physics.time_stepping.contact_solver import HARD, LAGRANGE, PENALTY, TABLE, NormalKernel, yielding_force
 
 
 @dataclass(frozen=True)
@@ -20,7 +21,7 @@ class Hard:
 
 @dataclass(frozen=True)
 class Penalty:
-    """N = stiffness c + damping c' at closure c, never below 0; each () or (c,), in N/m and N s/m.
+    """N = stiffness c + damping c' of ``closure_law``; each () or (c,), in N/m and N s/m.
 
     With a ``gamma`` bodies and contacts are stepped by Newmark's rule, as FE codes do, instead of exactly.
     """
@@ -33,7 +34,7 @@ class Penalty:
 
 @dataclass(frozen=True)
 class Table:
-    """N = A p(c) (1 + c' / damping_speed): ``closure`` (k,) m and ``pressure`` (k,) Pa, both rising from 0.
+    """The table of ``closure_law``: ``closure`` (k,) m and ``pressure`` (k,) Pa, both rising from 0.
 
     ``smooth``: the rows sample a curve closely, so that the slope for small motions does not jump at them.
     """
@@ -45,10 +46,8 @@ class Table:
     smooth: bool = False
 
     def at(self, closure):
-        """Pressure at closures of at least 0; beyond the last row the last slope goes on."""
-        last = (self.pressure[-1] - self.pressure[-2]) / (self.closure[-1] - self.closure[-2])
-        return (np.interp(closure, self.closure, self.pressure)
-                + last * np.maximum(np.asarray(closure, float) - self.closure[-1], 0.0))
+        """Pressure (n,) at closures (n,) m."""
+        return force_at_rest(closure, np.ones_like(closure), self.closure, self.pressure)[0]
 
 
 @dataclass(frozen=True)
@@ -124,11 +123,15 @@ def _stacked_tables(tables, count, fill):
 def normal_force(kernel, gap, rate):
     """Force (c,) of contacts that yield at gaps (c,) and opening rates (c,), and which of them yield."""
     yields = np.full(len(gap), kernel.kind in (PENALTY, TABLE))
-    tabled = yields & (kernel.kind == TABLE) & (kernel.first >= 0)
-    force = np.where(yields & (gap < 0), np.maximum(-kernel.stiffness * gap - kernel.damping * rate, 0.0), 0.0)
-    for i in np.flatnonzero(tabled):
-        force[i] = table_force(kernel, i, -gap[i], -rate[i])[0]
-    return force, yields
+    return np.array([yielding_force(kernel, i, -gap[i], -rate[i])[0] if yields[i] else 0.0
+                     for i in range(len(gap))]), yields
+
+
+def first_slopes(kernel):
+    """Stiffness (c,) N/m of the contacts of a NormalKernel, all of which yield, where they have just closed."""
+    tabled, first = kernel.first >= 0, np.maximum(kernel.first, 0)
+    rise = (kernel.pressure[first + 1] - kernel.pressure[first]) / (kernel.closure[1] - kernel.closure[0])
+    return np.where(tabled & (kernel.kind == TABLE), kernel.area * rise, kernel.stiffness)
 
 
 def closing(law, force, area):
@@ -176,19 +179,21 @@ def _row(table, pressure):
 
 
 def force_along(law, i, area, closure, closing):
-    """Normal force of contact ``i`` along closures (m, below 0 where open) and closing rates (m/s).
+    """Normal force (...) of contact ``i`` along closures (...) m, below 0 where open, and closing rates (...) m/s.
 
     ``area`` is that of all contacts. ConfigError where the contact does not yield.
     """
     each = next(each for each, members in parts(law, len(area)) if i in members)
-    shut = np.maximum(closure, 0.0)
+    shape = np.shape(closure)
+    motion = contiguous(np.broadcast_to(closure, shape).ravel()), contiguous(np.broadcast_to(closing, shape).ravel())
     if isinstance(each, Penalty):
-        stiffness, damping = (np.broadcast_to(v, len(area))[i] for v in (each.stiffness, each.damping))
-        return np.where(shut > 0, np.maximum(stiffness * shut + damping * closing, 0.0), 0.0)
+        given = (float(np.broadcast_to(v, len(area))[i]) for v in (each.stiffness, each.damping))
+        return penalty_forces(*motion, *given)[0].reshape(shape)
     if not isinstance(each, Table):
         raise ConfigError(f"contact {i}", "a contact law that yields", type(each).__name__,
                           "give the contact a stiffness, or simulate instead")
-    return area[i] * each.at(shut) * np.maximum(1 + closing / each.damping_speed, 0.0)
+    return table_forces(*motion, np.full(len(motion[0]), float(area[i])), contiguous(each.closure),
+                        contiguous(each.pressure), float(each.damping_speed))[0].reshape(shape)
 
 
 def contiguous(values):

@@ -7,6 +7,9 @@ from pipeline.views.chapters.pad_motion import extremes, point
 from pipeline.views.figures import vibration as pictures
 from pipeline.views.figures.number_format import THIN, number, ordinal, plural, quantity, span
 
+#: what the forces act on, by the coupling of the stage response
+_ENTERED = {"disc": "disc alone", "released": "brake with open contacts", "assembly": "brake with closed contacts"}
+
 
 def response(product, published, look):
     """Chapter of the product Response."""
@@ -20,7 +23,8 @@ def response(product, published, look):
     return Chapter(
         "response", "Vibration at the sensors",
         f"At each operating point the contact forces excite {superposed} modes up to"
-        f" {quantity(product.mode_frequency.max(), 'Hz')} (superposed exactly); forces enter the {product.coupling}."
+        f" {quantity(product.mode_frequency.max(), 'Hz')} (superposed exactly); forces enter the"
+        f" {_ENTERED[str(product.coupling)]}."
         f" Spectra at lowest and highest load, resolution"
         f" {quantity(product.frequency[1] - product.frequency[0], 'Hz', 3)}.",
         f"RMS velocities are {span(effective, 'm/s')}. A narrow peak that rises above the forced"

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from pipeline.contract.errors import ConfigError
-from pipeline.physics.friction.friction_table import FrictionLaw, friction_at, refine
+from pipeline.physics.friction.friction_table import FrictionLaw, friction_at, mean_friction_at, refine
 
 
 def multilinear(p, v, s):
@@ -85,3 +85,13 @@ def test_a_falling_axis_is_refused():
 def test_a_table_of_another_shape_is_refused():
     with pytest.raises(ConfigError, match=r"shape \(2, 1, 1\)"):
         FrictionLaw([1e6, 2e6], [1.0], [0.0], np.full((2, 1), 0.4))
+
+
+@pytest.mark.exact
+def test_the_mean_over_distances_is_that_of_the_readings():
+    law = FrictionLaw([1e6, 2e6, 4e6], [0.5, 1.0], [0.0, 1e-3, 5e-3], 0.3 + np.arange(18).reshape(3, 2, 3) ** 2 / 900)
+    distance, share = np.array([0.0, 7e-4, 2e-3, 9e-3]), np.array([0.0, 0.25, 0.6, 0.15])
+    for pressure, speed in ((1.3e6, 0.7), (2e6, 0.6), (5e6, 0.2)):
+        read = np.array([friction_at(pressure, speed, d, *law.table)[:3] for d in distance])
+        np.testing.assert_allclose(mean_friction_at(pressure, speed, distance, share, *law.table, 0), share @ read,
+                                   rtol=1e-12, atol=1e-18)

@@ -34,5 +34,6 @@ def test_samples_outside_the_map_and_without_contact_are_counted():
     time, q, v = moved(system)
     late = system.contact._replace(bedding=np.array([1e-3, 1.0, 1e-3, 1.0]), half_angle=np.full(8, np.pi / 4))
     assert contact_history(late, PAD, 2, time, q, v).outside == 0.5
-    opened = system.contact._replace(opening=np.where(np.arange(8) < 2, 1.0, system.contact.opening))
+    law = system.contact.law
+    opened = system.contact._replace(law=law._replace(gap=np.where(np.arange(8) < 2, 1.0, law.gap)))
     assert contact_history(opened, PAD, 2, time, q, v).separated == 0.25

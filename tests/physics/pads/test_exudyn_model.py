@@ -121,17 +121,17 @@ def add_sub_discs(multibody, speed):
 
 def plain_contact_force(contact, time, displacement, velocity, turned):
     """(force on the pads, torque on each sub-disc), written again with numpy: each sub-disc at its body's angle."""
-    law = FrictionLaw(contact.friction_pressure, contact.friction_speed, contact.friction_distance, contact.friction)
-    closure = -(contact.rows[0] @ displacement + contact.opening)
-    closing = 1 - contact.rows[0] @ velocity / contact.damping_speed
-    pressure = np.interp(closure, contact.closure, contact.pressure) * closing
+    law = FrictionLaw(contact.dry.pressure, contact.dry.speed, contact.dry.distance, contact.dry.table)
+    closure = -(contact.rows[0] @ displacement + contact.law.gap)
+    closing = 1 - contact.rows[0] @ velocity / contact.law.damping_speed
+    pressure = np.interp(closure, contact.law.closure, contact.law.pressure) * closing
     slip = np.array([contact.disc_speed * contact.radius - contact.rows[1] @ velocity, -contact.rows[2] @ velocity])
     acting = 0.5 * (1 - np.cos(np.pi * min(time / contact.ramp, 1)))
-    force, torque = pressure * contact.area @ contact.rows[0], np.zeros(4)
+    force, torque = pressure * contact.law.area @ contact.rows[0], np.zeros(4)
     for sub_disc in range(4):
         share = overlap(contact, sub_disc, turned[sub_disc])
         friction, _ = law.evaluate(pressure, np.hypot(*slip), contact.bedding[sub_disc] + contact.bedding_speed * time)
-        along, aside = acting * friction * share * pressure * contact.area * slip / np.hypot(*slip)
+        along, aside = acting * friction * share * pressure * contact.law.area * slip / np.hypot(*slip)
         force = force + along @ contact.rows[1] + aside @ contact.rows[2]
         torque[sub_disc] = -along @ contact.radius
     return force, torque

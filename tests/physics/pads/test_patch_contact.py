@@ -3,6 +3,8 @@
 import numpy as np
 import pytest
 
+from pipeline.physics.contact.groups import Grouped
+from pipeline.physics.friction.dry_friction import constant, kernel
 from pipeline.physics.friction.friction_table import FrictionLaw
 from pipeline.physics.pads.pad_system import static_start
 from pipeline.physics.pads.patch_contact import (
@@ -10,10 +12,9 @@ from pipeline.physics.pads.patch_contact import (
     contact_state,
     contact_tangent,
     friction_share,
-    normal_law,
     patch_shares,
-    sliding_part,
 )
+from pipeline.physics.time_stepping.normal_laws import Penalty, Table
 from tests.physics.small_pads import block_on_belt, contacts, random_assembly
 
 TURNS = np.linspace(-0.3, 2 * np.pi + 0.3, 4001)
@@ -52,22 +53,6 @@ def test_shares_are_the_overlaps_counted_by_hand():
 
 
 @pytest.mark.exact
-def test_normal_law_is_the_table_zero_when_open_and_straight_beyond():
-    closure, pressure = np.array([0.0, 1.0, 3.0]), np.array([0.0, 2.0, 10.0])
-    read = [normal_law(c, closure, pressure) for c in (-1.0, 0.0, 0.5, 2.0, 3.0, 5.0)]
-    assert read == [(0, 0), (0, 0), (1, 2), (6, 4), (10, 4), (18, 4)]
-
-
-@pytest.mark.exact
-def test_friction_is_regularised_below_the_stick_speed_only():
-    assert sliding_part(0.0, 0.1) == (0.0, 15.0)
-    assert sliding_part(0.1, 0.1) == sliding_part(5.0, 0.1) == (1.0, 0.0)
-    step = 1e-7
-    slope = (sliding_part(0.04 + step, 0.1)[0] - sliding_part(0.04 - step, 0.1)[0]) / (2 * step)
-    assert sliding_part(0.04, 0.1)[1] == pytest.approx(slope, rel=1e-8)
-
-
-@pytest.mark.exact
 def test_friction_rises_from_nothing_and_stays():
     assert [friction_share(t, 2.0) for t in (0.0, 1.0, 2.0, 9.0)] == pytest.approx([0, 0.5, 1, 1])
     assert friction_share(0.0, 0.0) == 1.0
@@ -80,16 +65,16 @@ def test_forces_are_those_of_the_friction_map():
     velocity = np.random.default_rng(5).normal(size=rest.size) * 0.2
     start = static_start(system)
     state = contact_state(contact, time, start, velocity)
-    closure = -(contact.rows[0] @ start + contact.opening)
-    closing = 1 - contact.rows[0] @ velocity / contact.damping_speed
-    pressure = np.interp(closure, contact.closure, contact.pressure) * closing
+    closure = -(contact.rows[0] @ start + contact.law.gap)
+    closing = 1 - contact.rows[0] @ velocity / contact.law.damping_speed
+    pressure = np.interp(closure, contact.law.closure, contact.law.pressure) * closing
     slip = np.array([contact.disc_speed * contact.radius - contact.rows[1] @ velocity, -contact.rows[2] @ velocity])
-    law = FrictionLaw(contact.friction_pressure, contact.friction_speed, contact.friction_distance, contact.friction)
+    law = FrictionLaw(contact.dry.pressure, contact.dry.speed, contact.dry.distance, contact.dry.table)
     distance = contact.bedding + contact.bedding_speed * time
     friction, _ = law.evaluate(pressure[:, None], np.hypot(*slip)[:, None], distance)
     shares = patch_shares(contact.angle, contact.half_angle, contact.disc_speed * time, contact.sectors)
-    expected = (friction * shares).sum(axis=1) * pressure * contact.area
-    np.testing.assert_allclose(state.normal, pressure * contact.area, rtol=1e-12)
+    expected = (friction * shares).sum(axis=1) * pressure * contact.law.area
+    np.testing.assert_allclose(state.normal, pressure * contact.law.area, rtol=1e-12)
     np.testing.assert_allclose(state.friction.T, expected * slip / np.hypot(*slip), rtol=1e-12)
     assert np.ptp(friction) > 0.02 and (shares > 0).sum() > len(shares)
 
@@ -118,7 +103,9 @@ def test_friction_opposes_the_slip_whatever_its_direction():
 
 
 def test_open_contacts_bear_nothing():
-    state = contact_state(random_assembly().contact._replace(opening=np.full(8, 1e-6)), 0.1, np.zeros(12), np.ones(12))
+    contact = random_assembly().contact
+    apart = contact._replace(law=contact.law._replace(gap=np.full(8, 1e-6)))
+    state = contact_state(apart, 0.1, np.zeros(12), np.ones(12))
     assert not state.normal.any() and not state.friction.any() and not state.drag.any()
 
 
@@ -141,10 +128,18 @@ def test_waves_and_scatter_turn_with_the_disc():
 @pytest.mark.exact
 def test_contacts_may_have_laws_and_friction_of_their_own():
     rows, aside = np.array([[0.0, 1.0], [0.0, 1.0]]), np.array([[1.0, 0.0], [1.0, 0.0]])
-    plain = contacts(rows, aside)
-    both = plain._replace(pressure=np.append(plain.pressure, 3 * plain.pressure), law_first=np.array([0, 3]),
-                          friction=np.concatenate((plain.friction, plain.friction / 2)),
-                          friction_first=np.array([0, 2]), damping_speed=np.array([np.inf, 1.0]))
+    closure = np.array([0.0, 1.0])
+    laws = Grouped((Table(closure, 1e12 * closure), Table(closure, 3e12 * closure, 1.0)), (0, 1))
+    both = contacts(rows, aside, law=laws)._replace(dry=kernel(Grouped((constant(0.4), constant(0.2)), (0, 1)), 2))
     state = contact_state(both, 0.0, np.array([0.0, -1e-6]), np.array([0.0, -0.1]))
     assert state.normal[1] == pytest.approx(3 * 1.1 * state.normal[0])
     assert state.friction[1, 0] / state.normal[1] == pytest.approx(state.friction[0, 0] / state.normal[0] / 2)
+
+
+@pytest.mark.exact
+def test_a_contact_may_be_a_spring_and_damper_beside_a_table():
+    rows, aside, closure = np.array([[0.0, 1.0], [0.0, 1.0]]), np.array([[1.0, 0.0], [1.0, 0.0]]), np.array([0.0, 1.0])
+    both = contacts(rows, aside, law=Grouped((Table(closure, 1e12 * closure), Penalty(2e8, 30.0)), (0, 1)))
+    state = contact_state(both, 0.0, np.array([0.0, -1e-6]), np.array([0.0, -0.1]))
+    np.testing.assert_allclose(state.normal, [100.0, 203.0])
+    np.testing.assert_allclose((state.stiffness, state.damping), ([1e8, 2e8], [0.0, 30.0]))

@@ -4,7 +4,14 @@ import numpy as np
 import pytest
 
 from pipeline.physics.modal.quadratic_eigenproblem import quadratic_roots
-from pipeline.physics.pads.pad_system import force, linearised, sliding_state, static_start, tangent
+from pipeline.physics.pads.pad_system import (
+    force,
+    linearised,
+    sliding_state,
+    static_start,
+    tangent,
+    without_friction,
+)
 from pipeline.physics.pads.preloaded_modes import preloaded_modes
 from pipeline.physics.pads.stability_map import on_average, sliding_roots
 from tests.physics.small_pads import random_assembly
@@ -30,7 +37,7 @@ def test_few_modes_and_corrections_have_unit_masses_and_do_not_couple_elasticall
     modal, basis = preloaded_modes(system, start, 3e3)
     np.testing.assert_allclose(basis.T @ system.mass @ basis, np.eye(basis.shape[1]), atol=1e-9)
     rest = np.zeros(basis.shape[1])
-    frictionless = modal._replace(contact=modal.contact._replace(friction=0 * modal.contact.friction))
+    frictionless = without_friction(modal)
     stiffness = tangent(frictionless, 0.0, rest, rest)[0]
     np.testing.assert_allclose(stiffness, np.diag(np.diag(stiffness)), atol=1e-7 * stiffness.max())
     assert basis.shape[1] < 40 and (np.diff(np.sqrt(np.diag(stiffness))) > -1e-6).all()
@@ -42,8 +49,8 @@ def test_static_answers_to_contact_forces_are_exact_with_few_modes():
     start = static_start(system)
     modal, basis = preloaded_modes(system, start, 3e3)
     rest = np.zeros(basis.shape[1])
-    whole = linearised(system._replace(contact=system.contact._replace(friction=0 * system.contact.friction)), start)[0]
-    few = linearised(modal._replace(contact=modal.contact._replace(friction=0 * modal.contact.friction)), rest)[0]
+    whole = linearised(without_friction(system), start)[0]
+    few = linearised(without_friction(modal), rest)[0]
     for rows, push in ((0, 3), (1, 5)):
         exact = np.linalg.solve(whole, system.contact.rows[rows, push])
         answer = basis @ np.linalg.solve(few, modal.contact.rows[rows, push])

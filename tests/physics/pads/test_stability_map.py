@@ -71,10 +71,11 @@ def test_roots_beyond_the_highest_frequency_do_not_count():
 def test_rising_friction_over_pressure_counts_in_the_rate():
     system = flutter(**MODES, friction=0.6)
     state = sliding_state(system, static_start(system))
-    pressure = contact_state(system.contact, 0.0, state, 0 * state).normal[0] / system.contact.area[0]
-    table = system.contact.friction * np.array([0.5, 1.5])[:, None, None]
+    pressure = contact_state(system.contact, 0.0, state, 0 * state).normal[0] / system.contact.law.area[0]
+    dry = system.contact.dry
+    table = dry.table * np.array([0.5, 1.5])[:, None, None]
     axis = np.array([0.0, 2 * pressure])
-    rising = system._replace(contact=system.contact._replace(friction=table, friction_pressure=axis))
+    rising = system._replace(contact=system.contact._replace(dry=dry._replace(table=table, pressure=axis)))
     expected = roots_over_friction(**MODES, friction=0.6 + 0.5 * 0.6).real.max()
     assert sliding_roots(rising).real.max() == pytest.approx(expected, rel=1e-6)
 

@@ -19,7 +19,7 @@ from pipeline.physics.time_stepping.contact_solver import (
     ContactStep,
     NormalKernel,
     solve_contacts,
-    table_force,
+    yielding_force,
 )
 
 
@@ -86,9 +86,9 @@ def test_laws_hold_at_the_end_of_the_step():
     law = normal(TABLE, 1)
     _, force, _ = solve(law, np.diag([1e-3, 1.0]), free)
     end = 5e-6 - 1e-9 * force[0, 0], 0.1 - 1e-3 * force[0, 0]
-    assert force[0, 0] == pytest.approx(table_force(law, 0, *end)[0])
-    assert table_force(law, 0, 2e-5, 0.0)[0] == pytest.approx(100 + 1e-5 * 1.1e7)
-    assert table_force(law, 0, -1e-9, 1.0) == table_force(law, 0, 1e-6, -0.6) == (0.0, 0.0, 0.0)
+    assert force[0, 0] == pytest.approx(yielding_force(law, 0, *end)[0])
+    assert yielding_force(law, 0, 2e-5, 0.0)[0] == pytest.approx(100 + 1e-5 * 1.1e7)
+    assert yielding_force(law, 0, -1e-9, 1.0) == yielding_force(law, 0, 1e-6, -0.6) == (0.0, 0.0, 0.0)
 
 
 def test_an_open_contact_feels_nothing():

@@ -53,6 +53,21 @@ def test_a_contact_out_of_reach_is_left_open():
     assert start.normal[0] == 0 and start.displacement[0] == pytest.approx(-0.01)
 
 
+@pytest.mark.exact
+@pytest.mark.parametrize("law", [Hard(), Penalty(2e5), Table(np.array([0, 1e-4, 2e-4]), np.array([0, 10.0, 30.0]))])
+def test_a_body_on_soft_joints_is_not_free_however_stiff_its_modes(law):
+    """A pad on boots of 100 N/m whose vibration mode has 1e15 N/m: one weight for all makes it look free."""
+    model = lumps([0.3, 0.3, 1e-6], np.eye(3), [100.0, 100.0, 1e15], None, [[0, 1, 0.5]], [[1, 0, 0.3]], 0.5)
+    start = steady_start(model, law, constant(0.4), [0.0, -8.0, 0.0])
+    sink = 8.0 - start.normal[0]
+    pressed = start.normal[0]
+    closed = {Hard: 0.0, Penalty: pressed / 2e5, Table: np.interp(pressed, [0, 10, 30], [0, 1e-4, 2e-4])}
+    assert start.displacement[1] == pytest.approx(-sink / 100) and sink > -1e-9
+    assert -start.displacement[1] == pytest.approx(closed[type(law)], abs=1e-12)
+    assert start.displacement[0] == pytest.approx(0.4 * start.normal[0] / 100)
+    assert start.displacement[2] == pytest.approx((0.5 + 0.4 * 0.3) * start.normal[0] / 1e15)
+
+
 def test_what_has_no_equilibrium_is_refused():
     with pytest.raises(ConfigError, match="free"):
         steady_start(belt(), Hard(), constant(0.3), [0.0, 10.0])
