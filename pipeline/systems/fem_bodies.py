@@ -56,7 +56,7 @@ def elastic_body(system, name, patterns=None):
 
     ``patterns``: those of ``force_patterns``; None = every force by itself, and modes only where the body is supported.
     """
-    body, index = getattr(system, name), list(system.body_name).index(name)
+    body, index = system.body(name), list(system.body_name).index(name)
     incidences = [getattr(system, field) for field in row_fields(system)]
     rows = scipy.sparse.vstack([body_rows(i, index, len(body.node)) for i in incidences], format="csr")
     count = len(body.frequency) if len(body.supported) or patterns is not None else 0

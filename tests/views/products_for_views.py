@@ -34,12 +34,13 @@ SENSORS, SQUEAL_LINE = ["disc_outer_rim", "pad_outer_back"], 16600.0
 
 def filled(cls, **given):
     """A product with the values ``given`` and zeros elsewhere; dimensions nobody gives have length 2."""
-    plain = {f.name: f.metadata for f in fields(cls) if not is_product(f.type)}
+    plain = {f.name: f.metadata for f in fields(cls) if "dims" in f.metadata}
     sizes = {dim: size for name, value in given.items() if name in plain
              for dim, size in zip(plain[name]["dims"], np.shape(value), strict=True)}
     values = {name: np.zeros([sizes.get(dim, 2) for dim in said["dims"]], dtype=said["dtype"])
               for name, said in plain.items()}
-    parts = {f.name: filled(f.type) for f in fields(cls) if is_product(f.type) and f.name not in given}
+    parts = {f.name: filled(f.type) if is_product(f.type) else {} for f in fields(cls)
+             if f.name not in plain and f.name not in given}
     return cls(**{**{name: value.tolist() if value.dtype.kind == "U" else value for name, value in values.items()},
                   **parts, **given})
 
