@@ -51,6 +51,23 @@ class FiniteElements:
         self.loss = blocks([b.loss() for b in bodies], free) + self.spread(
             joints, structure.joint_loss_factor * structure.joint_stiffness, joints)
         self.contact = [rows(getattr(structure, f"contact_{name}")) for name in ("normal", "tangent", "lateral")]
+        self._with_line(structure, rows(structure.piston_rows))
+
+    def _with_line(self, structure, piston):
+        """One more mass for the fluid in the line, tied to piston and cylinder by the column in the bore."""
+        none = np.zeros(1)
+
+        def grown(matrix, diagonal=none):
+            return scipy.sparse.block_diag([matrix, np.diag(diagonal)], format="csr")
+
+        tie = scipy.sparse.hstack([piston, [[-1.0]]], format="csr")
+        self.drag = grown(0 * self.mass, structure.line_drag)
+        self.mass, self.gyroscopic = grown(self.mass, structure.line_inertia), grown(self.gyroscopic)
+        self.stiffness = grown(self.stiffness) + self.spread(tie, structure.fluid_stiffness, tie)
+        self.loss = grown(self.loss) + self.spread(tie, structure.fluid_loss_factor * structure.fluid_stiffness, tie)
+        self.contact = [scipy.sparse.hstack([each, np.zeros((each.shape[0], 1))], format="csr")
+                        for each in self.contact]
+        self.size += 1
 
     @staticmethod
     def spread(left, weight, right):
@@ -61,7 +78,7 @@ class FiniteElements:
         contacts, (normal, tangent, lateral) = model.contacts, self.contact
         coupling = model.direction() * (friction.coefficient + contacts.pressure * friction.pressure_slope)
         turning = friction.coefficient * contacts.preload / abs(model.sliding_speed)
-        damping = (model.speed * self.gyroscopic + self.spread(normal, contacts.damping, normal)
+        damping = (self.drag + model.speed * self.gyroscopic + self.spread(normal, contacts.damping, normal)
                    + self.spread(tangent, coupling * contacts.damping, normal)
                    + self.spread(tangent, contacts.preload * friction.speed_slope, tangent)
                    + self.spread(lateral, turning, lateral))
