@@ -8,7 +8,7 @@ four walls touch the circle of the bore.
 Fluid of bulk modulus B in the volume V behind a piston of area A is a spring A^2 B / V between piston and housing. It
 ends at the line. The line, to a master cylinder that holds its pressure, has fluid of density rho, viscosity mu and
 length L in a section a = pi d^2 / 4, with the inertance rho L / a and the flow resistance 128 mu L / (pi d^4)
-(Merritt, Hydraulic Control Systems, 1967, sections 3-2 and 4-2). Seen by the piston, whose displacement x moves the
+(Merritt, Hydraulic Control Systems, 1967). Seen by the piston, whose displacement x moves the
 volume A x,
 
     m x_l'' + c x_l' = k (x - x_l),    k = A^2 B / V,    m = A^2 rho L / a,    c = A^2 128 mu L / (pi d^4).

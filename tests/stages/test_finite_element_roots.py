@@ -104,9 +104,9 @@ class FiniteElements:
 @pytest.mark.slow
 @pytest.mark.exact
 def test_unstable_roots_are_those_of_the_full_matrices():
-    """Within 0.05 % of the frequency and 5 % or 10 1/s of the growth rate: six modes at two pressures."""
+    """Within 0.05 % of the frequency and 5 % or 10 1/s of the growth rate: five modes at two pressures."""
     chosen = case.load(ROOT / "configs" / "disc_brake.yaml", stages.CHAINS, stages.load,
-                       ("structure.pressures=[1 MPa, 3 MPa]",), registry.path).sections
+                       ("structure.pressures=[2 MPa, 3 MPa]",), registry.path).sections
     context, product = Context(solver=available()[0]), None
     for name in ("surface", "micro_friction", "friction_map"):
         product = stages.load(name)(*([product] if product else []), settings=chosen[name], context=context)

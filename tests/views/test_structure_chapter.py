@@ -11,7 +11,7 @@ def test_every_body_is_drawn_and_listed_by_name():
     names = [row[0] for row in chapter._bodies(product).rows]
     assert names == ["disc", "pad outer", "pad inner", "caliper", "bracket", "piston"]
     assert len(mode_shapes.assembly(product).solids) == 6
-    assert {str(n) for n in product.body_name} <= set(mode_shapes.BODY_COLOURS) & set(chapter._COLOURS)
+    assert {str(n) for n in product.body_name} <= set(mode_shapes.BODY_COLOURS) & set(chapter._BODY_COLOURS)
 
 
 def test_joints_are_listed_with_what_they_connect():

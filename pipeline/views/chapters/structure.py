@@ -8,8 +8,8 @@ from pipeline.views.figures.number_format import number, percent, plural, quanti
 from pipeline.views.figures.scene import render
 
 COLOURS = "In pictures of modes, orange and purple move in opposite axial directions; white is at rest."
-_COLOURS = {"disc": "grey", "pad_outer": "orange", "pad_inner": "green", "caliper": "blue", "bracket": "pink",
-            "piston": "red"}
+_BODY_COLOURS = {"disc": "grey", "pad_outer": "orange", "pad_inner": "green", "caliper": "blue", "bracket": "pink",
+                 "piston": "red"}
 NO_PICTURES = "Pictures of meshes and mode shapes need OpenGL (on Linux: libEGL), which this machine does not provide."
 
 
@@ -38,7 +38,7 @@ def chapter(structure, modes, look):
 def _assembly(structure, picture):
     names = [str(name) for name in structure.body_name]
     nodes = sum(len(structure.body(name).node) for name in names)
-    colours = ", ".join(f"{_COLOURS[name]} {_words(name)}" for name in names if name in _COLOURS)
+    colours = ", ".join(f"{_BODY_COLOURS[name]} {_words(name)}" for name in names if name in _BODY_COLOURS)
     return Figure(picture, f"Meshes of the assembled brake: {nodes} nodes, {3 * nodes} displacements."
                   f" {colours.capitalize()}.")
 
