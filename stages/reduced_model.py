@@ -12,7 +12,7 @@ import scipy
 from pipeline.contract import Context, Quantity, Section, option, stage
 from pipeline.physics.reduction.body import reduce_body
 from pipeline.products import BeamOnBeam, Lumped, PinOnDisc, ReducedModel, Structure
-from pipeline.systems.fem_bodies import INPUTS, elastic_body, force_patterns, row_fields
+from pipeline.systems.fem_bodies import COLUMN, INPUTS, LINE, elastic_body, force_patterns, has_fluid, row_fields
 
 #: the tangential law of a system that has none: its friction comes from a map or from settings
 NO_SHEAR = {f"shear_{name}": [] for name in ("pressure", "friction", "stiffness", "elastic_stiffness", "exponent")}
@@ -21,10 +21,10 @@ NO_SHEAR = {f"shear_{name}": [] for name in ("pressure", "friction", "stiffness"
 class Settings(Section):
     """Number of coordinates that the bodies retain."""
 
-    fixed_below: Quantity("Hz", gt=0) = option("20 kHz", "limit of the fixed-interface modes of pads and caliper")
+    fixed_below: Quantity("Hz", gt=0) = option("20 kHz", "limit of the fixed-interface modes of bodies on joints alone")
     residual_below: Quantity("Hz", gt=0) = option(
         "400 kHz", "limit of the pseudo-frequencies of residual shapes: the disc's response to contact forces, the"
-        " inertia that moving interfaces leave to pads and caliper")
+        " inertia that moving interfaces leave to the others")
     load_patterns: tuple[int, int] | None = option(
         None, "polynomial orders of contact force along and across each contact face, for which static responses are"
         " kept; none = the force of every contact by itself, which suits a few dozen contacts")
@@ -39,7 +39,8 @@ def reduced_model(structure: Structure | PinOnDisc | BeamOnBeam | Lumped, settin
     Bodies supported by joints were reduced by the Craig-Bampton method with averaged interfaces and fixed-interface
     modes below {fixed_below}, bodies on rigid supports to their modes. Both were augmented by residual shapes with
     pseudo-frequencies below {residual_below}, for the response to interface accelerations and contact forces beyond
-    these modes. Lumped masses retain their coordinates.
+    these modes. Lumped masses retain their coordinates; brake fluid is a spring in the bore that ends on the inertia of
+    the line.
     """
     return SYSTEMS[type(structure)](structure, settings, context)
 
@@ -57,9 +58,34 @@ def _from_solids(structure, settings, context):
     matrices = {name: scipy.linalg.block_diag(*(getattr(t, name) for t in terms))
                 for name in ("mass", "damping", "gyroscopic", "stiffness", "centrifugal", "loss")}
     rows = _split_rows(structure, np.hstack([t.rows for t in terms]))
-    return ReducedModel(
-        body_name=structure.body_name, coordinate_body=np.repeat(np.arange(len(terms)), sizes), **matrices, **rows,
-        **_copied(structure), **_surfaces(terms, sizes))
+    parts = {"body_name": structure.body_name, "coordinate_body": np.repeat(np.arange(len(terms)), sizes), **matrices,
+             **rows, **_copied(structure), **_surfaces(terms, sizes)}
+    return ReducedModel(**(_with_fluid(parts, structure) if has_fluid(structure) else parts))
+
+
+def _with_fluid(parts, structure):
+    """The fields ``parts`` of a ReducedModel with the fluid of the line, a mass on which the column in the bore ends.
+
+    The mass is free but for that spring, so that it takes no static load (see ``disc_brake_piston``).
+    """
+    beside = {"mass": structure.line_inertia, "damping": structure.line_drag}
+    none = np.zeros(1)
+    matrices = {name: scipy.linalg.block_diag(parts[name], np.diag(beside.get(name, none)))
+                for name in ("mass", "damping", "gyroscopic", "stiffness", "centrifugal", "loss")}
+    rows = {name: _widened(parts[name]) for name in ("joint_rows", "contact_normal", "contact_tangent",
+                                                     "contact_lateral", "input_rows", "sensor_rows", "recovery")}
+    column = np.append(parts["input_rows"], -1.0)
+    return {**parts, **matrices, **rows, "body_name": [*parts["body_name"], LINE],
+            "coordinate_body": np.append(parts["coordinate_body"], len(parts["body_name"])),
+            "joint_name": [*parts["joint_name"], COLUMN], "joint_rows": np.vstack((rows["joint_rows"], column)),
+            "joint_stiffness": np.append(parts["joint_stiffness"], structure.fluid_stiffness),
+            "joint_damping": np.append(parts["joint_damping"], 0.0),
+            "joint_loss_factor": np.append(parts["joint_loss_factor"], structure.fluid_loss_factor)}
+
+
+def _widened(rows):
+    """``rows`` with a coordinate that they do not see."""
+    return np.concatenate((rows, np.zeros((*rows.shape[:-1], 1), rows.dtype)), axis=-1)
 
 
 def _from_beams(beams, settings, context):

@@ -1,4 +1,4 @@
-"""Stage structure: finite-element models of disc, pads and caliper; real modes, joints, contacts and preload."""
+"""Stage structure: finite-element models of the bodies of the brake; real modes, joints, contacts and preload."""
 
 from functools import partial
 from typing import Literal
@@ -12,11 +12,13 @@ from pipeline.physics.fem.supports import free_freedoms, held_modes
 from pipeline.physics.friction.friction_table import refuse_beyond
 from pipeline.physics.modal.disc_modes import describe
 from pipeline.products import FrictionMap, Structure
-from pipeline.systems.disc_brake import BODIES, build
+from pipeline.systems.disc_brake import build
 from pipeline.systems.fem_bodies import assembly_fields, body_product, incidence
 
 #: the contact law is tabulated up to so many times the largest nominal pressure
 _LAW_RANGE = 20
+#: bodies that only some brakes have
+OTHERS = ("bracket", "piston")
 #: rigid motions of a free body, and the most that their frequencies may be of that of its first mode
 _RIGID, _RIGID_SHARE = 6, 0.1
 
@@ -98,6 +100,80 @@ class Caliper(Section):
     bridge_cells: int = option(3, "elements along the bridge between housing and fingers", ge=1)
 
 
+class Ground(Section):
+    """No bracket: pads and guide pins are held on the ground."""
+
+    kind: Literal["ground"] = "ground"
+
+
+class Bracket(Section):
+    """Anchor bracket: columns beside the pads, joined under the inner pad and around the rim, bolted to the knuckle.
+
+    Heights are distances from the middle plane of the disc.
+    """
+
+    kind: Literal["body"] = "body"
+    inner_radius: Quantity("m", gt=0) = option("72 mm", "inner radius of base and columns")
+    base_outer_radius: Quantity("m", gt=0) = option("90 mm", "outer radius of the base, which passes under the inner"
+                                                    " pad; the arms at the outer pad begin there as well")
+    rim_inner_radius: Quantity("m", gt=0) = option("160 mm", "inner radius of the bridges over the rim of the disc")
+    rim_outer_radius: Quantity("m", gt=0) = option("174 mm", "outer radius of bridges, columns and arms")
+    angle: Quantity("rad", gt=0, lt=3) = option("70 deg", "angle between the outer sides of the columns, which begin at"
+                                                " the ends of the pads")
+    disc_gap: Quantity("m", gt=0) = option("3 mm", "distance from the faces of the disc")
+    arm_height: Quantity("m", gt=0) = option("24 mm", "height of the arms beside the outer pad")
+    base_height: Quantity("m", gt=0) = option("32 mm", "height of the base on the inner side")
+    column_height: Quantity("m", gt=0) = option("50 mm", "height of the columns on the inner side, where they are"
+                                                " bolted on")
+    mount_radius: Quantity("m", gt=0) = option("100 mm", "radius of the two bolts")
+    mount_width: Quantity("m", gt=0) = option("16 mm", "distance of the two spots on which a bolted face bears")
+    young: Quantity("Pa", gt=0) = option("170 GPa", "Young's modulus")
+    poisson: float = option(0.275, "Poisson's ratio", gt=-1, lt=0.5)
+    density: Quantity("kg/m^3", gt=0) = option("7100 kg/m^3", "density")
+    loss_factor: float = option(0.0, "loss factor of the material", ge=0)
+    damping_ratio: float = option(0.0, "damping ratio of the bracket modes, beside the loss factor", ge=0)
+    element_size: Quantity("m", gt=0) = option("10 mm", "largest edge of an element")
+
+
+class Fluid(Section):
+    """Brake fluid behind the piston and in the line to the master cylinder, which holds the pressure."""
+
+    bulk_modulus: Quantity("Pa", gt=0) = option("1.5 GPa", "bulk modulus")
+    density: Quantity("kg/m^3", gt=0) = option("1050 kg/m^3", "density")
+    viscosity: Quantity("Pa s", gt=0) = option("10 mPa s", "dynamic viscosity")
+    passage_volume: Quantity("m^3", ge=0) = option("1 cm^3", "fluid beside that of the bore, up to the line")
+    line_length: Quantity("m", gt=0) = option("1 m", "length of the line")
+    line_diameter: Quantity("m", gt=0) = option("3.3 mm", "inner diameter of the line")
+    loss_factor: float = option(0.0, "loss factor of the fluid column", ge=0)
+
+
+class Seal(Section):
+    """No piston body: its seal acts between housing and inner backplate."""
+
+    kind: Literal["seal"] = "seal"
+
+
+class Piston(Section):
+    """Piston, a cup whose rim bears on the inner backplate, in the bore of the housing."""
+
+    kind: Literal["body"] = "body"
+    diameter: Quantity("m", gt=0) = option("48 mm", "diameter")
+    length: Quantity("m", gt=0) = option("34 mm", "length")
+    wall: Quantity("m", gt=0) = option("5 mm", "thickness of the wall")
+    crown: Quantity("m", gt=0) = option("6 mm", "thickness of the crown, which closes the bore")
+    clearance: Quantity("m", gt=0) = option("0.1 mm", "distance from the wall of the bore")
+    bore_depth: Quantity("m", gt=0) = option("36 mm", "depth of the bore")
+    seal_depth: Quantity("m", gt=0) = option("8 mm", "depth of the middle of the seal in the bore")
+    young: Quantity("Pa", gt=0) = option("207 GPa", "Young's modulus")
+    poisson: float = option(0.29, "Poisson's ratio", gt=-1, lt=0.5)
+    density: Quantity("kg/m^3", gt=0) = option("7820 kg/m^3", "density")
+    loss_factor: float = option(0.0, "loss factor of the material", ge=0)
+    damping_ratio: float = option(0.0, "damping ratio of the piston modes, beside the loss factor", ge=0)
+    angular_cells: int = option(16, "elements around", ge=8, multiple_of=4)
+    element_size: Quantity("m", gt=0) = option("10 mm", "largest edge of an element along wall and crown")
+    fluid: Fluid = option(Fluid(), "brake fluid")
+
+
 class Joints(Section):
     """Springs and dampers of the parts that are not meshed."""
 
@@ -113,10 +189,17 @@ class Joints(Section):
                                                            " in the plane")
     guide_pin_stiffness: Quantity("N/m", gt=0) = option("20 MN/m", "one guide pin across its axis")
     guide_pin_axial_stiffness: Quantity("N/m", gt=0) = option("100 kN/m", "boot of one guide pin, axial")
+    shim_stiffness: Quantity("N/m", gt=0) = option("400 MN/m", "piston body on the inner backplate, normal")
+    seal_stiffness: Quantity("N/m", gt=0) = option("5 MN/m", "seal of a piston body in its bore, each direction"
+                                                   " across the axis; along it piston_stiffness")
+    mount_stiffness: Quantity("N/m", gt=0) = option("200 MN/m", "one bolt of the bracket with the knuckle behind it,"
+                                                    " each direction")
     abutment_loss_factor: float = option(0.0, "loss factor of abutments and clips, in both directions", ge=0)
     finger_loss_factor: float = option(0.0, "loss factor of the fingers on the backplate", ge=0)
     piston_loss_factor: float = option(0.0, "loss factor of piston seal and piston on the backplate", ge=0)
     guide_pin_loss_factor: float = option(0.0, "loss factor of guide pins and boots", ge=0)
+    seal_loss_factor: float = option(0.0, "loss factor of the seal of a piston body", ge=0)
+    mount_loss_factor: float = option(0.0, "loss factor of the mount of the bracket", ge=0)
     loss_time: Quantity("s", ge=0) = option("5 us", "viscous damping over stiffness of every joint, beside the loss"
                                             " factors; damping that rises with frequency")
     clamping_radius: Quantity("m", gt=0) = option("122 mm", "radius of the centre of fingers and piston")
@@ -143,6 +226,8 @@ class Settings(Section):
     disc: Disc = option(Disc(), "brake disc")
     pad: Pad = option(Pad(), "both pads")
     caliper: Caliper = option(Caliper(), "caliper")
+    bracket: Ground | Bracket = option(Ground(), "what holds pads and guide pins", discriminator="kind")
+    piston: Seal | Piston = option(Seal(), "what the brake fluid presses on", discriminator="kind")
     joints: Joints = option(Joints(), "joints")
     sensors: tuple[LaserPoint, ...] = option(
         tuple({"name": f"ring_{angle}", "radius": "150 mm", "angle": f"{angle} deg"} for angle in (90, 120, 150, 210)),
@@ -155,25 +240,36 @@ class Settings(Section):
 
 @stage
 def structure(friction_map: FrictionMap, settings: Settings, context: Context) -> Structure:
-    """Mesh disc, pads and caliper, and compute preload and real modes.
+    """Mesh the bodies of the brake, and compute preload and real modes.
 
     Method:
-    Disc, pads and caliper were meshed with quadratic hexahedra (95 % of the stiffness by 2 x 2 x 2 integration);
-    fingers, piston, abutments and guide pins are springs and dampers. The disc is clamped where the bolts press it onto
-    a rigid hub. The normal contact law follows from the interface stiffness after {sliding_distance} of sliding; the
-    preload is static and frictionless. Real modes were computed below {frequency_max}.
+    Disc, pads, caliper, and bracket and piston where declared, were meshed with quadratic hexahedra (95 % of the
+    stiffness by 2 x 2 x 2 integration); joints between them are springs and dampers. The disc is clamped where the
+    bolts press it onto a rigid hub. The normal contact law follows from the interface stiffness after
+    {sliding_distance} of sliding; the preload is static and frictionless. Real modes were computed below
+    {frequency_max}.
     """
     brake = build(settings)
     free, *modes = _all_modes(brake, settings, context)
     bodies = {name: body_product(body, *results)
-              for name, body, results in zip(BODIES, brake.bodies, modes, strict=True)}
+              for name, body, results in zip(brake.names, brake.bodies, modes, strict=True)}
+    others = {name: bodies.pop(name) for name in brake.names if name in OTHERS}
     law = _law(friction_map, settings)
     diameters, out_of_plane = describe(brake.bodies[0].mesh.node, free[1])
     return Structure(
-        body_name=BODIES, **bodies, free_frequency=free[0], free_diameters=diameters, free_out_of_plane=out_of_plane,
+        body_name=brake.names, **bodies, others=others, free_frequency=free[0], free_diameters=diameters,
+        free_out_of_plane=out_of_plane,
         **assembly_fields(brake), sensor_name=[s.name for s in settings.sensors],
         **_preload(brake, law, settings, context), law_closure=law[0], law_pressure=law[1],
-        piston_rows=incidence(brake.piston), piston_area=brake.pad_area)
+        piston_rows=incidence(brake.piston), piston_area=brake.pad_area, **_fluid(brake.fluid, settings.piston))
+
+
+def _fluid(column, piston):
+    """Fields of the fluid column behind a piston body; empty without one."""
+    if column is None:
+        return {name: [] for name in ("fluid_stiffness", "fluid_loss_factor", "line_inertia", "line_drag")}
+    return {"fluid_stiffness": [column.stiffness], "fluid_loss_factor": [piston.fluid.loss_factor],
+            "line_inertia": [column.inertia], "line_drag": [column.drag]}
 
 
 def _all_modes(brake, settings, context):

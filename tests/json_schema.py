@@ -5,7 +5,7 @@ TYPES = {"object": dict, "array": list, "string": str, "boolean": bool, "null": 
 #: keywords that tell, but refuse nothing
 TOLD = {"$schema", "$defs", "title", "description", "default", "examples", "x-unit", "discriminator"}
 BOUNDS = {"minimum": lambda v, b: v >= b, "maximum": lambda v, b: v <= b, "exclusiveMinimum": lambda v, b: v > b,
-          "exclusiveMaximum": lambda v, b: v < b}
+          "exclusiveMaximum": lambda v, b: v < b, "multipleOf": lambda v, b: v % b == 0}
 LENGTHS = {"minItems": (list, False), "minLength": (str, False), "maxItems": (list, True),
            "minProperties": (dict, False), "maxProperties": (dict, True)}
 

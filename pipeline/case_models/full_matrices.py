@@ -43,8 +43,9 @@ def has_full_matrices(structure, posed, settings, context):
     """
     if structure is None or settings.residual_tolerance is None or is_hard(posed.base.model):
         return False
-    bodies = [getattr(structure, str(name)) for name in structure.body_name]
-    loses = structure.joint_loss_factor.any() or any(body.loss_factor.any() for body in bodies)
+    bodies = [structure.body(str(name)) for name in structure.body_name]
+    loses = any(part.any() for part in (structure.joint_loss_factor, structure.fluid_loss_factor,
+                                        *(body.loss_factor for body in bodies)))
     reasons = {"effects of the case": bool(posed.terms),
                "damping ratios of bodies": any(body.damping_ratio > 0 for body in bodies),
                "viscous equivalents of loss factors": loses and not settings.hysteretic}

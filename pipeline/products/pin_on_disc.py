@@ -55,6 +55,10 @@ class PinOnDisc:
     load_rows: Incidence = part("row of the weight: it presses the clamp towards the disc")
     load_area: Array = quantity("m^2", "", "contact area on which the nominal pressure acts; load = pressure * area")
 
+    def body(self, name):
+        """The Body called ``name``."""
+        return getattr(self, name)
+
 
 @product(version=2)
 class LockIn:

@@ -1,18 +1,19 @@
 """The disc brake as FE bodies."""
 
-from pipeline.contract import Array, count, part, product, quantity, text
+from pipeline.contract import Array, count, part, parts, product, quantity, text
 from pipeline.products.bodies import Body, Incidence
 
 
-@product(version=3)
+@product(version=4)
 class Structure:
     """FE bodies of the brake, their joints, contacts and sensors, and the solved preload."""
 
-    body_name: Array = text("body", "bodies in order: disc, pad_outer, pad_inner, caliper")
+    body_name: Array = text("body", "bodies in order: disc, pad_outer, pad_inner, caliper, and of bracket, piston those that there are")
     disc: Body = part("brake disc on its mount")
     pad_outer: Body = part("pad with backplate on the finger side, z > 0")
     pad_inner: Body = part("pad with backplate on the piston side, z < 0")
     caliper: Body = part("caliper with fingers and cylinder")
+    others: dict[str, Body] = parts("bracket and piston, where they are bodies")
     free_frequency: Array = quantity("Hz", "free_mode", "natural frequencies of the free disc, without rigid-body motions")
     free_diameters: Array = count("free_mode", "nodal diameters of the free-disc modes")
     free_out_of_plane: Array = quantity("1", "free_mode", "fraction of modal mass that moves along the axis")
@@ -37,5 +38,13 @@ class Structure:
     sensor_position: Array = quantity("m", "sensor xyz", "sensor positions")
     sensor_direction: Array = quantity("1", "sensor xyz", "sensor directions, unit vectors")
     sensor_rows: Incidence = part("sensor displacement rows")
-    piston_rows: Incidence = part("piston row: opening force pair between cylinder and inner backplate")
+    piston_rows: Incidence = part("piston row: opening force pair between cylinder and piston, or inner backplate without a piston")
     piston_area: Array = quantity("m^2", "", "pad area on which the nominal pressure acts; piston force = pressure * area")
+    fluid_stiffness: Array = quantity("N/m", "line", "fluid column between piston and cylinder, along the piston row; none without a piston")
+    fluid_loss_factor: Array = quantity("1", "line", "imaginary over real part of that stiffness")
+    line_inertia: Array = quantity("kg", "line", "inertia of the fluid in the line, on which the column ends, per piston motion")
+    line_drag: Array = quantity("N s/m", "line", "flow resistance of the line, per piston motion")
+
+    def body(self, name):
+        """The Body called ``name``."""
+        return self.others[name] if name in self.others else getattr(self, name)

@@ -1,12 +1,12 @@
-"""The disc brake: a stepped disc, two pads with backplates, and a floating caliper.
+"""The disc brake: a stepped disc, two pads with backplates, a floating caliper, and if declared bracket and piston.
 
 Axes: disc axis z, the disc turns about +z, the pads are centred on the x axis. The outer pad
 (fingers) lies at z > 0, the inner pad (piston) at z < 0; the friction ring is centred on z = 0.
 The disc enters the pads at their leading end (negative angle) and leaves at the trailing end.
 
-Values: the disc is fitted to Table 1 of the 2021 paper (calibration, not validation); pads and
-caliper are of ordinary passenger-car size, since the paper keeps its own secret. The caliper
-housing is solid: its bore and the piston are not meshed.
+Values: the disc is fitted to Table 1 of the 2021 paper (calibration, not validation); the other parts
+are of ordinary passenger-car size, since the paper keeps its own secret. Without a piston body the
+caliper housing is solid.
 """
 
 from dataclasses import dataclass
@@ -15,11 +15,13 @@ import numpy as np
 
 from pipeline.contract.errors import ConfigError
 from pipeline.physics.fem.elasticity import isotropic, orthotropic
-from pipeline.physics.fem.mesh import boundary_faces, face_normals, read_mesh, revolve
-from pipeline.systems.disc_brake_rows import contacts, joints, piston_rows, sensor_rows
+from pipeline.physics.fem.mesh import boundary_faces, divided, face_normals, read_mesh, revolve
+from pipeline.systems.disc_brake_bracket import bracket
+from pipeline.systems.disc_brake_joints import joints, piston_rows
+from pipeline.systems.disc_brake_piston import FluidColumn, bore, fluid_column, piston
+from pipeline.systems.disc_brake_rows import body_names, contacts, pad_height, sensor_rows
 from pipeline.systems.solids import Assembly, Rows, Solid
 
-BODIES = ("disc", "pad_outer", "pad_inner", "caliper")
 #: a mount counts as rigid when the web bends into it over less than this share of the clamped width
 _BENDING_SHARE = 0.25
 #: decay length of contact pressure with separation, share of the rms height (Persson 2007, PRL 99, 125502)
@@ -28,24 +30,29 @@ _SEPARATION_SHARE = 0.4
 
 @dataclass(frozen=True)
 class DiscBrake(Assembly):
-    """Bodies in the order of BODIES, and the piston row."""
+    """Bodies with their names, the row on which the piston force acts, the area of a pad, and the fluid if any."""
 
+    names: tuple
     piston: Rows
     pad_area: float
+    fluid: FluidColumn | None
 
 
 def build(parameters):
-    """The brake of ``parameters``: attributes disc, pad, caliper, joints, sensors as the stage declares them.
+    """The brake of ``parameters``: attributes as the settings of the stage declare them.
 
     Raises ConfigError where parts intersect or do not meet.
     """
     _check(parameters)
-    bodies = (disc(parameters.disc), pad(parameters, +1), pad(parameters, -1), caliper(parameters))
-    touching = contacts([b.mesh for b in bodies], parameters)
-    sensors, position, direction = sensor_rows([b.mesh for b in bodies], parameters)
+    names, others = body_names(parameters), {"bracket": bracket, "piston": piston}
+    more = [others[name](parameters) for name in names if name in others]
+    bodies = (disc(parameters.disc), pad(parameters, +1), pad(parameters, -1), caliper(parameters), *more)
     meshes = [b.mesh for b in bodies]
-    return DiscBrake(bodies, joints(meshes, parameters), touching, sensors, position, direction,
-                     piston_rows(meshes, parameters), float(touching.area[touching.body == 1].sum()))
+    touching = contacts(meshes, parameters)
+    sensors, position, direction = sensor_rows(meshes, parameters)
+    return DiscBrake(bodies, joints(meshes, parameters), touching, sensors, position, direction, names,
+                     piston_rows(meshes, parameters), float(touching.area[touching.body == 1].sum()),
+                     fluid_column(parameters))
 
 
 def disc(parameters):
@@ -119,24 +126,41 @@ def pad(parameters, side):
 
 
 def caliper(parameters):
-    """C-shaped caliper: fingers above the outer pad, bridge over the rim, solid housing below the inner pad."""
+    """C-shaped caliper: fingers above the outer pad, bridge over the rim, housing below the inner pad."""
     p, height = parameters.caliper, pad_height(parameters)
-    radius = np.r_[np.linspace(p.inner_radius, p.bridge_inner_radius, p.radial_cells + 1), p.bridge_outer_radius]
     front, back = -height - p.piston_gap, height
-    line = np.r_[np.linspace(front - p.housing_depth, front, p.housing_cells + 1),
-                 np.linspace(front, back, p.bridge_cells + 1)[1:], back + p.finger_thickness]
+    edges = [[p.inner_radius, p.bridge_inner_radius], [-p.angle / 2, p.angle / 2], [front - p.housing_depth, front]]
+    counts = p.radial_cells, p.angular_cells, p.housing_cells
+    radius, angle, housing = (np.linspace(*e, n + 1) for e, n in zip(edges, counts, strict=True))
+    if parameters.piston.kind == "body":
+        radius, angle, housing = _around_bore(bore(parameters), edges, counts)
+    radius = np.r_[radius, p.bridge_outer_radius]
+    line = np.r_[housing, np.linspace(front, back, p.bridge_cells + 1)[1:], back + p.finger_thickness]
     middle = (line[:-1] + line[1:]) / 2
-    mask = np.ones((len(radius) - 1, p.angular_cells, len(middle)), bool)
+    mask = np.ones((len(radius) - 1, len(angle) - 1, len(middle)), bool)
     mask[:-1, :, (middle > front) & (middle < back)] = False
-    mesh = revolve(radius, np.linspace(-p.angle / 2, p.angle / 2, p.angular_cells + 1), line, mask)
+    if parameters.piston.kind == "body":
+        mask &= ~_within(bore(parameters), radius, angle, middle, front)
+    mesh = revolve(radius, angle, line, mask)
     return Solid(mesh, np.zeros(len(mesh.element), int), ("ductile iron",), np.array([p.density]),
                        isotropic(p.young, p.poisson)[None], p.damping_ratio, np.empty(0, int),
                        np.array([p.loss_factor]))
 
 
-def pad_height(parameters):
-    """Distance of the back of the backplates from the middle plane of the disc."""
-    return parameters.disc.ring_thickness / 2 + parameters.pad.lining_thickness + parameters.pad.backplate_thickness
+def _around_bore(recess, edges, counts):
+    """Lattice lines of the housing that pass along the walls and the floor of its bore, about as many as ``counts``."""
+    walls, half, floor = recess
+    for line, more in zip(edges, (walls, (-half, half), (floor,)), strict=True):
+        line[1:1] = more
+    return [divided(line, (line[-1] - line[0]) / count) for line, count in zip(edges, counts, strict=True)]
+
+
+def _within(recess, radius, angle, middle, front):
+    """True where a cell of the lattice lies in the bore."""
+    (first, last), half, floor = recess
+    r, a = ((line[:-1] + line[1:]) / 2 for line in (radius, angle))
+    across = (r > first) & (r < last)
+    return across[:, None, None] & (abs(a) < half)[:, None] & ((middle > floor) & (middle < front))
 
 
 def _check(parameters):

@@ -1,30 +1,24 @@
-"""Joints, contact patches, sensors and the piston of the disc brake as displacement rows.
-
-What is not meshed is a spring with a damper between two surface means: fingers and piston on the backplates, pads in
-their abutments, guide pins.
-"""
-
-from dataclasses import dataclass
+"""Contact patches and sensors of the disc brake as displacement rows, and the numbers of its bodies."""
 
 import numpy as np
 import scipy
 
 from pipeline.physics.fem.face_averages import along, face_points, surface_rows
 from pipeline.physics.fem.mesh import boundary_faces, face_normals
-from pipeline.systems.solids import Contacts, Joints, Rows
+from pipeline.systems.solids import Contacts, Rows
 
 DISC, OUTER, INNER, CALIPER = range(4)
-_AXES = {"radial": 0, "tangential": 1, "axial": 2}
-#: points per direction that sample a spot
-_SPOT_POINTS = 5
 
 
-@dataclass(frozen=True)
-class _Spot:
-    """Mean displacement (1, n) of a small area of one body."""
+def body_names(parameters):
+    """Names of the bodies in order: those of every brake, then bracket and piston where they are bodies."""
+    others = [name for name in ("bracket", "piston") if getattr(parameters, name).kind == "body"]
+    return ("disc", "pad_outer", "pad_inner", "caliper", *others)
 
-    body: int
-    mean: "scipy.sparse.csr_matrix"
+
+def pad_height(parameters):
+    """Distance of the back of the backplates from the middle plane of the disc."""
+    return parameters.disc.ring_thickness / 2 + parameters.pad.lining_thickness + parameters.pad.backplate_thickness
 
 
 def contacts(meshes, parameters):
@@ -60,39 +54,6 @@ def _pad_patches(meshes, parameters, pad):
     return np.full(len(total), pad), centre, total, rows, met
 
 
-def joints(meshes, parameters):
-    """All declared joints; ``loss_time`` is damping over stiffness, loss factors those of the kinds of joint."""
-    j, springs = parameters.joints, []
-    for end, sign in (("leading", -1), ("trailing", 1)):
-        springs += _guide_pin(meshes, parameters, end, sign)
-        for name, pad in (("outer", OUTER), ("inner", INNER)):
-            spot = _backplate_end(meshes, parameters, pad, sign)
-            held = j.abutment_stiffness if end == "trailing" else j.clip_stiffness
-            springs += [(f"abutment_{name}_{end}_tangential", held, spot, None, "tangential"),
-                      (f"abutment_{name}_{end}_radial", j.abutment_radial_stiffness, spot, None, "radial")]
-    for prefix, side, normal, shear in (("finger", OUTER, j.finger_stiffness, j.finger_shear_stiffness),
-                                        ("piston", INNER, j.piston_stiffness, j.piston_shear_stiffness)):
-        for corner, pad, body in _clamping_spots(meshes, parameters, prefix, side):
-            springs += [(f"{prefix}_{kind}_{corner}", stiffness / 4, pad, body, axis) for kind, stiffness, axis in
-                      (("normal", normal, "axial"), ("tangential", shear, "tangential"), ("radial", shear, "radial"))]
-    name, stiffness, *_ = zip(*springs, strict=True)
-    rows = _stacked([_relative(meshes, first, other, _AXES[axis]) for _, _, first, other, axis in springs])
-    loss = np.array([getattr(j, f"{_kind(each)}_loss_factor") for each in name])
-    return Joints(name, np.array(stiffness), np.array(stiffness) * j.loss_time, rows, loss)
-
-
-def _kind(name):
-    """Kind of a joint: abutment, finger, piston or guide_pin."""
-    return next(kind for kind in ("abutment", "finger", "piston", "guide_pin") if name.startswith(kind))
-
-
-def piston_rows(meshes, parameters):
-    """One row: mean distance of inner backplate and cylinder; a unit force pushes the pad onto the disc."""
-    relative = [_relative(meshes, pad, body, 2) for _, pad, body in
-                _clamping_spots(meshes, parameters, "piston", INNER)]
-    return Rows(tuple(scipy.sparse.csr_matrix(sum(parts) / len(relative)) for parts in zip(*relative, strict=True)))
-
-
 def sensor_rows(meshes, parameters):
     """Rows, positions and unit directions of the sensors on the faces of the ring."""
     half, parts, position, direction = parameters.disc.ring_thickness / 2, [], [], []
@@ -107,73 +68,13 @@ def sensor_rows(meshes, parameters):
         parts.append(row)
         position.append(point)
         direction.append(unit)
-    return _stacked(parts), np.array(position), np.array(direction, float)
+    return stacked(parts), np.array(position), np.array(direction, float)
 
 
 def faces_towards(mesh, side):
     """Boundary faces that look along +z or -z, whatever their height."""
     face = boundary_faces(mesh)
     return face[face_normals(mesh.node, face)[0][:, 2] * side > 0.99]
-
-
-def _guide_pin(meshes, parameters, end, sign):
-    """Axial, tangential and radial springs to ground on the end faces of the housing, at two depths."""
-    c, j = parameters.caliper, parameters.joints
-    front = meshes[CALIPER].node[:, 2].min() + c.housing_depth
-    pins = []
-    for end_name, depth in (("front", c.housing_depth / 6), ("rear", 5 * c.housing_depth / 6)):
-        spot = _end_spot(meshes, CALIPER, sign * c.angle / 2, j.guide_pin_radius, front - depth, j.spot_size)
-        pins += [(f"guide_pin_{end}_{kind}_{end_name}", stiffness / 2, spot, None, kind) for kind, stiffness in
-                 (("axial", j.guide_pin_axial_stiffness), ("tangential", j.guide_pin_stiffness),
-                  ("radial", j.guide_pin_stiffness))]
-    return pins
-
-
-def _backplate_end(meshes, parameters, pad, sign):
-    p = parameters.pad
-    height = (1 if pad == OUTER else -1) * (parameters.disc.ring_thickness / 2 + p.lining_thickness
-                                            + p.backplate_thickness / 2)
-    return _end_spot(meshes, pad, sign * p.angle / 2, (p.inner_radius + p.outer_radius) / 2, height,
-                     p.backplate_thickness / 2)
-
-
-def _end_spot(meshes, body, angle, radius, height, size):
-    """Spot on the plane end of a body at ``angle``, centred on (radius, height)."""
-    offset = np.linspace(-size / 2, size / 2, _SPOT_POINTS)
-    r, z = (a.ravel() for a in np.meshgrid(radius + offset, height + offset))
-    return _spot(meshes, body, np.column_stack((r * np.cos(angle), r * np.sin(angle), z)), "end face")
-
-
-def _clamping_spots(meshes, parameters, prefix, pad):
-    """(place, spot on the backplate, spot on the caliper) at four places of fingers or piston."""
-    j, p, c = parameters.joints, parameters.pad, parameters.caliper
-    side = 1 if pad == OUTER else -1
-    back = side * (parameters.disc.ring_thickness / 2 + p.lining_thickness + p.backplate_thickness)
-    caliper = back if pad == OUTER else back - c.piston_gap
-    offset = np.linspace(-j.spot_size / 2, j.spot_size / 2, _SPOT_POINTS)
-    for end, forward in (("leading", -1), ("trailing", 1)):
-        for level, across in (("inner", -1), ("outer", 1)):
-            x, y = (a.ravel() for a in np.meshgrid(
-                j.clamping_radius + across * j.clamping_height / 2 + offset,
-                forward * (j.finger_distance if prefix == "finger" else j.piston_distance) / 2 + offset))
-            spots = (_spot(meshes, body, np.column_stack((x, y, np.full_like(x, z))), f"{prefix} {end} {level}")
-                     for body, z in ((pad, back), (CALIPER, caliper)))
-            yield f"{end}_{level}", *spots
-
-
-def _spot(meshes, body, point, where):
-    mean = surface_rows(meshes[body].node, boundary_faces(meshes[body]), point, np.ones(len(point)),
-                        np.zeros(len(point), int), f"structure.joints: {where}")
-    return _Spot(body, mean)
-
-
-def _relative(meshes, first, other, axis):
-    """Displacement of one spot less that of the other (or of the ground) along an axis, per body."""
-    row = [scipy.sparse.csr_matrix((1, 3 * len(m.node))) for m in meshes]
-    row[first.body] = along(first.mean, np.eye(3)[[axis]])
-    if other is not None:
-        row[other.body] = -along(other.mean, np.eye(3)[[axis]])
-    return row
 
 
 def _diagonal_blocks(first, second):
@@ -183,5 +84,6 @@ def _diagonal_blocks(first, second):
     return scipy.sparse.vstack((first, below), format="csr"), scipy.sparse.vstack((above, second), format="csr")
 
 
-def _stacked(rows):
+def stacked(rows):
+    """Rows of rows given body by body."""
     return Rows(tuple(scipy.sparse.vstack(parts, format="csr") for parts in zip(*rows, strict=True)))

@@ -1,5 +1,7 @@
 """Systems of finite-element bodies as products, and back: what brake and pin on disc share between their stages."""
 
+from dataclasses import replace
+
 import numpy as np
 import scipy
 
@@ -12,6 +14,8 @@ from pipeline.products import Body, Incidence, PinOnDisc, Structure
 
 #: what presses the contacts of a system, in its fields <input>_rows and <input>_area
 INPUTS = {Structure: "piston", PinOnDisc: "load"}
+#: the fluid in the brake line as a body, and the joint by which it holds the piston
+LINE, COLUMN = "brake_fluid", "fluid_column"
 
 
 def body_product(solid, frequency=(), shape=None):
@@ -59,7 +63,7 @@ def elastic_body(system, name, patterns=None):
 
     ``patterns``: those of ``force_patterns``; None = every force by itself, and modes only where the body is supported.
     """
-    body, index = getattr(system, name), list(system.body_name).index(name)
+    body, index = system.body(name), list(system.body_name).index(name)
     incidences = [getattr(system, field) for field in row_fields(system)]
     rows = scipy.sparse.vstack([body_rows(i, index, len(body.node)) for i in incidences], format="csr")
     count = len(body.frequency) if len(body.supported) or patterns is not None else 0
@@ -107,7 +111,7 @@ def full_model(system, solver):
             for field in fields]
     joints, normal, tangent, lateral, inputs, sensors = rows
     area, position = system.contact_area, system.contact_position
-    return SlidingModel(
+    model = SlidingModel(
         body_name=tuple(system.body_name), coordinate_body=np.repeat(np.arange(len(sizes)), sizes), **matrices,
         damping=scipy.sparse.csr_matrix((sum(sizes),) * 2),
         joints=Joints(tuple(system.joint_name), joints, system.joint_stiffness * (1 + 1j * system.joint_loss_factor),
@@ -116,6 +120,34 @@ def full_model(system, solver):
                           system.contact_stiffness[0], np.zeros(len(area))),
         input_name=tuple(f"{name}_{k + 1}" for k in range(inputs.shape[0])), input_rows=inputs,
         sensor_name=tuple(system.sensor_name), sensor_rows=sensors, speed=0.0)
+    return _with_fluid(model, system) if has_fluid(system) else model
+
+
+def has_fluid(system):
+    """Whether a product has brake fluid behind a piston."""
+    return isinstance(system, Structure) and len(system.fluid_stiffness) > 0
+
+
+def _with_fluid(model, structure):
+    """A sparse SlidingModel with the fluid of the line, a mass on which the column in the bore ends."""
+    beside = {"mass": structure.line_inertia, "damping": structure.line_drag}
+    matrices = {name: scipy.sparse.block_diag([getattr(model, name), np.diag(beside.get(name, np.zeros(1)))], "csr")
+                for name in ("mass", "damping", "gyroscopic", "stiffness", "centrifugal")}
+    contacts = replace(model.contacts, **{name: _widened(getattr(model.contacts, name))
+                                          for name in ("normal", "tangent", "lateral")})
+    column = scipy.sparse.hstack([model.input_rows, [[-1.0]]])
+    joints = Joints((*model.joints.name, COLUMN), scipy.sparse.vstack([_widened(model.joints.rows), column], "csr"),
+                    np.append(model.joints.stiffness,
+                              structure.fluid_stiffness * (1 + 1j * structure.fluid_loss_factor)),
+                    np.append(model.joints.damping, 0.0))
+    return replace(model, **matrices, body_name=(*model.body_name, LINE), joints=joints, contacts=contacts,
+                   coordinate_body=np.append(model.coordinate_body, len(model.body_name)),
+                   input_rows=_widened(model.input_rows), sensor_rows=_widened(model.sensor_rows))
+
+
+def _widened(rows):
+    """Sparse ``rows`` with a coordinate that they do not see."""
+    return scipy.sparse.hstack([rows, scipy.sparse.csr_matrix((rows.shape[0], 1))], "csr")
 
 
 def _full_matrices(body, free, solver):

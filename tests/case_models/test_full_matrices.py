@@ -25,7 +25,8 @@ class Log(Context):
 
 def structure(ratio=0.0, loss=0.01):
     body = SimpleNamespace(damping_ratio=ratio, loss_factor=np.array([loss]))
-    return SimpleNamespace(body_name=["disc"], disc=body, joint_loss_factor=np.zeros(2))
+    return SimpleNamespace(body_name=["disc"], body={"disc": body}.get, joint_loss_factor=np.zeros(2),
+                           fluid_loss_factor=np.zeros(1))
 
 
 def posed(stiffness=1.0, terms=()):

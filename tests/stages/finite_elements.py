@@ -38,6 +38,24 @@ class FiniteElements:
         self.loss = blocks([b.loss() for b in bodies], free) + self.spread(
             joints, structure.joint_loss_factor * structure.joint_stiffness, joints)
         self.contact = [rows(getattr(structure, f"contact_{name}")) for name in ("normal", "tangent", "lateral")]
+        if len(structure.fluid_stiffness):
+            self._with_line(structure, rows(structure.piston_rows))
+
+    def _with_line(self, structure, piston):
+        """One more mass for the fluid in the line, tied to piston and cylinder by the column in the bore."""
+        none = np.zeros(1)
+
+        def grown(matrix, diagonal=none):
+            return scipy.sparse.block_diag([matrix, np.diag(diagonal)], format="csr")
+
+        tie = scipy.sparse.hstack([piston, [[-1.0]]], format="csr")
+        self.damping = grown(self.damping, structure.line_drag)
+        self.mass, self.gyroscopic = grown(self.mass, structure.line_inertia), grown(self.gyroscopic)
+        self.stiffness = grown(self.stiffness) + self.spread(tie, structure.fluid_stiffness, tie)
+        self.loss = grown(self.loss) + self.spread(tie, structure.fluid_loss_factor * structure.fluid_stiffness, tie)
+        self.contact = [scipy.sparse.hstack([each, np.zeros((each.shape[0], 1))], format="csr")
+                        for each in self.contact]
+        self.size += 1
 
     @staticmethod
     def spread(left, weight, right):

@@ -33,7 +33,8 @@ def small_structure(pad_modulus=1e9, caliper_stiffness=3e7, modes_below=12e3):
         pressure=[1e6, 2e6], preload=np.outer([1e6, 2e6], area),
         contact_stiffness=np.full((2, len(pads)), CONTACT_STIFFNESS), closed=np.ones((2, len(pads)), int),
         law_closure=[0.0, 1e-5], law_pressure=[0.0, 1e6], sensor_name=["rim"], sensor_position=[[0.1, 0.0, 0.01]],
-        sensor_direction=[[0, 0, 1.0]], piston_rows=incidence([piston]), piston_area=4 * AREA,
+        sensor_direction=[[0, 0, 1.0]], piston_rows=incidence([piston]), piston_area=4 * AREA, others={},
+        fluid_stiffness=[], fluid_loss_factor=[], line_inertia=[], line_drag=[],
         sensor_rows=incidence([point_entries(meshes, DISC, [0.1, 0.0, 0.01], [0, 0, 1.0], 1.0)]))
 
 

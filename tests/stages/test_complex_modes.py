@@ -249,12 +249,13 @@ def test_friction_comes_from_one_source(chain, friction, found):
 
 @pytest.fixture(scope="module")
 def lossy():
-    """A Structure with loss factors in place of damping ratios, and its model in a coarse basis."""
+    """A Structure with loss factors in place of damping ratios, and brake fluid; its model in a coarse basis."""
     structure = small_structure(modes_below=7e3)
     bodies = {name: changed(getattr(structure, name), damping_ratio=0.0, loss_factor=[loss])
               for name, loss in zip(structure.body_name, (0.001, 0.01, 0.02, 0.002), strict=True)}
     joints = len(structure.joint_name)
-    structure = changed(structure, **bodies, joint_loss_factor=np.linspace(0.0, 0.05, joints))
+    fluid = {"fluid_stiffness": [1e6], "fluid_loss_factor": [0.1], "line_inertia": [10.0], "line_drag": [1e3]}
+    structure = changed(structure, **bodies, **fluid, joint_loss_factor=np.linspace(0.0, 0.05, joints))
     return structure, reduced_model(structure, settings=Reduction(fixed_below="7 kHz", residual_below="10 kHz"))
 
 
@@ -270,6 +271,7 @@ def test_unstable_roots_are_those_of_the_full_finite_element_matrices(lossy):
     inside = [str(term).startswith(("damping of", "damping at")) for term in modes.growth_term]
     outside = np.invert(inside)
     assert {f"damping of {name}" for name in structure.body_name} <= set(modes.growth_term) and outside.any()
+    assert {"damping of brake_fluid", "damping at fluid_column"} <= set(modes.growth_term)
     assert (modes.unstable_growth[:, inside] <= 0).all()
     for number, speed in enumerate((8.0, 12.0, 8.0, 12.0)):
         about, force = sliding(model, number // 2, speed, 0.5)

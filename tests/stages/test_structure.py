@@ -8,6 +8,7 @@ from pipeline.physics.numerics.sparse_solver import available
 from pipeline.products import FrictionMap
 from stages.structure import Joints, Settings, structure
 from tests.systems.test_disc_brake import COARSE
+from tests.systems.test_disc_brake_bracket import BODIES
 
 pytestmark = pytest.mark.exact
 QUICK = {**COARSE, "frequency_max": "4 kHz", "free_frequency_max": "1 kHz", "pressures": ["1 MPa", "3 MPa"]}
@@ -27,6 +28,10 @@ def run(stiffness=(5e11, 1e12, 1.4e12), **changes):
 @pytest.fixture(scope="module")
 def brake():
     return run()
+
+
+def test_a_brake_without_them_has_four_bodies(brake):
+    assert not brake.others and len(brake.body_name) == 4 and not len(brake.fluid_stiffness)
 
 
 def test_pads_carry_the_piston_force(brake):
@@ -51,6 +56,22 @@ def test_modes_of_free_and_mounted_bodies(brake):
     assert brake.pad_outer.frequency[:6] == pytest.approx(0, abs=1)
     assert not brake.disc.shape[:, brake.disc.supported].any()
     assert brake.pad_outer.frequency[6:] == pytest.approx(brake.pad_inner.frequency[6:])
+
+
+def test_bracket_and_piston_as_bodies():
+    """The line pressure still reaches both pads in full, and the fluid adds no static stiffness to the seal's."""
+    brake = run(**BODIES)
+    assert list(brake.body_name[4:]) == ["bracket", "piston"] == list(brake.others)
+    assert brake.body("bracket") is brake.others["bracket"] and brake.body("disc") is brake.disc
+    for name in brake.others:
+        assert brake.body(name).frequency[:6] == pytest.approx(0, abs=1)
+    for force, pressure in zip(brake.preload, brake.pressure, strict=True):
+        for pad in (1, 2):
+            assert force[brake.contact_body == pad].sum() == pytest.approx(pressure * brake.piston_area, rel=1e-2)
+    assert len(brake.fluid_stiffness) == len(brake.line_inertia) == 1
+    stiffer = run(**{**BODIES, "piston": {"kind": "body", "fluid": {"bulk_modulus": "3 GPa"}}})
+    assert stiffer.fluid_stiffness[0] == pytest.approx(2 * brake.fluid_stiffness[0])
+    assert np.array_equal(stiffer.preload, brake.preload)
 
 
 def test_law_follows_the_interface_stiffness(brake):

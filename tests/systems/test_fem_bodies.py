@@ -13,6 +13,8 @@ from pipeline.physics.sliding.model import FrictionState
 from pipeline.products import PinOnDisc, Structure
 from pipeline.systems.fem_bodies import body_product, body_rows, elastic_body, full_model, incidence, row_fields
 from pipeline.systems.solids import Rows
+from stages.reduced_model import Settings as Reduction
+from stages.reduced_model import reduced_model
 from tests.stages.small_structure import small_structure
 from tests.systems.test_solids import solid
 
@@ -94,3 +96,19 @@ def test_a_sparse_model_is_linearised_as_a_dense_one(friction_damping):
     sparse = replace(full, contacts=contacts).linearised(friction, friction_damping)
     for found, expected in zip(sparse, dense.linearised(friction, friction_damping), strict=True):
         assert abs(found.toarray() - expected).max() <= 1e-12 * abs(expected).max()
+
+
+def test_the_full_model_has_the_fluid_of_the_reduced_one():
+    """The column is a joint between the piston row and the mass of the line, which nothing else holds."""
+    structure = replace(small_structure(), fluid_stiffness=[3e8], fluid_loss_factor=[0.02], line_inertia=[400.0],
+                        line_drag=[1e4])
+    dry, wet = full_model(small_structure(), "superlu"), full_model(structure, "superlu")
+    reduced = reduced_model(structure, settings=Reduction(fixed_below="20 kHz"))
+    assert wet.body_name == tuple(reduced.body_name) and wet.joints.name == tuple(reduced.joint_name)
+    assert wet.mass[-1, -1] == 400.0 and wet.damping[-1, -1] == 1e4 and wet.coordinate_body[-1] == len(dry.body_name)
+    for name in ("mass", "damping", "gyroscopic", "stiffness", "centrifugal"):
+        assert abs(getattr(wet, name)[:-1, :-1] - getattr(dry, name)).max() == 0
+    column = wet.joints.rows[-1].toarray().ravel()
+    assert column[-1] == -1 and np.array_equal(column[:-1], dry.input_rows.toarray().ravel())
+    assert wet.joints.stiffness[-1] == 3e8 * (1 + 0.02j) and abs(wet.joints.rows[:-1, -1]).max() == 0
+    assert wet.contacts.normal.shape[1] == wet.input_rows.shape[1] == wet.sensor_rows.shape[1] == wet.mass.shape[0]

@@ -12,6 +12,7 @@ from pipeline.products import (
     ComplexModes,
     Convergence,
     FrictionMap,
+    Incidence,
     InterfaceLaw,
     LockIn,
     Lumped,
@@ -34,12 +35,13 @@ SENSORS, SQUEAL_LINE = ["disc_outer_rim", "pad_outer_back"], 16600.0
 
 def filled(cls, **given):
     """A product with the values ``given`` and zeros elsewhere; dimensions nobody gives have length 2."""
-    plain = {f.name: f.metadata for f in fields(cls) if not is_product(f.type)}
+    plain = {f.name: f.metadata for f in fields(cls) if "dims" in f.metadata}
     sizes = {dim: size for name, value in given.items() if name in plain
              for dim, size in zip(plain[name]["dims"], np.shape(value), strict=True)}
     values = {name: np.zeros([sizes.get(dim, 2) for dim in said["dims"]], dtype=said["dtype"])
               for name, said in plain.items()}
-    parts = {f.name: filled(f.type) for f in fields(cls) if is_product(f.type) and f.name not in given}
+    parts = {f.name: filled(f.type) if is_product(f.type) else {} for f in fields(cls)
+             if f.name not in plain and f.name not in given}
     return cls(**{**{name: value.tolist() if value.dtype.kind == "U" else value for name, value in values.items()},
                   **parts, **given})
 
@@ -96,13 +98,19 @@ def structure():
               "pad_outer": _ring(0.11, 0.15, 0.0071, 0.017, 1.2, 1.9, 6, False),
               "pad_inner": _ring(0.11, 0.15, -0.0101, -0.0001, 1.2, 1.9, 6, False),
               "caliper": _ring(0.10, 0.18, 0.018, 0.03, 1.1, 2.0, 6, False)}
+    others = {"bracket": _ring(0.09, 0.18, 0.0, 0.02, 1.9, 2.1, 3, False),
+              "piston": _ring(0.11, 0.14, -0.03, -0.0101, 1.4, 1.7, 4, False)}
+    held = filled(Incidence, rows=2, row=[0, 1, 1], body=[1, 1, 4], weight=[1.0, 1.0, -1.0], node=[0, 0, 0],
+                  axis=[0, 1, 1])
     angle = np.tile(np.linspace(1.25, 1.85, 6), 2)
     position = np.stack([0.13 * np.cos(angle), 0.13 * np.sin(angle), np.repeat([0.007, 0.0], 6)], axis=1)
     preload = PRESSURE[:, None] * 2e-4 * np.linspace(1.4, 0.6, 12)
     return filled(
-        Structure, body_name=list(bodies), **bodies, free_frequency=[259.4, 259.4, 431.6, 660.1, 660.1],
-        free_diameters=[2, 2, 0, 3, 3], free_out_of_plane=[1.0, 1.0, 1.0, 0.99, 0.99],
-        joint_name=["abutment_outer_leading"], joint_stiffness=[1e7], joint_damping=[10.0],
+        Structure, body_name=[*bodies, *others], **bodies, others=others,
+        free_frequency=[259.4, 259.4, 431.6, 660.1, 660.1], free_diameters=[2, 2, 0, 3, 3],
+        free_out_of_plane=[1.0, 1.0, 1.0, 0.99, 0.99],
+        joint_name=["abutment_outer_leading", "abutment_outer_trailing"], joint_stiffness=[1e7, 2e7],
+        joint_damping=[10.0, 0.0], joint_loss_factor=[0.0, 0.05], joint_rows=held, fluid_stiffness=[4e8],
         contact_body=np.repeat([1, 2], 6), contact_position=position, contact_area=np.full(12, 2e-4),
         pressure=PRESSURE, preload=preload,
         contact_stiffness=preload * 1e5, closed=np.ones((3, 12), dtype=int), law_closure=[0.0, 1e-6],

@@ -46,6 +46,14 @@ def block(x, y, z, mask=None, kind="hexahedron20"):
     return _lattice((x, y, z), mask, kind, lambda *lines: np.stack(lines, axis=-1), closed=False)
 
 
+def divided(edges, size):
+    """Ascending lattice lines: all ``edges``, and between two of them equal cells of at most ``size``."""
+    spans = list(zip(edges, edges[1:], strict=False))
+    cells = [max(int(np.ceil((last - first) / size - 1e-9)), 1) for first, last in spans]
+    parts = [np.linspace(*span, count + 1)[1:] for span, count in zip(spans, cells, strict=True)]
+    return np.concatenate([edges[:1], *parts])
+
+
 def _lattice(lines, mask, kind, place, closed):
     for name, line in zip(("first", "second", "third"), lines, strict=True):
         if len(line) < 2 or not (np.diff(line) > 0).all():

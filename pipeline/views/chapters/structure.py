@@ -8,6 +8,8 @@ from pipeline.views.figures.number_format import number, percent, plural, quanti
 from pipeline.views.figures.scene import render
 
 COLOURS = "In pictures of modes, orange and purple move in opposite axial directions; white is at rest."
+_BODY_COLOURS = {"disc": "grey", "pad_outer": "orange", "pad_inner": "green", "caliper": "blue", "bracket": "pink",
+                 "piston": "red"}
 NO_PICTURES = "Pictures of meshes and mode shapes need OpenGL (on Linux: libEGL), which this machine does not provide."
 
 
@@ -23,20 +25,22 @@ def chapter(structure, modes, look):
             _mode(structure.disc, mode, picture) for mode, picture in zip(selected, pictures[1:], strict=True)))
     return Chapter(
         "structure", "The brake: meshes, preload, modes",
-        f"Finite-element bodies {', '.join(str(n).replace('_', ' ') for n in structure.body_name)}, pressed together"
+        f"Finite-element bodies {', '.join(map(_words, structure.body_name))}, pressed together"
         f" by the piston at {span(structure.pressure, 'Pa')}; {len(structure.contact_area)} contact patches."
         f" {COLOURS}",
         f"The free disc has {len(structure.free_frequency)} modes up to"
         f" {quantity(structure.free_frequency.max(), 'Hz')}; squeal by mode coupling needs two"
         " closely spaced modes of the assembled brake, so these frequencies decide where it can appear. The pad"
         f" pressure {'in steady sliding ' * (modes is not None)}shows where the pads wear first.",
-        figures, (_bodies(structure), _free_modes(structure)), () if pictures else (NO_PICTURES,))
+        figures, (_bodies(structure), _joints(structure), _free_modes(structure)), () if pictures else (NO_PICTURES,))
 
 
 def _assembly(structure, picture):
-    nodes = sum(len(getattr(structure, str(name)).node) for name in structure.body_name)
-    return Figure(picture, f"Meshes of the assembled brake: {nodes} nodes, {3 * nodes} displacements. Grey disc, orange"
-                  " outer pad, green inner pad, blue caliper.")
+    names = [str(name) for name in structure.body_name]
+    nodes = sum(len(structure.body(name).node) for name in names)
+    colours = ", ".join(f"{_BODY_COLOURS[name]} {_words(name)}" for name in names if name in _BODY_COLOURS)
+    return Figure(picture, f"Meshes of the assembled brake: {nodes} nodes, {3 * nodes} displacements."
+                  f" {colours.capitalize()}.")
 
 
 def _mode(disc, mode, picture):
@@ -63,7 +67,7 @@ def _load_in_words(structure, load):
     parts = []
     for pad in np.unique(structure.contact_body):
         of_pad = structure.contact_body == pad
-        parts.append(f"{str(structure.body_name[pad]).replace('_', ' ')}"
+        parts.append(f"{_words(structure.body_name[pad])}"
                     f" {span(load.force[of_pad] / structure.contact_area[of_pad], 'Pa')}, resultant"
                     f" {quantity(load.force[of_pad].sum(), 'N', 3)}")
     open_ = np.sum(~load.closed)
@@ -71,7 +75,7 @@ def _load_in_words(structure, load):
 
 
 def _bodies(structure):
-    bodies = [(str(name).replace("_", " "), getattr(structure, str(name))) for name in structure.body_name]
+    bodies = [(_words(name), structure.body(str(name))) for name in structure.body_name]
     rows = tuple((name, str(len(body.node)), str(len(body.element)), str(body.kind.item()),
                   ", ".join(f"{m} ({quantity(d, 'kg/m^3')})" for m, d in zip(
                       body.material_name, body.density, strict=True)),
@@ -79,6 +83,28 @@ def _bodies(structure):
                   percent(body.damping_ratio)) for name, body in bodies)
     return Table(("body", "nodes", "elements", "element", "materials", "modes", "up to", "damping ratio"), rows,
                  "Bodies", (1, 2, 5, 6, 7))
+
+
+def _joints(structure):
+    """Joints of the same bodies and values in one row, under the words that their names share."""
+    rows, groups = structure.joint_rows, {}
+    for k, name in enumerate(structure.joint_name):
+        bodies = [str(structure.body_name[b]) for b in np.unique(rows.body[rows.row == k])]
+        between = " and ".join(_words(b) for b in (bodies if len(bodies) > 1 else [*bodies, "ground"]))
+        values = (structure.joint_stiffness[k], structure.joint_damping[k], structure.joint_loss_factor[k])
+        groups.setdefault((between, *values), []).append(str(name).split("_"))
+    lines = [(" ".join(w for w in names[0] if all(w in other for other in names)), between, str(len(names)),
+              quantity(stiffness, "N/m"), quantity(damping, "N s/m"), number(loss, 2))
+             for (between, stiffness, damping, loss), names in groups.items()]
+    for stiffness, loss in zip(structure.fluid_stiffness, structure.fluid_loss_factor, strict=True):
+        lines.append(("fluid column", "piston and cylinder, in vibration", "1", quantity(stiffness, "N/m"),
+                      quantity(0.0, "N s/m"), number(loss, 2)))
+    return Table(("joint", "between", "springs", "stiffness of each", "damping of each", "loss factor"), tuple(lines),
+                 "Joints", (2, 3, 4, 5), folded=True)
+
+
+def _words(name):
+    return str(name).replace("_", " ")
 
 
 def _free_modes(structure, most=20):

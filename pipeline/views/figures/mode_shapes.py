@@ -3,9 +3,12 @@
 import numpy as np
 
 from pipeline.views.figures.scene import Scene, Solid
-from pipeline.views.figures.style import BLUE, GREEN, ORANGE, SKY
+from pipeline.views.figures.style import BLUE, GREEN, ORANGE, PURPLE, RED, SKY
 
-BODY_COLOURS = {"disc": "#b8bec6", "pad_outer": ORANGE, "pad_inner": GREEN, "caliper": BLUE}
+BODY_COLOURS = {"disc": "#b8bec6", "pad_outer": ORANGE, "pad_inner": GREEN, "caliper": BLUE, "bracket": PURPLE,
+                "piston": RED}
+#: bodies around the others, drawn so that these are seen
+_OUTSIDE = ("caliper", "bracket")
 
 #: largest displacement drawn, as a share of the size of the body; pictures of one period
 _EXAGGERATED, _FRAMES = 0.06, 16
@@ -13,10 +16,10 @@ _EXAGGERATED, _FRAMES = 0.06, 16
 
 def assembly(structure):
     """Scene of all bodies with the edges of their elements."""
-    bodies = [(str(name), getattr(structure, str(name))) for name in structure.body_name]
+    bodies = [(str(name), structure.body(str(name))) for name in structure.body_name]
     return Scene(tuple(
         Solid(body.node, body.element, body.kind.item(), colour=BODY_COLOURS.get(name, SKY), edges=True,
-              opacity=0.35 if name == "caliper" else 1.0) for name, body in bodies), direction=(0.7, -1.0, 1.0))
+              opacity=0.35 if name in _OUTSIDE else 1.0) for name, body in bodies), direction=(0.7, -1.0, 1.0))
 
 
 def disc_mode(disc, mode):

@@ -6,7 +6,7 @@ import pytest
 
 from pipeline.contract.errors import ConfigError
 from pipeline.physics.fem.face_averages import face_points
-from pipeline.physics.fem.mesh import block, boundary_faces, face_normals, read_mesh, revolve
+from pipeline.physics.fem.mesh import block, boundary_faces, divided, face_normals, read_mesh, revolve
 
 pytestmark = pytest.mark.exact
 LINES = np.linspace(0.1, 0.2, 3), np.linspace(0, 2 * np.pi, 13), np.linspace(-0.01, 0.01, 3)
@@ -64,3 +64,10 @@ def test_negative_thickness_and_missing_bore_are_refused():
         revolve(np.array([0.0, 0.1]), LINES[1], LINES[2])
     with pytest.raises(ConfigError, match="at least one cell"):
         block(*LINES, mask=np.zeros((2, 12, 2), bool))
+
+
+def test_divided_lines_keep_their_edges_and_are_no_wider_than_asked():
+    line = divided((0.0, 1.0, 1.2, 4.0), 0.5)
+    assert {0.0, 1.0, 1.2, 4.0} <= set(line) and np.diff(line).max() <= 0.5 + 1e-12
+    assert line == pytest.approx([0, 0.5, 1, 1.2, *np.linspace(1.2, 4, 7)[1:]])
+    assert list(divided((-1.0, 1.0), 5.0)) == [-1.0, 1.0]

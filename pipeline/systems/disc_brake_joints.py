@@ -1,0 +1,220 @@
+"""Joints of the disc brake, and the line pressure, as displacement rows.
+
+What is not meshed is a spring with a damper between two surface means: fingers and piston on the backplates, pads in
+their abutments, guide pins, seal, and the bolts of the bracket. Without a bracket, abutments and guide pins end on the
+ground; without a piston, its seal acts between housing and backplate.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+import scipy
+
+from pipeline.physics.fem.face_averages import along, face_points, surface_rows
+from pipeline.physics.fem.mesh import boundary_faces
+from pipeline.systems.disc_brake_piston import bore
+from pipeline.systems.disc_brake_rows import CALIPER, INNER, OUTER, body_names, faces_towards, pad_height, stacked
+from pipeline.systems.solids import Joints, Rows
+
+_AXES = {"radial": 0, "tangential": 1, "axial": 2}
+_KINDS = ("abutment", "finger", "piston", "guide_pin", "mount", "seal")
+#: points per direction that sample a spot
+_SPOT_POINTS = 5
+#: spots of the piston's rim, half the angle of one, and the share of the wall that its points leave out on both sides
+_RIM_SPOTS, _RIM_REACH, _RIM_MARGIN = 8, 0.2, 0.1
+#: share of the part of the housing beside the columns of the bracket at which the guide pins are held
+_PIN_DEPTHS = {"front": 0.25, "rear": 0.75}
+
+
+@dataclass(frozen=True)
+class _Spot:
+    """Mean displacement (1, n) of a small area of one body."""
+
+    body: int
+    mean: "scipy.sparse.csr_matrix"
+
+
+def joints(meshes, parameters):
+    """All declared joints; ``loss_time`` is damping over stiffness, loss factors those of the kinds of joint."""
+    j, springs = parameters.joints, []
+    for end, sign in (("leading", -1), ("trailing", 1)):
+        springs += _guide_pin(meshes, parameters, end, sign)
+        for name, pad in (("outer", OUTER), ("inner", INNER)):
+            spot, guide = _backplate_end(meshes, parameters, pad, sign)
+            held = j.abutment_stiffness if end == "trailing" else j.clip_stiffness
+            springs += [(f"abutment_{name}_{end}_tangential", held, spot, guide, "tangential"),
+                      (f"abutment_{name}_{end}_radial", j.abutment_radial_stiffness, spot, guide, "radial")]
+    springs += _clamped("finger", j.finger_stiffness, j.finger_shear_stiffness,
+                        list(_clamping_spots(meshes, parameters, "finger", OUTER)))
+    if parameters.piston.kind == "body":
+        springs += _clamped("piston", j.shim_stiffness, j.piston_shear_stiffness, _rim_spots(meshes, parameters))
+        springs += _seal(meshes, parameters)
+    else:
+        springs += _clamped("piston", j.piston_stiffness, j.piston_shear_stiffness,
+                            list(_clamping_spots(meshes, parameters, "piston", INNER)))
+    if parameters.bracket.kind == "body":
+        springs += _mounts(meshes, parameters)
+    name, stiffness, *_ = zip(*springs, strict=True)
+    rows = stacked([_relative(meshes, first, other, _AXES[axis]) for _, _, first, other, axis in springs])
+    loss = np.array([getattr(j, f"{_kind(each)}_loss_factor") for each in name])
+    return Joints(name, np.array(stiffness), np.array(stiffness) * j.loss_time, rows, loss)
+
+
+def _kind(name):
+    """Kind of a joint, one of _KINDS."""
+    return next(kind for kind in _KINDS if name.startswith(kind))
+
+
+def piston_rows(meshes, parameters):
+    """One row: mean distance of piston and cylinder floor; a unit force pushes the inner pad onto the disc.
+
+    Without a piston body it is that of inner backplate and cylinder.
+    """
+    if parameters.piston.kind == "body":
+        relative = [_relative(meshes, *_pressed(meshes, parameters), 2)]
+    else:
+        relative = [_relative(meshes, pad, body, 2) for _, pad, body in
+                    _clamping_spots(meshes, parameters, "piston", INNER)]
+    return Rows(tuple(scipy.sparse.csr_matrix(sum(parts) / len(relative)) for parts in zip(*relative, strict=True)))
+
+
+def _clamped(prefix, normal, shear, places):
+    """Springs of a part that bears on a backplate at ``places``, which share its stiffnesses."""
+    return [(f"{prefix}_{kind}_{place}", stiffness / len(places), pad, body, axis) for place, pad, body in places
+            for kind, stiffness, axis in (("normal", normal, "axial"), ("tangential", shear, "tangential"),
+                                          ("radial", shear, "radial"))]
+
+
+def _guide_pin(meshes, parameters, end, sign):
+    """Axial, tangential and radial springs on the end faces of the housing, at two depths, to bracket or ground."""
+    c, j = parameters.caliper, parameters.joints
+    front = meshes[CALIPER].node[:, 2].min() + c.housing_depth
+    depths = {"front": c.housing_depth / 6, "rear": 5 * c.housing_depth / 6}
+    if on_bracket := parameters.bracket.kind == "body":
+        beside = min(parameters.bracket.column_height + front, c.housing_depth)
+        depths = {name: share * beside for name, share in _PIN_DEPTHS.items()}
+    pins = []
+    for end_name, depth in depths.items():
+        where = j.guide_pin_radius, front - depth, j.spot_size
+        spot = _end_spot(meshes, CALIPER, sign * c.angle / 2, *where)
+        held = _on_bracket(meshes, parameters, sign, *where) if on_bracket else None
+        pins += [(f"guide_pin_{end}_{kind}_{end_name}", stiffness / 2, spot, held, kind) for kind, stiffness in
+                 (("axial", j.guide_pin_axial_stiffness), ("tangential", j.guide_pin_stiffness),
+                  ("radial", j.guide_pin_stiffness))]
+    return pins
+
+
+def _backplate_end(meshes, parameters, pad, sign):
+    """(spot on the end of a backplate, the spot of the bracket that it meets there or None)."""
+    p = parameters.pad
+    height = (1 if pad == OUTER else -1) * (parameters.disc.ring_thickness / 2 + p.lining_thickness
+                                            + p.backplate_thickness / 2)
+    where = (p.inner_radius + p.outer_radius) / 2, height, p.backplate_thickness / 2
+    held = _on_bracket(meshes, parameters, sign, *where) if parameters.bracket.kind == "body" else None
+    return _end_spot(meshes, pad, sign * p.angle / 2, *where), held
+
+
+def _on_bracket(meshes, parameters, sign, radius, height, size):
+    """Spot on the face of a column of the bracket towards the pads."""
+    index = body_names(parameters).index("bracket")
+    return _end_spot(meshes, index, sign * parameters.pad.angle / 2, radius, height, size)
+
+
+def _mounts(meshes, parameters):
+    """Springs to the knuckle on the backs of both columns, a bolt of two spots on each."""
+    b, j, index = parameters.bracket, parameters.joints, body_names(parameters).index("bracket")
+    offset, springs = np.linspace(-j.spot_size / 2, j.spot_size / 2, _SPOT_POINTS), []
+    for end, sign in (("leading", -1), ("trailing", 1)):
+        angle = sign * (parameters.pad.angle + b.angle) / 4
+        for level, across in (("inner", -1), ("outer", 1)):
+            along_r, along_t = (a.ravel() for a in np.meshgrid(b.mount_radius + across * b.mount_width / 2 + offset,
+                                                               offset))
+            point = np.column_stack((along_r * np.cos(angle) - along_t * np.sin(angle),
+                                     along_r * np.sin(angle) + along_t * np.cos(angle),
+                                     np.full(len(along_r), -b.column_height)))
+            spot = _spot(meshes, index, point, "mount of the bracket")
+            springs += [(f"mount_{end}_{kind}_{level}", j.mount_stiffness / 2, spot, None, kind) for kind in _AXES]
+    return springs
+
+
+def _rim_spots(meshes, parameters):
+    """(place, spot on the inner backplate, spot on the piston) around the rim of the piston."""
+    p, index = parameters.piston, body_names(parameters).index("piston")
+    margin = _RIM_MARGIN * p.wall
+    radius, turn = (a.ravel() for a in np.meshgrid(
+        np.linspace(p.diameter / 2 - p.wall + margin, p.diameter / 2 - margin, _SPOT_POINTS),
+        np.linspace(-_RIM_REACH, _RIM_REACH, _SPOT_POINTS)))
+    places = []
+    for k in range(_RIM_SPOTS):
+        angle = 2 * np.pi * k / _RIM_SPOTS + turn
+        point = np.column_stack((parameters.joints.clamping_radius + radius * np.cos(angle), radius * np.sin(angle),
+                                 np.full(len(radius), -pad_height(parameters))))
+        places.append((f"{360 * k // _RIM_SPOTS}", *(_spot(meshes, body, point, "rim of the piston")
+                                                     for body in (INNER, index))))
+    return places
+
+
+def _seal(meshes, parameters):
+    """Springs of the seal between piston and bore, at four places around it."""
+    p, j, index = parameters.piston, parameters.joints, body_names(parameters).index("piston")
+    (first, last), half, floor = bore(parameters)
+    middle, rim = j.clamping_radius, p.diameter / 2
+    height = floor + p.bore_depth - p.seal_depth + np.linspace(-1, 1, _SPOT_POINTS) * min(p.seal_depth, j.spot_size) / 4
+    springs = []
+    for place, x, y, wall in (("outer", rim, 0, (last, 0)), ("trailing", 0, rim, (middle, middle * np.tan(half))),
+                              ("inner", -rim, 0, (first, 0)), ("leading", 0, -rim, (middle, -middle * np.tan(half)))):
+        spots = [_spot(meshes, body, np.column_stack((np.full(_SPOT_POINTS, a), np.full(_SPOT_POINTS, b), height)),
+                       f"seal, {place}") for body, a, b in ((index, middle + x, y), (CALIPER, *wall))]
+        springs += [(f"seal_{kind}_{place}", stiffness / 4, *spots, kind) for kind, stiffness in
+                    (("axial", j.piston_stiffness), ("tangential", j.seal_stiffness), ("radial", j.seal_stiffness))]
+    return springs
+
+
+def _pressed(meshes, parameters):
+    """(crown of the piston, floor of the bore below it): what the fluid presses on."""
+    index, floor = body_names(parameters).index("piston"), bore(parameters)[2]
+    crown = faces_towards(meshes[index], -1)
+    point, area = (a.reshape(-1, *a.shape[2:]) for a in face_points(meshes[index].node, crown))
+    below, group = np.column_stack((point[:, :2], np.full(len(point), floor))), np.zeros(len(point), int)
+    return (_Spot(index, surface_rows(meshes[index].node, crown, point, area, group, "structure.piston: crown")),
+            _Spot(CALIPER, surface_rows(meshes[CALIPER].node, faces_towards(meshes[CALIPER], 1), below, area, group,
+                                        "structure.piston: floor of the bore")))
+
+
+def _end_spot(meshes, body, angle, radius, height, size):
+    """Spot on the plane end of a body at ``angle``, centred on (radius, height)."""
+    offset = np.linspace(-size / 2, size / 2, _SPOT_POINTS)
+    r, z = (a.ravel() for a in np.meshgrid(radius + offset, height + offset))
+    return _spot(meshes, body, np.column_stack((r * np.cos(angle), r * np.sin(angle), z)), "end face")
+
+
+def _clamping_spots(meshes, parameters, prefix, pad):
+    """(place, spot on the backplate, spot on the caliper) at four places of fingers or piston."""
+    j, p, c = parameters.joints, parameters.pad, parameters.caliper
+    side = 1 if pad == OUTER else -1
+    back = side * (parameters.disc.ring_thickness / 2 + p.lining_thickness + p.backplate_thickness)
+    caliper = back if pad == OUTER else back - c.piston_gap
+    offset = np.linspace(-j.spot_size / 2, j.spot_size / 2, _SPOT_POINTS)
+    for end, forward in (("leading", -1), ("trailing", 1)):
+        for level, across in (("inner", -1), ("outer", 1)):
+            x, y = (a.ravel() for a in np.meshgrid(
+                j.clamping_radius + across * j.clamping_height / 2 + offset,
+                forward * (j.finger_distance if prefix == "finger" else j.piston_distance) / 2 + offset))
+            spots = (_spot(meshes, body, np.column_stack((x, y, np.full_like(x, z))), f"{prefix} {end} {level}")
+                     for body, z in ((pad, back), (CALIPER, caliper)))
+            yield f"{end}_{level}", *spots
+
+
+def _spot(meshes, body, point, where):
+    mean = surface_rows(meshes[body].node, boundary_faces(meshes[body]), point, np.ones(len(point)),
+                        np.zeros(len(point), int), f"structure.joints: {where}")
+    return _Spot(body, mean)
+
+
+def _relative(meshes, first, other, axis):
+    """Displacement of one spot less that of the other (or of the ground) along an axis, per body."""
+    row = [scipy.sparse.csr_matrix((1, 3 * len(m.node))) for m in meshes]
+    row[first.body] = along(first.mean, np.eye(3)[[axis]])
+    if other is not None:
+        row[other.body] = -along(other.mean, np.eye(3)[[axis]])
+    return row

@@ -1,0 +1,87 @@
+"""Joints under rigid motions: what must not stretch does not, and only mounts hold a brake with a bracket."""
+
+import numpy as np
+import pytest
+
+from pipeline.systems.disc_brake import build
+from stages.structure import Settings
+from tests.systems.test_disc_brake import COARSE
+from tests.systems.test_disc_brake_bracket import BODIES
+
+pytestmark = pytest.mark.exact
+#: distance of the spots that a guide pin, or the seal, ties together
+LEVER = 3e-3
+
+
+@pytest.fixture(scope="module")
+def brake():
+    return build(Settings(**BODIES))
+
+
+def rigid(brake, move):
+    return np.concatenate([move(b.mesh.node).ravel() for b in brake.bodies])
+
+
+def alone(brake, name, move):
+    """Motion of the body ``name``, the others at rest."""
+    return np.concatenate([(move(b.mesh.node) if n == name else 0 * b.mesh.node).ravel()
+                           for n, b in zip(brake.names, brake.bodies, strict=True)])
+
+
+def test_bodies_that_only_some_brakes_have(brake):
+    assert brake.names == ("disc", "pad_outer", "pad_inner", "caliper", "bracket", "piston")
+    assert build(Settings(**COARSE)).names == brake.names[:4] and build(Settings(**COARSE)).fluid is None
+
+
+def test_only_the_mounts_hold_against_the_ground(brake):
+    stretch = brake.joints.rows.matrix @ rigid(brake, lambda x: np.broadcast_to([1e-3, 2e-3, -3e-3], x.shape))
+    expected = {"radial": 1e-3, "tangential": 2e-3, "axial": -3e-3}
+    for name, value in zip(brake.joints.name, stretch, strict=True):
+        kind = next(k for k in (*expected, "normal") if k in name)
+        assert value == pytest.approx(expected[kind] if name.startswith("mount") else 0, abs=1e-12), name
+    assert brake.piston.matrix @ rigid(brake, np.ones_like) == pytest.approx(0, abs=1e-12)
+
+
+@pytest.mark.parametrize("axis", np.eye(3), ids="xyz")
+def test_a_common_turn_stretches_nothing_but_gaps_and_mounts(brake, axis):
+    """The ends of a spring are read at one place, or at most a gap apart."""
+    stretch = brake.joints.rows.matrix @ rigid(brake, lambda x: np.cross(axis, x))
+    for name, value in zip(brake.joints.name, stretch, strict=True):
+        gap = LEVER if name.startswith(("guide_pin", "seal")) else 1e-9
+        assert name.startswith("mount") or abs(value) < gap, name
+    assert brake.piston.matrix @ rigid(brake, lambda x: np.cross(axis, x)) == pytest.approx(0, abs=1e-9)
+
+
+def test_the_line_pressure_pushes_piston_and_floor_apart(brake):
+    """A force pair of the whole force on both; it turns the piston about no axis."""
+    for name, expected in (("piston", 1.0), ("caliper", -1.0), ("pad_inner", 0.0)):
+        lifted = alone(brake, name, lambda x: np.broadcast_to([0, 0, 1.0], x.shape))
+        assert (brake.piston.matrix @ lifted)[0] == pytest.approx(expected, abs=1e-12)
+    middle = [Settings().joints.clamping_radius, 0, 0]
+    for axis in np.eye(3):
+        tilted = alone(brake, "piston", lambda x, axis=axis: np.cross(axis, x - middle))
+        assert (brake.piston.matrix @ tilted)[0] == pytest.approx(0, abs=1e-9)
+
+
+def test_springs_of_a_part_add_up_to_what_is_declared(brake):
+    """Stiffness of the piston's rim, seal and of the mounts, each moved alone."""
+    j = Settings(**BODIES).joints
+    stiffness = dict(zip(brake.joints.name, brake.joints.stiffness, strict=True))
+
+    def total(*parts):
+        return sum(k for name, k in stiffness.items() if all(part in name for part in parts))
+
+    assert total("piston", "normal") == pytest.approx(j.shim_stiffness)
+    assert total("piston", "radial") == pytest.approx(j.piston_shear_stiffness)
+    assert total("seal", "axial") == pytest.approx(j.piston_stiffness)
+    assert total("seal", "radial") == pytest.approx(j.seal_stiffness)
+    assert total("mount", "leading", "axial") == pytest.approx(j.mount_stiffness)
+    assert total("guide_pin", "leading", "tangential") == pytest.approx(j.guide_pin_stiffness)
+
+
+def test_kinds_of_joints_have_their_loss_factors():
+    losses = {"abutment": 0.05, "finger": 0.02, "piston": 0.06, "guide_pin": 0.1, "seal": 0.2, "mount": 0.03}
+    lossy = build(Settings(**{**BODIES, "joints": {f"{kind}_loss_factor": loss for kind, loss in losses.items()}}))
+    seen = {name.removeprefix("guide_").split("_")[0]: loss
+            for name, loss in zip(lossy.joints.name, lossy.joints.loss_factor, strict=True)}
+    assert seen == {kind.removeprefix("guide_"): loss for kind, loss in losses.items()}
