@@ -50,12 +50,12 @@ def quadratic_modes(mass, damping, stiffness, left=False, beside=None):
     return QuadraticModes(roots[order], right, _physical(vectors[0][n:2 * n, order], factor) if left else None)
 
 
-def polished(mass, damping, stiffness, root, vector, beside=None):
+def polished(mass, damping, stiffness, root, vector, beside=None, tolerance=_POLISHED):
     """(root 1/s, vector (n,)) of (s^2 M + s C + K) x = 0 from an approximate pair, by residual inverse iteration.
 
     Arguments as of ``quadratic_modes``; matrices may be complex. One factorisation serves all iterations, and another
-    where they slow down (Neumaier, SIAM J. Numer. Anal. 22 (1985) 914). Raises ConvergenceError where no root lies
-    close by.
+    where they slow down (Neumaier, SIAM J. Numer. Anal. 22 (1985) 914); a step below ``tolerance``, as a share of the
+    root, ends them. Raises ConvergenceError where no root lies close by.
     """
     s, x, step = complex(root), vector / np.linalg.norm(vector), np.inf
     for _ in range(_FACTORISATIONS):
@@ -70,7 +70,7 @@ def polished(mass, damping, stiffness, root, vector, beside=None):
             s = s - step
             x = x - scipy.linalg.lu_solve(factor, operator - step * slope, check_finite=False)
             x = x / np.linalg.norm(x)
-            if abs(step) <= _POLISHED * abs(s):
+            if abs(step) <= tolerance * abs(s):
                 return s, x
     raise ConvergenceError("complex modes", f"a root near {root:.6g} 1/s", f"steps of {abs(step):.2g} 1/s",
                            "lower smallest_correction")

@@ -33,13 +33,13 @@ def growth_terms(model, friction, root, shape, contact_body, friction_damping=Tr
              for body in np.unique(contact_body)}
     rate = root.imag / inertia
     terms[CONTACT] = -rate * (contacts.damping @ abs(normal) ** 2)
-    terms[TURNING] = -rate * (_turning(model, coefficient) @ abs(lateral) ** 2) if friction_damping else 0.0
+    terms[TURNING] = -rate * (turning_drag(model, coefficient) @ abs(lateral) ** 2) if friction_damping else 0.0
     terms[SLIP] = -rate * ((contacts.preload * by_speed) @ abs(tangent) ** 2)
     terms[BODIES] = root.real - sum(terms.values())
     return {name: float(value) for name, value in terms.items()}
 
 
-def _turning(model, coefficient):
+def turning_drag(model, coefficient):
     """mu N0 / |v| (c,) N s/m of friction-induced damping; 0 where a contact does not slide."""
     speed = abs(model.sliding_speed)
     force = coefficient * model.contacts.preload
