@@ -16,7 +16,7 @@ import scipy
 
 from pipeline.case_models.effect_block import conditions, physics_terms
 from pipeline.case_models.steady_sliding import Posed, Steady, branch_stiffness, posed, refuse_twice
-from pipeline.contract import ConfigError, Context, Quantities, Quantity, Section, option, stage
+from pipeline.contract import ConfigError, Context, Quantities, Quantity, Section, option, stage, stored
 from pipeline.physics.friction.dry_friction import Friction, constant, falling
 from pipeline.physics.friction.friction_table import FrictionLaw, refuse_beyond
 from pipeline.physics.friction.tangential_law import tangential_law
@@ -169,7 +169,7 @@ def complex_modes(model: ReducedModel, friction_map: FrictionMap | None, effects
     outcomes = context.map(partial(_operate, settings, law, losses), points, "operating points")
     branches = min(max(len(s.basis.frequency) for s in states), *(s.model.size for s in states))
     return ComplexModes(
-        pressure=model.pressure, friction=friction, root=[r[:, :branches] for r in roots],
+        settings=stored(settings), pressure=model.pressure, friction=friction, root=[r[:, :branches] for r in roots],
         real_frequency=[_lowest_frequencies(s, branches, settings.centrifugal) for s in states],
         operating_pressure=np.repeat(model.pressure, len(settings.speeds)),
         operating_speed=[o.speed for o in outcomes], operating_friction=[o.mean_friction for o in outcomes],

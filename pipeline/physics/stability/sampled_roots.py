@@ -65,6 +65,12 @@ class Sampled:
         """The Family."""
         return self.sliding.family
 
+    def compact(self):
+        """The same without what only the whole model needs: for tasks in other processes."""
+        family = replace(self.family, model=self.small, loss=self.small.mass[:0], lining=None)
+        sliding = self.sliding.compact(family)
+        return replace(self, sliding=sliding, basis=self.basis[:0])
+
     def roots(self, factors, speed):
         """Roots (r,) 1/s of a draw at ``speed`` rad/s by falling growth rate: all that grow, and the least stable one.
 

@@ -52,6 +52,10 @@ class SlidingBasis:
     start: np.ndarray
     residual: float = np.inf
 
+    def compact(self, family):
+        """The same without the whole model, of a Family that lacks it."""
+        return replace(self, family=family, shape=self.shape[:0])
+
     def slide(self, factors, speed):
         """Contact of a draw at ``speed`` rad/s. Raises ConvergenceError where no sliding state is found."""
         small = self.small.at_speed(speed)
@@ -63,17 +67,17 @@ class SlidingBasis:
         """Coordinates (s,) of the sliding state of a draw, by Newton's method."""
         small, state = self.small.at_speed(speed), self.start
         stiffness = self._stiffness(factors, speed)
-        miss, tangent, force = self._miss(factors, small, stiffness, state)
+        miss, tangent, force, slope = self._miss(factors, small, stiffness, state)
         for _ in range(_ITERATIONS):
             step = np.linalg.solve(tangent, miss)
+            change = abs(slope * (small.contacts.normal @ step)).max(initial=0.0)
+            if change <= _BALANCED * force.max(initial=0.0):
+                return state - step
             for length in 0.5 ** np.arange(_HALVINGS):
                 trial = self._miss(factors, small, stiffness, state - length * step)
                 if np.linalg.norm(trial[0]) < np.linalg.norm(miss):
                     break
-            state, change = state - length * step, abs(trial[2] - force).max(initial=0.0)
-            miss, tangent, force = trial
-            if length == 1 and change <= _BALANCED * force.max(initial=0.0):
-                return state
+            state, (miss, tangent, force, slope) = state - length * step, trial
         raise ConvergenceError("steady sliding of a draw", f"contact forces that balance within {_BALANCED:g}",
                                f"changes of {change:.3g} N", "narrow the scatter of friction or stiffness")
 
@@ -105,7 +109,7 @@ class SlidingBasis:
         return np.where(contacts.fixed, contacts.preload, force), np.where(contacts.fixed, 0.0, slope)
 
     def _miss(self, factors, small, stiffness, state):
-        """(imbalance (s,), its derivative (s, s), contact forces (c,))."""
+        """(imbalance (s,), its derivative (s, s), contact forces (c,) and their slopes (c,))."""
         contacts, sign = small.contacts, small.direction()
         force, slope = self._contact(factors, state)
         friction = _friction(self.family, factors, small, force)
@@ -113,7 +117,7 @@ class SlidingBasis:
         load = self.family.input_force @ small.input_rows + force @ contacts.normal
         load = load + (sign * friction.coefficient * force) @ contacts.tangent
         pulled = (contacts.normal.T * slope + contacts.tangent.T * (coupling * slope)) @ contacts.normal
-        return stiffness @ state - load, stiffness + pulled, force
+        return stiffness @ state - load, stiffness + pulled, force, slope
 
 
 @dataclass(frozen=True)
@@ -122,6 +126,10 @@ class GivenSliding:
 
     family: Family
     residual: float = 0.0
+
+    def compact(self, family):
+        """The same of a Family that lacks the whole model."""
+        return replace(self, family=family)
 
     def slide(self, factors, speed):
         """Contact of a draw at ``speed`` rad/s."""

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from pipeline.views.chapters import convergence
+from pipeline.views.chapters import convergence, probability
 from pipeline.views.chapters.bench import diagnosis
 from pipeline.views.chapters.complex_modes import distinct_unstable, signed, words
 from pipeline.views.chapters.friction import outside_computed
@@ -33,7 +33,7 @@ def verdict(products, tuned_settings):
     if products.get("diagnosis") is not None:
         return _diagnosed(products["diagnosis"], products, tuned_settings)
     headline, tone = _headline(products)
-    answers = [("Where", _where(products)), ("Why", _why(products)), ("How certain", _sure(products)),
+    answers = [("Where", _where(products)), ("Why", _why(products)), ("How likely", _likely(products)), ("How certain", _sure(products)),
                ("Tuned", _tuned(products, tuned_settings))]
     return Verdict(headline, tone, tuple(a for a in answers if a[1]), tuple(_facts(products)))
 
@@ -159,6 +159,12 @@ def _fed(modes):
     return (f" {percent(share.max())} of its kinetic energy is in the {moving}{shape}. Of its growth rate,"
             f" {signed(growth[feeds])} 1/s come from {words(modes.growth_term[feeds])}, {signed(growth[takes])} 1/s"
             f" from {words(modes.growth_term[takes])}.")
+
+
+def _likely(products):
+    """Probability at the worst operating point, and what matters most; empty without draws."""
+    product = products.get("probability")
+    return "" if product is None else probability.statement(product)
 
 
 def _compared(products):
