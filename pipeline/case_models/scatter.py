@@ -52,7 +52,8 @@ class Source(Section):
 
 
 #: what scatters where a case does not say
-DEFAULT = (*({"kind": JOINTS, "part": part, "variation": 0.3} for part in ("abutment", "finger", "piston", "guide_pin")),
+DEFAULT = (*({"kind": JOINTS, "part": part, "variation": 0.3}
+             for part in ("abutment", "finger", "piston", "guide_pin")),
            {"kind": "lining_stiffness", "variation": 0.15}, {"kind": "contact_stiffness", "variation": 0.2},
            {"kind": JOINT_LOSS, "variation": 0.5}, {"kind": BODY_LOSS, "variation": 0.5},
            {"kind": "damping_speed", "range": (1 / 3, 3.0)}, *({"kind": kind} for kind in ADDITIONS))
@@ -69,7 +70,8 @@ def check_sources(sources, where):
             raise ConfigError(f"{here}.part", f"none for {source.kind}", repr(source.part), "leave it out")
         if source.kind in ADDITIONS:
             if source.range is not None or source.distribution != "lognormal":
-                raise ConfigError(here, "variation, or nothing, for friction", "a range or distribution", "leave it out")
+                raise ConfigError(here, "variation, or nothing, for friction", "a range or distribution",
+                                  "leave it out")
         elif (source.variation is None) == (source.range is None):
             raise ConfigError(here, "either variation or range", "both" if source.range else "neither", "state one")
         elif source.range is not None and not 0 < source.range[0] < source.range[1]:

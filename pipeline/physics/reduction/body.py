@@ -33,8 +33,8 @@ class ElasticBody:
 
     ``rows`` (r, 3n) sparse are all displacement rows that the model reads; those numbered in ``interface`` (i,) carry
     forces. ``patterns`` (i, p) sparse: forces on these that static responses are kept for; None = each by itself.
-    ``loss_factor`` (materials,) of the materials; ``part``: numbers of those whose stiffness is also wanted by itself. ``frequency`` (m,) Hz and ``modes`` (3n, m) are not needed of a free
-    body without patterns.
+    ``loss_factor`` (materials,) of the materials; ``part``: numbers of those whose stiffness is wanted by itself as
+    well. ``frequency`` (m,) Hz and ``modes`` (3n, m) are not needed of a free body without patterns.
     """
 
     name: str
@@ -74,7 +74,8 @@ class ElasticBody:
 class BodyTerms:
     """Matrices (k, k), rows (r, k), and the surface: positions (v, 3), quadrilaterals (f, 4), recovery (v, 3, k).
 
-    ``loss`` is the imaginary part of the stiffness, ``part`` the stiffness of the materials wanted by themselves or None.
+    ``loss`` is the imaginary part of the stiffness, ``part`` the stiffness of the materials wanted by themselves, or
+    None.
     """
 
     mass: np.ndarray

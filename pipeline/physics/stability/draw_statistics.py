@@ -31,8 +31,8 @@ def first_order(values, outcome, seed):
     """(index (s,), standard error (s,), rank correlation (s,)) of ``outcome`` (n,) over sources ``values`` (n, s).
 
     The first-order Sobol index Var(E[y | x]) / Var(y) from given draws: y averaged in bins of equally many x, freed of
-    the bias by the number of bins (adjusted R^2 of the bins); its error by bootstrap (Plischke, Borgonovo & Smith, Eur. J. Oper.
-    Res. 226 (2013) 536). All 0 for an outcome that does not vary.
+    the bias by the number of bins (adjusted R^2 of the bins); its error by bootstrap (Plischke, Borgonovo & Smith, Eur.
+    J. Oper. Res. 226 (2013) 536). All 0 for an outcome that does not vary.
     """
     values, outcome = np.asarray(values, float), np.asarray(outcome, float)
     count, sources = values.shape

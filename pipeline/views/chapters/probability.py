@@ -21,8 +21,8 @@ def chapter(probability, look):
     return Chapter(
         "probability", "How likely",
         f"{len(probability.value)} draws of {plural(len(probability.source), 'source')} of scatter, each source"
-        " independent of the others. A draw counts at an operating point if any mode is unstable there, however slowly it"
-        " grows. The intervals (95 %, Wilson) speak of the number of draws, not of the scatter that was assumed.",
+        " independent of the others. A draw counts at an operating point if any mode is unstable there, however slowly"
+        " it grows. The intervals (95 %, Wilson) speak of the number of draws, not of the scatter that was assumed.",
         statement(probability), _figures(probability), (_sources(probability), _bands(probability)),
         (accuracy(probability),))
 
@@ -32,13 +32,14 @@ def statement(probability):
     if not len(probability.value):
         return ""
     worst = int(np.argmax(probability.probability))
-    first = (f"Over the stated scatter, {_with_interval(probability.probability[worst], probability.interval[worst])} of"
-             f" the draws have an unstable mode at {quantity(probability.pressure[worst], 'Pa', 3)} and"
+    share = _with_interval(probability.probability[worst], probability.interval[worst])
+    first = (f"Over the stated scatter, {share} of the draws have an unstable mode at {quantity(probability.pressure[worst], 'Pa', 3)} and"
              f" {quantity(probability.speed[worst], 'rad/s')}, the worst operating point;"
              f" {_with_interval(probability.overall, probability.overall_interval)} at any.")
     order = np.argsort(-probability.sensitivity)[:2]
     matters = [f"{in_words(probability.source[k])} ({percent(probability.sensitivity[k], 2)} of the variance of the"
-               f" growth rate, more of it {_sign(probability.trend[k])})" for k in order if probability.sensitivity[k] > 0]
+               f" growth rate, more of it {_sign(probability.trend[k])})"
+               for k in order if probability.sensitivity[k] > 0]
     return f"{first} What matters most: {', then '.join(matters)}." if matters else first
 
 
@@ -73,10 +74,10 @@ def _sign(trend):
 
 def _figures(product):
     return (
-        Figure(pictures.per_point(product), "Share of the draws with an unstable mode at each operating point, with 95 %"
-               " interval."),
-        Figure(pictures.per_band(product), "Share of the draws with an unstable mode in each 1/3 octave at any operating"
-               " point, with 95 % interval."),
+        Figure(pictures.per_point(product), "Share of the draws with an unstable mode at each operating point, with 95"
+               " % interval."),
+        Figure(pictures.per_band(product), "Share of the draws with an unstable mode in each 1/3 octave at any"
+               " operating point, with 95 % interval."),
         Figure(pictures.sensitivities(product, [in_words(s) for s in product.source]),
                "First-order sensitivity: share of the variance of the largest growth rate that goes with each source"
                " alone, with standard error. Red: more of it is less stable; blue: more stable."))
