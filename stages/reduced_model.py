@@ -92,7 +92,8 @@ def _from_lumps(lumped, settings, context):
         joint_loss_factor=np.zeros(len(lumped.joint_name)), sensor_position=np.zeros((sensors, 3)),
         sensor_direction=np.tile([1.0, 0.0, 0.0], (sensors, 1)),
         visible_position=np.empty((0, 3)), visible_body=[], visible_face=np.empty((0, 4), int),
-        recovery=np.empty((0, 3, size)), **NO_SHEAR, **NO_LINING, **{name: getattr(lumped, name) for name in sorted(names)})
+        recovery=np.empty((0, 3, size)), **NO_SHEAR, **NO_LINING,
+        **{name: getattr(lumped, name) for name in sorted(names)})
 
 
 #: product of a system -> its reduction (system, settings, context) -> ReducedModel

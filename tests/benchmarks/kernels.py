@@ -143,8 +143,8 @@ def scattered_family(size, contacts):
     points = Contacts(normal, tangent, lateral, np.zeros((contacts, 3)), 1e-5 * ones, ones, 10 * ones,
                       1e7 / contacts * ones, 0 * ones)
     model = SlidingModel(("brake",), np.zeros(size, int), np.eye(size), none, none, squared, none,
-                         Joints(("joint",), random.standard_normal((1, size)), np.full(1, 1e5), np.zeros(1)), points, (),
-                         np.empty((0, size)), (), np.empty((0, size)), 10.0)
+                         Joints(("joint",), random.standard_normal((1, size)), np.full(1, 1e5), np.zeros(1)), points,
+                         (), np.empty((0, size)), (), np.empty((0, size)), 10.0)
     return Family(model, lambda p, v: FrictionState(0.5 + 0 * p, 0 * p, 0 * p), np.empty(0), 10.0, 0.01 * squared,
                   np.full(1, 0.05))
 

@@ -33,7 +33,8 @@ def statement(probability):
         return ""
     worst = int(np.argmax(probability.probability))
     share = _with_interval(probability.probability[worst], probability.interval[worst])
-    first = (f"Over the stated scatter, {share} of the draws have an unstable mode at {quantity(probability.pressure[worst], 'Pa', 3)} and"
+    first = (f"Over the stated scatter, {share} of the draws have an unstable mode at"
+             f" {quantity(probability.pressure[worst], 'Pa', 3)} and"
              f" {quantity(probability.speed[worst], 'rad/s')}, the worst operating point;"
              f" {_with_interval(probability.overall, probability.overall_interval)} at any.")
     order = np.argsort(-probability.sensitivity)[:2]

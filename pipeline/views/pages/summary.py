@@ -33,7 +33,8 @@ def verdict(products, tuned_settings):
     if products.get("diagnosis") is not None:
         return _diagnosed(products["diagnosis"], products, tuned_settings)
     headline, tone = _headline(products)
-    answers = [("Where", _where(products)), ("Why", _why(products)), ("How likely", _likely(products)), ("How certain", _sure(products)),
+    answers = [("Where", _where(products)), ("Why", _why(products)), ("How likely", _likely(products)),
+               ("How certain", _sure(products)),
                ("Tuned", _tuned(products, tuned_settings))]
     return Verdict(headline, tone, tuple(a for a in answers if a[1]), tuple(_facts(products)))
 

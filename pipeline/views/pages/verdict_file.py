@@ -15,7 +15,8 @@ def verdict_text(verdict, products):
     """JSON text of a Verdict and the ``products`` (name -> product or None) behind it; SI units, null where unknown."""
     modes, refined = products.get("complex_modes"), products.get("convergence")
     document = {"schema": SCHEMA, "headline": verdict.headline, "squeal_can_start": _can_start(modes),
-                "probability": _probability(products.get("probability")), "unstable_modes": [] if modes is None else _unstable(modes),
+                "probability": _probability(products.get("probability")),
+                "unstable_modes": [] if modes is None else _unstable(modes),
                 "convergence": None if refined is None else _convergence(refined), "transient": None,
                 "warnings": _warnings(modes, refined) + [w for w in [outside_computed(products)] if w]}
     return json.dumps(document, indent=1) + "\n"
