@@ -40,11 +40,11 @@ def sensitivities(product, names):
     """SVG: first-order indices of the sources, largest on top; red where more of it means less stable."""
     order = np.argsort(product.sensitivity)
     colours = [RED if product.trend[k] > 0 else BLUE for k in order]
-    with drawing(0.9 + 0.26 * len(order), left=2.15, top=0.2) as figure:
+    with drawing(0.9 + 0.26 * len(order), left=2.35, top=0.2) as figure:
         axes = figure.subplots()
         axes.barh(np.arange(len(order)), 100 * product.sensitivity[order], 0.7, color=colours,
                   xerr=100 * product.sensitivity_error[order], error_kw={"ecolor": INK, "capsize": 2, "lw": 1.0})
-        axes.set_yticks(np.arange(len(order)), [names[k] for k in order])
+        axes.set_yticks(np.arange(len(order)), [names[k] for k in order], fontsize=8.5)
         axes.set(xlabel="share of the variance / %", xlim=(0, None))
         axes.grid(axis="y", visible=False)
         return svg(figure)
