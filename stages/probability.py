@@ -8,7 +8,7 @@ from functools import partial
 
 import numpy as np
 
-from pipeline.case_models.effect_block import physics_terms
+from pipeline.case_models import effect_block
 from pipeline.case_models.scatter import (
     DEFAULT,
     Source,
@@ -51,6 +51,8 @@ class Settings(Section):
 
 def _check(sections):
     check_sources(sections["probability"].sources, "probability.sources")
+    if "effects" in sections:
+        _refuse_effects(effect_block.product(sections["effects"]), sections["probability"])
 
 
 @stage(check=_check)
@@ -86,7 +88,7 @@ def probability(model: ReducedModel, friction_map: FrictionMap, modes: ComplexMo
 
 
 def _refuse_effects(effects, settings):
-    terms = physics_terms(effects)
+    terms = effect_block.physics_terms(effects)
     if terms and settings.draws:
         raise ConfigError("probability", "a case without effects, which are not sampled",
                           ", ".join(term.effect.name for term in terms), "set probability.draws: 0")

@@ -12,6 +12,7 @@ from stages.probability import Settings, probability
 from stages.reduced_model import Settings as Reduction
 from stages.reduced_model import reduced_model
 from tests.chain.conftest import ROOT
+from tests.diagnosis.small_rig import effects
 from tests.stages.small_structure import small_friction_map, small_structure
 
 SOURCES = ({"kind": "joint_stiffness", "variation": 0.3}, {"kind": "joint_loss", "variation": 0.5},
@@ -88,6 +89,13 @@ def test_another_seed_gives_other_draws_and_a_like_probability(brake, made):
 def test_unknown_parts_are_refused_before_anything_is_computed(brake):
     with pytest.raises(ConfigError, match="abutment_outer_leading_radial"):
         probability(*brake, settings=Settings(sources=({"kind": "joint_loss", "part": "fingre", "variation": 0.5},)))
+
+
+def test_effects_are_refused_unless_nothing_is_drawn(brake):
+    added = effects({"falling_friction": {"contact": {"rise": 0.2, "decay_speed": "100 mm/s"}}})
+    with pytest.raises(ConfigError, match="probability.draws: 0"):
+        probability(*brake, added, settings=Settings(sources=SOURCES))
+    assert not len(probability(*brake, added, settings=Settings(draws=0, sources=SOURCES)).value)
 
 
 def test_no_draws_give_no_probability(brake):
