@@ -31,8 +31,9 @@ def per_band(product):
         axes.bar(place, 100 * share, 0.8, color=BLUE)
         axes.errorbar(place, 100 * share, 100 * _errors(share, interval), fmt="none", ecolor=INK, capsize=3, lw=1.2)
         axes.set_xticks(place, [f"{nominal(f) / 1e3:g}" for f in middle], rotation=45 if len(middle) > 8 else 0)
-        axes.set(xlabel="1/3 octave / kHz", ylabel="draws with an unstable mode / %", ylim=(0, 105))
+        axes.set(xlabel="1/3 octave / kHz", ylabel="unstable draws / %", ylim=(0, 105))
         axes.grid(axis="x", visible=False)
+        figure.subplots_adjust(bottom=0.25)
         return svg(figure)
 
 
