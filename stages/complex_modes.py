@@ -18,11 +18,18 @@ from pipeline.case_models.effect_block import conditions, physics_terms
 from pipeline.case_models.friction_paths import OverFriction, over_friction
 from pipeline.case_models.full_matrices import has_full_matrices
 from pipeline.case_models.operating_modes import balances, growing, in_full, path_fields_of, unstable_fields
-from pipeline.case_models.steady_sliding import Posed, Steady, branch_stiffness, posed, refuse_twice
+from pipeline.case_models.steady_sliding import (
+    Posed,
+    Steady,
+    branch_stiffness,
+    mapped_friction,
+    posed,
+    refuse_twice,
+)
 from pipeline.case_models.unstable_roots import in_whole_model, nearly
-from pipeline.contract import ConfigError, Context, Quantities, Quantity, Section, option, stage
+from pipeline.contract import ConfigError, Context, Quantities, Quantity, Section, option, stage, stored
 from pipeline.physics.friction.dry_friction import Friction, constant, falling
-from pipeline.physics.friction.friction_table import FrictionLaw, refuse_beyond
+from pipeline.physics.friction.friction_table import refuse_beyond
 from pipeline.physics.friction.tangential_law import tangential_law
 from pipeline.physics.modal.quadratic_eigenproblem import (
     by_frequency,
@@ -40,6 +47,9 @@ from pipeline.physics.time_stepping.simulate import Table
 from pipeline.products import ComplexModes, Effects, FrictionMap, ReducedModel, Structure
 from pipeline.systems.fem_bodies import full_model
 
+#: settings that say how the roots were made, which the product states
+_TOLD = ("damping_speed", "sliding_distance", "frequency_max", "friction_slopes", "friction_damping", "gyroscopic",
+         "centrifugal")
 #: friction values of one task of the fan-out
 _CHUNK = 7
 
@@ -171,7 +181,7 @@ def complex_modes(model: ReducedModel, friction_map: FrictionMap | None, effects
     outcomes = [growing(o, settings) for o in outcomes]
     branches = min(max(len(s.basis.frequency) for s in states), *(s.model.size for s in states))
     return ComplexModes(
-        pressure=model.pressure, friction=friction, root=[r[:, :branches] for r in roots],
+        settings=stored(settings), pressure=model.pressure, friction=friction, root=[r[:, :branches] for r in roots],
         real_frequency=[_lowest_frequencies(s, branches, settings.centrifugal) for s in states],
         operating_pressure=np.repeat(model.pressure, len(settings.speeds)),
         operating_speed=[o.speed for o in outcomes], operating_friction=[o.mean_friction for o in outcomes],
@@ -180,7 +190,8 @@ def complex_modes(model: ReducedModel, friction_map: FrictionMap | None, effects
         operating_root=[_lowest(o.root, branches) for o in outcomes],
         **unstable_fields(outcomes, model, models[0][0].bench.model.body_name),
         **path_fields_of(outcomes, model, settings, context),
-        corrections=max([s.basis.corrections for s in states] + [o.corrections for o in outcomes]))
+        corrections=max([s.basis.corrections for s in states] + [o.corrections for o in outcomes]),
+        **{name: getattr(settings, name) for name in _TOLD})
 
 
 def _told(terms, context):
@@ -214,8 +225,7 @@ def _friction_law(friction_map, model, settings):
     """(Friction, the same over pressure and speed): of the map; without one, of the settings or the model."""
     if friction_map is not None:
         refuse_beyond(settings.sliding_distance, friction_map.distance[-1], "complex_modes.sliding_distance")
-        law = FrictionLaw(friction_map.pressure, friction_map.speed, friction_map.distance, friction_map.friction)
-        return Friction(law, distance=settings.sliding_distance), partial(from_map, law, settings.sliding_distance)
+        return mapped_friction(friction_map, settings.sliding_distance)
     if settings.friction is None:
         law = tangential_law(model).friction_law()
         return Friction(law), partial(from_map, law, 0.0)

@@ -4,7 +4,7 @@ import numpy as np
 
 from pipeline.contract import Context, ConvergenceError, Section, option, stage
 from pipeline.physics.friction.friction_table import refine
-from pipeline.physics.friction.pressure_law import levelling_axis, polynomial_fit
+from pipeline.physics.friction.pressure_law import levelling_axis, polynomial_fit, slope_error
 from pipeline.products import FrictionMap, MicroFriction
 
 
@@ -46,15 +46,16 @@ def friction_map(micro_friction: MicroFriction, settings: Settings, context: Con
     fine, friction = refine(axes, micro_friction.friction, parts)
     _, scatter = refine(axes, micro_friction.friction_std, parts)
     _, stiffness = refine(axes[::2], micro_friction.normal_stiffness.mean(axis=1), parts[::2])
+    slope = None
     if settings.order is not None:
-        fine, friction, scatter, stiffness = _fitted(micro_friction, settings, fine, stiffness)
+        fine, friction, scatter, stiffness, slope = _fitted(micro_friction, settings, fine, stiffness)
     return FrictionMap(pressure=fine[0], speed=fine[1], distance=fine[2], friction=friction, friction_std=scatter,
                        normal_stiffness=stiffness, computed_pressure=micro_friction.pressure,
-                       computed_speed=micro_friction.speed)
+                       computed_speed=micro_friction.speed, **_slope_errors(micro_friction, fine, scatter, slope))
 
 
 def _fitted(computed, settings, fine, stiffness):
-    """(axes, friction, its standard error, stiffness) with the fitted law over pressure.
+    """(axes, friction, its standard error, stiffness, slope over ln p per computed value) with the fitted law.
 
     The stiffness beyond the computed pressures is proportional to pressure below them, and constant above.
     """
@@ -70,4 +71,24 @@ def _fitted(computed, settings, fine, stiffness):
                                "lower the order, or interpolate")
     inside = np.array([np.interp(pressure, fine[0], column) for column in stiffness.T]).T
     below = np.minimum(pressure / computed.pressure[0], 1.0)[:, None]
-    return (pressure, *fine[1:]), friction, scatter, below * inside
+    return (pressure, *fine[1:]), friction, scatter, below * inside, np.gradient(fit, np.log(pressure), axis=0)
+
+
+def _slope_errors(computed, fine, scatter, slope):
+    """Fields of the map: where its error is smallest, and the errors of its slopes there.
+
+    ``slope`` (F, P) is that of the fitted law per computed value; None: that of a straight line by weight.
+    """
+    pressure, speed, distance = fine
+    best = scatter.mean(axis=1).argmin(axis=0)
+    over_pressure, over_speed = [], []
+    for s, at in enumerate(np.interp(computed.distance, distance, best).round().astype(int)):
+        errors = computed.friction_std[:, :, s]
+        over_pressure.append(slope_error(np.log(computed.pressure), errors.mean(axis=1)) if slope is None
+                             else np.sqrt(slope[at] ** 2 @ errors**2).mean())
+        there = [np.interp(v, speed, scatter[at, :, np.argmin(abs(distance - computed.distance[s]))])
+                 for v in computed.speed]
+        over_speed.append(slope_error(np.log(computed.speed), there))
+    return {"best_pressure": pressure[best],
+            "pressure_slope_std": np.interp(distance, computed.distance, over_pressure),
+            "speed_slope_std": np.interp(distance, computed.distance, over_speed)}

@@ -14,6 +14,8 @@ from pipeline.physics.reduction.body import reduce_body
 from pipeline.products import BeamOnBeam, Lumped, PinOnDisc, ReducedModel, Structure
 from pipeline.systems.fem_bodies import COLUMN, INPUTS, LINE, elastic_body, force_patterns, has_fluid, row_fields
 
+#: a system without linings
+NO_LINING = {"lining_coordinate": [], "lining_stiffness": np.empty((0, 0)), "lining_loss_factor": 0.0}
 #: the tangential law of a system that has none: its friction comes from a map or from settings
 NO_SHEAR = {f"shear_{name}": [] for name in ("pressure", "friction", "stiffness", "elastic_stiffness", "exponent")}
 
@@ -59,7 +61,7 @@ def _from_solids(structure, settings, context):
                 for name in ("mass", "damping", "gyroscopic", "stiffness", "centrifugal", "loss")}
     rows = _split_rows(structure, np.hstack([t.rows for t in terms]))
     parts = {"body_name": structure.body_name, "coordinate_body": np.repeat(np.arange(len(terms)), sizes), **matrices,
-             **rows, **_copied(structure), **_surfaces(terms, sizes)}
+             **rows, **_copied(structure), **_surfaces(terms, sizes), **_lining(bodies, terms)}
     return ReducedModel(**(_with_fluid(parts, structure) if has_fluid(structure) else parts))
 
 
@@ -102,7 +104,7 @@ def _from_beams(beams, settings, context):
         preload=[[force]], contact_stiffness=[[0.0]], law_closure=[], law_pressure=[], input_name=["weight"],
         input_rows=beams.load_row, input_area=area, history_interval=0.0,
         input_history=np.empty((0, 1)), drive_history=[], sensor_quantity=["velocity"], sensor_unit=["m/s"],
-        sensor_gain=[1.0], **NO_SHEAR,
+        sensor_gain=[1.0], **NO_SHEAR, **NO_LINING,
         **{name: getattr(beams, name) for name in ("sensor_name", "sensor_position", "sensor_direction", "sensor_rows",
                                                    "visible_position", "visible_body", "visible_face", "recovery")})
 
@@ -116,7 +118,8 @@ def _from_lumps(lumped, settings, context):
         joint_loss_factor=np.zeros(len(lumped.joint_name)), sensor_position=np.zeros((sensors, 3)),
         sensor_direction=np.tile([1.0, 0.0, 0.0], (sensors, 1)),
         visible_position=np.empty((0, 3)), visible_body=[], visible_face=np.empty((0, 4), int),
-        recovery=np.empty((0, 3, size)), **NO_SHEAR, **{name: getattr(lumped, name) for name in sorted(names)})
+        recovery=np.empty((0, 3, size)), **NO_SHEAR, **NO_LINING,
+        **{name: getattr(lumped, name) for name in sorted(names)})
 
 
 #: product of a system -> its reduction (system, settings, context) -> ReducedModel
@@ -147,6 +150,17 @@ def _copied(structure):
            "sensor_quantity": ["velocity"] * sensors, "sensor_unit": ["m/s"] * sensors, "sensor_gain": np.ones(sensors),
            **tangential}
     return {**constants, **{name: getattr(structure, name) for name in kept}}
+
+
+def _lining(bodies, terms):
+    """What scales with the moduli of the linings, in the coordinates of the bodies that have one."""
+    lined, first = [b for b, t in enumerate(terms) if t.part is not None], np.cumsum([0, *(len(t.mass) for t in terms)])
+    if not lined:
+        return NO_LINING
+    body = bodies[lined[0]]
+    return {"lining_coordinate": np.concatenate([np.arange(first[b], first[b + 1]) for b in lined]),
+            "lining_stiffness": scipy.linalg.block_diag(*(terms[b].part for b in lined)),
+            "lining_loss_factor": np.broadcast_to(body.loss_factor, len(body.density))[body.part[0]]}
 
 
 def _surfaces(terms, sizes):

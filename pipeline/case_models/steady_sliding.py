@@ -10,9 +10,10 @@ from pipeline.contract import ConfigError
 from pipeline.effects.effect import compose
 from pipeline.physics.contact.groups import alike, read
 from pipeline.physics.contact.static_preload import Preload
-from pipeline.physics.friction.dry_friction import constant, under
+from pipeline.physics.friction.dry_friction import Friction, constant, under
+from pipeline.physics.friction.friction_table import FrictionLaw
 from pipeline.physics.sliding.doublets import doublets
-from pipeline.physics.sliding.equilibrium import given_state, steady_sliding
+from pipeline.physics.sliding.equilibrium import from_map, given_state, steady_sliding
 from pipeline.physics.sliding.model import FrictionState, sliding_model, spread
 from pipeline.physics.stability.linearisation import element_slopes, friction_about, maxwell_branches, present, settling
 from pipeline.physics.time_stepping.elements import Turning, bears
@@ -189,3 +190,10 @@ def _law(model, contacts, damping_speed):
         return Hard(0.0, model.contact_gap)
     return Penalty(np.where(stiffness > 0, stiffness, stiffness.max()), contacts.preload / damping_speed,
                    model.contact_gap)
+
+
+def mapped_friction(friction_map, distance):
+    """(Friction, function of pressure and speed, each (c,), giving a FrictionState) of a product FrictionMap, read at
+    the sliding ``distance`` in m."""
+    law = FrictionLaw(friction_map.pressure, friction_map.speed, friction_map.distance, friction_map.friction)
+    return Friction(law, distance=distance), partial(from_map, law, distance)

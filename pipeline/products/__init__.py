@@ -22,7 +22,7 @@ from pipeline.products.diagnosis import (
 )
 from pipeline.products.friction import FrictionDescriptions, FrictionMap, InterfaceLaw, MicroFriction
 from pipeline.products.lumped import Lumped
-from pipeline.products.motion import ComplexModes, Convergence, Multibody, Transient
+from pipeline.products.motion import ComplexModes, Convergence, Multibody, Probability, Transient
 from pipeline.products.pages import Comparison, Report
 from pipeline.products.pin_on_disc import LockIn, PinOnDisc
 from pipeline.products.recording import (
@@ -45,6 +45,6 @@ from pipeline.products.surfaces import Surface
 __all__ = ["BeamGeometry", "BeamOnBeam", "Bench", "BenchRun", "Body", "Channel", "Comparison", "ComplexModes",
            "Condition", "Convergence", "DiagnosedRun", "Diagnosis", "Effects", "Follows", "FrequencyResponse", "FrictionDescriptions",
            "FrictionMap", "Incidence", "InterfaceLaw", "LatentForce", "LatentPrediction", "Lines", "Located", "LockIn",
-           "Lumped", "MeasuredFriction", "MeasuredModes", "MicroFriction", "MotionScatter", "Multibody", "PinOnDisc", "Recording",
-           "ReducedModel", "Report", "Response", "Run", "Rupture", "Squeal", "SquealCheck", "Structure", "Surface", "Topography",
+           "Lumped", "MeasuredFriction", "MeasuredModes", "MicroFriction", "MotionScatter", "Multibody", "PinOnDisc", "Probability",
+           "Recording", "ReducedModel", "Report", "Response", "Run", "Rupture", "Squeal", "SquealCheck", "Structure", "Surface", "Topography",
            "Transient"]

@@ -34,7 +34,7 @@ class MicroFriction:
     refinement_area: Array = quantity("1", "refinement", "perimeter-corrected real over nominal area at middle pressure")
 
 
-@product(version=1)
+@product(version=2)
 class FrictionMap:
     """mu(pressure, speed, distance) of the interface and its normal stiffness."""
 
@@ -43,6 +43,9 @@ class FrictionMap:
     distance: Array = quantity("m", "distance", "sliding distance")
     friction: Array = quantity("1", "pressure speed distance", "coefficient of friction")
     friction_std: Array = quantity("1", "pressure speed distance", "standard error of the coefficient of friction")
+    best_pressure: Array = quantity("Pa", "distance", "pressure of the smallest standard error, where errors of level and slope are uncorrelated")
+    pressure_slope_std: Array = quantity("1", "distance", "standard error of dmu / d ln(pressure) there")
+    speed_slope_std: Array = quantity("1", "distance", "standard error of dmu / d ln(speed) there, errors at the computed speeds being independent")
     normal_stiffness: Array = quantity("Pa/m", "pressure distance", "interface stiffness, mean over speed")
     computed_pressure: Array = quantity("Pa", "computed_pressure", "pressures at which micro_friction ran")
     computed_speed: Array = quantity("m/s", "computed_speed", "speeds at which micro_friction ran")

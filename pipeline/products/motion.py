@@ -9,6 +9,7 @@ from pipeline.contract import Array, count, product, quantity, text
 class ComplexModes:
     """Complex modes of the sliding system over friction, and at each operating point of the map."""
 
+    settings: Array = text("", "the section of the case that describes it, as JSON")
     pressure: Array = quantity("Pa", "pressure", "nominal pressure of the state")
     friction: Array = quantity("1", "friction", "friction coefficient of the sweep")
     root: Array = quantity("1/s", "pressure friction branch", "s = sigma + i omega, followed over friction", complex)
@@ -43,6 +44,13 @@ class ComplexModes:
     path_root: Array = quantity("1/s", "path_point", "root of the mode in the reduced model, unstable_reduced at the end", complex)
     path_meeting: Array = quantity("1/s", "path_point", "root of the mode it meets, 0 where not known", complex)
     corrections: Array = count("", "correction vectors for friction and damping added to the real modes")
+    damping_speed: Array = quantity("m/s", "", "closing speed that doubles the contact pressure: damping of the normal contact")
+    sliding_distance: Array = quantity("m", "", "sliding distance at which a friction map was read")
+    frequency_max: Array = quantity("Hz", "", "limit of the real modes of the basis and of the unstable modes")
+    friction_slopes: Array = count("", "1 where friction changes with pressure and slip speed at the operating points")
+    friction_damping: Array = count("", "1 with friction that turns with the slip velocity")
+    gyroscopic: Array = count("", "1 with the gyroscopic terms of the disc")
+    centrifugal: Array = count("", "1 with the centrifugal terms of the disc")
 
 
 @product(version=1)
@@ -66,6 +74,37 @@ class Convergence:
     growth_tolerance: Array = quantity("1", "", "largest change of a growth rate that does, as a share of it")
     neutral: Array = quantity("1/s", "", "change of a growth rate that always does")
     converged: Array = count("", "1 if all unstable modes are those of all refined models within the tolerances")
+
+
+@product(version=1)
+class Probability:
+    """Unstable modes over the scatter of a brake: seeded draws, and what they say of each operating point."""
+
+    source: Array = text("source", "what scatters")
+    origin: Array = text("source", "law of its scatter: distribution and width")
+    value: Array = quantity("1", "draw source", "drawn factor on the nominal value; of friction the change of mu, or of its slope over a logarithm")
+    pressure: Array = quantity("Pa", "operating", "pressure of the operating point")
+    speed: Array = quantity("rad/s", "operating", "speed of the drive at the operating point")
+    growth: Array = quantity("1/s", "draw operating", "largest growth rate below the frequency limit")
+    root_draw: Array = count("root", "draw of each unstable root")
+    root_operating: Array = count("root", "operating point of each unstable root")
+    root: Array = quantity("1/s", "root", "unstable roots of all draws", complex)
+    probability: Array = quantity("1", "operating", "share of the draws with an unstable mode")
+    interval: Array = quantity("1", "operating end", "95 % Wilson interval of it")
+    overall: Array = quantity("1", "", "share of the draws with an unstable mode at any operating point")
+    overall_interval: Array = quantity("1", "end", "95 % Wilson interval of it")
+    band: Array = quantity("Hz", "band", "middles of the 1/3 octave bands, IEC 61260")
+    band_probability: Array = quantity("1", "band operating", "share of the draws with an unstable mode in the band")
+    band_any: Array = quantity("1", "band", "the same at any operating point")
+    band_interval: Array = quantity("1", "band end", "95 % Wilson interval of it")
+    sensitivity: Array = quantity("1", "source", "first-order Sobol index of the largest growth rate over all operating points")
+    sensitivity_error: Array = quantity("1", "source", "its standard error, by bootstrap")
+    trend: Array = quantity("1", "source", "rank correlation of the source and that growth rate: above 0, more of it means less stable")
+    checked_root: Array = quantity("1/s", "checked", "roots of some draws on the common bases", complex)
+    whole_root: Array = quantity("1/s", "checked", "the same roots in the whole reduced model", complex)
+    checked_draws: Array = count("", "draws and operating points of this comparison")
+    missed: Array = count("", "unstable roots there that only one of both has")
+    neutral: Array = quantity("1/s", "", "growth rate up to which a mode counts as stable")
 
 
 @product(version=2)

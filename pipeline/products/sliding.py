@@ -5,7 +5,7 @@ import numpy as np
 from pipeline.contract import Array, count, product, quantity, text
 
 
-@product(version=5)
+@product(version=6)
 class ReducedModel:
     """The reduced sliding model: everything that a solver or an effect needs to know of a sliding system.
 
@@ -25,6 +25,9 @@ class ReducedModel:
     stiffness: Array = quantity("N/m", "coordinate column", "reduced stiffness of the bodies, without joints and contacts")
     centrifugal: Array = quantity("kg", "coordinate column", "stiffness per squared disc speed")
     loss: Array = quantity("N/m", "coordinate column", "imaginary part of the stiffness of the bodies, by loss factors")
+    lining_coordinate: Array = count("lining", "coordinates in which linings deform")
+    lining_stiffness: Array = quantity("N/m", "lining lining_column", "the part of the stiffness that scales with the moduli of the linings")
+    lining_loss_factor: Array = quantity("1", "", "loss factor of the linings, part of 'loss'; 0 without linings")
     joint_name: Array = text("joint", "joint names")
     joint_rows: Array = quantity("1", "joint coordinate", "joint elongation rows")
     joint_stiffness: Array = quantity("N/m", "joint", "joint stiffness")

@@ -12,6 +12,8 @@ from pipeline.physics.reduction.load_patterns import load_patterns
 from pipeline.physics.sliding.model import Contacts, Joints, SlidingModel
 from pipeline.products import Body, Incidence, PinOnDisc, Structure
 
+#: material of friction linings
+LINING = "lining"
 #: what presses the contacts of a system, in its fields <input>_rows and <input>_area
 INPUTS = {Structure: "piston", PinOnDisc: "load"}
 #: the fluid in the brake line as a body, and the joint by which it holds the piston
@@ -73,7 +75,7 @@ def elastic_body(system, name, patterns=None):
         supported=body.supported, rows=rows, interface=np.arange(sum(int(i.rows) for i in incidences[:-1])),
         turns=name == "disc", frequency=body.frequency[:count],
         modes=body.shape[:count].reshape(count, 3 * len(body.node)).T, patterns=patterns,
-        loss_factor=body.loss_factor)
+        loss_factor=body.loss_factor, part=tuple(np.flatnonzero(np.asarray(body.material_name) == LINING)))
 
 
 def force_patterns(system, orders):

@@ -28,6 +28,10 @@ from pipeline.physics.rough.normal_contact import solve_normal_contact
 from pipeline.physics.rupture.history import run
 from pipeline.physics.rupture.plate_grid import largest_step, plate
 from pipeline.physics.rupture.plate_step import plain_step, rims, step_plate
+from pipeline.physics.sliding.model import Contacts, FrictionState, Joints, SlidingModel
+from pipeline.physics.stability.sampled_roots import Sampled
+from pipeline.physics.stability.sampled_sliding import GivenSliding
+from pipeline.physics.stability.scatter import Factors, Family
 from pipeline.physics.time_stepping.simulate import Hard, simulate
 from pipeline.physics.virtual_rig.response import Run as RigRun
 from pipeline.physics.virtual_rig.response import respond
@@ -127,6 +131,30 @@ def roots(size=200):
     """all roots of a reduced quadratic problem, 200 coordinates"""
     problem = quadratic_problem(size)
     return lambda: quadratic_roots(*problem), 1, "problems"
+
+
+def scattered_family(size, contacts):
+    """Family of so many coordinates up to 200 kHz, half of them below 20 kHz, rubbed at random rows."""
+    random = np.random.default_rng(6)
+    frequency = np.concatenate((np.linspace(200, 20e3, size - size // 2), np.geomspace(21e3, 200e3, size // 2)))
+    squared, none = np.diag((2 * np.pi * frequency) ** 2), np.zeros((size, size))
+    normal, tangent, lateral = random.standard_normal((3, contacts, size)) * frequency / 20e3
+    ones = np.ones(contacts)
+    points = Contacts(normal, tangent, lateral, np.zeros((contacts, 3)), 1e-5 * ones, ones, 10 * ones,
+                      1e7 / contacts * ones, 0 * ones)
+    model = SlidingModel(("brake",), np.zeros(size, int), np.eye(size), none, none, squared, none,
+                         Joints(("joint",), random.standard_normal((1, size)), np.full(1, 1e5), np.zeros(1)), points,
+                         (), np.empty((0, size)), (), np.empty((0, size)), 10.0)
+    return Family(model, lambda p, v: FrictionState(0.5 + 0 * p, 0 * p, 0 * p), np.empty(0), 10.0, 0.01 * squared,
+                  np.full(1, 0.05))
+
+
+def scattered_roots(size=390, contacts=1296):
+    """unstable roots of one draw at one point, 390 coordinates"""
+    family = scattered_family(size, contacts)
+    case = Sampled(GivenSliding(family), np.eye(size), family.model, family.loss[None], None, 20e3)
+    draw = Factors(joint_stiffness=1.2, contact_stiffness=0.9, friction=0.02)
+    return lambda: case.roots(draw, 10.0), 1, "draws"
 
 
 def superposition_data(steps, count):
@@ -267,6 +295,7 @@ def rupture_slices(spacing=2.5e-5):
 SMALLEST = {
     compliance: {"nodes": 8}, contact: {"nodes": 32}, half_space_contact: {"nodes": 32}, assembly: {"sectors": 8},
     assembly_full: {"sectors": 8}, modes: {"sectors": 16, "count": 8}, roots: {"size": 10},
+    scattered_roots: {"size": 12, "contacts": 6},
     superposition: {"steps": 50, "count": 6}, travelling_superposition: {"steps": 50, "count": 6},
     exudyn_steps: {"steps": 20}, newmark_steps: {"steps": 20}, transient_pin: {"duration": 1e-4},
     transient_beam: {"duration": 1e-4}, lock_in_map: {"lengths": 1, "coarse": True},

@@ -1,17 +1,19 @@
 """A case about steady sliding: what moves it, and where it comes to rest with laws and elements of effects."""
 
+from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 from pipeline.case_models.effect_block import terms
-from pipeline.case_models.steady_sliding import branch_stiffness, posed, refuse_twice
+from pipeline.case_models.steady_sliding import branch_stiffness, mapped_friction, posed, refuse_twice
 from pipeline.contract import ConfigError
 from pipeline.physics.friction.dry_friction import constant
 from pipeline.physics.sliding.equilibrium import closure_response
 from tests.diagnosis.small_rig import effects
 from tests.effects.systems import rig
+from tests.stages.small_structure import small_friction_map
 
 LOAD, SPEED = np.array([40.0]), 20.0
 SETTINGS = SimpleNamespace(damping_speed=10.0, centrifugal=True)
@@ -92,3 +94,15 @@ def test_a_share_of_the_friction_leaves_the_contacts_as_they_are():
         np.testing.assert_allclose(less, 0.3 * full, atol=1e-12 * abs(full).max())
     none, less, full = (s.beside(model) for s in (whole.with_share(0.0), part, whole))
     np.testing.assert_allclose(less.push - none.push, 0.3 * (full.push - none.push))
+
+
+def test_friction_of_a_map_is_read_at_one_distance():
+    """Values of the table at its own points, at the distance between two of them."""
+    given = small_friction_map()
+    table = np.multiply.outer(given.pressure, np.ones(len(given.speed)))[..., None] * (1 + given.distance / 10) * 1e-7
+    given = replace(given, friction=table)
+    middle = given.distance[:2].mean()
+    friction, state = mapped_friction(given, middle)
+    assert friction.distance == middle
+    read = state(given.pressure, np.full(len(given.pressure), given.speed[0]))
+    np.testing.assert_allclose(read.coefficient, table[:, 0, :2].mean(axis=1))

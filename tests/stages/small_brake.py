@@ -7,7 +7,7 @@ z, tilt about the radial axis | inner pad likewise | caliper z.
 import numpy as np
 
 from pipeline.products import FrictionMap, ReducedModel
-from stages.reduced_model import NO_SHEAR
+from stages.reduced_model import NO_LINING, NO_SHEAR
 
 RADIUS, HALF_LENGTH, CONTACT_AREA = 0.12, 0.03, 3e-4
 DISC, OUTER, INNER, CALIPER, SIZE = 0, 1, 5, 9, 10
@@ -30,7 +30,8 @@ def small_brake(abutment=3e6, finger=6e7, damping=2e-6):
         contact_lever=np.hypot(*position[:, :2].T), contact_gap=np.zeros(count),
         contact_normal=normal, contact_tangent=tangent, contact_lateral=lateral, pressure=[1e6, 3e6],
         preload=np.outer([1e6, 3e6], np.full(count, CONTACT_AREA)), contact_stiffness=np.full((2, count), 3e7),
-        **NO_SHEAR, law_closure=closure, law_pressure=1e11 * closure + 5e15 * closure**2, input_name=["piston"],
+        **NO_SHEAR, **NO_LINING,
+        law_closure=closure, law_pressure=1e11 * closure + 5e15 * closure**2, input_name=["piston"],
         input_rows=[axial(INNER) - axial(CALIPER - 2)], input_area=[3 * CONTACT_AREA], history_interval=0.0,
         input_history=np.empty((0, 1)), drive_history=[], sensor_name=["disc"], sensor_quantity=["velocity"],
         sensor_unit=["m/s"], sensor_gain=[1.0],
@@ -44,7 +45,8 @@ def small_map():
     friction = 0.4 + 0.02 * (pressure[:, None, None] / 1e6 - 2) - 0.02 * (speed[:, None] - 1.2) + 10 * distance
     return FrictionMap(pressure=pressure, speed=speed, distance=distance, friction=friction,
                        friction_std=0 * friction, normal_stiffness=np.full((3, 3), 1e11), computed_pressure=pressure,
-                       computed_speed=speed)
+                       computed_speed=speed, best_pressure=np.full(3, 2e6), pressure_slope_std=np.full(3, 0.01),
+                       speed_slope_std=np.full(3, 0.01))
 
 
 def axial(pad, place=0.0):

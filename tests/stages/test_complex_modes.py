@@ -343,6 +343,14 @@ def test_paths_end_in_their_modes_and_cross_zero_at_the_critical_friction(growin
         assert modes.pair_root[number, 0] == root[0] and modes.pair_body[number, 0] in range(4)
 
 
+def test_the_product_says_how_its_roots_were_made(growing):
+    _, settings, modes = growing
+    assert modes.damping_speed == settings.damping_speed == 1.0 and modes.frequency_max == 8000.0
+    assert modes.sliding_distance == settings.sliding_distance == 0.01
+    told = [int(getattr(modes, name)) for name in ("friction_slopes", "friction_damping", "gyroscopic", "centrifugal")]
+    assert told == [1, 0, 1, 1]
+
+
 def test_paths_can_be_left_out(growing):
     lossy, settings, modes = growing
     chosen = Settings(**SETTINGS | {"friction_steps": 2, "friction_damping": False}, followed=0)

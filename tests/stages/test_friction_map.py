@@ -2,6 +2,7 @@
 
 import csv
 import io
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -44,6 +45,23 @@ def test_a_fitted_law_is_smooth_and_reaches_beyond_the_computed_pressures(comput
     stiffness = computed.normal_stiffness.mean(axis=1)
     np.testing.assert_allclose(made.normal_stiffness[inside][:, ::5], stiffness, rtol=1e-12)
     np.testing.assert_allclose(made.normal_stiffness[[0, -1]][:, ::5], [stiffness[0] / 2, stiffness[-1]], rtol=1e-12)
+
+
+@pytest.mark.exact
+def test_errors_of_the_slopes_are_those_of_a_weighted_line(computed):
+    """In ln p and ln v, and at the pressure where errors of level and slope are uncorrelated: the weighted mean."""
+    scattered = replace(computed, friction_std=0.02 * computed.pressure[:, None, None] / 1e6
+                        * np.ones_like(computed.friction))
+    x, weight = np.log(computed.pressure), 1 / (0.02 * computed.pressure / 1e6) ** 2
+    middle = weight @ x / weight.sum()
+    exact = 1 / np.sqrt(weight @ (x - middle) ** 2)
+    for order in (1, None):
+        made = friction_map(scattered, settings=Settings(order=order, pressure_subdivisions=40))
+        np.testing.assert_allclose(made.pressure_slope_std, exact, rtol=0.02)
+    made = friction_map(scattered, settings=Settings(order=1, pressure_subdivisions=40))
+    np.testing.assert_allclose(np.log(made.best_pressure), middle, atol=0.03)
+    error = 1 / np.sqrt(weight.sum())
+    np.testing.assert_allclose(made.speed_slope_std, error / np.log(1.5 / 1.1) * np.sqrt(2), rtol=0.02)
 
 
 def test_csv_holds_every_point_with_units(computed):

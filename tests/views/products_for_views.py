@@ -19,6 +19,7 @@ from pipeline.products import (
     MicroFriction,
     Multibody,
     PinOnDisc,
+    Probability,
     ReducedModel,
     Response,
     Rupture,
@@ -170,7 +171,8 @@ def complex_modes(stable=False):
                      "friction turning with the slip", "friction over slip speed", "damping of disc",
                      "damping of pad_inner", "damping at abutment"],
         unstable_growth=np.tile([300.0, 100.0, -150.0, -100.0, -30.0, -2.6, -30.0, -10.0], (len(operating), 1)),
-        **_path(len(operating)), corrections=55)
+        **_path(len(operating)), corrections=55, damping_speed=1.0, sliding_distance=0.01, frequency_max=2e4,
+        friction_slopes=1, friction_damping=1, gyroscopic=1, centrifugal=1)
 
 
 def _path(unstable):
@@ -202,6 +204,28 @@ def convergence(converged=True):
         refined_root=refined, found=found, held=held, added=[0, 0 if converged else 1, 0, 0], contacts=1296,
         refined_contacts=[2304, 2304, 1296, 1296], frequency_change=0.003, growth_change=50.5, growth_share=0.03,
         frequency_tolerance=0.005, growth_tolerance=0.1, neutral=10.0, converged=int(converged))
+
+
+def probability(draws=60):
+    """Draws that are unstable the more, the higher the pressure; friction decides."""
+    rng = np.random.default_rng(5)
+    value = np.exp(0.3 * rng.standard_normal((draws, 3)))
+    growth = 200 * (value[:, 2:] - 1) + 20 * np.arange(9) - 180
+    draw, operating = np.nonzero(growth > 0)
+    share = (growth > 0).mean(axis=0)
+    ends = np.array([-0.05, 0.05])
+    band = 1e3 * 10 ** (np.arange(-7, 14) / 10)
+    return filled(
+        Probability, source=["joint_stiffness:finger", "damping_speed", "friction"],
+        origin=["lognormal, coefficient of variation 0.3"] * 3, value=value, pressure=OPERATING_PRESSURE,
+        speed=OPERATING_SPEED, growth=growth, root_draw=draw, root_operating=operating,
+        root=growth[draw, operating] + 50e3j, probability=share, interval=np.clip(share[:, None] + ends, 0, 1),
+        overall=share.max(), overall_interval=np.clip(share.max() + ends, 0, 1), band=band,
+        band_probability=np.where(abs(band / 8e3 - 1) < 0.3, 1.0, 0.0)[:, None] * share,
+        band_any=np.where(abs(band / 8e3 - 1) < 0.3, share.max(), 0.0),
+        band_interval=np.where(abs(band / 8e3 - 1) < 0.3, share.max(), 0.0)[:, None] + 0.01 * ends[1:] * [0, 1],
+        sensitivity=[0.05, 0.2, 0.7], sensitivity_error=[0.02, 0.03, 0.05], trend=[0.1, -0.3, 0.9],
+        checked_root=[300.5 + 50e3j], whole_root=[300 + 50.001e3j], checked_draws=4, missed=0, neutral=1e-6)
 
 
 def multibody(samples=3000):

@@ -13,6 +13,7 @@ from pipeline.views.figures import (
     friction_paths,
     pad_motion,
     preload,
+    probability,
     surfaces,
     vibration,
 )
@@ -37,6 +38,9 @@ PICTURES = {
     "friction": (lambda p: friction.over_distance(p, "friction"), small.micro_friction, "friction"),
     "over pressure": (friction.over_pressure, small.micro_friction, "friction"),
     "convergence": (friction.convergence, small.micro_friction, "refinement_area"),
+    "probability": (probability.per_point, small.probability, "probability"),
+    "probable bands": (probability.per_band, small.probability, "band_any"),
+    "sensitivities": (lambda p: probability.sensitivities(p, list(p.source)), small.probability, "sensitivity"),
     "map": (friction.friction_map, small.friction_map, "friction"),
     "preload": (lambda p: preload.contact_pressure(p, preload.loads(p), 60), small.structure, "preload"),
     "sliding load": (lambda p: preload.contact_pressure(small.structure(), preload.loads(small.structure(), p), 60),

@@ -53,6 +53,12 @@ class FrictionLaw:
         friction, outside = _evaluate(flat, *self.table)
         return friction.reshape(states[0].shape), outside.reshape(states[0].shape)
 
+    def states(self, pressure, speed, distance):
+        """(mu, dmu/dpressure in 1/Pa, dmu/dspeed in s/m), each (k,), at states (k,) and one distance; as of
+        ``friction_at``."""
+        return _states(np.ascontiguousarray(pressure, float), np.ascontiguousarray(speed, float), float(distance),
+                       *self.table)
+
     def slope(self, name, pressure, speed, distance):
         """dmu/d``name`` (an axis) at one state, continuous: slopes of intervals, straight between their middles.
 
@@ -167,6 +173,15 @@ def _over_pressure_and_speed(corners, wp, ip, wv, iv):
     high = m10 * (1.0 - wv) + m11 * wv
     slope_v = ((m01 - m00) * (1.0 - wp) + (m11 - m10) * wp) * iv
     return low * (1.0 - wp) + high * wp, (high - low) * ip, slope_v
+
+
+@njit
+def _states(pressure, speed, distance, pressures, speeds, distances, table):
+    states = np.empty((3, pressure.size))
+    for i in range(pressure.size):
+        states[0, i], states[1, i], states[2, i], _ = friction_at(
+            pressure[i], speed[i], distance, pressures, speeds, distances, table, 0)
+    return states
 
 
 @njit

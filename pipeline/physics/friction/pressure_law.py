@@ -21,6 +21,15 @@ def levelling_axis(pressure, parts):
     return np.r_[pressure[0] / beyond[::-1], inside, pressure[-1] * beyond]
 
 
+def slope_error(x, deviation):
+    """Standard error of the slope of a straight line through values at ``x`` (P,) with independent errors ``deviation``
+    (P,); 0 where there is no slope, or no error."""
+    if len(x) < 2 or not np.all(np.asarray(deviation) > 0):
+        return 0.0
+    weight = 1 / np.asarray(deviation) ** 2
+    return float(1 / np.sqrt(weight @ (x - weight @ x / weight.sum()) ** 2))
+
+
 def polynomial_fit(pressure, deviation, order, place):
     """(F, P): values at ``place`` (F,) Pa of the fitted law, per value at ``pressure`` (P,) Pa.
 

@@ -33,8 +33,8 @@ class ElasticBody:
 
     ``rows`` (r, 3n) sparse are all displacement rows that the model reads; those numbered in ``interface`` (i,) carry
     forces. ``patterns`` (i, p) sparse: forces on these that static responses are kept for; None = each by itself.
-    ``loss_factor`` (materials,) of the materials. ``frequency`` (m,) Hz and ``modes`` (3n, m) are not needed of a free
-    body without patterns.
+    ``loss_factor`` (materials,) of the materials; ``part``: numbers of those whose stiffness is wanted by itself as
+    well. ``frequency`` (m,) Hz and ``modes`` (3n, m) are not needed of a free body without patterns.
     """
 
     name: str
@@ -53,6 +53,7 @@ class ElasticBody:
     modes: np.ndarray
     patterns: "scipy.sparse.csr_matrix | None" = None
     loss_factor: np.ndarray | float = 0.0
+    part: tuple = ()
 
     def matrices(self):
         """Stiffness and mass (3n, 3n) sparse of the body, supports not yet held."""
@@ -63,12 +64,18 @@ class ElasticBody:
         lost = np.broadcast_to(self.loss_factor, len(self.density))[:, None, None] * self.elasticity
         return assemble(self.node, self.element, self.kind, self.material, self.density, lost)[0]
 
+    def stiffness_of_part(self):
+        """Stiffness (3n, 3n) sparse of the materials ``part`` alone."""
+        kept = np.isin(np.arange(len(self.density)), self.part)[:, None, None] * self.elasticity
+        return assemble(self.node, self.element, self.kind, self.material, self.density, kept)[0]
+
 
 @dataclass(frozen=True)
 class BodyTerms:
     """Matrices (k, k), rows (r, k), and the surface: positions (v, 3), quadrilaterals (f, 4), recovery (v, 3, k).
 
-    ``loss`` is the imaginary part of the stiffness.
+    ``loss`` is the imaginary part of the stiffness, ``part`` the stiffness of the materials wanted by themselves, or
+    None.
     """
 
     mass: np.ndarray
@@ -81,6 +88,7 @@ class BodyTerms:
     face: np.ndarray
     recovery: np.ndarray
     loss: np.ndarray | float = 0.0
+    part: np.ndarray | None = None
 
 
 def reduce_body(body, fixed_below, residual_below, solver):
@@ -105,9 +113,10 @@ def reduce_body(body, fixed_below, residual_below, solver):
     size = reduced.shape.shape[1]
     whirl, centrifugal = ((projected(a, reduced.shape) for a in rotation(body, free, factor)) if body.turns
                           else (np.zeros((size, size)),) * 2)
+    part = projected(body.stiffness_of_part()[free][:, free], reduced.shape) if body.part else None
     return BodyTerms(reduced.mass, modal_damping(reduced.mass, reduced.stiffness, body.damping_ratio), whirl,
                      reduced.stiffness, centrifugal, rows @ reduced.shape, *_surface(body, free, reduced.shape),
-                     _loss(body, free, reduced))
+                     _loss(body, free, reduced), part)
 
 
 def _loss(body, free, reduced):

@@ -22,7 +22,6 @@ import numpy as np
 from pipeline.contract.errors import ConfigError, ConvergenceError
 from pipeline.physics.contact.closure_law import force_at_rest
 from pipeline.physics.contact.static_preload import BALANCED, Preload, balance, first_slope
-from pipeline.physics.friction.friction_table import friction_at
 from pipeline.physics.sliding.model import FrictionState, SlidingModel
 
 #: shortest step of the rising friction, as a share of the whole
@@ -106,8 +105,7 @@ def given_state(model, friction):
 
 def from_map(law, distance, pressure, speed):
     """FrictionState of a FrictionLaw at a sliding ``distance`` (m), ``pressure`` (c,) Pa and ``speed`` (c,) m/s."""
-    read = [friction_at(p, v, distance, *law.table, 0)[:3] for p, v in zip(pressure, speed, strict=True)]
-    return FrictionState(*np.reshape(read, (-1, 3)).T)
+    return FrictionState(*law.states(pressure, speed, distance))
 
 
 def falling_with_speed(coefficient, static, decay_speed, pressure, speed):

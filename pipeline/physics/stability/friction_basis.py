@@ -35,9 +35,9 @@ def friction_basis(model, below, friction_damping=True, smallest=1e-3, contact_s
     The real modes are those of closed contacts without friction, damping and gyroscopic terms. Corrections with
     amplitudes up to ``smallest`` per unit of modal amplitude are left out; ``smallest`` = inf leaves out all. Where the
     basis shall serve states whose contacts are stiffer or softer, corrections for a change by ``contact_stiffness``
-    (() or (c,) N/m) join them, and where ``others`` (n, n) N/m act, as Maxwell branches do at once, those for these.
-    With ``adjoint``, the FrictionState of the system, left vectors and gyroscopic terms are served as well.
-    Raises ConfigError where no mode lies below the frequency.
+    (() or (c,) N/m) join them, and where ``others`` (n, n) or (b, n, n) N/m act, as Maxwell branches do at once, those
+    for each of them. With ``adjoint``, the FrictionState of the system, left vectors and gyroscopic
+    terms are served as well. Raises ConfigError where no mode lies below the frequency.
     """
     mass, damping, stiffness = model.frictionless(gyroscopic=False, centrifugal=centrifugal)
     square, modes = scipy.linalg.eigh(stiffness, mass)
@@ -50,7 +50,7 @@ def friction_basis(model, below, friction_damping=True, smallest=1e-3, contact_s
     rows = model.contacts.normal
     force = [follower @ real, spread(rows, contact_stiffness, rows) @ real,
              (damping + drag) @ real * (2 * np.pi * frequency[low])]
-    force += [] if others is None else [others @ real]
+    force += [] if others is None else [other @ real for other in np.reshape(others, (-1, *mass.shape))]
     if adjoint is not None:
         drag, follower = model.friction_matrices(adjoint, friction_damping)
         pace = 2 * np.pi * frequency[low]

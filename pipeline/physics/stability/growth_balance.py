@@ -138,7 +138,7 @@ def growth_terms(model, friction, root, shape, losses, friction_damping=True, gy
     drawn = -(tangent.conj() * coupling * (contacts.stiffness + root * contacts.damping) * normal).imag / inertia
     rate = root.imag / inertia
     local = {CONTACT: -rate * contacts.damping * abs(normal) ** 2,
-             TURNING: -rate * friction_damping * _turning(model, coefficient) * abs(lateral) ** 2,
+             TURNING: -rate * friction_damping * turning_drag(model, coefficient) * abs(lateral) ** 2,
              SLIP: -rate * contacts.preload * by_speed * abs(tangent) ** 2}
     terms = {f"friction at {model.body_name[body]}": drawn[losses.contact_body == body].sum()
              for body in np.unique(losses.contact_body)}
@@ -149,7 +149,7 @@ def growth_terms(model, friction, root, shape, losses, friction_damping=True, gy
     return {name: float(value) for name, value in terms.items()}, drawn + sum(local.values())
 
 
-def _turning(model, coefficient):
+def turning_drag(model, coefficient):
     """mu N0 / |v| (c,) N s/m of friction-induced damping; 0 where a contact does not slide."""
     speed = abs(model.sliding_speed)
     force = coefficient * model.contacts.preload

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from pipeline.views.chapters import convergence
+from pipeline.views.chapters import convergence, probability
 from pipeline.views.chapters.bench import diagnosis
 from pipeline.views.chapters.friction import outside_computed
 from pipeline.views.chapters.models.rupture import headline as rupture_headline
@@ -33,7 +33,8 @@ def verdict(products, tuned_settings):
     if products.get("diagnosis") is not None:
         return _diagnosed(products["diagnosis"], products, tuned_settings)
     headline, tone = _headline(products)
-    answers = [("Where", _where(products)), ("Why", _why(products)), ("How certain", _sure(products)),
+    answers = [("Where", _where(products)), ("Why", _why(products)), ("How likely", _likely(products)),
+               ("How certain", _sure(products)),
                ("Tuned", _tuned(products, tuned_settings))]
     return Verdict(headline, tone, tuple(a for a in answers if a[1]), tuple(_facts(products)))
 
@@ -160,6 +161,12 @@ def _fed(modes):
             f" {signed(growth[feeds])} 1/s come from {words(modes.growth_term[feeds])}, {signed(growth[takes])} 1/s"
             f" from {words(modes.growth_term[takes])}."
             + (f" {explanation(modes, 0)}" if 0 in modes.followed_mode else ""))
+
+
+def _likely(products):
+    """Probability at the worst operating point, and what matters most; empty without draws."""
+    product = products.get("probability")
+    return "" if product is None else probability.statement(product)
 
 
 def _compared(products):

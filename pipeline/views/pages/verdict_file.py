@@ -16,7 +16,8 @@ def verdict_text(verdict, products):
     """JSON text of a Verdict and the ``products`` (name -> product or None) behind it; SI units, null where unknown."""
     modes, refined = products.get("complex_modes"), products.get("convergence")
     document = {"schema": SCHEMA, "headline": verdict.headline, "squeal_can_start": _can_start(modes),
-                "probability": None, "unstable_modes": [] if modes is None else _unstable(modes),
+                "probability": _probability(products.get("probability")),
+                "unstable_modes": [] if modes is None else _unstable(modes),
                 "convergence": None if refined is None else _convergence(refined), "transient": None,
                 "warnings": _warnings(modes, refined) + [w for w in [outside_computed(products)] if w]}
     return json.dumps(document, indent=1) + "\n"
@@ -57,6 +58,20 @@ def _over_friction(modes, index):
                for frequency, body, lines in pair(modes, index)]
     return {"critical_friction": critical_friction(modes, index), "mechanism": mechanism(modes, index),
             "pair": members or None}
+
+
+def _probability(product):
+    """Share of draws with an unstable mode, with 95 % intervals; null without draws."""
+    if product is None or not len(product.value):
+        return None
+    points = [{"pressure": float(p), "speed": float(v), "value": float(share), "interval": list(map(float, interval))}
+              for p, v, share, interval in zip(product.pressure, product.speed, product.probability, product.interval,
+                                               strict=True)]
+    bands = [{"middle": float(middle), "value": float(share), "interval": list(map(float, interval))}
+             for middle, share, interval in zip(product.band, product.band_any, product.band_interval, strict=True)]
+    return {"value": float(product.overall), "interval": list(map(float, product.overall_interval)),
+            "draws": len(product.value), "operating_points": points, "third_octaves": bands,
+            "sensitivity": _named(product.source, product.sensitivity)}
 
 
 def _named(names, values):

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from pipeline.contract.errors import ConfigError
-from pipeline.physics.friction.pressure_law import LEVELLING, levelling_axis, polynomial_fit
+from pipeline.physics.friction.pressure_law import LEVELLING, levelling_axis, polynomial_fit, slope_error
 
 PRESSURE = np.array([0.5e6, 1e6, 2e6, 3e6, 6e6])
 
@@ -38,6 +38,13 @@ def test_weights_are_those_of_the_standard_errors():
     drawn = fit @ (law(PRESSURE)[:, None] + deviation[:, None] * rng.standard_normal((5, 4000)))
     np.testing.assert_allclose(drawn.std(axis=1), np.sqrt(fit**2 @ deviation**2), rtol=0.05)
     assert (drawn.std(axis=1) < deviation * 1.05).all()
+
+
+def test_error_of_a_slope_is_that_of_drawn_lines():
+    rng, deviation, x = np.random.default_rng(1), np.array([0.06, 0.04, 0.003, 0.01, 0.007]), np.log(PRESSURE)
+    slopes = [np.polyfit(x, deviation * z, 1, w=1 / deviation)[0] for z in rng.standard_normal((2000, 5))]
+    assert slope_error(x, deviation) == pytest.approx(np.std(slopes), rel=0.05)
+    assert slope_error(x[:1], deviation[:1]) == slope_error(x, 0 * deviation) == 0.0
 
 
 @pytest.mark.parametrize("deviation, order", [(np.ones(5), 5), (np.r_[0.0, np.ones(4)], 2)])

@@ -107,6 +107,17 @@ def test_loss_factors_make_the_imaginary_stiffness_of_their_materials(ring):
     assert np.linalg.eigvalsh(first).min() > -1e-9 * scale and abs(first).max() > 0.01 * scale
 
 
+@pytest.mark.exact
+def test_the_part_of_a_material_is_what_its_moduli_scale(ring):
+    inner = np.hypot(*ring.node[ring.element].mean(axis=1)[:, :2].T) < 0.06
+    halves = replace(ring, material=inner.astype(int), density=np.repeat(ring.density, 2),
+                     elasticity=np.repeat(ring.elasticity, 2, axis=0), loss_factor=np.array([0.0, 1.0]), part=(1,))
+    terms = reduce_body(halves, 30e3, 200e3, "superlu")
+    scale = abs(terms.stiffness).max()
+    np.testing.assert_allclose(terms.part, terms.loss, atol=1e-9 * scale)      # the same material, all of it lost
+    assert reduce_body(ring, 30e3, 200e3, "superlu").part is None
+
+
 def test_turning_body_needs_a_mount(ring):
     with pytest.raises(ConfigError, match="rigid supports"):
         reduce_body(replace(ring, supported=np.empty(0, int)), 2e3, 1e5, "superlu")

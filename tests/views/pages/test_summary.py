@@ -65,6 +65,16 @@ def test_a_chain_that_ends_with_complex_modes_says_whether_squeal_can_start_and_
     assert stable.headline == "Steady sliding is stable at all 9 operating points" and stable.tone == "quiet"
 
 
+def test_how_likely_says_where_how_much_and_what_matters():
+    product = small.probability()
+    answers = dict(verdict({"complex_modes": small.complex_modes(), "probability": product}, ()).answers)
+    said = answers["How likely"].replace("\N{NARROW NO-BREAK SPACE}", " ")
+    assert f"{100 * product.probability.max():.3g}" in said and "3 MPa" in said
+    assert "What matters most: friction (70" in said and "less stable), then damping speed" in said
+    assert "more stable" in said
+    assert "How likely" not in dict(verdict({"complex_modes": small.complex_modes()}, ()).answers)
+
+
 def test_a_cycle_without_an_unstable_mode_is_told():
     """Stick-slip: steady sliding is stable, the motion is not quiet. A motion that has not settled is no cycle."""
     stable = {"complex_modes": small.complex_modes(stable=True)}

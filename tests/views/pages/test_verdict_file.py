@@ -73,6 +73,14 @@ def test_contact_force_outside_the_computed_pressures_is_a_warning():
     assert written({**products, "complex_modes": inside})["warnings"] == ["convergence was not examined"]
 
 
+def test_probabilities_are_there_with_their_intervals():
+    product = small.probability()
+    told = written({"complex_modes": small.complex_modes(), "probability": product})["probability"]
+    assert told["value"] == product.overall and told["interval"] == list(product.overall_interval)
+    assert told["draws"] == 60 and [p["value"] for p in told["operating_points"]] == list(product.probability)
+    assert told["operating_points"][-1]["pressure"] == 3e6 and told["sensitivity"]["friction"] == 0.7
+
+
 def test_cases_without_complex_modes_have_a_verdict_too():
     told = written({})
     assert told["squeal_can_start"] is None and told["unstable_modes"] == [] and told["warnings"] == []

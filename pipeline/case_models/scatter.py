@@ -1,0 +1,169 @@
+"""What scatters in a brake: from the YAML to draws, and from its products to the Family of models that they vary.
+
+    probability:
+      sources:
+        - {kind: joint_stiffness, part: finger, variation: 0.3}
+        - {kind: damping_speed, range: [0.33, 3]}
+        - {kind: friction}                        # standard error of the friction map
+"""
+
+import json
+from dataclasses import replace
+from types import SimpleNamespace
+from typing import Literal
+
+import numpy as np
+
+from pipeline.case_models.steady_sliding import mapped_friction
+from pipeline.contract import ConfigError, Section, option
+from pipeline.physics.sliding.model import sliding_model
+from pipeline.physics.stability.scatter import Factors, Family, Pivot
+
+JOINTS, JOINT_LOSS, BODY_LOSS = "joint_stiffness", "joint_loss", "body_loss"
+#: kinds that multiply one value of the whole brake, and those that add to friction, with their fields in Factors
+FACTORS = {"lining_stiffness": "lining", "contact_stiffness": "contact_stiffness", "damping_speed": "damping_speed"}
+ADDITIONS = {"friction": "friction", "friction_over_pressure": "pressure_slope", "friction_over_speed": "speed_slope"}
+KINDS = (JOINTS, JOINT_LOSS, BODY_LOSS, *FACTORS, *ADDITIONS)
+#: standard deviations to each side of 95 % of a normal distribution
+_SIDES = 1.959963984540054
+
+
+class Source(Section):
+    """One value that scatters, or one group of values that scatter together."""
+
+    kind: Literal[KINDS] = option(
+        ..., "what scatters: stiffness or loss factor of joints, loss factor of bodies, stiffness of the linings, slope"
+        " of the normal contact law, closing speed of the contact damping; level of friction, or its slope over the"
+        " logarithm of pressure or speed")
+    part: str | None = option(None, "joints whose name contains it, or bodies; none = all")
+    variation: float | None = option(
+        None, "coefficient of variation, the nominal value being the median; of friction and its slopes, which are"
+        " normally distributed, the standard deviation itself: none = standard error of the friction map", gt=0)
+    range: tuple[float, float] | None = option(
+        None, "factors on the nominal value between which it lies: 95 % of the draws, or all of a uniform distribution")
+    distribution: Literal["lognormal", "uniform"] = option("lognormal", "of factors")
+
+    @property
+    def name(self):
+        """As the product calls it."""
+        return f"{self.kind}:{self.part}" if self.part else self.kind
+
+
+#: what scatters where a case does not say
+DEFAULT = (*({"kind": JOINTS, "part": part, "variation": 0.3}
+             for part in ("abutment", "finger", "piston", "guide_pin")),
+           {"kind": "lining_stiffness", "variation": 0.15}, {"kind": "contact_stiffness", "variation": 0.2},
+           {"kind": JOINT_LOSS, "variation": 0.5}, {"kind": BODY_LOSS, "variation": 0.5},
+           {"kind": "damping_speed", "range": (1 / 3, 3.0)}, *({"kind": kind} for kind in ADDITIONS))
+
+
+def check_sources(sources, where):
+    """ConfigError at ``where`` for sources that are stated twice, or whose width is not."""
+    names = [source.name for source in sources]
+    for k, source in enumerate(sources):
+        here = f"{where}.{k}"
+        if names.index(source.name) != k:
+            raise ConfigError(here, "each source once", source.name, "state its whole scatter at one place")
+        if source.part and source.kind not in (JOINTS, JOINT_LOSS, BODY_LOSS):
+            raise ConfigError(f"{here}.part", f"none for {source.kind}", repr(source.part), "leave it out")
+        if source.kind in ADDITIONS:
+            if source.range is not None or source.distribution != "lognormal":
+                raise ConfigError(here, "variation, or nothing, for friction", "a range or distribution",
+                                  "leave it out")
+        elif (source.variation is None) == (source.range is None):
+            raise ConfigError(here, "either variation or range", "both" if source.range else "neither", "state one")
+        elif source.range is not None and not 0 < source.range[0] < source.range[1]:
+            raise ConfigError(f"{here}.range", "two rising factors above 0", str(list(source.range)))
+        elif source.distribution == "uniform" and source.range is None:
+            raise ConfigError(f"{here}.range", "the ends of a uniform distribution", "none")
+
+
+def draw_values(sources, deviations, count, rng):
+    """(count, s): factors of the Sources, or additions to friction with ``deviations`` {kind: standard deviation}."""
+    columns = []
+    for source in sources:
+        if source.kind in ADDITIONS:
+            columns.append(_deviation(source, deviations) * rng.standard_normal(count))
+        elif source.distribution == "uniform":
+            columns.append(rng.uniform(*source.range, count))
+        else:
+            middle, width = _lognormal(source)
+            columns.append(np.exp(middle + width * rng.standard_normal(count)))
+    return np.reshape(columns, (len(sources), count)).T
+
+
+def law_in_words(source, deviations):
+    """Distribution and width of a Source."""
+    if source.kind in ADDITIONS:
+        given = "standard error of the friction map" if source.variation is None else "stated"
+        return f"normal, standard deviation {_deviation(source, deviations):.2g} ({given})"
+    if source.range is not None:
+        share = "" if source.distribution == "uniform" else ", 95 % of the draws"
+        return f"{source.distribution}, {source.range[0]:.3g} to {source.range[1]:.3g} times{share}"
+    return f"lognormal, coefficient of variation {source.variation:g}"
+
+
+def _deviation(source, deviations):
+    return deviations[source.kind] if source.variation is None else source.variation
+
+
+def _lognormal(source):
+    """(mean, standard deviation) of the logarithm of a factor."""
+    if source.range is None:
+        return 0.0, np.sqrt(np.log1p(source.variation**2))
+    low, high = np.log(source.range)
+    return (low + high) / 2, (high - low) / 2 / _SIDES
+
+
+def factors_of(sources, values, model):
+    """Factors of one draw ``values`` (s,) of the Sources in a product ReducedModel. ConfigError for unknown parts."""
+    joints, bodies = [str(n) for n in model.joint_name], [str(n) for n in model.body_name]
+    made = {JOINTS: np.ones(len(joints)), JOINT_LOSS: np.ones(len(joints)), BODY_LOSS: np.ones(len(bodies))}
+    others = {}
+    for source, value in zip(sources, values, strict=True):
+        if source.kind in made:
+            made[source.kind][_members(source, bodies if source.kind == BODY_LOSS else joints)] *= value
+        else:
+            others[{**FACTORS, **ADDITIONS}[source.kind]] = float(value)
+    return Factors(made[JOINTS], made[JOINT_LOSS], made[BODY_LOSS], **others)
+
+
+def _members(source, names):
+    """True (n,) for the ``names`` that a Source means."""
+    chosen = np.array([source.part is None or source.part in name for name in names], bool)
+    if not chosen.any() and (source.part or not names):
+        raise ConfigError(f"probability.sources: {source.name}", f"part of one of {', '.join(names) or 'no names'}",
+                          repr(source.part), "name what the model has, or leave the source out")
+    return chosen
+
+
+def friction_deviations(friction_map, distance):
+    """{kind: standard error} of a product FrictionMap at a sliding ``distance`` m: level and slopes at the pivot."""
+    at = int(np.argmin(abs(friction_map.distance - distance)))
+    level = friction_map.friction_std[:, :, at].mean(axis=1).min()
+    return {"friction": float(level), "friction_over_pressure": float(friction_map.pressure_slope_std[at]),
+            "friction_over_speed": float(friction_map.speed_slope_std[at])}
+
+
+def stability_settings(modes):
+    """The section complex_modes that a product ComplexModes was computed with, in SI units."""
+    return SimpleNamespace(**json.loads(str(modes.settings)))
+
+
+def family(model, state, friction_map, settings):
+    """Family of the products ReducedModel, at one row of its preload, and FrictionMap; ``settings`` as of
+    ``stability_settings``."""
+    bare = replace(model, loss=0 * model.loss, joint_loss_factor=0 * model.joint_loss_factor)
+    lining, lined = None, model.lining_coordinate
+    if len(lined):
+        lining = np.zeros_like(model.stiffness)
+        lining[np.ix_(lined, lined)] = model.lining_stiffness
+    at = settings.sliding_distance
+    best = float(np.interp(at, friction_map.distance, friction_map.best_pressure))
+    pivot = Pivot(best, float(np.exp(np.log(friction_map.speed).mean())), tuple(friction_map.pressure[[0, -1]]),
+                  tuple(friction_map.speed[[0, -1]]))
+    return Family(
+        sliding_model(bare, state, float(np.mean(settings.speeds))), mapped_friction(friction_map, at)[1],
+        model.pressure[state] * model.input_area, settings.damping_speed, model.loss, model.joint_loss_factor, lining,
+        float(model.lining_loss_factor), model.law_closure, model.law_pressure, pivot, settings.friction_slopes,
+        settings.friction_damping, settings.gyroscopic, settings.centrifugal)

@@ -1,0 +1,49 @@
+"""Growing roots of one draw of a Family in the whole reduced model, without the bases that its many draws share."""
+
+from dataclasses import replace
+
+import numpy as np
+
+from pipeline.physics.modal.quadratic_eigenproblem import polished, quadratic_modes
+from pipeline.physics.sliding.equilibrium import closure_response, given_state, model_about, steady_sliding
+from pipeline.physics.sliding.model import FrictionState
+from pipeline.physics.sliding.structural_damping import equivalent_damping
+from pipeline.physics.stability.friction_basis import friction_basis
+
+#: growth rates above this negative share of the frequency are solved for in the whole model
+_NEARLY = 5e-4
+
+
+def whole_roots(family, factors, speed, below, smallest=1e-3):
+    """Roots (r,) 1/s of a draw at ``speed`` rad/s, those that grow or nearly do, by falling growth rate.
+
+    Its steady sliding, a basis of its own for a first estimate (corrections down to ``smallest``), then the roots with
+    loss factors as imaginary stiffness. ``below`` Hz limits the modes. Errors as of these steps.
+    """
+    varied = family.at_speed(speed).varied(factors)
+    about, friction = _about(varied)
+    loss = varied.imaginary_stiffness()
+    mass, _, stiffness = about.frictionless(gyroscopic=False, centrifugal=False)
+    viscous = replace(about, damping=about.damping + equivalent_damping(loss, stiffness, mass))
+    basis = friction_basis(viscous, below, varied.friction_damping, smallest, centrifugal=varied.centrifugal).shape
+    modes = quadratic_modes(*viscous.projected(basis).linearised(
+        friction, varied.friction_damping, varied.gyroscopic, varied.centrifugal))
+    mass, damping, stiffness = about.linearised(friction, varied.friction_damping, varied.gyroscopic,
+                                                varied.centrifugal)
+    near = (modes.value.imag > abs(modes.value.real)) & (modes.value.real > -_NEARLY * abs(modes.value))
+    near &= abs(modes.value) < 2 * np.pi * below
+    root = np.array([polished(mass, damping, stiffness + 1j * loss, s, basis @ x)[0]
+                     for s, x in zip(modes.value[near], modes.right[:, near].T, strict=True)])
+    return root[np.argsort(-root.real, kind="stable")]
+
+
+def _about(varied):
+    """(SlidingModel about steady sliding, FrictionState of its linearisation)."""
+    if varied.has_law:
+        response = closure_response(varied.model, varied.centrifugal)
+        sliding = steady_sliding(varied.model, response, varied.input_force, varied.law_closure, varied.law_pressure,
+                                 varied.friction)
+    else:
+        sliding = given_state(varied.model, varied.friction)
+    friction = sliding.friction if varied.friction_slopes else FrictionState(sliding.friction.coefficient)
+    return model_about(varied.model, sliding.contact, varied.damping_speed), friction

@@ -1,0 +1,179 @@
+"""Stage probability: how likely unstable modes are over the declared scatter of a brake.
+
+Draws are made before the fan-out, so that the number of workers changes no bit. Each is solved on bases that all draws
+of one pressure share; a few are solved in the whole reduced model as well, which states the error.
+"""
+
+from functools import partial
+
+import numpy as np
+
+from pipeline.case_models import effect_block
+from pipeline.case_models.scatter import (
+    DEFAULT,
+    Source,
+    check_sources,
+    draw_values,
+    factors_of,
+    family,
+    friction_deviations,
+    law_in_words,
+    stability_settings,
+)
+from pipeline.contract import ConfigError, Context, ConvergenceError, Section, option, stage
+from pipeline.physics.stability.draw_statistics import band_of, first_order, rate_interval, third_octaves
+from pipeline.physics.stability.refinement import moved_roots
+from pipeline.physics.stability.sampled_roots import sampled
+from pipeline.physics.stability.scatter import NOMINAL
+from pipeline.physics.stability.whole_roots import whole_roots
+from pipeline.products import ComplexModes, Effects, FrictionMap, Probability, ReducedModel
+
+TWO_PI = 2.0 * np.pi
+#: draws of one task of the fan-out
+_CHUNK = 25
+#: lowest 1/3 octave band, Hz
+_LOWEST_BAND = 200.0
+#: growth rate in 1/s above which a root that only one of basis and whole model has counts as missed
+_MISSED = 10.0
+
+
+class Settings(Section):
+    """What scatters, and how many draws are made of it."""
+
+    draws: int = option(500, "draws; 0 = none, and no probability", ge=0)
+    seed: int = option(11, "seed of the draws", ge=0)
+    sources: tuple[Source, ...] = option(DEFAULT, "what scatters, each source independent of the others")
+    training: int = option(5, "further draws that the common bases are made to serve", ge=1)
+    checked: int = option(4, "draws that are also solved in the whole reduced model, each at one operating point", ge=0)
+    smallest_correction: float = option(
+        1e-2, "corrections of the common bases below this share of the modal amplitude are left out", gt=0)
+
+
+def _check(sections):
+    check_sources(sections["probability"].sources, "probability.sources")
+    if "effects" in sections:
+        _refuse_effects(effect_block.product(sections["effects"]), sections["probability"])
+
+
+@stage(check=_check)
+def probability(model: ReducedModel, friction_map: FrictionMap, modes: ComplexModes, effects: Effects | None,
+                settings: Settings, context: Context) -> Probability:
+    """Estimate how likely unstable modes are over the scatter of the brake.
+
+    Operating points, limits and terms are those of complex_modes, loss factors always hysteretic. A draw counts at an
+    operating point if any mode is unstable there; 'overall' counts draws with one at any point.
+
+    Method:
+    {draws} draws of the declared scatter (seed {seed}) were solved for their unstable modes at every operating point,
+    each about its own steady sliding state, on bases common to all draws; {checked} of them were solved in the whole
+    reduced model as well. Probabilities carry 95 % Wilson intervals, which speak of the number of draws only;
+    sensitivities are first-order Sobol indices of the largest growth rate.
+    """
+    _refuse_effects(effects, settings)
+    points = stability_settings(modes)
+    deviations = friction_deviations(friction_map, points.sliding_distance)
+    values = draw_values(settings.sources, deviations, settings.draws, np.random.default_rng(settings.seed))
+    drawn = [factors_of(settings.sources, row, model) for row in values]
+    others = draw_values(settings.sources, deviations, settings.training, np.random.default_rng([settings.seed, 1]))
+    training = [NOMINAL, *(factors_of(settings.sources, row, model) for row in others)]
+    families = [family(model, state, friction_map, points) for state in range(len(model.pressure))]
+    cases, roots = _solved(families, drawn, training, points, settings, context) if drawn else ([], [])
+    checked = context.map(partial(_checked, points), _checks(cases, drawn, points, settings), "whole model")
+    return Probability(
+        source=[s.name for s in settings.sources], origin=[law_in_words(s, deviations) for s in settings.sources],
+        value=values, pressure=np.repeat(model.pressure, len(points.speeds)),
+        speed=np.tile(points.speeds, len(model.pressure)),
+        **_results(roots, values, points, len(model.pressure) * len(points.speeds), settings),
+        **_accuracy(checked), neutral=points.neutral)
+
+
+def _refuse_effects(effects, settings):
+    terms = effect_block.physics_terms(effects)
+    if terms and settings.draws:
+        raise ConfigError("probability", "a case without effects, which are not sampled",
+                          ", ".join(term.effect.name for term in terms), "set probability.draws: 0")
+
+
+def _solved(families, drawn, training, points, settings, context):
+    """(Sampled of every pressure, roots [draw][operating point])."""
+    cases = context.map(partial(_sampled, points, training, settings.smallest_correction), families, "common bases")
+    chunks = [range(k, min(k + _CHUNK, len(drawn))) for k in range(0, len(drawn), _CHUNK)]
+    tasks = [(case.compact(), points.speeds, [(k, drawn[k]) for k in chunk]) for case in cases for chunk in chunks]
+    parts = context.map(_roots, tasks, "draws")
+    per_case = [sum(parts[k:k + len(chunks)], []) for k in range(0, len(parts), len(chunks))]
+    return cases, [[root for case in per_case for root in case[k]] for k in range(len(drawn))]
+
+
+def _sampled(points, training, smallest, case):
+    return sampled(case, points.speeds, points.frequency_max, training, smallest)
+
+
+def _roots(task):
+    """[draw][speed]: roots (r,) of some draws at one pressure."""
+    case, speeds, drawn = task
+    roots = []
+    for number, factors in drawn:
+        try:
+            roots.append([case.roots(factors, speed) for speed in speeds])
+        except ConvergenceError as error:
+            raise ConvergenceError(f"draw {number}: {error.where}", error.expected, error.found,
+                                   error.remedy) from error
+    return roots
+
+
+def _checks(cases, drawn, points, settings):
+    """[(Sampled, Factors, speed)]: the first draws, each at another operating point, from the highest load down."""
+    places = [(case, speed) for case in cases[::-1] for speed in points.speeds]
+    return [(*places[k * (len(points.speeds) + 1) % len(places)], factors)
+            for k, factors in enumerate(drawn[:settings.checked])]
+
+
+def _checked(points, task):
+    """(roots (u,) on the basis, the same in the whole model, number that only one has) of unstable modes."""
+    case, speed, factors = task
+    whole = whole_roots(case.family, factors, speed, points.frequency_max)
+    unstable = whole[whole.real > 0]
+    moved = moved_roots(unstable, case.roots(factors, speed), _MISSED)
+    there = np.isfinite(moved.root)
+    edge = abs(moved.added) < TWO_PI * points.frequency_max * 0.99
+    return moved.root[there], unstable[there], np.sum(~there & (unstable.real > _MISSED)) + edge.sum()
+
+
+def _accuracy(checked):
+    """Fields of the comparison with the whole model."""
+    none = np.empty(0, complex)
+    return {"checked_root": np.concatenate([none, *(c[0] for c in checked)]),
+            "whole_root": np.concatenate([none, *(c[1] for c in checked)]),
+            "checked_draws": len(checked), "missed": sum(int(c[2]) for c in checked)}
+
+
+def _results(roots, values, points, operating, settings):
+    """Fields of growth, unstable roots, probabilities and sensitivities."""
+    count = len(roots)
+    growth = np.reshape([[point[0].real if len(point) else -np.inf for point in draw] for draw in roots],
+                        (count, operating))
+    growth = np.maximum(growth, -TWO_PI * points.frequency_max)
+    found = [(k, o, s) for k, draw in enumerate(roots) for o, point in enumerate(draw) for s in point
+             if s.real > points.neutral * abs(s)]
+    draw, place, root = (np.array([f[c] for f in found], kind) for c, kind in enumerate((int, int, complex)))
+    middles = third_octaves(_LOWEST_BAND, points.frequency_max)
+    hits, bands = np.zeros((count, operating), bool), np.zeros((count, len(middles), operating), bool)
+    hits[draw, place] = True
+    inside = np.clip(band_of(abs(root) / TWO_PI, middles), 0, len(middles) - 1)
+    bands[draw, inside, place] = True
+    anywhere, index = bands.any(axis=2), first_order(values, growth.max(axis=1), settings.seed)
+    return {
+        "growth": growth, "root_draw": draw, "root_operating": place, "root": root,
+        "probability": _share(hits), "interval": _intervals(hits), "overall": _share(hits.any(axis=1)[:, None])[0],
+        "overall_interval": _intervals(hits.any(axis=1)[:, None])[0], "band": middles,
+        "band_probability": _share(bands), "band_any": _share(anywhere), "band_interval": _intervals(anywhere),
+        "sensitivity": index[0], "sensitivity_error": index[1], "trend": index[2]}
+
+
+def _share(hits):
+    """Mean over the draws; 0 without any."""
+    return hits.mean(axis=0) if len(hits) else np.zeros(hits.shape[1:])
+
+
+def _intervals(hits):
+    return np.array([rate_interval(n, len(hits)) for n in hits.sum(axis=0)])

@@ -1,0 +1,68 @@
+"""Sources of scatter: what is refused, how they are drawn, what they change."""
+
+import numpy as np
+import pytest
+import scipy
+
+from pipeline.case_models.scatter import DEFAULT, Source, check_sources, draw_values, factors_of, friction_deviations
+from pipeline.contract import ConfigError
+from tests.stages.small_brake import small_brake, small_map
+
+
+def sources(*given):
+    return tuple(Source.model_validate(each) for each in given)
+
+
+@pytest.mark.parametrize(("given", "message"), [
+    ([{"kind": "damping_speed"}], "either variation or range"),
+    ([{"kind": "damping_speed", "variation": 0.1, "range": (0.5, 2)}], "either variation or range"),
+    ([{"kind": "damping_speed", "range": (2, 0.5)}], "rising"),
+    ([{"kind": "damping_speed", "variation": 0.1, "distribution": "uniform"}], "uniform"),
+    ([{"kind": "friction", "range": (0.5, 2)}], "variation, or nothing"),
+    ([{"kind": "lining_stiffness", "part": "pad", "variation": 0.1}], "none for lining_stiffness"),
+    ([{"kind": "friction"}, {"kind": "friction"}], "each source once")])
+def test_contradictions_are_refused(given, message):
+    with pytest.raises(ConfigError, match=message):
+        check_sources(sources(*given), "probability.sources")
+
+
+def test_defaults_are_consistent():
+    check_sources(sources(*DEFAULT), "probability.sources")
+
+
+@pytest.mark.parametrize("kind", ["joint_stiffness", "joint_loss", "body_loss"])
+def test_unknown_parts_are_refused_with_what_exists(kind):
+    with pytest.raises(ConfigError, match="caliper" if kind == "body_loss" else "finger_0"):
+        factors_of(sources({"kind": kind, "part": "fingre", "variation": 0.1}), [1.0], small_brake())
+
+
+def test_values_reach_the_joints_and_bodies_that_they_name():
+    model = small_brake()
+    drawn = factors_of(sources({"kind": "joint_stiffness", "part": "finger", "variation": 0.3},
+                               {"kind": "joint_stiffness", "variation": 0.1},
+                               {"kind": "body_loss", "part": "pad", "variation": 0.3},
+                               {"kind": "damping_speed", "variation": 0.3}, {"kind": "friction_over_speed"}),
+                       [2.0, 3.0, 4.0, 5.0, 6.0], model)
+    fingers = np.array(["finger" in str(name) for name in model.joint_name])
+    np.testing.assert_array_equal(drawn.joint_stiffness, np.where(fingers, 6.0, 3.0))
+    np.testing.assert_array_equal(drawn.body_loss, [1.0, 4.0, 4.0, 1.0])
+    assert drawn.damping_speed == 5.0 and drawn.speed_slope == 6.0 and drawn.friction == 0.0
+
+
+@pytest.mark.exact
+def test_draws_have_the_stated_distributions():
+    given = sources({"kind": "lining_stiffness", "variation": 0.3}, {"kind": "damping_speed", "range": (0.25, 4)},
+                    {"kind": "contact_stiffness", "range": (0.5, 2), "distribution": "uniform"},
+                    {"kind": "friction"}, {"kind": "friction_over_speed", "variation": 0.2})
+    values = draw_values(given, {"friction": 0.03}, 4000, np.random.default_rng(1))
+    width = np.sqrt(np.log(1 + 0.3**2))
+    laws = [scipy.stats.lognorm(width), scipy.stats.lognorm(np.log(4) / 1.96), scipy.stats.uniform(0.5, 1.5),
+            scipy.stats.norm(0, 0.03), scipy.stats.norm(0, 0.2)]
+    for column, law in zip(values.T, laws, strict=True):
+        assert scipy.stats.kstest(column, law.cdf).pvalue > 1e-3
+    assert values[:, 0].std() / values[:, 0].mean() == pytest.approx(0.3, abs=0.02)
+
+
+def test_friction_scatters_by_the_standard_errors_of_the_map():
+    found = friction_deviations(small_map(), 5e-3)
+    assert found == {"friction": 0.0, "friction_over_pressure": 0.01, "friction_over_speed": 0.01}

@@ -1,0 +1,37 @@
+"""Rates, bands and first-order indices beside what is known exactly."""
+
+import numpy as np
+import pytest
+
+from pipeline.physics.stability.draw_statistics import band_of, first_order, rate_interval, third_octaves
+
+pytestmark = pytest.mark.exact
+
+
+def test_interval_is_wilsons():
+    n, p, z = 40, 10 / 40, 1.959963984540054
+    middle, half = p + z**2 / (2 * n), z * np.sqrt(p * (1 - p) / n + z**2 / (4 * n**2))
+    np.testing.assert_allclose(rate_interval(10, 40), np.array([middle - half, middle + half]) / (1 + z**2 / n))
+    assert rate_interval(0, 0) == (0.0, 1.0)
+
+
+def test_bands_are_those_of_the_standard():
+    middles = third_octaves(200.0, 20e3)
+    np.testing.assert_allclose(middles[[0, 7, -1]], [199.526, 1000.0, 19952.6], rtol=1e-5)
+    edge = 1e3 * 10 ** (1 / 20)
+    np.testing.assert_array_equal(middles[band_of([edge * 0.999, edge * 1.001, 8e3], middles)].round(),
+                                  [1000, 1259, 7943])
+
+
+@pytest.mark.parametrize("seed", [1, 2, 3])
+def test_first_order_indices_of_a_known_function(seed):
+    """y = 2 a - b + 3 c d of standard normal a to e: indices 4/14, 1/14, 0, 0, 0."""
+    values = np.random.default_rng(seed).standard_normal((2000, 5))
+    outcome = 2 * values[:, 0] - values[:, 1] + 3 * values[:, 2] * values[:, 3]
+    index, error, trend = first_order(values, outcome, seed)
+    np.testing.assert_array_less(abs(index - np.array([4, 1, 0, 0, 0]) / 14), 4 * error + 0.01)
+    assert trend[0] > 0.3 and trend[1] < -0.1 and abs(trend[4]) < 0.1 and error.max() < 0.04
+
+
+def test_an_outcome_that_does_not_vary_has_no_sensitivities():
+    assert not first_order(np.random.default_rng(0).normal(size=(100, 2)), np.ones(100), 1).any()

@@ -1,0 +1,117 @@
+"""Stage probability on the brake of lumps and on one of a few elements."""
+
+import numpy as np
+import pytest
+
+from pipeline.contract import ConfigError, Context, store
+from pipeline.contract.executor import LocalProcesses
+from pipeline.products import ComplexModes, FrictionMap, ReducedModel
+from stages.complex_modes import Settings as Modes
+from stages.complex_modes import complex_modes
+from stages.probability import Settings, probability
+from stages.reduced_model import Settings as Reduction
+from stages.reduced_model import reduced_model
+from tests.chain.conftest import ROOT
+from tests.diagnosis.small_rig import effects
+from tests.stages.small_structure import small_friction_map, small_structure
+
+SOURCES = ({"kind": "joint_stiffness", "variation": 0.3}, {"kind": "joint_loss", "variation": 0.5},
+           {"kind": "damping_speed", "range": (0.3, 3)}, {"kind": "friction", "variation": 0.2})
+
+
+@pytest.fixture(scope="module")
+def brake():
+    model = reduced_model(small_structure(), settings=Reduction(fixed_below="20 kHz"))
+    settings = Modes(friction_steps=2, speeds=("8 rad/s", "12 rad/s"), frequency_max="8 kHz")
+    return model, small_friction_map(0.45), complex_modes(model, small_friction_map(0.45), settings=settings)
+
+
+@pytest.fixture(scope="module")
+def made(brake):
+    return probability(*brake, settings=Settings(draws=60, checked=6, sources=SOURCES))
+
+
+def test_shares_are_those_of_the_unstable_roots(made):
+    points = len(made.pressure)
+    unstable = np.zeros((60, points), bool)
+    unstable[made.root_draw, made.root_operating] = True
+    np.testing.assert_array_equal(made.probability, unstable.mean(axis=0))
+    assert made.overall == unstable.any(axis=1).mean() and 0.05 < made.overall < 0.95
+    np.testing.assert_array_equal(unstable, made.growth > 0)
+    assert (made.interval[:, 0] <= made.probability).all() and (made.probability <= made.interval[:, 1]).all()
+    assert made.band_any.max() <= made.overall and made.band_probability.max() <= made.probability.max()
+
+
+def test_friction_decides_and_makes_less_stable(made):
+    assert made.source[np.argmax(made.sensitivity)] == "friction" and made.trend[-1] > 0.5
+
+
+def test_draws_agree_with_the_whole_model(made):
+    assert made.checked_draws == 6 and made.missed == 0 and len(made.whole_root) > 0
+    np.testing.assert_allclose(made.checked_root.imag, made.whole_root.imag, rtol=5e-3)
+    assert (abs(made.checked_root.real - made.whole_root.real) < np.maximum(10, 0.1 * made.whole_root.real)).all()
+
+
+@pytest.mark.exact
+def test_without_scatter_the_probability_is_0_or_1_and_the_roots_are_those_of_complex_modes(brake):
+    narrow = ({"kind": "joint_stiffness", "variation": 1e-9},)
+    for friction in (0.1, 0.6):
+        settings = Modes(friction_steps=2, speeds=("8 rad/s", "12 rad/s"), frequency_max="8 kHz")
+        law = small_friction_map(friction)
+        modes = complex_modes(brake[0], law, settings=settings)
+        still = probability(brake[0], law, modes, settings=Settings(draws=3, checked=0, sources=narrow))
+        expected = np.isin(np.arange(len(still.pressure)), modes.unstable_operating).astype(float)
+        np.testing.assert_array_equal(still.probability, expected)
+        for root, place in zip(modes.unstable_root, modes.unstable_operating, strict=True):
+            assert abs(still.root[still.root_operating == place] - root).min() < 1e-3 * abs(root)
+    assert expected.any()
+
+
+def test_the_number_of_workers_changes_no_bit(brake, made):
+    class Two(Context):
+        def map(self, function, items, label=""):
+            pool = LocalProcesses(2)
+            try:
+                return pool.map(function, list(items), lambda: None)
+            finally:
+                pool.close()
+
+    again = probability(*brake, settings=Settings(draws=60, checked=6, sources=SOURCES), context=Two())
+    assert store.content_hash(again) == store.content_hash(made)
+
+
+def test_another_seed_gives_other_draws_and_a_like_probability(brake, made):
+    other = probability(*brake, settings=Settings(draws=60, checked=0, sources=SOURCES, seed=12))
+    assert not np.array_equal(other.value, made.value)
+    assert other.overall_interval[0] < made.overall_interval[1] and made.overall_interval[0] < other.overall_interval[1]
+
+
+def test_unknown_parts_are_refused_before_anything_is_computed(brake):
+    with pytest.raises(ConfigError, match="abutment_outer_leading_radial"):
+        probability(*brake, settings=Settings(sources=({"kind": "joint_loss", "part": "fingre", "variation": 0.5},)))
+
+
+def test_effects_are_refused_unless_nothing_is_drawn(brake):
+    added = effects({"falling_friction": {"contact": {"rise": 0.2, "decay_speed": "100 mm/s"}}})
+    with pytest.raises(ConfigError, match="probability.draws: 0"):
+        probability(*brake, added, settings=Settings(sources=SOURCES))
+    assert not len(probability(*brake, added, settings=Settings(draws=0, sources=SOURCES)).value)
+
+
+def test_no_draws_give_no_probability(brake):
+    none = probability(*brake, settings=Settings(draws=0, sources=SOURCES))
+    assert not len(none.value) and not none.probability.any() and none.checked_draws == 0
+
+
+@pytest.mark.slow
+def test_draws_of_the_default_case_agree_with_the_whole_model():
+    """Ten draws at all operating points in turn: frequency within 0.5 %, growth rate within 10 1/s or 10 %."""
+    run = ROOT / "data" / "runs" / "disc_brake"
+    names = {"reduced_model": ReducedModel, "friction_map": FrictionMap, "complex_modes": ComplexModes}
+    if not all((run / f"{name}.h5").exists() for name in names):
+        pytest.skip("run the default case first: make run")
+    products = [store.read(cls, run / f"{name}.h5") for name, cls in names.items()]
+    made = probability(*products, settings=Settings(draws=10, checked=10))
+    assert made.checked_draws == 10 and made.missed == 0 and len(made.whole_root) >= 10
+    assert (abs(made.checked_root.imag / made.whole_root.imag - 1) < 0.005).all()
+    assert (abs(made.checked_root.real - made.whole_root.real) < np.maximum(10.0, 0.1 * made.whole_root.real)).all()
