@@ -13,8 +13,8 @@ from functools import cached_property
 import numpy as np
 
 from pipeline.contract.errors import ConfigError, ConvergenceError
-from pipeline.physics.friction.dry_friction import BACKWARD, FIRST, READ_AT, kernel
-from pipeline.physics.friction.friction_table import friction_at
+from pipeline.physics.contact.closure_law import force_at_rest
+from pipeline.physics.friction.dry_friction import READ_AT, characteristic, kernel
 from pipeline.physics.sliding_motion.exponential_step import (
     ADDED,
     DONE,
@@ -151,18 +151,17 @@ def _patch_kernel(model, closure, friction, law, patches, stick_speed):
     per_load = 1 / patches.summed(contacts.area)
     np.divide(patches.summed(contacts.preload * contacts.pressure), load**2, out=per_load, where=load > 0)
     first = patches.member[patches.first[:-1]]
-    table, read = (dry.pressure, dry.speed, dry.distance, dry.table), dry.contact[first]
-    states = [friction_at(p, v, s, *table, int(row))[:3] for p, v, s, row in
-              zip(load * per_load, abs(speed), read[:, READ_AT], read[:, FIRST], strict=True)]
-    mu, over_pressure, over_slip = np.array(states).T * np.where(speed < 0, read[:, BACKWARD], 1.0)
+    dry = dry._replace(contact=dry.contact[first])
+    mu, over_pressure, over_slip = np.array([
+        characteristic(dry, i, load[i] * per_load[i], abs(speed[i]), dry.contact[i, READ_AT], speed[i])[:3]
+        for i in range(len(load))]).T
     load, stiffness, damping = force[:, _RESTING], *map(patches.summed, (contacts.stiffness, contacts.damping))
     coupling = np.sign(speed) * (mu + load * per_load * over_pressure)
     linear = np.array([stiffness, damping, coupling * stiffness, coupling * damping, load * over_slip,
                        np.divide(mu * load, abs(speed), out=np.zeros(len(load)), where=speed != 0)])
     return PatchKernel(
         lowest, interval, force, closed, len(closure), normal.damping_speed[first], load, np.sign(speed) * mu * load,
-        speed, per_load, *table, read[:, FIRST].astype(np.int64), read[:, READ_AT].copy(), read[:, BACKWARD].copy(),
-        linear, float(stick_speed), float(load.sum() / stiffness.sum()))
+        speed, per_load, dry, linear, float(stick_speed), float(load.sum() / stiffness.sum()))
 
 
 def _normal_tables(law, closure, patches):
@@ -173,14 +172,11 @@ def _normal_tables(law, closure, patches):
     reach = max(closure.max(), law.closure[-1] / _LAWS)
     interval = reach / _ROWS
     moved = interval * np.arange(-_RESTING, _ROWS + 2)
-    last = len(law.closure) - 2
     force, closed = np.zeros((2, len(closure), len(moved)))
     for j, area in enumerate(law.area):
         rise = law.pressure[law.first[j]:law.first[j] + len(law.closure)]
-        depth = np.maximum(closure[j] - moved, 0.0)
-        beyond = (rise[last + 1] - rise[last]) / (law.closure[last + 1] - law.closure[last])
-        force[j] = area * (np.interp(depth, law.closure, rise) + beyond * np.maximum(depth - law.closure[-1], 0.0))
-        closed[j] = depth > 0
+        force[j] = force_at_rest(closure[j] - moved, np.full(len(moved), area), law.closure, rise)[0]
+        closed[j] = closure[j] > moved
     grouped = (np.add.reduceat(each[patches.member], patches.first[:-1], axis=0) for each in (force, closed))
     return float(moved[0]), float(interval), *map(np.ascontiguousarray, grouped)
 

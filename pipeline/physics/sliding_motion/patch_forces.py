@@ -13,9 +13,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from pipeline.physics.friction.friction_table import friction_at
+from pipeline.physics.friction.dry_friction import READ_AT, FrictionKernel, characteristic
+from pipeline.physics.friction.sliding_friction import sliding_friction
 from pipeline.physics.numerics.compiled import njit
-from pipeline.physics.pads.patch_contact import sliding_part
 
 
 class PatchKernel(NamedTuple):
@@ -31,13 +31,7 @@ class PatchKernel(NamedTuple):
     drawn: np.ndarray       # (p,) N, friction along the tangent rows in steady sliding
     speed: np.ndarray       # (p,) m/s, v0, signed
     pressure_per_load: np.ndarray   # (p,) 1/m^2
-    pressures: np.ndarray   # (P,) Pa, axes of the friction table
-    speeds: np.ndarray      # (V,) m/s
-    distances: np.ndarray   # (S,) m
-    table: np.ndarray       # (g P, V, S)
-    row: np.ndarray         # (p,) row where the table of a patch begins
-    distance: np.ndarray    # (p,) m, at which it is read
-    backward: np.ndarray    # (p,) factor on friction of slip below 0
+    friction: FrictionKernel    # of the patches
     linear: np.ndarray      # (6, p) slopes: see ``linear_forces``
     stick_speed: float      # m/s
     scale: float            # m, closure in which the law grows by e
@@ -57,28 +51,11 @@ def normal_at(k, i, moved, rate):
 
 
 @njit
-def friction_force(k, i, normal, along, aside):
-    """((T, L), their slopes over N, over ``along``, over ``aside``) of patch i under ``normal`` N.
-
-    ``along`` and ``aside`` are the slip velocities of the drive against the patch in m/s.
-    """
-    slip = np.hypot(along, aside)
-    if normal <= 0.0:
-        return (0.0, 0.0), (0.0, 0.0), (0.0, 0.0), (0.0, 0.0)
-    pressure = normal * k.pressure_per_load[i]
-    mu, over_pressure, over_slip, _ = friction_at(pressure, slip, k.distance[i], k.pressures, k.speeds, k.distances,
-                                                  k.table, k.row[i])
-    part, fall = sliding_part(slip, k.stick_speed)
-    if along < 0.0:
-        part, fall = k.backward[i] * part, k.backward[i] * fall
-    if slip == 0.0:
-        return (0.0, 0.0), (0.0, 0.0), (normal * mu * fall, 0.0), (0.0, normal * mu * fall)
-    x, y, force = along / slip, aside / slip, mu * part
-    radial, turning = normal * (over_slip * part + mu * fall), normal * force / slip
-    slide = (mu + pressure * over_pressure) * part
-    mixed = (radial - turning) * x * y
-    return ((normal * force * x, normal * force * y), (slide * x, slide * y),
-            (radial * x * x + turning * y * y, mixed), (mixed, radial * y * y + turning * x * x))
+def patch_friction(k, i, normal, along, aside):
+    """SlidingForce of patch i under ``normal`` N at slip velocities ``along`` and ``aside`` of the drive, m/s."""
+    pressure, slip = normal * k.pressure_per_load[i], np.hypot(along, aside)
+    mu, by_pressure, by_speed, _ = characteristic(k.friction, i, pressure, slip, k.friction.contact[i, READ_AT], along)
+    return sliding_friction(normal, pressure, slip, along, aside, mu, by_pressure, by_speed, k.stick_speed)
 
 
 @njit
@@ -96,16 +73,13 @@ def beyond_linear(k, y, rest, slope):
     a = k.linear
     for i in range(k.load.size):
         normal, rise, drag = normal_at(k, i, y[0, i], y[1, i])
-        force, by_normal, by_along, by_aside = friction_force(k, i, normal, k.speed[i] - y[2, i], -y[3, i])
+        force = patch_friction(k, i, normal, k.speed[i] - y[2, i], -y[3, i])
         linear = linear_forces(k, i, y)
         rest[0, i] = normal - k.load[i] - linear[0]
-        rest[1, i] = force[0] - k.drawn[i] - linear[1]
-        rest[2, i] = force[1] - linear[2]
+        rest[1, i] = force.x - k.drawn[i] - linear[1]
+        rest[2, i] = force.y - linear[2]
         slope[i, 0, 0], slope[i, 0, 1] = rise + a[0, i], drag + a[1, i]
-        for f in range(2):
-            slope[i, f + 1, 0], slope[i, f + 1, 1] = by_normal[f] * rise, by_normal[f] * drag
-            slope[i, f + 1, 2], slope[i, f + 1, 3] = -by_along[f], -by_aside[f]
-        slope[i, 1, 0] += a[2, i]
-        slope[i, 1, 1] += a[3, i]
-        slope[i, 1, 2] += a[4, i]
-        slope[i, 2, 3] += a[5, i]
+        slope[i, 1, 0], slope[i, 1, 1] = force.x_by_normal * rise + a[2, i], force.x_by_normal * drag + a[3, i]
+        slope[i, 1, 2], slope[i, 1, 3] = a[4, i] - force.xx, -force.xy
+        slope[i, 2, 0], slope[i, 2, 1] = force.y_by_normal * rise, force.y_by_normal * drag
+        slope[i, 2, 2], slope[i, 2, 3] = -force.xy, a[5, i] - force.yy
