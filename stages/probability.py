@@ -5,6 +5,7 @@ of one pressure share; a few are solved in the whole reduced model as well, whic
 """
 
 from functools import partial
+from typing import Literal
 
 import numpy as np
 
@@ -20,7 +21,7 @@ from pipeline.case_models.scatter import (
     law_in_words,
     stability_settings,
 )
-from pipeline.contract import ConfigError, Context, ConvergenceError, Section, option, stage
+from pipeline.contract import ConfigError, Context, ConvergenceError, Quantity, Section, option, stage
 from pipeline.physics.stability.draw_statistics import band_of, first_order, rate_interval, third_octaves
 from pipeline.physics.stability.refinement import moved_roots
 from pipeline.physics.stability.sampled_roots import sampled
@@ -43,6 +44,9 @@ class Settings(Section):
     draws: int = option(500, "draws; 0 = none, and no probability", ge=0)
     seed: int = option(11, "seed of the draws", ge=0)
     sources: tuple[Source, ...] = option(DEFAULT, "what scatters, each source independent of the others")
+    speeds: Literal["all", "middle"] = option(
+        "all", "operating points that are sampled: those of all speeds, or of the middle one alone")
+    least_growth: Quantity("1/s", ge=0) = option("0 1/s", "growth rate above which a mode counts as unstable")
     training: int = option(5, "further draws that the common bases are made to serve", ge=1)
     checked: int = option(4, "draws that are also solved in the whole reduced model, each at one operating point", ge=0)
     smallest_correction: float = option(
@@ -61,7 +65,7 @@ def probability(model: ReducedModel, friction_map: FrictionMap, modes: ComplexMo
     """Estimate how likely unstable modes are over the scatter of the brake.
 
     Operating points, limits and terms are those of complex_modes, loss factors always hysteretic. A draw counts at an
-    operating point if any mode is unstable there; 'overall' counts draws with one at any point.
+    operating point if any mode grows faster than 'least_growth' there; 'overall' counts draws with one at any point.
 
     Method:
     {draws} draws of the declared scatter (seed {seed}) were solved for their unstable modes at every operating point,
@@ -71,6 +75,8 @@ def probability(model: ReducedModel, friction_map: FrictionMap, modes: ComplexMo
     """
     _refuse_effects(effects, settings)
     points = stability_settings(modes)
+    if settings.speeds == "middle":
+        points.speeds = sorted(points.speeds)[len(points.speeds) // 2:][:1]
     deviations = friction_deviations(friction_map, points.sliding_distance)
     values = draw_values(settings.sources, deviations, settings.draws, np.random.default_rng(settings.seed))
     drawn = [factors_of(settings.sources, row, model) for row in values]
@@ -84,7 +90,7 @@ def probability(model: ReducedModel, friction_map: FrictionMap, modes: ComplexMo
         value=values, pressure=np.repeat(model.pressure, len(points.speeds)),
         speed=np.tile(points.speeds, len(model.pressure)),
         **_results(roots, values, points, len(model.pressure) * len(points.speeds), settings),
-        **_accuracy(checked), neutral=points.neutral)
+        **_accuracy(checked), least_growth=settings.least_growth)
 
 
 def _refuse_effects(effects, settings):
@@ -154,7 +160,7 @@ def _results(roots, values, points, operating, settings):
                         (count, operating))
     growth = np.maximum(growth, -TWO_PI * points.frequency_max)
     found = [(k, o, s) for k, draw in enumerate(roots) for o, point in enumerate(draw) for s in point
-             if s.real > points.neutral * abs(s)]
+             if s.real > max(points.neutral * abs(s), settings.least_growth)]
     draw, place, root = (np.array([f[c] for f in found], kind) for c, kind in enumerate((int, int, complex)))
     middles = third_octaves(_LOWEST_BAND, points.frequency_max)
     hits, bands = np.zeros((count, operating), bool), np.zeros((count, len(middles), operating), bool)

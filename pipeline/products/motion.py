@@ -104,7 +104,7 @@ class Probability:
     whole_root: Array = quantity("1/s", "checked", "the same roots in the whole reduced model", complex)
     checked_draws: Array = count("", "draws and operating points of this comparison")
     missed: Array = count("", "unstable roots there that only one of both has")
-    neutral: Array = quantity("1/s", "", "growth rate up to which a mode counts as stable")
+    least_growth: Array = quantity("1/s", "", "growth rate up to which a mode counts as stable")
 
 
 @product(version=2)

@@ -290,8 +290,9 @@ def squeal(quiet=False, harmonic=False):
     level = 60 + 4 * np.arange(9)[:, None] + np.array([0.0, -6.0])
     events = 0 if quiet else 2
     return filled(
-        Squeal, pressure=OPERATING_PRESSURE, speed=OPERATING_SPEED, sensor_name=SENSORS, reference=5e-8,
-        threshold=120.0 if quiet else 88.0, peak_level=level, peak_frequency=np.full((9, 2), SQUEAL_LINE), band=band,
+        Squeal, coupling="assembly", pressure=OPERATING_PRESSURE, speed=OPERATING_SPEED, sensor_name=SENSORS,
+        reference=5e-8, threshold=120.0 if quiet else 88.0, peak_level=level,
+        peak_frequency=np.full((9, 2), SQUEAL_LINE), band=band,
         band_level=level[:, :, None] - 20 + 10 * np.exp(-((band - 16000) / 3000) ** 2),
         event_operating=[7, 8][:events], event_sensor=[0, 0][:events], event_frequency=[16580.0, 16600.0][:events],
         event_order=[1, 20 if harmonic else 1][:events],

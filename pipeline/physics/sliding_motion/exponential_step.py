@@ -103,23 +103,25 @@ def spread(matrix, values, result):
 
 
 @njit
-def advance(patches, steps, energy, state, rest, previous, count, every, record):
-    """(code, step, sweeps) after ``count`` steps from ``state`` (2m,), which ends where they end, as do the others.
+def advance(patches, steps, energy, state, rest, previous, done, count, every, record, spent):
+    """(code, step, sweeps) after the steps ``done`` + 1 to ``count`` from ``state`` (2m,), which ends where they end,
+    as do the others.
 
-    ``rest`` (3, p) contact forces beyond the linear ones at the begin, and ``previous`` those a step before.
+    ``rest`` (3, p) contact forces beyond the linear ones at the begin, and ``previous`` those a step before;
+    ``spent`` (3,) J: WORK, LOSS, ADDED so far. A step without a solution leaves all as it was before it.
     """
     size, p = state.size, patches.load.size
     base, force, y, free = np.empty(size), np.empty(size), np.empty((4, p)), np.empty(4 * p)
     guess, trial, reply, slope = np.empty(3 * p), np.empty(3 * p), np.empty((3, p)), np.zeros((p, 3, 4))
     error, change = np.empty(3 * p), np.empty(3 * p)
     limit, sweeps = TOLERANCE * np.sqrt(np.sum(patches.load**2)), 0
-    book, spent, power, power_end = energy.stored.size > 0, np.zeros(3), np.zeros(3), np.zeros(3)
+    book, power, power_end = energy.stored.size > 0, np.zeros(3), np.zeros(3)
     spread(steps.force, rest.ravel(), force)
     if book:
         y[:] = 0.0
         multiply(steps.motion, state, y.ravel())
         _powers(energy, state, y, rest, power)
-    for number in range(1, count + 1):
+    for number in range(done + 1, count + 1):
         base[:] = 0.0
         _times(steps.decay, state, base)
         _times(steps.begin, force, base)

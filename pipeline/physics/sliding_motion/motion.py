@@ -32,6 +32,8 @@ from pipeline.physics.time_stepping.normal_laws import normal_kernel
 
 #: rows of the tables of normal force on either side of steady sliding, and the share of the law that they span at least
 _ROWS, _RESTING, _LAWS = 1600, 2400, 4
+#: into how many parts a step without a solution is cut, again and again, and the most
+_PARTS, _FINEST = 4, 64
 
 
 @dataclass(frozen=True)
@@ -88,15 +90,32 @@ class SlidingMotion:
         rows = count // every
         record = Record(np.empty((rows, len(state))), np.empty((rows, 2)), np.zeros((rows, 4)))
         energy = self.energy if book else EnergyKernel(*np.empty((4, 0, 0)))
-        steps = step_kernel(self.modes.root, self.motion, self.force, step)
-        code, number, sweeps = advance(self.patches, steps, energy, state, rest, previous, count, every, record)
-        if code != DONE:
-            raise ConvergenceError(f"sliding motion at t = {number * step:.6g} s", "contact forces that settle",
-                                   "none after the last iteration", "take a shorter step, or raise the stick speed")
+        sweeps = self._advance((state, rest, previous), step, count, every, record, energy)
         half, energies = len(state) // 2, record.energy.T
         return Run(step * every * np.arange(1, rows + 1), record.state[:, :half] + 1j * record.state[:, half:],
                    *record.share.T, energies[WORK], energies[LOSS], energies[ADDED], energies[STORED], sweeps / count,
                    (state, rest, previous))
+
+    def _advance(self, motion, step, count, every, record, energy):
+        """Sweeps of all steps; a step that has no solution is taken in finer ones."""
+        kernels = [step_kernel(self.modes.root, self.motion, self.force, step)]
+        done, sweeps, spent, none = 0, 0, np.zeros(3), Record(*np.empty((2, 0, 0)), np.empty((0, 4)))
+        while done < count:
+            code, number, more = advance(self.patches, kernels[0], energy, *motion, done, count, every, record, spent)
+            done, sweeps = number, sweeps + more
+            parts, before = 1, tuple(each.copy() for each in (*motion, spent))
+            while code != DONE:
+                parts *= _PARTS
+                for each, value in zip((*motion, spent), before, strict=True):
+                    each[:] = value
+                if parts > _FINEST:
+                    raise ConvergenceError(f"sliding motion at t = {number * step:.6g} s", "contact forces that settle",
+                                           "none after the last iteration", "take a shorter step or smaller patches, or"
+                                           " raise the stick speed")
+                finer = step_kernel(self.modes.root, self.motion, self.force, step / parts)
+                code, _, more = advance(self.patches, finer, energy, *motion, 0, parts, parts + 1, none, spent)
+                sweeps += more
+        return sweeps
 
     def _begin(self, start):
         """(state, contact forces beyond the linear, the same) at modal coordinates (m,)."""

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from pipeline.views.chapters import convergence, probability
+from pipeline.views.chapters import convergence, limit_cycle, probability
 from pipeline.views.chapters.bench import diagnosis
 from pipeline.views.chapters.friction import outside_computed
 from pipeline.views.chapters.models.rupture import headline as rupture_headline
@@ -62,7 +62,7 @@ def _headline(products):
     if products.get("rupture") is not None:
         return rupture_headline(products["rupture"]), "warning"
     if products.get("convergence") is not None:
-        return _onset(modes, products["convergence"])
+        return _onset(modes, products["convergence"], products.get("limit_cycle"))
     unstable = 0 if modes is None else len(distinct_unstable(modes, len(modes.unstable_root)))
     if squeal is not None and len(squeal.event_level):
         if len(squeal.pressure) == 1:
@@ -82,13 +82,19 @@ def _headline(products):
     return "No squeal predicted", "quiet"
 
 
-def _onset(modes, convergence):
-    """Headline of a case that ends with complex modes: whether squeal can start, and whether that is converged."""
+def _onset(modes, convergence, cycle):
+    """Headline of a two-way analysis: whether the brake squeals or, without a simulation, whether squeal can start; and
+    whether that is converged."""
     points, starts = len(modes.operating_speed), len(np.unique(modes.unstable_operating))
     doubt = "" if convergence.converged.item() else " (not converged)"
     if not starts:
         return f"Steady sliding is stable at all {points} operating points{doubt}", "quiet" if not doubt else "warning"
     strongest = quantity(modes.unstable_root[0].imag / TWO_PI, "Hz", 3)
+    if cycle is not None and len(cycle.pressure):
+        loudest = int(np.argmax(limit_cycle.total(cycle)[:, -1]))
+        strongest = quantity(cycle.cycle_frequency[loudest], "Hz", 3)
+        return f"Squeals at {starts} of {points} operating points, loudest at {strongest}{doubt}", \
+               "squeal" if not doubt else "warning"
     return f"Squeal can start at {starts} of {points} operating points, most strongly at {strongest}{doubt}", \
            "squeal" if not doubt else "warning"
 
@@ -102,9 +108,9 @@ def _settled_cycle(transient):
 
 
 def _where(products):
-    squeal = products.get("squeal")
+    squeal, cycle = products.get("squeal"), products.get("limit_cycle")
     if squeal is None:
-        return ""
+        return "" if cycle is None else limit_cycle.statement(cycle)
     operating, sensor = np.unravel_index(np.argmax(squeal.peak_level), squeal.peak_level.shape)
     return (f"Loudest at {point(squeal, operating)}: {number(squeal.peak_level[operating, sensor], 3)} dB"
             f" re {quantity(squeal.reference, 'm/s', 3)} at {quantity(squeal.peak_frequency[operating, sensor], 'Hz')},"

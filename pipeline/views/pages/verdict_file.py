@@ -6,6 +6,7 @@ import numpy as np
 
 from pipeline.views.chapters.convergence import WORDS, statement
 from pipeline.views.chapters.friction import outside_computed
+from pipeline.views.chapters.limit_cycle import total
 from pipeline.views.chapters.unstable_modes import critical_friction, losses, mechanism, pair
 
 SCHEMA = "brakechain-verdict/1"
@@ -18,9 +19,28 @@ def verdict_text(verdict, products):
     document = {"schema": SCHEMA, "headline": verdict.headline, "squeal_can_start": _can_start(modes),
                 "probability": _probability(products.get("probability")),
                 "unstable_modes": [] if modes is None else _unstable(modes),
-                "convergence": None if refined is None else _convergence(refined), "transient": None,
+                "convergence": None if refined is None else _convergence(refined),
+                "transient": _transient(products.get("limit_cycle")),
                 "warnings": _warnings(modes, refined) + [w for w in [outside_computed(products)] if w]}
     return json.dumps(document, indent=1) + "\n"
+
+
+def _transient(cycle):
+    """Growth while motion is small, and what it ends in, at each operating point; None where nothing was simulated."""
+    if cycle is None:
+        return None
+    onset = [{"frequency": root.imag / TWO_PI, "growth_rate": root.real, "simulated_growth_rate": seen.real,
+              "operating_point": int(k)}
+             for k, root, seen in zip(cycle.onset_operating, cycle.onset_root, cycle.onset_simulated, strict=True)]
+    level = total(cycle)[:, -1:]
+    cycles = [{"pressure": float(p), "speed": float(v), "velocity": float(level[k, 0]),
+               "frequency": float(cycle.cycle_frequency[k]), "settled": bool(cycle.settled[k]),
+               "open_share": float(cycle.open_share[k, -1]), "stick_share": float(cycle.stick_share[k, -1]),
+               "energy_imbalance": float(cycle.imbalance[k])}
+              for k, (p, v) in enumerate(zip(cycle.pressure, cycle.speed, strict=True))]
+    checks = {str(name): {"level_db": float(decibel), "frequency": float(frequency)} for name, decibel, frequency in
+              zip(cycle.check, cycle.check_level, cycle.check_frequency, strict=True)}
+    return {"onset": onset, "limit_cycles": cycles, "changes": checks}
 
 
 def _can_start(modes):

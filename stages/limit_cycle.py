@@ -1,0 +1,231 @@
+"""Stage limit_cycle: what the unstable modes of complex_modes grow into, with all bodies flexible in the loop.
+
+The small motion is that of the complex modes, root by root, in a frame at rest: disc, pads and caliper move with their
+gyroscopic terms, and the contacts answer with the laws of the case instead of their slopes. What stops the growth is
+therefore contact: points that open or stiffen, patches that stick, friction that changes with load and slip.
+"""
+
+from functools import partial
+from typing import Literal
+
+import numpy as np
+
+from pipeline.case_models.effect_block import conditions, physics_terms
+from pipeline.case_models.pads import kept
+from pipeline.case_models.scatter import stability_settings
+from pipeline.case_models.steady_sliding import mapped_friction, posed
+from pipeline.contract import ConfigError, Context, ConvergenceError, Quantity, Section, option, stage
+from pipeline.physics.signals.limit_cycle import harmonic_levels
+from pipeline.physics.signals.oscillation import dominant_frequency
+from pipeline.physics.sliding.equilibrium import closure_response
+from pipeline.physics.sliding_motion.motion import sliding_motion
+from pipeline.physics.sliding_motion.sliding_modes import sliding_modes
+from pipeline.products import ComplexModes, Effects, FrictionMap, LimitCycle, ReducedModel
+
+STEP, PATCHES, STICK, MODES = CHECKS = "step", "patches", "stick speed", "modes"
+#: share of the reach of the contact law at which motions begin: small, and for the way to the limit cycle
+_SMALL, _LARGE = 0.01, 0.5
+#: samples a second that are kept of the end of the motion
+_RATE = 100e3
+
+
+class Settings(Section):
+    """Contact patches, time steps, and the recorded part of the motion."""
+
+    duration: Quantity("s", gt=0) = option("60 ms", "length of the motion from half the reach of the contact law")
+    window: Quantity("s", gt=0) = option("10 ms", "windows of the levels; spectra and cycle are those of the last two")
+    onset: Quantity("s", gt=0) = option("4 ms", "length of the small motion from which growth rates are read")
+    step: Quantity("s", gt=0) = option("2 us", "time step")
+    patch: int = option(12, "contacts that move together, at most", ge=1)
+    stick_speed: Quantity("m/s", gt=0) = option("0.1 m/s", "slip below which friction is regularised; creep replaces"
+                                                " sticking")
+    smallest_correction: float = option(
+        1e-2, "corrections for friction and damping below this share of the modal amplitude are left out", gt=0)
+    damping_above: float = option(
+        0.05, "damping ratio, at least, of the modes above those of complex_modes, which the model does not resolve",
+        ge=0, lt=1)
+    settled_within: float = option(0.5, "largest change of the level in dB over the last two windows", gt=0)
+    harmonics: int = option(6, "harmonics of the strongest line that are reported", ge=1)
+    checks: tuple[Literal[CHECKS], ...] = option(
+        (STEP,), "what is halved (step, stick speed, smallest correction of the modes) or doubled (patches) at the"
+        " strongest operating point, to see how far the limit cycle holds")
+    speeds: Literal["all", "middle"] = option(
+        "all", "operating points that are simulated: those of all speeds, or of the middle one alone")
+    without: tuple[str, ...] = option((), "effects of the case that this stage leaves out, as it cannot have them")
+
+
+def _check(sections):
+    """Refuse windows that do not fit before anything is computed."""
+    settings = sections["limit_cycle"]
+    if settings.duration < 3 * settings.window:
+        raise ConfigError("limit_cycle.duration", f"at least three windows of {settings.window:g} s",
+                          f"{settings.duration:g} s")
+
+
+@stage(check=_check)
+def limit_cycle(model: ReducedModel, friction_map: FrictionMap, modes: ComplexModes, effects: Effects | None,
+                settings: Settings, context: Context) -> LimitCycle:
+    """Simulate unstable modes from onset to limit cycle.
+
+    Every operating point with unstable modes is simulated twice: from a small motion in all of them, whose growth is
+    compared with the complex modes, and from half the reach of the contact law to the limit cycle. Effects act as in
+    complex_modes; those with a memory, or with elements of their own, are refused unless 'without' names them.
+
+    Method:
+    The motion about steady sliding was integrated in the complex modes of the sliding system with steps of {step}: the
+    linear part exactly, with the roots of the complex modes; contact laws and friction at patches of at most {patch}
+    contacts. Modes above those of the complex modes have a damping ratio of at least {damping_above}. The motion lasted
+    {duration}, levels are root mean squares over {window}.
+    """
+    points = _points(modes, settings)
+    terms = kept(physics_terms(effects), settings.without)
+    simulate = partial(_simulate, model=model, friction_map=friction_map, modes=modes, terms=terms,
+                       given=conditions(effects), settings=settings)
+    results = context.map(simulate, [(point, settings) for point in points], "limit cycles")
+    checked = _checked(points, results, modes, simulate, settings, context)
+    for result in results:
+        if result["imbalance"] > _TOLERATED:
+            context.log(f"energy balances only within {100 * result['imbalance']:.2g} %; a shorter step would help")
+    fields = {name: np.array([r[name] for r in results]) for name in _FIELDS} if results else _nothing(model, settings)
+    onset = [(k, root, seen) for k, r in enumerate(results) for root, seen in zip(*r["onset"], strict=True)]
+    return LimitCycle(
+        pressure=modes.operating_pressure[points], speed=modes.operating_speed[points],
+        onset_operating=[o[0] for o in onset], onset_root=np.array([o[1] for o in onset], complex),
+        onset_simulated=np.array([o[2] for o in onset], complex), sensor_name=model.sensor_name, window=settings.window,
+        settled_within=settings.settled_within, step=settings.step, **_axes(results, settings), **fields, **checked)
+
+
+#: largest error of the energy balance that passes without a message
+_TOLERATED = 0.01
+#: m/s at a sensor that no brake reaches
+_UNBOUNDED = 100.0
+#: fields of one operating point
+_FIELDS = ("level", "open_share", "stick_share", "settled", "imbalance", "added_loss", "velocity", "spectrum",
+           "cycle_frequency", "harmonic_amplitude")
+
+
+def _simulate(task, model, friction_map, modes, terms, given, settings):
+    """Fields of one operating point; ``task``: (its index in complex modes, settings of this simulation)."""
+    point, settings = task
+    system = _system(point, model, friction_map, modes, terms, given, settings)
+    growing = system.modes.growing(0.0)
+    growing = growing[np.isin(system.modes.root[growing], modes.unstable_root[modes.unstable_operating == point])]
+    start = np.zeros(len(system.modes.root), complex)
+    start[growing] = _SMALL * system.reach[growing]
+    small = system.run(start, settings.step, settings.onset)
+    seen = np.log(small.state[-1, growing] / small.state[0, growing])
+    turned = np.unwrap(np.angle(small.state[:, growing]), axis=0)
+    seen = (seen.real + 1j * (turned[-1] - turned[0])) / (small.time[-1] - small.time[0])
+    start[growing] = _LARGE * system.reach[growing]
+    return {"onset": (system.modes.root[growing], seen), "patches": len(system.patches.load),
+            "modes": len(system.modes.root), **_cycle(system, start, model.sensor_rows, settings)}
+
+
+def _points(modes, settings):
+    """Operating points of complex modes that have unstable modes and are simulated."""
+    points, speeds = np.unique(modes.unstable_operating), np.unique(modes.operating_speed)
+    if settings.speeds == "middle":
+        points = points[modes.operating_speed[points] == speeds[len(speeds) // 2]]
+    return points
+
+
+def _system(point, model, friction_map, modes, terms, given, settings):
+    """SlidingMotion at one operating point of complex modes, with its roots."""
+    linear, pressure = stability_settings(modes), modes.operating_pressure[point]
+    state = int(np.argmin(abs(model.pressure - pressure)))
+    case = posed(model, state, float(modes.operating_speed[point]), linear.damping_speed, terms, given)
+    if case.moved or case.bench.model.elements:
+        raise ConfigError("limit_cycle", "effects that change friction or linear terms", "one with laws of its own",
+                          "leave it out here, by limit_cycle.without")
+    friction, plain = mapped_friction(friction_map, linear.sliding_distance)
+    steady = case.slide(closure_response(case.bench.model, linear.centrifugal), pressure * model.input_area, friction,
+                        plain, linear)
+    if steady.states is not None and len(steady.states[0].kind):
+        raise ConfigError("limit_cycle", "friction without a memory", "friction that remembers load or speed",
+                          "leave it out here, by limit_cycle.without")
+    about = steady.about(case.bench.model)
+    whole = sliding_modes(about, steady.acting(linear.friction_slopes), linear.frequency_max,
+                          settings.smallest_correction, friction_damping=linear.friction_damping,
+                          gyroscopic=linear.gyroscopic, centrifugal=linear.centrifugal)
+    root, limit = modes.operating_root[point], linear.frequency_max
+    root = root[(root.imag > 0) & (abs(root) < 2 * np.pi * limit)]
+    return sliding_motion(about, steady.contact.closure, case.friction(friction), case.bench.law,
+                          whole.with_roots(root).damped_above(limit, settings.damping_above), model.contact_body,
+                          settings.patch, settings.stick_speed)
+
+
+def _cycle(system, start, sensor_rows, settings):
+    """Levels over windows, energy balance, and the end of the motion."""
+    rows, count = system.velocity_rows(sensor_rows), round(settings.duration / settings.window)
+    every = max(round(1 / (_RATE * settings.step)), 1)
+    levels, opened, stuck, signals, end = [], [], [], [], start
+    for number in range(count):
+        run = system.run(end, settings.step, settings.window, every, book=number == count - 1)
+        end, velocity = run.end, (rows @ run.state.T).real
+        levels.append(np.sqrt((velocity**2).mean(axis=1)))
+        if not levels[-1].max(initial=0.0) < _UNBOUNDED:
+            raise ConvergenceError("limit_cycle", "a motion that contact limits", f"{levels[-1].max():.3g} m/s after"
+                                   f" {(number + 1) * settings.window:.3g} s", "lower limit_cycle.patch, so that more"
+                                   " patches see the motion")
+        opened.append(run.open.mean())
+        stuck.append(run.stick.mean())
+        signals.append(velocity)
+    last = np.hstack(signals[-2:])
+    frequency, harmonic, spectrum = _lines(last, every * settings.step, settings.harmonics)
+    return {"level": np.array(levels).T, "open_share": opened, "stick_share": stuck,
+            "settled": int(abs(_decibel(levels[-1], levels[-2])) <= settings.settled_within),
+            "imbalance": run.imbalance, "added_loss": run.added[-1] / (run.added[-1] + run.loss[-1]),
+            "velocity": signals[-1].astype(np.float32), "spectrum": spectrum, "cycle_frequency": frequency,
+            "harmonic_amplitude": harmonic}
+
+
+def _decibel(level, other):
+    """dB of one set of root mean squares over another, all sensors together."""
+    return float(10 * np.log10((level**2).sum() / (other**2).sum()))
+
+
+def _lines(velocity, interval, harmonics):
+    """(frequency of the strongest line, amplitudes (s, harmonics), amplitude spectra (s, f)) of velocities (s, t)."""
+    loudest = velocity[np.argmax((velocity**2).mean(axis=1))]
+    frequency = dominant_frequency(loudest, interval, 0.0)
+    harmonic = [harmonic_levels(signal, 1 / interval, frequency, harmonics) for signal in velocity]
+    window = np.hanning(velocity.shape[1])
+    return frequency, harmonic, 2 * abs(np.fft.rfft(window * velocity, axis=1)) / window.sum()
+
+
+def _axes(results, settings):
+    """Axes of the recorded end, and the size of the model."""
+    every = max(round(1 / (_RATE * settings.step)), 1)
+    interval = every * settings.step
+    samples = round(settings.window / settings.step) // every
+    return {"time": interval * np.arange(samples), "frequency": np.fft.rfftfreq(2 * samples, interval),
+            "patches": results[0]["patches"] if results else 0, "modes": results[0]["modes"] if results else 0}
+
+
+def _nothing(model, settings):
+    """Fields of a system without unstable modes."""
+    sensors, axes = len(model.sensor_name), _axes([], settings)
+    windows = round(settings.duration / settings.window)
+    shapes = {"level": (0, sensors, windows), "open_share": (0, windows), "stick_share": (0, windows), "settled": (0,),
+              "imbalance": (0,), "added_loss": (0,), "velocity": (0, sensors, len(axes["time"])),
+              "spectrum": (0, sensors, len(axes["frequency"])), "cycle_frequency": (0,),
+              "harmonic_amplitude": (0, sensors, settings.harmonics)}
+    return {name: np.zeros(shape, {"settled": int, "velocity": np.float32}.get(name, float))
+            for name, shape in shapes.items()}
+
+
+def _checked(points, results, modes, simulate, settings, context):
+    """Changes of level and frequency by each check at the operating point with the fastest growth."""
+    names = settings.checks if len(points) else ()
+    if not names:
+        return {"check": [], "check_level": [], "check_frequency": []}
+    growth = [modes.unstable_root.real[modes.unstable_operating == point].max() for point in points]
+    strongest = int(np.argmax(growth))
+    changed = {STEP: {"step": settings.step / 2}, PATCHES: {"patch": max(settings.patch // 2, 1)},
+               STICK: {"stick_speed": settings.stick_speed / 2},
+               MODES: {"smallest_correction": settings.smallest_correction / 2}}
+    tasks = [(points[strongest], settings.model_copy(update=changed[name])) for name in names]
+    others, here = context.map(simulate, tasks, "checks of the limit cycle"), results[strongest]
+    settled = here["level"][:, -2:].mean(axis=1)
+    return {"check": list(names), "check_level": [_decibel(o["level"][:, -2:].mean(axis=1), settled) for o in others],
+            "check_frequency": [o["cycle_frequency"] / here["cycle_frequency"] - 1 for o in others]}

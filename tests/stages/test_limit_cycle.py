@@ -1,0 +1,89 @@
+"""Stage limit_cycle on a brake of a few elements."""
+
+import numpy as np
+import pytest
+
+from pipeline.contract import ConfigError, ConvergenceError
+from pipeline.products import Effects
+from stages.complex_modes import Settings as Modes
+from stages.complex_modes import complex_modes
+from stages.limit_cycle import CHECKS, Settings, limit_cycle
+from stages.reduced_model import Settings as Reduction
+from stages.reduced_model import reduced_model
+from tests.stages.small_structure import small_friction_map, small_structure
+
+SETTINGS = {"duration": "120 ms", "window": "20 ms", "step": "5 us", "patch": 1, "checks": ("step",)}
+#: for what needs no limit cycle
+SHORT = SETTINGS | {"duration": "6 ms", "window": "2 ms"}
+
+
+@pytest.fixture(scope="module")
+def model():
+    return reduced_model(small_structure(), settings=Reduction(fixed_below="20 kHz"))
+
+
+@pytest.fixture(scope="module")
+def modes(model):
+    return complex_modes(model, small_friction_map(0.6), settings=Modes(
+        friction_steps=2, speeds=("8 rad/s", "12 rad/s"), frequency_max="8 kHz", friction_slopes=False))
+
+
+@pytest.fixture(scope="module")
+def cycle(model, modes):
+    return limit_cycle(model, small_friction_map(0.6), modes, settings=Settings(**SETTINGS))
+
+
+@pytest.mark.exact
+def test_small_motion_grows_as_the_complex_modes_say(modes, cycle):
+    assert len(cycle.onset_root) == len(modes.unstable_root) > 0
+    np.testing.assert_array_equal(np.sort_complex(cycle.onset_root), np.sort_complex(modes.unstable_root))
+    np.testing.assert_allclose(cycle.onset_simulated.imag, cycle.onset_root.imag, rtol=1e-3)
+    error = abs(cycle.onset_simulated.real - cycle.onset_root.real)
+    assert (error < np.maximum(0.1 * cycle.onset_root.real, 1.0)).all()
+
+
+def test_growth_ends_and_energy_balances(cycle):
+    total = (cycle.level**2).sum(axis=1)
+    assert (total[:, -1] > 0).all() and np.isfinite(total).all()
+    assert (cycle.imbalance < 0.01).all()
+    growth = np.log(total[:, 1:] / total[:, :-1]) / (2 * float(cycle.window))
+    fastest = np.array([cycle.onset_root.real[cycle.onset_operating == k].max() for k in range(len(total))])
+    assert (growth[:, -1] < 0.5 * fastest).all()
+
+
+@pytest.mark.exact
+def test_half_the_step_changes_neither_level_nor_frequency(cycle):
+    changes = dict(zip(cycle.check, zip(cycle.check_level, cycle.check_frequency, strict=True), strict=True))
+    level, frequency = changes["step"]
+    assert abs(level) < 0.5 and abs(frequency) < 2e-3
+
+
+def test_every_check_changes_one_thing(model, modes):
+    cycle = limit_cycle(model, small_friction_map(0.6), modes, settings=Settings(
+        **SHORT | {"checks": CHECKS, "speeds": "middle", "stick_speed": "0.5 m/s"}))
+    assert tuple(cycle.check) == CHECKS and len(cycle.pressure) == 1
+    assert np.isfinite(cycle.check_level).all()
+
+
+def test_patches_too_large_to_limit_the_motion_are_refused(model, modes):
+    with pytest.raises(ConvergenceError, match="patch"):
+        limit_cycle(model, small_friction_map(0.6), modes, settings=Settings(
+            **SETTINGS | {"patch": 4, "speeds": "middle", "checks": ()}))
+
+
+def test_without_unstable_modes_nothing_is_simulated(model):
+    still = complex_modes(model, small_friction_map(0.0), settings=Modes(friction_steps=2, frequency_max="8 kHz"))
+    cycle = limit_cycle(model, small_friction_map(0.0), still, settings=Settings(**SHORT))
+    assert cycle.level.shape[0] == len(cycle.onset_root) == len(cycle.check) == 0
+
+
+def test_effects_with_elements_are_refused(model, modes):
+    cubic = Effects(effect=["cubic_stiffness"], place=[str(model.joint_name[0])], term=[0], parameter=["coefficient"],
+                    value=[1e15], unit=["N/m^3"], condition=[], condition_value=[])
+    with pytest.raises(ConfigError, match="limit_cycle"):
+        limit_cycle(model, small_friction_map(0.6), modes, cubic, settings=Settings(**SHORT))
+
+
+def test_windows_fit_into_the_motion():
+    with pytest.raises(ConfigError, match="duration"):
+        limit_cycle.check({"limit_cycle": Settings(duration="20 ms", window="10 ms")})
