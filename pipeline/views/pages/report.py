@@ -14,7 +14,7 @@ from pipeline.views.chapters import (
     surface,
     vibration,
 )
-from pipeline.views.chapters.bench import bench, diagnosis, recording
+from pipeline.views.chapters.bench import bench, diagnosis, line_evidence, recording
 from pipeline.views.chapters.chapter import Figure
 from pipeline.views.chapters.models import beam_on_beam, lock_in, lumped, rupture, transient
 from pipeline.views.figures import complex_modes as stability_pictures
@@ -49,6 +49,7 @@ CHAPTERS = {
     "squeal": (vibration.squeal, (_PUBLISHED,)),
     "rupture": (rupture.chapter, ()),
     "recording": (recording.chapter, ()),
+    "line_evidence": (line_evidence.chapter, ()),
     "bench": (bench.chapter, ()),
     "diagnosis": (diagnosis.chapter, ()),
     "comparison": (comparison.chapter, ()),
