@@ -16,7 +16,8 @@ def chapter(product, look):
     lines = " and ".join(quantity(f, "Hz") for f in product.line)
     see = (f"Heard: {lines}, and no other line between {quantity(product.band[0], 'Hz')} and"
            f" {quantity(product.band[1], 'Hz')}; silence at constant load. {product.value.shape[1]} draws of the"
-           f" scatter of each hypothesis predict tones, each within {percent(product.model_error)} (one standard deviation).")
+           f" scatter of each hypothesis predict tones, each within {percent(product.model_error)} (one standard"
+           " deviation).")
     tables = (_weights(product, names), *_values(product, names), _confusion(product, names))
     return Chapter("line_evidence", "What made it squeal?", see, f"{statement(product)} {needed(product)}",
                    _figures(product, names), tables, limits(product))
