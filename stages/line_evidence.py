@@ -49,7 +49,7 @@ class Settings(Section):
         {"one_way": {"disc": RIGID, "harmonics": True}, "flexible_disc": {"disc": FLEXIBLE}}, "what is compared")
     reference: str = option("one_way", "hypothesis that Bayes factors refer to")
     sources: tuple[Source, ...] = option(DEFAULT, "what scatters, as of probability; hypotheses replace some")
-    draws: int = option(100, "draws of each hypothesis", ge=20)
+    draws: int = option(100, "draws of each hypothesis, an even number", ge=20, multiple_of=2)
     seed: int = option(11, "seed of the draws", ge=0)
     training: int = option(4, "further draws of each hypothesis that the common bases are made to serve", ge=1)
     smallest_correction: float = option(
@@ -90,7 +90,7 @@ def line_evidence(model: ReducedModel, friction_map: FrictionMap, modes: Complex
     deviations = friction_deviations(friction_map, points.sliding_distance)
 
     def draws(hypothesis, count, seed):
-        return drawn(hypothesis, settings.sources, deviations, model, settings.heard, count, seed)
+        return drawn(hypothesis, settings.sources, deviations, model, count, seed)
 
     made = {name: draws(h, settings.draws, settings.seed) for name, h in settings.hypotheses.items()}
     keys = {name: same_solution(h) for name, h in settings.hypotheses.items()}
@@ -106,7 +106,7 @@ def line_evidence(model: ReducedModel, friction_map: FrictionMap, modes: Complex
     return LineEvidence(
         pressure=model.pressure, speed=speed, silent=silent,
         **weighed(hypotheses, lines, reading, (settings.low, settings.high), settings.unexplained,
-                  settings.model_error, settings.reference, settings.seed))
+                  settings.heard, settings.model_error, settings.reference, settings.seed))
 
 
 def _heard(recording, settings):

@@ -51,4 +51,11 @@ def test_the_share_of_misleading_lists_is_told():
 @pytest.mark.parametrize("there", [True, False])
 def test_the_first_screen_answers_where_it_was_weighed(there):
     products = {"diagnosis": diagnosis_for_views.diagnosis()} | ({"line_evidence": WEIGHED} if there else {})
-    assert ("What made it squeal" in dict(verdict(products, ()).answers)) is there
+    told = verdict(products, ())
+    assert ("What made it squeal" in dict(told.answers)) is there
+    assert ("speak for a disc that is flexible" in told.headline) is there
+
+
+def test_less_than_tenfold_decides_nothing():
+    for factor, word in ((2.0, "do not decide"), (-2.0, "do not decide"), (-5.0, "speak against")):
+        assert word in line_evidence.headline(replace(WEIGHED, flexible=np.array(factor)))[0]

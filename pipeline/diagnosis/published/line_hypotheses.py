@@ -18,7 +18,7 @@ from pipeline.inference.decision.line_evidence import Tones
 
 FLEXIBLE, RIGID = "flexible", "rigid"
 #: columns of the drawn values beside those of the sources
-FALLING, LOADING, SHARE = "falling friction", "growth by changing load", "share of tones that are heard"
+FALLING, LOADING = "falling friction", "growth by changing load"
 _TWO_PI = 2 * np.pi
 
 
@@ -63,23 +63,23 @@ def check_hypotheses(hypotheses, sources, where):
             raise ConfigError(f"{here}.joint_factors", "factors above 0", str(hypothesis.joint_factors))
 
 
-def drawn(hypothesis, sources, deviations, model, heard, count, seed):
+def drawn(hypothesis, sources, deviations, model, count, seed):
     """Drawn of a Hypothesis on the ``sources`` of the case, in a product ReducedModel.
 
-    ``heard``: range of the share of tones that leave a line. The same ``seed`` gives sources that two hypotheses share
-    the same values. ConfigError for joints that the model does not have.
+    The same ``seed`` gives sources that two hypotheses share the same values. ConfigError for joints that the model
+    does not have.
     """
     replaced = {s.name: s for s in (*sources, *hypothesis.sources)}
     rng = np.random.default_rng(seed)
     values = draw_values(replaced.values(), deviations, count, rng)
-    share, unit = rng.uniform(*heard, count), rng.uniform(size=(2, count))
+    unit = rng.uniform(size=(2, count))
     low, high = hypothesis.falling or (0.0, 0.0)
     falling, loading = low + (high - low) * unit[0], _TWO_PI * hypothesis.load_rate * unit[1]
     joints = _joint_factors(hypothesis.joint_factors, [str(n) for n in model.joint_name])
     factors = [factors_of(replaced.values(), row, model) for row in values]
     factors = tuple(replace(f, joint_stiffness=f.joint_stiffness * joints, speed_slope=f.speed_slope - drop)
                     for f, drop in zip(factors, falling, strict=True))
-    return Drawn((*replaced, FALLING, LOADING, SHARE), np.column_stack((values, falling, loading, share)), factors)
+    return Drawn((*replaced, FALLING, LOADING), np.column_stack((values, falling, loading)), factors)
 
 
 def _joint_factors(stated, names):
@@ -121,14 +121,16 @@ def tone_frequencies(roots, growth, highest, harmonics, apart):
 
 
 def tones_of(cycle, constant, shares, error, reading):
-    """Tones of draws: ``cycle`` and ``constant`` [(k,)] Hz, ``shares`` (d,) of tones that leave a line.
+    """Tones of d draws: ``cycle`` and ``constant`` [(k,)] Hz; of each draw one row for each of ``shares`` (m,).
 
-    ``error``: relative standard deviation of a predicted frequency; ``reading`` Hz that of a heard one.
+    ``shares`` of tones leave a line; ``error``: relative standard deviation of a predicted frequency; ``reading`` Hz
+    that of a heard one. Rows (d m,), those of one draw together.
     """
     widest = max((len(f) for f in cycle), default=0)
     mean = -np.log1p(-np.asarray(shares, float))
-    frequency, count = np.ones((len(cycle), widest)), np.zeros((len(cycle), widest))
+    frequency, there = np.ones((len(cycle), widest)), np.zeros((len(cycle), widest))
     for row, tones in enumerate(cycle):
-        frequency[row, :len(tones)], count[row, :len(tones)] = tones, mean[row]
-    quiet = mean * [len(f) for f in constant]
-    return Tones(frequency, np.hypot(error * frequency, reading), count, quiet)
+        frequency[row, :len(tones)], there[row, :len(tones)] = tones, 1.0
+    frequency = np.repeat(frequency, len(mean), axis=0)
+    quiet = np.outer([len(f) for f in constant], mean).ravel()
+    return Tones(frequency, np.hypot(error * frequency, reading), np.kron(there, mean[:, None]), quiet)

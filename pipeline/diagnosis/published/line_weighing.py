@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 import scipy
 
-from pipeline.diagnosis.published.line_hypotheses import FLEXIBLE, LOADING, RIGID, SHARE, tone_frequencies, tones_of
+from pipeline.diagnosis.published.line_hypotheses import FLEXIBLE, LOADING, RIGID, tone_frequencies, tones_of
 from pipeline.inference.decision.line_evidence import (
     Band,
     Tones,
@@ -19,6 +19,8 @@ from pipeline.inference.decision.line_evidence import (
 
 #: hypothesis that predicts no tone
 UNEXPLAINED = "unexplained"
+#: shares of tones that are heard, averaged over: middles of equal parts of their range
+_SHARES = 5
 #: fewest draws near a line from which quantiles are taken
 _FEWEST = 5
 _QUANTILES = (0.1, 0.5, 0.9)
@@ -50,31 +52,34 @@ def predicted(hypothesis, drawn, cycle, constant, highest, error):
     return Predicted(drawn, hypothesis.disc, *made, cycle)
 
 
-def weighed(hypotheses, lines, reading, ends, unexplained, error, reference, seed):
+def weighed(hypotheses, lines, reading, ends, unexplained, shares, error, reference, seed):
     """Fields of LineEvidence of {name: Predicted}, but for those of the operating points.
 
     ``lines`` (n,) Hz with standard deviation ``reading`` Hz; ``ends`` Hz of the band and its number of
-    ``unexplained`` lines; ``error`` relative standard deviation of a predicted frequency.
+    ``unexplained`` lines; ``shares`` range of the share of tones that leave a line; ``error`` relative standard
+    deviation of a predicted frequency.
     """
     band = Band(*ends, unexplained)
-    tones = {name: tones_of(p.cycle, p.constant, p.drawn.column(SHARE), error, reading)
-             for name, p in hypotheses.items()}
-    count = len(next(iter(tones.values())))
-    tones[UNEXPLAINED] = Tones(*np.ones((2, count, 0)), np.zeros((count, 0)), np.zeros(count))
-    alone = np.array([log_lines(lines, t, band) for t in tones.values()])
-    both = alone + [log_silence(True, t, band) for t in tones.values()]
+    shares = shares[0] + (shares[1] - shares[0]) * (np.arange(_SHARES) + 0.5) / _SHARES
+    tones = {name: tones_of(p.cycle, p.constant, shares, error, reading) for name, p in hypotheses.items()}
+    rows = len(next(iter(tones.values())))
+    tones[UNEXPLAINED] = Tones(*np.ones((2, rows, 0)), np.zeros((rows, 0)), np.zeros(rows))
+    alone = np.array([log_lines(lines, t, band).reshape(-1, _SHARES) for t in tones.values()])
+    silence = np.array([log_silence(True, t, band).reshape(-1, _SHARES) for t in tones.values()])
+    both = log_mean(alone + silence)
     evidence, deviation, carried = np.array([log_evidence(row, seed) for row in both]).T
     discs = np.array([*(p.disc for p in hypotheses.values()), "none"])
     base = list(tones).index(reference)
     return {
         "hypothesis": list(tones), "disc": discs, "line": lines, "band": [band.low, band.high],
         "unexplained": band.unexplained, "model_error": error, "evidence": evidence, "evidence_error": deviation,
-        "lines_alone": log_mean(alone),
-        "silence": [np.exp(log_mean(log_silence(True, t, band))) for t in tones.values()], "carried": carried,
+        "lines_alone": log_mean(log_mean(alone)),
+        "silence": np.exp(log_mean(log_mean(silence))), "carried": carried,
         "reference": base, "factor": evidence - evidence[base],
         "factor_error": np.where(np.arange(len(discs)) == base, 0.0, np.hypot(deviation, deviation[base])),
         **_families(evidence, deviation, discs), "weight": scipy.special.softmax(both, axis=1),
-        **_values(hypotheses, lines, error, count), **_tones(hypotheses), **_calibrated(tones, discs, band, seed)}
+        **_values(hypotheses, lines, error, rows // _SHARES), **_tones(hypotheses),
+        **_calibrated(tones, discs, band, seed)}
 
 
 def _families(evidence, deviation, discs):

@@ -79,6 +79,8 @@ def page(chapters, products, case, look):
 
 
 def _key_figure(products, look):
+    if products.get("line_evidence") is not None:
+        return line_evidence.key_figure(products["line_evidence"])
     if products.get("diagnosis") is not None:
         return diagnosis.key_figure(products["diagnosis"])
     squeal, broken = products.get("squeal"), products.get("rupture")

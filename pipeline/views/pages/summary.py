@@ -41,8 +41,8 @@ def verdict(products, tuned_settings):
 
 def _diagnosed(product, products, tuned_settings):
     """Verdict of a case with recordings: what they show to be missing."""
-    headline, tone = diagnosis.headline(product)
     weighed = products.get("line_evidence")
+    headline, tone = diagnosis.headline(product) if weighed is None else line_evidence.headline(weighed)
     answers = (("What made it squeal", line_evidence.statement(weighed) if weighed is not None else ""),
                *diagnosis.note(product), ("Tuned", _tuned(products, tuned_settings)))
     return Verdict(headline, tone, tuple(a for a in answers if a[1]), tuple(_facts(products)))

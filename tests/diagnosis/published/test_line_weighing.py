@@ -3,19 +3,19 @@
 import numpy as np
 import pytest
 
-from pipeline.diagnosis.published.line_hypotheses import FALLING, LOADING, SHARE, Drawn, Hypothesis
+from pipeline.diagnosis.published.line_hypotheses import FALLING, LOADING, Drawn, Hypothesis
 from pipeline.diagnosis.published.line_weighing import predicted, weighed
 
 LINES, READING, ENDS, UNEXPLAINED, ERROR = np.array([8e3, 11e3]), 50.0, (1e3, 20e3), 0.1, 0.01
+SHARES = (0.5, 0.5)
 
 
 def hypothesis(disc, offset, count=400, silent=True, seed=0, harmonics=False):
     """Predicted of draws with one mode each near either line, which grow where a ``stiffness`` exceeds 1."""
     rng = np.random.default_rng(seed)
     stiffness = rng.lognormal(0, 0.3, count)
-    values = np.column_stack((stiffness, rng.uniform(0.5, 2, count), np.zeros(count), np.zeros(count),
-                              np.full(count, 0.5)))
-    drawn = Drawn(("stiffness", "idle", FALLING, LOADING, SHARE), values, ())
+    values = np.column_stack((stiffness, rng.uniform(0.5, 2, count), np.zeros(count), np.zeros(count)))
+    drawn = Drawn(("stiffness", "idle", FALLING, LOADING), values, ())
     growth = 200 * (stiffness - 1)
     cycle = [[np.array([g + 2j * np.pi * (f + offset) for f in LINES])] for g in growth]
     constant = [[np.empty(0, complex) if silent else of[0]] for of in cycle]
@@ -23,7 +23,7 @@ def hypothesis(disc, offset, count=400, silent=True, seed=0, harmonics=False):
 
 
 def fields(**hypotheses):
-    return weighed(hypotheses, LINES, READING, ENDS, UNEXPLAINED, ERROR, next(iter(hypotheses)), 1)
+    return weighed(hypotheses, LINES, READING, ENDS, UNEXPLAINED, SHARES, ERROR, next(iter(hypotheses)), 1)
 
 
 @pytest.mark.exact

@@ -23,6 +23,16 @@ def chapter(product, look):
                    _figures(product, names), tables, limits(product))
 
 
+def headline(product):
+    """(sentence, tone) of the first screen."""
+    return _verdict(product).rstrip("."), "warning"
+
+
+def key_figure(product):
+    """The Bayes factors, for the first screen."""
+    return _figures(product, [in_words(h) for h in product.hypothesis])[0]
+
+
 def in_words(name):
     """Name of a hypothesis in plain words."""
     return str(name).replace("_", " ")
@@ -36,12 +46,21 @@ def statement(product):
     first = (f"A disc that is flexible in the loop makes what was heard {total} times as probable as a rigid one, over"
              f" all hypotheses of either kind; {names[flexible]} against {names[rigid]}:"
              f" {_power(product.evidence[flexible] - product.evidence[rigid])} times.")
+    first = f"{_verdict(product)} {first}"
     nothing = product.evidence[-1] - product.evidence[:-1].max()
     if nothing > 0:
         return (f"{first} Neither explains it: that both lines come from something else is {_power(nothing)} times as"
                 f" probable as under {names[int(np.argmax(product.evidence[:-1]))]}, the best of them.")
     return (f"{first} {names[int(np.argmax(product.evidence[:-1]))].capitalize()} is {_power(-nothing)} times as"
             " probable as lines that no hypothesis explains.")
+
+
+def _verdict(product):
+    """Whether the lines decide, in one sentence."""
+    if abs(product.flexible) < np.log(10):
+        return "The heard lines do not decide whether the disc is flexible in the loop."
+    which = "for" if product.flexible > 0 else "against"
+    return f"The heard lines speak {which} a disc that is flexible in the loop."
 
 
 def needed(product):
@@ -54,7 +73,7 @@ def needed(product):
                         for k, line in enumerate(lines))
     said = (f"Modes of the whole brake within {percent(product.model_error)} of the lines grow most often under {name}:"
             f" {shares} of its draws, all lines in {percent(product.near[row, -1])}; their largest growth rates are"
-            f" {largest}.")
+            f" {largest}. It makes the silence at constant load {percent(product.silence[row], 2)} probable.")
     targets = [*lines, "all lines"]
     changed = [f"{targets[t]} needs {_needs(product, row, t)}" for t in range(len(targets)) if _needs(product, row, t)]
     return f"{said} What differs in those draws: {'; '.join(changed)}." if changed else said
