@@ -17,6 +17,7 @@ from pipeline.products.diagnosis import (
     Follows,
     LatentForce,
     LatentPrediction,
+    LineEvidence,
     Located,
     SquealCheck,
 )
@@ -45,7 +46,7 @@ from pipeline.products.surfaces import Surface
 
 __all__ = ["BeamGeometry", "BeamOnBeam", "Bench", "BenchRun", "Body", "Channel", "Comparison", "ComplexModes",
            "Condition", "Convergence", "DiagnosedRun", "Diagnosis", "Effects", "Follows", "FrequencyResponse", "FrictionDescriptions",
-           "FrictionMap", "Incidence", "InterfaceLaw", "LatentForce", "LatentPrediction", "LimitCycle", "Lines", "Located", "LockIn",
+           "FrictionMap", "Incidence", "InterfaceLaw", "LatentForce", "LatentPrediction", "LimitCycle", "LineEvidence", "Lines", "Located", "LockIn",
            "Lumped", "MeasuredFriction", "MeasuredModes", "MicroFriction", "MotionScatter", "Multibody", "PinOnDisc", "Probability",
            "Recording", "ReducedModel", "Report", "Response", "Run", "Rupture", "Squeal", "SquealCheck", "Structure", "Surface", "Topography",
            "Transient"]

@@ -14,6 +14,7 @@ from pipeline.products import (
     FrictionMap,
     Incidence,
     InterfaceLaw,
+    LineEvidence,
     LockIn,
     Lumped,
     MicroFriction,
@@ -225,7 +226,29 @@ def probability(draws=60):
         band_any=np.where(abs(band / 8e3 - 1) < 0.3, share.max(), 0.0),
         band_interval=np.where(abs(band / 8e3 - 1) < 0.3, share.max(), 0.0)[:, None] + 0.01 * ends[1:] * [0, 1],
         sensitivity=[0.05, 0.2, 0.7], sensitivity_error=[0.02, 0.03, 0.05], trend=[0.1, -0.3, 0.9],
-        checked_root=[300.5 + 50e3j], whole_root=[300 + 50.001e3j], checked_draws=4, missed=0, neutral=1e-6)
+        checked_root=[300.5 + 50e3j], whole_root=[300 + 50.001e3j], checked_draws=4, missed=0, least_growth=0.0)
+
+
+def line_evidence(draws=40):
+    """Lines that a flexible disc with less damping explains best; stiffer joints bring tones to them."""
+    names = ["one_way", "flexible_disc", "flexible_less_damping", "unexplained"]
+    rng = np.random.default_rng(4)
+    tone = np.concatenate([np.arange(2e3, 2e4, 800.0), [7.6e3, 10.9e3], rng.normal(16.6e3, 200, 20)])
+    owner = np.repeat([0, 1, 2], [23, 2, 20])
+    near, shift = np.zeros((4, 3)), np.zeros((4, 3, 2))
+    near[2], shift[2, 0] = (0.5, 0.2, 0.15), (-4.5, 0.2)
+    simulated = np.array([-3.0, 3.0, 4.0, 0.0])[:, None] + rng.standard_normal((4, 20))
+    evidence = np.array([-24.0, -23.0, -19.0, -23.5])
+    return filled(
+        LineEvidence, hypothesis=names, disc=["rigid", "flexible", "flexible", "none"], line=[16.6e3, 17.8e3],
+        band=[1250.0, 20e3], unexplained=0.1, model_error=0.01, pressure=[0.4e6, 3e6], speed=[8.5, 8.5], silent=[1, 0],
+        evidence=evidence, evidence_error=[0.3, 0.3, 0.5, 0.0], lines_alone=evidence + 1, silence=[0.4, 0.3, 0.3, 0.9],
+        carried=[9.0, 11.0, 5.0, 40.0], reference=0, factor=evidence + 24, factor_error=[0.0, 0.42, 0.58, 0.3],
+        flexible=4.3, flexible_error=0.5, column=["joint_loss", "falling friction"],
+        value=rng.uniform(size=(4, draws, 2)), weight=np.full((4, draws), 1 / draws),
+        line_growth=rng.normal(size=(4, draws, 2)), tone=tone, tone_hypothesis=owner, tone_draw=np.zeros(45, int),
+        near=near, target_shift=shift, target_quantile=np.full((4, 3, 2, 3), 0.3), all_quantile=np.full((4, 2, 3), 0.6),
+        confusion=np.full((4, 5), 0.2), simulated=simulated)
 
 
 def multibody(samples=3000):

@@ -17,6 +17,7 @@ from pipeline.views.figures import (
     surfaces,
     vibration,
 )
+from pipeline.views.figures.bench import line_evidence
 from pipeline.views.figures.models import lock_in, rupture, transient
 from tests.views import products_for_views as small
 
@@ -41,6 +42,9 @@ PICTURES = {
     "probability": (probability.per_point, small.probability, "probability"),
     "probable bands": (probability.per_band, small.probability, "band_any"),
     "sensitivities": (lambda p: probability.sensitivities(p, list(p.source)), small.probability, "sensitivity"),
+    "bayes factors": (lambda p: line_evidence.factors(p, list(p.hypothesis)), small.line_evidence, "factor"),
+    "predicted tones": (lambda p: line_evidence.tones(p, list(p.hypothesis)), small.line_evidence, "tone"),
+    "simulated lists": (line_evidence.simulated, small.line_evidence, "simulated"),
     "map": (friction.friction_map, small.friction_map, "friction"),
     "preload": (lambda p: preload.contact_pressure(p, preload.loads(p), 60), small.structure, "preload"),
     "sliding load": (lambda p: preload.contact_pressure(small.structure(), preload.loads(small.structure(), p), 60),

@@ -116,9 +116,8 @@ class DifferingLists:
         return {"run": (Location(tuple(r.name for r in best.runs), deviation, p_value, members),)}
 
 
-def lines_of(recording, run, name):
-    """Lines of the list ``name`` of ``run`` of a product Recording; ConfigError for one that is not there."""
-    where = "diagnosis.lines"
+def lines_of(recording, run, name, where="diagnosis.lines"):
+    """Lines of the list ``name`` of ``run`` of a product Recording; ConfigError at ``where`` for one not there."""
     if run not in recording.runs:
         raise ConfigError(where, f"runs among {', '.join(recording.runs)}", run)
     lists = recording.runs[run].lines

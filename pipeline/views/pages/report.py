@@ -15,7 +15,7 @@ from pipeline.views.chapters import (
     surface,
     vibration,
 )
-from pipeline.views.chapters.bench import bench, diagnosis, recording
+from pipeline.views.chapters.bench import bench, diagnosis, line_evidence, recording
 from pipeline.views.chapters.chapter import Figure
 from pipeline.views.chapters.models import beam_on_beam, lock_in, lumped, rupture, transient
 from pipeline.views.figures import complex_modes as stability_pictures
@@ -51,6 +51,7 @@ CHAPTERS = {
     "squeal": (vibration.squeal, (_PUBLISHED,)),
     "rupture": (rupture.chapter, ()),
     "recording": (recording.chapter, ()),
+    "line_evidence": (line_evidence.chapter, ()),
     "bench": (bench.chapter, ()),
     "diagnosis": (diagnosis.chapter, ()),
     "comparison": (comparison.chapter, ()),
@@ -80,6 +81,8 @@ def page(chapters, products, case, look):
 
 
 def _key_figure(products, look):
+    if products.get("line_evidence") is not None:
+        return line_evidence.key_figure(products["line_evidence"])
     if products.get("diagnosis") is not None:
         return diagnosis.key_figure(products["diagnosis"])
     squeal, broken = products.get("squeal"), products.get("rupture")

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from pipeline.views.chapters import convergence, limit_cycle, probability
-from pipeline.views.chapters.bench import diagnosis
+from pipeline.views.chapters.bench import diagnosis, line_evidence
 from pipeline.views.chapters.friction import outside_computed
 from pipeline.views.chapters.models.rupture import headline as rupture_headline
 from pipeline.views.chapters.pad_motion import extremes, point, rate_in_words
@@ -41,8 +41,10 @@ def verdict(products, tuned_settings):
 
 def _diagnosed(product, products, tuned_settings):
     """Verdict of a case with recordings: what they show to be missing."""
-    headline, tone = diagnosis.headline(product)
-    answers = (*diagnosis.note(product), ("Tuned", _tuned(products, tuned_settings)))
+    weighed = products.get("line_evidence")
+    headline, tone = diagnosis.headline(product) if weighed is None else line_evidence.headline(weighed)
+    answers = (("What made it squeal", line_evidence.statement(weighed) if weighed is not None else ""),
+               *diagnosis.note(product), ("Tuned", _tuned(products, tuned_settings)))
     return Verdict(headline, tone, tuple(a for a in answers if a[1]), tuple(_facts(products)))
 
 

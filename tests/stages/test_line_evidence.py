@@ -1,0 +1,106 @@
+"""Stage line_evidence on a brake of a few elements: whose tones were heard, and who heard none."""
+
+from dataclasses import fields
+
+import numpy as np
+import pytest
+
+from pipeline.contract import ConfigError, Context, store
+from pipeline.contract.executor import LocalProcesses
+from pipeline.products import Lines, Recording, Run
+from stages.complex_modes import Settings as Modes
+from stages.complex_modes import complex_modes
+from stages.line_evidence import Settings, line_evidence
+from stages.probability import Settings as Draws
+from stages.probability import probability
+from stages.reduced_model import Settings as Reduction
+from stages.reduced_model import reduced_model
+from tests.stages.small_structure import small_friction_map, small_structure
+from tests.views.products_for_views import filled
+
+SOURCES = ({"kind": "joint_stiffness", "variation": 0.3}, {"kind": "friction", "variation": 0.1})
+GIVEN = {"low": "500 Hz", "high": "8 kHz", "silent_up_to": "1.5 MPa", "constant_speed": "8 rad/s",
+         "cycle_speed": "8 rad/s", "draws": 60, "sources": SOURCES}
+
+
+def recording(*lines):
+    """A Recording of a list of lines, read to 50 Hz."""
+    listed = filled(Lines, label=[""] * len(lines), frequency=list(lines), frequency_tolerance=[50.0] * len(lines),
+                    place="ring")
+    parts = {f.name: {"laser": listed} if f.name == "lines" else {} for f in fields(Run)[2:]}
+    return Recording(source=["a paper"], runs={"bench": Run(description="squeal", repeat_of="", **parts)})
+
+
+@pytest.fixture(scope="module")
+def brake():
+    model = reduced_model(small_structure(), settings=Reduction(fixed_below="20 kHz"))
+    law = small_friction_map(0.5)
+    settings = Modes(friction_steps=2, speeds=("8 rad/s",), frequency_max="8 kHz")
+    return model, law, complex_modes(model, law, settings=settings)
+
+
+@pytest.fixture(scope="module")
+def tone(brake):
+    """Frequency, Hz, of the mode of the whole brake that most draws let grow."""
+    drawn = probability(*brake, settings=Draws(draws=60, checked=0, sources=SOURCES))
+    frequency = drawn.root[drawn.pressure[drawn.root_operating] == 2e6].imag / (2 * np.pi)
+    near = abs(frequency / frequency[:, None] - 1) < 0.01
+    return float(frequency[np.argmax(near.sum(axis=1))])
+
+
+@pytest.fixture(scope="module")
+def made(brake, tone):
+    return line_evidence(*brake, recording(tone), settings=Settings(**GIVEN))
+
+
+def test_tones_are_the_unstable_modes_of_the_draws(brake, made):
+    """Those of stage probability at the loaded point, which draws the same values."""
+    drawn = probability(*brake, settings=Draws(draws=60, checked=0, sources=SOURCES))
+    cycle = drawn.root[(drawn.pressure[drawn.root_operating] == 2e6)]
+    tones = made.tone[made.tone_hypothesis == 1]
+    assert len(tones) and all(abs(cycle.imag / (2 * np.pi) - f).min() < 0.01 * f for f in tones)
+    np.testing.assert_array_equal(made.value[1][:, :2], drawn.value)
+
+
+def test_a_line_at_a_tone_of_the_flexible_brake_is_evidence_for_it(made, tone):
+    assert list(map(str, made.hypothesis)) == ["one_way", "flexible_disc", "unexplained"]
+    np.testing.assert_allclose(made.line, tone)
+    assert made.near[1, 0] > made.near[0, 0] and made.lines_alone[1] > made.lines_alone[0]
+    np.testing.assert_allclose(made.weight.sum(axis=1), 1.0)
+
+
+def test_the_cycle_is_run_at_constant_power(brake):
+    model, law, modes = brake
+    points = Settings(**{**GIVEN, "silent_up_to": "1.5 MPa", "cycle_speed": "6 rad/s"})
+    made = line_evidence(model, law, modes, recording(3e3), settings=points)
+    np.testing.assert_allclose(made.speed, [8.0, 6.0])
+    np.testing.assert_array_equal(made.silent, [1, 0])
+
+
+def test_the_number_of_workers_changes_no_bit(brake, made, tone):
+    class Two(Context):
+        def map(self, function, items, label=""):
+            pool = LocalProcesses(2)
+            try:
+                return pool.map(function, list(items), lambda: None)
+            finally:
+                pool.close()
+
+    again = line_evidence(*brake, recording(tone), settings=Settings(**GIVEN), context=Two())
+    assert store.content_hash(again) == store.content_hash(made)
+
+
+@pytest.mark.parametrize(("changed", "where"), [
+    ({"high": "9 kHz"}, "line_evidence.high"), ({"low": "5 kHz"}, "line_evidence.low"),
+    ({"silent_up_to": "3 MPa"}, "structure.pressures"), ({"list": "other"}, "line_evidence.list")])
+def test_settings_that_do_not_fit_are_refused(brake, changed, where):
+    with pytest.raises(ConfigError, match=where):
+        line_evidence(*brake, recording(4e3), settings=Settings(**{**GIVEN, **changed}))
+
+
+@pytest.mark.parametrize(("changed", "where"), [
+    ({"reference": "other"}, "reference"), ({"hypotheses": {"one_way": {"disc": "rigid"}}}, "hypotheses"),
+    ({"heard": (0.5, 1.0)}, "heard"), ({"low": "9 kHz"}, "high")])
+def test_contradictions_are_refused_before_anything_runs(changed, where):
+    with pytest.raises(ConfigError, match=f"line_evidence.{where}"):
+        line_evidence.check({"line_evidence": Settings(**{**GIVEN, **changed})})
