@@ -14,6 +14,7 @@ from pipeline.products import (
     FrictionMap,
     Incidence,
     InterfaceLaw,
+    LimitCycle,
     LineEvidence,
     LockIn,
     Lumped,
@@ -205,6 +206,22 @@ def convergence(converged=True):
         refined_root=refined, found=found, held=held, added=[0, 0 if converged else 1, 0, 0], contacts=1296,
         refined_contacts=[2304, 2304, 1296, 1296], frequency_change=0.003, growth_change=50.5, growth_share=0.03,
         frequency_tolerance=0.005, growth_tolerance=0.1, neutral=10.0, converged=int(converged))
+
+
+def limit_cycle(settled=True):
+    """Two operating points with three unstable modes, the second louder."""
+    level = np.array([0.1, 0.2])[:, None, None] * np.array([1.0, 0.6])[:, None] * np.array([0.4, 1.0, 1.01])
+    frequency = np.linspace(0, 25e3, 501)
+    spectrum = 1e-4 + 0.2 * np.exp(-((frequency - 8050) / 60) ** 2)
+    return filled(
+        LimitCycle, pressure=[1e6, 3e6], speed=[8.5, 12.0], onset_operating=[0, 1, 1],
+        onset_root=[110 + 48e3j, 360 + 50.6e3j, 210 + 68e3j], onset_simulated=[111 + 48e3j, 361 + 50.6e3j, 209 + 68e3j],
+        sensor_name=SENSORS, window=0.01, level=level, open_share=np.full((2, 3), 0.03),
+        stick_share=np.full((2, 3), 0.05), settled=[1, int(settled)], settled_within=0.5, imbalance=[1e-3, 2e-3],
+        added_loss=[0.02, 0.05], frequency=frequency, spectrum=np.broadcast_to(spectrum, (2, 2, 501)),
+        cycle_frequency=[7640.0, 8050.0], harmonic_amplitude=np.full((2, 2, 4), 0.01), patches=128, modes=374,
+        step=2e-6,
+        check=["step"], check_level=[0.05], check_frequency=[1e-4])
 
 
 def probability(draws=60):

@@ -18,7 +18,7 @@ from pipeline.views.figures import (
     vibration,
 )
 from pipeline.views.figures.bench import line_evidence
-from pipeline.views.figures.models import lock_in, rupture, transient
+from pipeline.views.figures.models import limit_cycle, lock_in, rupture, transient
 from tests.views import products_for_views as small
 
 LINES = (16600.0, 17800.0)
@@ -39,6 +39,8 @@ PICTURES = {
     "friction": (lambda p: friction.over_distance(p, "friction"), small.micro_friction, "friction"),
     "over pressure": (friction.over_pressure, small.micro_friction, "friction"),
     "convergence": (friction.convergence, small.micro_friction, "refinement_area"),
+    "limit cycle levels": (limit_cycle.levels, small.limit_cycle, "level"),
+    "limit cycle spectrum": (lambda c: limit_cycle.spectrum(c, 1), small.limit_cycle, "spectrum"),
     "probability": (probability.per_point, small.probability, "probability"),
     "probable bands": (probability.per_band, small.probability, "band_any"),
     "sensitivities": (lambda p: probability.sensitivities(p, list(p.source)), small.probability, "sensitivity"),

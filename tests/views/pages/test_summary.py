@@ -65,6 +65,17 @@ def test_a_chain_that_ends_with_complex_modes_says_whether_squeal_can_start_and_
     assert stable.headline == "Steady sliding is stable at all 9 operating points" and stable.tone == "quiet"
 
 
+def test_a_simulated_brake_squeals_and_says_how_loud():
+    modes, ending = small.complex_modes(), small.convergence()
+    told = verdict({"complex_modes": modes, "convergence": ending, "limit_cycle": small.limit_cycle()}, ())
+    points = len(np.unique(modes.unstable_operating))
+    assert told.headline == f"Squeals at {points} of 9 operating points, loudest at 8.05\u202fkHz"
+    assert "Every motion settles" in said(told) and "0.05 dB" in said(told)
+    doubtful = verdict({"complex_modes": modes, "convergence": ending,
+                        "limit_cycle": small.limit_cycle(settled=False)}, ())
+    assert "1 of 2 motions have NOT settled" in said(doubtful)
+
+
 def test_how_likely_says_where_how_much_and_what_matters():
     product = small.probability()
     answers = dict(verdict({"complex_modes": small.complex_modes(), "probability": product}, ()).answers)

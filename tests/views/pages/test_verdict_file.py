@@ -51,6 +51,17 @@ def test_every_mode_says_what_damps_it_and_those_followed_where_they_come_from()
     assert {mode["same_mode_as"] for mode in others} == {0}
 
 
+def test_the_simulation_is_there_where_there_was_one():
+    modes, cycle = small.complex_modes(), small.limit_cycle()
+    told = written({"complex_modes": modes, "limit_cycle": cycle})["transient"]
+    assert [each["simulated_growth_rate"] for each in told["onset"]] == [111, 361, 209]
+    last = told["limit_cycles"][1]
+    assert last["pressure"] == 3e6 and last["settled"] is True and last["frequency"] == 8050
+    assert last["velocity"] == pytest.approx(np.sqrt((cycle.level[1, :, -1] ** 2).mean()))
+    assert told["changes"] == {"step": {"level_db": 0.05, "frequency": 1e-4}}
+    assert written({"complex_modes": modes})["transient"] is None
+
+
 def test_what_is_not_converged_or_not_examined_is_a_warning():
     modes = small.complex_modes()
     doubtful = written({"complex_modes": modes, "convergence": small.convergence(converged=False)})
