@@ -14,6 +14,7 @@ from pipeline.case_models.effect_block import conditions, physics_terms
 from pipeline.case_models.pads import kept
 from pipeline.case_models.scatter import stability_settings
 from pipeline.case_models.steady_sliding import mapped_friction, posed
+from pipeline.case_models.unstable_roots import nearly
 from pipeline.contract import ConfigError, Context, ConvergenceError, Quantity, Section, option, stage
 from pipeline.physics.signals.limit_cycle import harmonic_levels
 from pipeline.physics.signals.oscillation import dominant_frequency
@@ -73,9 +74,9 @@ def limit_cycle(model: ReducedModel, friction_map: FrictionMap, modes: ComplexMo
 
     Method:
     The motion about steady sliding was integrated in the complex modes of the sliding system with steps of {step}: the
-    linear part exactly, with the roots of the complex modes; contact laws and friction at patches of at most {patch}
-    contacts. Modes above those of the complex modes have a damping ratio of at least {damping_above}. The motion lasted
-    {duration}, levels are root mean squares over {window}.
+    linear part exactly, roots that grow or nearly do being those of the complex modes; contact laws and friction at
+    patches of at most {patch} contacts. Modes above those of the complex modes have a damping ratio of at least
+    {damping_above}. The motion lasted {duration}, levels are root mean squares over {window}.
     """
     points = _points(modes, settings)
     terms = kept(physics_terms(effects), settings.without)
@@ -148,7 +149,7 @@ def _system(point, model, friction_map, modes, terms, given, settings):
                           settings.smallest_correction, friction_damping=linear.friction_damping,
                           gyroscopic=linear.gyroscopic, centrifugal=linear.centrifugal)
     root, limit = modes.operating_root[point], linear.frequency_max
-    root = root[(root.imag > 0) & (abs(root) < 2 * np.pi * limit)]
+    root = root[(root.imag > 0) & nearly(root, linear)]
     return sliding_motion(about, steady.contact.closure, case.friction(friction), case.bench.law,
                           whole.with_roots(root).damped_above(limit, settings.damping_above), model.contact_body,
                           settings.patch, settings.stick_speed)

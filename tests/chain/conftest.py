@@ -19,7 +19,7 @@ QUICK = ROOT / "configs" / "disc_brake_quick.yaml"
 def brakechain(*args, code=0):
     """Run the command line from the project's root; checks its exit code."""
     done = subprocess.run([sys.executable, "-m", "pipeline", *map(str, args)], capture_output=True, text=True, cwd=ROOT,
-                          timeout=900)
+                          timeout=1800)
     assert done.returncode == code, done.stdout + done.stderr
     return done
 
