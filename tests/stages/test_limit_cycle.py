@@ -58,7 +58,7 @@ def test_half_the_step_changes_neither_level_nor_frequency(model, modes):
         **SETTINGS | {"duration": "12 ms", "window": "4 ms", "step": "2 us"}))
     assert tuple(short.check) == ("step",) and short.open_share.max() > 0
     line = 1 / (2 * float(short.window))      # what the record resolves, in Hz
-    assert abs(short.check_level[0]) < 0.1
+    assert abs(short.check_level[0]) < 0.5
     assert abs(short.check_frequency[0]) * short.cycle_frequency.max() < 0.2 * line
 
 
