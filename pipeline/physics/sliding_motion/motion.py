@@ -98,10 +98,10 @@ class SlidingMotion:
 
     def _advance(self, motion, step, count, every, record, energy):
         """Sweeps of all steps; a step that has no solution is taken in finer ones."""
-        kernels = [step_kernel(self.modes.root, self.motion, self.force, step)]
         done, sweeps, spent, none = 0, 0, np.zeros(3), Record(*np.empty((2, 0, 0)), np.empty((0, 4)))
         while done < count:
-            code, number, more = advance(self.patches, kernels[0], energy, *motion, done, count, every, record, spent)
+            code, number, more = advance(self.patches, self._kernel(step), energy, *motion, done, count, every, record,
+                                         spent)
             done, sweeps = number, sweeps + more
             parts, before = 1, tuple(each.copy() for each in (*motion, spent))
             while code != DONE:
@@ -112,10 +112,20 @@ class SlidingMotion:
                     raise ConvergenceError(f"sliding motion at t = {number * step:.6g} s", "contact forces that settle",
                                            "none after the last iteration", "take a shorter step or smaller patches, or"
                                            " raise the stick speed")
-                finer = step_kernel(self.modes.root, self.motion, self.force, step / parts)
-                code, _, more = advance(self.patches, finer, energy, *motion, 0, parts, parts + 1, none, spent)
+                code, _, more = advance(self.patches, self._kernel(step / parts), energy, *motion, 0, parts, parts + 1,
+                                        none, spent)
                 sweeps += more
         return sweeps
+
+    def _kernel(self, step):
+        """StepKernel of steps of ``step`` s, made once."""
+        if step not in self._kernels:
+            self._kernels[step] = step_kernel(self.modes.root, self.motion, self.force, step)
+        return self._kernels[step]
+
+    @cached_property
+    def _kernels(self):
+        return {}
 
     def _begin(self, start):
         """(state, contact forces beyond the linear, the same) at modal coordinates (m,)."""
