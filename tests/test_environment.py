@@ -1,6 +1,10 @@
-"""The environment: compiled code lies in a folder of the user."""
+"""The environment: compiled code lies in a folder of the user; the lock installs with later releases about."""
 
+import re
+from importlib.metadata import distributions
 from pathlib import Path
+
+from packaging.requirements import Requirement
 
 from pipeline.environment import CACHE, LOCATORS, use_compiled_cache
 
@@ -20,3 +24,14 @@ def test_a_folder_of_the_user_is_kept_and_one_that_cannot_be_made_is_left_out(tm
     blocked = {"XDG_CACHE_HOME": str(tmp_path / "file")}
     use_compiled_cache(blocked)
     assert CACHE not in blocked
+
+
+def test_the_lock_pins_extras_that_a_distribution_requires():
+    """To pip, 'name[extra]' is another requirement than a pinned 'name': it would take a later release, without a hash."""
+    lock = (Path(__file__).parents[1] / "requirements.lock").read_text()
+    pinned = {line.name: line.extras for line in map(Requirement, re.findall(r"^([\w.\[\],-]+==[^ ;]+)", lock, re.M))}
+    assert pinned.keys() > {"numpy", "coverage"}
+    installed = [one for one in distributions() if one.name.lower() in pinned]
+    for one in (Requirement(text) for each in installed for text in each.requires or ()):
+        if one.marker is None or one.marker.evaluate({"extra": ""}):
+            assert one.extras <= pinned.get(one.name, one.extras), one

@@ -1,6 +1,7 @@
 """The command that shows the computed numbers of published facts, and records them."""
 
 import json
+import re
 from pathlib import Path
 
 import click
@@ -28,6 +29,7 @@ def facts(sources, only, markdown, file):
 
     record = _record(sources)
     if file is not None:
+        _committed(record["runs"])
         write_companion(file, json.dumps(record, indent=1, ensure_ascii=False) + "\n")
         click.echo(f"{len(record['facts'])} facts of {len(record['runs'])} runs: {file}")
         return
@@ -40,6 +42,14 @@ def facts(sources, only, markdown, file):
         click.echo(page.markdown(record["facts"], keys))
         return
     table("published facts", *page.table(record["facts"], keys))
+
+
+def _committed(runs):
+    """ConfigError if no commit holds the code of a run: its numbers could not be computed again."""
+    for commit in sorted({commit for run in runs for commit in run["commits"]}):
+        if not re.fullmatch("[0-9a-f]{40}", commit):
+            raise ConfigError("--record", "runs of committed code", f"products of {commit}",
+                              "commit the change ('+' marks one that is not), and run the case again")
 
 
 def _record(sources):

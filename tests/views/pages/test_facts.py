@@ -17,6 +17,7 @@ from tests.views.products_for_views import comparison, filled
 
 ROOT = Path(__file__).parents[3]
 RECORDS = sorted(ROOT.glob("data/reference/computed/*.json"))
+COMMIT = "c0ffee" + "0" * 34
 #: a table in a document, between its command and the end mark
 TABLE = re.compile(r"<!-- facts: `brakechain (?P<command>[^`]*)` -->\n(?P<table>.*?)\n<!-- /facts -->", re.DOTALL)
 
@@ -42,7 +43,7 @@ def runs(tmp_path_factory):
             values[field][0] = value
         product = filled(Comparison) if change is None else Comparison(**values)
         folders.append(tmp_path_factory.mktemp(name))
-        store.write(product, folders[-1] / "comparison.h5", {"git_commit": "c0ffee", "kernels": json.dumps([kernel])})
+        store.write(product, folders[-1] / "comparison.h5", {"git_commit": COMMIT, "kernels": json.dumps([kernel])})
     return folders
 
 
@@ -50,7 +51,7 @@ def test_numbers_that_a_processor_moves_are_ranges_and_the_verdict_is_the_worse_
     command(*runs[:2], "--record", tmp_path / "case.json")
     record = json.loads((tmp_path / "case.json").read_text())
     assert [run["kernels"] for run in record["runs"]] == [["openblas Haswell"], ["openblas Zen"]]
-    assert record["runs"][0]["commits"] == ["c0ffee"]
+    assert record["runs"][0]["commits"] == [COMMIT]
     lowest = record["facts"]["friction_lowest"]
     assert (lowest["ours"], lowest["verdict"], lowest["field"]) == ([0.41, 0.47], "outside", "micro_friction.friction")
     assert "damped_at_low_load" not in record["facts"], "a fact without a verdict is not recorded"
@@ -69,6 +70,9 @@ def test_what_cannot_be_shown_is_refused(runs, tmp_path):
     with pytest.raises(ConfigError, match="a record of facts"):
         command(tmp_path / "x.json")
     assert "cannot be mixed" in command(tmp_path / "x.json", runs[0])
+    store.write(filled(Comparison), tmp_path / "comparison.h5", {"git_commit": f"{COMMIT}+", "kernels": "[]"})
+    with pytest.raises(ConfigError, match="runs of committed code"):
+        command(tmp_path, "--record", tmp_path / "case.json")
 
 
 @pytest.mark.parametrize("given, shown", [
