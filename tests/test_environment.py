@@ -27,7 +27,7 @@ def test_a_folder_of_the_user_is_kept_and_one_that_cannot_be_made_is_left_out(tm
 
 
 def test_the_lock_pins_extras_that_a_distribution_requires():
-    """To pip, 'name[extra]' is another requirement than a pinned 'name': it would take a later release, without a hash."""
+    """To pip, 'name[extra]' is not the pinned 'name': it would take a later release, which has no hash."""
     lock = (Path(__file__).parents[1] / "requirements.lock").read_text()
     pinned = {line.name: line.extras for line in map(Requirement, re.findall(r"^([\w.\[\],-]+==[^ ;]+)", lock, re.M))}
     assert pinned.keys() > {"numpy", "coverage"}
