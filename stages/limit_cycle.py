@@ -82,8 +82,9 @@ def limit_cycle(model: ReducedModel, friction_map: FrictionMap, modes: ComplexMo
     terms = kept(physics_terms(effects), settings.without)
     simulate = partial(_simulate, model=model, friction_map=friction_map, modes=modes, terms=terms,
                        given=conditions(effects), settings=settings)
-    results = context.map(simulate, [(point, settings) for point in points], "limit cycles")
-    checked = _checked(points, results, modes, simulate, settings, context)
+    checks, strongest = _checks(points, modes, settings)
+    motions = context.map(simulate, checks + [(point, settings) for point in points], "limit cycles")
+    others, results = motions[:len(checks)], motions[len(checks):]
     for result in results:
         if result["imbalance"] > _TOLERATED:
             context.log(f"energy balances only within {100 * result['imbalance']:.2g} %; a shorter step would help")
@@ -93,7 +94,8 @@ def limit_cycle(model: ReducedModel, friction_map: FrictionMap, modes: ComplexMo
         pressure=modes.operating_pressure[points], speed=modes.operating_speed[points],
         onset_operating=[o[0] for o in onset], onset_root=np.array([o[1] for o in onset], complex),
         onset_simulated=np.array([o[2] for o in onset], complex), sensor_name=model.sensor_name, window=settings.window,
-        settled_within=settings.settled_within, step=settings.step, **_axes(results, settings), **fields, **checked)
+        settled_within=settings.settled_within, step=settings.step, **_axes(results, settings), **fields,
+        **_changes(settings.checks[:len(checks)], others, results[strongest] if checks else None))
 
 
 #: largest error of the energy balance that passes without a message
@@ -215,18 +217,21 @@ def _nothing(model, settings):
             for name, shape in shapes.items()}
 
 
-def _checked(points, results, modes, simulate, settings, context):
-    """Changes of level and frequency by each check at the operating point with the fastest growth."""
-    names = settings.checks if len(points) else ()
-    if not names:
-        return {"check": [], "check_level": [], "check_frequency": []}
+def _checks(points, modes, settings):
+    """(tasks, finer than the others, place of their operating point): one for each check, where growth is fastest."""
+    if not (len(points) and settings.checks):
+        return [], 0
     growth = [modes.unstable_root.real[modes.unstable_operating == point].max() for point in points]
     strongest = int(np.argmax(growth))
-    changed = {STEP: {"step": settings.step / 2}, PATCHES: {"patch": max(settings.patch // 2, 1)},
-               STICK: {"stick_speed": settings.stick_speed / 2},
-               MODES: {"smallest_correction": settings.smallest_correction / 2}}
-    tasks = [(points[strongest], settings.model_copy(update=changed[name])) for name in names]
-    others, here = context.map(simulate, tasks, "checks of the limit cycle"), results[strongest]
-    settled = here["level"][:, -2:].mean(axis=1)
-    return {"check": list(names), "check_level": [_decibel(o["level"][:, -2:].mean(axis=1), settled) for o in others],
-            "check_frequency": [o["cycle_frequency"] / here["cycle_frequency"] - 1 for o in others]}
+    finer = {STEP: {"step": settings.step / 2}, PATCHES: {"patch": max(settings.patch // 2, 1)},
+             STICK: {"stick_speed": settings.stick_speed / 2},
+             MODES: {"smallest_correction": settings.smallest_correction / 2}}
+    return [(points[strongest], settings.model_copy(update=finer[name])) for name in settings.checks], strongest
+
+
+def _changes(names, finer, here):
+    """Changes of level and frequency by each check from the results ``here``."""
+    level = [result["level"][:, -2:].mean(axis=1) for result in finer]
+    return {"check": list(names),
+            "check_level": [_decibel(each, here["level"][:, -2:].mean(axis=1)) for each in level],
+            "check_frequency": [result["cycle_frequency"] / here["cycle_frequency"] - 1 for result in finer]}

@@ -105,6 +105,10 @@ class RunContext(context.Context):
         with self.bars.work(label, len(items)) as progress:
             return self.executor.map(function, items, progress.advance)
 
+    @property
+    def sees_files(self):
+        return self.executor.sees_files
+
     def spent_elsewhere(self):
         return self.executor.spent_elsewhere
 

@@ -43,6 +43,11 @@ class Context:
                 progress.advance()
         return results
 
+    @property
+    def sees_files(self):
+        """Whether tasks of ``map`` run on this machine, so that they read and write the files that are seen here."""
+        return True
+
     def spent_elsewhere(self):
         """CPU seconds that tasks of ``map`` have used in other processes so far."""
         return 0.0

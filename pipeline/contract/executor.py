@@ -40,6 +40,7 @@ class InProcess:
     """One task after the other, here."""
 
     spent_elsewhere = 0.0   # CPU seconds of tasks in other processes
+    sees_files = True       # tasks read and write files of this machine
 
     def map(self, function, items, done):
         """Results in the order of ``items``; ``done()`` is called after each."""
@@ -55,6 +56,8 @@ class InProcess:
 
 class LocalProcesses:
     """``workers`` processes on this machine, started when first needed."""
+
+    sees_files = True
 
     def __init__(self, workers):
         self.workers, self._pool, self.spent_elsewhere = workers, None, 0.0
@@ -90,6 +93,8 @@ _CODE_THERE = "__import__('pipeline.contract.fingerprint', fromlist=['project_di
 
 class DaskCluster:
     """The workers of the Dask scheduler at ``address``; all must run the same brakechain as this process."""
+
+    sees_files = False
 
     def __init__(self, address):
         self.spent_elsewhere, self._code = 0.0, project_digest()

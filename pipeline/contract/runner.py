@@ -17,6 +17,7 @@ from threadpoolctl import threadpool_info
 
 from pipeline import __version__
 from pipeline.contract import fingerprint, store
+from pipeline.contract.context import Context
 from pipeline.contract.cpu_time import cpu_seconds
 from pipeline.contract.errors import ConfigError, ProductError
 from pipeline.contract.stage import Products
@@ -178,16 +179,26 @@ class ChainRun:
 
     def _bring(self, stage, context, force, report):
         """Bring the product of ``stage`` up to date, those of variants that it reads first; number computed."""
-        computed = 0
-        for _, run, last, _ in self.variants(stage):
-            with locked(run.folder):
-                computed += sum(run._bring(each, context, frozenset(), report) for each in run._towards(last))
+        varied = self._bring_variants(stage, context)
+        for done in varied:
+            report(*done)
         state = self.state(stage)
         if stage.name in force:
             state = replace(state, reasons=("forced", *state.reasons))
         seconds = self._compute(stage, context) if state.reasons else None
         report(replace(state, variant=self.variant), seconds)
-        return computed + bool(state.reasons)
+        return sum(seconds is not None for _, seconds in varied) + bool(state.reasons)
+
+    def _bring_variants(self, stage, context):
+        """(state, seconds) of all that was computed to bring products of variants up to date that ``stage`` reads.
+
+        Variants run side by side, each in one process, where that process writes to the run folder; else in turn.
+        """
+        old = [(run, last) for _, run, last, _ in self.variants(stage) if any(s.reasons for s in run.needed(last))]
+        if not context.sees_files:
+            return [done for run, last in old for done in _computed((run, last), context)]
+        with context.stage(stage):
+            return [done for variant in context.map(_computed, old, "variants of the case") for done in variant]
 
     def _compute(self, stage, context):
         if not os.access(self.folder, os.W_OK | os.X_OK):      # at once, not after minutes of computing
@@ -226,6 +237,16 @@ class ChainRun:
         for name, run, last, argument in self.variants(stage):
             varied[argument][name] = store.read(last.output, run.path(last.output))
         return {name: read() for name, read in readers.items()} | varied
+
+
+def _computed(task, context=None):
+    """(state, seconds) of each stage that was computed for the last one of a variant; ``task``: (ChainRun, Stage)."""
+    (run, last), done = task, []
+    context = context or Context(solver=run.solver, case=run.case.card(__version__))
+    with locked(run.folder):
+        for each in run._towards(last):
+            run._bring(each, context, frozenset(), lambda state, seconds: done.append((state, seconds)))
+    return [(state, seconds) for state, seconds in done if seconds is not None]
 
 
 def _stored(path):

@@ -1,5 +1,6 @@
 """A stage is a pure function; its signature is the whole contract."""
 
+import importlib
 import inspect
 import types
 from collections.abc import Callable, Mapping
@@ -72,11 +73,19 @@ class Stage:
                 raise
             raise ConfigError(setting, error.expected, error.found, error.remedy) from error
 
+    def __reduce__(self):
+        """Other processes import the stage from its module."""
+        return _imported, (self.run.__module__, self.name)
+
     def _setting(self, where):
         """'transient.step (time stepping)' for 'time stepping: step', 'steps' if it holds several; else None."""
         part, _, name = str(where).rpartition(": ")
         key = next((k for k in (name, f"{name}s") if part and k in self.settings.model_fields), None)
         return key and f"{self.name}.{key} ({part})"
+
+
+def _imported(module, name):
+    return getattr(importlib.import_module(module), name)
 
 
 def stage(run=None, **options):

@@ -3,12 +3,15 @@
 import ast
 import multiprocessing
 import os
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
 from pipeline import sources
+from pipeline.cli.console import Bars, RunContext
 from pipeline.contract import ConfigError, Context, ProductError, case, fingerprint, runner, store
+from pipeline.contract.executor import choose
 from tests.contract.toy import CHAINS, load
 from tests.contract.toy.products import Compared, Doubled
 
@@ -158,6 +161,30 @@ def test_a_variant_that_is_out_of_date_is_told_and_computed_anew(varied):
     assert changed.execute(Context()) == 3      # "stronger" leads where the case stands by now: its file is as it was
     (varied.parent / "run" / "variants" / "louder" / "doubled.h5").unlink()
     assert changed.execute(Context()) == 1
+
+
+def test_variants_run_side_by_side_as_one_after_the_other(varied):
+    """In processes of their own: what is told, and every product, is the same."""
+    told, alone, beside = [], varied.parent / "run", varied.parent / "beside"
+    job(varied).execute(Context())
+    work = choose(2, None)
+    try:
+        context = RunContext(executor=work, bars=Bars())
+        run = replace(job(varied), folder=beside)
+        assert run.execute(context, report=lambda state, _: told.append((state.variant, state.stage.name))) == 6
+        assert run.execute(context) == 0
+    finally:
+        work.close()
+    assert told[2:] == [("louder", "source"), ("louder", "doubled"), ("stronger", "doubled"), ("", "compared")]
+    one, other = (store.read(Compared, folder / "compared.h5") for folder in (alone, beside))
+    assert list(one.ratio) == list(other.ratio)
+
+
+def test_variants_run_in_turn_where_workers_do_not_see_the_run_folder(varied, monkeypatch):
+    monkeypatch.setattr(Context, "sees_files", False)
+    told, sent = [], Context.map
+    monkeypatch.setattr(Context, "map", lambda *its: told.append(its[3]) or sent(*its))
+    assert job(varied).execute(Context()) == 6 and set(told) == {"channels"}
 
 
 def _hold(folder, ready, free):
