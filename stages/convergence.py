@@ -14,6 +14,9 @@ from pipeline.products import ComplexModes, Convergence
 
 CONTACT, PAD_MESH, DISC_MESH, BASES = REFINEMENTS = "contact", "pad_mesh", "disc_mesh", "bases"
 
+#: the free disc is not compared: its rigid motions alone
+_RIGID = "100 Hz"
+
 
 class Settings(Section):
     """What is refined, where, and how far an unstable mode may move by it."""
@@ -37,7 +40,8 @@ def _variants(sections):
     settings, brake, modes = sections["convergence"], sections["structure"], sections["complex_modes"]
     pressure, speed = operating_point(settings, brake.pressures, modes.speeds)
     once = {"structure.pressures": [f"{pressure!r} Pa"], "complex_modes.speeds": [f"{speed!r} rad/s"],
-            "complex_modes.friction_steps": 2, "complex_modes.residual_tolerance": None, "complex_modes.followed": 0}
+            "structure.free_frequency_max": _RIGID, "complex_modes.friction_steps": 2,
+            "complex_modes.residual_tolerance": None, "complex_modes.followed": 0}
     changes = {CONTACT: _finer_contact(brake.pad, settings), PAD_MESH: _finer_pads(brake.pad),
                DISC_MESH: _finer_disc(brake.disc), BASES: _larger_bases(brake, sections["reduced_model"], settings)}
     return {name: {**once, **changes[name]} for name in settings.refinements}

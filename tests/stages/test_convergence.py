@@ -41,7 +41,8 @@ def test_contact_patches_are_refined_without_the_mesh():
     made = variants(Brake(), refinements=("contact",), pressure="1 MPa", speed="12 rad/s")
     assert made == {"contact": {
         "structure.pressures": ["1000000.0 Pa"], "complex_modes.speeds": ["12.0 rad/s"],
-        "complex_modes.friction_steps": 2, "complex_modes.residual_tolerance": None, "complex_modes.followed": 0,
+        "structure.free_frequency_max": "100 Hz", "complex_modes.friction_steps": 2,
+        "complex_modes.residual_tolerance": None, "complex_modes.followed": 0,
         "structure.pad.patches_angular": 12, "structure.pad.patches_radial": 6, "structure.pad.cells_per_patch": 1}}
 
 

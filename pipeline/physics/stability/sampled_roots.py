@@ -27,12 +27,12 @@ from pipeline.physics.stability.scatter import NOMINAL
 
 #: growth rates above this negative share of the frequency are solved for, as is the largest
 _NEARLY = 4e-4
+#: modes up to this multiple of the limit are not condensed
+_WIDER = 1.3
 #: matrices are factorised beside a root, where they are regular
 _BESIDE = 1 + 1e-7
 #: inverse iterations for the shape of a mode
 _INVERSE = 3
-#: modes up to this multiple of the limit are not condensed
-_WIDER = 1.3
 #: share of the highest squared frequency below which a motion counts as rigid
 _RIGID = 1e-14
 #: bands of frequency in which the modes above the limit are condensed
@@ -288,13 +288,13 @@ def _shape(mass, damping, stiffness, answers, root):
 
 
 def _quadratic_roots(mass, damping, stiffness):
-    """All roots (2 k,) 1/s of s^2 M + s C + K, all (k, k) real."""
-    pace, k = np.sqrt(np.linalg.norm(stiffness, 2)), len(mass)
-    turned = np.linalg.solve(mass, np.hstack((stiffness, damping)))
-    companion = np.zeros((2 * k, 2 * k))
-    companion[:k, k:][np.diag_indices(k)] = pace
-    companion[k:, :k], companion[k:, k:] = -turned[:, :k] / pace, -turned[:, k:]
-    return scipy.linalg.eigvals(companion, overwrite_a=True, check_finite=False)
+    """All roots (2 k,) 1/s of s^2 M + s C + K, all (k, k) real, in single precision: they are where others start."""
+    k, turned = len(mass), np.linalg.solve(mass, np.hstack((stiffness, damping)))
+    pace = np.sqrt(np.linalg.norm(turned[:, :k]))
+    companion = np.zeros((2 * k, 2 * k), np.float32)
+    companion[:k, k:][np.diag_indices(k)] = 1.0
+    companion[k:, :k], companion[k:, k:] = -turned[:, :k] / pace**2, -turned[:, k:] / pace
+    return pace * scipy.linalg.eigvals(companion, overwrite_a=True, check_finite=False).astype(complex)
 
 
 def _candidates(root, limit):
