@@ -87,6 +87,8 @@ class Settings(Section):
     followed: int = option(
         12, "unstable modes, strongest first and each frequency once, that are followed from the friction of their"
         " operating point down to none", ge=0)
+    squeal_from: Quantity("Hz", ge=0) = option(
+        "1 kHz", "unstable modes from it on are squeal, lower ones groan or moan (SAE J2521: squeal is above 900 Hz)")
     neutral: float = option(1e-6, "growth below this share of abs(s) counts as neither growth nor decay", ge=0)
 
 
@@ -181,7 +183,8 @@ def complex_modes(model: ReducedModel, friction_map: FrictionMap | None, effects
     outcomes = [growing(o, settings) for o in outcomes]
     branches = min(max(len(s.basis.frequency) for s in states), *(s.model.size for s in states))
     return ComplexModes(
-        settings=stored(settings), pressure=model.pressure, friction=friction, root=[r[:, :branches] for r in roots],
+        settings=stored(settings), squeal_from=settings.squeal_from,
+        pressure=model.pressure, friction=friction, root=[r[:, :branches] for r in roots],
         real_frequency=[_lowest_frequencies(s, branches, settings.centrifugal) for s in states],
         operating_pressure=np.repeat(model.pressure, len(settings.speeds)),
         operating_speed=[o.speed for o in outcomes], operating_friction=[o.mean_friction for o in outcomes],

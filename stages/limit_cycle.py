@@ -25,7 +25,7 @@ from pipeline.products import ComplexModes, Effects, FrictionMap, LimitCycle, Re
 
 STEP, PATCHES, STICK, MODES = CHECKS = "step", "patches", "stick speed", "modes"
 #: share of the reach of the contact law at which motions begin: small, and for the way to the limit cycle
-_SMALL, _LARGE = 0.01, 0.5
+_SMALL, _LARGE = 1e-3, 0.5
 #: samples a second that are kept of the end of the motion
 _RATE = 100e3
 

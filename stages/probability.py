@@ -46,7 +46,7 @@ class Settings(Section):
     sources: tuple[Source, ...] = option(DEFAULT, "what scatters, each source independent of the others")
     speeds: Literal["all", "middle"] = option(
         "all", "operating points that are sampled: those of all speeds, or of the middle one alone")
-    least_growth: Quantity("1/s", ge=0) = option("0 1/s", "growth rate above which a mode counts as unstable")
+    least_growth: Quantity("1/s", ge=0) = option("0 1/s", "growth rate above which a mode counts")
     training: int = option(5, "further draws that the common bases are made to serve", ge=1)
     checked: int = option(4, "draws that are also solved in the whole reduced model, each at one operating point", ge=0)
     smallest_correction: float = option(
@@ -65,7 +65,8 @@ def probability(model: ReducedModel, friction_map: FrictionMap, modes: ComplexMo
     """Estimate how likely unstable modes are over the scatter of the brake.
 
     Operating points, limits and terms are those of complex_modes, loss factors always hysteretic. A draw counts at an
-    operating point if any mode grows faster than 'least_growth' there; 'overall' counts draws with one at any point.
+    operating point if a mode of squeal, from complex_modes.squeal_from on, grows faster than 'least_growth' there;
+    'overall' counts draws with one at any point. Lower modes count in their 1/3 octaves only.
 
     Method:
     {draws} draws of the declared scatter (seed {seed}) were solved for their unstable modes at every operating point,
@@ -90,7 +91,7 @@ def probability(model: ReducedModel, friction_map: FrictionMap, modes: ComplexMo
         value=values, pressure=np.repeat(model.pressure, len(points.speeds)),
         speed=np.tile(points.speeds, len(model.pressure)),
         **_results(roots, values, points, len(model.pressure) * len(points.speeds), settings),
-        **_accuracy(checked), least_growth=settings.least_growth)
+        **_accuracy(checked), least_growth=settings.least_growth, squeal_from=points.squeal_from)
 
 
 def _refuse_effects(effects, settings):
@@ -164,7 +165,8 @@ def _results(roots, values, points, operating, settings):
     draw, place, root = (np.array([f[c] for f in found], kind) for c, kind in enumerate((int, int, complex)))
     middles = third_octaves(_LOWEST_BAND, points.frequency_max)
     hits, bands = np.zeros((count, operating), bool), np.zeros((count, len(middles), operating), bool)
-    hits[draw, place] = True
+    squeals = abs(root) >= TWO_PI * points.squeal_from
+    hits[draw[squeals], place[squeals]] = True
     inside = np.clip(band_of(abs(root) / TWO_PI, middles), 0, len(middles) - 1)
     bands[draw, inside, place] = True
     anywhere, index = bands.any(axis=2), first_order(values, growth.max(axis=1), settings.seed)

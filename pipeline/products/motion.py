@@ -5,7 +5,7 @@ import numpy as np
 from pipeline.contract import Array, count, product, quantity, text
 
 
-@product(version=5)
+@product(version=6)
 class ComplexModes:
     """Complex modes of the sliding system over friction, and at each operating point of the map."""
 
@@ -51,6 +51,7 @@ class ComplexModes:
     friction_damping: Array = count("", "1 with friction that turns with the slip velocity")
     gyroscopic: Array = count("", "1 with the gyroscopic terms of the disc")
     centrifugal: Array = count("", "1 with the centrifugal terms of the disc")
+    squeal_from: Array = quantity("Hz", "", "frequency from which an unstable mode is squeal; lower ones groan or moan")
 
 
 @product(version=1)
@@ -76,7 +77,7 @@ class Convergence:
     converged: Array = count("", "1 if all unstable modes are those of all refined models within the tolerances")
 
 
-@product(version=1)
+@product(version=2)
 class Probability:
     """Unstable modes over the scatter of a brake: seeded draws, and what they say of each operating point."""
 
@@ -89,9 +90,9 @@ class Probability:
     root_draw: Array = count("root", "draw of each unstable root")
     root_operating: Array = count("root", "operating point of each unstable root")
     root: Array = quantity("1/s", "root", "unstable roots of all draws", complex)
-    probability: Array = quantity("1", "operating", "share of the draws with an unstable mode")
+    probability: Array = quantity("1", "operating", "share of the draws that squeal: with an unstable mode from squeal_from on")
     interval: Array = quantity("1", "operating end", "95 % Wilson interval of it")
-    overall: Array = quantity("1", "", "share of the draws with an unstable mode at any operating point")
+    overall: Array = quantity("1", "", "share of the draws that squeal at any operating point")
     overall_interval: Array = quantity("1", "end", "95 % Wilson interval of it")
     band: Array = quantity("Hz", "band", "middles of the 1/3 octave bands, IEC 61260")
     band_probability: Array = quantity("1", "band operating", "share of the draws with an unstable mode in the band")
@@ -105,6 +106,7 @@ class Probability:
     checked_draws: Array = count("", "draws and operating points of this comparison")
     missed: Array = count("", "unstable roots there that only one of both has")
     least_growth: Array = quantity("1/s", "", "growth rate up to which a mode counts as stable")
+    squeal_from: Array = quantity("Hz", "", "frequency from which an unstable mode is squeal")
 
 
 @product(version=2)

@@ -173,7 +173,8 @@ def complex_modes(stable=False):
                      "friction turning with the slip", "friction over slip speed", "damping of disc",
                      "damping of pad_inner", "damping at abutment"],
         unstable_growth=np.tile([300.0, 100.0, -150.0, -100.0, -30.0, -2.6, -30.0, -10.0], (len(operating), 1)),
-        **_path(len(operating)), corrections=55, damping_speed=1.0, sliding_distance=0.01, frequency_max=2e4,
+        **_path(len(operating)), corrections=55, squeal_from=1e3,
+        damping_speed=1.0, sliding_distance=0.01, frequency_max=2e4,
         friction_slopes=1, friction_damping=1, gyroscopic=1, centrifugal=1)
 
 
@@ -243,7 +244,8 @@ def probability(draws=60):
         band_any=np.where(abs(band / 8e3 - 1) < 0.3, share.max(), 0.0),
         band_interval=np.where(abs(band / 8e3 - 1) < 0.3, share.max(), 0.0)[:, None] + 0.01 * ends[1:] * [0, 1],
         sensitivity=[0.05, 0.2, 0.7], sensitivity_error=[0.02, 0.03, 0.05], trend=[0.1, -0.3, 0.9],
-        checked_root=[300.5 + 50e3j], whole_root=[300 + 50.001e3j], checked_draws=4, missed=0, least_growth=0.0)
+        checked_root=[300.5 + 50e3j], whole_root=[300 + 50.001e3j], checked_draws=4, missed=0, least_growth=0.0,
+        squeal_from=1e3)
 
 
 def line_evidence(draws=40):

@@ -60,15 +60,16 @@ def statement(cycle):
     holds = "".join(f" With {WORDS[str(name)]} the level changes by {number(level, 2)} dB, the strongest line by"
                     f" {percent(abs(frequency), 2)}." for name, level, frequency in
                     zip(cycle.check, cycle.check_level, cycle.check_frequency, strict=True))
-    state = ("Every motion settles at its level" if not unsettled else
+    state = ("Every motion settles at its level." if not unsettled else
              f"{unsettled} of {len(last)} motions have NOT settled: their levels still change by more than"
-             f" {number(float(cycle.settled_within), 2)} dB over the last two windows")
-    return (f"{state}; the loudest, at {point(cycle, loudest)}, moves the sensors with"
+             f" {number(float(cycle.settled_within), 2)} dB over the last two windows.")
+    simulated = "Simulated:" if len(last) == 1 else f"Of {len(last)} simulated operating points, the loudest is"
+    return (f"{simulated} {point(cycle, loudest)}, where the sensors move with"
             f" {quantity(last[loudest], 'm/s', 3)} ({number(pictures.decibel(last[loudest]), 4)} dB re 1 nm/s), most"
-            f" strongly at {quantity(cycle.cycle_frequency[loudest], 'Hz', 4)}. There"
+            f" strongly at {quantity(cycle.cycle_frequency[loudest], 'Hz', 4)};"
             f" {percent(cycle.stick_share[loudest, -1], 2)} of the contact patches stick and"
-            f" {percent(cycle.open_share[loudest, -1], 2)} of the contacts are open, on average. Small motion grows as"
-            f" the complex modes say, within {quantity(error, '1/s', 2)} ({percent(share, 2)}).{holds}")
+            f" {percent(cycle.open_share[loudest, -1], 2)} of the contacts are open, on average. {state} Small motion"
+            f" grows as the complex modes say, within {quantity(error, '1/s', 2)} ({percent(share, 2)}).{holds}")
 
 
 def _cycles(cycle):

@@ -21,8 +21,10 @@ def chapter(probability, look):
     return Chapter(
         "probability", "How likely",
         f"{len(probability.value)} draws of {plural(len(probability.source), 'source')} of scatter, each source"
-        " independent of the others. A draw counts at an operating point if any mode is unstable there, however slowly"
-        " it grows. The intervals (95 %, Wilson) speak of the number of draws, not of the scatter that was assumed.",
+        " independent of the others. A draw squeals at an operating point if a mode from"
+        f" {quantity(float(probability.squeal_from), 'Hz')} on grows there by more than"
+        f" {quantity(float(probability.least_growth), '1/s')}. The intervals (95 %, Wilson) speak of the number of"
+        " draws, not of the scatter that was assumed.",
         statement(probability), _figures(probability), (_sources(probability), _bands(probability)),
         (accuracy(probability),))
 
@@ -33,7 +35,7 @@ def statement(probability):
         return ""
     worst = int(np.argmax(probability.probability))
     share = _with_interval(probability.probability[worst], probability.interval[worst])
-    first = (f"Over the stated scatter, {share} of the draws have an unstable mode at"
+    first = (f"Over the stated scatter, {share} of the draws squeal at"
              f" {quantity(probability.pressure[worst], 'Pa', 3)} and"
              f" {quantity(probability.speed[worst], 'rad/s')}, the worst operating point;"
              f" {_with_interval(probability.overall, probability.overall_interval)} at any.")
@@ -75,8 +77,8 @@ def _sign(trend):
 
 def _figures(product):
     return (
-        Figure(pictures.per_point(product), "Share of the draws with an unstable mode at each operating point, with 95"
-               " % interval."),
+        Figure(pictures.per_point(product), "Share of the draws that squeal at each operating point, with 95 %"
+               " interval."),
         Figure(pictures.per_band(product), "Share of the draws with an unstable mode in each 1/3 octave at any"
                " operating point, with 95 % interval."),
         Figure(pictures.sensitivities(product, [in_words(s) for s in product.source]),

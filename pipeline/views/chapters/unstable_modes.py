@@ -6,7 +6,7 @@ import numpy as np
 
 from pipeline.views.chapters.chapter import Block, Figure
 from pipeline.views.figures import friction_paths
-from pipeline.views.figures.number_format import number, quantity
+from pipeline.views.figures.number_format import number, quantity, span
 
 TWO_PI = 2.0 * np.pi
 #: how terms of the growth rate begin that belong to a body and to a group of joints, and that of falling friction
@@ -23,6 +23,22 @@ _PATH_CAPTION = ("Path over friction in the reduced model, at the contact forces
 def distinct_unstable(modes, count):
     """Indices of unstable modes, most unstable first, each frequency once (within 0.5 %)."""
     return list(np.flatnonzero(modes.unstable_first == np.arange(len(modes.unstable_first)))[:count])
+
+
+def squealing(modes):
+    """True (g,) for the unstable modes that are squeal, by their frequency."""
+    return modes.unstable_root.imag >= TWO_PI * modes.squeal_from
+
+
+def below_squeal(modes):
+    """One sentence on unstable modes below squeal; empty without any."""
+    low = np.flatnonzero(~squealing(modes))
+    if not len(low):
+        return ""
+    pressure = np.unique(modes.operating_pressure[modes.unstable_operating[low]])
+    frequency = modes.unstable_root[low].imag / TWO_PI
+    return (f"Below squeal, {span(frequency, 'Hz')} grows at {span(pressure, 'Pa')} (groan or moan, by up to"
+            f" {quantity(modes.unstable_root[low].real.max(), '1/s', 3)}).")
 
 
 def blocks(modes, model, pictures, look):

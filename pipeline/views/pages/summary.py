@@ -9,7 +9,14 @@ from pipeline.views.chapters.bench import diagnosis, line_evidence
 from pipeline.views.chapters.friction import outside_computed
 from pipeline.views.chapters.models.rupture import headline as rupture_headline
 from pipeline.views.chapters.pad_motion import extremes, point, rate_in_words
-from pipeline.views.chapters.unstable_modes import distinct_unstable, explanation, signed, words
+from pipeline.views.chapters.unstable_modes import (
+    below_squeal,
+    distinct_unstable,
+    explanation,
+    signed,
+    squealing,
+    words,
+)
 from pipeline.views.chapters.vibration import origin
 from pipeline.views.figures.agreement import judged
 from pipeline.views.figures.number_format import number, percent, plural, quantity, span
@@ -87,11 +94,15 @@ def _headline(products):
 def _onset(modes, convergence, cycle):
     """Headline of a two-way analysis: whether the brake squeals or, without a simulation, whether squeal can start; and
     whether that is converged."""
-    points, starts = len(modes.operating_speed), len(np.unique(modes.unstable_operating))
+    points, squeals = len(modes.operating_speed), squealing(modes)
+    starts = len(np.unique(modes.unstable_operating[squeals]))
     doubt = "" if convergence.converged.item() else " (not converged)"
+    if not starts and len(squeals):
+        lower = quantity(modes.unstable_root[0].imag / TWO_PI, "Hz", 3)
+        return f"No squeal, but groan or moan at {lower}{doubt}", "warning"
     if not starts:
         return f"Steady sliding is stable at all {points} operating points{doubt}", "quiet" if not doubt else "warning"
-    strongest = quantity(modes.unstable_root[0].imag / TWO_PI, "Hz", 3)
+    strongest = quantity(modes.unstable_root[squeals][0].imag / TWO_PI, "Hz", 3)
     if cycle is not None and len(cycle.pressure):
         loudest = int(np.argmax(limit_cycle.total(cycle)[:, -1]))
         strongest = quantity(cycle.cycle_frequency[loudest], "Hz", 3)
@@ -168,7 +179,8 @@ def _fed(modes):
     return (f" {percent(share.max())} of its kinetic energy is in the {moving}{shape}. Of its growth rate,"
             f" {signed(growth[feeds])} 1/s come from {words(modes.growth_term[feeds])}, {signed(growth[takes])} 1/s"
             f" from {words(modes.growth_term[takes])}."
-            + (f" {explanation(modes, 0)}" if 0 in modes.followed_mode else ""))
+            + (f" {explanation(modes, 0)}" if 0 in modes.followed_mode else "")
+            + (f" {low}" if (low := below_squeal(modes)) else ""))
 
 
 def _likely(products):

@@ -7,7 +7,7 @@ import numpy as np
 from pipeline.views.chapters.convergence import WORDS, statement
 from pipeline.views.chapters.friction import outside_computed
 from pipeline.views.chapters.limit_cycle import total
-from pipeline.views.chapters.unstable_modes import critical_friction, losses, mechanism, pair
+from pipeline.views.chapters.unstable_modes import critical_friction, losses, mechanism, pair, squealing
 
 SCHEMA = "brakechain-verdict/1"
 TWO_PI = 2.0 * np.pi
@@ -44,17 +44,17 @@ def _transient(cycle):
 
 
 def _can_start(modes):
-    return None if modes is None else bool(len(modes.unstable_root))
+    return None if modes is None else bool(squealing(modes).any())
 
 
 def _unstable(modes):
     """One entry for each unstable mode at each operating point, strongest first."""
-    found = []
+    found, squeals = [], squealing(modes)
     for k, (root, point) in enumerate(zip(modes.unstable_root, modes.unstable_operating, strict=True)):
         diameters = int(modes.unstable_diameters[k])
         found.append({
             "frequency": root.imag / TWO_PI, "growth_rate": root.real, "damping_ratio": -root.real / abs(root),
-            "nodal_diameters": diameters if diameters >= 0 else None,
+            "squeal": bool(squeals[k]), "nodal_diameters": diameters if diameters >= 0 else None,
             "pressure": float(modes.operating_pressure[point]), "speed": float(modes.operating_speed[point]),
             "friction": float(modes.operating_friction[point]),
             "bodies": _named(modes.body_name, modes.unstable_share[k]),

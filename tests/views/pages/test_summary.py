@@ -65,6 +65,18 @@ def test_a_chain_that_ends_with_complex_modes_says_whether_squeal_can_start_and_
     assert stable.headline == "Steady sliding is stable at all 9 operating points" and stable.tone == "quiet"
 
 
+def test_unstable_modes_below_squeal_are_told_as_groan_or_moan():
+    modes, ending = small.complex_modes(), small.convergence()
+    all_low = verdict({"complex_modes": replace(modes, squeal_from=20e3), "convergence": ending}, ())
+    assert all_low.headline.startswith("No squeal, but groan or moan at 16.6") and all_low.tone == "warning"
+    roots = modes.unstable_root.copy()
+    roots[-1] = 25.0 + 2j * np.pi * 242.0
+    told = verdict({"complex_modes": replace(modes, unstable_root=roots), "convergence": ending}, ())
+    assert told.headline.startswith("Squeal can start at 8 of 9 operating points")
+    assert "Below squeal, 242\u202fHz grows at 1\u202fMPa (groan or moan, by up to 25\u202f1/s)." in said(told)
+    assert "Below squeal" not in said(verdict({"complex_modes": modes, "convergence": ending}, ()))
+
+
 def test_a_simulated_brake_squeals_and_says_how_loud():
     modes, ending = small.complex_modes(), small.convergence()
     told = verdict({"complex_modes": modes, "convergence": ending, "limit_cycle": small.limit_cycle()}, ())
