@@ -17,12 +17,8 @@ def chapter(cycle, look):
     if not len(cycle.pressure):
         return Chapter("limit_cycle", "From onset to limit cycle", "No operating point has an unstable mode.",
                        "Every small motion decays.")
-    loudest = int(np.argmax(total(cycle)[:, -1]))
-    where = point(cycle, loudest)
     figures = (Figure(pictures.levels(cycle), "Velocity level over time, mean over the sensors; up to six operating"
-                      " points, loudest first."),
-               Figure(pictures.spectrum(cycle, loudest), f"Spectrum at {where}, loudest sensor, last two windows;"
-                      " dotted: multiples of the strongest line."))
+                      " points, loudest first."), key_figure(cycle))
     return Chapter(
         "limit_cycle", "From onset to limit cycle",
         f"{plural(len(cycle.pressure), 'operating point')} with unstable modes; all bodies are flexible in the loop:"
@@ -31,6 +27,15 @@ def chapter(cycle, look):
         f" {percent(cycle.added_loss.max(), 2)} of the energy lost goes to the damping added above the frequencies of"
         " interest.",
         statement(cycle), figures, (_cycles(cycle), _onsets(cycle)))
+
+
+def key_figure(cycle):
+    """Spectrum of the loudest limit cycle; None where every motion decays."""
+    if not len(cycle.pressure):
+        return None
+    loudest = int(np.argmax(total(cycle)[:, -1]))
+    return Figure(pictures.spectrum(cycle, loudest), f"Spectrum of the limit cycle at {point(cycle, loudest)}, loudest"
+                  " sensor, last two windows; dotted: multiples of the strongest line.")
 
 
 def total(cycle):

@@ -76,8 +76,14 @@ def page(chapters, products, case, look):
     facts = products.get("comparison")
     return template().render(
         case=case, chapters=chapters, verdict=verdict(products, case_view.tuned(case)),
-        key_figure=_key_figure(products, look), key_tables=() if facts is None else comparison.tables(facts),
+        key_figures=_key_figures(products, look), key_tables=() if facts is None else comparison.tables(facts),
         stages=case_view.stages(case), methods=case_view.methods(case), limits=limits(products))
+
+
+def _key_figures(products, look):
+    """Figures of the first screen: the answer, and what a simulated brake sounds like."""
+    answer, cycle = _key_figure(products, look), products.get("limit_cycle")
+    return tuple(f for f in (answer, cycle and limit_cycle.key_figure(cycle)) if f)
 
 
 def _key_figure(products, look):

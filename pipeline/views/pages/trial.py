@@ -22,9 +22,9 @@ def page(result):
                     "Rates with their 95 % Wilson confidence intervals; vertical bars: goals.")
     case = CaseSummary(about["name"], f"Concealed trial {about['name']}",
                 "Cases with hidden physics, solved without access to the truth and scored once")
-    return template().render(case=case, chapters=chapters.all_of(result), verdict=_verdict(result), key_figure=figure,
-                             key_tables=(), stages=(), methods=(), limits=chapters.not_proven(result),
-                             limits_name="not proven")
+    return template().render(case=case, chapters=chapters.all_of(result), verdict=_verdict(result),
+                             key_figures=(figure,), key_tables=(), stages=(), methods=(),
+                             limits=chapters.not_proven(result), limits_name="not proven")
 
 
 def _verdict(result):
