@@ -19,10 +19,12 @@ from pipeline.contract import ConfigError, Context, ConvergenceError, Quantity, 
 from pipeline.physics.signals.limit_cycle import harmonic_levels
 from pipeline.physics.signals.oscillation import dominant_frequency
 from pipeline.physics.sliding.equilibrium import closure_response
+from pipeline.physics.sliding_motion import exudyn_motion
 from pipeline.physics.sliding_motion.motion import sliding_motion
 from pipeline.physics.sliding_motion.sliding_modes import sliding_modes
 from pipeline.products import ComplexModes, Effects, FrictionMap, LimitCycle, ReducedModel
 
+COMPILED, EXUDYN = "compiled", "exudyn"
 STEP, PATCHES, STICK, MODES = CHECKS = "step", "patches", "stick speed", "modes"
 #: share of the reach of the contact law at which motions begin: small, and for the way to the limit cycle
 _SMALL, _LARGE = 1e-3, 0.5
@@ -37,6 +39,9 @@ class Settings(Section):
     window: Quantity("s", gt=0) = option("10 ms", "windows of the levels; spectra and cycle are those of the last two")
     onset: Quantity("s", gt=0) = option("4 ms", "length of the small motion from which growth rates are read")
     step: Quantity("s", gt=0) = option("2 us", "time step")
+    solver: Literal[COMPILED, EXUDYN] = option(
+        COMPILED, "what integrates: exponential steps in compiled code, or explicit Runge-Kutta steps of exudyn, on the"
+        " same forces")
     patch: int = option(12, "contacts that move together, at most", ge=1)
     stick_speed: Quantity("m/s", gt=0) = option("0.1 m/s", "slip below which friction is regularised; creep replaces"
                                                 " sticking")
@@ -73,9 +78,9 @@ def limit_cycle(model: ReducedModel, friction_map: FrictionMap, modes: ComplexMo
     complex_modes; those with a memory, or with elements of their own, are refused unless 'without' names them.
 
     Method:
-    The motion about steady sliding was integrated in the complex modes of the sliding system with steps of {step}: the
-    linear part exactly, roots that grow or nearly do being those of the complex modes; contact laws and friction at
-    patches of at most {patch} contacts. Modes above those of the complex modes have a damping ratio of at least
+    The motion about steady sliding was integrated in the complex modes of the sliding system with steps of {step}
+    (solver: {solver}; in compiled code the linear part exactly), roots that grow or nearly do being those of the complex
+    modes; contact laws and friction at patches of at most {patch} contacts. Modes above those of the complex modes have a damping ratio of at least
     {damping_above}. The motion lasted {duration}, levels are root mean squares over {window}.
     """
     points = _points(modes, settings)
@@ -115,13 +120,19 @@ def _simulate(task, model, friction_map, modes, terms, given, settings):
     growing = growing[np.isin(system.modes.root[growing], modes.unstable_root[modes.unstable_operating == point])]
     start = np.zeros(len(system.modes.root), complex)
     start[growing] = _SMALL * system.reach[growing]
-    small = system.run(start, settings.step, settings.onset)
+    small = _advanced(system, settings, start, settings.onset)
     seen = np.log(small.state[-1, growing] / small.state[0, growing])
     turned = np.unwrap(np.angle(small.state[:, growing]), axis=0)
     seen = (seen.real + 1j * (turned[-1] - turned[0])) / (small.time[-1] - small.time[0])
     start[growing] = _LARGE * system.reach[growing]
     return {"onset": (system.modes.root[growing], seen), "patches": len(system.patches.load),
             "modes": len(system.modes.root), **_cycle(system, start, model.sensor_rows, settings)}
+
+
+def _advanced(system, settings, start, duration, *options, **others):
+    """Run of a SlidingMotion by the solver of the settings."""
+    run = system.run if settings.solver == COMPILED else partial(exudyn_motion.run, system)
+    return run(start, settings.step, duration, *options, **others)
 
 
 def _points(modes, settings):
@@ -163,7 +174,7 @@ def _cycle(system, start, sensor_rows, settings):
     every = max(round(1 / (_RATE * settings.step)), 1)
     levels, opened, stuck, signals, end = [], [], [], [], start
     for number in range(count):
-        run = system.run(end, settings.step, settings.window, every, book=number == count - 1)
+        run = _advanced(system, settings, end, settings.window, every, book=number == count - 1)
         end, velocity = run.end, (rows @ run.state.T).real
         levels.append(np.sqrt((velocity**2).mean(axis=1)))
         if not levels[-1].max(initial=0.0) < _UNBOUNDED:

@@ -62,6 +62,18 @@ def test_half_the_step_changes_neither_level_nor_frequency(model, modes):
     assert abs(short.check_frequency[0]) * short.cycle_frequency.max() < 0.2 * line
 
 
+@pytest.mark.golden
+def test_exudyn_and_compiled_code_agree(model, modes):
+    """Growth of small motion and level within 0.1 %, while the motion of this small brake is not yet chaotic."""
+    law = small_friction_map(0.6)
+    short = {**SHORT, "checks": (), "speeds": "middle", "step": "1 us"}
+    compiled, exudyn = (limit_cycle(model, law, modes, settings=Settings(**short, solver=solver))
+                        for solver in ("compiled", "exudyn"))
+    np.testing.assert_allclose(exudyn.onset_simulated, compiled.onset_simulated, rtol=1e-3)
+    np.testing.assert_allclose(exudyn.level, compiled.level, rtol=1e-3)
+    assert exudyn.imbalance.max() < 0.01
+
+
 def test_every_check_changes_one_thing(model, modes):
     cycle = limit_cycle(model, small_friction_map(0.6), modes, settings=Settings(
         **SHORT | {"checks": CHECKS, "speeds": "middle", "stick_speed": "0.5 m/s"}))

@@ -169,6 +169,29 @@ def advance(patches, steps, energy, state, rest, previous, done, count, every, r
 
 
 @njit
+def modal_rate(patches, motion, force, root, state, result):
+    """Fill ``result`` (2m,) with dz/dt at ``state`` (2m,); ``root`` (2, m): real, imaginary, rows as in StepKernel."""
+    p = patches.load.size
+    y, rest = np.zeros((4, p)), np.empty((3, p))
+    multiply(motion, state, y.ravel())
+    beyond_linear(patches, y, rest, np.empty((p, 3, 4)))
+    spread(force, rest.ravel(), result)
+    _times(root, state, result)
+
+
+@njit
+def observed(patches, motion, energy, state, power):
+    """Shares at ``state`` (2m,), see Record, and ``power`` (3,) W filled: WORK, LOSS, ADDED, if there is a book."""
+    p = patches.load.size
+    y, rest = np.zeros((4, p)), np.empty((3, p))
+    multiply(motion, state, y.ravel())
+    if energy.stored.size:
+        beyond_linear(patches, y, rest, np.zeros((p, 3, 4)))
+        _powers(energy, state, y, rest, power)
+    return _shares(patches, y)
+
+
+@njit
 def _newton(response, own, slope, error, change):
     """Fill ``change`` (3p,) of the forces with a step of Newton's method for their ``error`` (3p,).
 

@@ -7,35 +7,43 @@ fourth order, which shares nothing with the exponential steps but the contact fo
 import numpy as np
 
 from pipeline.contract.errors import ConvergenceError
+from pipeline.physics.sliding_motion.exponential_step import modal_rate, observed
+from pipeline.physics.sliding_motion.motion import NO_BOOK, Run
 
 
-def integrate(system, start, step, duration, every=1):
-    """(time (r,), states (r, m)) of a SlidingMotion from modal coordinates ``start`` (m,), every so many steps.
+def run(system, start, step, duration, every=1, book=False):
+    """The Run of a SlidingMotion by exudyn; arguments as of ``SlidingMotion.run``.
 
     Raises ConvergenceError where exudyn gives up or the motion grows without bound.
     """
+    start, count = start[0] if isinstance(start, tuple) else start, round(duration / step)
+    watch = _Watch(system, start, step, count, every, book)
+    half = len(start)
+    root = np.array([system.modes.root.real, system.modes.root.imag])
+
+    def rate(multibody, time, item, coordinates):
+        change = np.empty(2 * half)
+        modal_rate(system.patches, system.motion, system.force, root, np.array(coordinates), change)
+        return change
+
+    _solve(rate, np.concatenate((start.real, start.imag)), count, step, watch)
+    return watch.run()
+
+
+def _solve(rate, start, count, step, watch):
+    """Integrate z' = ``rate``; ``watch.after(number, z)`` after every step."""
     import exudyn
     from exudyn.itemInterface import NodeGenericODE1, ObjectGenericODE1
 
-    half, count = len(start), round(duration / step)
-    states = np.empty((count // every, half), complex)
-
-    def rate(multibody, time, item, coordinates):
-        values = np.array(coordinates)
-        change = system.rate(values[:half] + 1j * values[half:])
-        return np.concatenate((change.real, change.imag))
-
     def after_step(multibody, time):
         number = round(time / step)
-        if number and number % every == 0:
-            values = multibody.systemData.GetODE1Coordinates()
-            states[number // every - 1] = values[:half] + 1j * values[half:]
+        if number and watch.wants(number):
+            watch.after(number, multibody.systemData.GetODE1Coordinates())
         return True
 
     multibody = exudyn.SystemContainer().AddSystem()
-    node = multibody.AddNode(NodeGenericODE1(
-        referenceCoordinates=np.zeros(2 * half), initialCoordinates=np.concatenate((start.real, start.imag)),
-        numberOfODE1Coordinates=2 * half))
+    node = multibody.AddNode(NodeGenericODE1(referenceCoordinates=0 * start, initialCoordinates=start,
+                                             numberOfODE1Coordinates=len(start)))
     multibody.AddObject(ObjectGenericODE1(nodeNumbers=[node], rhsUserFunction=rate))
     multibody.Assemble()
     multibody.SetPostStepUserFunction(after_step)
@@ -49,6 +57,51 @@ def integrate(system, start, step, duration, every=1):
         done = False
     finally:
         exudyn.config.printToConsole = talkative
-    if done is False or not np.isfinite(states).all():
+    if done is False or not watch.finite:
         raise ConvergenceError("sliding motion: exudyn", "a finite motion", "none", "take a shorter step")
-    return step * every * np.arange(1, len(states) + 1), states
+
+
+class _Watch:
+    """States, shares and energies every so many steps; with a book, the power of every step."""
+
+    def __init__(self, system, start, step, count, every, book):
+        rows = count // every
+        self._system, self._step, self._every, self._count = system, step, every, count
+        self._energy = system.energy if book else NO_BOOK
+        self._state = np.empty((rows, 2 * len(start)))
+        self._share, self._kept = np.empty((rows, 2)), np.zeros((rows, 4))
+        self._power, self._spent, self._end = np.zeros(3), np.zeros(3), None
+        self._observe(np.concatenate((start.real, start.imag)))
+
+    @property
+    def finite(self):
+        """Whether all steps were seen, and where they end."""
+        return self._end is not None and np.isfinite(self._end).all()
+
+    def wants(self, number):
+        """Whether to look at a step."""
+        return self._energy.stored.size > 0 or number % self._every == 0 or number == self._count
+
+    def after(self, number, state):
+        """Keep what is asked for of the ``state`` (2m,) after step ``number``."""
+        before = self._power.copy()
+        share = self._observe(state)
+        self._spent += 0.5 * self._step * (before + self._power)
+        if number == self._count:
+            self._end = np.array(state)
+        if number % self._every == 0:
+            row = number // self._every - 1
+            self._state[row], self._share[row] = state, share
+            if self._energy.stored.size:
+                self._kept[row] = *self._spent, state @ (self._energy.stored @ state)
+
+    def _observe(self, state):
+        return observed(self._system.patches, self._system.motion, self._energy, state, self._power)
+
+    def run(self):
+        """The Run, whose end is where another may start."""
+        half = self._state.shape[1] // 2
+        work, loss, added, stored = self._kept.T
+        return Run(self._step * self._every * np.arange(1, len(self._state) + 1),
+                   self._state[:, :half] + 1j * self._state[:, half:], *self._share.T, work, loss, added, stored, 4.0,
+                   (self._end[:half] + 1j * self._end[half:],))

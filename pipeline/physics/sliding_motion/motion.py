@@ -24,6 +24,7 @@ from pipeline.physics.sliding_motion.exponential_step import (
     EnergyKernel,
     Record,
     advance,
+    modal_rate,
     step_kernel,
 )
 from pipeline.physics.sliding_motion.patch_forces import PatchKernel, beyond_linear
@@ -32,6 +33,8 @@ from pipeline.physics.time_stepping.normal_laws import normal_kernel
 
 #: rows of the tables of normal force on either side of steady sliding, and the share of the law that they span at least
 _ROWS, _RESTING, _LAWS = 1600, 2400, 4
+#: of a motion whose energy is not kept
+NO_BOOK = EnergyKernel(*np.empty((4, 0, 0)))
 #: into how many parts a step without a solution is cut, again and again, and the most
 _PARTS, _FINEST = 4, 64
 
@@ -89,7 +92,7 @@ class SlidingMotion:
         state, rest, previous = (each.copy() for each in (start if isinstance(start, tuple) else self._begin(start)))
         rows = count // every
         record = Record(np.empty((rows, len(state))), np.empty((rows, 2)), np.zeros((rows, 4)))
-        energy = self.energy if book else EnergyKernel(*np.empty((4, 0, 0)))
+        energy = self.energy if book else NO_BOOK
         sweeps = self._advance((state, rest, previous), step, count, every, record, energy)
         half, energies = len(state) // 2, record.energy.T
         return Run(step * every * np.arange(1, rows + 1), record.state[:, :half] + 1j * record.state[:, half:],
@@ -136,9 +139,10 @@ class SlidingMotion:
 
     def rate(self, start):
         """dz/dt (m,) at modal coordinates (m,): for other integrators and for tests."""
-        _, rest, _ = self._begin(start)
-        force, half = rest.ravel() @ self.force, len(start)
-        return self.modes.root * start + force[:half] + 1j * force[half:]
+        state, half = np.concatenate((start.real, start.imag)), len(start)
+        change, root = np.empty(2 * half), np.array([self.modes.root.real, self.modes.root.imag])
+        modal_rate(self.patches, self.motion, self.force, root, state, change)
+        return change[:half] + 1j * change[half:]
 
     @cached_property
     def reach(self):

@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from pipeline.physics.sliding_motion.exudyn_motion import integrate
+from pipeline.contract import ConvergenceError
+from pipeline.physics.sliding_motion.exudyn_motion import run as exudyn_run
 from tests.physics.sliding.test_equilibrium import random_model
 from tests.physics.sliding_motion.small_motion import sliding
 
@@ -19,7 +20,30 @@ def test_exudyn_moves_alike(moving):
     _, system = moving
     start = 2.0 * system.reach.astype(complex)
     run = system.run(start, 5e-7, 2e-3, every=20)
-    time, states = integrate(system, start, 5e-7, 2e-3, every=20)
-    np.testing.assert_allclose(time, run.time, rtol=1e-9)
-    velocity = [(system.velocity_rows(np.eye(12)) @ each.T).real for each in (run.state, states)]
+    other = exudyn_run(system, start, 5e-7, 2e-3, every=20)
+    np.testing.assert_allclose(other.time, run.time, rtol=1e-9)
+    velocity = [(system.velocity_rows(np.eye(12)) @ each.state.T).real for each in (run, other)]
     assert abs(velocity[0] - velocity[1]).max() < 1e-3 * abs(velocity[0]).max()
+
+
+@pytest.mark.golden
+def test_exudyn_keeps_the_same_book_and_goes_on_where_it_ended(moving):
+    """Energies and shares within 0.1 %; two windows are one motion."""
+    _, system = moving
+    start = 2.0 * system.reach.astype(complex)
+    run = system.run(start, 5e-7, 2e-3, every=20, book=True)
+    whole = exudyn_run(system, start, 5e-7, 2e-3, every=20, book=True)
+    for name in ("work", "loss", "stored", "open", "stick"):
+        one, other = getattr(run, name), getattr(whole, name)
+        assert abs(one - other).max() <= max(1e-3 * abs(one).max(), 1e-9), name
+    assert whole.imbalance < 2e-3
+    first = exudyn_run(system, start, 5e-7, 1e-3)
+    second = exudyn_run(system, first.end, 5e-7, 1e-3)
+    assert abs(second.end[0] - whole.end[0]).max() < 1e-9 * abs(whole.end[0]).max()
+
+
+def test_steps_too_long_for_runge_kutta_are_told(moving):
+    _, system = moving
+    fastest = abs(system.modes.root).max()
+    with pytest.raises(ConvergenceError, match="take a shorter step"):
+        exudyn_run(system, system.reach.astype(complex), 10 / fastest, 5e3 / fastest)
