@@ -79,9 +79,10 @@ def limit_cycle(model: ReducedModel, friction_map: FrictionMap, modes: ComplexMo
 
     Method:
     The motion about steady sliding was integrated in the complex modes of the sliding system with steps of {step}
-    (solver: {solver}; in compiled code the linear part exactly), roots that grow or nearly do being those of the complex
-    modes; contact laws and friction at patches of at most {patch} contacts. Modes above those of the complex modes have a damping ratio of at least
-    {damping_above}. The motion lasted {duration}, levels are root mean squares over {window}.
+    (solver: {solver}; compiled code does the linear part exactly), roots that grow or nearly do being those of the
+    complex modes; contact laws and friction at patches of at most {patch} contacts. Modes above those of the complex
+    modes have a damping ratio of at least {damping_above}. The motion lasted {duration}, levels are root mean squares
+    over {window}.
     """
     points = _points(modes, settings)
     terms = kept(physics_terms(effects), settings.without)
