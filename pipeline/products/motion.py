@@ -5,7 +5,7 @@ import numpy as np
 from pipeline.contract import Array, count, product, quantity, text
 
 
-@product(version=5)
+@product(version=6)
 class ComplexModes:
     """Complex modes of the sliding system over friction, and at each operating point of the map."""
 
@@ -44,13 +44,6 @@ class ComplexModes:
     path_root: Array = quantity("1/s", "path_point", "root of the mode in the reduced model, unstable_reduced at the end", complex)
     path_meeting: Array = quantity("1/s", "path_point", "root of the mode it meets, 0 where not known", complex)
     corrections: Array = count("", "correction vectors for friction and damping added to the real modes")
-    damping_speed: Array = quantity("m/s", "", "closing speed that doubles the contact pressure: damping of the normal contact")
-    sliding_distance: Array = quantity("m", "", "sliding distance at which a friction map was read")
-    frequency_max: Array = quantity("Hz", "", "limit of the real modes of the basis and of the unstable modes")
-    friction_slopes: Array = count("", "1 where friction changes with pressure and slip speed at the operating points")
-    friction_damping: Array = count("", "1 with friction that turns with the slip velocity")
-    gyroscopic: Array = count("", "1 with the gyroscopic terms of the disc")
-    centrifugal: Array = count("", "1 with the centrifugal terms of the disc")
 
 
 @product(version=1)

@@ -173,8 +173,7 @@ def complex_modes(stable=False):
                      "friction turning with the slip", "friction over slip speed", "damping of disc",
                      "damping of pad_inner", "damping at abutment"],
         unstable_growth=np.tile([300.0, 100.0, -150.0, -100.0, -30.0, -2.6, -30.0, -10.0], (len(operating), 1)),
-        **_path(len(operating)), corrections=55, damping_speed=1.0, sliding_distance=0.01, frequency_max=2e4,
-        friction_slopes=1, friction_damping=1, gyroscopic=1, centrifugal=1)
+        **_path(len(operating)), corrections=55)
 
 
 def _path(unstable):
