@@ -15,8 +15,9 @@ from pipeline.physics.pads import exudyn_model, newmark
 from pipeline.physics.pads.contact_history import contact_history
 from pipeline.physics.pads.memory import remembers
 from pipeline.physics.pads.pad_motion import gravity_rows, sliding_axes
-from pipeline.physics.pads.pad_system import pad_system, static_start
+from pipeline.physics.pads.pad_system import pad_system
 from pipeline.physics.pads.preloaded_modes import preloaded_modes
+from pipeline.physics.pads.sliding_pads import static_start
 from pipeline.physics.pads.stability_map import stability_map
 from pipeline.physics.signals.oscillation import FEWEST_PERIODS, dominant_frequency, growth_rate, sign_is_decided
 from pipeline.products import Effects, FrictionMap, Multibody, ReducedModel

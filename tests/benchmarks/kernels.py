@@ -20,8 +20,8 @@ from pipeline.physics.modal.natural_modes import lowest_modes
 from pipeline.physics.modal.quadratic_eigenproblem import quadratic_roots
 from pipeline.physics.numerics.sparse_solver import available
 from pipeline.physics.pads import exudyn_model, newmark
-from pipeline.physics.pads.pad_system import static_start
 from pipeline.physics.pads.preloaded_modes import preloaded_modes
+from pipeline.physics.pads.sliding_pads import static_start
 from pipeline.physics.rough.generator import plateau_pad, self_affine, turned_disc
 from pipeline.physics.rough.layered_solid import graded_depth, half_space_compliance, layered_compliance
 from pipeline.physics.rough.normal_contact import solve_normal_contact
