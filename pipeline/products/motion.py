@@ -100,7 +100,7 @@ class Probability:
     least_growth: Array = quantity("1/s", "", "growth rate up to which a mode counts as stable")
 
 
-@product(version=2)
+@product(version=3)
 class Multibody:
     """Motion of the flexible pads on four rigid sub-discs of friction patches, per operating point."""
 
@@ -119,6 +119,15 @@ class Multibody:
     oscillation_frequency: Array = quantity("Hz", "operating", "dominant frequency of the pad oscillation along sliding")
     separated_share: Array = quantity("1", "operating", "fraction of contact samples without contact")
     outside_map_share: Array = quantity("1", "operating", "fraction of friction evaluations outside the computed map")
+    stored_energy: Array = quantity("J", "operating", "kinetic and strain energy of pads, caliper and joints at the end, less that of the static start")
+    input_work: Array = quantity("J", "operating", "work of the piston forces on them, from the static start to the end, as the next six")
+    normal_work: Array = quantity("J", "operating", "work of the normal contact forces on the pads")
+    friction_work: Array = quantity("J", "operating", "work of the friction forces on the pads")
+    element_work: Array = quantity("J", "operating", "work of the nonlinear elements of effects on pads, caliper and joints")
+    sliding_loss: Array = quantity("J", "operating", "work of the friction forces on the slip: heat of the contacts")
+    damping_loss: Array = quantity("J", "operating", "loss in pads, caliper and joints, the damping of static answers included")
+    added_loss: Array = quantity("1", "operating", "share of it in the damping of static answers")
+    imbalance: Array = quantity("1", "operating", "largest error of the energy balance over the largest energy exchanged")
     caliper_factor: Array = quantity("1", "caliper_factor", "factor on the caliper stiffness, stability map")
     abutment_factor: Array = quantity("1", "abutment_factor", "factor on the abutment stiffness, stability map")
     stability: Array = quantity("1/s", "operating caliper_factor abutment_factor", "largest growth rate of the linearised system")
