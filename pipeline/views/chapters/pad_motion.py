@@ -40,10 +40,10 @@ def open_balance(multibody):
     """Sentence on energy that is missing from the pad motion, or that nothing has fed; '' where next to none is."""
     if multibody is None or not (multibody.imbalance > _OPEN).any():
         return ""
-    largest, number_open = multibody.imbalance.max(), (multibody.imbalance > _OPEN).sum()
-    return (f"The energy balance of the pad motion is open by up to {percent(largest, 2)} of the energy exchanged, by more"
-            f" than {percent(_OPEN, 1)} at {number_open} of {plural(len(multibody.pressure), 'operating point')}: shorten"
-            " multibody.step, or lower multibody.record_every.")
+    share, points = multibody.imbalance, plural(len(multibody.pressure), "operating point")
+    return (f"The energy balance of the pad motion is open by up to {percent(share.max(), 2)} of the energy exchanged,"
+            f" by more than {percent(_OPEN, 1)} at {(share > _OPEN).sum()} of {points}: shorten multibody.step, or"
+            " lower multibody.record_every.")
 
 
 def _energy(multibody):
