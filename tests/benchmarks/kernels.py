@@ -41,6 +41,7 @@ from stages.pin_on_disc import Settings as PinSettings
 from stages.pin_on_disc import pin_on_disc
 from stages.reduced_model import Settings as ModelSettings
 from stages.reduced_model import reduced_model
+from tests.benchmarks import brake_kernels
 from tests.diagnosis import small_rig
 from tests.physics import small_ruptures
 from tests.physics.lumps import random_structure
@@ -300,7 +301,7 @@ SMALLEST = {
     exudyn_steps: {"steps": 20}, newmark_steps: {"steps": 20}, transient_pin: {"duration": 1e-4},
     transient_beam: {"duration": 1e-4}, lock_in_map: {"lengths": 1, "coarse": True},
     rupture_steps: {"spacing": 5e-4, "duration": 1e-6}, plate_steps: {"spacing": 5e-4},
-    rupture_slices: {"spacing": 5e-4}, rig_run: {}, diagnosis_of_a_rig: {"hypotheses": 1}}
+    rupture_slices: {"spacing": 5e-4}, rig_run: {}, diagnosis_of_a_rig: {"hypotheses": 1}, **brake_kernels.SMALLEST}
 KERNELS = tuple(SMALLEST)
 #: (kernel, kernel) pairs whose rates compare: the same work done in two ways
-PAIRS = ((newmark_steps, exudyn_steps), (plate_steps, rupture_slices))
+PAIRS = ((newmark_steps, exudyn_steps), (plate_steps, rupture_slices), *brake_kernels.PAIRS)
