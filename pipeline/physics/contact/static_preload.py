@@ -92,9 +92,9 @@ def balance(equation, closure, first, reference):
     """(closures (c,) m, imbalance): Newton's method on ``equation``, from ``closure``, steps halved where needed.
 
     ``equation(closure)`` gives what is missing (c,) m, its derivative (c, c), force (c,) N and its slope (c,) N/m. The
-    imbalance is the largest change of a force that one more step would make, as a share of the
-    largest force or of ``reference`` N; an open contact counts with the stiffness ``first`` (c,) N/m of one that has
-    just closed. At most BALANCED where the method converged, infinite where the derivative is singular.
+    imbalance is the largest change of a force that one more step would make, as a share of the largest force or of
+    ``reference`` N; an open contact counts with the stiffness ``first`` (c,) N/m of one that has just closed. At most
+    BALANCED where the method converged, infinite where the derivative is singular.
     """
     def imbalance(step, force, slope):
         return np.abs(np.maximum(slope, first) * step).max() / (max(force.max(), reference) or 1.0)

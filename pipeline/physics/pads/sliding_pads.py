@@ -1,6 +1,7 @@
 """Pads at rest and in steady sliding: a PadSystem as a SlidingModel, solved and linearised as complex modes are.
 
-Contacts keep their laws. Friction is that at time 0 in full, averaged over the part of a patch on each sub-disc.
+Contacts keep their laws. Friction is that at time 0 in full and without memory, averaged over the parts of a patch on
+the sub-discs.
 Nonlinear elements join as contacts without friction: an elongation e with the force F(e) is the closure -e of a contact
 along the same row that presses with -F. In motion, where contacts slip in any direction, ``patch_contact`` has the same
 forces; its tangent in steady sliding is ``linearised`` (a test holds both together).
@@ -11,7 +12,6 @@ from functools import partial
 
 import numpy as np
 
-from pipeline.physics.friction.dry_friction import LOAD_KEPT, LOAD_SHARE
 from pipeline.physics.friction.sliding_friction import sliding_part
 from pipeline.physics.numerics.compiled import njit
 from pipeline.physics.pads.patch_contact import patch_shares, scattered, sub_disc_friction, surface
@@ -79,13 +79,11 @@ def contact_forces(system, closure):
 @njit
 def _friction(contact, pressure):
     """(3, c): friction coefficient, its slopes over pressure and slip speed, with what replaces sticking."""
-    result, dry = np.empty((3, contact.radius.size)), contact.dry
+    result, factor = np.empty((3, contact.radius.size)), scattered(contact, 0.0)
     shares = patch_shares(contact.angle, contact.half_angle, 0.0, contact.sectors)
-    factor = scattered(contact, 0.0)
     for i in range(contact.radius.size):
         slip = abs(contact.disc_speed * contact.radius[i])
-        heard = dry.contact[i, LOAD_KEPT] / contact.law.area[i] + dry.contact[i, LOAD_SHARE] * pressure[i]
-        mu, by_pressure, by_slip = sub_disc_friction(dry, i, heard, slip, shares[i], contact.bedding)
+        mu, by_pressure, by_slip = sub_disc_friction(contact.dry, i, pressure[i], slip, shares[i], contact.bedding)
         part, rise = sliding_part(slip, contact.stick_speed)
         result[0, i], result[1, i] = factor[i] * part * mu, factor[i] * part * by_pressure
         result[2, i] = factor[i] * (rise * mu + part * by_slip)
@@ -108,10 +106,10 @@ def _state(system, friction, where):
         return contact_forces(resting, closure)[:2]
 
     for _ in range(_ROUNDS):
-        contact = settled(model, closure_response(model), load, law, first, friction, guess, where)
-        friction_there, guess = contact.friction.coefficient, contact.contact.closure
-        place = displacement(model, contact.contact, friction_there, load)
-        springs = np.maximum(contact.contact.stiffness, first)
+        state = settled(model, closure_response(model), load, law, first, friction, guess, where)
+        contact, guess = state.contact, state.contact.closure
+        place = displacement(model, contact, state.friction.coefficient, load)
+        springs = np.maximum(contact.stiffness, first)
         model = replace(model, contacts=replace(model.contacts, stiffness=springs))
     return place
 

@@ -88,8 +88,9 @@ def settled(model, response, input_force, law, first, friction, guess=None, wher
     """SlidingState of a SlidingModel whose contacts obey ``law(closure)``: force (c,) N and its slope (c,) N/m at rest.
 
     ``first`` (c,) N/m: slope where a contact has just closed; ``guess`` (c,) m: closures to begin with, by default
-    those of the springs of the ``response``; the rest as of ``steady_sliding``. Raises ConvergenceError ``where`` no
-    state is found without friction, or friction cannot rise to its full value, as where the pads would tip or lock.
+    those of the springs of the ``response``; ``where`` is said in errors; the rest as of ``steady_sliding``. Raises
+    ConvergenceError where no state is found without friction, or where friction cannot rise to its full value, as where
+    pads would tip or lock.
     """
     gap, springs = model.contacts.gap, response.stiffness
     free = response.inputs @ input_force - gap - response.normal @ (springs * gap)
@@ -184,7 +185,7 @@ class _Equilibrium:
         force, slope = self.law(closure)
         state = self.friction_state(force)
         sign = share * self.model.direction()
-        coupling = sign * state.slope(force / self.model.contacts.area)
+        coupling = sign * state.load_slope(force / self.model.contacts.area)
         reached = (self.free + response.normal @ (force - springs * closure)
                  + response.tangent @ (sign * state.coefficient * force))
         tangent = np.eye(len(closure)) - response.normal * (slope - springs) - response.tangent * (coupling * slope)

@@ -79,7 +79,7 @@ class FrictionState:
     pressure_slope: np.ndarray | float = 0.0
     speed_slope: np.ndarray | float = 0.0
 
-    def slope(self, pressure):
+    def load_slope(self, pressure):
         """mu + p dmu/dp (c,): friction force per change of the normal force, at a ``pressure`` (c,) in Pa."""
         return self.coefficient + pressure * self.pressure_slope
 
@@ -209,7 +209,7 @@ class SlidingModel:
 
     def coupling(self, friction):
         """sgn(v) (mu + p dmu/dp) (c,) of equation (2) for a FrictionState."""
-        return self.direction() * friction.slope(self.contacts.pressure)
+        return self.direction() * friction.load_slope(self.contacts.pressure)
 
     def turning_drag(self, coefficient):
         """mu N0 / |v| (c,) in N s/m of equation (3); 0 where a contact does not slide."""

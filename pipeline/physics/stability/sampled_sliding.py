@@ -113,7 +113,7 @@ class SlidingBasis:
         contacts, sign = small.contacts, small.direction()
         force, slope = self._contact(factors, state)
         friction = _friction(self.family, factors, small, force)
-        coupling = sign * friction.slope(force / contacts.area)
+        coupling = sign * friction.load_slope(force / contacts.area)
         load = self.family.input_force @ small.input_rows + force @ contacts.normal
         load = load + (sign * friction.coefficient * force) @ contacts.tangent
         pulled = (contacts.normal.T * slope + contacts.tangent.T * (coupling * slope)) @ contacts.normal
