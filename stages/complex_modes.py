@@ -47,9 +47,6 @@ from pipeline.physics.time_stepping.simulate import Table
 from pipeline.products import ComplexModes, Effects, FrictionMap, ReducedModel, Structure
 from pipeline.systems.fem_bodies import full_model
 
-#: settings that say how the roots were made, which the product states
-_TOLD = ("damping_speed", "sliding_distance", "frequency_max", "friction_slopes", "friction_damping", "gyroscopic",
-         "centrifugal")
 #: friction values of one task of the fan-out
 _CHUNK = 7
 
@@ -193,8 +190,7 @@ def complex_modes(model: ReducedModel, friction_map: FrictionMap | None, effects
         operating_root=[_lowest(o.root, branches) for o in outcomes],
         **unstable_fields(outcomes, model, models[0][0].bench.model.body_name),
         **path_fields_of(outcomes, model, settings, context),
-        corrections=max([s.basis.corrections for s in states] + [o.corrections for o in outcomes]),
-        **{name: getattr(settings, name) for name in _TOLD})
+        corrections=max([s.basis.corrections for s in states] + [o.corrections for o in outcomes]))
 
 
 def _told(terms, context):

@@ -8,6 +8,7 @@ from typing import Literal
 
 import numpy as np
 
+from pipeline.case_models.operating_points import middle_speed
 from pipeline.contract import Context, Quantity, Section, Variants, option, stage
 from pipeline.physics.stability.refinement import moved_roots
 from pipeline.products import ComplexModes, Convergence
@@ -50,7 +51,7 @@ def _variants(sections):
 def operating_point(settings, pressures, speeds):
     """(pressure Pa, speed rad/s) that is refined, of those of the case."""
     pressure = max(pressures) if settings.pressure is None else settings.pressure
-    return pressure, sorted(speeds)[len(speeds) // 2] if settings.speed is None else settings.speed
+    return pressure, middle_speed(speeds) if settings.speed is None else settings.speed
 
 
 def _finer_contact(pad, settings):

@@ -11,6 +11,7 @@ from typing import Literal
 import numpy as np
 
 from pipeline.case_models.effect_block import conditions, physics_terms
+from pipeline.case_models.operating_points import Speeds, selected_speeds
 from pipeline.case_models.pads import kept
 from pipeline.case_models.scatter import stability_settings
 from pipeline.case_models.steady_sliding import mapped_friction, posed
@@ -55,7 +56,7 @@ class Settings(Section):
     checks: tuple[Literal[CHECKS], ...] = option(
         (STEP,), "what is halved (step, stick speed, smallest correction of the modes) or doubled (patches) at the"
         " strongest operating point, to see how far the limit cycle holds")
-    speeds: Literal["all", "middle"] = option(
+    speeds: Speeds = option(
         "all", "operating points that are simulated: those of all speeds, or of the middle one alone")
     without: tuple[str, ...] = option((), "effects of the case that this stage leaves out, as it cannot have them")
 
@@ -138,10 +139,8 @@ def _advanced(system, settings, start, duration, *options, **others):
 
 def _points(modes, settings):
     """Operating points of complex modes that have unstable modes and are simulated."""
-    points, speeds = np.unique(modes.unstable_operating), np.unique(modes.operating_speed)
-    if settings.speeds == "middle":
-        points = points[modes.operating_speed[points] == speeds[len(speeds) // 2]]
-    return points
+    points = np.unique(modes.unstable_operating)
+    return points[np.isin(modes.operating_speed[points], selected_speeds(settings.speeds, modes.operating_speed))]
 
 
 def _system(point, model, friction_map, modes, terms, given, settings):

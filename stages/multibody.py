@@ -13,10 +13,12 @@ from pipeline.contract import ConfigError, Context, Quantities, Quantity, Sectio
 from pipeline.physics.friction.friction_table import FrictionLaw
 from pipeline.physics.pads import exudyn_model, newmark
 from pipeline.physics.pads.contact_history import contact_history
+from pipeline.physics.pads.energy_balance import energy_balance
 from pipeline.physics.pads.memory import remembers
 from pipeline.physics.pads.pad_motion import gravity_rows, sliding_axes
-from pipeline.physics.pads.pad_system import pad_system, static_start
+from pipeline.physics.pads.pad_system import pad_system
 from pipeline.physics.pads.preloaded_modes import preloaded_modes
+from pipeline.physics.pads.sliding_pads import static_start
 from pipeline.physics.pads.stability_map import stability_map
 from pipeline.physics.signals.oscillation import FEWEST_PERIODS, dominant_frequency, growth_rate, sign_is_decided
 from pipeline.products import Effects, FrictionMap, Multibody, ReducedModel
@@ -96,7 +98,8 @@ def multibody(model: ReducedModel, friction_map: FrictionMap, effects: Effects |
     ({integrator}) integrated over {duration} in steps of {step}, with preloaded modes up to {highest_frequency} and
     static corrections for the contact forces. The stability map holds the largest growth rate, of eigenvalues below
     {stability_frequency}, of the linearised system with scaled joint stiffnesses. The growth rate of the transient is
-    the mean over thirds of its envelope; within two standard errors of zero its sign is undecided.
+    the mean over thirds of its envelope; within two standard errors of zero its sign is undecided. The energy balance
+    integrates the power of all forces over the recorded samples.
     """
     _check_times(settings)
     if DISC not in model.body_name:
@@ -146,6 +149,7 @@ def _operate(point, posed, model, settings):
     pads, names = _pads(model)
     history = contact_history(modal.contact, np.searchsorted(pads, model.contact_body), len(names), time, displacement,
                               velocity)
+    energy = energy_balance(system, modal, start, modes, history, time, displacement, velocity)
     kept = slice(None, None, settings.record_every // every)
     time, displacement = time[kept], displacement[kept]
     normal, friction = history.normal[:, kept], history.friction[:, kept]
@@ -158,7 +162,7 @@ def _operate(point, posed, model, settings):
         "friction_force": friction.astype(np.float32),
         "mean_friction": _mean_friction(normal, friction, time >= settings.settling),
         "separated_share": history.separated, "outside_map_share": history.outside, "stability": stability,
-        "stability_root": root, **_oscillation(motion[:, 0], time, settings)})
+        "stability_root": root, **_oscillation(motion[:, 0], time, settings), **_energies(energy)})
 
 
 def _system(sliding, dress, input_force, normal_law, friction_law, settings, caliper, abutment):
@@ -196,6 +200,15 @@ def _motion_rows(model, pads, size):
         row[:, members] = gravity_rows(model.mass[np.ix_(members, members)], recovery, axes)
     added = size - np.count_nonzero(kept)
     return np.pad(rows[:, :, kept], ((0, 0), (0, 0), (0, added))) if added else rows[:, :, kept]
+
+
+def _energies(energy):
+    """Fields of an EnergyBalance: what has passed at the end of the motion, and its largest error."""
+    end = energy._replace(**{name: value[-1] for name, value in energy._asdict().items()})
+    added = end.added_loss / end.damping_loss if end.damping_loss else 0.0
+    return {"stored_energy": end.stored, "input_work": end.input_work, "normal_work": end.normal_work,
+            "friction_work": end.friction_work, "element_work": end.element_work, "sliding_loss": end.sliding_loss,
+            "damping_loss": end.damping_loss, "added_loss": added, "imbalance": energy.imbalance}
 
 
 def _mean_friction(normal, friction, settled):

@@ -5,11 +5,11 @@ of one pressure share; a few are solved in the whole reduced model as well, whic
 """
 
 from functools import partial
-from typing import Literal
 
 import numpy as np
 
 from pipeline.case_models import effect_block
+from pipeline.case_models.operating_points import Speeds, selected_speeds
 from pipeline.case_models.scatter import (
     DEFAULT,
     Source,
@@ -44,7 +44,7 @@ class Settings(Section):
     draws: int = option(500, "draws; 0 = none, and no probability", ge=0)
     seed: int = option(11, "seed of the draws", ge=0)
     sources: tuple[Source, ...] = option(DEFAULT, "what scatters, each source independent of the others")
-    speeds: Literal["all", "middle"] = option(
+    speeds: Speeds = option(
         "all", "operating points that are sampled: those of all speeds, or of the middle one alone")
     least_growth: Quantity("1/s", ge=0) = option("0 1/s", "growth rate above which a mode counts")
     training: int = option(5, "further draws that the common bases are made to serve", ge=1)
@@ -76,8 +76,7 @@ def probability(model: ReducedModel, friction_map: FrictionMap, modes: ComplexMo
     """
     _refuse_effects(effects, settings)
     points = stability_settings(modes)
-    if settings.speeds == "middle":
-        points.speeds = sorted(points.speeds)[len(points.speeds) // 2:][:1]
+    points.speeds = selected_speeds(settings.speeds, points.speeds)
     deviations = friction_deviations(friction_map, points.sliding_distance)
     values = draw_values(settings.sources, deviations, settings.draws, np.random.default_rng(settings.seed))
     drawn = [factors_of(settings.sources, row, model) for row in values]

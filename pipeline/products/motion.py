@@ -44,13 +44,6 @@ class ComplexModes:
     path_root: Array = quantity("1/s", "path_point", "root of the mode in the reduced model, unstable_reduced at the end", complex)
     path_meeting: Array = quantity("1/s", "path_point", "root of the mode it meets, 0 where not known", complex)
     corrections: Array = count("", "correction vectors for friction and damping added to the real modes")
-    damping_speed: Array = quantity("m/s", "", "closing speed that doubles the contact pressure: damping of the normal contact")
-    sliding_distance: Array = quantity("m", "", "sliding distance at which a friction map was read")
-    frequency_max: Array = quantity("Hz", "", "limit of the real modes of the basis and of the unstable modes")
-    friction_slopes: Array = count("", "1 where friction changes with pressure and slip speed at the operating points")
-    friction_damping: Array = count("", "1 with friction that turns with the slip velocity")
-    gyroscopic: Array = count("", "1 with the gyroscopic terms of the disc")
-    centrifugal: Array = count("", "1 with the centrifugal terms of the disc")
     squeal_from: Array = quantity("Hz", "", "frequency from which an unstable mode is squeal; lower ones groan or moan")
 
 
@@ -109,7 +102,7 @@ class Probability:
     squeal_from: Array = quantity("Hz", "", "frequency from which an unstable mode is squeal")
 
 
-@product(version=2)
+@product(version=3)
 class Multibody:
     """Motion of the flexible pads on four rigid sub-discs of friction patches, per operating point."""
 
@@ -128,6 +121,15 @@ class Multibody:
     oscillation_frequency: Array = quantity("Hz", "operating", "dominant frequency of the pad oscillation along sliding")
     separated_share: Array = quantity("1", "operating", "fraction of contact samples without contact")
     outside_map_share: Array = quantity("1", "operating", "fraction of friction evaluations outside the computed map")
+    stored_energy: Array = quantity("J", "operating", "kinetic and strain energy of pads, caliper and joints at the end, less that of the static start")
+    input_work: Array = quantity("J", "operating", "work of the piston forces on them, from the static start to the end, as the next six")
+    normal_work: Array = quantity("J", "operating", "work of the normal contact forces on the pads")
+    friction_work: Array = quantity("J", "operating", "work of the friction forces on the pads")
+    element_work: Array = quantity("J", "operating", "work of the nonlinear elements of effects on pads, caliper and joints")
+    sliding_loss: Array = quantity("J", "operating", "work of the friction forces on the slip: heat of the contacts")
+    damping_loss: Array = quantity("J", "operating", "loss in pads, caliper and joints, the damping of static answers included")
+    added_loss: Array = quantity("1", "operating", "share of it in the damping of static answers")
+    imbalance: Array = quantity("1", "operating", "largest error of the energy balance over the largest energy exchanged")
     caliper_factor: Array = quantity("1", "caliper_factor", "factor on the caliper stiffness, stability map")
     abutment_factor: Array = quantity("1", "abutment_factor", "factor on the abutment stiffness, stability map")
     stability: Array = quantity("1/s", "operating caliper_factor abutment_factor", "largest growth rate of the linearised system")

@@ -111,8 +111,8 @@ def _kernel_row(make, runs):
         print(f"{title:<58} failed:\n{traceback.format_exc()}", flush=True)
         return {}
     wall, cpu = timing.median
-    print(f"{title:<58} {timing.first:8.2f} {wall:9.4f} {cpu:9.4f} {min(timing.cpu):9.4f}   {amount / cpu:,.0f} {unit}",
-          flush=True)
+    rate = f"{amount / cpu:,.0f}" if amount > 100 * cpu else f"{amount / cpu:.3g}"
+    print(f"{title:<58} {timing.first:8.2f} {wall:9.4f} {cpu:9.4f} {min(timing.cpu):9.4f}   {rate} {unit}", flush=True)
     return {"work": f"{amount} {unit}", "rate": amount / cpu, "first_cpu_seconds": timing.first, "wall_seconds": wall,
             "cpu_seconds": cpu, "wall_each": timing.wall, "cpu_each": timing.cpu}
 

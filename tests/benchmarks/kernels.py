@@ -20,8 +20,8 @@ from pipeline.physics.modal.natural_modes import lowest_modes
 from pipeline.physics.modal.quadratic_eigenproblem import quadratic_roots
 from pipeline.physics.numerics.sparse_solver import available
 from pipeline.physics.pads import exudyn_model, newmark
-from pipeline.physics.pads.pad_system import static_start
 from pipeline.physics.pads.preloaded_modes import preloaded_modes
+from pipeline.physics.pads.sliding_pads import static_start
 from pipeline.physics.rough.generator import plateau_pad, self_affine, turned_disc
 from pipeline.physics.rough.layered_solid import graded_depth, half_space_compliance, layered_compliance
 from pipeline.physics.rough.normal_contact import solve_normal_contact
@@ -41,6 +41,7 @@ from stages.pin_on_disc import Settings as PinSettings
 from stages.pin_on_disc import pin_on_disc
 from stages.reduced_model import Settings as ModelSettings
 from stages.reduced_model import reduced_model
+from tests.benchmarks import brake_kernels
 from tests.diagnosis import small_rig
 from tests.physics import small_ruptures
 from tests.physics.lumps import random_structure
@@ -300,7 +301,7 @@ SMALLEST = {
     exudyn_steps: {"steps": 20}, newmark_steps: {"steps": 20}, transient_pin: {"duration": 1e-4},
     transient_beam: {"duration": 1e-4}, lock_in_map: {"lengths": 1, "coarse": True},
     rupture_steps: {"spacing": 5e-4, "duration": 1e-6}, plate_steps: {"spacing": 5e-4},
-    rupture_slices: {"spacing": 5e-4}, rig_run: {}, diagnosis_of_a_rig: {"hypotheses": 1}}
+    rupture_slices: {"spacing": 5e-4}, rig_run: {}, diagnosis_of_a_rig: {"hypotheses": 1}, **brake_kernels.SMALLEST}
 KERNELS = tuple(SMALLEST)
 #: (kernel, kernel) pairs whose rates compare: the same work done in two ways
-PAIRS = ((newmark_steps, exudyn_steps), (plate_steps, rupture_slices))
+PAIRS = ((newmark_steps, exudyn_steps), (plate_steps, rupture_slices), *brake_kernels.PAIRS)

@@ -50,8 +50,10 @@ def flutter(k11, k22, k12, k_friction, friction, load=50.0, **more):
     return PadSystem(np.eye(2), np.zeros((2, 2)), stiffness, np.array([0.0, -load]), contact)
 
 
-def random_assembly(seed=1, size=12, count=8):
+def random_assembly(seed=1, size=12, count=8, friction=1.0):
     """Elastic assembly with a curved normal law and friction that varies over pressure, speed and distance.
+
+    ``friction``: factor on the coefficient.
 
     Its static start is at zero, with 60 N on every contact.
     """
@@ -59,12 +61,12 @@ def random_assembly(seed=1, size=12, count=8):
     rows = [rng.normal(size=(count, size)) / np.sqrt(size) for _ in range(3)]
     closure = np.linspace(0, 4e-6, 30)
     pressures, speeds, distances = np.array([0, 1e6, 2e6, 9e6]), np.array([0.1, 0.9, 1.5]), np.array([0, 5e-3, 1e-2])
-    friction = (0.35 + 0.05 * np.sqrt(pressures / 1e6)[:, None, None] - 0.06 * speeds[:, None]
-                + 8.0 * distances)
+    table = friction * (0.35 + 0.05 * np.sqrt(pressures / 1e6)[:, None, None] - 0.06 * speeds[:, None]
+                        + 8.0 * distances)
     pressure, area, preload = 2e11 * closure + 1e17 * closure**2, 5e-5, np.full(count, 60.0)
     law = Table(closure, pressure, 2.0, gap=-np.interp(preload / area, pressure, closure))
     contact = contacts(
-        *rows, law=law, area=area, friction=FrictionLaw(pressures, speeds, distances, friction),
+        *rows, law=law, area=area, friction=FrictionLaw(pressures, speeds, distances, table),
         bedding=np.array([1, 3, 5, 7]) * 1e-3, bedding_speed=0.02, speed=9.0, ramp=1e-3, half_angle=np.full(count, 0.3))
     basis, _ = np.linalg.qr(rng.normal(size=(size, size)))
     stiffness = 0.05 * (basis * (2 * np.pi * np.geomspace(300, 2e4, size)) ** 2) @ basis.T

@@ -5,7 +5,9 @@ from dataclasses import fields
 import numpy as np
 import pytest
 
+from pipeline.case_models.scatter import stability_settings
 from pipeline.contract.errors import ConfigError, ConvergenceError
+from pipeline.contract.settings import restored
 from pipeline.physics.friction.dry_friction import Friction
 from pipeline.physics.friction.friction_table import FrictionLaw
 from pipeline.physics.modal.quadratic_eigenproblem import quadratic_roots
@@ -345,10 +347,10 @@ def test_paths_end_in_their_modes_and_cross_zero_at_the_critical_friction(growin
 
 def test_the_product_says_how_its_roots_were_made(growing):
     _, settings, modes = growing
-    assert modes.damping_speed == settings.damping_speed == 1.0 and modes.frequency_max == 8000.0
-    assert modes.sliding_distance == settings.sliding_distance == 0.01
-    told = [int(getattr(modes, name)) for name in ("friction_slopes", "friction_damping", "gyroscopic", "centrifugal")]
-    assert told == [1, 0, 1, 1]
+    assert restored(Settings, str(modes.settings)) == settings
+    stated = stability_settings(modes)
+    assert stated.damping_speed == 1.0 and stated.frequency_max == 8000.0 and stated.sliding_distance == 0.01
+    assert [stated.friction_slopes, stated.friction_damping, stated.gyroscopic] == [True, False, True]
 
 
 def test_paths_can_be_left_out(growing):

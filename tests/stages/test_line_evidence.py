@@ -5,8 +5,7 @@ from dataclasses import fields
 import numpy as np
 import pytest
 
-from pipeline.contract import ConfigError, Context, store
-from pipeline.contract.executor import LocalProcesses
+from pipeline.contract import ConfigError, store
 from pipeline.products import Lines, Recording, Run
 from stages.complex_modes import Settings as Modes
 from stages.complex_modes import complex_modes
@@ -16,6 +15,7 @@ from stages.probability import probability
 from stages.reduced_model import Settings as Reduction
 from stages.reduced_model import reduced_model
 from tests.stages.small_structure import small_friction_map, small_structure
+from tests.stages.two_processes import TwoProcesses
 from tests.views.products_for_views import filled
 
 SOURCES = ({"kind": "joint_stiffness", "variation": 0.3}, {"kind": "friction", "variation": 0.1})
@@ -78,15 +78,7 @@ def test_the_cycle_is_run_at_constant_power(brake):
 
 
 def test_the_number_of_workers_changes_no_bit(brake, made, tone):
-    class Two(Context):
-        def map(self, function, items, label=""):
-            pool = LocalProcesses(2)
-            try:
-                return pool.map(function, list(items), lambda: None)
-            finally:
-                pool.close()
-
-    again = line_evidence(*brake, recording(tone), settings=Settings(**GIVEN), context=Two())
+    again = line_evidence(*brake, recording(tone), settings=Settings(**GIVEN), context=TwoProcesses())
     assert store.content_hash(again) == store.content_hash(made)
 
 

@@ -53,6 +53,15 @@ def test_friction_drags_the_pads_along_by_its_sum_over_the_abutment():
     assert 0.35 < outcome.mean_friction[0] < 0.55
 
 
+@pytest.mark.exact
+def test_the_energy_balance_closes(outcome):
+    given = outcome.input_work + outcome.normal_work + outcome.friction_work + outcome.element_work
+    lost = outcome.damping_loss + outcome.stored_energy
+    np.testing.assert_allclose(lost, given, rtol=1e-4)
+    assert (outcome.imbalance < 1e-3).all() and not outcome.element_work.any()
+    assert (outcome.sliding_loss > 0).all() and (outcome.added_loss >= 0).all() and (outcome.added_loss < 1).all()
+
+
 def test_more_pressure_gives_more_friction_as_the_map_says(outcome):
     assert outcome.mean_friction[1] > outcome.mean_friction[0] + 0.01
 

@@ -3,8 +3,7 @@
 import numpy as np
 import pytest
 
-from pipeline.contract import ConfigError, Context, ProductError, store
-from pipeline.contract.executor import LocalProcesses
+from pipeline.contract import ConfigError, ProductError, store
 from pipeline.products import ComplexModes, FrictionMap, ReducedModel
 from stages.complex_modes import Settings as Modes
 from stages.complex_modes import complex_modes
@@ -14,6 +13,7 @@ from stages.reduced_model import reduced_model
 from tests.chain.conftest import ROOT
 from tests.diagnosis.small_rig import effects
 from tests.stages.small_structure import small_friction_map, small_structure
+from tests.stages.two_processes import TwoProcesses
 
 SOURCES = ({"kind": "joint_stiffness", "variation": 0.3}, {"kind": "joint_loss", "variation": 0.5},
            {"kind": "damping_speed", "range": (0.3, 3)}, {"kind": "friction", "variation": 0.2})
@@ -68,15 +68,7 @@ def test_without_scatter_the_probability_is_0_or_1_and_the_roots_are_those_of_co
 
 
 def test_the_number_of_workers_changes_no_bit(brake, made):
-    class Two(Context):
-        def map(self, function, items, label=""):
-            pool = LocalProcesses(2)
-            try:
-                return pool.map(function, list(items), lambda: None)
-            finally:
-                pool.close()
-
-    again = probability(*brake, settings=Settings(draws=60, checked=6, sources=SOURCES), context=Two())
+    again = probability(*brake, settings=Settings(draws=60, checked=6, sources=SOURCES), context=TwoProcesses())
     assert store.content_hash(again) == store.content_hash(made)
 
 

@@ -173,9 +173,7 @@ def complex_modes(stable=False):
                      "friction turning with the slip", "friction over slip speed", "damping of disc",
                      "damping of pad_inner", "damping at abutment"],
         unstable_growth=np.tile([300.0, 100.0, -150.0, -100.0, -30.0, -2.6, -30.0, -10.0], (len(operating), 1)),
-        **_path(len(operating)), corrections=55, squeal_from=1e3,
-        damping_speed=1.0, sliding_distance=0.01, frequency_max=2e4,
-        friction_slopes=1, friction_damping=1, gyroscopic=1, centrifugal=1)
+        **_path(len(operating)), corrections=55, squeal_from=1e3)
 
 
 def _path(unstable):
@@ -288,7 +286,9 @@ def multibody(samples=3000):
         friction_force=contact, mean_friction=np.linspace(0.41, 0.5, 9),
         growth_rate=rate, growth_rate_std=np.full(9, 3.0), growth_decided=np.abs(rate) >= 6.0,
         oscillation_frequency=np.full(9, 180.0), separated_share=np.zeros(9),
-        outside_map_share=np.full(9, 0.01), caliper_factor=factors, abutment_factor=factors, stability=stability,
+        outside_map_share=np.full(9, 0.01), stored_energy=np.full(9, 5.1), friction_work=np.full(9, 5.2),
+        sliding_loss=np.full(9, 800.0), damping_loss=np.full(9, 0.1), added_loss=np.full(9, 0.25),
+        imbalance=np.full(9, 2e-4), caliper_factor=factors, abutment_factor=factors, stability=stability,
         stability_root=np.full(stability.shape, 812.0))
 
 

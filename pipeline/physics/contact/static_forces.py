@@ -1,4 +1,8 @@
-"""Static forces of unilateral contacts on springs, without friction: the state that sliding begins from."""
+"""Static forces of unilateral contacts on springs, without friction: the state that sliding begins from.
+
+For lumped systems, which may move freely where nothing loads them, and whose contacts may be hard: they have neither
+the compliance nor the closures that ``static_preload`` solves for.
+"""
 
 import numpy as np
 

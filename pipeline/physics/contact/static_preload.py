@@ -10,6 +10,7 @@ import numpy as np
 
 from pipeline.contract.errors import ConfigError, ConvergenceError
 from pipeline.physics.contact.closure_law import force_at_rest
+from pipeline.physics.numerics.damped_newton import damped_newton
 from pipeline.physics.numerics.sparse_solver import factorise
 
 _STEPS = 100
@@ -77,7 +78,7 @@ def solve_preload(compliance, free_closure, area, law_closure, law_pressure):
 
     def equation(closure):
         force, slope = force_at_rest(closure, area, law_closure, law_pressure)
-        return closure - free_closure + compliance @ force, force, slope, np.eye(len(area)) + compliance * slope
+        return closure - free_closure + compliance @ force, np.eye(len(area)) + compliance * slope, force, slope
 
     closure, imbalance = balance(equation, np.full_like(free_closure, law_closure[1]), first,
                                  (first * np.abs(free_closure)).max())
@@ -90,26 +91,16 @@ def solve_preload(compliance, free_closure, area, law_closure, law_pressure):
 def balance(equation, closure, first, reference):
     """(closures (c,) m, imbalance): Newton's method on ``equation``, from ``closure``, steps halved where needed.
 
-    ``equation(closure)`` gives what is missing (c,) m, force (c,) N, its slope (c,) N/m and the derivative (c, c) of
-    what is missing. The imbalance is the largest change of a force that one more step would make, as a share of the
-    largest force or of ``reference`` N; an open contact counts with the stiffness ``first`` (c,) N/m of one that has
-    just closed. At most BALANCED where the method converged, infinite where the derivative is singular.
+    ``equation(closure)`` gives what is missing (c,) m, its derivative (c, c), force (c,) N and its slope (c,) N/m. The
+    imbalance is the largest change of a force that one more step would make, as a share of the largest force or of
+    ``reference`` N; an open contact counts with the stiffness ``first`` (c,) N/m of one that has just closed. At most
+    BALANCED where the method converged, infinite where the derivative is singular.
     """
-    miss, force, slope, derivative = equation(closure)
-    for _ in range(_STEPS):
-        try:
-            step = np.linalg.solve(derivative, miss)
-        except np.linalg.LinAlgError:
-            return closure, np.inf
-        imbalance = np.abs(np.maximum(slope, first) * step).max() / (max(force.max(), reference) or 1.0)
-        if imbalance <= BALANCED:
-            break
-        for length in 0.5 ** np.arange(_HALVINGS):
-            trial = equation(closure - length * step)
-            if np.linalg.norm(trial[0]) < np.linalg.norm(miss):
-                break
-        closure, (miss, force, slope, derivative) = closure - length * step, trial
-    return closure, imbalance
+    def imbalance(step, force, slope):
+        return np.abs(np.maximum(slope, first) * step).max() / (max(force.max(), reference) or 1.0)
+
+    reached = damped_newton(equation, closure, imbalance, BALANCED, _STEPS, _HALVINGS)
+    return reached.unknown, reached.error
 
 
 def first_slope(area, law_closure, law_pressure):

@@ -15,6 +15,7 @@ class ContactHistory(NamedTuple):
 
     normal: np.ndarray      # (c, m) N
     friction: np.ndarray    # (c, m) N, along sliding
+    power: np.ndarray       # (3, m) W, of normal forces on the pads, of friction on the pads, of friction on the slip
     patch: np.ndarray       # (p, 4, m) N, normal force of each sub-disc on each pad
     separated: float        # share of the samples without contact
     outside: float          # share of the friction evaluations outside the friction table
@@ -33,6 +34,7 @@ def contact_history(contact, pad, pads, time, displacement, velocity):
 def _history(contact, memory, pad, pads, time, displacement, velocity, step):
     size, samples = pad.size, time.size
     normal, friction = np.empty((size, samples)), np.empty((size, samples))
+    power = np.zeros((3, samples))
     patch, separated, outside, evaluations = np.zeros((pads, SUB_DISCS, samples)), 0, 0, 0
     recalls = contact.states.kind.size > 0 or contact.wear.any()
     for k in range(samples):
@@ -40,17 +42,22 @@ def _history(contact, memory, pad, pads, time, displacement, velocity, step):
             state = accept_contact(contact, memory, time[k], displacement[k], velocity[k], step)
         else:
             state = contact_state(contact, time[k], displacement[k], velocity[k])
-        along, aside = contact.rows[1] @ velocity[k], contact.rows[2] @ velocity[k]
+        opening, along, aside = (contact.rows[0] @ velocity[k], contact.rows[1] @ velocity[k],
+                                 contact.rows[2] @ velocity[k])
         for i in range(size):
             normal[i, k], friction[i, k] = state.normal[i], state.friction[i, 0]
             if state.normal[i] == 0.0:
                 separated += 1
                 continue
-            slip = np.hypot(contact.disc_speed * contact.radius[i] - along[i], aside[i])
+            slip_x, (drawn, swept) = contact.disc_speed * contact.radius[i] - along[i], state.friction[i]
+            slip = np.hypot(slip_x, aside[i])
+            power[0, k] += state.normal[i] * opening[i]
+            power[1, k] += drawn * along[i] + swept * aside[i]
+            power[2, k] += drawn * slip_x - swept * aside[i]
             for d in range(SUB_DISCS):
                 patch[pad[i], d, k] += state.share[i, d] * state.normal[i]
                 if state.share[i, d] > 0.0:
                     evaluations += 1
                     outside += characteristic(contact.dry, i, state.normal[i] / contact.law.area[i], slip,
                                               contact.bedding[d] + contact.bedding_speed * time[k], 1.0)[3]
-    return ContactHistory(normal, friction, patch, separated / (size * samples), outside / max(evaluations, 1))
+    return ContactHistory(normal, friction, power, patch, separated / (size * samples), outside / max(evaluations, 1))

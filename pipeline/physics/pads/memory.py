@@ -38,7 +38,7 @@ def begun(system, displacement, step):
     contact, memory = begun_contact(system.contact, displacement, step)
     elements = system.elements._replace(**{n: getattr(system.elements, n).copy() for n in ("memory", "ahead", "begin")})
     system = system._replace(contact=contact, elements=elements)
-    _accept_elements(system, 0.0, displacement, np.zeros_like(displacement))
+    accept_elements(system, 0.0, displacement, np.zeros_like(displacement))
     for k in np.flatnonzero(elements.law.kind == DRY):      # holds nothing where the motion starts
         elements.memory[elements.law.first[k]] = 0.0
     return system, memory
@@ -93,11 +93,12 @@ def accept_contact(contact, memory, time, displacement, velocity, step):
 def accept(system, memory, time, displacement, velocity, step):
     """Bring all memory of a PadSystem to the end of a step of ``step`` s at ``time``."""
     accept_contact(system.contact, memory, time, displacement, velocity, step)
-    _accept_elements(system, time, displacement, velocity)
+    accept_elements(system, time, displacement, velocity)
 
 
 @njit
-def _accept_elements(system, time, displacement, velocity):
+def accept_elements(system, time, displacement, velocity):
+    """Bring the memory of the elements of a PadSystem to the end of a step at ``time``."""
     elements = system.elements
     for k in range(elements.offset.size):
         element_at(system, k, time, displacement, velocity)

@@ -1,11 +1,10 @@
-"""Reduced pads and caliper on a rigid disc: M q'' + C q' + K q = load + contact force, and its equilibria."""
+"""Reduced pads and caliper on a rigid disc: M q'' + C q' + K q = load + contact force."""
 
 from typing import NamedTuple
 
 import numpy as np
-import scipy
 
-from pipeline.contract.errors import ConfigError, ConvergenceError
+from pipeline.contract.errors import ConfigError
 from pipeline.physics.friction.dry_friction import (
     BACKWARD,
     EXPONENT,
@@ -20,15 +19,12 @@ from pipeline.physics.friction.state_variables import state_kernel
 from pipeline.physics.numerics.compiled import njit
 from pipeline.physics.pads.patch_contact import SUB_DISCS, PatchContact, add, contact_force, contact_tangent
 from pipeline.physics.time_stepping.coupled_solver import no_memory
-from pipeline.physics.time_stepping.element_forces import DRY, LawKernel, element_force
+from pipeline.physics.time_stepping.element_forces import LawKernel, element_force
 from pipeline.physics.time_stepping.elements import alone
-from pipeline.physics.time_stepping.normal_laws import Table, first_slopes, normal_kernel
+from pipeline.physics.time_stepping.normal_laws import Table, normal_kernel
 
 #: residual of a time step, as a share of the load
 STEP_TOLERANCE = 1e-8
-STATIC_ITERATIONS = 100
-STATIC_TOLERANCE = 1e-12
-STATIC_HALVINGS = 20
 #: patches whose radii and heights differ by less than this share of the radius lie on one circle
 SAME_CIRCLE = 1e-6
 
@@ -164,63 +160,3 @@ def element_at(system, k, time, displacement, velocity):
     elongation, instant = elements.offset[k] + row @ displacement, (time, speed * time, speed)
     return element_force(elements.law, k, elongation, row @ velocity, elements.begin[k], elements.memory,
                          elements.ahead, instant)
-
-
-def without_friction(system):
-    """The same system with a friction coefficient of zero everywhere."""
-    dry = system.contact.dry
-    return system._replace(contact=system.contact._replace(dry=dry._replace(table=np.zeros_like(dry.table))))
-
-
-def without_dry_elements(system):
-    """The same system whose elements with dry friction hold nothing: they do not bear loads at rest."""
-    law = system.elements.law
-    parameter = law.parameter.copy()
-    parameter[law.kind == DRY, 0] = 0.0
-    return system._replace(elements=system.elements._replace(law=law._replace(parameter=parameter)))
-
-
-def static_start(system, where="static start"):
-    """Displacement (n,) in equilibrium with the load before friction acts. Raises ConvergenceError."""
-    frictionless, law, normal = without_friction(system), system.contact.law, system.contact.rows[0]
-    slope = first_slopes(law)
-    closed = system.stiffness + (normal.T * slope) @ normal
-    guess = scipy.linalg.cho_solve(scipy.linalg.cho_factor(closed), system.load - normal.T @ (slope * law.gap))
-    return _equilibrium(without_dry_elements(frictionless), guess, where)
-
-
-def sliding_state(system, start, where="steady sliding"):
-    """Displacement (n,) in equilibrium with the load and full friction, from ``start``. Raises ConvergenceError."""
-    return _equilibrium(without_dry_elements(system._replace(contact=system.contact._replace(ramp=0.0))), start, where)
-
-
-def linearised(system, displacement):
-    """(stiffness, damping), both (n, n), of small motions about steady sliding at ``displacement``.
-
-    Stiffness: K + k n^T n + (mu + p dmu/dp) k t^T n; damping: C + N dmu/dv t^T t
-    + (mu N / v) l^T l, with full friction.
-    """
-    sliding = system._replace(contact=system.contact._replace(ramp=0.0))
-    return tangent(sliding, 0.0, displacement, np.zeros_like(displacement))
-
-
-def _equilibrium(system, displacement, where):
-    """Newton's method on force = 0 at rest; a step is halved until the residual falls."""
-    rest, scale = np.zeros_like(displacement), np.linalg.norm(system.load)
-    residual = force(system, 0.0, displacement, rest)
-    for _ in range(STATIC_ITERATIONS):
-        if np.linalg.norm(residual) <= STATIC_TOLERANCE * scale:
-            return displacement
-        try:
-            step = np.linalg.solve(tangent(system, 0.0, displacement, rest)[0], residual)
-        except np.linalg.LinAlgError:
-            break
-        for length in 0.5 ** np.arange(STATIC_HALVINGS):
-            trial = displacement + length * step
-            remaining = force(system, 0.0, trial, rest)
-            if np.linalg.norm(remaining) < np.linalg.norm(residual):
-                break
-        displacement, residual = trial, remaining
-    raise ConvergenceError(where, f"a residual below {STATIC_TOLERANCE:g} of the load",
-                           f"{np.linalg.norm(residual) / scale:.3g}",
-                           "check that the joints hold every rigid motion and that the contact law rises")

@@ -9,7 +9,8 @@ themselves, so they get a damping ratio of their own.
 import numpy as np
 import scipy
 
-from pipeline.physics.pads.pad_system import PadSystem, linearised, without_friction
+from pipeline.physics.pads.pad_system import PadSystem
+from pipeline.physics.pads.sliding_pads import linearised
 
 #: directions with a smaller share of the largest mass are not independent
 INDEPENDENT = 1e-10
@@ -23,7 +24,7 @@ def preloaded_modes(system, start, highest_frequency=np.inf, correction_damping=
     damping ratio ``correction_damping``. The static state is exact whatever is left out, and the contact law stays
     nonlinear.
     """
-    stiffness, _ = linearised(without_friction(system), start)
+    stiffness, _ = linearised(system, start, friction=False)
     stiffness = (stiffness + stiffness.T) / 2
     square, modes = scipy.linalg.eigh(stiffness, system.mass)
     kept = square <= (2 * np.pi * highest_frequency) ** 2

@@ -4,9 +4,9 @@ import numpy as np
 
 from pipeline.contract.errors import ConfigError
 from pipeline.physics.modal.quadratic_eigenproblem import quadratic_roots, upper_half
-from pipeline.physics.pads.pad_system import linearised, sliding_state, static_start
 from pipeline.physics.pads.patch_contact import SUB_DISCS
 from pipeline.physics.pads.preloaded_modes import preloaded_modes
+from pipeline.physics.pads.sliding_pads import linearised, sliding_state, static_start
 from pipeline.physics.time_stepping.element_forces import WAVE
 
 #: parameter of a wave that says how large it is
@@ -23,7 +23,7 @@ def sliding_roots(system, highest_frequency=np.inf, correction_damping=0.3):
     averaged = on_average(system)
     start = static_start(averaged, "stability map: static start")
     modal, _ = preloaded_modes(averaged, start, highest_frequency, correction_damping)
-    state = sliding_state(modal, np.zeros(len(modal.mass)), "stability map: steady sliding")
+    state = sliding_state(modal, "stability map: steady sliding")
     stiffness, damping = linearised(modal, state)
     roots = quadratic_roots(modal.mass, damping, stiffness)
     return roots[upper_half(roots)]

@@ -10,7 +10,11 @@ and the bodies are condensed to the closures, G_n, G_t and G_f being their answe
     c = G_f f - g + G_n (N - k (c + g)) + G_t s mu N.                                                              (1)
 
 Newton's method of the static preload, which is (1) without friction, solves it for the closures. Friction rises from
-nothing in as few steps as converge, so that the state found is the one which the static start leads to.
+nothing in as few steps as converge, so that the state found is the one which the static start leads to. Nonlinear
+springs join as contacts without friction, whose force may pull. Complex modes, draws in the whole model and the pads of
+the multibody simulation find their sliding state here. Two other places remain: ``sampled_sliding`` projects the same
+equations on a basis that thousands of draws share, and ``time_stepping.initial_state`` serves contacts that do not
+yield, which have no closure to solve for.
 """
 
 from collections.abc import Callable
@@ -66,17 +70,38 @@ def steady_sliding(model, response, input_force, law_closure, law_pressure, fric
     """SlidingState of a SlidingModel under ``input_force`` (i,) N.
 
     ``law_closure`` (k,) m and ``law_pressure`` (k,) Pa: normal law, from 0; ``friction`` is a coefficient or a function
-    of pressure and sliding speed (c,) that gives a FrictionState. The preload of the model is the first guess. Raises
-    ConvergenceError where friction cannot rise to its full value, as where the pads would tip or lock. Friction joints
-    keep their preload.
+    of pressure and sliding speed (c,) that gives a FrictionState. The preload of the model is the first guess. Friction
+    joints keep their preload. Errors as of ``settled``.
+    """
+    contacts = model.contacts
+
+    def law(closure):
+        force, slope = force_at_rest(closure, contacts.area, law_closure, law_pressure)
+        return np.where(contacts.fixed, contacts.preload, force), np.where(contacts.fixed, 0.0, slope)
+
+    first = np.where(contacts.fixed, 0.0, first_slope(contacts.area, law_closure, law_pressure))
+    return settled(model, response, input_force, law, first, friction,
+                   np.interp(contacts.pressure, law_pressure, law_closure))
+
+
+def settled(model, response, input_force, law, first, friction, guess=None, where="steady sliding"):
+    """SlidingState of a SlidingModel whose contacts obey ``law(closure)``: force (c,) N and its slope (c,) N/m at rest.
+
+    ``first`` (c,) N/m: slope where a contact has just closed; ``guess`` (c,) m: closures to begin with, by default
+    those of the springs of the ``response``; ``where`` is said in errors; the rest as of ``steady_sliding``. Raises
+    ConvergenceError where no state is found without friction, or where friction cannot rise to its full value, as where
+    pads would tip or lock.
     """
     gap, springs = model.contacts.gap, response.stiffness
     free = response.inputs @ input_force - gap - response.normal @ (springs * gap)
-    equilibrium = _Equilibrium(model, response, free, law_closure, law_pressure,
+    equilibrium = _Equilibrium(model, response, free, law, first,
                                friction if callable(friction) else lambda *_: FrictionState(friction))
-    closure = equilibrium.solve(np.interp(model.contacts.pressure, law_pressure, law_closure), 0.0)
+    closure = equilibrium.solve(free if guess is None else guess, 0.0)
+    if closure is None:
+        raise ConvergenceError(where, f"contact forces that balance within {BALANCED:g}", "none without friction",
+                               "check that joints hold every body and that the load presses the contacts")
     reached, rise = 0.0, 1.0
-    while closure is not None and reached < 1:
+    while reached < 1:
         solution = equilibrium.solve(closure, min(reached + rise, 1.0))
         if solution is not None:
             closure, reached = solution, min(reached + rise, 1.0)
@@ -85,10 +110,20 @@ def steady_sliding(model, response, input_force, law_closure, law_pressure, fric
         else:
             break
     if reached < 1:
-        raise ConvergenceError("steady sliding", f"contact forces that balance within {BALANCED:g}",
+        raise ConvergenceError(where, f"contact forces that balance within {BALANCED:g}",
                                f"none beyond {reached:.3g} of the friction", "lower friction, or raise the load")
-    force, stiffness = equilibrium.contact(closure)
+    force, stiffness = law(closure)
     return SlidingState(Preload(force, stiffness, closure), equilibrium.friction_state(force))
+
+
+def displacement(model, contact, friction, input_force, centrifugal=True):
+    """(n,) m of the bodies of a SlidingModel under ``input_force`` (i,) N and the forces of a ``contact``, a Preload,
+    with a ``friction`` coefficient, () or (c,)."""
+    contacts, springs = model.contacts, model.contacts.stiffness
+    held = contact.force - springs * (contact.closure + contacts.gap)
+    force = input_force @ model.input_rows + held @ contacts.normal
+    force = force + (model.direction() * friction * contact.force) @ contacts.tangent
+    return np.linalg.solve(model.frictionless(centrifugal=centrifugal)[2], force)
 
 
 def given_state(model, friction):
@@ -131,35 +166,27 @@ class _Equilibrium:
     model: SlidingModel
     response: ClosureResponse
     free: np.ndarray
-    law_closure: np.ndarray
-    law_pressure: np.ndarray
+    law: Callable
+    first: np.ndarray
     friction: Callable
-
-    def contact(self, closure):
-        """Force (c,) N and its slope (c,) N/m at ``closure``."""
-        contacts = self.model.contacts
-        force, slope = force_at_rest(closure, contacts.area, self.law_closure, self.law_pressure)
-        return np.where(contacts.fixed, contacts.preload, force), np.where(contacts.fixed, 0.0, slope)
 
     def friction_state(self, force):
         return self.friction(force / self.model.contacts.area, abs(self.model.sliding_speed))
 
     def solve(self, closure, share):
         """Closures (c,) with a ``share`` of the friction, or None where Newton's method does not get there."""
-        contacts = self.model.contacts
-        first = np.where(contacts.fixed, 0.0, first_slope(contacts.area, self.law_closure, self.law_pressure))
-        closure, imbalance = balance(partial(self._miss, share=share), closure, first,
-                                     (first * np.abs(self.free)).max())
+        closure, imbalance = balance(partial(self._miss, share=share), closure, self.first,
+                                     (self.first * np.abs(self.free)).max())
         return closure if imbalance <= BALANCED else None
 
     def _miss(self, closure, share):
-        """(c less the right side of (1), N, dN/dc, derivative of the first) at ``closure``."""
+        """(c less the right side of (1), its derivative, N, dN/dc) at ``closure``."""
         response, springs = self.response, self.response.stiffness
-        force, slope = self.contact(closure)
+        force, slope = self.law(closure)
         state = self.friction_state(force)
         sign = share * self.model.direction()
-        coupling = sign * (state.coefficient + force / self.model.contacts.area * state.pressure_slope)
+        coupling = sign * state.load_slope(force / self.model.contacts.area)
         reached = (self.free + response.normal @ (force - springs * closure)
                  + response.tangent @ (sign * state.coefficient * force))
         tangent = np.eye(len(closure)) - response.normal * (slope - springs) - response.tangent * (coupling * slope)
-        return closure - reached, force, slope, tangent
+        return closure - reached, tangent, force, slope

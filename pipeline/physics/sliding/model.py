@@ -79,6 +79,10 @@ class FrictionState:
     pressure_slope: np.ndarray | float = 0.0
     speed_slope: np.ndarray | float = 0.0
 
+    def load_slope(self, pressure):
+        """mu + p dmu/dp (c,): friction force per change of the normal force, at a ``pressure`` (c,) in Pa."""
+        return self.coefficient + pressure * self.pressure_slope
+
 
 @dataclass(frozen=True)
 class SlidingModel:
@@ -142,12 +146,12 @@ class SlidingModel:
         loaded contact does not slide.
         """
         state = friction if isinstance(friction, FrictionState) else FrictionState(friction)
-        contacts = self.contacts
-        coupling = self.direction() * (state.coefficient + contacts.pressure * state.pressure_slope)
+        contacts, coupling = self.contacts, self.coupling(state)
         damping = (spread(contacts.tangent, coupling * contacts.damping, contacts.normal)
                    + spread(contacts.tangent, contacts.preload * state.speed_slope, contacts.tangent))
         if friction_damping:
-            damping = damping + spread(contacts.lateral, self._turning_drag(state.coefficient), contacts.lateral)
+            self._refuse_rest(state.coefficient)
+            damping = damping + spread(contacts.lateral, self.turning_drag(state.coefficient), contacts.lateral)
         return damping, spread(contacts.tangent, coupling * contacts.stiffness, contacts.normal)
 
     def linearised(self, friction, friction_damping=True, gyroscopic=True, centrifugal=True):
@@ -203,14 +207,21 @@ class SlidingModel:
         """Sign of sliding (c,); a drive at rest counts as about to turn forwards."""
         return np.where(self.sliding_speed < 0, -1.0, 1.0)
 
-    def _turning_drag(self, coefficient):
-        """mu N0 / |v| (c,) in N s/m of equation (3); 0 without a friction force, or where nothing moves sideways."""
+    def coupling(self, friction):
+        """sgn(v) (mu + p dmu/dp) (c,) of equation (2) for a FrictionState."""
+        return self.direction() * friction.load_slope(self.contacts.pressure)
+
+    def turning_drag(self, coefficient):
+        """mu N0 / |v| (c,) in N s/m of equation (3); 0 where a contact does not slide."""
+        force, speed = coefficient * self.contacts.preload, abs(self.sliding_speed)
+        return np.divide(force, speed, out=np.zeros(len(speed)), where=speed > 0)
+
+    def _refuse_rest(self, coefficient):
+        """ConfigError where a contact with friction that could move sideways does not slide."""
         sideways = np.asarray(abs(self.contacts.lateral).sum(axis=1)).ravel() > 0
-        force, speed = np.where(sideways, coefficient * self.contacts.preload, 0.0), abs(self.sliding_speed)
-        if np.any((force != 0) & (speed == 0)):
+        if np.any(sideways & (coefficient * self.contacts.preload != 0) & (self.sliding_speed == 0)):
             raise ConfigError("friction-induced damping", "every loaded contact to slide", "a sliding speed of 0",
                               "give a speed, or leave friction_damping out")
-        return np.divide(force, speed, out=np.zeros_like(force), where=speed > 0)
 
 
 def sliding_model(reduced, state, speed):

@@ -74,8 +74,7 @@ def hard_sliding(model, friction, basis=None, friction_damping=True):
     state = friction if isinstance(friction, FrictionState) else FrictionState(friction)
     damping = damping + model.friction_matrices(state, friction_damping)[0]
     contacts = model.contacts
-    coupling = model.direction() * (state.coefficient + contacts.pressure * state.pressure_slope)
-    pushed = contacts.normal.T + contacts.tangent.T * coupling
+    pushed = contacts.normal.T + contacts.tangent.T * model.coupling(state)
     through = scipy.linalg.cho_solve(scipy.linalg.cho_factor(mass), contacts.normal.T).T
     mobility = through @ pushed
     _refuse_jamming(mobility, through @ contacts.normal.T)

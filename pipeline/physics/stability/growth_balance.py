@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from pipeline.physics.sliding.model import spread
+from pipeline.physics.sliding.model import FrictionState, spread
 from pipeline.physics.sliding.structural_damping import equivalent_motion
 
 #: terms beside those of the friction at the contacts of each body, in order
@@ -128,18 +128,17 @@ def growth_terms(model, friction, root, shape, losses, friction_damping=True, gy
     part of a contact is that of its friction of all kinds and of its damping. Terms add up to the growth rate, by what
     is left of it if that has the name ``remainder``.
     """
-    contacts, coefficient = model.contacts, getattr(friction, "coefficient", friction)
+    contacts, state = model.contacts, friction if isinstance(friction, FrictionState) else FrictionState(friction)
     inertia = 2 * root.imag * (shape.conj() @ model.mass @ shape).real
     if gyroscopic:
         inertia += model.speed * (shape.conj() @ model.gyroscopic @ shape).imag
     normal, tangent, lateral = (rows @ shape for rows in (contacts.normal, contacts.tangent, contacts.lateral))
-    by_pressure, by_speed = (getattr(friction, name, 0.0) for name in ("pressure_slope", "speed_slope"))
-    coupling = model.direction() * (coefficient + contacts.pressure * by_pressure)
-    drawn = -(tangent.conj() * coupling * (contacts.stiffness + root * contacts.damping) * normal).imag / inertia
+    pressed = model.coupling(state) * (contacts.stiffness + root * contacts.damping) * normal
+    drawn = -(tangent.conj() * pressed).imag / inertia
     rate = root.imag / inertia
     local = {CONTACT: -rate * contacts.damping * abs(normal) ** 2,
-             TURNING: -rate * friction_damping * turning_drag(model, coefficient) * abs(lateral) ** 2,
-             SLIP: -rate * contacts.preload * by_speed * abs(tangent) ** 2}
+             TURNING: -rate * friction_damping * model.turning_drag(state.coefficient) * abs(lateral) ** 2,
+             SLIP: -rate * contacts.preload * state.speed_slope * abs(tangent) ** 2}
     terms = {f"friction at {model.body_name[body]}": drawn[losses.contact_body == body].sum()
              for body in np.unique(losses.contact_body)}
     terms |= {name: part.sum() for name, part in local.items()}
@@ -147,13 +146,6 @@ def growth_terms(model, friction, root, shape, losses, friction_damping=True, gy
     if remainder is not None:
         terms[remainder] = root.real - sum(terms.values())
     return {name: float(value) for name, value in terms.items()}, drawn + sum(local.values())
-
-
-def turning_drag(model, coefficient):
-    """mu N0 / |v| (c,) N s/m of friction-induced damping; 0 where a contact does not slide."""
-    speed = abs(model.sliding_speed)
-    force = coefficient * model.contacts.preload
-    return np.divide(force, speed, out=np.zeros(len(speed)), where=speed > 0)
 
 
 def body_shares(model, shape):

@@ -96,7 +96,7 @@ def _of_friction(contacts, sign, speed, friction, states, value):
                               "give the contact a stiffness")
         if kind == MEMORY:
             leaving = speed[i] / p[0]
-            add(i, friction.coefficient[i] + contacts.pressure[i] * friction.pressure_slope[i], leaving, 0.0, leaving)
+            add(i, friction.load_slope(contacts.pressure)[i], leaving, 0.0, leaving)
             add(i, load * friction.speed_slope[i], 0.0, leaving, leaving)
         elif kind in SETTLING:
             leaving, by_load, by_speed = rate_slopes(kind, p, load, contacts.area[i], speed[i])

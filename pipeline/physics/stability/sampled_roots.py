@@ -21,7 +21,6 @@ from pipeline.contract.errors import ConfigError, ConvergenceError
 from pipeline.physics.modal.quadratic_eigenproblem import by_frequency, polished
 from pipeline.physics.sliding.model import FrictionState, SlidingModel, spread
 from pipeline.physics.stability.friction_basis import friction_basis
-from pipeline.physics.stability.growth_balance import turning_drag
 from pipeline.physics.stability.sampled_sliding import GivenSliding, SlidingBasis, sliding_basis
 from pipeline.physics.stability.scatter import NOMINAL
 
@@ -125,13 +124,12 @@ class Sampled:
     def _friction(self, factors, speed, contact):
         """(K_f, C_f) (m, m) of friction and contact damping of a draw, as of ``SlidingModel.linearised``."""
         model, state = _about(self.family, self.small.at_speed(speed), factors, contact)
-        contacts = model.contacts
-        coupling = model.direction() * (state.coefficient + contacts.pressure * state.pressure_slope)
+        contacts, coupling = model.contacts, model.coupling(state)
         drag = (contacts.normal.T + contacts.tangent.T * coupling) * contacts.damping @ contacts.normal
         if np.any(state.speed_slope):
             drag += spread(contacts.tangent, contacts.preload * state.speed_slope, contacts.tangent)
         if self.family.friction_damping:
-            drag += spread(contacts.lateral, turning_drag(model, state.coefficient), contacts.lateral)
+            drag += spread(contacts.lateral, model.turning_drag(state.coefficient), contacts.lateral)
         return spread(contacts.tangent, coupling * contacts.stiffness, contacts.normal), drag
 
 
@@ -204,12 +202,11 @@ def _residual(family, factors, speed, contact, root, shape):
     model, state = _about(family, family.model.at_speed(speed), factors, contact)
     contacts, joints = model.contacts, model.joints
     normal, tangent, lateral = (rows @ shape for rows in (contacts.normal, contacts.tangent, contacts.lateral))
-    coupling = model.direction() * (state.coefficient + contacts.pressure * state.pressure_slope)
     pressed = (contacts.stiffness + root * contacts.damping) * normal
-    along = coupling * pressed + root * contacts.preload * state.speed_slope * tangent
+    along = model.coupling(state) * pressed + root * contacts.preload * state.speed_slope * tangent
     force = pressed @ contacts.normal + along @ contacts.tangent
     if family.friction_damping:
-        force += (root * turning_drag(model, state.coefficient) * lateral) @ contacts.lateral
+        force += (root * model.turning_drag(state.coefficient) * lateral) @ contacts.lateral
     elastic = factors.joint_stiffness * joints.stiffness * (1 + 1j * factors.joint_loss * family.joint_loss_factor)
     viscous = factors.joint_stiffness * factors.joint_loss * joints.damping
     force += ((elastic + root * viscous) * (joints.rows @ shape)) @ joints.rows

@@ -9,12 +9,14 @@ whole model, the answer to it joins S.
 """
 
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 import scipy
 
 from pipeline.contract.errors import ConvergenceError
 from pipeline.physics.contact.closure_law import force_at_rest
+from pipeline.physics.numerics.damped_newton import damped_newton
 from pipeline.physics.sliding.model import FrictionState, SlidingModel
 from pipeline.physics.stability.scatter import NOMINAL, Family, changed_friction
 
@@ -65,21 +67,19 @@ class SlidingBasis:
 
     def solve(self, factors, speed):
         """Coordinates (s,) of the sliding state of a draw, by Newton's method."""
-        small, state = self.small.at_speed(speed), self.start
-        stiffness = self._stiffness(factors, speed)
-        miss, tangent, force, slope = self._miss(factors, small, stiffness, state)
-        for _ in range(_ITERATIONS):
-            step = np.linalg.solve(tangent, miss)
+        small = self.small.at_speed(speed)
+
+        def imbalance(step, force, slope):
             change = abs(slope * (small.contacts.normal @ step)).max(initial=0.0)
-            if change <= _BALANCED * force.max(initial=0.0):
-                return state - step
-            for length in 0.5 ** np.arange(_HALVINGS):
-                trial = self._miss(factors, small, stiffness, state - length * step)
-                if np.linalg.norm(trial[0]) < np.linalg.norm(miss):
-                    break
-            state, (miss, tangent, force, slope) = state - length * step, trial
+            return change / max(force.max(initial=0.0), _TINY)
+
+        reached = damped_newton(partial(self._miss, factors, small, self._stiffness(factors, speed)), self.start,
+                                imbalance, _BALANCED, _ITERATIONS, _HALVINGS)
+        if reached.error <= _BALANCED:
+            return reached.unknown - reached.step
         raise ConvergenceError("steady sliding of a draw", f"contact forces that balance within {_BALANCED:g}",
-                               f"changes of {change:.3g} N", "narrow the scatter of friction or stiffness")
+                               f"changes of {reached.error:.3g} of the largest",
+                               "narrow the scatter of friction or stiffness")
 
     def residual_of(self, factors, speed):
         """(n,) N: imbalance of the sliding state of a draw in the whole model."""
@@ -113,7 +113,7 @@ class SlidingBasis:
         contacts, sign = small.contacts, small.direction()
         force, slope = self._contact(factors, state)
         friction = _friction(self.family, factors, small, force)
-        coupling = sign * (friction.coefficient + force / contacts.area * friction.pressure_slope)
+        coupling = sign * friction.load_slope(force / contacts.area)
         load = self.family.input_force @ small.input_rows + force @ contacts.normal
         load = load + (sign * friction.coefficient * force) @ contacts.tangent
         pulled = (contacts.normal.T * slope + contacts.tangent.T * (coupling * slope)) @ contacts.normal

@@ -8,7 +8,8 @@ With s_i the sign of sliding, the closed contacts C obey
 mu_i with what the states of friction make of it, solved together, so that contacts may be what holds a body. Contacts
 that would pull are opened, gaps that would be negative are closed, until neither is left. Friction joints add
 s_i mu_i N_i t_i to f, nonlinear elements their forces at rest by Newton's method: those with memory as if loaded for
-the first time, dry friction none.
+the first time, dry friction none. This serves every law of a transient; ``sliding.equilibrium`` solves for closures,
+which contacts that do not yield do not have. With a table both have the same state (tested).
 """
 
 import numpy as np

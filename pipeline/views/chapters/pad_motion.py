@@ -4,7 +4,7 @@ import numpy as np
 
 from pipeline.views.chapters.chapter import Chapter, Figure
 from pipeline.views.figures import pad_motion as pictures
-from pipeline.views.figures.number_format import THIN, number, percent, quantity, span
+from pipeline.views.figures.number_format import THIN, number, percent, plural, quantity, span
 
 
 def chapter(multibody, look):
@@ -28,8 +28,32 @@ def chapter(multibody, look):
         f" contact was lost for {span(100 * multibody.separated_share, '1', 2)} % of the samples, and"
         f" {span(100 * multibody.outside_map_share, '1', 2)} % of the friction evaluations fell outside the computed"
         " map. The support stiffnesses of caliper and abutments decide the result: see the stability map, whose most"
-        f" unstable roots lie at {span(multibody.stability_root, 'Hz')}.",
+        f" unstable roots lie at {span(multibody.stability_root, 'Hz')}. {_energy(multibody)}",
         tuple(figures))
+
+
+#: error of the energy balance above which the page warns
+_OPEN = 0.01
+
+
+def open_balance(multibody):
+    """Sentence on energy that is missing from the pad motion, or that nothing has fed; '' where next to none is."""
+    if multibody is None or not (multibody.imbalance > _OPEN).any():
+        return ""
+    share, points = multibody.imbalance, plural(len(multibody.pressure), "operating point")
+    return (f"The energy balance of the pad motion is open by up to {percent(share.max(), 2)} of the energy exchanged,"
+            f" by more than {percent(_OPEN, 1)} at {(share > _OPEN).sum()} of {points}: shorten multibody.step, or"
+            " lower multibody.record_every.")
+
+
+def _energy(multibody):
+    """Where the energy of the highest load goes, and whether the balance closes."""
+    _, high = extremes(multibody)
+    heat, fed, lost = (getattr(multibody, name)[high] for name in ("sliding_loss", "friction_work", "damping_loss"))
+    closes = open_balance(multibody) or f"The energy balance closes within {percent(multibody.imbalance.max(), 2)}."
+    return (f"At {point(multibody, high)}, friction turns {quantity(heat, 'J', 3)} into heat and does"
+            f" {quantity(fed, 'J', 2)} of work on the pads; pads, caliper and joints lose {quantity(lost, 'J', 2)},"
+            f" {percent(multibody.added_loss[high], 2)} of it in the damping of static answers. {closes}")
 
 
 def extremes(product):

@@ -8,7 +8,7 @@ from pipeline.views.chapters import convergence, limit_cycle, probability
 from pipeline.views.chapters.bench import diagnosis, line_evidence
 from pipeline.views.chapters.friction import outside_computed
 from pipeline.views.chapters.models.rupture import headline as rupture_headline
-from pipeline.views.chapters.pad_motion import extremes, point, rate_in_words
+from pipeline.views.chapters.pad_motion import extremes, open_balance, point, rate_in_words
 from pipeline.views.chapters.unstable_modes import (
     below_squeal,
     distinct_unstable,
@@ -198,8 +198,8 @@ def _compared(products):
 def _sure(products):
     comparison, refined = _compared(products), products.get("convergence")
     converged = "" if refined is None else f"{convergence.statement(refined)} "
-    if outside := outside_computed(products):
-        converged += f"{outside} "
+    for told in filter(None, (outside_computed(products), open_balance(products.get("multibody")))):
+        converged += f"{told} "
     if comparison is None:
         return f"{converged}There is no published result to compare with."
     within = judged(comparison, "within")

@@ -7,6 +7,7 @@ import numpy as np
 from pipeline.views.chapters.convergence import WORDS, statement
 from pipeline.views.chapters.friction import outside_computed
 from pipeline.views.chapters.limit_cycle import total
+from pipeline.views.chapters.pad_motion import open_balance
 from pipeline.views.chapters.unstable_modes import critical_friction, losses, mechanism, pair, squealing
 
 SCHEMA = "brakechain-verdict/1"
@@ -21,7 +22,8 @@ def verdict_text(verdict, products):
                 "unstable_modes": [] if modes is None else _unstable(modes),
                 "convergence": None if refined is None else _convergence(refined),
                 "transient": _transient(products.get("limit_cycle")),
-                "warnings": _warnings(modes, refined) + [w for w in [outside_computed(products)] if w]}
+                "warnings": _warnings(modes, refined) + list(filter(None, (
+                    outside_computed(products), open_balance(products.get("multibody")))))}
     return json.dumps(document, indent=1) + "\n"
 
 

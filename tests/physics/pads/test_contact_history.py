@@ -5,8 +5,8 @@ import pytest
 
 from pipeline.physics.pads.contact_history import contact_history
 from pipeline.physics.pads.newmark import integrate
-from pipeline.physics.pads.pad_system import static_start
 from pipeline.physics.pads.patch_contact import contact_state
+from pipeline.physics.pads.sliding_pads import static_start
 from tests.physics.small_pads import random_assembly
 
 PAD = np.repeat([0, 1], 4)

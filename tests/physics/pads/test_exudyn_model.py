@@ -7,8 +7,8 @@ from pipeline.contract.errors import ConvergenceError
 from pipeline.physics.friction.friction_table import FrictionLaw
 from pipeline.physics.pads import newmark
 from pipeline.physics.pads.exudyn_model import integrate
-from pipeline.physics.pads.pad_system import static_start
 from pipeline.physics.pads.preloaded_modes import preloaded_modes
+from pipeline.physics.pads.sliding_pads import static_start
 from tests.physics.small_pads import block_on_belt, random_assembly
 
 

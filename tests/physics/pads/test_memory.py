@@ -10,7 +10,8 @@ from pipeline.physics.friction.state_variables import Healing, Memory, Plateaus,
 from pipeline.physics.pads import exudyn_model, newmark
 from pipeline.physics.pads.contact_history import contact_history
 from pipeline.physics.pads.memory import remembers
-from pipeline.physics.pads.pad_system import pad_elements, pad_friction, static_start
+from pipeline.physics.pads.pad_system import pad_elements, pad_friction
+from pipeline.physics.pads.sliding_pads import static_start
 from pipeline.physics.time_stepping.elements import BoucWen, Dry, Element, Maxwell, Sliders
 from pipeline.physics.time_stepping.simulate import Start, Table, simulate
 from tests.physics.lumps import lumps

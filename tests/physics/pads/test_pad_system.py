@@ -1,57 +1,15 @@
-"""Equilibria, linearisation and modal coordinates of the pads on the rigid disc."""
+"""The pads on the rigid disc: patches, laws that are refused, elements."""
 
 import numpy as np
 import pytest
 
-from pipeline.contract.errors import ConfigError, ConvergenceError
+from pipeline.contract.errors import ConfigError
 from pipeline.physics.friction.friction_table import FrictionLaw
-from pipeline.physics.pads.pad_system import (
-    force,
-    half_angles,
-    linearised,
-    pad_elements,
-    pad_system,
-    sliding_state,
-    static_start,
-    tangent,
-)
-from pipeline.physics.pads.patch_contact import contact_state, patch_shares
+from pipeline.physics.pads.pad_system import force, half_angles, pad_elements, pad_system, tangent
+from pipeline.physics.pads.patch_contact import patch_shares
 from pipeline.physics.pads.preloaded_modes import preloaded_modes
 from pipeline.physics.time_stepping.elements import Element, Polynomial, Power, Wave
-from tests.physics.small_pads import block_on_belt, flutter, random_assembly
-
-
-@pytest.mark.exact
-def test_static_start_of_a_block_is_load_over_stiffness_without_friction():
-    start = static_start(block_on_belt(load=50.0, stiffness=1e8))
-    np.testing.assert_allclose(start, [0, -50e-8], rtol=1e-12, atol=1e-20)
-
-
-@pytest.mark.exact
-def test_steady_sliding_of_a_block_carries_friction_times_load():
-    system = block_on_belt(load=50.0, friction=0.3, spring=1e5)
-    state = sliding_state(system, static_start(system))
-    assert state[0] == pytest.approx(0.3 * 50 / 1e5, rel=1e-12)
-
-
-@pytest.mark.exact
-def test_static_start_of_a_curved_law_is_an_equilibrium_with_open_contacts():
-    system = random_assembly(count=8)
-    system = system._replace(load=system.load + 300 * system.contact.rows[0, 0])
-    start = static_start(system)
-    normal = contact_state(system.contact, 0.0, start, 0 * start).normal
-    assert 0 < np.sum(normal == 0) < 8
-    np.testing.assert_allclose(system.stiffness @ start, system.load + normal @ system.contact.rows[0],
-                               atol=1e-11 * np.linalg.norm(system.load))
-
-
-@pytest.mark.exact
-def test_linearised_stiffness_is_the_closed_form_of_flutter():
-    k11, k22, k12, k_friction, mu = 9e6, 1.1e7, 5e5, 4e6, 0.45
-    system = flutter(k11, k22, k12, k_friction, mu)
-    stiffness, damping = linearised(system, sliding_state(system, static_start(system)))
-    np.testing.assert_allclose(stiffness, [[k11, k12 - mu * k_friction], [k12, k22]], rtol=1e-9)
-    np.testing.assert_allclose(damping, 0, atol=1e-12)
+from tests.physics.small_pads import block_on_belt
 
 
 def pad_of_patches(along, across, height=0.003):
@@ -80,13 +38,6 @@ def test_patches_of_a_pad_meet_without_gap_or_overlap():
 def test_a_patch_alone_on_its_circle_is_square():
     np.testing.assert_allclose(half_angles(np.array([[0.0, 0.1, 0.0], [0.12, 0.0, 0.0]]), np.array([4e-4, 9e-4])),
                                [0.1, 0.125], rtol=1e-12)
-
-
-def test_an_assembly_that_nothing_holds_does_not_pass():
-    loose = block_on_belt()
-    loose = loose._replace(load=np.array([0.0, 50.0]))
-    with pytest.raises(ConvergenceError, match="static start"):
-        static_start(loose)
 
 
 @pytest.mark.parametrize(("change", "expected"), [

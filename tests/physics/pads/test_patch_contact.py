@@ -6,7 +6,6 @@ import pytest
 from pipeline.physics.contact.groups import Grouped
 from pipeline.physics.friction.dry_friction import constant, kernel
 from pipeline.physics.friction.friction_table import FrictionLaw
-from pipeline.physics.pads.pad_system import static_start
 from pipeline.physics.pads.patch_contact import (
     contact_force,
     contact_state,
@@ -14,6 +13,7 @@ from pipeline.physics.pads.patch_contact import (
     friction_share,
     patch_shares,
 )
+from pipeline.physics.pads.sliding_pads import static_start
 from pipeline.physics.time_stepping.normal_laws import Penalty, Table
 from tests.physics.small_pads import block_on_belt, contacts, random_assembly
 

@@ -4,15 +4,9 @@ import numpy as np
 import pytest
 
 from pipeline.physics.modal.quadratic_eigenproblem import quadratic_roots
-from pipeline.physics.pads.pad_system import (
-    force,
-    linearised,
-    sliding_state,
-    static_start,
-    tangent,
-    without_friction,
-)
+from pipeline.physics.pads.pad_system import force
 from pipeline.physics.pads.preloaded_modes import preloaded_modes
+from pipeline.physics.pads.sliding_pads import linearised, sliding_state, static_start
 from pipeline.physics.pads.stability_map import on_average, sliding_roots
 from tests.physics.small_pads import random_assembly
 
@@ -37,8 +31,7 @@ def test_few_modes_and_corrections_have_unit_masses_and_do_not_couple_elasticall
     modal, basis = preloaded_modes(system, start, 3e3)
     np.testing.assert_allclose(basis.T @ system.mass @ basis, np.eye(basis.shape[1]), atol=1e-9)
     rest = np.zeros(basis.shape[1])
-    frictionless = without_friction(modal)
-    stiffness = tangent(frictionless, 0.0, rest, rest)[0]
+    stiffness = linearised(modal, rest, friction=False)[0]
     np.testing.assert_allclose(stiffness, np.diag(np.diag(stiffness)), atol=1e-7 * stiffness.max())
     assert basis.shape[1] < 40 and (np.diff(np.sqrt(np.diag(stiffness))) > -1e-6).all()
 
@@ -49,8 +42,8 @@ def test_static_answers_to_contact_forces_are_exact_with_few_modes():
     start = static_start(system)
     modal, basis = preloaded_modes(system, start, 3e3)
     rest = np.zeros(basis.shape[1])
-    whole = linearised(without_friction(system), start)[0]
-    few = linearised(without_friction(modal), rest)[0]
+    whole = linearised(system, start, friction=False)[0]
+    few = linearised(modal, rest, friction=False)[0]
     for rows, push in ((0, 3), (1, 5)):
         exact = np.linalg.solve(whole, system.contact.rows[rows, push])
         answer = basis @ np.linalg.solve(few, modal.contact.rows[rows, push])
@@ -60,7 +53,7 @@ def test_static_answers_to_contact_forces_are_exact_with_few_modes():
 @pytest.mark.exact
 def test_static_answers_make_the_growth_rates_converge():
     system = on_average(random_assembly(size=40, count=6))
-    state = sliding_state(system, static_start(system))
+    state = sliding_state(system)
     stiffness, damping = linearised(system, state)
     exact = quadratic_roots(system.mass, damping, stiffness)
     exact = exact[exact.imag > 0][:6]

@@ -7,8 +7,8 @@ from pipeline.contract.errors import ConfigError
 from pipeline.physics.closed_form.two_mode_flutter import onset_friction, roots_over_friction
 from pipeline.physics.modal.quadratic_eigenproblem import by_frequency
 from pipeline.physics.pads.newmark import integrate
-from pipeline.physics.pads.pad_system import sliding_state, static_start
 from pipeline.physics.pads.patch_contact import contact_state, patch_shares
+from pipeline.physics.pads.sliding_pads import sliding_state
 from pipeline.physics.pads.stability_map import on_average, sliding_roots, stability_map
 from pipeline.physics.signals.oscillation import dominant_frequency, growth_rate
 from tests.physics.small_pads import flutter, random_assembly
@@ -31,7 +31,7 @@ def test_the_transient_grows_with_the_linearised_rate():
     friction = 1.3 * onset_friction(**MODES)
     system = flutter(**MODES, friction=friction)
     root = max(sliding_roots(system), key=lambda s: s.real)
-    disturbed = sliding_state(system, static_start(system)) * (1 + 1e-7)
+    disturbed = sliding_state(system) * (1 + 1e-7)
     _, moved, _ = integrate(system, disturbed, 2e-6, 25000, tolerance=1e-10)     # the disturbance is 1e-7
     signal = moved[:, 0]
     assert dominant_frequency(signal, 2e-6) == pytest.approx(root.imag / (2 * np.pi), rel=5e-3)
@@ -70,7 +70,7 @@ def test_roots_beyond_the_highest_frequency_do_not_count():
 @pytest.mark.exact
 def test_rising_friction_over_pressure_counts_in_the_rate():
     system = flutter(**MODES, friction=0.6)
-    state = sliding_state(system, static_start(system))
+    state = sliding_state(system)
     pressure = contact_state(system.contact, 0.0, state, 0 * state).normal[0] / system.contact.law.area[0]
     dry = system.contact.dry
     table = dry.table * np.array([0.5, 1.5])[:, None, None]

@@ -9,9 +9,11 @@ import pytest
 from pipeline.contract.errors import ConfigError, ConvergenceError
 from pipeline.physics.contact.static_preload import solve_preload
 from pipeline.physics.friction.friction_table import FrictionLaw
-from pipeline.physics.pads.pad_system import linearised, pad_system
+from pipeline.physics.pads.pad_system import pad_system
+from pipeline.physics.pads.sliding_pads import linearised
 from pipeline.physics.sliding.equilibrium import (
     closure_response,
+    displacement,
     falling_with_speed,
     from_map,
     given_state,
@@ -160,6 +162,17 @@ def test_linearisation_is_the_difference_of_the_nonlinear_forces_in_balance():
     for axis, unit in enumerate(1e-10 * np.eye(12)):
         change = contact_forces(model, place + unit, friction) - contact_forces(model, place - unit, friction)
         np.testing.assert_allclose((stiffness - model.stiffness)[:, axis], -change / 2e-10, rtol=1e-4, atol=1e2)
+
+
+def test_the_bodies_are_displaced_by_the_closures():
+    """Whatever the springs that the bodies were condensed with."""
+    model, friction = random_model(), partial(from_map, rising_friction(), 0.5)
+    state = slide(model, friction)
+    forces = (model.contacts.normal.T @ state.contact.force
+              + model.contacts.tangent.T @ (state.friction.coefficient * state.contact.force))
+    place = displacement(model, state.contact, state.friction.coefficient, np.array([LOAD]))
+    np.testing.assert_allclose(-model.contacts.normal @ place, state.contact.closure, rtol=1e-9)
+    np.testing.assert_allclose(model.stiffness @ place, LOAD * model.input_rows[0] + forces, rtol=1e-8)
 
 
 def test_pads_on_a_held_disc_are_those_of_the_multibody_analysis():

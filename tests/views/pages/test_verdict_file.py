@@ -7,6 +7,8 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
+from pipeline.views.chapters.chapter import Look
+from pipeline.views.chapters.pad_motion import chapter
 from pipeline.views.pages.summary import verdict
 from pipeline.views.pages.verdict_file import SCHEMA, verdict_text
 from tests.views import products_for_views as small
@@ -95,3 +97,19 @@ def test_probabilities_are_there_with_their_intervals():
 def test_cases_without_complex_modes_have_a_verdict_too():
     told = written({})
     assert told["squeal_can_start"] is None and told["unstable_modes"] == [] and told["warnings"] == []
+
+
+def test_an_open_energy_balance_of_the_pads_is_a_warning_wherever_it_is_told():
+    """None up to 1 %."""
+    closed = small.multibody()
+    open_at_one = replace(closed, imbalance=np.append(np.full(8, 0.009), 0.023))
+    for motion, warned in ((replace(closed, imbalance=np.full(9, 0.01)), False), (open_at_one, True)):
+        products = {"complex_modes": small.complex_modes(), "convergence": small.convergence(), "multibody": motion}
+        warnings = written(products)["warnings"]
+        answers = " ".join(text for _, text in verdict(products, ()).answers)
+        text = chapter(motion, Look(60)).conclude
+        if warned:
+            assert len(warnings) == 1 and "open by up to 2.3\u202f% of the energy exchanged" in warnings[0]
+            assert "at 1 of 9 operating points" in warnings[0] and warnings[0] in answers and warnings[0] in text
+        else:
+            assert warnings == [] and "energy balance" not in answers and "closes within 1\u202f%" in text
