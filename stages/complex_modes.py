@@ -100,11 +100,23 @@ def _check(sections):
         raise ConfigError("complex_modes.speeds", "speeds of one sign, at whose mean the sweep runs",
                           f"{min(settings.speeds):g} to {max(settings.speeds):g} rad/s", "make a case of each"
                           " direction")
+    if "structure" in sections:
+        _refuse_above_bases(settings.frequency_max, {
+            "structure.frequency_max": sections["structure"].frequency_max,
+            "reduced_model.fixed_below": sections["reduced_model"].fixed_below})
     mapped = "friction_map" in sections
     if given and mapped or not (given or mapped or "interface_law" in sections):
         raise ConfigError("complex_modes.friction", "friction from one source",
                           "a friction map in the chain as well" if given else "neither this nor a friction map or law",
                           "leave it out" if given else "add it, such as friction: 0.4")
+
+
+def _refuse_above_bases(sought, limits):
+    """ConfigError for modes ``sought`` up to a frequency that the bases of the bodies do not reach."""
+    for name, reached in limits.items():
+        if reached < sought:
+            raise ConfigError("complex_modes.frequency_max", f"at most {reached:g} Hz, where {name} ends the modes of"
+                              " the bodies", f"{sought:g} Hz", f"raise {name}, to half as high again as is sought")
 
 
 @dataclass(frozen=True)
