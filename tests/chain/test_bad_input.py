@@ -50,8 +50,8 @@ def test_an_unreadable_scan(tmp_path):
     ("structure.disc.ring_thickness=-1 mm", "disc.ring_thickness: input should be greater than 0, found '-1 mm'"),
     ("structure.disc.ring_thickness=7 kg", "disc.ring_thickness: expected a quantity in m, such as \"12 mm\""),
     ("structure.disc.ring_thicknes=7 mm", "did you mean 'ring_thickness'?"),
-    ("complex_modes.frequency_max=7 kHz", "expected at most 6000 Hz, where structure.frequency_max ends the modes of the"
-     " bodies, found 7000 Hz; raise structure.frequency_max"),
+    ("complex_modes.frequency_max=7 kHz", "expected at most 6000 Hz, where structure.frequency_max ends the modes of"
+     " the bodies, found 7000 Hz; raise structure.frequency_max"),
 ])
 def test_a_disc_that_is_none(tmp_path, override, message):
     assert message in refused(2, "run", QUICK, "--run", tmp_path / "run", "--set", override)
