@@ -122,7 +122,7 @@ class Multibody:
     separated_share: Array = quantity("1", "operating", "fraction of contact samples without contact")
     outside_map_share: Array = quantity("1", "operating", "fraction of friction evaluations outside the computed map")
     stored_energy: Array = quantity("J", "operating", "kinetic and strain energy of pads, caliper and joints at the end, less that of the static start")
-    input_work: Array = quantity("J", "operating", "work of the piston forces on them, from the static start to the end, as the next six")
+    input_work: Array = quantity("J", "operating", "work of the piston forces on them, from the static start to the end, as the next five")
     normal_work: Array = quantity("J", "operating", "work of the normal contact forces on the pads")
     friction_work: Array = quantity("J", "operating", "work of the friction forces on the pads")
     element_work: Array = quantity("J", "operating", "work of the nonlinear elements of effects on pads, caliper and joints")

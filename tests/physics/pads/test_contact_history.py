@@ -29,6 +29,18 @@ def test_history_repeats_the_state_and_sub_discs_share_the_force():
 
 
 @pytest.mark.exact
+def test_powers_are_forces_times_speeds():
+    """Friction does work on the pads and on the slip: together that of the disc."""
+    system = random_assembly()
+    contact, (time, q, v) = system.contact, moved(system)
+    power = contact_history(contact, PAD, 2, time, q, v).power[:, 9]
+    state, speed = contact_state(contact, time[9], q[9], v[9]), contact.rows @ v[9]
+    disc = state.friction[:, 0] @ (contact.disc_speed * contact.radius)
+    on_pads = (state.friction.T * speed[1:]).sum()
+    np.testing.assert_allclose(power, [state.normal @ speed[0], on_pads, disc - on_pads], rtol=1e-12)
+
+
+@pytest.mark.exact
 def test_samples_outside_the_map_and_without_contact_are_counted():
     system = random_assembly()
     time, q, v = moved(system)
