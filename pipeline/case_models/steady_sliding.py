@@ -8,6 +8,7 @@ import numpy as np
 from pipeline.case_models.virtual_rig import groups
 from pipeline.contract import ConfigError
 from pipeline.effects.effect import compose
+from pipeline.physics.contact.closure_law import damping_at_rest
 from pipeline.physics.contact.groups import alike, read
 from pipeline.physics.contact.static_preload import Preload
 from pipeline.physics.friction.dry_friction import Friction, constant, under
@@ -133,7 +134,7 @@ class Posed:
 
     def _found(self, sliding, settings):
         force = sliding.contact.force
-        return Steady(sliding.contact, force / settings.damping_speed, sliding.friction)
+        return Steady(sliding.contact, damping_at_rest(force, settings.damping_speed), sliding.friction)
 
     def _anew(self, friction, input_force, settings):
         """(Steady, Start) with the laws and elements of the effects."""
@@ -188,8 +189,8 @@ def _law(model, contacts, damping_speed):
     stiffness = contacts.stiffness
     if not stiffness.any():
         return Hard(0.0, model.contact_gap)
-    return Penalty(np.where(stiffness > 0, stiffness, stiffness.max()), contacts.preload / damping_speed,
-                   model.contact_gap)
+    return Penalty(np.where(stiffness > 0, stiffness, stiffness.max()),
+                   damping_at_rest(contacts.preload, damping_speed), model.contact_gap)
 
 
 def mapped_friction(friction_map, distance):

@@ -59,6 +59,11 @@ def force_at_rest(closure, area, closures, pressures):
     return table_forces(closure, np.zeros_like(closure), area, closures, pressures, np.inf)[:2]
 
 
+def damping_at_rest(force, damping_speed):
+    """dN/dc' (c,) N s/m of contacts with a table that carry a ``force`` (c,) N at rest."""
+    return force / damping_speed
+
+
 @njit
 def table_forces(closure, rate, area, closures, pressures, damping_speed):
     """(3, n): ``table_law`` at closures, rates and areas (n,) of contacts that share one table."""

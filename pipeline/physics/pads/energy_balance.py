@@ -44,10 +44,10 @@ def energy_balance(system, modal, start, basis, history, time, displacement, vel
     ``preloaded_modes``; ``history``: ContactHistory of the motion. Elements that remember need every step.
     """
     held = basis.T @ (system.stiffness @ start)
-    inner = basis.T @ system.damping @ basis
+    structural = basis.T @ system.damping @ basis
     kinetic, strain = _form(modal.mass, velocity) / 2, _form(modal.stiffness, displacement) / 2
     powers = (*history.power[:2], _element_power(modal, time, displacement, velocity), history.power[2],
-              _form(modal.damping, velocity), _form(modal.damping - inner, velocity))
+              _form(modal.damping, velocity), _form(modal.damping - structural, velocity))
     passed = [scipy.integrate.cumulative_trapezoid(power, time, initial=0) for power in powers]
     return EnergyBalance(kinetic + strain + displacement @ held, displacement @ (basis.T @ system.load), *passed)
 

@@ -1,10 +1,9 @@
 """Pads at rest and in steady sliding: a PadSystem as a SlidingModel, solved and linearised as complex modes are.
 
 Contacts keep their laws. Friction is that at time 0 in full and without memory, averaged over the parts of a patch on
-the sub-discs.
-Nonlinear elements join as contacts without friction: an elongation e with the force F(e) is the closure -e of a contact
-along the same row that presses with -F. In motion, where contacts slip in any direction, ``patch_contact`` has the same
-forces; its tangent in steady sliding is ``linearised`` (a test holds both together).
+the sub-discs. Nonlinear elements join as contacts without friction: an elongation e with the force F(e) is the closure
+-e of a contact along the same row that presses with -F. In motion, where contacts slip in any direction,
+``patch_contact`` has the same forces; its tangent in steady sliding is ``linearised`` (a test holds both together).
 """
 
 from dataclasses import replace

@@ -24,7 +24,7 @@ from functools import partial
 import numpy as np
 
 from pipeline.contract.errors import ConfigError, ConvergenceError
-from pipeline.physics.contact.closure_law import force_at_rest
+from pipeline.physics.contact.closure_law import damping_at_rest, force_at_rest
 from pipeline.physics.contact.static_preload import BALANCED, Preload, balance, first_slope
 from pipeline.physics.sliding.model import FrictionState, SlidingModel
 
@@ -150,13 +150,12 @@ def falling_with_speed(coefficient, static, decay_speed, pressure, speed):
 
 
 def model_about(model, contact, damping_speed=np.inf):
-    """The model with its contacts linearised about ``contact``, a Preload.
+    """The model with its contacts linearised about ``contact``, a Preload or another with its force and stiffness.
 
-    ``damping_speed`` in m/s is the closing speed that doubles the contact force (Hunt & Crossley, J. Appl. Mech. 42
-    (1975) 440): normal damping N / damping_speed.
+    ``damping_speed`` in m/s: the closing speed that doubles the contact force, infinite for no damping.
     """
     return replace(model, contacts=replace(model.contacts, preload=contact.force, stiffness=contact.stiffness,
-                                           damping=contact.force / damping_speed))
+                                           damping=damping_at_rest(contact.force, damping_speed)))
 
 
 @dataclass(frozen=True)

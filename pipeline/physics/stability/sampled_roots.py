@@ -19,6 +19,7 @@ import scipy
 
 from pipeline.contract.errors import ConfigError, ConvergenceError
 from pipeline.physics.modal.quadratic_eigenproblem import by_frequency, polished
+from pipeline.physics.sliding.equilibrium import model_about
 from pipeline.physics.sliding.model import FrictionState, SlidingModel, spread
 from pipeline.physics.stability.friction_basis import friction_basis
 from pipeline.physics.stability.sampled_sliding import GivenSliding, SlidingBasis, sliding_basis
@@ -160,10 +161,8 @@ def _on(sliding, basis, below):
 
 def _about(family, model, factors, contact):
     """(SlidingModel about a sliding state, FrictionState of its linearisation) of a draw."""
-    contacts = replace(model.contacts, preload=contact.force, stiffness=contact.stiffness,
-                       damping=contact.force / (factors.damping_speed * family.damping_speed))
     friction = contact.friction if family.friction_slopes else FrictionState(contact.friction.coefficient)
-    return replace(model, contacts=contacts), friction
+    return model_about(model, contact, factors.damping_speed * family.damping_speed), friction
 
 
 def _scattered(family):

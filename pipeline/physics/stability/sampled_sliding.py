@@ -17,6 +17,7 @@ import scipy
 from pipeline.contract.errors import ConvergenceError
 from pipeline.physics.contact.closure_law import force_at_rest
 from pipeline.physics.numerics.damped_newton import damped_newton
+from pipeline.physics.sliding.equilibrium import model_about
 from pipeline.physics.sliding.model import FrictionState, SlidingModel
 from pipeline.physics.stability.scatter import NOMINAL, Family, changed_friction
 
@@ -172,8 +173,7 @@ def sliding_basis(family, speeds, training=(NOMINAL,)):
 
 def _tangent(family, contact, speed):
     """(n, n) N/m: stiffness of the nominal model about its sliding state, with friction."""
-    model = family.model.at_speed(speed)
-    model = replace(model, contacts=replace(model.contacts, preload=contact.force, stiffness=contact.stiffness))
+    model = model_about(family.model.at_speed(speed), contact)
     return model.frictionless(centrifugal=family.centrifugal)[2] + model.friction_matrices(contact.friction, False)[1]
 
 

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from pipeline.contract.errors import ConfigError
-from pipeline.physics.contact.closure_law import force_at_rest, penalty_forces, table_forces
+from pipeline.physics.contact.closure_law import damping_at_rest, force_at_rest, penalty_forces, table_forces
 from pipeline.physics.contact.groups import parts, read
 from pipeline.physics.friction.friction_table import straight_slope
 from pipeline.physics.time_stepping.contact_solver import HARD, LAGRANGE, PENALTY, TABLE, NormalKernel, yielding_force
@@ -156,7 +156,7 @@ def tangent(law, force, area):
                                                     for v in (each.stiffness, each.damping))
         elif isinstance(each, Table):
             stiffness[members] = area[members] * _slope(each, force[members] / area[members])
-            damping[members] = force[members] / each.damping_speed
+            damping[members] = damping_at_rest(force[members], each.damping_speed)
         elif np.any(force[members] > 0):
             raise ConfigError("small motions about steady sliding", "contacts that yield", type(each).__name__,
                               "give them a stiffness")

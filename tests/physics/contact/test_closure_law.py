@@ -3,7 +3,13 @@
 import numpy as np
 import pytest
 
-from pipeline.physics.contact.closure_law import force_at_rest, penalty_forces, pressure_at, table_forces
+from pipeline.physics.contact.closure_law import (
+    damping_at_rest,
+    force_at_rest,
+    penalty_forces,
+    pressure_at,
+    table_forces,
+)
 
 pytestmark = pytest.mark.exact
 CLOSURE, PRESSURE = np.array([0.0, 1e-6, 3e-6]), np.array([0.0, 2e5, 1e6])
@@ -40,6 +46,11 @@ def test_no_contact_pulls():
 def test_damping_vanishes_with_the_pressure_and_doubles_it_at_its_speed():
     np.testing.assert_allclose(table(2e-6, SPEED)[0], 2 * table(2e-6)[0])
     assert table(1e-15, 0.4)[0] == pytest.approx(AREA * 2e11 * 1e-15 * 1.8)
+
+
+def test_damping_at_rest_is_the_slope_over_the_closing_speed():
+    force, _, damping = table([5e-7, 2e-6, 9e-6], [0.0, 0.0, 0.0])
+    np.testing.assert_allclose(damping_at_rest(force, SPEED), damping, rtol=1e-15)
 
 
 def test_an_impact_loses_what_the_damping_takes():
