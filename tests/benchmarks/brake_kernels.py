@@ -89,7 +89,7 @@ def limit_cycle_exudyn(duration=2e-5, grown=30e-3, small=False):
     """the same motion in exudyn, explicit steps"""
     system, before, unit = _moving(small, grown)
     step = STEP / np.ceil(STEP * abs(system.modes.root).max() / _TURN)
-    return lambda: exudyn_motion.integrate(system, before.state[-1], step, duration)[1], round(duration / STEP), unit
+    return lambda: exudyn_motion.run(system, before.state[-1], step, duration).state, round(duration / STEP), unit
 
 
 def friction_sweep(points=2, small=False):
