@@ -37,11 +37,18 @@ def table_law(closure, rate, area, closures, pressures, first, damping_speed):
     The table is that of ``pressure_at``; ``damping_speed`` v0 in m/s, infinite for no damping.
     """
     pressure, slope = pressure_at(closure, closures, pressures, first)
-    factor = 1.0 + rate / damping_speed
-    if slope == 0.0 or factor <= 0.0:
+    if slope == 0.0:
         return 0.0, 0.0, 0.0
-    force = area * pressure
-    return force * factor, area * slope * factor, force / damping_speed
+    return damped(area * pressure, area * slope, rate, damping_speed)
+
+
+@njit(inline="always")
+def damped(force, stiffness, rate, damping_speed):
+    """(N, dN/dc, dN/dc') of a contact that carries ``force`` N, rising by ``stiffness`` N/m, where it is not moving."""
+    factor = 1.0 + rate / damping_speed
+    if factor <= 0.0:
+        return 0.0, 0.0, 0.0
+    return force * factor, stiffness * factor, force / damping_speed
 
 
 @njit(inline="always")

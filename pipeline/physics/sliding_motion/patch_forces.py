@@ -13,6 +13,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from pipeline.physics.contact.closure_law import damped
 from pipeline.physics.friction.dry_friction import READ_AT, FrictionKernel, characteristic
 from pipeline.physics.friction.sliding_friction import sliding_friction
 from pipeline.physics.numerics.compiled import njit
@@ -42,12 +43,12 @@ def normal_at(k, i, moved, rate):
     """(N, dN/dmoved, dN/drate) of patch i displaced by ``moved``, opening at ``rate``."""
     position = (moved - k.lowest) / k.interval
     low = min(max(int(position), 0), k.normal.shape[1] - 2)
-    factor = 1.0 - rate / k.damping_speed[i]
     rise = k.normal[i, low + 1] - k.normal[i, low]
     normal = k.normal[i, low] + rise * (position - low)
-    if factor <= 0.0 or normal <= 0.0:
+    if normal <= 0.0:
         return 0.0, 0.0, 0.0
-    return factor * normal, factor * rise / k.interval, -normal / k.damping_speed[i]
+    force, stiffness, damping = damped(normal, -rise / k.interval, -rate, k.damping_speed[i])
+    return force, -stiffness, -damping
 
 
 @njit
