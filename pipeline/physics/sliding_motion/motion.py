@@ -15,6 +15,7 @@ import numpy as np
 from pipeline.contract.errors import ConfigError, ConvergenceError
 from pipeline.physics.contact.closure_law import force_at_rest
 from pipeline.physics.friction.dry_friction import READ_AT, characteristic, kernel
+from pipeline.physics.sliding.model import FrictionState
 from pipeline.physics.sliding_motion.exponential_step import (
     ADDED,
     DONE,
@@ -189,7 +190,7 @@ def _patch_kernel(model, closure, friction, law, patches, stick_speed):
         characteristic(dry, i, load[i] * per_load[i], abs(speed[i]), dry.contact[i, READ_AT], speed[i])[:3]
         for i in range(len(load))]).T
     load, stiffness, damping = force[:, _RESTING], *map(patches.summed, (contacts.stiffness, contacts.damping))
-    coupling = np.sign(speed) * (mu + load * per_load * over_pressure)
+    coupling = np.sign(speed) * FrictionState(mu, over_pressure).load_slope(load * per_load)
     linear = np.array([stiffness, damping, coupling * stiffness, coupling * damping, load * over_slip,
                        np.divide(mu * load, abs(speed), out=np.zeros(len(load)), where=speed != 0)])
     return PatchKernel(
