@@ -10,13 +10,19 @@ from pipeline.contract.errors import ConvergenceError
 from pipeline.physics.sliding_motion.exponential_step import modal_rate, observed
 from pipeline.physics.sliding_motion.motion import NO_BOOK, Run
 
+#: largest product of a root and a step, to which longer steps are cut: beyond it contacts fail to settle
+_LONGEST = 1.25
+
 
 def run(system, start, step, duration, every=1, book=False):
     """The Run of a SlidingMotion by exudyn; arguments as of ``SlidingMotion.run``.
 
-    Raises ConvergenceError where exudyn gives up or the motion grows without bound.
+    Steps longer than Runge-Kutta steps may be are cut. Raises ConvergenceError where exudyn gives up or the motion
+    grows without bound.
     """
-    start, count = start[0] if isinstance(start, tuple) else start, round(duration / step)
+    parts = int(np.ceil(step * abs(system.modes.root).max() / _LONGEST))
+    start, count = start[0] if isinstance(start, tuple) else start, parts * round(duration / step)
+    step, every = step / parts, parts * every
     watch = _Watch(system, start, step, count, every, book)
     half = len(start)
     root = np.array([system.modes.root.real, system.modes.root.imag])

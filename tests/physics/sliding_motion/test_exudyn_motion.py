@@ -1,5 +1,7 @@
 """The sliding motion of exudyn beside that of the exponential steps."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -42,8 +44,17 @@ def test_exudyn_keeps_the_same_book_and_goes_on_where_it_ended(moving):
     assert abs(second.end[0] - whole.end[0]).max() < 1e-9 * abs(whole.end[0]).max()
 
 
-def test_steps_too_long_for_runge_kutta_are_told(moving):
+def test_steps_too_long_for_runge_kutta_are_cut(moving):
+    """Ten times as long as the fastest mode turns by one: eight steps each, on the same grid of times."""
     _, system = moving
-    fastest = abs(system.modes.root).max()
-    with pytest.raises(ConvergenceError, match="take a shorter step"):
-        exudyn_run(system, system.reach.astype(complex), 10 / fastest, 5e3 / fastest)
+    step, start = 9.99 / abs(system.modes.root).max(), 2.0 * system.reach.astype(complex)
+    cut, fine = exudyn_run(system, start, step, 50 * step), exudyn_run(system, start, step / 8, 50 * step, every=8)
+    np.testing.assert_allclose(cut.time, fine.time, rtol=1e-9)
+    np.testing.assert_allclose(cut.state, fine.state, rtol=1e-9, atol=1e-9 * abs(fine.state).max())
+
+
+def test_a_motion_without_bound_is_told(moving):
+    _, system = moving
+    growing = replace(system, modes=replace(system.modes, root=system.modes.root + 1e6))
+    with pytest.raises(ConvergenceError, match="expected a finite motion"):
+        exudyn_run(growing, system.reach.astype(complex), 1e-6, 5e-3)
