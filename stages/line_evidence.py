@@ -10,6 +10,7 @@ import numpy as np
 
 from pipeline.case_models.scatter import DEFAULT, Source, family, friction_deviations, stability_settings
 from pipeline.contract import ConfigError, Context, ConvergenceError, Quantity, Section, option, stage
+from pipeline.diagnosis.published.completed_case import chosen, companions
 from pipeline.diagnosis.published.line_hypotheses import (
     FLEXIBLE,
     RIGID,
@@ -93,7 +94,7 @@ def _refuse_pressure(settings):
                           "friction_over_pressure", "state the sources without it")
 
 
-@stage(check=_check)
+@stage(companions=companions, check=_check)
 def line_evidence(model: ReducedModel, friction_map: FrictionMap | None, modes: ComplexModes, recording: Recording,
                   settings: Settings, context: Context) -> LineEvidence:
     """Weigh hypotheses on a squeal by how probable they make the lines that were heard.
@@ -125,22 +126,18 @@ def line_evidence(model: ReducedModel, friction_map: FrictionMap | None, modes: 
     roots = _solved(families, variants, training, tests, points, settings, context)
     hypotheses = {name: predicted(h, made[name], roots[keys[name]], tests, settings.high, settings.model_error)
                   for name, h in settings.hypotheses.items()}
-    fields, run = weighed(hypotheses, tests, settings), no_cycle()
+    fields = weighed(hypotheses, tests, settings)
+    run = no_cycle()
     if settings.cycle is not None:
+        row, draw = chosen(fields["disc"], fields["evidence"], fields["weight"])
+        tried = [(row, -1, NOMINAL), (row, draw, made[fields["hypothesis"][row]].factors[draw])]
         still = np.flatnonzero(tests.silent[tests.test])
         run = cycle_fields(
-            settings.cycle, families[FLEXIBLE][-1], model.input_area, _tried(fields, made),
+            settings.cycle, families[FLEXIBLE][-1], model.input_area, tried,
             (model.pressure[tests.state[still]], tests.speed[still]), points.frequency_max, settings.model_error,
             context.map)
     return LineEvidence(pressure=model.pressure[tests.state], speed=tests.speed, operating_test=tests.test, **fields,
                         **run)
-
-
-def _tried(fields, made):
-    """[(row, draw, Factors)] of the flexible hypothesis with the largest evidence: nominal, and its best draw."""
-    row = int(np.argmax(np.where(fields["disc"] == FLEXIBLE, fields["evidence"], -np.inf)))
-    draw = int(np.argmax(fields["weight"][row]))
-    return [(row, -1, NOMINAL), (row, draw, made[str(fields["hypothesis"][row])].factors[draw])]
 
 
 def _family(model, state, friction_map, points, held):
