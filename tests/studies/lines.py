@@ -63,14 +63,24 @@ def write(plan, folder):
     raise last
 
 
-def solved(public, **asked):
-    """{verdict, ln Bayes factor and its error, ln against unexplained lines, lines} by the files in a folder alone."""
-    document, path = documents.read_yaml(public / "nominal.yaml"), public / "recordings.h5"
+def modes_of(document):
+    """(ReducedModel, ComplexModes) of the document of a case."""
     section = partial(filled, document)
     model = reduced_model(lumped(settings=section(lumped)), settings=section(reduced_model))
-    modes = complex_modes(model, None, None, None, settings=section(complex_modes))
+    return model, complex_modes(model, None, None, None, settings=section(complex_modes))
+
+
+def weighed(public, **asked):
+    """LineEvidence by the files in a folder alone."""
+    document, path = documents.read_yaml(public / "nominal.yaml"), public / "recordings.h5"
+    model, modes = modes_of(document)
     recording = Recording(source=[path.name], runs=read_neutral(path))
-    made = line_evidence(model, None, modes, recording, settings=section(line_evidence, **asked))
+    return line_evidence(model, None, modes, recording, settings=filled(document, line_evidence, **asked))
+
+
+def solved(public, **asked):
+    """{verdict, ln Bayes factor and its error, ln evidence by hypothesis, lines} of a folder."""
+    made = weighed(public, **asked)
     return {"verdict": str(made.verdict), "flexible": float(made.flexible), "error": float(made.flexible_error),
             "evidence": {str(n): float(e) for n, e in zip(made.hypothesis, made.evidence, strict=True)},
             "lines": [float(f) for f in made.line]}

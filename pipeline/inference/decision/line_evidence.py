@@ -26,7 +26,7 @@ import scipy
 #: resamples of the bootstrap
 _RESAMPLES = 400
 #: standard deviations from a line beyond which a tone has no part in its density
-_FAR = 9.0
+_FAR = 7.0
 
 
 @dataclass(frozen=True)
@@ -89,30 +89,33 @@ class Heard:
 
 
 class Density:
-    """Density of what was heard under the ``tones`` of some draws in a ``band``."""
+    """Density of what was heard under the ``tones`` of some draws in a ``band``; growing tones in one sorted list."""
 
     def __init__(self, tones, band):
         low, high = (scipy.special.ndtr((end - tones.frequency) / tones.std) for end in (band.low, band.high))
-        probability = tones.probability(band.elsewhere)
-        missed = np.log1p(-probability)
-        none = missed.sum(axis=2)
-        with np.errstate(divide="ignore"):
-            size = np.log(tones.mean / (np.sqrt(2 * np.pi) * tones.std))
-        self.tones, self.odds = tones, np.log(probability) - missed
-        self.base = size + none - np.log(-np.expm1(none))
-        self.expected = (tones.mean * (high - low)).sum(axis=1) + band.unexplained
+        self.draws, self.expected = len(tones), (tones.mean * (high - low)).sum(axis=1) + band.unexplained
         self.background = band.unexplained / (band.high - band.low) / (2.0 ** tones.grows.shape[2] - 1)
+        draw, column = np.nonzero(tones.grows.any(axis=2))
+        order = np.argsort(tones.frequency[draw, column], kind="stable")
+        self.draw, own = draw[order], (draw[order], column[order])
+        self.frequency, self.std = tones.frequency[own], tones.std[own]
+        self.reach = _FAR * float((self.std / self.frequency).max(initial=0.0))
+        probability = tones.probability(band.elsewhere)[own]
+        missed = np.log1p(-probability)
+        none = missed.sum(axis=1)
+        self.odds = np.log(probability) - missed
+        self.base = np.log(tones.mean[own] / (np.sqrt(2 * np.pi) * self.std)) + none - np.log(-np.expm1(none))
 
     def log(self, heard):
         """ln p (d,) of what was Heard and of no other line, for each draw."""
         total = -self.expected
         for line, tests in zip(heard.lines, heard.tests, strict=True):
-            z = (line - self.tones.frequency) / self.tones.std
-            near = np.nonzero(abs(z) < _FAR)
-            density = np.bincount(near[0], np.exp(self.base[near] + self.odds[near] @ tests - 0.5 * z[near] ** 2),
-                                  len(self.tones))
+            ends = line / (1 + self.reach), line / max(1 - self.reach, 1e-9)
+            near = slice(*np.searchsorted(self.frequency, ends))
+            z = (line - self.frequency[near]) / self.std[near]
+            density = np.exp(self.base[near] + self.odds[near] @ tests - 0.5 * z**2)
             with np.errstate(divide="ignore"):
-                total = total + np.log(density + self.background)
+                total = total + np.log(np.bincount(self.draw[near], density, self.draws) + self.background)
         return total
 
 

@@ -58,14 +58,14 @@ def drawn(seed, kind, shape):
     values |= {f"loss_{order}": brake_parts.LOSS * np.exp(SPREAD["loss"] * random.standard_normal())
                for order in range(brake_parts.ORDERS + 1)}
     damping = CONTACT_LOSS * np.exp(SPREAD["contact_loss"] * random.standard_normal())
-    told = {name: float(random.uniform(*UNDRAWN[name])) for name in ("stiffening", "friction_over_load", "rise")}
-    hidden = {"contact_damping": {"damping": damping}, "contact_stiffness_law": {"exponent": told["stiffening"]},
-              "pressure_dependent_friction": {"exponent": told["friction_over_load"]},
-              "falling_friction": {"rise": told["rise"], "decay_speed": UNDRAWN["decay_speed"]}}
+    unstated = {name: float(random.uniform(*UNDRAWN[name])) for name in ("stiffening", "friction_over_load", "rise")}
+    hidden = {"contact_damping": {"damping": damping}, "contact_stiffness_law": {"exponent": unstated["stiffening"]},
+              "pressure_dependent_friction": {"exponent": unstated["friction_over_load"]},
+              "falling_friction": {"rise": unstated["rise"], "decay_speed": UNDRAWN["decay_speed"]}}
     share = float(random.uniform(*_HEARD))
     whole = inclined(brake_parts.built(values, shape, hidden=hidden), values)
     made = {TWO_WAY: whole, ONE_WAY: held(whole), FOREIGN: None}[kind]
-    return Bench(kind, made, share, {**values, "contact_loss": damping, **told, "heard": share})
+    return Bench(kind, made, share, {**values, "contact_loss": damping, **unstated, "heard": share})
 
 
 def inclined(whole, values):
