@@ -107,11 +107,12 @@ class _Writer:
 
     def _of_lumped(self, of, part):
         springs, lumped = self.document["lumped"]["springs"], self.document["lumped"]
-        own = [spring for name, spring in springs.items() if part in name]
+        members = [spring for name, spring in springs.items() if part in name]
         if of == "joint_stiffness":
-            return [(spring, key, unit) for spring in own for key, unit in (("stiffness", "N/m"), ("damping", "N s/m"))]
+            return [(spring, key, unit) for spring in members
+                    for key, unit in (("stiffness", "N/m"), ("damping", "N s/m"))]
         if of == "joint_loss":
-            return [(spring, "damping", "N s/m") for spring in own]
+            return [(spring, "damping", "N s/m") for spring in members]
         if of == "contact_stiffness":
             return [(contact, "stiffness", "N/m") for contact in lumped["contacts"].values()]
         return self._damping_speed(of)

@@ -136,16 +136,16 @@ def swellings(roots, period, apart):
     count = len(roots)
     phase = np.repeat(np.arange(count), [len(r) for r in roots])
     root = np.concatenate([np.empty(0, complex), *roots])
-    frequency, found = abs(root.imag) / _TWO_PI, []
+    frequency, swells = abs(root.imag) / _TWO_PI, []
     for group in grouped(frequency, apart):
         growth = np.zeros(count)
         np.maximum.at(growth, phase[group], root.real[group])
         for first, length in _stretches(growth > 0):
             within = (first + np.arange(length)) % count
-            own = group[np.isin(phase[group], within)]
-            found.append(Swelling(float(frequency[own].mean()), float(growth[within].max()), first, length,
-                                  float(growth[within].sum() * period / count)))
-    return sorted(found, key=lambda s: -s.rise)
+            members = group[np.isin(phase[group], within)]
+            swells.append(Swelling(float(frequency[members].mean()), float(growth[within].max()), first, length,
+                                   float(growth[within].sum() * period / count)))
+    return sorted(swells, key=lambda s: -s.rise)
 
 
 def _stretches(grows):

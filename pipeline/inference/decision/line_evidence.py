@@ -97,14 +97,14 @@ class Density:
         self.background = band.unexplained / (band.high - band.low) / (2.0 ** tones.grows.shape[2] - 1)
         draw, column = np.nonzero(tones.grows.any(axis=2))
         order = np.argsort(tones.frequency[draw, column], kind="stable")
-        self.draw, own = draw[order], (draw[order], column[order])
-        self.frequency, self.std = tones.frequency[own], tones.std[own]
+        self.draw, listed = draw[order], (draw[order], column[order])
+        self.frequency, self.std = tones.frequency[listed], tones.std[listed]
         self.reach = _FAR * float((self.std / self.frequency).max(initial=0.0))
-        probability = tones.probability(band.elsewhere)[own]
+        probability = tones.probability(band.elsewhere)[listed]
         missed = np.log1p(-probability)
         none = missed.sum(axis=1)
         self.odds = np.log(probability) - missed
-        self.base = np.log(tones.mean[own] / (np.sqrt(2 * np.pi) * self.std)) + none - np.log(-np.expm1(none))
+        self.base = np.log(tones.mean[listed] / (np.sqrt(2 * np.pi) * self.std)) + none - np.log(-np.expm1(none))
 
     def log(self, heard):
         """ln p (d,) of what was Heard and of no other line, for each draw."""

@@ -10,6 +10,8 @@ _TWO_PI = 2 * np.pi
 _DECIBEL = 20 / np.log(10)
 #: swelling modes that are listed for each cycle
 _MOST = 4
+#: frequencies that a sentence lists
+_LISTED = 5
 
 
 def figure(product, names):
@@ -25,11 +27,16 @@ def written(product):
     if str(product.verdict) == "flexible":
         return ("The completed case, the same brake with its disc flexible in the loop and the values of the most"
                 " probable draw, lies beside this report (…_two_way.yaml).")
-    reasons = {"rigid": "a rigid disc explains the lines better",
-               "none": "lines that no tone explains are more probable"}
-    why = reasons.get(str(product.verdict), "neither a flexible disc, a rigid one nor lines that nothing explains is"
-                      " ten times as probable as both others")
-    return f"No completed two-way case is written: {why}."
+    whole = {disc: _log_mean(product.evidence[product.disc == disc]) for disc in ("flexible", "rigid", "none")}
+    beside = [f"{number(np.exp(whole['flexible'] - whole[disc]), 2)} times as probable as {words}"
+              for disc, words in (("rigid", "a rigid one"), ("none", "lines that nothing explains"))]
+    return ("No completed two-way case is written, because the disc would have to be named: over all its hypotheses, a"
+            f" flexible disc is {' and '.join(beside)}; tenfold against both, beyond the standard error, is asked for.")
+
+
+def _log_mean(values):
+    """ln of the mean of exp(values)."""
+    return np.logaddexp.reduce(values) - np.log(len(values))
 
 
 def fit(product, names):
@@ -46,8 +53,8 @@ def fit(product, names):
 
 def _nearest(product, row, line):
     """'16.4 kHz (15.9 to 16.8), 23 %' of the tones of one hypothesis."""
-    own = product.tone_hypothesis == row
-    draws, frequency = product.tone_draw[own].astype(int), product.tone[own]
+    members = product.tone_hypothesis == row
+    draws, frequency = product.tone_draw[members].astype(int), product.tone[members]
     each = [frequency[draws == d] for d in np.unique(draws)]
     nearest = np.array([f[np.argmin(abs(f - line))] for f in each])
     if not len(nearest):
@@ -90,31 +97,31 @@ def _heard_in_cycle(product, names):
                      (True, False))
     parts = [f"with {words}, {_frequencies(product, chosen & loud)}" for words, chosen in
              (("nominal values", nominal), ("those of the best draw", best))]
-    lines = _frequencies(product, near & loud)
-    end = (f" Of the heard lines, {lines} has time to become audible." if (near & loud).any() else
-           " None of the modes at the heard lines does." if near.any() else " None of them is at a heard line.")
-    return f"{begin} {'; '.join(parts)} can be heard.{end}"
+    end = (f" Near the heard lines: {_frequencies(product, near & loud)}." if (near & loud).any() else
+           " None of the modes near the heard lines has time." if near.any() else " None of them is near a heard line.")
+    return f"{begin} {'; '.join(parts)}.{end}"
 
 
 def _frequencies(product, chosen):
-    """Distinct frequencies of the chosen swellings."""
-    found = []
-    for f in np.sort(product.swell_frequency[chosen]):
-        if not found or f - found[-1] > product.model_error * f:
-            found.append(f)
-    return quantity(found, "Hz", 3) if found else "none"
+    """Distinct frequencies of the chosen swellings, those that rise most."""
+    distinct = []
+    for f in product.swell_frequency[chosen][np.argsort(-product.swell[chosen])]:
+        if all(abs(f - other) > product.model_error * f for other in distinct):
+            distinct.append(f)
+    more = f" and {len(distinct) - _LISTED} others" if len(distinct) > _LISTED else ""
+    return f"{quantity(np.sort(distinct[:_LISTED]), 'Hz', 3)}{more}" if distinct else "none"
 
 
 def _swellings(product, titles):
     step = product.cycle_time[1] - product.cycle_time[0]
     rows = []
     for k, title in enumerate(titles):
-        own = np.flatnonzero(product.swell_cycle == k)
-        for s in own[np.argsort(-product.swell[own])][:_MOST]:
+        members = np.flatnonzero(product.swell_cycle == k)
+        for s in members[np.argsort(-product.swell[members])][:_MOST]:
             rows.append((title, quantity(product.swell_frequency[s], "Hz"), number(product.swell_growth[s], 3),
                          quantity(product.swell_phases[s] * step, "s", 3), number(product.swell[s] * _DECIBEL, 3),
                          "yes" if product.swell[s] > product.cycle_audible else "no"))
-        if not len(own):
+        if not len(members):
             rows.append((title, "no mode grows", "", "", "", ""))
     return Table(("cycle with", "mode", "largest growth rate / 1/s", "time in which it grows", "rise / dB", "audible"),
                  tuple(rows), "Modes that grow in the cycle, and how far", (1, 2, 3, 4))

@@ -15,12 +15,12 @@ def before_after(product, names):
         for axes, (row, disc) in zip(panels, pair(product), strict=True):
             for line in product.line:
                 axes.axvline(line / 1e3, color=GREEN, lw=1.1, zorder=1)
-            own = product.tone_hypothesis == row
+            members = product.tone_hypothesis == row
             weight = product.weight[row]
             rank = np.argsort(np.argsort(weight, kind="stable"), kind="stable")
-            draw = product.tone_draw[own].astype(int)
+            draw = product.tone_draw[members].astype(int)
             share = weight[draw] / weight.max()
-            axes.scatter(product.tone[own] / 1e3, rank[draw] / max(len(weight) - 1, 1), s=5 + 14 * share,
+            axes.scatter(product.tone[members] / 1e3, rank[draw] / max(len(weight) - 1, 1), s=5 + 14 * share,
                          color=COLOURS[disc], alpha=0.15 + 0.85 * share, lw=0, zorder=2)
             axes.set(xlim=(low, high), ylim=(-0.05, 1.08), yticks=[])
             axes.set_title(f"{names[row]} ({disc} disc)", fontsize=9, loc="left", pad=3)
@@ -41,7 +41,7 @@ def cycle(product, titles):
     rate; heard lines as horizontal lines, and the pressure above."""
     growth, frequency = product.cycle_root.real, abs(product.cycle_root.imag) / (2 * np.pi * 1e3)
     top = max(float(growth.max(initial=0.0)), 1.0)
-    with drawing(1.1 + 1.5 * len(titles), left=0.62, bar=True) as figure:
+    with drawing(1.2 + 1.15 * len(titles), left=0.62, bar=True) as figure:
         panels = figure.subplots(1 + len(titles), 1, sharex=True, height_ratios=[0.5] + [1.0] * len(titles))
         panels[0].set_xlim(0, product.cycle_time[0] + product.cycle_time[-1])
         panels[0].plot(product.cycle_time, product.cycle_pressure / 1e6, color=INK, marker="o", ms=2.5)
@@ -49,9 +49,9 @@ def cycle(product, titles):
         for k, (axes, title) in enumerate(zip(panels[1:], titles, strict=True)):
             for line in product.line:
                 axes.axhline(line / 1e3, color=GREEN, lw=1.0)
-            own = product.cycle_root_cycle == k
-            shown = axes.scatter(product.cycle_time[product.cycle_root_phase[own].astype(int)], frequency[own],
-                                 c=growth[own], cmap=SEQUENTIAL, norm="symlog" if top > 100 else None, s=24,
+            members = product.cycle_root_cycle == k
+            shown = axes.scatter(product.cycle_time[product.cycle_root_phase[members].astype(int)], frequency[members],
+                                 c=growth[members], cmap=SEQUENTIAL, norm="symlog" if top > 100 else None, s=24,
                                  vmin=0.0, vmax=top, edgecolor=INK, lw=0.4, zorder=3)
             axes.set(ylim=(0, product.band[1] / 1e3), ylabel="f / kHz")
             axes.set_title(title, fontsize=9, loc="left", pad=3)
