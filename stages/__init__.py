@@ -22,6 +22,8 @@ CHAINS = {
     "disc_modes": ("surface", "micro_friction", "friction_map", "structure", "recording", "diagnosis", "report"),
     "disc_squeal": ("surface", "micro_friction", "friction_map", "structure", "reduced_model", "complex_modes",
                     "recording", "line_evidence", "diagnosis", "report"),
+    "lumped_modes": ("lumped", "reduced_model", "complex_modes", "report"),
+    "lumped_squeal": ("lumped", "reduced_model", "complex_modes", "recording", "line_evidence", "report"),
     "worn_pad": ("surface", "effects", "micro_friction", "friction_map", "recording", "diagnosis", "report"),
     "pin_squeal": ("surface", "interface_law", "pin_on_disc", "reduced_model", "complex_modes", "recording",
                    "diagnosis", "report"),

@@ -9,6 +9,7 @@
 
 import json
 from dataclasses import replace
+from functools import partial
 from types import SimpleNamespace
 from typing import Literal
 
@@ -16,6 +17,7 @@ import numpy as np
 
 from pipeline.case_models.steady_sliding import mapped_friction
 from pipeline.contract import ConfigError, Section, option
+from pipeline.physics.sliding.equilibrium import falling_with_speed
 from pipeline.physics.sliding.model import sliding_model
 from pipeline.physics.stability.scatter import Factors, Family, Pivot
 
@@ -104,6 +106,9 @@ def law_in_words(source, deviations):
 
 
 def _deviation(source, deviations):
+    if source.variation is None and source.kind not in deviations:
+        raise ConfigError(f"sources: {source.name}.variation", "a standard deviation, as there is no friction map",
+                          "none", "state it, or leave the source out")
     return deviations[source.kind] if source.variation is None else source.variation
 
 
@@ -138,7 +143,11 @@ def _members(source, names):
 
 
 def friction_deviations(friction_map, distance):
-    """{kind: standard error} of a product FrictionMap at a sliding ``distance`` m: level and slopes at the pivot."""
+    """{kind: standard error} of a product FrictionMap at a sliding ``distance`` m: level and slopes at the pivot.
+
+    None without a map."""
+    if friction_map is None:
+        return {}
     at = int(np.argmin(abs(friction_map.distance - distance)))
     level = friction_map.friction_std[:, :, at].mean(axis=1).min()
     return {"friction": float(level), "friction_over_pressure": float(friction_map.pressure_slope_std[at]),
@@ -151,19 +160,32 @@ def stability_settings(modes):
 
 
 def family(model, state, friction_map, settings):
-    """Family of the products ReducedModel, at one row of its preload, and FrictionMap; ``settings`` as of
-    ``stability_settings``."""
+    """Family of the products ReducedModel, at one row of its preload, and FrictionMap, or None where friction is that
+    of the ``settings``, as of ``stability_settings``."""
     bare = replace(model, loss=0 * model.loss, joint_loss_factor=0 * model.joint_loss_factor)
     lining, lined = None, model.lining_coordinate
     if len(lined):
         lining = np.zeros_like(model.stiffness)
         lining[np.ix_(lined, lined)] = model.lining_stiffness
     at = settings.sliding_distance
-    best = float(np.interp(at, friction_map.distance, friction_map.best_pressure))
-    pivot = Pivot(best, float(np.exp(np.log(friction_map.speed).mean())), tuple(friction_map.pressure[[0, -1]]),
-                  tuple(friction_map.speed[[0, -1]]))
+    law, pivot = _stated_friction(settings) if friction_map is None else _mapped(friction_map, at)
     return Family(
-        sliding_model(bare, state, float(np.mean(settings.speeds))), mapped_friction(friction_map, at)[1],
+        sliding_model(bare, state, float(np.mean(settings.speeds))), law,
         model.pressure[state] * model.input_area, settings.damping_speed, model.loss, model.joint_loss_factor, lining,
         float(model.lining_loss_factor), model.law_closure, model.law_pressure, pivot, settings.friction_slopes,
         settings.friction_damping, settings.gyroscopic, settings.centrifugal)
+
+
+def _mapped(friction_map, at):
+    """(friction, Pivot) of a product FrictionMap at a sliding distance, m."""
+    best = float(np.interp(at, friction_map.distance, friction_map.best_pressure))
+    pivot = Pivot(best, float(np.exp(np.log(friction_map.speed).mean())), tuple(friction_map.pressure[[0, -1]]),
+                  tuple(friction_map.speed[[0, -1]]))
+    return mapped_friction(friction_map, at)[1], pivot
+
+
+def _stated_friction(settings):
+    """(friction, Pivot) of the section complex_modes: slopes are about 1 m/s."""
+    last = settings.friction
+    at_rest = last if settings.friction_at_rest is None else settings.friction_at_rest
+    return partial(falling_with_speed, last, at_rest, settings.decay_speed), Pivot()

@@ -258,7 +258,9 @@ def line_evidence(draws=40):
     evidence = np.array([-24.0, -23.0, -19.0, -23.5])
     return filled(
         LineEvidence, hypothesis=names, disc=["rigid", "flexible", "flexible", "none"], line=[16.6e3, 17.8e3],
-        band=[1250.0, 20e3], unexplained=0.1, model_error=0.01, pressure=[0.4e6, 3e6], speed=[8.5, 8.5], silent=[1, 0],
+        verdict="flexible", test=["cycle", "constant load"], heard_in=[[1, 0], [1, 0]], elsewhere=0.05,
+        band=[1250.0, 20e3], unexplained=0.1, model_error=0.01, pressure=[0.4e6, 3e6], speed=[8.5, 8.5],
+        operating_test=[1, 0], **_pressure_cycle(),
         evidence=evidence, evidence_error=[0.3, 0.3, 0.5, 0.0], lines_alone=evidence + 1, silence=[0.4, 0.3, 0.3, 0.9],
         carried=[9.0, 11.0, 5.0, 40.0], reference=0, factor=evidence + 24, factor_error=[0.0, 0.42, 0.58, 0.3],
         flexible=4.3, flexible_error=0.5, column=["joint_loss", "falling friction"],
@@ -266,6 +268,20 @@ def line_evidence(draws=40):
         line_growth=rng.normal(size=(4, draws, 2)), tone=tone, tone_hypothesis=owner, tone_draw=np.zeros(45, int),
         near=near, target_shift=shift, target_quantile=np.full((4, 3, 2, 3), 0.3), all_quantile=np.full((4, 2, 3), 0.6),
         confusion=np.full((4, 5), 0.2), simulated=simulated)
+
+
+def _pressure_cycle(phases=8):
+    """Fields of a cycle in which one mode swells at the nominal values, and two at those of the best draw."""
+    time = (np.arange(phases) + 0.5) / phases * 2
+    root = np.array([20 + 2j * np.pi * 10.9e3] * 4 + [30 + 2j * np.pi * 16.6e3] * 3 + [5 + 2j * np.pi * 3.2e3])
+    return {
+        "cycle_time": time, "cycle_pressure": 2e6 + 1e6 * np.sin(np.pi * time), "cycle_speed": np.full(phases, 10.0),
+        "cycle_audible": 6.9, "cycle_hypothesis": [2, 2], "cycle_draw": [-1, 7], "cycle_temperature": [423.0, 423.0],
+        "cycle_friction": [0.94, 0.94], "cycle_root": root, "cycle_root_cycle": [0] * 4 + [1] * 4,
+        "cycle_root_phase": [0, 1, 2, 3, 1, 2, 3, 5], "still_pressure": [0.4e6], "still_root": [4 + 2j * np.pi * 1.5e3],
+        "still_root_cycle": [0], "still_root_pressure": [0], "swell_cycle": [0, 1, 1],
+        "swell_frequency": [10.9e3, 16.6e3, 3.2e3], "swell_growth": [20.0, 30.0, 5.0], "swell_phase": [0, 1, 5],
+        "swell_phases": [4, 3, 1], "swell": [20.0, 22.5, 1.25]}
 
 
 def multibody(samples=3000):

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from pipeline.views.chapters.chapter import Look
+from pipeline.views.chapters.models import lumped as lumped_chapter
 from pipeline.views.chapters.models.lumped import chapter
 from pipeline.views.figures.models import lumped as pictures
 from tests.views import products_for_views as small
@@ -24,6 +25,13 @@ def test_every_part_is_told():
     assert [row[2] for row in contacts.rows] == ["block.y", "friction joint"]
     assert inputs.rows[0][1] == "\u2212 block.y" and inputs.rows[0][2] == "20\u202fN"
     assert "At rest the contacts carry 5–20\u202fN." in found.conclude and "3 coordinates" in found.see
+
+
+def test_a_system_too_large_to_survey_has_no_diagram_and_folded_tables(monkeypatch):
+    assert chapter(small.lumped(), None, Look()).figures
+    monkeypatch.setattr(lumped_chapter, "_SURVEYED", 3)
+    large = chapter(small.lumped(), None, Look())
+    assert not large.figures and large.tables[0].folded and large.tables[1].folded
 
 
 def test_a_system_without_contacts_says_so():

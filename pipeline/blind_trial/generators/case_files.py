@@ -17,7 +17,8 @@ def leave(folder, document, runs):
     """Write nominal.yaml and recordings.h5 into a folder that is made where it is missing.
 
     ``runs`` {run: {"conditions": {name: (value, unit)}, "channels": {name: (samples, unit, quantity, rate Hz, role)},
-    "repeat_of"*: run, "topography"* {name: (heights m, pixel m, body, state)}, "friction"* {name: {column: values}}}}.
+    "repeat_of"*: run, "topography"* {name: (heights m, pixel m, body, state)}, "friction"* {name: {column: values}},
+    "lines"* {name: (frequencies Hz, their tolerance Hz)}}}.
     """
     folder = Path(folder)
     folder.mkdir(parents=True, exist_ok=True)
@@ -34,6 +35,9 @@ def leave(folder, document, runs):
             for key, (heights, pixel, body, state) in run.get("topography", {}).items():
                 _attributes(group.create_dataset(f"topography/{key}", data=heights, compression="gzip"), units="m",
                             pixel_size=pixel, body=body, state=state)
+            for key, (lines, tolerance) in run.get("lines", {}).items():
+                group.create_dataset(f"lines/{key}/frequency", data=lines)
+                group.create_dataset(f"lines/{key}/frequency_tolerance", data=[tolerance] * len(lines))
             for key, columns in run.get("friction", {}).items():
                 for column, values_of in columns.items():
                     group.create_dataset(f"friction/{key}/{column}", data=values_of)

@@ -14,6 +14,7 @@ import numpy as np
 
 from pipeline.case_models.scatter import Source, check_sources, draw_values, factors_of
 from pipeline.contract import ConfigError, Quantity, Section, option
+from pipeline.diagnosis.published.line_tests import grouped
 from pipeline.inference.decision.line_evidence import Tones
 
 FLEXIBLE, RIGID = "flexible", "rigid"
@@ -91,11 +92,12 @@ def _joint_factors(stated, names):
     return np.array([stated.get(part, 1.0) for part in chosen])
 
 
-def on_rigid_disc(family, disc):
-    """The Family with its body ``disc`` rigid and held."""
-    kept = np.flatnonzero(family.model.coordinate_body != family.model.body_name.index(disc))
+def on_rigid_disc(family, bodies):
+    """The Family with the ``bodies`` of its disc rigid and held."""
+    names = [str(name) for name in family.model.body_name]
+    kept = np.flatnonzero(~np.isin(family.model.coordinate_body, [names.index(body) for body in bodies]))
     block = np.ix_(kept, kept)
-    return replace(family, model=family.model.held(disc), loss=family.loss[block],
+    return replace(family, model=family.model.held(*bodies), loss=family.loss[block],
                    lining=None if family.lining is None else family.lining[block])
 
 
@@ -105,32 +107,39 @@ def same_solution(hypothesis):
             hypothesis.falling)
 
 
-def tone_frequencies(roots, growth, highest, harmonics, apart):
-    """Tones (k,) Hz, ascending, of some ``roots`` [(r,)], one array for each operating point.
+def tone_set(roots, growth, test, count, highest, harmonics, apart):
+    """Tones of a draw from its ``roots`` [(r,)] at o operating points: frequencies (k,) Hz, ascending, and the tests
+    (k, t) in which they grow, of ``count`` tests.
 
-    Modes whose growth rate and ``growth`` 1/s exceed 0; with ``harmonics`` their multiples up to ``highest`` Hz. Modes
-    of several operating points closer than the share ``apart`` of their frequency are one tone, at their mean.
+    Modes whose growth rate and ``growth`` (o,) 1/s exceed 0, at the operating points of each ``test`` (o,); with
+    ``harmonics`` their multiples up to ``highest`` Hz. Modes of several operating points closer than the share
+    ``apart`` of their frequency are one tone, at their mean.
     """
+    owner = np.repeat(test, [len(r) for r in roots]).astype(int)
+    more = np.repeat(growth, [len(r) for r in roots])
     root = np.concatenate([np.empty(0, complex), *roots])
-    frequency = np.sort(abs(root[root.real > -growth].imag)) / _TWO_PI
-    breaks = np.flatnonzero(np.diff(frequency) > apart * frequency[1:]) + 1
-    fundamental = np.array([group.mean() for group in np.split(frequency, breaks) if len(group)])
+    unstable = root.real > -more
+    frequency, owner = abs(root[unstable].imag) / _TWO_PI, owner[unstable]
+    groups = grouped(frequency, apart)
+    base = np.array([frequency[group].mean() for group in groups])
+    grows = np.array([np.isin(np.arange(count), owner[group]) for group in groups], bool).reshape(-1, count)
     if not harmonics:
-        return fundamental
-    return np.sort(np.concatenate([np.empty(0), *(f * np.arange(1, highest // f + 1) for f in fundamental if f > 0)]))
+        return base, grows
+    orders = [int(highest // f) if f > 0 else 0 for f in base]
+    multiples = np.concatenate([np.empty(0), *(f * np.arange(1, n + 1) for f, n in zip(base, orders, strict=True))])
+    order = np.argsort(multiples, kind="stable")
+    return multiples[order], np.repeat(grows, orders, axis=0)[order]
 
 
-def tones_of(cycle, constant, shares, error, reading):
-    """Tones of d draws: ``cycle`` and ``constant`` [(k,)] Hz; of each draw one row for each of ``shares`` (m,).
+def tones_of(sets, count, shares, error, reading):
+    """Tones of d draws, whose ``sets`` [((k,) Hz, (k, t))] are those of ``tone_set``, in ``count`` tests.
 
-    ``shares`` of tones leave a line; ``error``: relative standard deviation of a predicted frequency; ``reading`` Hz
-    that of a heard one. Rows (d m,), those of one draw together.
+    One row for each draw and each of the ``shares`` (m,) of growing tones that are heard, (d m,), those of a draw
+    together. ``error``: relative standard deviation of a predicted frequency; ``reading`` Hz that of a heard one.
     """
-    widest = max((len(f) for f in cycle), default=0)
-    mean = -np.log1p(-np.asarray(shares, float))
-    frequency, there = np.ones((len(cycle), widest)), np.zeros((len(cycle), widest))
-    for row, tones in enumerate(cycle):
-        frequency[row, :len(tones)], there[row, :len(tones)] = tones, 1.0
-    frequency = np.repeat(frequency, len(mean), axis=0)
-    quiet = np.outer([len(f) for f in constant], mean).ravel()
-    return Tones(frequency, np.hypot(error * frequency, reading), np.kron(there, mean[:, None]), quiet)
+    widest = max((len(f) for f, _ in sets), default=0)
+    frequency, grows = np.ones((len(sets), widest)), np.zeros((len(sets), widest, count))
+    for row, (tones, tests) in enumerate(sets):
+        frequency[row, :len(tones)], grows[row, :len(tones)] = tones, tests
+    frequency, grows = (np.repeat(part, len(shares), axis=0) for part in (frequency, grows))
+    return Tones(frequency, np.hypot(error * frequency, reading), grows, np.tile(shares, len(sets)))

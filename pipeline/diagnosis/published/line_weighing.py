@@ -5,20 +5,20 @@ from dataclasses import dataclass
 import numpy as np
 import scipy
 
-from pipeline.diagnosis.published.line_hypotheses import FLEXIBLE, LOADING, RIGID, tone_frequencies, tones_of
+from pipeline.diagnosis.published.line_hypotheses import FLEXIBLE, LOADING, RIGID, tone_set, tones_of
 from pipeline.inference.decision.line_evidence import (
     Band,
-    Tones,
     calibration,
+    log_density,
     log_evidence,
-    log_lines,
     log_mean,
-    log_silence,
     named,
 )
 
 #: hypothesis that predicts no tone
 UNEXPLAINED = "unexplained"
+#: verdict where no kind of disc, nor that lines are unexplained, is so many times as probable as the others
+UNDECIDED, _NAMED = "undecided", 10.0
 #: shares of tones that are heard, averaged over: middles of equal parts of their range
 _SHARES = 5
 #: fewest draws near a line from which quantiles are taken
@@ -28,65 +28,82 @@ _QUANTILES = (0.1, 0.5, 0.9)
 
 @dataclass(frozen=True)
 class Predicted:
-    """Of one hypothesis: its Drawn, ``disc``, tones [(k,)] Hz of every draw in the cycle and at constant load.
+    """Of one hypothesis: its Drawn, ``disc``, and of every draw its tones, [((k,) Hz, (k, t))] as of ``tone_set``.
 
-    ``roots`` [draw][operating point of the cycle]: (r,) 1/s, those that grow or nearly do.
+    ``loud`` [(k,)] Hz those that grow in a test with lines; ``roots`` [draw][operating point of such tests]: (r,) 1/s,
+    those that grow or nearly do.
     """
 
     drawn: object
     disc: str
-    cycle: list
-    constant: list
+    tones: list
+    loud: list
     roots: list
 
 
-def predicted(hypothesis, drawn, cycle, constant, highest, error):
-    """Predicted of a Hypothesis from roots ``cycle`` and ``constant`` [draw][operating point] (r,) 1/s.
+def predicted(hypothesis, drawn, roots, tests, highest, error):
+    """Predicted of a Hypothesis from ``roots`` [draw][operating point] (r,) 1/s of the BenchTests.
 
-    Growth by changing load acts in the cycle only; ``highest`` Hz ends the multiples; ``error`` as of ``tones_of``.
+    Growth by changing load acts where the load changes; ``highest`` Hz ends the multiples; ``error`` as of
+    ``tones_of``.
     """
-    loading, still = drawn.column(LOADING), np.zeros(len(cycle))
-    made = [[tone_frequencies(points, more, highest, hypothesis.harmonics, error)
-             for points, more in zip(of_draws, growth, strict=True)]
-            for of_draws, growth in ((cycle, loading), (constant, still))]
-    return Predicted(drawn, hypothesis.disc, *made, cycle)
+    count, silent = len(tests.name), tests.silent[tests.test]
+    sets = [tone_set(points, more * tests.changing, tests.test, count, highest, hypothesis.harmonics, error)
+            for points, more in zip(roots, drawn.column(LOADING), strict=True)]
+    loud = [f[grows[:, ~tests.silent].any(axis=1)] for f, grows in sets]
+    kept = [[r for r, quiet in zip(points, silent, strict=True) if not quiet] for points in roots]
+    return Predicted(drawn, hypothesis.disc, sets, loud, kept)
 
 
-def weighed(hypotheses, lines, reading, ends, unexplained, shares, error, reference, seed):
-    """Fields of LineEvidence of {name: Predicted}, but for those of the operating points.
+def weighed(hypotheses, tests, settings):
+    """Fields of LineEvidence of {name: Predicted} and BenchTests, but for those of the operating points and the cycle.
 
-    ``lines`` (n,) Hz with standard deviation ``reading`` Hz; ``ends`` Hz of the band and its number of
-    ``unexplained`` lines; ``shares`` range of the share of tones that leave a line; ``error`` relative standard
-    deviation of a predicted frequency.
+    ``settings``: of the section ``line_evidence`` its low, high, unexplained, elsewhere, heard, model_error, reference
+    and seed.
     """
-    band = Band(*ends, unexplained)
-    shares = shares[0] + (shares[1] - shares[0]) * (np.arange(_SHARES) + 0.5) / _SHARES
-    tones = {name: tones_of(p.cycle, p.constant, shares, error, reading) for name, p in hypotheses.items()}
-    rows = len(next(iter(tones.values())))
-    tones[UNEXPLAINED] = Tones(*np.ones((2, rows, 0)), np.zeros((rows, 0)), np.zeros(rows))
-    alone = np.array([log_lines(lines, t, band).reshape(-1, _SHARES) for t in tones.values()])
-    silence = np.array([log_silence(True, t, band).reshape(-1, _SHARES) for t in tones.values()])
-    both = log_mean(alone + silence)
-    evidence, deviation, carried = np.array([log_evidence(row, seed) for row in both]).T
+    band, error = Band(settings.low, settings.high, settings.unexplained, settings.elsewhere), settings.model_error
+    low, high = settings.heard
+    shares = low + (high - low) * (np.arange(_SHARES) + 0.5) / _SHARES
+    count, heard, silent = len(tests.name), tests.heard, tests.silent
+    tones = {name: tones_of(p.tones, count, shares, error, tests.reading) for name, p in hypotheses.items()}
+    draws = len(next(iter(hypotheses.values())).tones)
+    tones[UNEXPLAINED] = tones_of([(np.empty(0), np.empty((0, count)))] * draws, count, shares, error, tests.reading)
+    both, alone, silence = (_by_draw(tones, heard, band, part) for part in (silent | True, ~silent, silent))
+    evidence, deviation, carried = np.array([log_evidence(row, settings.seed) for row in log_mean(both)]).T
     discs = np.array([*(p.disc for p in hypotheses.values()), "none"])
-    base = list(tones).index(reference)
+    base = list(tones).index(settings.reference)
     return {
-        "hypothesis": list(tones), "disc": discs, "line": lines, "band": [band.low, band.high],
-        "unexplained": band.unexplained, "model_error": error, "evidence": evidence, "evidence_error": deviation,
-        "lines_alone": log_mean(log_mean(alone)),
-        "silence": np.exp(log_mean(log_mean(silence))), "carried": carried,
+        "hypothesis": list(tones), "disc": discs, "test": list(tests.name), "line": heard.lines,
+        "heard_in": heard.tests, "band": [band.low, band.high], "unexplained": band.unexplained,
+        "elsewhere": band.elsewhere, "model_error": error, "evidence": evidence, "evidence_error": deviation,
+        "lines_alone": log_mean(log_mean(alone)), "silence": np.exp(log_mean(log_mean(silence))), "carried": carried,
         "reference": base, "factor": evidence - evidence[base],
         "factor_error": np.where(np.arange(len(discs)) == base, 0.0, np.hypot(deviation, deviation[base])),
-        **_families(evidence, deviation, discs), "weight": scipy.special.softmax(both, axis=1),
-        **_values(hypotheses, lines, error, rows // _SHARES), **_tones(hypotheses),
-        **_calibrated(tones, discs, band, seed)}
+        **_families(evidence, deviation, discs), "weight": scipy.special.softmax(log_mean(both), axis=1),
+        **_values(hypotheses, heard.lines, error, draws), **_tones(hypotheses),
+        **_calibrated(tones, discs, band, settings.seed)}
+
+
+def _by_draw(tones, heard, band, tests):
+    """ln of the density (h, d, shares) of what was heard in some ``tests`` (t,); 0 without any."""
+    if not tests.any():
+        return np.zeros((len(tones), len(next(iter(tones.values()))) // _SHARES, _SHARES))
+    return np.array([log_density(heard.within(tests), t.within(tests), band).reshape(-1, _SHARES)
+                     for t in tones.values()])
 
 
 def _families(evidence, deviation, discs):
-    """ln Bayes factor of all hypotheses with a flexible disc, equally probable, against all with a rigid one."""
-    weights = {disc: scipy.special.softmax(evidence[discs == disc]) for disc in (FLEXIBLE, RIGID)}
-    variance = sum(np.sum((weights[disc] * deviation[discs == disc]) ** 2) for disc in weights)
-    return {"flexible": _family_factor(evidence, discs), "flexible_error": np.sqrt(variance)}
+    """ln Bayes factor of all hypotheses with a flexible disc, equally probable, against all with a rigid one; and
+    which of these, and of unexplained lines, is named."""
+    groups = (FLEXIBLE, RIGID, "none")
+    weights = {disc: scipy.special.softmax(evidence[discs == disc]) for disc in groups}
+    errors = {disc: np.sqrt(np.sum((weights[disc] * deviation[discs == disc]) ** 2)) for disc in groups}
+    whole = {disc: log_mean(evidence[discs == disc]) for disc in groups}
+    best = max(groups, key=whole.get)
+    clear = all(whole[best] - whole[other] - np.hypot(errors[best], errors[other]) >= np.log(_NAMED)
+                for other in groups if other != best)
+    return {"flexible": whole[FLEXIBLE] - whole[RIGID], "flexible_error": np.hypot(errors[FLEXIBLE], errors[RIGID]),
+            "verdict": best if clear else UNDECIDED}
 
 
 def _family_factor(evidence, discs):
@@ -105,7 +122,7 @@ def _values(hypotheses, lines, error, count):
     for row, p in enumerate(hypotheses.values()):
         value[row][:, [columns.index(c) for c in p.drawn.name]] = p.drawn.values
         growth[row] = [[_largest_growth(points, line, error) for line in lines] for points in p.roots]
-        meets = np.array([[np.any(abs(f - line) <= error * line) for line in lines] for f in p.cycle])
+        meets = np.array([[np.any(abs(f - line) <= error * line) for line in lines] for f in p.loud])
         meets = np.column_stack((meets, meets.all(axis=1)))
         near[row] = meets.mean(axis=0)
         for target in np.flatnonzero(meets.sum(axis=0) >= _FEWEST):
@@ -134,7 +151,7 @@ def _largest_growth(points, line, error):
 
 
 def _tones(hypotheses):
-    per_draw = [(row, draw, f) for row, p in enumerate(hypotheses.values()) for draw, f in enumerate(p.cycle)]
+    per_draw = [(row, draw, f) for row, p in enumerate(hypotheses.values()) for draw, f in enumerate(p.loud)]
     sizes = [len(f) for *_, f in per_draw]
     return {"tone": np.concatenate([np.empty(0), *(f for *_, f in per_draw)]),
             "tone_hypothesis": np.repeat([row for row, *_ in per_draw], sizes),

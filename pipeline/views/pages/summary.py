@@ -37,8 +37,8 @@ class Verdict:
 
 def verdict(products, tuned_settings):
     """Verdict over ``products`` (name -> product or None); ``tuned_settings`` are (name, value) pairs."""
-    if products.get("diagnosis") is not None:
-        return _diagnosed(products["diagnosis"], products, tuned_settings)
+    if products.get("diagnosis") is not None or products.get("line_evidence") is not None:
+        return _diagnosed(products.get("diagnosis"), products, tuned_settings)
     headline, tone = _headline(products)
     answers = [("Where", _where(products)), ("Why", _why(products)), ("How likely", _likely(products)),
                ("How certain", _sure(products)),
@@ -51,7 +51,7 @@ def _diagnosed(product, products, tuned_settings):
     weighed = products.get("line_evidence")
     headline, tone = diagnosis.headline(product) if weighed is None else line_evidence.headline(weighed)
     answers = (("What made it squeal", line_evidence.statement(weighed) if weighed is not None else ""),
-               *diagnosis.note(product), ("Tuned", _tuned(products, tuned_settings)))
+               *(diagnosis.note(product) if product is not None else ()), ("Tuned", _tuned(products, tuned_settings)))
     return Verdict(headline, tone, tuple(a for a in answers if a[1]), tuple(_facts(products)))
 
 

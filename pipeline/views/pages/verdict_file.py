@@ -22,6 +22,7 @@ def verdict_text(verdict, products):
                 "unstable_modes": [] if modes is None else _unstable(modes),
                 "convergence": None if refined is None else _convergence(refined),
                 "transient": _transient(products.get("limit_cycle")),
+                "heard_lines": _heard(products.get("line_evidence")),
                 "warnings": _warnings(modes, refined) + list(filter(None, (
                     outside_computed(products), open_balance(products.get("multibody")))))}
     return json.dumps(document, indent=1) + "\n"
@@ -43,6 +44,17 @@ def _transient(cycle):
     checks = {str(name): {"level_db": float(decibel), "frequency": float(frequency)} for name, decibel, frequency in
               zip(cycle.check, cycle.check_level, cycle.check_frequency, strict=True)}
     return {"onset": onset, "limit_cycles": cycles, "changes": checks}
+
+
+def _heard(weighed):
+    """What made it squeal by the lines that were heard; None where none were weighed."""
+    if weighed is None:
+        return None
+    rows = zip(weighed.hypothesis, weighed.factor, weighed.factor_error, strict=True)
+    return {"verdict": str(weighed.verdict), "lines": [float(f) for f in weighed.line],
+            "ln_factor_flexible_against_rigid": float(weighed.flexible),
+            "standard_error": float(weighed.flexible_error),
+            "ln_factors": {str(name): {"value": float(v), "standard_error": float(e)} for name, v, e in rows}}
 
 
 def _can_start(modes):

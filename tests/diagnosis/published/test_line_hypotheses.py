@@ -15,7 +15,7 @@ from pipeline.diagnosis.published.line_hypotheses import (
     drawn,
     on_rigid_disc,
     same_solution,
-    tone_frequencies,
+    tone_set,
     tones_of,
 )
 from pipeline.physics.modal.quadratic_eigenproblem import quadratic_roots
@@ -88,31 +88,41 @@ def roots(*pairs):
 @pytest.mark.exact
 def test_tones_are_unstable_modes_those_of_several_points_counted_once():
     cycle = [roots((5, 3000), (-2, 8000)), roots((1, 3020), (7, 12000))]
-    np.testing.assert_allclose(tone_frequencies(cycle, 0.0, 20e3, False, 0.01), [3010, 12000])
-    np.testing.assert_allclose(tone_frequencies(cycle, 3.0, 20e3, False, 0.01), [3010, 8000, 12000])
-    assert not len(tone_frequencies([roots(), roots((-50, 900))], 3.0, 20e3, True, 0.01))
+    test = np.array([0, 1])
+
+    def tones(points, growth, harmonics=False):
+        return tone_set(points, np.full(2, growth), test, 2, 20e3, harmonics, 0.01)
+
+    frequency, grows = tones(cycle, 0.0)
+    np.testing.assert_allclose(frequency, [3010, 12000])
+    np.testing.assert_array_equal(grows, [[1, 1], [0, 1]])
+    np.testing.assert_allclose(tones(cycle, 3.0)[0], [3010, 8000, 12000])
+    frequency, grows = tones([roots(), roots((-50, 900))], 3.0, True)
+    assert not len(frequency) and grows.shape == (0, 2)
 
 
 @pytest.mark.exact
-def test_multiples_reach_the_end_of_the_band():
-    np.testing.assert_allclose(tone_frequencies([roots((5, 3000), (5, 8000))], 0.0, 16e3, True, 0.01),
-                               [3000, 6000, 8000, 9000, 12000, 15000, 16000])
+def test_multiples_reach_the_end_of_the_band_and_grow_with_their_fundamental():
+    points = [roots((5, 3000)), roots((5, 8000))]
+    frequency, grows = tone_set(points, np.zeros(2), np.array([0, 1]), 2, 16e3, True, 0.01)
+    np.testing.assert_allclose(frequency, [3000, 6000, 8000, 9000, 12000, 15000, 16000])
+    np.testing.assert_array_equal(grows[:, 1], np.isin(frequency.round(), [8000, 16000]))
 
 
 @pytest.mark.exact
 def test_a_tone_is_unheard_with_the_stated_probability():
-    cycle, constant = [np.array([3e3]), np.empty(0)], [np.empty(0), np.array([2e3, 4e3])]
-    made = tones_of(cycle, constant, np.array([0.4, 0.9]), 0.01, 50.0)
-    np.testing.assert_allclose(np.exp(-made.mean), [[0.6], [0.1], [1.0], [1.0]])
-    np.testing.assert_allclose(np.exp(-made.quiet), [1.0, 1.0, 0.36, 0.01])
-    np.testing.assert_allclose(made.std[0], np.hypot(30, 50))
+    sets = [(np.array([3e3]), np.array([[True, False]])), (np.array([2e3, 4e3]), np.array([[False, True]] * 2))]
+    made = tones_of(sets, 2, np.array([0.4, 0.9]), 0.01, 50.0)
+    np.testing.assert_allclose(np.exp(-made.mean), [[0.6, 1.0], [0.1, 1.0], [0.6, 0.6], [0.1, 0.1]])
+    np.testing.assert_allclose(np.exp(-made.within([False, True]).mean).prod(axis=1), [1.0, 1.0, 0.36, 0.01])
+    np.testing.assert_allclose(made.std[0, 0], np.hypot(30, 50))
 
 
 def test_on_a_rigid_disc_the_roots_are_those_of_the_model_with_its_disc_held(model):
     law = small_friction_map(0.6)
     modes = complex_modes(model, law, settings=Modes(friction_steps=2, speeds=("8 rad/s",), frequency_max="8 kHz"))
     points = stability_settings(modes)
-    rigid = on_rigid_disc(family(model, 1, law, points), "disc")
+    rigid = on_rigid_disc(family(model, 1, law, points), ["disc"])
     found = sampled(rigid, [8.0], points.frequency_max, smallest=1e-6).roots(NOMINAL, 8.0)
     contact = sampled(rigid, [8.0], points.frequency_max).sliding.slide(NOMINAL, 8.0)
     held = rigid.model.at_speed(8.0)

@@ -1,51 +1,70 @@
 """Weighing hypotheses: Bayes factors against closed forms, and what draws near the lines have in common."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 
 from pipeline.diagnosis.published.line_hypotheses import FALLING, LOADING, Drawn, Hypothesis
+from pipeline.diagnosis.published.line_tests import BenchTests
 from pipeline.diagnosis.published.line_weighing import predicted, weighed
+from pipeline.inference.decision.line_evidence import Band, Heard
 
-LINES, READING, ENDS, UNEXPLAINED, ERROR = np.array([8e3, 11e3]), 50.0, (1e3, 20e3), 0.1, 0.01
-SHARES = (0.5, 0.5)
+LINES, READING, BAND, ERROR = np.array([8e3, 11e3]), 50.0, Band(1e3, 20e3, 0.1, 0.05), 0.01
+GIVEN = SimpleNamespace(low=BAND.low, high=BAND.high, unexplained=BAND.unexplained, elsewhere=BAND.elsewhere,
+                        heard=(0.5, 0.5), model_error=ERROR, reference="one_way", seed=1)
+#: two lines in a cycle, and a silent test at constant load
+TESTS = BenchTests(("cycle", "constant load"), np.arange(2), np.full(2, 8.0), np.arange(2), np.array([True, False]),
+                   Heard(LINES, np.array([[1, 0], [1, 0]])), READING)
 
 
-def hypothesis(disc, offset, count=400, silent=True, seed=0, harmonics=False):
-    """Predicted of draws with one mode each near either line, which grow where a ``stiffness`` exceeds 1."""
+def hypothesis(disc, offset, count=400, silent=True, seed=0, harmonics=False, least=1.0):
+    """Predicted of draws with one mode each near either line, which grow where a ``stiffness`` exceeds ``least``."""
     rng = np.random.default_rng(seed)
     stiffness = rng.lognormal(0, 0.3, count)
     values = np.column_stack((stiffness, rng.uniform(0.5, 2, count), np.zeros(count), np.zeros(count)))
     drawn = Drawn(("stiffness", "idle", FALLING, LOADING), values, ())
-    growth = 200 * (stiffness - 1)
-    cycle = [[np.array([g + 2j * np.pi * (f + offset) for f in LINES])] for g in growth]
-    constant = [[np.empty(0, complex) if silent else of[0]] for of in cycle]
-    return predicted(Hypothesis(disc=disc, harmonics=harmonics), drawn, cycle, constant, 20e3, ERROR)
+    growth = 200 * (stiffness - least)
+    cycle = [np.array([g + 2j * np.pi * (f + offset) for f in LINES]) for g in growth]
+    roots = [[of, np.empty(0, complex) if silent else of] for of in cycle]
+    return predicted(Hypothesis(disc=disc, harmonics=harmonics), drawn, roots, TESTS, 20e3, ERROR)
 
 
 def fields(**hypotheses):
-    return weighed(hypotheses, LINES, READING, ENDS, UNEXPLAINED, SHARES, ERROR, next(iter(hypotheses)), 1)
+    return weighed(hypotheses, TESTS, GIVEN)
 
 
 @pytest.mark.exact
 def test_the_evidence_of_one_set_of_tones_is_a_closed_form():
     made = fields(one_way=hypothesis("rigid", 4e3), flexible_disc=hypothesis("flexible", 0.0))
     grows = np.mean(hypothesis("flexible", 0.0).drawn.column("stiffness") > 1)
-    mean, background = np.log(2), UNEXPLAINED / 19e3
-    std = np.hypot(ERROR * LINES, READING)
-    own = np.exp(-2 * mean - UNEXPLAINED) * np.prod(mean / (np.sqrt(2 * np.pi) * std) + background)
-    none = np.exp(-UNEXPLAINED) * background**2
-    expected = (grows * own + (1 - grows) * none) * np.exp(-UNEXPLAINED)
-    assert made["evidence"][1] == pytest.approx(np.log(expected), rel=1e-9)
-    assert made["evidence"][2] == pytest.approx(np.log(none) - UNEXPLAINED, rel=1e-9)
+    mean, missed = np.log(2), 0.5 * (1 - BAND.elsewhere)
+    background, std = BAND.unexplained / 19e3 / 3, np.hypot(ERROR * LINES, READING)
+    cycle_alone = mean * missed / (1 - missed) / (np.sqrt(2 * np.pi) * std)
+    own = np.exp(-2 * mean - BAND.unexplained) * np.prod(cycle_alone + background)
+    none = np.exp(-BAND.unexplained) * background**2
+    assert made["evidence"][1] == pytest.approx(np.log(grows * own + (1 - grows) * none), rel=1e-9)
+    assert made["evidence"][2] == pytest.approx(np.log(none), rel=1e-9)
     assert made["flexible"] == pytest.approx(made["factor"][1], rel=1e-12) and made["factor"][0] == 0
-    assert made["flexible"] > np.log(100)
+    assert made["flexible"] > np.log(100) and made["verdict"] == "flexible"
 
 
 def test_nothing_favours_either_disc_where_both_predict_the_same():
     made = fields(one_way=hypothesis("rigid", 0.0), flexible_disc=hypothesis("flexible", 0.0, seed=5))
     assert abs(made["flexible"]) < 4 * made["flexible_error"] < 1
     assert np.mean(abs(made["simulated"][:2]) > np.log(10)) < 0.01
-    assert made["confusion"][0][-1] > 0.9
+    assert made["confusion"][0][-1] > 0.9 and made["verdict"] == "undecided"
+
+
+def test_where_growing_tones_are_elsewhere_unexplained_lines_are_named():
+    made = fields(one_way=hypothesis("rigid", 4e3, least=0.0), flexible_disc=hypothesis("flexible", 2e3, least=0.0))
+    growing = 2 * np.log(2)
+    np.testing.assert_allclose(made["evidence"][2] - made["evidence"][:2], growing, rtol=1e-6)
+    assert made["verdict"] == "undecided"
+    loud = SimpleNamespace(**{**vars(GIVEN), "heard": (0.9, 0.9)})
+    both = {"one_way": hypothesis("rigid", 4e3, silent=False, least=0.0),
+            "flexible_disc": hypothesis("flexible", 2e3, silent=False, least=0.0)}
+    assert weighed(both, TESTS, loud)["verdict"] == "none"
 
 
 def test_silence_counts_against_tones_at_constant_load():

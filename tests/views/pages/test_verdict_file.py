@@ -53,6 +53,15 @@ def test_every_mode_says_what_damps_it_and_those_followed_where_they_come_from()
     assert {mode["same_mode_as"] for mode in others} == {0}
 
 
+def test_heard_lines_are_there_where_they_were_weighed():
+    modes, weighed = small.complex_modes(), small.line_evidence()
+    assert written({"complex_modes": modes})["heard_lines"] is None
+    told = written({"complex_modes": modes, "line_evidence": weighed})["heard_lines"]
+    assert told["verdict"] == "flexible" and told["lines"] == [16600, 17800]
+    assert (told["ln_factor_flexible_against_rigid"], told["standard_error"]) == (4.3, 0.5)
+    assert told["ln_factors"]["flexible_less_damping"] == {"value": 5.0, "standard_error": 0.58}
+
+
 def test_the_simulation_is_there_where_there_was_one():
     modes, cycle = small.complex_modes(), small.limit_cycle()
     told = written({"complex_modes": modes, "limit_cycle": cycle})["transient"]

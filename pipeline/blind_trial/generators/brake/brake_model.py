@@ -42,7 +42,8 @@ def nominal(shape):
     return {
         "chain": "lumped_bench", "title": "Disc brake",
         "description": "Modes of the disc by finite elements of its drawing; tapped lifted, pressed and sliding.",
-        "lumped": {"masses": _masses(waves), "springs": _springs(waves), "contacts": _contacts(waves, shape),
+        "lumped": {"masses": masses(waves), "springs": springs(waves, value),
+                   "contacts": contacts(waves, shape, _points(shape)),
                    "inputs": {"press": {"along": {"pad_inner.z": -1, "caliper.z": -1},
                                         "force": f"{brake.REFERENCE:g} N"}},
                    "sensors": _sensors(waves, shape)},
@@ -84,7 +85,8 @@ def _waves(shape):
     return entries
 
 
-def _masses(waves):
+def masses(waves):
+    """Section lumped.masses."""
     pad = {"mass": f"{brake_parts.PAD:g} kg", "inertia": f"{brake_parts.PITCH:g} kg m^2", "moves": ["x", "z", "tilt_y"]}
     return {**{name: {"mass": f"{mass:.6g} kg", "moves": ["x", "y"][:1 + (order > 0)]}
                for name, (order, mass, _, _) in waves.items()},
@@ -92,18 +94,17 @@ def _masses(waves):
             "caliper": {"mass": f"{brake_parts.CALIPER:g} kg", "moves": ["z"]}}
 
 
-def _springs(waves):
-    """Springs of the waves and of the joints."""
-    springs, value = {}, brake_parts.NOMINAL
+def springs(waves, value):
+    """Section lumped.springs of the waves and of the joints, with the ``value`` of each joint."""
+    made = {}
     for name, (order, mass, stiffness, _) in waves.items():
         for axis in ("x", "y")[:1 + (order > 0)]:
-            springs[f"{name}_{axis}"] = _spring({f"{name}.{axis}": 1}, stiffness,
-                                              2 * brake_parts.LOSS * np.sqrt(mass * stiffness))
+            made[f"{name}_{axis}"] = _spring({f"{name}.{axis}": 1}, stiffness,
+                                             2 * brake_parts.LOSS * np.sqrt(mass * stiffness))
     for pad in brake_parts.PADS:
-        springs[f"abutment_{pad}"] = _spring({f"pad_{pad}.x": 1}, value[f"abutment_{pad}"], brake_parts.ABUTMENT_LOSS)
-        springs[f"clip_{pad}"] = _spring({f"pad_{pad}.tilt_y": "1 m"}, *brake_parts.CLIP)
-    return {**springs, "fingers": _spring({"pad_outer.z": 1, "caliper.z": -1}, value["fingers"],
-                                          brake_parts.FINGER_LOSS),
+        made[f"abutment_{pad}"] = _spring({f"pad_{pad}.x": 1}, value[f"abutment_{pad}"], brake_parts.ABUTMENT_LOSS)
+        made[f"clip_{pad}"] = _spring({f"pad_{pad}.tilt_y": "1 m"}, *brake_parts.CLIP)
+    return {**made, "fingers": _spring({"pad_outer.z": 1, "caliper.z": -1}, value["fingers"], brake_parts.FINGER_LOSS),
             "seal": _spring({"pad_inner.z": 1, "caliper.z": 1}, *brake_parts.SEAL),
             "guide": _spring({"caliper.z": 1}, *brake_parts.GUIDE)}
 
@@ -117,26 +118,32 @@ def _share_of(stiffness):
     return f"{stiffness / _TOUCHING:g} N/m"
 
 
-def _contacts(waves, shape):
-    """Twelve points of either lining, each for a twelfth of its face: six along sliding, two across."""
+def _points(shape):
+    """[(name, angle, radius m, stiffness)] of twelve points of a lining, each for a twelfth of its face: six along
+    sliding, two across."""
     outer = shape[2] - brake_parts.INSET
     inner = outer - brake_parts.WIDTH
     middle, reach = (outer**2 + inner**2) / 2, (outer**2 - inner**2) / (2 * 3**0.5)
-    contacts = {}
+    share = _share_of(brake_parts.NOMINAL["contact"])
+    return [(f"{k}{m}", angle, radius, share) for k, angle in enumerate(brake_parts.HALF_ANGLE * np.array(_NODES))
+            for m, radius in enumerate(np.sqrt((middle - reach, middle + reach)))]
+
+
+def contacts(waves, shape, points):
+    """Section lumped.contacts of both linings at ``points`` [(name, angle, radius m, stiffness)] of either."""
+    made = {}
     for pad, side in zip(brake_parts.PADS, (1, -1), strict=True):
-        for k, angle in enumerate(brake_parts.HALF_ANGLE * np.array(_NODES)):
-            for m, radius in enumerate(np.sqrt((middle - reach, middle + reach))):
-                normal = {f"pad_{pad}.z": 1, f"pad_{pad}.tilt_y": f"{radius * np.sin(angle):.6g} m"}
-                tangent = {f"pad_{pad}.x": 1, f"pad_{pad}.tilt_y": f"{brake_parts.HEIGHT:g} m"}
-                for name, (order, _, _, at) in waves.items():
-                    deflection, turn = at(radius)
-                    for axis, wave, turned in _around(order, angle):
-                        normal[f"{name}.{axis}"] = -side * deflection * wave
-                        tangent[f"{name}.{axis}"] = -side * shape[4] / 2 * turn * turned
-                contacts[f"{pad}_{k}{m}"] = {"normal": normal, "tangent": tangent, "lever": f"{radius:.6g} m",
-                                          "angle": f"{angle:.6g} rad",
-                                          "stiffness": _share_of(brake_parts.NOMINAL["contact"])}
-    return contacts
+        for number, angle, radius, stiffness in points:
+            normal = {f"pad_{pad}.z": 1, f"pad_{pad}.tilt_y": f"{radius * np.sin(angle):.6g} m"}
+            tangent = {f"pad_{pad}.x": 1, f"pad_{pad}.tilt_y": f"{brake_parts.HEIGHT:g} m"}
+            for name, (order, _, _, at) in waves.items():
+                deflection, turn = at(radius)
+                for axis, wave, turned in _around(order, angle):
+                    normal[f"{name}.{axis}"] = -side * deflection * wave
+                    tangent[f"{name}.{axis}"] = -side * shape[4] / 2 * turn * turned
+            made[f"{pad}_{number}"] = {"normal": normal, "tangent": tangent, "lever": f"{radius:.6g} m",
+                                       "angle": f"{angle:.6g} rad", "stiffness": stiffness}
+    return made
 
 
 def _around(order, angle):

@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from pipeline.views.chapters.bench import line_fit
 from pipeline.views.chapters.chapter import Chapter, Figure, Table
 from pipeline.views.figures.bench import line_evidence as pictures
 from pipeline.views.figures.number_format import number, percent, plural, quantity
@@ -13,19 +14,29 @@ _DIFFERS = 3.0
 def chapter(product, look):
     """Chapter of the product LineEvidence."""
     names = [in_words(h) for h in product.hypothesis]
-    lines = " and ".join(quantity(f, "Hz") for f in product.line)
+    lines = ", ".join(quantity(f, "Hz") for f in product.line)
     see = (f"Heard: {lines}, and no other line between {quantity(product.band[0], 'Hz')} and"
-           f" {quantity(product.band[1], 'Hz')}; silence at constant load. {product.value.shape[1]} draws of the"
+           f" {quantity(product.band[1], 'Hz')}; {_tests(product)}. {product.value.shape[1]} draws of the"
            f" scatter of each hypothesis predict tones, each within {percent(product.model_error)} (one standard"
            " deviation).")
-    tables = (_weights(product, names), *_values(product, names), _confusion(product, names))
-    return Chapter("line_evidence", "What made it squeal?", see, f"{statement(product)} {needed(product)}",
-                   _figures(product, names), tables, limits(product))
+    said, figures, cycle_tables = line_fit.cycle(product, names)
+    tables = (_weights(product, names), line_fit.fit(product, names), *_values(product, names), *cycle_tables,
+              _confusion(product, names))
+    sentences = (statement(product), line_fit.written(product), needed(product), said)
+    return Chapter("line_evidence", "What made it squeal?", see, " ".join(filter(None, sentences)),
+                   (*_figures(product, names), *figures), tables, limits(product))
+
+
+def _tests(product):
+    """The tests of the bench in words."""
+    silent = [str(t) for t, there in zip(product.test, product.heard_in.any(axis=0), strict=True) if not there]
+    quiet = f"silence in {', '.join(silent)}" if silent else "no test was silent"
+    return f"{plural(len(product.test), 'test')} ({', '.join(map(str, product.test))}), {quiet}"
 
 
 def headline(product):
     """(sentence, tone) of the first screen."""
-    return _verdict(product).rstrip("."), "warning"
+    return _verdict(product).rstrip("."), "squeal" if str(product.verdict) == "flexible" else "warning"
 
 
 def key_figure(product):
@@ -48,19 +59,19 @@ def statement(product):
              f" {_power(product.evidence[flexible] - product.evidence[rigid])} times.")
     first = f"{_verdict(product)} {first}"
     nothing = product.evidence[-1] - product.evidence[:-1].max()
+    best = names[int(np.argmax(product.evidence[:-1]))]
     if nothing > 0:
-        return (f"{first} Neither explains it: that both lines come from something else is {_power(nothing)} times as"
-                f" probable as under {names[int(np.argmax(product.evidence[:-1]))]}, the best of them.")
-    return (f"{first} {names[int(np.argmax(product.evidence[:-1]))].capitalize()} is {_power(-nothing)} times as"
-            " probable as lines that no hypothesis explains.")
+        return (f"{first} Neither explains it: that all lines come from something else is {_power(nothing)} times as"
+                f" probable as under {best}, the best of them.")
+    return f"{first} {best.capitalize()} is {_power(-nothing)} times as probable as lines that no hypothesis explains."
 
 
 def _verdict(product):
-    """Whether the lines decide, in one sentence."""
-    if abs(product.flexible) < np.log(10):
-        return "The heard lines do not decide whether the disc is flexible in the loop."
-    which = "for" if product.flexible > 0 else "against"
-    return f"The heard lines speak {which} a disc that is flexible in the loop."
+    """What the lines decide, in one sentence."""
+    return {"flexible": "The heard lines speak for a disc that is flexible in the loop.",
+            "rigid": "The heard lines speak for pads on a disc that does not move, against a flexible one.",
+            "none": "No tone of this brake, with a flexible disc or a rigid one, explains the heard lines.",
+            }.get(str(product.verdict), "The heard lines do not decide whether the disc is flexible in the loop.")
 
 
 def needed(product):
@@ -73,7 +84,9 @@ def needed(product):
                         for k, line in enumerate(lines))
     said = (f"Modes of the whole brake within {percent(product.model_error)} of the lines grow most often under {name}:"
             f" {shares} of its draws, all lines in {percent(product.near[row, -1])}; their largest growth rates are"
-            f" {largest}. It makes the silence at constant load {percent(product.silence[row], 2)} probable.")
+            f" {largest}.")
+    if not product.heard_in.any(axis=0).all():
+        said += f" It makes the silence of the silent tests {percent(product.silence[row], 2)} probable."
     targets = [*lines, "all lines"]
     changed = [f"{targets[t]} needs {_needs(product, row, t)}" for t in range(len(targets)) if _needs(product, row, t)]
     return f"{said} What differs in those draws: {'; '.join(changed)}." if changed else said
@@ -102,16 +115,17 @@ def column(name):
 
 def limits(product):
     """What the evidence can and cannot carry."""
+    silent = (~product.heard_in.any(axis=0)).sum()
     wrong = product.simulated[product.disc == "rigid"] > np.log(10)
     missed = product.simulated[product.disc == "flexible"] < -np.log(10)
     return (
         f"Calibration: of lists simulated with a rigid disc {percent(wrong.mean(), 2)} favour the flexible one more"
         f" than tenfold; of those with a flexible disc {percent(missed.mean(), 2)} favour the rigid one so. Lists are"
         " simulated by one half of the draws and weighed by the other.",
-        f"{plural(len(product.line), 'heard line')} and one silence are all the data. The factors hold for this brake"
-        " and its declared scatter: pads, caliper and joints are substitutes for parts that are not described.",
+        f"{plural(len(product.line), 'heard line')} and {plural(silent, 'silent test')} are all the data. The factors"
+        " hold for this brake and its declared scatter: what is not measured of it is assumed.",
         "A tone is an unstable mode of steady sliding at one load; which of several unstable modes is heard is left"
-        " open by the drawn share of heard tones. Temperatures of the bench act through the friction map only.")
+        " open by the drawn share of heard tones. Temperatures act through the friction of the model only.")
 
 
 def _figures(product, names):
@@ -119,8 +133,9 @@ def _figures(product, names):
         Figure(pictures.factors(product, names),
                f"Bayes factor of each hypothesis against {names[int(product.reference)]}, with standard error. Blue:"
                " flexible disc, red: rigid, grey: unexplained lines; within the grey band less than tenfold."),
-        Figure(pictures.tones(product, names), "Tones that the best hypothesis of either disc predicts in the cycle,"
-               " per draw; heard lines in green."),
+        line_fit.figure(product, names),
+        Figure(pictures.tones(product, names), "Tones that the best hypothesis of either disc predicts in the tests"
+               " with lines, per draw; heard lines in green."),
         Figure(pictures.simulated(product), "Calibration: Bayes factors of lists simulated with either disc, and that"
                " of the heard lines."))
 

@@ -6,6 +6,8 @@ from pipeline.views.chapters.chapter import Chapter, Figure, Table
 from pipeline.views.figures.models.lumped import diagram
 from pipeline.views.figures.number_format import number, plural, quantity, span
 
+#: springs and contacts that a diagram shows
+_SURVEYED = 40
 #: SI unit of what a sensor measures
 _SI = {"displacement": "m", "velocity": "m/s", "acceleration": "m/s\u00b2"}
 
@@ -19,10 +21,17 @@ def chapter(lumped, motion, look):
         f" {', '.join(lumped.body_name)}; {plural(len(lumped.joint_name), 'spring')} (or dampers),"
         f" {plural(len(lumped.contact_name), 'contact')}.{drive}",
         _load(lumped),
-        (Figure(diagram(lumped), "Boxes: coordinates; black bar: ground. Zigzag: spring; square: damper; thick orange:"
-                " contact or friction joint; red triangles: input, in its direction; grey dots: sensor. Dots mark the"
-                " coordinates that a part is attached to."),),
+        _picture(lumped),
         tuple(filter(None, (_joints(lumped), _contacts(lumped), _inputs(lumped), _sensors(lumped, motion)))))
+
+
+def _picture(lumped):
+    """The diagram, where a reader can survey it."""
+    if len(lumped.joint_name) + len(lumped.contact_name) > _SURVEYED:
+        return ()
+    return (Figure(diagram(lumped), "Boxes: coordinates; black bar: ground. Zigzag: spring; square: damper; thick"
+                   " orange: contact or friction joint; red triangles: input, in its direction; grey dots: sensor. Dots"
+                   " mark the coordinates that a part is attached to."),)
 
 
 def _load(lumped):
@@ -42,7 +51,7 @@ def _joints(lumped):
     rows = tuple((str(name), _combination(lumped, row), quantity(k, "N/m"), quantity(d, "N s/m")) for name, row, k, d in
                  zip(lumped.joint_name, lumped.joint_rows, lumped.joint_stiffness, lumped.joint_damping, strict=True))
     head = ("name", "elongation", "stiffness", "damping")
-    return Table(head, rows, "Springs and dampers", (2, 3)) if rows else None
+    return Table(head, rows, "Springs and dampers", (2, 3), folded=len(rows) > _SURVEYED / 2) if rows else None
 
 
 def _contacts(lumped):
@@ -51,7 +60,7 @@ def _contacts(lumped):
                   span(lumped.preload[:, i], "N"), quantity(lumped.contact_stiffness[:, i].max(), "N/m"),
                   quantity(lumped.contact_gap[i], "m")) for i, name in enumerate(lumped.contact_name))
     head = ("name", "slides along", "opens along", "preload", "stiffness (0: hard)", "gap")
-    return Table(head, rows, "Contacts", (3, 4, 5)) if rows else None
+    return Table(head, rows, "Contacts", (3, 4, 5), folded=len(rows) > _SURVEYED / 2) if rows else None
 
 
 def _inputs(lumped):

@@ -1,0 +1,115 @@
+"""Tests in which lines were heard, or none, and the operating points of each: from a recording.
+
+Either one run lists what a whole cycle of changing load let one hear, and a test at constant load was silent; or each
+run is a test of its own at the pressure and speed among its conditions, and has a list of its lines, empty if silent.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from pipeline.contract import ConfigError
+from pipeline.diagnosis.published.frequency_lists import lines_of
+from pipeline.inference.decision.line_evidence import Heard
+
+CYCLE, CONSTANT = "cycle", "constant load"
+#: pressures of runs are those of the model within this share
+_EQUAL = 0.01
+
+
+@dataclass(frozen=True)
+class BenchTests:
+    """t tests by ``name`` over o operating points, and what was ``heard`` in them.
+
+    ``state`` (o,) row of the pressure, ``speed`` (o,) rad/s, ``test`` (o,) row of the name, ``changing`` (o,) 1 where
+    the load changes; ``reading`` Hz standard deviation of reading a line.
+    """
+
+    name: tuple
+    state: np.ndarray
+    speed: np.ndarray
+    test: np.ndarray
+    changing: np.ndarray
+    heard: Heard
+    reading: float
+
+    @property
+    def silent(self):
+        """(t,): True for tests in which nothing was heard."""
+        return ~(self.heard.tests > 0).any(axis=0)
+
+
+def cycle_tests(recording, settings, pressure):
+    """BenchTests of a cycle and of silence at constant load, over the states of ``pressure`` (p,) Pa of the model.
+
+    ``settings``: the section ``line_evidence``. ConfigError for lines or pressures that do not fit.
+    """
+    stated = lines_of(recording, settings.run, settings.list, "line_evidence.list")
+    lines = np.sort(stated.frequency)
+    _within(lines, settings)
+    if not len(lines):
+        raise ConfigError("line_evidence.list", "at least one line", f"none in {settings.list}")
+    silent = pressure <= settings.silent_up_to
+    if silent.all() or not silent.any():
+        raise ConfigError("structure.pressures", "some up to line_evidence.silent_up_to and some above it",
+                          ", ".join(f"{p:g} Pa" for p in pressure))
+    speed = np.where(silent, settings.constant_speed, settings.cycle_speed * pressure.max() / pressure)
+    return BenchTests((CYCLE, CONSTANT), np.arange(len(pressure)), speed, silent.astype(int), ~silent,
+                 Heard(lines, np.tile([1, 0], (len(lines), 1))), _reading([stated]))
+
+
+def run_tests(recording, settings, pressure):
+    """BenchTests of the runs ``settings.runs``, one operating point each; as ``cycle_tests``.
+
+    Lines of several runs closer than ``settings.model_error`` are one, at their mean.
+    """
+    lists = [lines_of(recording, run, settings.list, "line_evidence.runs") for run in settings.runs]
+    points = [[_condition(recording, run, name, unit) for name, unit in (("pressure", "Pa"), ("speed", "rad/s"))]
+              for run in settings.runs]
+    state = np.array([_state(run, point[0], pressure) for run, point in zip(settings.runs, points, strict=True)])
+    frequency = np.concatenate([stated.frequency for stated in lists])
+    owner = np.repeat(np.arange(len(lists)), [len(stated.frequency) for stated in lists])
+    if not len(frequency):
+        raise ConfigError("line_evidence.runs", "at least one run with a line", "silence in all of them")
+    _within(np.sort(frequency), settings)
+    groups = grouped(frequency, settings.model_error)
+    lines = [frequency[group].mean() for group in groups]
+    marks = [np.isin(np.arange(len(lists)), owner[group]).astype(int) for group in groups]
+    return BenchTests(tuple(settings.runs), state, np.array([point[1] for point in points]), np.arange(len(lists)),
+                 np.zeros(len(lists), bool), Heard(np.array(lines), np.array(marks)), _reading(lists))
+
+
+def grouped(frequency, apart):
+    """[indices] of ``frequency`` (n,) by ascending frequency, cut where neighbours differ by more than the share
+    ``apart``."""
+    order = np.argsort(frequency, kind="stable")
+    ascending = frequency[order]
+    return [g for g in np.split(order, np.flatnonzero(np.diff(ascending) > apart * ascending[1:]) + 1) if len(g)]
+
+
+def _within(lines, settings):
+    if len(lines) and (lines[0] < settings.low or lines[-1] > settings.high):
+        raise ConfigError("line_evidence.low", "a band that holds all lines", f"{settings.low:g} to"
+                          f" {settings.high:g} Hz, lines at {', '.join(f'{f:g}' for f in lines)}")
+
+
+def _reading(lists):
+    return float(max(max(stated.frequency_tolerance, default=0.0) for stated in lists)) / np.sqrt(3)
+
+
+def _condition(recording, run, name, unit):
+    given = recording.runs[run].conditions.get(name)
+    if given is None or len(given.value) != 1 or str(given.unit) != unit:
+        raise ConfigError(f"recording: runs.{run}.conditions", f"one {name} in {unit}", "none" if given is None else
+                          f"{len(given.value)} values in {given.unit}", "state it, or leave the run out of"
+                          " line_evidence.runs")
+    return float(given.value[0])
+
+
+def _state(run, stated, pressure):
+    state = int(np.argmin(abs(pressure - stated)))
+    if abs(pressure[state] - stated) > _EQUAL * stated:
+        raise ConfigError(f"recording: runs.{run}.conditions.pressure", "a pressure that the model was computed at, of"
+                          f" {', '.join(f'{p:g} Pa' for p in pressure)}", f"{stated:g} Pa", "add it to the pressures"
+                          " of structure, or to the load factors of lumped")
+    return state
