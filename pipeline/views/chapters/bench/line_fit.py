@@ -90,8 +90,9 @@ def _heard_in_cycle(product, names):
     loud = product.swell > product.cycle_audible
     near = np.array([abs(product.line - f).min() <= product.model_error * f for f in product.swell_frequency], bool)
     period = product.cycle_time[0] + product.cycle_time[-1]
-    begin = (f"In the cycle of pressure ({span(product.cycle_pressure, 'Pa')} within {quantity(period, 's', 3)}, constant"
-             f" power) an unstable mode must rise by {number(product.cycle_audible * _DECIBEL, 2)} dB while it grows:")
+    begin = (f"In the cycle of pressure ({span(product.cycle_pressure, 'Pa')} within {quantity(period, 's', 3)}, at"
+             f" constant power) an unstable mode must rise by {number(product.cycle_audible * _DECIBEL, 2)} dB while it"
+             " grows:")
     nominal, best = (np.isin(product.swell_cycle, np.flatnonzero((product.cycle_draw < 0) == of)) for of in
                      (True, False))
     parts = [f"with {words}, {_frequencies(product, chosen & loud)}" for words, chosen in
