@@ -108,7 +108,8 @@ def test_the_number_of_workers_changes_no_bit(brake, made, tone):
 
 @pytest.mark.parametrize(("changed", "where"), [
     ({"high": "9 kHz"}, "line_evidence.high"), ({"low": "5 kHz"}, "line_evidence.low"),
-    ({"silent_up_to": "3 MPa"}, "structure.pressures"), ({"list": "other"}, "line_evidence.list")])
+    ({"silent_up_to": "3 MPa"}, "structure.pressures"), ({"list": "other"}, "line_evidence.list"),
+    ({"disc": ("rotor",)}, "line_evidence.disc")])
 def test_settings_that_do_not_fit_are_refused(brake, changed, where):
     with pytest.raises(ConfigError, match=where):
         line_evidence(*brake, recording(4e3), settings=Settings(**{**GIVEN, **changed}))

@@ -94,8 +94,11 @@ def _joint_factors(stated, names):
 
 
 def on_rigid_disc(family, bodies):
-    """The Family with the ``bodies`` of its disc rigid and held."""
+    """The Family with the ``bodies`` of its disc rigid and held. ConfigError for bodies that it does not have."""
     names = [str(name) for name in family.model.body_name]
+    unknown = [body for body in bodies if body not in names]
+    if unknown:
+        raise ConfigError("line_evidence.disc", f"bodies among {', '.join(names)}", ", ".join(unknown))
     kept = np.flatnonzero(~np.isin(family.model.coordinate_body, [names.index(body) for body in bodies]))
     block = np.ix_(kept, kept)
     return replace(family, model=family.model.held(*bodies), loss=family.loss[block],
