@@ -1,10 +1,20 @@
 """Sources of scatter: what is refused, how they are drawn, what they change."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 import scipy
 
-from pipeline.case_models.scatter import DEFAULT, Source, check_sources, draw_values, factors_of, friction_deviations
+from pipeline.case_models.scatter import (
+    DEFAULT,
+    Source,
+    check_sources,
+    draw_values,
+    factors_of,
+    family,
+    friction_deviations,
+)
 from pipeline.contract import ConfigError
 from tests.stages.small_brake import small_brake, small_map
 
@@ -66,3 +76,18 @@ def test_draws_have_the_stated_distributions():
 def test_friction_scatters_by_the_standard_errors_of_the_map():
     found = friction_deviations(small_map(), 5e-3)
     assert found == {"friction": 0.0, "friction_over_pressure": 0.01, "friction_over_speed": 0.01}
+
+
+def test_without_a_friction_map_friction_is_that_of_the_settings_and_its_scatter_must_be_stated():
+    assert friction_deviations(None, 0.01) == {}
+    with pytest.raises(ConfigError, match="friction.variation"):
+        draw_values(sources({"kind": "friction"}), {}, 3, np.random.default_rng(1))
+    settings = SimpleNamespace(
+        speeds=[8.0], sliding_distance=0.01, damping_speed=1.0, friction=0.4, friction_at_rest=0.6, decay_speed=0.5,
+        friction_slopes=True, friction_damping=True, gyroscopic=True, centrifugal=True)
+    speed = np.array([0.5, 1.5])
+    state = family(small_brake(), 0, None, settings).friction(np.full(2, 1e6), speed)
+    np.testing.assert_allclose(state.coefficient, 0.4 + 0.2 * np.exp(-speed / 0.5))
+    np.testing.assert_allclose(state.speed_slope, -0.4 * np.exp(-speed / 0.5))
+    settings.friction_at_rest = None
+    np.testing.assert_allclose(family(small_brake(), 0, None, settings).friction(np.ones(2), speed).coefficient, 0.4)

@@ -1,12 +1,12 @@
 """Stage line_evidence on a brake of a few elements: whose tones were heard, and who heard none."""
 
-from dataclasses import fields
+from dataclasses import fields, replace
 
 import numpy as np
 import pytest
 
 from pipeline.contract import ConfigError, store
-from pipeline.products import Lines, Recording, Run
+from pipeline.products import Condition, Lines, Recording, Run
 from stages.complex_modes import Settings as Modes
 from stages.complex_modes import complex_modes
 from stages.line_evidence import Settings, line_evidence
@@ -77,6 +77,22 @@ def test_the_cycle_is_run_at_constant_power(brake):
     assert [str(made.test[k]) for k in made.operating_test] == ["constant load", "cycle"]
 
 
+def test_recorded_runs_are_tests_at_their_own_operating_points(brake, tone):
+    points = {"low": (1e6, ()), "high": (2e6, (tone,))}
+    runs = {}
+    for name, (pressure, lines) in points.items():
+        run = recording(*lines).runs["bench"]
+        given = {"pressure": (pressure, "Pa"), "speed": (8.0, "rad/s")}
+        runs[name] = replace(run, conditions={
+            key: Condition(value=[value], time=[0.0], unit=unit) for key, (value, unit) in given.items()})
+    settings = Settings(**{**GIVEN, "runs": ("low", "high")})
+    made = line_evidence(*brake, Recording(source=[], runs=runs), settings=settings)
+    assert [str(t) for t in made.test] == ["low", "high"] and not len(made.cycle_time)
+    np.testing.assert_array_equal(made.heard_in, [[0, 1]])
+    np.testing.assert_allclose(made.pressure, [1e6, 2e6])
+    assert made.lines_alone[1] > made.lines_alone[0] and made.near[1, 0] > made.near[0, 0]
+
+
 def test_the_number_of_workers_changes_no_bit(brake, made, tone):
     again = line_evidence(*brake, recording(tone), settings=Settings(**GIVEN), context=TwoProcesses())
     assert store.content_hash(again) == store.content_hash(made)
@@ -84,13 +100,20 @@ def test_the_number_of_workers_changes_no_bit(brake, made, tone):
 
 @pytest.mark.parametrize(("changed", "where"), [
     ({"high": "9 kHz"}, "line_evidence.high"), ({"low": "5 kHz"}, "line_evidence.low"),
-    ({"silent_up_to": "3 MPa"}, "structure.pressures"), ({"list": "other"}, "line_evidence.list")])
+    ({"silent_up_to": "3 MPa"}, "structure.pressures"), ({"list": "other"}, "line_evidence.list"),
+    ({"disc": ("rotor",)}, "line_evidence.disc")])
 def test_settings_that_do_not_fit_are_refused(brake, changed, where):
     with pytest.raises(ConfigError, match=where):
         line_evidence(*brake, recording(4e3), settings=Settings(**{**GIVEN, **changed}))
 
 
+CHANGING = {"one_way": {"disc": "rigid"}, "other": {"disc": "flexible", "load_rate": "1 Hz"}}
+
+
 @pytest.mark.parametrize(("changed", "where"), [
+    ({"runs": ("bench",), "hypotheses": CHANGING}, "hypotheses"),
+    ({"cycle": {"low": "3 MPa", "high": "1 MPa"}}, "cycle.high"),
+    ({"sources": ({"kind": "friction_over_pressure", "variation": 0.01},)}, "sources"),
     ({"reference": "other"}, "reference"), ({"hypotheses": {"one_way": {"disc": "rigid"}}}, "hypotheses"),
     ({"heard": (0.5, 1.0)}, "heard"), ({"low": "9 kHz"}, "high")])
 def test_contradictions_are_refused_before_anything_runs(changed, where):

@@ -29,6 +29,7 @@ class Hypothesis(Section):
     disc: Literal[FLEXIBLE, RIGID] = option(..., "flexible: modes of the whole brake; rigid: of pads and caliper on a"
                                             " disc that does not move")
     harmonics: bool = option(False, "multiples of each unstable mode are tones as well: its motion saturates")
+    multiples: int = option(24, "highest of these multiples", ge=2)
     sources: tuple[Source, ...] = option((), "replace the sources of the same name")
     joint_factors: dict[str, float] = option(
         {}, "factors on the stiffness of joints, by part of their name; of several, the longest part counts")
@@ -93,8 +94,11 @@ def _joint_factors(stated, names):
 
 
 def on_rigid_disc(family, bodies):
-    """The Family with the ``bodies`` of its disc rigid and held."""
+    """The Family with the ``bodies`` of its disc rigid and held. ConfigError for bodies that it does not have."""
     names = [str(name) for name in family.model.body_name]
+    unknown = [body for body in bodies if body not in names]
+    if unknown:
+        raise ConfigError("line_evidence.disc", f"bodies among {', '.join(names)}", ", ".join(unknown))
     kept = np.flatnonzero(~np.isin(family.model.coordinate_body, [names.index(body) for body in bodies]))
     block = np.ix_(kept, kept)
     return replace(family, model=family.model.held(*bodies), loss=family.loss[block],
@@ -107,13 +111,13 @@ def same_solution(hypothesis):
             hypothesis.falling)
 
 
-def tone_set(roots, growth, test, count, highest, harmonics, apart):
+def tone_set(roots, growth, test, count, highest, multiples, apart):
     """Tones of a draw from its ``roots`` [(r,)] at o operating points: frequencies (k,) Hz, ascending, and the tests
     (k, t) in which they grow, of ``count`` tests.
 
-    Modes whose growth rate and ``growth`` (o,) 1/s exceed 0, at the operating points of each ``test`` (o,); with
-    ``harmonics`` their multiples up to ``highest`` Hz. Modes of several operating points closer than the share
-    ``apart`` of their frequency are one tone, at their mean.
+    Modes whose growth rate and ``growth`` (o,) 1/s exceed 0, at the operating points of each ``test`` (o,), and their
+    ``multiples`` up to this one (1: none) and up to ``highest`` Hz. Modes of several operating points closer than the
+    share ``apart`` of their frequency are one tone, at their mean.
     """
     owner = np.repeat(test, [len(r) for r in roots]).astype(int)
     more = np.repeat(growth, [len(r) for r in roots])
@@ -123,12 +127,10 @@ def tone_set(roots, growth, test, count, highest, harmonics, apart):
     groups = grouped(frequency, apart)
     base = np.array([frequency[group].mean() for group in groups])
     grows = np.array([np.isin(np.arange(count), owner[group]) for group in groups], bool).reshape(-1, count)
-    if not harmonics:
-        return base, grows
-    orders = [int(highest // f) if f > 0 else 0 for f in base]
-    multiples = np.concatenate([np.empty(0), *(f * np.arange(1, n + 1) for f, n in zip(base, orders, strict=True))])
-    order = np.argsort(multiples, kind="stable")
-    return multiples[order], np.repeat(grows, orders, axis=0)[order]
+    orders = [max(1, int(min(multiples, highest // f))) if f > 0 else 1 for f in base]
+    tones = np.concatenate([np.empty(0), *(f * np.arange(1, n + 1) for f, n in zip(base, orders, strict=True))])
+    order = np.argsort(tones, kind="stable")
+    return tones[order], np.repeat(grows, orders, axis=0)[order]
 
 
 def tones_of(sets, count, shares, error, reading):

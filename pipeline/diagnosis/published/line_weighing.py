@@ -48,7 +48,8 @@ def predicted(hypothesis, drawn, roots, tests, highest, error):
     ``tones_of``.
     """
     count, silent = len(tests.name), tests.silent[tests.test]
-    sets = [tone_set(points, more * tests.changing, tests.test, count, highest, hypothesis.harmonics, error)
+    multiples = hypothesis.multiples if hypothesis.harmonics else 1
+    sets = [tone_set(points, more * tests.changing, tests.test, count, highest, multiples, error)
             for points, more in zip(roots, drawn.column(LOADING), strict=True)]
     loud = [f[grows[:, ~tests.silent].any(axis=1)] for f, grows in sets]
     kept = [[r for r, quiet in zip(points, silent, strict=True) if not quiet] for points in roots]

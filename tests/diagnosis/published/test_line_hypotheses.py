@@ -90,21 +90,23 @@ def test_tones_are_unstable_modes_those_of_several_points_counted_once():
     cycle = [roots((5, 3000), (-2, 8000)), roots((1, 3020), (7, 12000))]
     test = np.array([0, 1])
 
-    def tones(points, growth, harmonics=False):
-        return tone_set(points, np.full(2, growth), test, 2, 20e3, harmonics, 0.01)
+    def tones(points, growth, multiples=1):
+        return tone_set(points, np.full(2, growth), test, 2, 20e3, multiples, 0.01)
 
     frequency, grows = tones(cycle, 0.0)
     np.testing.assert_allclose(frequency, [3010, 12000])
     np.testing.assert_array_equal(grows, [[1, 1], [0, 1]])
     np.testing.assert_allclose(tones(cycle, 3.0)[0], [3010, 8000, 12000])
-    frequency, grows = tones([roots(), roots((-50, 900))], 3.0, True)
+    frequency, grows = tones([roots(), roots((-50, 900))], 3.0, 9)
     assert not len(frequency) and grows.shape == (0, 2)
 
 
 @pytest.mark.exact
 def test_multiples_reach_the_end_of_the_band_and_grow_with_their_fundamental():
     points = [roots((5, 3000)), roots((5, 8000))]
-    frequency, grows = tone_set(points, np.zeros(2), np.array([0, 1]), 2, 16e3, True, 0.01)
+    few, _ = tone_set(points, np.zeros(2), np.array([0, 1]), 2, 16e3, 2, 0.01)
+    np.testing.assert_allclose(few, [3000, 6000, 8000, 16000])
+    frequency, grows = tone_set(points, np.zeros(2), np.array([0, 1]), 2, 16e3, 24, 0.01)
     np.testing.assert_allclose(frequency, [3000, 6000, 8000, 9000, 12000, 15000, 16000])
     np.testing.assert_array_equal(grows[:, 1], np.isin(frequency.round(), [8000, 16000]))
 

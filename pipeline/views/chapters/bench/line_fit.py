@@ -4,7 +4,7 @@ import numpy as np
 
 from pipeline.views.chapters.chapter import Figure, Table
 from pipeline.views.figures.bench import line_fit as pictures
-from pipeline.views.figures.number_format import number, percent, plural, quantity
+from pipeline.views.figures.number_format import number, percent, plural, quantity, span
 
 _TWO_PI = 2 * np.pi
 _DECIBEL = 20 / np.log(10)
@@ -89,10 +89,10 @@ def _heard_in_cycle(product, names):
     """Which modes have time to become audible, and whether any of them is a line."""
     loud = product.swell > product.cycle_audible
     near = np.array([abs(product.line - f).min() <= product.model_error * f for f in product.swell_frequency], bool)
-    low, high = product.cycle_pressure.min(), product.cycle_pressure.max()
     period = product.cycle_time[0] + product.cycle_time[-1]
-    begin = (f"In the cycle of pressure ({quantity([low, high], 'Pa', 3)} within {quantity(period, 's', 3)}, constant"
-             f" power) an unstable mode must rise by {number(product.cycle_audible * _DECIBEL, 2)} dB while it grows:")
+    begin = (f"In the cycle of pressure ({span(product.cycle_pressure, 'Pa')} within {quantity(period, 's', 3)}, at"
+             f" constant power) an unstable mode must rise by {number(product.cycle_audible * _DECIBEL, 2)} dB while it"
+             " grows:")
     nominal, best = (np.isin(product.swell_cycle, np.flatnonzero((product.cycle_draw < 0) == of)) for of in
                      (True, False))
     parts = [f"with {words}, {_frequencies(product, chosen & loud)}" for words, chosen in
