@@ -61,22 +61,23 @@ def _recorded(name, run, settings):
     rate, count = rates.pop(), lengths.pop()
     inputs = {key: _fed(given, run) for key, given in settings.inputs.items()}
     drive = None if settings.drive is None else _fed(settings.drive, run)
+    if settings.drive is not None and settings.drive.hold == "step":
+        raise ConfigError("bench.drive.hold", "linear or band_limited: a speed that jumps takes an infinite force", "step",
+                          "feed the measured speed, or the position with derivative: true")
     conditions = {key: float(np.ravel(c.value)[0]) for key, c in run.conditions.items()}
     compared = np.array([valid(p) for p in parts]) & (np.arange(count) >= settings.settle * rate)
-    plan = Run(name, (count - 1) / rate, rate, inputs, drive, conditions)
+    holds = tuple(key for key, given in settings.inputs.items() if given.hold == "step")
+    plan = Run(name, (count - 1) / rate, rate, inputs, drive, conditions, held=holds)
     return Recorded(plan, tuple(seen), tuple(str(p.unit) for p in parts), np.array([p.samples for p in parts]),
                     compared, str(run.repeat_of))
 
 
-def held(samples, hold):
-    """Samples (n,) that straight lines between them turn into what was applied.
+def joined(samples, hold):
+    """Samples (n,) that what lies between them (straight lines, or held values) turns into what was applied.
 
-    Of a ``step`` hold the mean of the steps before and after each instant: the whole is half a sample late, as it was.
     Straight lines shape a spectrum by sinc^2 (f / rate), which is taken off ``band_limited`` samples beforehand.
     """
     samples = np.array(samples, float)
-    if hold == "step":
-        return (samples + np.append(samples[:1], samples[:-1])) / 2
     if hold == "band_limited":
         return np.fft.irfft(np.fft.rfft(samples) / np.sinc(np.fft.rfftfreq(len(samples))) ** 2, len(samples))
     return samples
@@ -89,7 +90,7 @@ def _fed(given, run):
     samples = np.interp(instants, instants[kept], np.asarray(channel.samples)[kept])
     if given.derivative:
         samples = np.gradient(samples, 1 / float(channel.rate))
-    return given.gain * held(samples, given.hold)
+    return given.gain * joined(samples, given.hold)
 
 
 def valid(channel):

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from pipeline.case_models.runs import check_units, held, recorded
+from pipeline.case_models.runs import check_units, joined, recorded
 from pipeline.contract import ConfigError
 from tests.diagnosis import pin_rig
 from tests.diagnosis.small_rig import RATE, SAMPLES, force, laid_out, recording
@@ -46,20 +46,18 @@ def test_the_begin_of_a_run_may_be_left_out():
     assert np.flatnonzero(~one.valid[0]).tolist() == list(range(int(0.1 * RATE)))
 
 
-@pytest.mark.exact
-def test_held_steps_act_half_a_sample_late():
-    """Over whole steps straight lines carry the impulse of the steps: sum over time of t (applied - recorded)."""
-    samples = np.array([0.0, 0.0, 4.0, 1.0, -2.0, 0.0, 0.0])
-    acting = held(samples, "step")
-    assert acting.sum() == samples.sum()
-    assert np.arange(7) @ acting / acting.sum() == pytest.approx(np.arange(7) @ samples / samples.sum() + 0.5)
-    assert held(samples, "linear") == pytest.approx(samples)
+def test_held_inputs_keep_their_samples_and_a_held_drive_is_refused():
+    run = recorded(recording(), laid_out(inputs={"shaker": {"channel": "force", "hold": "step"}}))["level_2"].run
+    assert run.held == ("shaker",)
+    np.testing.assert_array_equal(run.inputs["shaker"], force(5.0, 1))
+    with pytest.raises(ConfigError, match="bench.drive.hold"):
+        recorded(recording(), laid_out(drive={"channel": "force", "hold": "step"}))
 
 
 @pytest.mark.exact
 def test_straight_lines_lose_nothing_of_a_tone_within_the_band():
     place = np.arange(200)
-    drawn = np.interp(np.arange(0, 199, 0.05), place, held(np.sin(0.6 * np.pi * place), "band_limited"))
+    drawn = np.interp(np.arange(0, 199, 0.05), place, joined(np.sin(0.6 * np.pi * place), "band_limited"))
     tone = np.exp(-0.6j * np.pi * np.arange(0, 199, 0.05))
     size = 2 * abs(np.mean((drawn * tone)[: 20 * 190]))
     assert size == pytest.approx(1.0, abs=2e-3)

@@ -64,7 +64,7 @@ def _driven(bench, record, equation):
     names, idle = bench.model.input_name, replace(record.run, inputs=dict.fromkeys(bench.model.input_name, 0.0))
     needed = forces_missing(bench, idle, smoothed(bench, idle, _measured(bench, record), equation.corner))
     force = np.linalg.lstsq(bench.model.input_rows.T, needed, rcond=None)[0]
-    return replace(record, run=replace(record.run, inputs=dict(zip(names, force, strict=True))))
+    return replace(record, run=replace(record.run, inputs=dict(zip(names, force, strict=True)), held=()))
 
 
 def _measured(bench, record):

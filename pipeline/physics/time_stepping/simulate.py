@@ -41,10 +41,14 @@ __all__ = ["Forward", "Hard", "History", "Lagrange", "Motion", "Penalty", "Start
 
 @dataclass(frozen=True)
 class History:
-    """``value`` (samples,) or (samples, n) every ``interval`` s from time 0; linear between, constant beyond."""
+    """``value`` (samples,) or (samples, n) every ``interval`` s from time 0; linear between, constant beyond.
+
+    ``held``, one or (n,): forces that are held until the next sample instead, in steps that divide the interval.
+    """
 
     value: np.ndarray
     interval: float
+    held: np.ndarray | bool = False
 
 
 @dataclass(frozen=True)
@@ -235,7 +239,7 @@ def _history(given, width, where):
     if value.shape[1] != width or not np.isfinite(value).all() or not history.interval > 0:
         raise ConfigError(f"time stepping: {where}", f"finite samples of {width} values at a positive interval",
                           f"{value.shape[1]} values at {history.interval:g} s")
-    return HistoryKernel(value, float(history.interval))
+    return HistoryKernel(value, float(history.interval), np.array(np.broadcast_to(history.held, width), bool))
 
 
 def _inputs(model, inputs):

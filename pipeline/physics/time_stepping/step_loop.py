@@ -40,6 +40,7 @@ from pipeline.physics.time_stepping.linear_step import (
     add_forces,
     advance,
     copy,
+    hold,
     interpolate,
     loss_rate,
     project_rows,
@@ -188,6 +189,7 @@ def integrate(system, schedule, state, record):
             if varies:
                 copy(input_end, input_begin)
                 interpolate(inputs, number * step, input_end)
+                hold(inputs, (number - 0.5) * step, input_begin, input_end)
                 add_forces(input_first, input_begin, after)
                 add_forces(input_last, input_end, after)
             speed_begin, angle_begin = speed[0], angle

@@ -21,7 +21,8 @@ from pipeline.physics.virtual_rig.sensor import SimulatedRun, known
 class Run:
     """What was done: ``inputs`` {name: N, one value or samples}, ``drive`` rad/s (None: that of the model).
 
-    Samples are at ``sample_rate`` Hz from time 0. ``conditions`` {name: value} stand in for inputs of their names,
+    Samples are at ``sample_rate`` Hz from time 0, linear between; those of inputs in ``held`` (names) are held until the
+    next. ``conditions`` {name: value} stand in for inputs of their names,
     ``speed`` for the drive, ``normal_load`` for the loads of friction joints; friction may depend on others. ``start``:
     where the bodies are at time 0, else as the bench says.
     """
@@ -33,6 +34,7 @@ class Run:
     drive: object = None
     conditions: dict = field(default_factory=dict)
     start: Start | None = None
+    held: tuple = ()
 
     def __post_init__(self):
         if not (self.sample_rate > 0 and self.duration * self.sample_rate >= 1):
@@ -154,8 +156,8 @@ class Responder:
         start, steps = run.start, (run.samples - 1) * parts
         if start is None and bench.settled:
             start = steady_start(stepping.model, bench.law, friction, first)
-        motion = stepping.run(steps * step, start=start, inputs=_history(inputs, run), drive=_history([drive], run),
-                              book=False)
+        motion = stepping.run(steps * step, start=start, inputs=_history(inputs, run, holding(bench, run)),
+                              drive=_history([drive], run), book=False)
         simulated = SimulatedRun(under_load, run, motion, inputs, step, self._rows)
         return {sensor.name: sensor.written(sensor.measurand.history(simulated, sensor), step)[::parts]
                 for sensor in bench.channels}
@@ -187,6 +189,11 @@ def run_inputs(bench, run):
     return [run.inputs.get(n, run.conditions.get(n, 0.0)) for n in bench.model.input_name]
 
 
+def holding(bench, run):
+    """(i,) True for inputs whose samples are held until the next."""
+    return np.array([name in run.held for name in bench.model.input_name], bool)
+
+
 def run_drive(bench, run):
     """Speed of the drive in rad/s: one value or samples (samples,)."""
     return run.drive if run.drive is not None else run.conditions.get("speed", bench.model.speed)
@@ -197,13 +204,13 @@ def run_friction(bench, run):
     return under(bench.friction, run.conditions, f"run {run.name}")
 
 
-def _history(values, run):
+def _history(values, run, held=False):
     for value in values:
         if np.ndim(value) and len(value) != run.samples:
             raise ConfigError(f"run {run.name}", f"{run.samples} samples of each history", f"{len(value)}")
     if not any(np.ndim(v) for v in values):
         return History(np.reshape(np.array(values, float), (1, -1)), 1.0)
-    return History(np.stack([np.broadcast_to(v, run.samples) for v in values], axis=1), 1 / run.sample_rate)
+    return History(np.stack([np.broadcast_to(v, run.samples) for v in values], axis=1), 1 / run.sample_rate, held)
 
 
 def _watched(bench):

@@ -83,6 +83,32 @@ def test_contact_forces_are_not_late_by_half_a_step():
     assert errors[-1] < 1e-3 * 50 and errors[0] / errors[-1] > 10
 
 
+def staircase_response(time, force, instants):
+    """x, x' of the sprung mass at ``instants`` under steps of ``force``: each step adds that of a constant force."""
+    shown = np.zeros((2, len(instants)))
+    for begin, jump in zip(time, np.diff(force, prepend=0.0), strict=True):
+        since = np.maximum(instants - begin, 0.0)
+        x, v, _ = free_decay(since, -jump / 100)
+        shown += np.where(instants >= begin, [jump / 100 + x, v], 0.0)
+    return shown
+
+
+@pytest.mark.exact
+@pytest.mark.parametrize("step", [1.0, 1e-3])
+def test_a_held_input_is_a_staircase(step):
+    """15 samples a period of the force, whatever the step."""
+    run = Run("held", 6.0, 23.87, held=("input_0",))
+    run = replace(run, duration=(run.samples - 1) / run.sample_rate)
+    force = 2 * np.sin(2 * np.pi / 15 * np.arange(run.samples) + 0.4)
+    bench = sprung(seen("displacement"), Sensor("v", VELOCITY, "sensor_0"), Sensor("in", INPUT_FORCE, "input_0"),
+                   step=step)
+    found = respond(bench, replace(run, inputs={"input_0": force}))
+    x, v = staircase_response(run.time, force, run.time)
+    np.testing.assert_allclose(found["seen"], x, rtol=0, atol=1e-11 * abs(x).max())
+    np.testing.assert_allclose(found["v"], v, rtol=0, atol=1e-11 * abs(v).max())
+    np.testing.assert_array_equal(found["in"], force)
+
+
 def test_conditions_stand_in_for_inputs_and_drive():
     bench = Bench(belt(), Hard(), constant(0.3), 1e-3, (Sensor("x", DISPLACEMENT, "sensor_0"),
                                                         Sensor("t", FRICTION_FORCE, "contact")), settled=True)
