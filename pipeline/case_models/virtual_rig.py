@@ -19,7 +19,8 @@ class ChannelSettings(Section):
 
     quantity: str = option(..., f"one of {', '.join(MEASURANDS)}")
     source: str = option(..., "sensor, joint, contact group, element or input whose quantity it shows")
-    gain: float = option(1.0, "in SI units shown per SI unit")
+    gain: float | None = option(None, "in SI units shown per SI unit; none = 1, of a channel in the unit of its"
+                                      " quantity")
     delay: Quantity("s", ge=0) = option("0 s", "delay")
     corner: Quantity("Hz", gt=0) | None = option(None, "corner of its first-order low pass; none = no filter")
     limit: float | None = option(None, "SI value at which it clips; none = never", gt=0)
@@ -29,7 +30,8 @@ class Fed(Section):
     """A recorded channel that feeds an input."""
 
     channel: str = option(..., "recorded channel")
-    gain: float = option(1.0, "in SI units of the input per SI unit of the channel")
+    gain: float | None = option(None, "in SI units of the input per SI unit of the channel; none = 1, of a"
+                                      " channel in the unit of the input")
     derivative: bool = option(False, "the rate of change of the channel feeds it: a recorded position gives a speed")
     hold: Literal["linear", "step", "band_limited"] = option(
         "linear", "between samples; step: each is held until the next, as converters do; band_limited: nothing lies"
@@ -107,8 +109,9 @@ def groups(model):
 
 
 def _sensor(name, settings):
+    gain = 1.0 if settings.gain is None else settings.gain
     return Sensor(name, measurand(settings.quantity, f"bench.channels.{name}.quantity"), settings.source,
-                  settings.gain, settings.delay, corner=np.inf if settings.corner is None else settings.corner,
+                  gain, settings.delay, corner=np.inf if settings.corner is None else settings.corner,
                   limit=np.inf if settings.limit is None else settings.limit)
 
 

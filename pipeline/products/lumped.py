@@ -3,7 +3,7 @@
 from pipeline.contract import Array, count, product, quantity, text
 
 
-@product(version=2)
+@product(version=3)
 class Lumped:
     """Masses on springs and dampers, their contacts, inputs and sensors: a sliding model without finite elements.
 
@@ -35,6 +35,8 @@ class Lumped:
     law_pressure: Array = quantity("Pa", "closure", "contact pressure at each closure")
     input_name: Array = text("input", "inputs")
     input_rows: Array = quantity("1", "input coordinate", "generalised force per unit input force")
+    input_joint: Array = text("input", "joint whose far end the input moves; empty: the input is a force")
+    input_scale: Array = quantity("1", "input", "N (m of a moved end) per SI unit of what is fed to the input")
     input_area: Array = quantity("m^2", "input", "constant input force per Pa of the load factor")
     history_interval: Array = quantity("s", "", "time between the samples of the histories")
     input_history: Array = quantity("N", "sample input", "input forces over time, added to the constant ones")

@@ -6,6 +6,7 @@
 from dataclasses import dataclass, field, replace
 
 import numpy as np
+import scipy
 
 from pipeline.contract.errors import ConfigError
 from pipeline.physics.contact.groups import Grouped, changed
@@ -19,12 +20,13 @@ from pipeline.physics.virtual_rig.sensor import SimulatedRun, known
 
 @dataclass(frozen=True)
 class Run:
-    """What was done: ``inputs`` {name: N, one value or samples}, ``drive`` rad/s (None: that of the model).
+    """What was done: ``inputs`` {name: N, or m where it moves the end of a joint, one value or samples}, ``drive``
+    rad/s (None: that of the model).
 
-    Samples are at ``sample_rate`` Hz from time 0, linear between; those of inputs in ``held`` (names) are held until the
-    next. ``conditions`` {name: value} stand in for inputs of their names,
-    ``speed`` for the drive, ``normal_load`` for the loads of friction joints; friction may depend on others. ``start``:
-    where the bodies are at time 0, else as the bench says.
+    Samples are at ``sample_rate`` Hz from time 0, linear between; those of inputs named in ``held`` are held until the
+    next. ``conditions`` {name: value} stand in for inputs of their names, ``speed`` for the drive, ``normal_load`` for
+    the loads of friction joints; friction may depend on others. ``start``: where the bodies are at time 0, else as the
+    bench says.
     """
 
     name: str
@@ -181,12 +183,37 @@ def at_begin(bench, run):
 
 
 def run_inputs(bench, run):
-    """[one value or samples (samples,)] of each input of the model, in its order; 0 N where nothing is said."""
+    """[N, one value or samples (samples,)] of each input of the model, in its order; 0 N where nothing is said.
+
+    Of an end that moves by u the force k u + c u' in its joint.
+    """
+    return [_end_force(bench, run, name, value) if name in bench.model.moved_ends else value
+            for name, value in zip(bench.model.input_name, stated_inputs(bench, run), strict=True)]
+
+
+def stated_inputs(bench, run):
+    """[one value or samples (samples,)] of each input: N, or m where it moves the end of a joint."""
     unknown = set(run.inputs) - set(bench.model.input_name)
     if unknown:
         raise ConfigError(f"run {run.name}: input", f"one of {', '.join(bench.model.input_name)}",
                           ", ".join(sorted(unknown)))
     return [run.inputs.get(n, run.conditions.get(n, 0.0)) for n in bench.model.input_name]
+
+
+def input_unit(bench, name):
+    """Unit in which runs state an input: m of a moved end, else N."""
+    return "m" if name in bench.model.moved_ends else "N"
+
+
+def _end_force(bench, run, name, displacement):
+    _, stiffness, damping = bench.joint(bench.model.moved_ends[name])
+    if not np.ndim(displacement) or not damping:
+        return stiffness * displacement
+    if name in run.held:
+        raise ConfigError(f"run {run.name}: input {name}", "linear or band_limited, because its joint has a damper",
+                          "hold: step", "a displacement that jumps takes an infinite force of a damper")
+    velocity = scipy.interpolate.CubicSpline(run.time, displacement)(run.time, 1)
+    return stiffness * displacement + damping * velocity
 
 
 def holding(bench, run):

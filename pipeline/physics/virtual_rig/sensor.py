@@ -16,7 +16,6 @@ import scipy
 
 from pipeline.contract.errors import ConfigError
 
-
 #: share of a sample by which rounding may put an instant before it
 _ROUNDING = 1e-6
 
