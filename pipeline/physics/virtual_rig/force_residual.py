@@ -91,10 +91,11 @@ def forces_missing(bench, run, motion):
     model, interval = bench.model, 1 / run.sample_rate
     speed = np.gradient(motion, interval, axis=1, edge_order=2)
     turning = np.broadcast_to(run_drive(bench, run), run.samples)
-    mass, damping, stiffness = model.at_speed(turning[0]).supported()
+    mass, damping, stiffness = model.supported(gyroscopic=False, centrifugal=False)
     inertia = np.gradient(speed, interval, axis=1, edge_order=2)
     inertia[:, 1:-1] = (motion[:, 2:] - 2 * motion[:, 1:-1] + motion[:, :-2]) / interval**2
     residual = mass @ inertia + damping @ speed + stiffness @ motion
+    residual = residual + turning * (model.gyroscopic @ speed) + turning**2 * (model.centrifugal @ motion)
     angle = scipy.integrate.cumulative_trapezoid(turning, dx=interval, initial=0.0)
     instants = np.column_stack((run.time, angle, turning))
     normal, drawn, slip = _contacts(bench, run, motion, speed, instants)

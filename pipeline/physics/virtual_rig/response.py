@@ -129,7 +129,7 @@ class Bench:
 def respond(bench, run, system=None):
     """{channel: (samples,)} of one run; ``system`` is the ModalSystem of the model, where runs share it.
 
-    Gyroscopic and centrifugal terms are those of the speed with which the run begins, also in ``system``. Raises
+    Gyroscopic and centrifugal terms follow the speed of the drive; ``system`` holds those of its first value. Raises
     ConfigError for sources that the model does not have, and what ``simulate`` raises.
     """
     return Responder(bench, system).respond(run)
