@@ -186,6 +186,7 @@ def _built(settings):
         **_preload(settings, coordinates, joints, contacts, inputs), sensor_name=[name for name, _ in sensors],
         sensor_rows=_rows([_connected(coordinates, s.along, f"lumped.sensors.{name}.along") for name, s in sensors],
                           coordinates),
+        sensor_turns=[_turns(s.along) for _, s in sensors],
         sensor_quantity=[s.quantity for _, s in sensors], sensor_unit=[s.unit for _, s in sensors],
         sensor_gain=[s.gain for _, s in sensors])
 
@@ -201,6 +202,13 @@ def _weights(combination, where):
         turns = name.rpartition(".")[2] in system.ROTATIONS
         weights[name] = to_si(weight, "m" if turns else "1", f"{where}.{name}")
     return weights
+
+
+def _turns(combination):
+    """1 where a combination sees rotations alone, the largest weight being a radius of 1 m; else 0."""
+    weights = _weights(combination, "sensor")
+    rotations = all(name.rpartition(".")[2] in system.ROTATIONS for name in weights)
+    return int(rotations and max(map(abs, weights.values())) == 1)
 
 
 def _connected(coordinates, combination, where):

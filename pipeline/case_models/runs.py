@@ -14,6 +14,11 @@ from pipeline.contract import ConfigError
 from pipeline.physics.virtual_rig.response import Run
 from pipeline.physics.virtual_rig.sensor import measurand
 
+#: unit of a motion -> that of an angle at a radius of 1 m
+_ANGULAR = {"m": "rad", "m/s": "rad/s", "m/s^2": "rad/s^2"}
+#: conditions that a bench reads by themselves, and their units
+_CONDITIONS = {"speed": ("rad/s", "m/s"), "normal_load": ("N",)}
+
 
 @dataclass(frozen=True)
 class Recorded:
@@ -45,7 +50,7 @@ def recorded(recording, settings, model=None):
         raise ConfigError("bench.channels",
                           f"channels of the recording, of {', '.join(known) or 'which there are none'}",
                           ", ".join(settings.channels) or "none", "name recorded channels and what they show")
-    check_units(runs, settings)
+    check_units(runs, settings, model)
     return runs
 
 
@@ -115,9 +120,10 @@ def _check_fed(name, run, settings, model_inputs):
     if settings.drive is not None:
         wanted = ("rad", "m") if settings.drive.derivative else ("rad/s", "m/s")
         _check_unit("bench.drive", run.channels[settings.drive.channel].unit, wanted, settings.drive, name, "the drive")
-    for key, (wanted, _) in model_inputs.items():
-        if key in run.conditions and str(run.conditions[key].unit) != wanted:
-            raise ConfigError(f"run {name}: conditions.{key}", f"a value in {wanted}, that of the input of this name",
+    known = _CONDITIONS | {key: (wanted,) for key, (wanted, _) in model_inputs.items()}
+    for key, wanted in known.items():
+        if key in run.conditions and str(run.conditions[key].unit) not in wanted:
+            raise ConfigError(f"run {name}: conditions.{key}", f"a value in {' or '.join(wanted)}",
                               str(run.conditions[key].unit))
 
 
@@ -135,12 +141,18 @@ def valid(channel):
     return kept
 
 
-def check_units(runs, settings):
-    """Refuse channels whose unit is not that of the quantity which the case says they show."""
+def check_units(runs, settings, model=None):
+    """Refuse channels whose unit is not that of the quantity which the case says they show.
+
+    Angles are the displacements of sensors that see rotations at a radius of 1 m; ``model``: product ReducedModel.
+    """
+    turning = () if model is None else [str(n) for n, t in zip(model.sensor_name, model.sensor_turns, strict=True) if t]
     for name, recorded_run in runs.items():
         for channel, unit in zip(recorded_run.channels, recorded_run.unit, strict=True):
             shown = settings.channels[channel]
             wanted = measurand(shown.quantity, f"bench.channels.{channel}.quantity").unit
+            if shown.source in turning and unit == _ANGULAR.get(wanted):
+                continue
             if unit != wanted and shown.gain is None:
                 raise ConfigError(f"bench.channels.{channel}",
                                   f"a recorded unit of {wanted}, because it shows {shown.quantity}",

@@ -43,6 +43,7 @@ class Lumped:
     drive_history: Array = quantity("1", "drive_sample", "speed of the drive over time, per nominal speed")
     sensor_name: Array = text("sensor", "sensors")
     sensor_rows: Array = quantity("1", "sensor coordinate", "displacement rows")
+    sensor_turns: Array = count("sensor", "1 where it sees rotations at a radius of 1 m, where metres are radians")
     sensor_quantity: Array = text("sensor", "measured quantity: displacement, velocity or acceleration")
     sensor_unit: Array = text("sensor", "unit of its reading")
     sensor_gain: Array = quantity("1", "sensor", "its reading in that unit per SI unit of its quantity")

@@ -64,6 +64,7 @@ class ReducedModel:
     sensor_position: Array = quantity("m", "sensor xyz", "sensor positions")
     sensor_direction: Array = quantity("1", "sensor xyz", "sensor directions")
     sensor_rows: Array = quantity("1", "sensor coordinate", "sensor displacement rows")
+    sensor_turns: Array = count("sensor", "1 where it sees rotations at a radius of 1 m, where metres are radians")
     sensor_quantity: Array = text("sensor", "measured quantity: displacement, velocity or acceleration")
     sensor_unit: Array = text("sensor", "unit of its reading")
     sensor_gain: Array = quantity("1", "sensor", "its reading in that unit per SI unit of its quantity")

@@ -12,6 +12,7 @@ from pipeline.contract import ConfigError
 from pipeline.contract.settings import fill
 from pipeline.effects import named
 from pipeline.physics.virtual_rig.response import respond, run_inputs
+from pipeline.products import Condition
 from stages.lumped import Settings as LumpedSettings
 from stages.lumped import lumped
 from stages.reduced_model import Settings as ReductionSettings
@@ -48,6 +49,41 @@ def test_units_must_fit_what_a_channel_shows():
     settings = laid_out(channels={"x": {"quantity": "velocity", "source": "block"}})
     with pytest.raises(ConfigError, match="m/s"):
         check_units(recorded(recording(), settings), settings)
+
+
+def test_a_stated_gain_of_one_is_a_gain():
+    with pytest.raises(ConfigError, match="m/s, because it shows velocity"):
+        recorded(recording(), laid_out(channels={"x": {"quantity": "velocity", "source": "block"}}))
+    stated = {"quantity": "velocity", "source": "block", "gain": 1.0}
+    assert recorded(recording(), laid_out(channels={"x": stated}))["level_1"].channels == ("x",)
+
+
+def test_an_angle_shows_a_rotation_at_one_metre():
+    """Metres at a radius of 1 m are radians; at 30 mm, or along x, an angle is refused."""
+    found = recording(levels=(2.0,))
+    run = found.runs["level_1"]
+    turned = replace(found, runs={"level_1": replace(run, channels={
+        **run.channels, "x": replace(run.channels["x"], unit="rad")})})
+    for along, fits in (({"rotor.rotation": "1 m"}, True), ({"rotor.rotation": "30 mm"}, False),
+                        ({"rotor.x": 1}, False)):
+        parts = {"masses": {"rotor": {"mass": "1 kg", "inertia": "1 kg m^2", "moves": ["x", "rotation"]}},
+                 "inputs": {"shaker": {"along": {"rotor.x": 1}, "force": "1 N"}}, "springs": {},
+                 "sensors": {"block": {"along": along}}}
+        reduced = reduced_model(lumped(settings=fill(LumpedSettings, parts, "lumped")), settings=ReductionSettings())
+        if fits:
+            assert recorded(turned, laid_out(), reduced)["level_1"].unit == ("rad",)
+        else:
+            with pytest.raises(ConfigError, match="a recorded unit of m, because it shows displacement"):
+                recorded(turned, laid_out(), reduced)
+
+
+@pytest.mark.parametrize("name, unit, said", [("speed", "Hz", "rad/s or m/s"), ("normal_load", "Pa", "in N")])
+def test_units_of_conditions_are_those_of_what_they_set(name, unit, said):
+    found = recording(levels=(2.0,))
+    run = found.runs["level_1"]
+    given = replace(run, conditions={name: Condition(value=[1.0], time=[0.0], unit=unit)})
+    with pytest.raises(ConfigError, match=said):
+        recorded(replace(found, runs={"level_1": given}), laid_out())
 
 
 def fed(given, unit="N", **more):

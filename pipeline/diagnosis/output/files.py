@@ -103,9 +103,7 @@ def as_json(product):
         "effects": [_effect(product, k) for k in (*product.known, *product.named)],
         "alternatives": [_effect(product, k, False) for k in ordered if k not in named][:ALTERNATIVES],
         "location": _location(product),
-        "parameters": {str(name): {"nominal": float(product.parameter_nominal[k]),
-                                   "value": float(product.parameter_value[k]),
-                                   "std": float(product.parameter_std[k]), "unit": str(product.parameter_unit[k])}
+        "parameters": {str(name): _parameter(product, k)
                        for k, name in enumerate(product.parameter) if not split_name(str(name))[2]},
         "fit": {part: _fit(product, row, held_out) for row, (part, held_out) in enumerate(
             (("training", 0), ("held_out", 1)))},
@@ -116,6 +114,12 @@ def as_json(product):
     if product.squeal:
         document["saturated_squeal"] = {name: _squeal(check) for name, check in product.squeal.items()}
     return document
+
+
+def _parameter(product, k):
+    stated = {"nominal": float(product.parameter_nominal[k]), "value": float(product.parameter_value[k]),
+              "std": float(product.parameter_std[k]), "unit": str(product.parameter_unit[k])}
+    return stated | ({"meaning": "factor on the value of the model"} if product.parameter_factor[k] else {})
 
 
 def _squeal(check):

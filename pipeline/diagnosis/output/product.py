@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from pipeline.case_models.corrections import is_factor
 from pipeline.diagnosis.experiment_design.next_run import next_experiment
 from pipeline.diagnosis.problem import label, split_name
 from pipeline.diagnosis.signals.localisation import stage_of
@@ -161,8 +162,9 @@ def _parameters(diagnosis, completed, table):
         effect, location, _ = split_name(parameter.name)
         given = parameter.nominal if parameter.null is None else parameter.null
         rows.append((parameter.name, parameter.unit, given, values[parameter.name], std[parameter.name],
-                     owners.get(label(((effect, location),)), 0)))
-    keys = ("parameter", "parameter_unit", "parameter_nominal", "parameter_value", "parameter_std", "parameter_owner")
+                     owners.get(label(((effect, location),)), 0), int(not effect and is_factor(parameter.name))))
+    keys = ("parameter", "parameter_unit", "parameter_nominal", "parameter_value", "parameter_std", "parameter_owner",
+            "parameter_factor")
     return {key: [row[k] for row in rows] for k, key in enumerate(keys)}
 
 

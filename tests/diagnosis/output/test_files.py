@@ -30,7 +30,13 @@ def test_the_json_holds_the_verdict():
     assert effect["name"] == "cubic_stiffness" and effect["parameters"]["coefficient"]["unit"] == "N/m^3"
     assert found["fit"]["held_out"]["runs"] == ["level_4"]
     assert set(found["parameters"]) == {"joints.mount.stiffness", "joints.mount.damping"}
+    assert not any("meaning" in parameter for parameter in found["parameters"].values())
     assert json.loads(companions(told(), CASE)["diagnosis.json"]) == found
+
+
+def test_a_factor_says_that_it_is_one():
+    factor = as_json(replace(told(), parameter_factor=[1, 0, 0]))["parameters"]["joints.mount.stiffness"]
+    assert factor["meaning"] == "factor on the value of the model"
 
 
 def test_the_completed_case_has_the_same_held_out_error():

@@ -142,6 +142,7 @@ def _value(product, k, given=False):
     name = str(product.parameter[k]).partition("@")
     short = name[2].rpartition(".")[2].replace("_", " ") if name[1] else name[0]
     unit = str(product.parameter_unit[k])
+    short = f"factor on {short}" if product.parameter_factor[k] else short
     text = f"{short} {_with_error(product.parameter_value[k], product.parameter_std[k], unit)}"
     return f"{text} (given {quantity(product.parameter_nominal[k], unit, 3)})" if given else text
 
@@ -288,7 +289,8 @@ def _with_force(product):
 def _parameters(product):
     if not len(product.parameter):
         return None
-    rows = tuple((_words(str(name).replace("@", " at ")), quantity(product.parameter_nominal[k], unit, 4),
+    rows = tuple((("factor on " if product.parameter_factor[k] else "") + _words(str(name).replace("@", " at ")),
+                  quantity(product.parameter_nominal[k], unit, 4),
                   _with_error(product.parameter_value[k], product.parameter_std[k], unit),
                   number(_distance(product, k), 2)) for k, (name, unit) in enumerate(
                       zip(product.parameter, map(str, product.parameter_unit), strict=True)))
