@@ -102,6 +102,8 @@ def as_json(product):
         "schema": SCHEMA, "verdict": product.verdict.item(), "reasons": [str(r) for r in product.reason],
         "effects": [_effect(product, k) for k in (*product.known, *product.named)],
         "alternatives": [_effect(product, k, False) for k in ordered if k not in named][:ALTERNATIVES],
+        "not_judged": [_not_judged(product, k) for k in range(len(product.hypothesis))
+                       if product.objection[k] and not product.refitted[k]],
         "location": _location(product),
         "parameters": {str(name): _parameter(product, k)
                        for k, name in enumerate(product.parameter) if not split_name(str(name))[2]},
@@ -137,12 +139,19 @@ def _effect(product, k, with_parameters=True):
             "posterior": float(1 - product.posterior[0] if known else product.posterior[k])}
     if not product.effect[k]:
         entry["name"] = "nothing missing"
+    if product.objection[k]:
+        entry["objection"] = str(product.objection[k])
     if with_parameters:
         entry["parameters"] = {
             split_name(str(name))[2]: {"value": float(product.parameter_value[i]),
                                        "std": float(product.parameter_std[i]), "unit": str(product.parameter_unit[i])}
             for i, name in enumerate(product.parameter) if product.parameter_owner[i] == k and split_name(str(name))[2]}
     return entry
+
+
+def _not_judged(product, k):
+    """A candidate that could not be fitted, such as one whose time stepping fails, with the reason."""
+    return {"name": str(product.effect[k]), "place": str(product.place[k]), "reason": str(product.objection[k])}
 
 
 def _location(product):

@@ -3,6 +3,7 @@
 import json
 from dataclasses import replace
 
+import numpy as np
 import pytest
 import yaml
 
@@ -37,6 +38,20 @@ def test_the_json_holds_the_verdict():
 def test_a_factor_says_that_it_is_one():
     factor = as_json(replace(told(), parameter_factor=[1, 0, 0]))["parameters"]["joints.mount.stiffness"]
     assert factor["meaning"] == "factor on the value of the model"
+
+
+def test_a_candidate_that_cannot_be_fitted_stays_with_its_reason():
+    """Micro-slip, which needs a contact, or what fails on the way: neither vanishes from the answer."""
+    found = told()
+    k = next(k for k in range(1, len(found.hypothesis)) if k not in found.named)
+    failed = replace(found, objection=["time stepping at t = 2 s: expected ..." if i == k else "" for i in range(
+        len(found.hypothesis))], refitted=[int(i != k) for i in range(len(found.hypothesis))])
+    assert as_json(failed)["not_judged"] == [{"name": str(found.effect[k]), "place": str(found.place[k]),
+                                              "reason": "time stepping at t = 2 s: expected ..."}]
+    doubted = replace(failed, refitted=[1] * len(found.hypothesis), posterior=np.where(
+        np.arange(len(found.hypothesis)) == k, 0.5, 0.0))
+    assert as_json(doubted)["not_judged"] == []
+    assert as_json(doubted)["alternatives"][0]["objection"].startswith("time stepping at t = 2 s")
 
 
 def test_the_completed_case_has_the_same_held_out_error():
