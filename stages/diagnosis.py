@@ -62,7 +62,8 @@ def diagnosis(model: ReducedModel | None, effects: Effects | None, recording: Re
     problem = _BUILDERS[settings.forward](inputs, settings, context)
     context.log(f"{len(problem.candidates)} hypotheses over {len(problem.problem.training)} runs,"
                 f" {len(problem.problem.held_out)} held out")
-    result = product(problem, problem.solved(context.map))
+    contacts = benches.contact_names(model) if model is not None else {}
+    result = product(problem, problem.solved(context.map), contacts)
     context.log(f"verdict: {result.verdict.item()}")
     return result
 

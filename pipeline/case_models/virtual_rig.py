@@ -13,6 +13,9 @@ from pipeline.physics.sliding.model import sliding_model
 from pipeline.physics.virtual_rig.response import Bench
 from pipeline.physics.virtual_rig.sensor import MEASURANDS, Sensor, measurand
 
+#: most contacts of a group that an answer lists by name
+_READABLE = 6
+
 
 class ChannelSettings(Section):
     """What a recorded channel shows of the model."""
@@ -106,6 +109,13 @@ def groups(model):
     rubbed = [str(model.body_name[k]) for k in model.contact_body]
     names = dict.fromkeys(rubbed)
     return {name: tuple(k for k, g in enumerate(rubbed) if g == name) for name in names} if len(names) > 1 else {}
+
+
+def contact_names(model):
+    """{group: names that the case gives to its contacts} of a product ReducedModel; none where they are many."""
+    members = {"contact": range(len(model.contact_name)), **groups(model)}
+    named = {group: tuple(str(model.contact_name[k]) for k in rows) for group, rows in members.items()}
+    return {group: names for group, names in named.items() if all(names) and 0 < len(names) <= _READABLE}
 
 
 def _sensor(name, settings):

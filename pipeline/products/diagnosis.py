@@ -126,6 +126,7 @@ class Diagnosis:
     hypothesis: Array = text("hypothesis", "all hypotheses compared; first: nothing missing")
     effect: Array = text("hypothesis", "effect of the catalogue; empty for nothing missing")
     place: Array = text("hypothesis", "location at which it would act")
+    contacts: Array = text("hypothesis", "names that the case gives to the contacts of that location; empty for none")
     kind: Array = text("hypothesis", "physics, sensor or numerics")
     stage: Array = text("hypothesis", "stage of the chain that it belongs to; empty for nothing missing")
     posterior: Array = quantity("1", "hypothesis", "probability among all; next to a known effect, that of the pair")

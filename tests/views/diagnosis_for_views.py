@@ -38,7 +38,7 @@ def diagnosis(verdict="missing", **values):
         "hypothesis": ["nothing missing", "coulomb at guide", "quadratic_damping at arm",
                        "sensor_gain at position"],
         "effect": ["", "coulomb", "quadratic_damping", "sensor_gain"],
-        "place": ["", "guide", "arm", "position"],
+        "place": ["", "guide", "arm", "position"], "contacts": ["", "", "", ""],
         "kind": ["physics", "physics", "physics", "sensor"],
         "stage": ["", "friction", "structure", "measurement"],
         "posterior": [0.01, 0.97, 0.015, 0.005], "score": [0, 9.0, 3.0, 1.0], "p_value": [1, 0.0005, 0.02, 0.6],

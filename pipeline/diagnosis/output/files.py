@@ -137,6 +137,8 @@ def _effect(product, k, with_parameters=True):
     known = k in product.known      # it is part of every hypothesis but that nothing is missing
     entry = {"name": names[0], "place": str(product.place[k]), "kind": str(product.kind[k]),
             "posterior": float(1 - product.posterior[0] if known else product.posterior[k])}
+    if product.contacts[k]:
+        entry["contacts"] = str(product.contacts[k]).split(", ")
     if not product.effect[k]:
         entry["name"] = "nothing missing"
     if product.objection[k]:

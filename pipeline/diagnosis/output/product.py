@@ -15,9 +15,13 @@ from pipeline.products import DiagnosedRun, Diagnosis, Follows, LatentForce, Lat
 MODELS = ("nominal", "recalibrated", "completed", "noise")
 
 
-def product(problem, diagnosis):
-    """Product Diagnosis of a DiagnosisProblem and the inference's Diagnosis of it."""
+def product(problem, diagnosis, contacts=None):
+    """Product Diagnosis of a DiagnosisProblem and the inference's Diagnosis of it.
+
+    ``contacts`` {location: names that the case gives to the contacts there}.
+    """
     completed, recalibrated, table = diagnosis.completed, diagnosis.recalibrated, _hypotheses(diagnosis)
+    table["contacts"] = [_contacts(place, contacts or {}) for place in table["place"]]
     runs = problem.problem
     fits = [errors(runs, problem.budget, runs.nominal, recalibrated, completed, part)
             for part in (runs.training, runs.held_out)]
@@ -109,6 +113,11 @@ def _hypotheses(diagnosis):
     names = [row["hypothesis"] for row in rows]
     return {**{key: [row[key] for row in rows] for key in rows[0]},
             "named": [names.index(c.name) for c in diagnosis.decision.named], "known": [1] if known else []}
+
+
+def _contacts(place, names):
+    """Contacts at a place, or at those of a pair, in the words of the case."""
+    return ", ".join(dict.fromkeys(name for each in place.split(" + ") for name in names.get(each, ())))
 
 
 def _known(diagnosis):

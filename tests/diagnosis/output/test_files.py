@@ -35,6 +35,12 @@ def test_the_json_holds_the_verdict():
     assert json.loads(companions(told(), CASE)["diagnosis.json"]) == found
 
 
+def test_contacts_are_answered_by_their_names_too():
+    found = told()
+    named = replace(found, contacts=["tip" if k in found.named else "" for k in range(len(found.hypothesis))])
+    assert as_json(named)["effects"][0]["contacts"] == ["tip"] and "contacts" not in as_json(found)["effects"][0]
+
+
 def test_a_factor_says_that_it_is_one():
     factor = as_json(replace(told(), parameter_factor=[1, 0, 0]))["parameters"]["joints.mount.stiffness"]
     assert factor["meaning"] == "factor on the value of the model"

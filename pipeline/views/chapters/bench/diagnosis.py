@@ -74,7 +74,10 @@ def _measured(product):
 
 
 def _effect(product, k):
-    return f"{str(product.effect[k]).replace('_', ' ')} at {product.place[k]}" if product.effect[k] else "nothing"
+    if not product.effect[k]:
+        return "nothing"
+    contacts = f" ({product.contacts[k]})" if product.contacts[k] else ""
+    return f"{str(product.effect[k]).replace('_', ' ')} at {product.place[k]}{contacts}"
 
 
 def _first_up(text):
