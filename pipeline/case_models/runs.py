@@ -112,11 +112,12 @@ def _fed(given, run):
 
 
 def _check_fed(name, run, settings, model_inputs):
-    """Refuse channels and conditions in units that are not those of what they feed."""
+    """Refuse channels, or their rates, and conditions in units that are not those of what they feed."""
     for key, given in settings.inputs.items():
-        wanted = model_inputs.get(key, ("N", 1.0))[0]
-        _check_unit(f"bench.inputs.{key}", run.channels[given.channel].unit, (wanted, "1"), given, name,
-                    "a displacement" if wanted == "m" else "a force")
+        unit = model_inputs.get(key, ("N", 1.0))[0]
+        wanted = (f"{unit} s",) if given.derivative else (unit, "1")
+        _check_unit(f"bench.inputs.{key}", run.channels[given.channel].unit, wanted, given, name,
+                    "a displacement" if unit == "m" else "a force")
     if settings.drive is not None:
         wanted = ("rad", "m") if settings.drive.derivative else ("rad/s", "m/s")
         _check_unit("bench.drive", run.channels[settings.drive.channel].unit, wanted, settings.drive, name, "the drive")

@@ -116,7 +116,8 @@ def in_si(values, unit, where, measures=""):
         quantity = _registry().Quantity(values, "" if unit == "1" else unit)
         name = next((n for n in MEASURED if quantity.is_compatible_with("" if n == "1" else n)), None)
         if set(map(str, quantity.units._units)) & _ANGULAR:
-            name = {"1": "rad", "Hz": "rad/s", None: "rad/s^2"}.get(name, name)
+            name = {"1": "rad", "Hz": "rad/s"}.get(name, name)
+            name = "rad/s^2" if name is None and quantity.is_compatible_with("1/s^2") else name
         converted = quantity.to_base_units() if name is None else quantity.to("" if name == "1" else name)
     except (pint.PintError, ValueError, TypeError, AttributeError, tokenize.TokenError):
         raise ConfigError(where, "a unit such as mm/s or kN", repr(unit)) from None

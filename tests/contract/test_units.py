@@ -76,7 +76,8 @@ def test_refuses_what_is_no_length(value):
     ("acceleration", "g", 9.80665, "m/s^2"), ("acceleration", "mg", 9.80665e-3, "m/s^2"), ("mass", "g", 1e-3, "kg"),
     ("acceleration", "deg/s^2", np.pi / 180, "rad/s^2"), ("angle", "deg", np.pi / 180, "rad"),
     ("displacement", "deg", np.pi / 180, "rad"), ("speed", "rpm", np.pi / 30, "rad/s"),
-    ("velocity", "mm/s", 1e-3, "m/s"), ("torque", "N mm", 1e-3, "N m"), ("", "g", 1e-3, "kg")])
+    ("velocity", "mm/s", 1e-3, "m/s"), ("torque", "N mm", 1e-3, "N m"), ("", "g", 1e-3, "kg"),
+    ("", "deg/s^2", np.pi / 180, "rad/s^2")])
 def test_units_of_samples_follow_what_is_measured(measures, unit, value, name):
     values, found = in_si(np.array([1.0, -2.0]), unit, "x", measures)
     assert found == name
