@@ -33,7 +33,7 @@ def bench(model: ReducedModel, effects: Effects | None, recording: Recording, se
     root mean square of recorded minus predicted samples. If poles are compared, the runs are free vibrations and the
     predicted poles are complex eigenvalues about steady sliding.
     """
-    whole, runs = with_effects(built(model, settings), effects), recorded(recording, settings)
+    whole, runs = with_effects(built(model, settings), effects), recorded(recording, settings, model)
     if settings.poles is not None:
         return _of_features(whole, runs, settings, context)
     if settings.forward == "equation":

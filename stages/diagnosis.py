@@ -62,7 +62,8 @@ def diagnosis(model: ReducedModel | None, effects: Effects | None, recording: Re
     problem = _BUILDERS[settings.forward](inputs, settings, context)
     context.log(f"{len(problem.candidates)} hypotheses over {len(problem.problem.training)} runs,"
                 f" {len(problem.problem.held_out)} held out")
-    result = product(problem, problem.solved(context.map))
+    contacts = benches.contact_names(model) if model is not None else {}
+    result = product(problem, problem.solved(context.map), contacts)
     context.log(f"verdict: {result.verdict.item()}")
     return result
 
@@ -98,13 +99,13 @@ def _of_friction(inputs, settings, context):
 def _of_poles(inputs, settings, context):
     """Poles of recorded free vibrations against eigenvalues of the bench."""
     bench, rig = _bench(inputs, settings)
-    return pole_problem(bench, recorded(inputs.recording, rig), settings, rig.poles)
+    return pole_problem(bench, recorded(inputs.recording, rig, inputs.model), settings, rig.poles)
 
 
 def _of_signals(inputs, settings, context):
     """Recorded time signals against simulated ones, or measured motions in the equation of motion."""
     bench, rig = _bench(inputs, settings)
-    runs = recorded(inputs.recording, rig)
+    runs = recorded(inputs.recording, rig, inputs.model)
     if rig.forward == "equation":
         return force_balance_problem(bench, runs, settings, rig.equation)
     return substituted(forced_problem(bench, started(bench, runs, rig), settings), inputs.recording, settings)

@@ -102,9 +102,10 @@ class Input(Section):
     """A force along a combination, or a displacement imposed on the far end of a spring."""
 
     along: dict[str, str | float] | None = option(None, "where the force acts; opposite signs: a pair of forces")
-    force: Quantity("N") | None = option(None, "force at load factor 1, or per unit of the history")
+    force: Quantity("N") | None = option(None, "force at load factor 1, or per SI unit of the history or channel")
     displaces: str | None = option(None, "the spring whose far end is moved, against its elongation")
-    displacement: Quantity("m") | None = option(None, "displacement of that end, or per unit of the history")
+    displacement: Quantity("m") | None = option(None, "displacement of that end, or per SI unit of the history or"
+                                                    " channel")
     history: History | None = option(None, "time history, with peak 1 where it is none of a file; none = constant",
                                      discriminator="kind")
 
@@ -185,6 +186,7 @@ def _built(settings):
         **_preload(settings, coordinates, joints, contacts, inputs), sensor_name=[name for name, _ in sensors],
         sensor_rows=_rows([_connected(coordinates, s.along, f"lumped.sensors.{name}.along") for name, s in sensors],
                           coordinates),
+        sensor_turns=[_turns(s.along) for _, s in sensors],
         sensor_quantity=[s.quantity for _, s in sensors], sensor_unit=[s.unit for _, s in sensors],
         sensor_gain=[s.gain for _, s in sensors])
 
@@ -200,6 +202,13 @@ def _weights(combination, where):
         turns = name.rpartition(".")[2] in system.ROTATIONS
         weights[name] = to_si(weight, "m" if turns else "1", f"{where}.{name}")
     return weights
+
+
+def _turns(combination):
+    """1 where a combination sees rotations alone, the largest weight being a radius of 1 m; else 0."""
+    weights = _weights(combination, "sensor")
+    rotations = all(name.rpartition(".")[2] in system.ROTATIONS for name in weights)
+    return int(rotations and max(map(abs, weights.values())) == 1)
 
 
 def _connected(coordinates, combination, where):
@@ -257,19 +266,21 @@ def _inputs(settings, coordinates, joints):
     """Rows, constant forces (per Pa) and histories of the inputs; a displacement is the force k u + c u'."""
     interval = settings.histories.interval
     time = interval * np.arange(round(settings.histories.duration / interval) + 1)
-    rows, constant, samples = [], [], []
+    rows, constant, samples, sizes = [], [], [], []
     for name, given in settings.inputs.items():
         where = f"lumped.inputs.{name}"
         row, spring, damper = _input_row(given, coordinates, joints, where)
         shape = 1.0 if given.history is None else _shape(given.history, time, f"{where}.history")
         size = given.force if given.displaces is None else given.displacement
         rows.append(row)
+        sizes.append(size)
         constant.append(spring * size if given.history is None else 0.0)
         samples.append(np.zeros(len(time)) if given.history is None else
                        size * (spring * shape + damper * np.gradient(shape, interval)))
     timed = any(i.history for i in settings.inputs.values())
     drive = [] if settings.drive is None else _shape(settings.drive.history, time, "lumped.drive.history")
     return {"input_name": list(settings.inputs), "input_rows": _rows(rows, coordinates), "input_area": constant,
+            "input_joint": [i.displaces or "" for i in settings.inputs.values()], "input_scale": sizes,
             "history_interval": interval if timed or len(drive) else 0.0,
             "input_history": np.transpose(samples) if timed else np.empty((0, len(rows))), "drive_history": drive}
 

@@ -18,8 +18,8 @@ class Column(Section):
     """One column of a file and its meaning."""
 
     column: str = option(..., "its name in the file")
-    unit: str = option(..., "unit of its numbers, such as mm or kN")
-    measures: str = option(..., "displacement, velocity, acceleration, force, pressure, voltage, ...")
+    unit: str = option(..., "unit of its numbers, such as mm, kN, deg or, of an acceleration, g")
+    measures: str = option(..., "displacement, velocity, acceleration, angle, force, torque, pressure, voltage, ...")
     factor: float = option(1.0, "factor on its numbers: the gain of a sensor, or -1 to turn a sign")
     role: Literal["response", "excitation"] = option("response", "what the bench imposed, or what it answered")
     place: str = option("", "named point or joint of the model")

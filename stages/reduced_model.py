@@ -20,6 +20,12 @@ NO_LINING = {"lining_coordinate": [], "lining_stiffness": np.empty((0, 0)), "lin
 NO_SHEAR = {f"shear_{name}": [] for name in ("pressure", "friction", "stiffness", "elastic_stiffness", "exponent")}
 
 
+def plain(contacts, inputs, sensors):
+    """Fields of a system of so many contacts without names, inputs that are forces, and sensors of translations."""
+    return {"contact_name": [""] * contacts, "input_joint": [""] * inputs, "input_scale": np.ones(inputs),
+            "sensor_turns": [0] * sensors}
+
+
 class Settings(Section):
     """Number of coordinates that the bodies retain."""
 
@@ -104,7 +110,7 @@ def _from_beams(beams, settings, context):
         preload=[[force]], contact_stiffness=[[0.0]], law_closure=[], law_pressure=[], input_name=["weight"],
         input_rows=beams.load_row, input_area=area, history_interval=0.0,
         input_history=np.empty((0, 1)), drive_history=[], sensor_quantity=["velocity"], sensor_unit=["m/s"],
-        sensor_gain=[1.0], **NO_SHEAR, **NO_LINING,
+        sensor_gain=[1.0], **plain(1, 1, len(beams.sensor_name)), **NO_SHEAR, **NO_LINING,
         **{name: getattr(beams, name) for name in ("sensor_name", "sensor_position", "sensor_direction", "sensor_rows",
                                                    "visible_position", "visible_body", "visible_face", "recovery")})
 
@@ -148,7 +154,7 @@ def _copied(structure):
     constants = {"contact_lever": radius, "contact_gap": np.zeros(len(radius)), "history_interval": 0.0,
            "input_history": np.empty((0, inputs)), "drive_history": [],
            "sensor_quantity": ["velocity"] * sensors, "sensor_unit": ["m/s"] * sensors, "sensor_gain": np.ones(sensors),
-           **tangential}
+           **tangential, **plain(len(radius), inputs, sensors)}
     return {**constants, **{name: getattr(structure, name) for name in kept}}
 
 

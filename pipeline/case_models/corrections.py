@@ -77,6 +77,12 @@ def nominal(bench, name, where="parameters"):
     return 1.0 if unit == "1" else 0.0
 
 
+def is_factor(name):
+    """Whether a number counts as a factor on what the model has, so that 1 leaves it as it is."""
+    kind, _, what = _steps(name)
+    return kind in ("bodies", "friction") or name == "contact.stiffness" or (kind == "inputs" and what == "gain")
+
+
 def corrected(bench, values):
     """The bench with ``values`` {name: SI value} in place of its own."""
     for name, value in values.items():

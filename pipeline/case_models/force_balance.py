@@ -1,7 +1,9 @@
 """Recorded runs as balances of forces: measured displacements put into the equation of motion, nothing simulated.
 
 What counts as observed is the force that the inputs put on each coordinate; the model says what force the measured
-motion needs: the applied one and what is left of the equation of motion (``physics.equation_residual``).
+motion needs: the applied one and what is left of the equation of motion (``physics.equation_residual``). What is left
+is counted in the size of the measured motion: a gain that reads the motion smaller would make it vanish, whatever is
+missing. For that reason a run without any force has no balance to compare.
 """
 
 from dataclasses import dataclass, field, replace
@@ -17,6 +19,8 @@ from pipeline.physics.virtual_rig.sensor import DISPLACEMENT
 
 #: samples of the parabola whose slope is the speed at the start
 _FIRST = 7
+#: force over the noise of a balance below which it is lost in it
+_LOST = 0.1
 
 
 @dataclass(frozen=True)
@@ -24,18 +28,23 @@ class Balance:
     """One recorded run: ``seen`` (Recorded) holds the applied forces (n, m) in N, one channel a coordinate.
 
     ``run`` is the Run behind it, ``measured`` {channel: (samples,)} its displacements, ``equation`` the section;
-    ``motions`` holds the last filtered motion.
+    ``size`` (n,) m is the standard deviation of the motion as the given bench reads it; ``motions`` holds the last
+    filtered one.
     """
 
     seen: Recorded
     run: Run
     measured: dict
     equation: object
+    size: np.ndarray
     motions: dict = field(default_factory=dict, compare=False)
 
     def predicted(self, bench):
         """Forces (n, m) in N that the measured motion needs on this bench. ConfigError as of ``equation_residual``."""
-        left = forces_missing(bench, self.run, self._motion(bench))
+        motion = self._motion(bench)
+        size = motion.std(axis=1)
+        as_measured = np.divide(self.size, size, out=np.ones(len(size)), where=size > 0)
+        left = as_measured[:, None] * forces_missing(bench, self.run, motion)
         return self.seen.samples + thinned(left, self.equation.decimation, self.equation.trim)
 
     def left(self, bench):
@@ -55,18 +64,33 @@ class Balance:
 
 
 def balance(bench, recorded, equation):
-    """Balance of a Recorded run under the section ``equation``. ConfigError for missing samples, and runs too short."""
+    """Balance of a Recorded run under the section ``equation``.
+
+    ConfigError for missing samples, runs too short, and runs in which no input acts.
+    """
     measured = _displacements(bench, recorded)
     kept = (recorded.run.samples - 2 * equation.trim) // equation.decimation
     if kept < 2:
         raise ConfigError(f"run {recorded.run.name}", "samples left between its ends", f"{recorded.run.samples} in all",
                           "trim and decimate less, or take a longer stretch")
     applied = applied_force(bench, recorded.run, equation.decimation, equation.trim)
+    refuse_unforced(recorded.run.name, applied, 0.0)
     rate = recorded.run.sample_rate / equation.decimation
     thin = Run(recorded.run.name, (applied.shape[1] - 1) / rate, rate, conditions=recorded.run.conditions)
     seen = Recorded(thin, channel_names(bench), ("N",) * len(applied), applied, np.ones(applied.shape, bool),
                     recorded.repeat_of)
-    return Balance(seen, recorded.run, measured, equation)
+    size = smoothed(bench, recorded.run, measured, equation.corner).std(axis=1)
+    return Balance(seen, recorded.run, measured, equation, size)
+
+
+def refuse_unforced(name, applied, noise):
+    """ConfigError where all forces ``applied`` (n, m) N are 0, or lost in the ``noise`` (n,) N of the balance."""
+    size = np.sqrt(np.mean(applied**2, axis=1))
+    if not (size > _LOST * noise).any():
+        raise ConfigError(f"run {name}: bench.forward: equation", "a run with an applied force",
+                          f"at most {np.max(size, initial=0.0):.3g} N root mean square",
+                          "a balance of a free motion closes as soon as everything in it is small: compare the motion"
+                          " instead (bench.forward: simulation, with measured_start: true)")
 
 
 def channel_names(bench):

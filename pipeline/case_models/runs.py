@@ -1,8 +1,9 @@
 """From a recording to what a bench is run with, and what a diagnosis compares with.
 
 Scalar conditions of a run are handed on by name: ``speed`` is that of the drive, a condition named as an input is its
-force, ``normal_load`` that of friction joints. Recorded channels feed inputs and the drive where the case says so;
-between samples of theirs that were lost they count as straight.
+force (or displacement), ``normal_load`` that of friction joints. Recorded channels feed inputs, times the force or the
+displacement per unit that the case states for the input, and the drive; between samples of theirs that were lost they
+count as straight.
 """
 
 from dataclasses import dataclass
@@ -12,6 +13,11 @@ import numpy as np
 from pipeline.contract import ConfigError
 from pipeline.physics.virtual_rig.response import Run
 from pipeline.physics.virtual_rig.sensor import measurand
+
+#: unit of a motion -> that of an angle at a radius of 1 m
+_ANGULAR = {"m": "rad", "m/s": "rad/s", "m/s^2": "rad/s^2"}
+#: conditions that a bench reads by themselves, and their units
+_CONDITIONS = {"speed": ("rad/s", "m/s"), "normal_load": ("N",)}
 
 
 @dataclass(frozen=True)
@@ -29,23 +35,34 @@ class Recorded:
     repeat_of: str
 
 
-def recorded(recording, settings):
+def recorded(recording, settings, model=None):
     """{run name: Recorded} of a product Recording under the section ``bench``.
+
+    ``model``: the product ReducedModel whose inputs are fed; None: inputs are forces as recorded, times their gains.
 
     Raises ConfigError for runs without any channel of the bench, unequal sampling, and units other than the model's.
     """
-    runs = {name: _recorded(name, run, settings) for name, run in recording.runs.items()
+    inputs = _inputs(model)
+    runs = {name: _recorded(name, run, settings, inputs) for name, run in recording.runs.items()
              if set(run.channels) & set(settings.channels)}
     if not runs:
         known = sorted({c for run in recording.runs.values() for c in run.channels})
         raise ConfigError("bench.channels",
                           f"channels of the recording, of {', '.join(known) or 'which there are none'}",
                           ", ".join(settings.channels) or "none", "name recorded channels and what they show")
-    check_units(runs, settings)
+    check_units(runs, settings, model)
     return runs
 
 
-def _recorded(name, run, settings):
+def _inputs(model):
+    """{input: (unit that feeds it, what it does per unit)} of a product ReducedModel; none of None."""
+    if model is None:
+        return {}
+    return {str(name): ("m" if joint else "N", float(scale))
+            for name, joint, scale in zip(model.input_name, model.input_joint, model.input_scale, strict=True)}
+
+
+def _recorded(name, run, settings, model_inputs):
     seen = [c for c in settings.channels if c in run.channels]
     parts = [run.channels[c] for c in seen]
     fed = settings.inputs | ({"drive": settings.drive} if settings.drive else {})
@@ -59,24 +76,26 @@ def _recorded(name, run, settings):
         raise ConfigError(f"run {name}", "channels of one rate and length",
                           f"{sorted(rates)} Hz, {sorted(lengths)} samples", "resample them to one rate first")
     rate, count = rates.pop(), lengths.pop()
-    inputs = {key: _fed(given, run) for key, given in settings.inputs.items()}
+    _check_fed(name, run, settings, model_inputs)
+    inputs = {key: model_inputs.get(key, ("N", 1.0))[1] * _fed(given, run) for key, given in settings.inputs.items()}
     drive = None if settings.drive is None else _fed(settings.drive, run)
+    if settings.drive is not None and settings.drive.hold == "step":
+        raise ConfigError("bench.drive.hold", "linear or band_limited: a speed that jumps takes an infinite force",
+                          "step", "feed the measured speed, or the position with derivative: true")
     conditions = {key: float(np.ravel(c.value)[0]) for key, c in run.conditions.items()}
     compared = np.array([valid(p) for p in parts]) & (np.arange(count) >= settings.settle * rate)
-    plan = Run(name, (count - 1) / rate, rate, inputs, drive, conditions)
+    holds = tuple(key for key, given in settings.inputs.items() if given.hold == "step")
+    plan = Run(name, (count - 1) / rate, rate, inputs, drive, conditions, held=holds)
     return Recorded(plan, tuple(seen), tuple(str(p.unit) for p in parts), np.array([p.samples for p in parts]),
                     compared, str(run.repeat_of))
 
 
-def held(samples, hold):
-    """Samples (n,) that straight lines between them turn into what was applied.
+def joined(samples, hold):
+    """Samples (n,) that what lies between them (straight lines, or held values) turns into what was applied.
 
-    Of a ``step`` hold the mean of the steps before and after each instant: the whole is half a sample late, as it was.
     Straight lines shape a spectrum by sinc^2 (f / rate), which is taken off ``band_limited`` samples beforehand.
     """
     samples = np.array(samples, float)
-    if hold == "step":
-        return (samples + np.append(samples[:1], samples[:-1])) / 2
     if hold == "band_limited":
         return np.fft.irfft(np.fft.rfft(samples) / np.sinc(np.fft.rfftfreq(len(samples))) ** 2, len(samples))
     return samples
@@ -89,7 +108,30 @@ def _fed(given, run):
     samples = np.interp(instants, instants[kept], np.asarray(channel.samples)[kept])
     if given.derivative:
         samples = np.gradient(samples, 1 / float(channel.rate))
-    return given.gain * held(samples, given.hold)
+    return (1.0 if given.gain is None else given.gain) * joined(samples, given.hold)
+
+
+def _check_fed(name, run, settings, model_inputs):
+    """Refuse channels, or their rates, and conditions in units that are not those of what they feed."""
+    for key, given in settings.inputs.items():
+        unit = model_inputs.get(key, ("N", 1.0))[0]
+        wanted = (f"{unit} s",) if given.derivative else (unit, "1")
+        _check_unit(f"bench.inputs.{key}", run.channels[given.channel].unit, wanted, given, name,
+                    "a displacement" if unit == "m" else "a force")
+    if settings.drive is not None:
+        wanted = ("rad", "m") if settings.drive.derivative else ("rad/s", "m/s")
+        _check_unit("bench.drive", run.channels[settings.drive.channel].unit, wanted, settings.drive, name, "the drive")
+    known = _CONDITIONS | {key: (wanted,) for key, (wanted, _) in model_inputs.items()}
+    for key, wanted in known.items():
+        if key in run.conditions and str(run.conditions[key].unit) not in wanted:
+            raise ConfigError(f"run {name}: conditions.{key}", f"a value in {' or '.join(wanted)}",
+                              str(run.conditions[key].unit))
+
+
+def _check_unit(where, unit, wanted, given, run, what):
+    if given.gain is None and str(unit) not in wanted:
+        raise ConfigError(where, f"a recorded unit of {' or '.join(wanted)}, because it feeds {what}",
+                          f"{unit} in run {run}", "state its gain, or convert the recording")
 
 
 def valid(channel):
@@ -100,13 +142,19 @@ def valid(channel):
     return kept
 
 
-def check_units(runs, settings):
-    """Refuse channels whose unit is not that of the quantity which the case says they show."""
+def check_units(runs, settings, model=None):
+    """Refuse channels whose unit is not that of the quantity which the case says they show.
+
+    Angles are the displacements of sensors that see rotations at a radius of 1 m; ``model``: product ReducedModel.
+    """
+    turning = () if model is None else [str(n) for n, t in zip(model.sensor_name, model.sensor_turns, strict=True) if t]
     for name, recorded_run in runs.items():
         for channel, unit in zip(recorded_run.channels, recorded_run.unit, strict=True):
             shown = settings.channels[channel]
             wanted = measurand(shown.quantity, f"bench.channels.{channel}.quantity").unit
-            if unit != wanted and shown.gain == 1.0:
+            if shown.source in turning and unit == _ANGULAR.get(wanted):
+                continue
+            if unit != wanted and shown.gain is None:
                 raise ConfigError(f"bench.channels.{channel}",
                                   f"a recorded unit of {wanted}, because it shows {shown.quantity}",
                                   f"{unit} in run {name}", "state its gain, or convert the recording")

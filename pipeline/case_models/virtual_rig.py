@@ -13,13 +13,17 @@ from pipeline.physics.sliding.model import sliding_model
 from pipeline.physics.virtual_rig.response import Bench
 from pipeline.physics.virtual_rig.sensor import MEASURANDS, Sensor, measurand
 
+#: most contacts of a group that an answer lists by name
+_READABLE = 6
+
 
 class ChannelSettings(Section):
     """What a recorded channel shows of the model."""
 
     quantity: str = option(..., f"one of {', '.join(MEASURANDS)}")
     source: str = option(..., "sensor, joint, contact group, element or input whose quantity it shows")
-    gain: float = option(1.0, "in SI units shown per SI unit")
+    gain: float | None = option(None, "in SI units shown per SI unit; none = 1, of a channel in the unit of its"
+                                      " quantity")
     delay: Quantity("s", ge=0) = option("0 s", "delay")
     corner: Quantity("Hz", gt=0) | None = option(None, "corner of its first-order low pass; none = no filter")
     limit: float | None = option(None, "SI value at which it clips; none = never", gt=0)
@@ -29,7 +33,8 @@ class Fed(Section):
     """A recorded channel that feeds an input."""
 
     channel: str = option(..., "recorded channel")
-    gain: float = option(1.0, "in SI units of the input per SI unit of the channel")
+    gain: float | None = option(None, "in SI units of the input per SI unit of the channel; none = 1, of a"
+                                      " channel in the unit of the input")
     derivative: bool = option(False, "the rate of change of the channel feeds it: a recorded position gives a speed")
     hold: Literal["linear", "step", "band_limited"] = option(
         "linear", "between samples; step: each is held until the next, as converters do; band_limited: nothing lies"
@@ -106,9 +111,17 @@ def groups(model):
     return {name: tuple(k for k, g in enumerate(rubbed) if g == name) for name in names} if len(names) > 1 else {}
 
 
+def contact_names(model):
+    """{group: names that the case gives to its contacts} of a product ReducedModel; none where they are many."""
+    members = {"contact": range(len(model.contact_name)), **groups(model)}
+    named = {group: tuple(str(model.contact_name[k]) for k in rows) for group, rows in members.items()}
+    return {group: names for group, names in named.items() if all(names) and 0 < len(names) <= _READABLE}
+
+
 def _sensor(name, settings):
+    gain = 1.0 if settings.gain is None else settings.gain
     return Sensor(name, measurand(settings.quantity, f"bench.channels.{name}.quantity"), settings.source,
-                  settings.gain, settings.delay, corner=np.inf if settings.corner is None else settings.corner,
+                  gain, settings.delay, corner=np.inf if settings.corner is None else settings.corner,
                   limit=np.inf if settings.limit is None else settings.limit)
 
 

@@ -21,6 +21,14 @@ SI = frozenset({
 #: SI units that measured samples are kept in
 MEASURED = ("1", "m", "m/s", "m/s^2", "N", "N m", "Pa", "V", "A", "K", "s", "Hz", "kg", "W", "m^3/s", "m^3", "m/s^3")
 
+#: SI units that a measured quantity can have, by its name; of any other quantity every unit is believed
+QUANTITIES = {"displacement": ("m", "rad"), "position": ("m", "rad"), "velocity": ("m/s", "rad/s"),
+              "speed": ("m/s", "rad/s"), "acceleration": ("m/s^2", "rad/s^2"), "angle": ("rad",),
+              "angular_velocity": ("rad/s",), "angular_acceleration": ("rad/s^2",), "force": ("N",), "torque": ("N m",),
+              "moment": ("N m",), "pressure": ("Pa",), "voltage": ("V",), "current": ("A",), "temperature": ("K",)}
+#: accelerations as accelerometers state them, in m/s^2: g is standard gravity there, and no gram
+GRAVITIES = {"g": 9.80665, "mg": 9.80665e-3, "ug": 9.80665e-6}
+
 _ANGULAR = {"radian", "degree", "turn", "revolution", "cycle", "revolutions_per_minute", "revolutions_per_second"}
 _NUMBER = re.compile(r"\s*[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?\s*(?P<unit>.*)")
 #: numbers that belong to a unit, as in mm^2, s**-1, kg^(-0.5) and 1/s; any other one beside it is a mistake
@@ -31,7 +39,8 @@ _STRAY = re.compile(r"[,±]|(?<![A-Za-z_\d.])\d")
 #: units and prefixes that are read without loading pint, with the same bits as pint gives
 _PLAIN = frozenset({"m", "s", "kg", "rad", "Hz", "N", "Pa", "J", "W", "K", "V", "A"})
 _EXPONENT = {"": 0, "G": 9, "M": 6, "k": 3, "c": -2, "m": -3, "u": -6, "n": -9}
-_ANGLES = {("deg", "rad"): math.pi / 180, ("rpm", "rad/s"): math.pi / 30}
+_SPELT = {("deg", "rad"): math.pi / 180, ("rpm", "rad/s"): math.pi / 30,
+          **{(name, "m/s^2"): value for name, value in GRAVITIES.items()}}
 _ATOM = re.compile(r"(?P<name>[A-Za-z]+)(\^(?P<power>[23]))?")
 
 
@@ -56,8 +65,8 @@ def to_si(value, unit, where):
 
 def _plainly(number, spelt, unit):
     """``number spelt`` in ``unit`` where both are products of plain units; None where pint has to read it."""
-    if (spelt, unit) in _ANGLES:
-        return float(number) * _ANGLES[spelt, unit]
+    if (spelt, unit) in _SPELT:
+        return float(number) * _SPELT[spelt, unit]
     if spelt == "g" and unit == "kg":
         return float(number) / 1000
     given, wanted = _factors(spelt), _factors("" if unit == "1" else unit)
@@ -91,22 +100,32 @@ def _named(name):
     return (base, _EXPONENT[prefix]) if prefix in _EXPONENT and base in _PLAIN - {"kg"} else None
 
 
-def in_si(values, unit, where):
+def in_si(values, unit, where, measures=""):
     """(values in coherent SI, name of the SI unit) of ``values`` in any ``unit`` that pint reads.
 
-    The unit is one of MEASURED where its dimension is among them, else a product of base units. Raises ConfigError.
+    The unit is one of MEASURED where its dimension is among them, else a product of base units. ``measures``: name of
+    what is measured; "g" of an acceleration is standard gravity. Raises ConfigError, also for a unit that one of
+    QUANTITIES cannot have.
     """
     import pint
 
+    wanted = QUANTITIES.get(measures, ())
+    if "m/s^2" in wanted and unit in GRAVITIES:
+        return values * GRAVITIES[unit], "m/s^2"
     try:
         quantity = _registry().Quantity(values, "" if unit == "1" else unit)
         name = next((n for n in MEASURED if quantity.is_compatible_with("" if n == "1" else n)), None)
         if set(map(str, quantity.units._units)) & _ANGULAR:
             name = {"1": "rad", "Hz": "rad/s"}.get(name, name)
+            name = "rad/s^2" if name is None and quantity.is_compatible_with("1/s^2") else name
         converted = quantity.to_base_units() if name is None else quantity.to("" if name == "1" else name)
     except (pint.PintError, ValueError, TypeError, AttributeError, tokenize.TokenError):
         raise ConfigError(where, "a unit such as mm/s or kN", repr(unit)) from None
-    return converted.magnitude, name or f"{converted.units:~C}"
+    name = name or f"{converted.units:~C}"
+    if wanted and name not in wanted:
+        raise ConfigError(where, f"a unit of {measures}, such as {' or '.join(wanted)}", repr(unit),
+                          "correct the unit, or what the channel measures")
+    return converted.magnitude, name
 
 
 def _convert(text, unit, refusal):

@@ -6,7 +6,7 @@ every coordinate.
 
 from dataclasses import dataclass, field
 
-from pipeline.case_models.force_balance import balance, begun, channel_names
+from pipeline.case_models.force_balance import balance, begun, channel_names, refuse_unforced
 from pipeline.diagnosis.experiment_design.next_motion import planned_motions
 from pipeline.diagnosis.experiment_design.next_run import altered
 from pipeline.diagnosis.forced_response import check_names, chosen, nominal_parameters, stated_noise
@@ -38,7 +38,8 @@ class Balanced:
 def force_balance_problem(bench, recorded, settings, equation):
     """DiagnosisProblem over {name: Recorded} of a Bench under the section ``equation`` of the bench.
 
-    ConfigError for unknown runs, effects, places and parameters, and for motions that are not fully measured.
+    ConfigError for unknown runs, effects, places and parameters, motions that are not fully measured, and runs whose
+    force does not rise above its noise.
     """
     check_names("held_out", settings.held_out, recorded)
     balances = {name: balance(bench, record, equation) for name, record in recorded.items()}
@@ -49,11 +50,13 @@ def force_balance_problem(bench, recorded, settings, equation):
                                       if not (o.held_out or o.repeat_of)}, equation, settings.next)
     forward = Balanced(bench, balances | {p.name: p.shown for p in planned}, {p.name: p.altered for p in planned})
     problem = Problem(observations, forward, nominal(nominal_parameters(bench, settings)))
+    noises, solver = budget(problem, above=settings.noise.above), procedure(settings)
+    for name, one in balances.items():
+        refuse_unforced(name, one.seen.samples, noises[name].std)
     # begun as measured, so that nominal runs have the sizes of the measured ones
     training = [begun(bench, recorded[o.name]) for o in problem.training]
     effects = candidates(bench, tuple(record.run for record in training), chosen(settings), settings.places,
                          reach(bench, training), settings.priors)
-    noises, solver = budget(problem, above=settings.noise.above), procedure(settings)
     return DiagnosisProblem(
         problem, noises | {p.name: noises[p.like] for p in planned}, effects, units, solver,
         BalanceAxes(channel_names(bench), Axes.under(problem, noises, solver)),

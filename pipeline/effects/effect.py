@@ -80,6 +80,9 @@ class Effect:
         if ASPERITIES in (location, self.location) and not isinstance(model, Rubbing):
             return ConfigError(f"effect {self.name}: location", "a rough pair, as in stage micro_friction", "a bench",
                                "asperities need a rough surface; the contacts of a bench are points or faces")
+        if not isinstance(model, Rubbing) and location in model.model.moved_ends.values():
+            return ConfigError(f"effect {self.name}: location", "a joint whose far end stands still", repr(location),
+                               "describe the motion relative to that end: a force of minus mass times its acceleration")
         return ConfigError(f"effect {self.name}: location", f"one of {', '.join(self.locations(model)) or 'none here'}",
                            repr(location))
 

@@ -60,11 +60,12 @@ class Typical:
 
 
 def locations(kind, bench):
-    """Names of the locations of this kind on a bench."""
+    """Names of the locations of this kind on a bench; no joint whose far end an input moves, which laws do not see."""
     model = bench.model
     contact = tuple(dict.fromkeys(("contact", *bench.groups))) if len(model.contacts.area) else ()
     pressed = tuple(g for g in contact if not model.contacts.fixed[bench.contacts(g)].all())
-    return {JOINT: tuple(model.joints.name), CONTACT: contact, CONTACTS: contact[:1], PRESSED: pressed,
+    still = tuple(name for name in model.joints.name if name not in model.moved_ends.values())
+    return {JOINT: still, CONTACT: contact, CONTACTS: contact[:1], PRESSED: pressed,
             CONTACT_ROW: tuple(g for g in pressed if np.ptp(sliding_angle(model.contacts, bench.contacts(g))) > 0),
             SIDEWAYS: tuple(g for g in contact if model.contacts.lateral[bench.contacts(g)].any()),
             POINT: tuple(model.sensor_name), INPUT: tuple(model.input_name), DOUBLET: tuple(bench.doublets),

@@ -113,7 +113,7 @@ class SquealCheck:
     agrees: Array = count("who feature", "1 where the mean lies within the spread of both from that recorded")
 
 
-@product(version=4)
+@product(version=5)
 class Diagnosis:
     """The verdict on recordings: what differs, where, what is missing, how sure, and what to measure next."""
 
@@ -126,6 +126,7 @@ class Diagnosis:
     hypothesis: Array = text("hypothesis", "all hypotheses compared; first: nothing missing")
     effect: Array = text("hypothesis", "effect of the catalogue; empty for nothing missing")
     place: Array = text("hypothesis", "location at which it would act")
+    contacts: Array = text("hypothesis", "names that the case gives to the contacts of that location; empty for none")
     kind: Array = text("hypothesis", "physics, sensor or numerics")
     stage: Array = text("hypothesis", "stage of the chain that it belongs to; empty for nothing missing")
     posterior: Array = quantity("1", "hypothesis", "probability among all; next to a known effect, that of the pair")
@@ -141,6 +142,7 @@ class Diagnosis:
     parameter_value: Array = quantity("1", "parameter", "fitted value")
     parameter_std: Array = quantity("1", "parameter", "standard deviation")
     parameter_owner: Array = count("parameter", "row of the hypothesis that owns it; 0 for nominal ones")
+    parameter_factor: Array = count("parameter", "1 where the value is a factor on that of the model, which 1 leaves")
     fit: Array = quantity("1", "part model", "error over standard deviation, training and held out (0 without):"
                           " nominal, recalibrated, completed, noise alone")
     unexplained_share: Array = quantity("1", "", "fraction of the excess error that the completed model leaves")

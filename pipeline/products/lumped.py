@@ -3,7 +3,7 @@
 from pipeline.contract import Array, count, product, quantity, text
 
 
-@product(version=2)
+@product(version=3)
 class Lumped:
     """Masses on springs and dampers, their contacts, inputs and sensors: a sliding model without finite elements.
 
@@ -35,12 +35,15 @@ class Lumped:
     law_pressure: Array = quantity("Pa", "closure", "contact pressure at each closure")
     input_name: Array = text("input", "inputs")
     input_rows: Array = quantity("1", "input coordinate", "generalised force per unit input force")
+    input_joint: Array = text("input", "joint whose far end the input moves; empty: the input is a force")
+    input_scale: Array = quantity("1", "input", "N (m of a moved end) per SI unit of what is fed to the input")
     input_area: Array = quantity("m^2", "input", "constant input force per Pa of the load factor")
     history_interval: Array = quantity("s", "", "time between the samples of the histories")
     input_history: Array = quantity("N", "sample input", "input forces over time, added to the constant ones")
     drive_history: Array = quantity("1", "drive_sample", "speed of the drive over time, per nominal speed")
     sensor_name: Array = text("sensor", "sensors")
     sensor_rows: Array = quantity("1", "sensor coordinate", "displacement rows")
+    sensor_turns: Array = count("sensor", "1 where it sees rotations at a radius of 1 m, where metres are radians")
     sensor_quantity: Array = text("sensor", "measured quantity: displacement, velocity or acceleration")
     sensor_unit: Array = text("sensor", "unit of its reading")
     sensor_gain: Array = quantity("1", "sensor", "its reading in that unit per SI unit of its quantity")

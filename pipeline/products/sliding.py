@@ -5,7 +5,7 @@ import numpy as np
 from pipeline.contract import Array, count, product, quantity, text
 
 
-@product(version=6)
+@product(version=7)
 class ReducedModel:
     """The reduced sliding model: everything that a solver or an effect needs to know of a sliding system.
 
@@ -33,6 +33,7 @@ class ReducedModel:
     joint_stiffness: Array = quantity("N/m", "joint", "joint stiffness")
     joint_damping: Array = quantity("N s/m", "joint", "joint damping, beside the loss factor")
     joint_loss_factor: Array = quantity("1", "joint", "imaginary over real part of the joint stiffness")
+    contact_name: Array = text("contact", "names that the case gives to contacts; empty where it names none")
     contact_body: Array = count("contact", "body that slides on the drive at the contact")
     contact_position: Array = quantity("m", "contact xyz", "centroid of the contact patch")
     contact_area: Array = quantity("m^2", "contact", "area of the contact patch")
@@ -53,6 +54,8 @@ class ReducedModel:
     shear_exponent: Array = quantity("1", "shear", "exponent of the evolution rule")
     input_name: Array = text("input", "inputs, e.g. piston")
     input_rows: Array = quantity("1", "input coordinate", "input rows: generalised force per unit input force")
+    input_joint: Array = text("input", "joint whose far end the input moves; empty: the input is a force")
+    input_scale: Array = quantity("1", "input", "N (m of a moved end) per SI unit of what is fed to the input")
     input_area: Array = quantity("m^2", "input", "input force per nominal pad pressure")
     history_interval: Array = quantity("s", "", "time between the samples of the histories, which begin at time 0")
     input_history: Array = quantity("N", "sample input", "input forces over time, added to the former; none = constant")
@@ -61,6 +64,7 @@ class ReducedModel:
     sensor_position: Array = quantity("m", "sensor xyz", "sensor positions")
     sensor_direction: Array = quantity("1", "sensor xyz", "sensor directions")
     sensor_rows: Array = quantity("1", "sensor coordinate", "sensor displacement rows")
+    sensor_turns: Array = count("sensor", "1 where it sees rotations at a radius of 1 m, where metres are radians")
     sensor_quantity: Array = text("sensor", "measured quantity: displacement, velocity or acceleration")
     sensor_unit: Array = text("sensor", "unit of its reading")
     sensor_gain: Array = quantity("1", "sensor", "its reading in that unit per SI unit of its quantity")

@@ -18,7 +18,8 @@ def channel(values, unit, measures, rate, begin, where, *, role="response", plac
     """Channel of ``values`` (sample,) in ``unit``; samples that are not finite are missing.
 
     ``rate`` Hz and ``begin`` s: sampling rate and time of the first sample. Raises ConfigError, with ``where``, for a
-    unit that pint cannot read, a rate that is not positive and a channel without any valid sample.
+    unit that pint cannot read or the quantity cannot have, a rate that is not positive and a channel without any valid
+    sample.
     """
     if not (np.isfinite(rate) and rate > 0):
         raise ConfigError(f"{where}: sample_rate", "a rate above 0 Hz", f"{rate:g}")
@@ -26,7 +27,7 @@ def channel(values, unit, measures, rate, begin, where, *, role="response", plac
         raise ConfigError(where, "real samples", "complex ones", "complex spectra go into frf")
     if role not in ROLES:
         raise ConfigError(f"{where}: role", f"one of {', '.join(ROLES)}", repr(role))
-    converted, name = in_si(np.asarray(values, float), unit, f"{where}: unit")
+    converted, name = in_si(np.asarray(values, float), unit, f"{where}: unit", measures)
     good = np.isfinite(converted)
     if not good.any():
         raise ConfigError(where, "samples", "none that are finite")

@@ -70,3 +70,10 @@ def test_mass_by_value_and_by_factor_agree():
 def test_wrong_names_and_units_are_refused(given, said):
     with pytest.raises(ConfigError, match=said):
         corrections.read(bench(), given, "bench.corrections")
+
+
+def test_factors_are_those_that_one_leaves_as_they_are():
+    factors = ("friction", "friction.stiffness", "contact.stiffness", "bodies.pad.mass", "inputs.press.gain")
+    assert all(map(corrections.is_factor, factors))
+    assert not any(map(corrections.is_factor, ("joints.a.b.stiffness", "masses.block", "channels.x.gain",
+                                               "inputs.press.offset", "contact.damping")))

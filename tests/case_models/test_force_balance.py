@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from pipeline.case_models import virtual_rig as benches
+from pipeline.case_models.corrections import corrected
 from pipeline.case_models.effect_block import with_effects
 from pipeline.case_models.force_balance import balance, channel_names, measured_start, started
 from pipeline.case_models.runs import recorded
@@ -35,6 +36,29 @@ def test_channels_are_forces_at_the_lower_rate():
     seen = balance(bench, runs["level_1"], settings.equation).seen
     assert seen.channels == channel_names(bench) == ("force on block",) and seen.unit == ("N",)
     assert seen.run.sample_rate == 50.0 and seen.samples.shape == (1, (1200 - 120) // 4) == seen.valid.shape
+
+
+@pytest.mark.exact
+def test_no_gain_closes_the_balance_by_making_the_motion_small():
+    """Of a free linear motion what is left does not depend on the gain, and under a force it grows with its error."""
+    bench, runs, settings = rig(HIDDEN)
+    one = balance(bench, runs["level_2"], settings.equation)
+    idle = replace(one, run=replace(one.run, inputs={}), seen=replace(one.seen, samples=0 * one.seen.samples))
+    still, twice, large = (idle.predicted(corrected(bench, {"channels.x.gain": gain})) for gain in (1.0, 2.0, 1e3))
+    np.testing.assert_allclose(twice, still, rtol=1e-9, atol=1e-9 * abs(still).max())
+    np.testing.assert_allclose(large, still, rtol=1e-9, atol=1e-9 * abs(still).max())
+    errors = [(one.predicted(corrected(bench, {"channels.x.gain": gain})) - one.seen.samples).std()
+              for gain in (1.0, 2.0, 1e3)]
+    assert errors[0] < errors[1] < errors[2]
+
+
+def test_a_run_without_a_force_is_refused_with_the_form_that_fits():
+    bench, runs, settings = rig()
+    one = runs["level_1"]
+    free = replace(one, run=replace(one.run, inputs={}))
+    with pytest.raises(ConfigError, match=r"run level_1: .*a run with an applied force, found at most 0 N.*"
+                                          r"bench.forward: simulation, with measured_start: true"):
+        balance(bench, free, settings.equation)
 
 
 def test_a_run_may_start_where_it_was():

@@ -5,10 +5,20 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from pipeline.case_models.runs import check_units, held, recorded
+from pipeline.case_models.corrections import corrected
+from pipeline.case_models.runs import check_units, joined, recorded
+from pipeline.case_models.virtual_rig import built
 from pipeline.contract import ConfigError
+from pipeline.contract.settings import fill
+from pipeline.effects import named
+from pipeline.physics.virtual_rig.response import respond, run_inputs
+from pipeline.products import Condition
+from stages.lumped import Settings as LumpedSettings
+from stages.lumped import lumped
+from stages.reduced_model import Settings as ReductionSettings
+from stages.reduced_model import reduced_model
 from tests.diagnosis import pin_rig
-from tests.diagnosis.small_rig import RATE, SAMPLES, force, laid_out, recording
+from tests.diagnosis.small_rig import LUMPED, RATE, SAMPLES, force, laid_out, recording
 
 
 def test_inputs_samples_and_conditions_arrive():
@@ -41,25 +51,116 @@ def test_units_must_fit_what_a_channel_shows():
         check_units(recorded(recording(), settings), settings)
 
 
+def test_a_stated_gain_of_one_is_a_gain():
+    with pytest.raises(ConfigError, match="m/s, because it shows velocity"):
+        recorded(recording(), laid_out(channels={"x": {"quantity": "velocity", "source": "block"}}))
+    stated = {"quantity": "velocity", "source": "block", "gain": 1.0}
+    assert recorded(recording(), laid_out(channels={"x": stated}))["level_1"].channels == ("x",)
+
+
+def test_an_angle_shows_a_rotation_at_one_metre():
+    """Metres at a radius of 1 m are radians; at 30 mm, or along x, an angle is refused."""
+    found = recording(levels=(2.0,))
+    run = found.runs["level_1"]
+    turned = replace(found, runs={"level_1": replace(run, channels={
+        **run.channels, "x": replace(run.channels["x"], unit="rad")})})
+    for along, fits in (({"rotor.rotation": "1 m"}, True), ({"rotor.rotation": "30 mm"}, False),
+                        ({"rotor.x": 1}, False)):
+        parts = {"masses": {"rotor": {"mass": "1 kg", "inertia": "1 kg m^2", "moves": ["x", "rotation"]}},
+                 "inputs": {"shaker": {"along": {"rotor.x": 1}, "force": "1 N"}}, "springs": {},
+                 "sensors": {"block": {"along": along}}}
+        reduced = reduced_model(lumped(settings=fill(LumpedSettings, parts, "lumped")), settings=ReductionSettings())
+        if fits:
+            assert recorded(turned, laid_out(), reduced)["level_1"].unit == ("rad",)
+        else:
+            with pytest.raises(ConfigError, match="a recorded unit of m, because it shows displacement"):
+                recorded(turned, laid_out(), reduced)
+
+
+@pytest.mark.parametrize("name, unit, said", [("speed", "Hz", "rad/s or m/s"), ("normal_load", "Pa", "in N")])
+def test_units_of_conditions_are_those_of_what_they_set(name, unit, said):
+    found = recording(levels=(2.0,))
+    run = found.runs["level_1"]
+    given = replace(run, conditions={name: Condition(value=[1.0], time=[0.0], unit=unit)})
+    with pytest.raises(ConfigError, match=said):
+        recorded(replace(found, runs={"level_1": given}), laid_out())
+
+
+def fed(given, unit="N", **more):
+    """Run of the rig with another input, fed with its force channel in another unit."""
+    lumps = fill(LumpedSettings, {**LUMPED, "inputs": {"shaker": given}}, "lumped")
+    reduced = reduced_model(lumped(settings=lumps), settings=ReductionSettings())
+    found = recording(levels=(2.0,))
+    run = found.runs["level_1"]
+    changed = replace(run, channels={**run.channels, "force": replace(run.channels["force"], unit=unit)})
+    settings = laid_out(inputs={"shaker": {"channel": "force", **more}})
+    runs = recorded(replace(found, runs={"level_1": changed}), settings, reduced)
+    return built(reduced, settings), runs["level_1"].run
+
+
+@pytest.mark.exact
+@pytest.mark.parametrize("unit, gain", [("N", {}), ("1", {}), ("V", {"gain": 1.0})])
+def test_a_channel_counts_times_the_force_that_the_case_states(unit, gain):
+    """10 N per unit of the channel, and not 1 N."""
+    bench, run = fed({"along": {"block.x": 1}, "force": "10 N"}, unit=unit, **gain)
+    np.testing.assert_allclose(run_inputs(bench, run)[0], 10 * force(2.0, 0))
+
+
+@pytest.mark.parametrize("given, unit, said", [
+    ({"along": {"block.x": 1}, "force": "1 N"}, "V", "N or 1, because it feeds a force"),
+    ({"displaces": "mount", "displacement": "1 m"}, "N", "m or 1, because it feeds a displacement")])
+def test_units_must_fit_what_a_channel_feeds(given, unit, said):
+    with pytest.raises(ConfigError, match=said):
+        fed(given, unit=unit)
+
+
+@pytest.mark.exact
+def test_a_measured_base_motion_moves_the_oscillator():
+    """m x'' + c x' + k x = c u' + k u to u = U sin(w t), steady: error of order 2 over the samples, also after k has
+    been corrected."""
+    angular, errors = 2 * np.pi * 2.5, []
+    for stiffness in (400.0, 500.0):
+        gain = (stiffness + 1.2j * angular) / (stiffness - angular**2 + 1.2j * angular)
+        for rate in (100.0, 200.0):
+            time = np.arange(round(40 * rate) + 1) / rate
+            bench, run = fed({"displaces": "mount", "displacement": "2 mm"}, unit="1")
+            run = replace(run, duration=time[-1], sample_rate=rate, inputs={"shaker": 2e-3 * np.sin(angular * time)})
+            bench = corrected(bench, {"joints.mount.stiffness": stiffness})
+            late = time > 35
+            exact = 2e-3 * np.imag(gain * np.exp(1j * angular * time[late]))
+            errors.append(abs(respond(bench, run)["x"][late] - exact).max() / abs(exact).max())
+    assert errors[0] / errors[1] == pytest.approx(4, rel=0.1) and errors[1] < 1e-3
+    assert errors[2] / errors[3] == pytest.approx(4, rel=0.1) and errors[3] < 1e-3
+
+
+def test_a_channel_that_moves_an_end_counts_in_metres_times_the_stated_displacement():
+    bench, run = fed({"displaces": "mount", "displacement": "2 m"}, unit="m")
+    np.testing.assert_allclose(run.inputs["shaker"], 2 * force(2.0, 0))
+    with pytest.raises(ConfigError, match="linear or band_limited, because its joint has a damper"):
+        run_inputs(bench, replace(run, held=("shaker",)))
+    with pytest.raises(ConfigError, match="a joint whose far end stands still"):
+        named("coulomb").on(bench, "mount", {"force": 1.0})
+    undamped = corrected(bench, {"joints.mount.damping": 0.0})
+    np.testing.assert_allclose(run_inputs(undamped, replace(run, held=("shaker",)))[0], 800 * force(2.0, 0))
+
+
 def test_the_begin_of_a_run_may_be_left_out():
     one = recorded(recording(), laid_out(settle="0.1 s"))["level_1"]
     assert np.flatnonzero(~one.valid[0]).tolist() == list(range(int(0.1 * RATE)))
 
 
-@pytest.mark.exact
-def test_held_steps_act_half_a_sample_late():
-    """Over whole steps straight lines carry the impulse of the steps: sum over time of t (applied - recorded)."""
-    samples = np.array([0.0, 0.0, 4.0, 1.0, -2.0, 0.0, 0.0])
-    acting = held(samples, "step")
-    assert acting.sum() == samples.sum()
-    assert np.arange(7) @ acting / acting.sum() == pytest.approx(np.arange(7) @ samples / samples.sum() + 0.5)
-    assert held(samples, "linear") == pytest.approx(samples)
+def test_held_inputs_keep_their_samples_and_a_held_drive_is_refused():
+    run = recorded(recording(), laid_out(inputs={"shaker": {"channel": "force", "hold": "step"}}))["level_2"].run
+    assert run.held == ("shaker",)
+    np.testing.assert_array_equal(run.inputs["shaker"], force(5.0, 1))
+    with pytest.raises(ConfigError, match="bench.drive.hold"):
+        recorded(recording(), laid_out(drive={"channel": "force", "hold": "step", "gain": 1.0}))
 
 
 @pytest.mark.exact
 def test_straight_lines_lose_nothing_of_a_tone_within_the_band():
     place = np.arange(200)
-    drawn = np.interp(np.arange(0, 199, 0.05), place, held(np.sin(0.6 * np.pi * place), "band_limited"))
+    drawn = np.interp(np.arange(0, 199, 0.05), place, joined(np.sin(0.6 * np.pi * place), "band_limited"))
     tone = np.exp(-0.6j * np.pi * np.arange(0, 199, 0.05))
     size = 2 * abs(np.mean((drawn * tone)[: 20 * 190]))
     assert size == pytest.approx(1.0, abs=2e-3)

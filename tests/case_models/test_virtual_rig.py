@@ -7,7 +7,14 @@ import pytest
 
 from pipeline.case_models import virtual_rig as benches
 from pipeline.contract import ConfigError
+from pipeline.contract.settings import fill
+from stages.lumped import Settings as LumpedSettings
+from stages.lumped import lumped
+from stages.reduced_model import Settings as ReductionSettings
+from stages.reduced_model import reduced_model
+from tests.diagnosis import pin_rig
 from tests.diagnosis.small_rig import laid_out, model
+from tests.stages.small_brake import small_brake
 
 
 def test_sensors_and_corrected_values():
@@ -40,3 +47,19 @@ def test_equal_modes_of_a_body_are_places():
     pair = SimpleNamespace(**{**vars(one), **two, "mass": np.eye(2)})
     assert benches.built(pair, laid_out()).doublets == {"block 1": (0, 1)}
     assert benches.built(one, laid_out()).doublets == {}
+
+
+def test_contacts_have_the_names_of_the_case():
+    """One contact of a belt, and those of two bodies; hundreds that nobody named are none."""
+    assert benches.contact_names(reduced(pin_rig.LUMPED)) == {"contact": ("tip",)}
+    parts = {"masses": {name: {"mass": "1 kg", "moves": ["x"]} for name in ("left", "right")},
+             "springs": {}, "contacts": {f"shoe_{name}": {"tangent": {f"{name}.x": 1}, "normal_force": "5 N"}
+                                         for name in ("left", "right")}}
+    assert benches.contact_names(reduced(parts)) == {"contact": ("shoe_left", "shoe_right"), "left": ("shoe_left",),
+                                                       "right": ("shoe_right",)}
+    assert benches.contact_names(small_brake()) == {}
+
+
+def reduced(parts):
+    """Product ReducedModel of a section ``lumped``."""
+    return reduced_model(lumped(settings=fill(LumpedSettings, parts, "lumped")), settings=ReductionSettings())

@@ -1,10 +1,11 @@
 """Units: coherent SI inside, pint at the edge."""
 
+import numpy as np
 import pint
 import pytest
 
 from pipeline.contract import ConfigError, units
-from pipeline.contract.units import SI, to_si
+from pipeline.contract.units import SI, in_si, to_si
 
 #: spelt -> unit: what is read without pint
 PLAIN = {**{f"{prefix}{unit}": unit for unit in ("m", "s", "rad", "Hz", "N", "Pa", "J", "W", "K", "V", "A")
@@ -37,7 +38,8 @@ def test_every_unit_is_coherent_si(unit, registry):
 @pytest.mark.parametrize("text, unit, value", [
     ("12 mm", "m", 0.012), ("2 MPa", "Pa", 2e6), ("3.3e-6 mm^2/N", "m^2/N", 3.3e-12), ("40 %", "1", 0.4),
     ("0.3", "1", 0.3), (0.3, "1", 0.3), ("600 rpm", "rad/s", 62.83185307179586),
-    ("4 degrees", "rad", 0.06981317007977318),
+    ("4 degrees", "rad", 0.06981317007977318), ("2 g", "m/s^2", 19.6133), ("2 g", "kg", 0.002),
+    ("5 mg", "m/s^2", 0.04903325),
     ("5 N*s/m", "N s/m", 5.0), ("1e3 1/s", "1/s", 1000.0),
 ])
 def test_conversion(text, unit, value):
@@ -68,3 +70,22 @@ def test_numbers_of_the_unit_belong_to_it(text, value):
 def test_refuses_what_is_no_length(value):
     with pytest.raises(ConfigError, match="a.yaml: disc.thickness: expected a quantity in m"):
         to_si(value, "m", "a.yaml: disc.thickness")
+
+
+@pytest.mark.parametrize("measures, unit, value, name", [
+    ("acceleration", "g", 9.80665, "m/s^2"), ("acceleration", "mg", 9.80665e-3, "m/s^2"), ("mass", "g", 1e-3, "kg"),
+    ("acceleration", "deg/s^2", np.pi / 180, "rad/s^2"), ("angle", "deg", np.pi / 180, "rad"),
+    ("displacement", "deg", np.pi / 180, "rad"), ("speed", "rpm", np.pi / 30, "rad/s"),
+    ("velocity", "mm/s", 1e-3, "m/s"), ("torque", "N mm", 1e-3, "N m"), ("", "g", 1e-3, "kg"),
+    ("", "deg/s^2", np.pi / 180, "rad/s^2")])
+def test_units_of_samples_follow_what_is_measured(measures, unit, value, name):
+    values, found = in_si(np.array([1.0, -2.0]), unit, "x", measures)
+    assert found == name
+    np.testing.assert_allclose(values, [value, -2 * value], rtol=1e-15)
+
+
+@pytest.mark.parametrize("measures, unit", [
+    ("acceleration", "V"), ("velocity", "g"), ("force", "mm"), ("angle", "mm"), ("speed", "Hz"), ("torque", "N")])
+def test_a_unit_that_contradicts_the_quantity_is_one_error(measures, unit):
+    with pytest.raises(ConfigError, match=f"x: expected a unit of {measures}, such as .*found '{unit}'.*what the"):
+        in_si(np.ones(2), unit, "x", measures)

@@ -1,15 +1,21 @@
 """The question of measured motions: named without any simulation of the runs."""
 
+from dataclasses import replace
+
+import numpy as np
 import pytest
 
 from pipeline.case_models import virtual_rig as benches
+from pipeline.case_models.effect_block import with_effects
 from pipeline.case_models.runs import recorded
 from pipeline.contract import ConfigError
 from pipeline.contract.settings import fill
 from pipeline.diagnosis.force_balance import force_balance_problem
 from pipeline.diagnosis.settings import Settings
+from pipeline.physics.time_stepping.simulate import Start
+from pipeline.physics.virtual_rig.response import Run, respond
 from tests.case_models.test_force_balance import BALANCED
-from tests.diagnosis.small_rig import HIDDEN, laid_out, model, recording
+from tests.diagnosis.small_rig import HIDDEN, RATE, SAMPLES, effects, laid_out, model, recording
 
 ASKED = {"parameters": {"joints.mount.stiffness": {"spread": 0.1}, "joints.mount.damping": {"spread": 0.3}},
          "held_out": ["level_4"], "noise": {"std": {"force on block": "0.2 N"}},
@@ -28,6 +34,43 @@ def test_cubic_stiffness_is_named_with_its_value():
     assert found.decision.verdict == "missing" and found.named[0].candidate.effects == (("cubic_stiffness", "mount"),)
     assert found.named[0].fit.values["cubic_stiffness@mount.coefficient"] == pytest.approx(15000.0, rel=0.02)
     assert "give all 2 coordinates" in found.failures["moving_base at mount"], "a base that is not measured"
+
+
+def decays(force_noise):
+    """Free decays under Coulomb friction of 1 N, beside a force channel that shows noise alone (N)."""
+    whole = with_effects(benches.built(model(), laid_out()), effects({"coulomb": {"mount": {"force": "1 N"}}}))
+    given, random = recording(levels=(1.0, 2.0, 3.0)), np.random.default_rng(3)
+    for name, amplitude in (("level_1", 0.1), ("level_2", 0.05), ("level_3", 0.2)):
+        run = Run(name, (SAMPLES - 1) / RATE, RATE, start=Start(np.array([amplitude]), np.zeros(1)))
+        channels = given.runs[name].channels
+        shown = {"x": respond(whole, run)["x"] + 1e-4 * random.standard_normal(SAMPLES),
+                 "force": force_noise * random.standard_normal(SAMPLES)}
+        given.runs[name] = replace(given.runs[name], channels={
+            key: replace(channel, samples=shown[key]) for key, channel in channels.items()})
+    return given
+
+
+def asked_of(given):
+    settings = laid_out(**BALANCED)
+    section = {**ASKED, "held_out": ["level_3"], "noise": {"std": {"force on block": "0.05 N"}},
+               "effects": ["cubic_stiffness", "quadratic_damping", "sensor_gain"]}
+    return force_balance_problem(benches.built(model(), settings), recorded(given, settings),
+                                 fill(Settings, section, "diagnosis"), settings.equation)
+
+
+@pytest.mark.parametrize("force_noise", [0.0, 2e-3])
+def test_a_free_decay_is_refused_before_anything_is_fitted(force_noise):
+    with pytest.raises(ConfigError, match="run level_1: .*a run with an applied force, found at most 0.* N.*"
+                                          "bench.forward: simulation, with measured_start: true"):
+        asked_of(decays(force_noise))
+
+
+def test_no_gain_explains_a_decay_by_making_it_small():
+    """The gain at the end of its prior once had a posterior of 1.000 here: it took half of what was left."""
+    found = asked_of(decays(force_noise=0.1)).solved()
+    gain, = (w for w in found.weighed if "sensor_gain" in w.candidate.name)
+    assert found.decision.verdict != "sensor" and gain.statistics.posterior < 0.5
+    assert gain.fit.objective > 0.97 * found.null.objective, "it takes the noise of the force channel at most"
 
 
 def test_the_noise_is_that_of_the_forces():

@@ -7,7 +7,7 @@ z, tilt about the radial axis | inner pad likewise | caliper z.
 import numpy as np
 
 from pipeline.products import FrictionMap, ReducedModel
-from stages.reduced_model import NO_LINING, NO_SHEAR
+from stages.reduced_model import NO_LINING, NO_SHEAR, plain
 
 RADIUS, HALF_LENGTH, CONTACT_AREA = 0.12, 0.03, 3e-4
 DISC, OUTER, INNER, CALIPER, SIZE = 0, 1, 5, 9, 10
@@ -30,7 +30,7 @@ def small_brake(abutment=3e6, finger=6e7, damping=2e-6):
         contact_lever=np.hypot(*position[:, :2].T), contact_gap=np.zeros(count),
         contact_normal=normal, contact_tangent=tangent, contact_lateral=lateral, pressure=[1e6, 3e6],
         preload=np.outer([1e6, 3e6], np.full(count, CONTACT_AREA)), contact_stiffness=np.full((2, count), 3e7),
-        **NO_SHEAR, **NO_LINING,
+        **NO_SHEAR, **NO_LINING, **plain(count, 1, 1),
         law_closure=closure, law_pressure=1e11 * closure + 5e15 * closure**2, input_name=["piston"],
         input_rows=[axial(INNER) - axial(CALIPER - 2)], input_area=[3 * CONTACT_AREA], history_interval=0.0,
         input_history=np.empty((0, 1)), drive_history=[], sensor_name=["disc"], sensor_quantity=["velocity"],

@@ -31,7 +31,7 @@ def test_a_bench_without_sensors_is_refused():
 def test_poles_are_one_sample_a_feature(monkeypatch):
     """Free vibrations of the true bench: features within a few of their standard deviations."""
     whole = small_bench.bench()
-    monkeypatch.setattr("stages.bench.recorded", lambda recording, settings: small_bench.recorded(whole))
+    monkeypatch.setattr("stages.bench.recorded", lambda recording, settings, model: small_bench.recorded(whole))
     found = bench(small_bench.model(), None, None, settings=small_bench.laid_out())
     assert set(found.runs) == {*small_bench.RUNS, "turned"} and "pole 1 frequency" in list(found.channel)
     assert max(run.error[run.valid[:, 0] == 1].max() for run in found.runs.values()) < 4

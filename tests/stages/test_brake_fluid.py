@@ -93,6 +93,7 @@ def test_the_column_moves_the_modes_and_loses_its_share(models):
 def piston(column=4e6, inertia=400.0):
     """A mass on a spring to the ground, pushed by fluid that acts against the ground."""
     model = changed(small_oscillator(), input_name=["piston"], input_rows=[[1.0]], input_area=[1.0], pressure=[5.0],
+                    input_joint=[""], input_scale=[1.0],
                     input_history=np.empty((0, 1)))
     parts = {f.name: getattr(model, f.name) for f in fields(model)}
     line = SimpleNamespace(fluid_stiffness=[column], fluid_loss_factor=[0.0], line_inertia=[inertia], line_drag=[0.0])

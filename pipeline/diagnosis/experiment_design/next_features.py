@@ -9,7 +9,7 @@ from dataclasses import replace
 import numpy as np
 
 from pipeline.diagnosis.experiment_design.next_run import Planned, changed, words
-from pipeline.physics.virtual_rig.response import at_begin
+from pipeline.physics.virtual_rig.response import at_begin, input_unit, stated_inputs
 
 _LIFTED = "hammer, lifted"
 #: factors on the one load or speed that was recorded, where there is only one
@@ -68,9 +68,9 @@ def _crossed(bench, seen, kind_name, members):
 
 
 def _point(bench, features):
-    """(speed in rad/s, inputs (i,) in N) of Features."""
-    speed, inputs = at_begin(bench, features.run)
-    return speed, tuple(inputs.tolist())
+    """(speed in rad/s, inputs (i,) in N, or m of moved ends) of Features."""
+    inputs = [float(np.ravel(value)[0]) for value in stated_inputs(bench, features.run)]
+    return at_begin(bench, features.run)[0], tuple(inputs)
 
 
 def _beside(values):
@@ -91,7 +91,8 @@ def _at(bench, kind_name, like, features, point):
     """Planned like the ``features`` of a run ``like`` at another point."""
     speed, load = point
     inputs = dict(zip(bench.model.input_name, load, strict=True))
-    conditions = [f"{n} = {v:g} N" for n, v in inputs.items()] + ([f"speed = {speed:g} rad/s"] if speed else [])
+    conditions = [f"{n} = {v:g} {input_unit(bench, n)}" for n, v in inputs.items()]
+    conditions += [f"speed = {speed:g} rad/s"] if speed else []
     name = f"{kind_name}, {', '.join(conditions)}"
     run = replace(features.run, name=name, inputs=inputs, drive=None,
                   conditions={**features.run.conditions, "speed": speed})

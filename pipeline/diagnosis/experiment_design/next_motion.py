@@ -25,8 +25,13 @@ def planned_motions(bench, recorded, equation, given, where="diagnosis.next"):
     """Planned Balances (m,), like ``recorded`` {name: Recorded} which moves farthest, with one thing changed each.
 
     ``given`` is the section ``next`` {motion, pace or what else can change: values}, nothing: WITHIN. ConfigError for
-    names that neither motions nor the bench have, and units that do not fit.
+    names that neither motions nor the bench have, and units that do not fit. Ends of joints that move make the motion
+    themselves: nothing is planned there.
     """
+    if bench.model.moved_ends:
+        if given:
+            raise ConfigError(where, "none where an input moves the end of a joint", ", ".join(given))
+        return ()
     widest = max(recorded, key=lambda name: max(map(np.ptp, _measured(bench, recorded[name]).values())))
     planned = []
     for name, values in (given or WITHIN).items():
@@ -64,7 +69,7 @@ def _driven(bench, record, equation):
     names, idle = bench.model.input_name, replace(record.run, inputs=dict.fromkeys(bench.model.input_name, 0.0))
     needed = forces_missing(bench, idle, smoothed(bench, idle, _measured(bench, record), equation.corner))
     force = np.linalg.lstsq(bench.model.input_rows.T, needed, rcond=None)[0]
-    return replace(record, run=replace(record.run, inputs=dict(zip(names, force, strict=True))))
+    return replace(record, run=replace(record.run, inputs=dict(zip(names, force, strict=True)), held=()))
 
 
 def _measured(bench, record):

@@ -19,7 +19,7 @@ from pipeline.inference.fitting.least_squares import linearised
 from pipeline.inference.planning.experiment_choice import choose, predicted
 from pipeline.inference.problem import Observed
 from pipeline.physics.virtual_rig.normal_load import CONDITION as NORMAL_LOAD
-from pipeline.physics.virtual_rig.response import Run, run_drive, run_inputs
+from pipeline.physics.virtual_rig.response import Run, input_unit, run_drive, stated_inputs
 
 #: factor on the speed of the drive, whether it is constant or recorded
 DRIVE = "drive"
@@ -139,7 +139,7 @@ def changed(bench, run, name, value, where):
         raise ConfigError(where, known, repr(value))
     if name == DRIVE:
         return replace(run, drive=value * np.asarray(run_drive(bench, run), float)), {}
-    unit = "rad/s" if name == "speed" else "N"
+    unit = "rad/s" if name == "speed" else input_unit(bench, name)
     there = value * np.asarray(conditions[name], float) if factor else to_si(value, unit, where)
     if name in bench.model.input_name:
         return replace(run, inputs={**run.inputs, name: there}), {}
@@ -149,7 +149,7 @@ def changed(bench, run, name, value, where):
 
 def _conditions(bench, run):
     """{name: value or samples} of what can be done differently."""
-    inputs = dict(zip(bench.model.input_name, run_inputs(bench, run), strict=True))
+    inputs = dict(zip(bench.model.input_name, stated_inputs(bench, run), strict=True))
     conditions = {DRIVE: run_drive(bench, run), **inputs}
     if np.ndim(conditions[DRIVE]) == 0:
         conditions["speed"] = conditions[DRIVE]

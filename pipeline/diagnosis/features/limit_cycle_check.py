@@ -17,7 +17,7 @@ from pipeline.physics.signals.squeal_features import GROWING, SATURATED, agree, 
 from pipeline.physics.time_stepping.initial_state import random_kick, steady_start
 from pipeline.physics.time_stepping.modal_integrator import modal_system
 from pipeline.physics.virtual_rig.normal_load import loaded
-from pipeline.physics.virtual_rig.response import at_begin, run_friction
+from pipeline.physics.virtual_rig.response import at_begin, run_friction, stated_inputs
 from pipeline.physics.virtual_rig.sensor import FRICTION_FORCE, NORMAL_FORCE, Sensor
 
 #: who squeals, in the order of the tables
@@ -125,7 +125,8 @@ def simulated(bench, like, settings, seed=0):
     """[{channel: (n,)}] of the repeats of a Recorded run on a completed Bench, forces of its contacts beside."""
     speed, first = at_begin(bench, like.run)
     run = replace(like.run, duration=settings.duration, drive=speed,
-                  inputs=dict(zip(bench.model.input_name, first.tolist(), strict=True)))
+                  inputs={name: float(np.ravel(value)[0]) for name, value in
+                          zip(bench.model.input_name, stated_inputs(bench, like.run), strict=True)})
     there = loaded(bench, run)
     model = there.model.at_speed(speed)
     steady = steady_start(model, there.law, run_friction(there, run), first)

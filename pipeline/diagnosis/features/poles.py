@@ -26,6 +26,8 @@ from pipeline.physics.virtual_rig.sensor import JOINT_FORCE, VELOCITY
 
 #: orders of the drive that slow turns are read for
 ORDERS = (1, 2, 3)
+#: largest range of a recorded speed over its mean at which a run has poles
+_STEADY = 0.05
 
 
 @dataclass(frozen=True)
@@ -49,6 +51,7 @@ def features(bench, recorded, settings, rules=DEFAULTS.poles):
     """
     result = {}
     for name, record in recorded.items():
+        _refuse_changing_speed(record.run)
         if record.repeat_of:
             continue
         again = [other for other in recorded.values() if other.repeat_of == name]
@@ -62,6 +65,15 @@ def features(bench, recorded, settings, rules=DEFAULTS.poles):
         seen = fundamental(confirmed(first, second))
         result[name] = _told(bench, Features(record.run, seen, {}, {}, max(apart, other)), settings, rules)
     return result
+
+
+def _refuse_changing_speed(run):
+    """ConfigError where the recorded speed of the drive changes, and the poles with it."""
+    if np.ndim(run.drive) and np.ptp(run.drive) > _STEADY * abs(np.mean(run.drive)):
+        raise ConfigError(f"run {run.name}: drive",
+                          f"a speed constant within {_STEADY:.0%}, because poles are compared",
+                          f"{np.min(run.drive):.3g} to {np.max(run.drive):.3g} rad/s",
+                          "declare shorter stretches as runs, or compare samples (diagnosis.forward: simulation)")
 
 
 def _poles(bench, record, settings, rules):

@@ -102,10 +102,10 @@ def as_json(product):
         "schema": SCHEMA, "verdict": product.verdict.item(), "reasons": [str(r) for r in product.reason],
         "effects": [_effect(product, k) for k in (*product.known, *product.named)],
         "alternatives": [_effect(product, k, False) for k in ordered if k not in named][:ALTERNATIVES],
+        "not_judged": [_not_judged(product, k) for k in range(len(product.hypothesis))
+                       if product.objection[k] and not product.refitted[k]],
         "location": _location(product),
-        "parameters": {str(name): {"nominal": float(product.parameter_nominal[k]),
-                                   "value": float(product.parameter_value[k]),
-                                   "std": float(product.parameter_std[k]), "unit": str(product.parameter_unit[k])}
+        "parameters": {str(name): _parameter(product, k)
                        for k, name in enumerate(product.parameter) if not split_name(str(name))[2]},
         "fit": {part: _fit(product, row, held_out) for row, (part, held_out) in enumerate(
             (("training", 0), ("held_out", 1)))},
@@ -116,6 +116,12 @@ def as_json(product):
     if product.squeal:
         document["saturated_squeal"] = {name: _squeal(check) for name, check in product.squeal.items()}
     return document
+
+
+def _parameter(product, k):
+    stated = {"nominal": float(product.parameter_nominal[k]), "value": float(product.parameter_value[k]),
+              "std": float(product.parameter_std[k]), "unit": str(product.parameter_unit[k])}
+    return stated | ({"meaning": "factor on the value of the model"} if product.parameter_factor[k] else {})
 
 
 def _squeal(check):
@@ -131,14 +137,23 @@ def _effect(product, k, with_parameters=True):
     known = k in product.known      # it is part of every hypothesis but that nothing is missing
     entry = {"name": names[0], "place": str(product.place[k]), "kind": str(product.kind[k]),
             "posterior": float(1 - product.posterior[0] if known else product.posterior[k])}
+    if product.contacts[k]:
+        entry["contacts"] = str(product.contacts[k]).split(", ")
     if not product.effect[k]:
         entry["name"] = "nothing missing"
+    if product.objection[k]:
+        entry["objection"] = str(product.objection[k])
     if with_parameters:
         entry["parameters"] = {
             split_name(str(name))[2]: {"value": float(product.parameter_value[i]),
                                        "std": float(product.parameter_std[i]), "unit": str(product.parameter_unit[i])}
             for i, name in enumerate(product.parameter) if product.parameter_owner[i] == k and split_name(str(name))[2]}
     return entry
+
+
+def _not_judged(product, k):
+    """A candidate that could not be fitted, such as one whose time stepping fails, with the reason."""
+    return {"name": str(product.effect[k]), "place": str(product.place[k]), "reason": str(product.objection[k])}
 
 
 def _location(product):

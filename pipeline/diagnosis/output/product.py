@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from pipeline.case_models.corrections import is_factor
 from pipeline.diagnosis.experiment_design.next_run import next_experiment
 from pipeline.diagnosis.problem import label, split_name
 from pipeline.diagnosis.signals.localisation import stage_of
@@ -14,9 +15,13 @@ from pipeline.products import DiagnosedRun, Diagnosis, Follows, LatentForce, Lat
 MODELS = ("nominal", "recalibrated", "completed", "noise")
 
 
-def product(problem, diagnosis):
-    """Product Diagnosis of a DiagnosisProblem and the inference's Diagnosis of it."""
+def product(problem, diagnosis, contacts=None):
+    """Product Diagnosis of a DiagnosisProblem and the inference's Diagnosis of it.
+
+    ``contacts`` {location: names that the case gives to the contacts there}.
+    """
     completed, recalibrated, table = diagnosis.completed, diagnosis.recalibrated, _hypotheses(diagnosis)
+    table["contacts"] = [_contacts(place, contacts or {}) for place in table["place"]]
     runs = problem.problem
     fits = [errors(runs, problem.budget, runs.nominal, recalibrated, completed, part)
             for part in (runs.training, runs.held_out)]
@@ -110,6 +115,11 @@ def _hypotheses(diagnosis):
             "named": [names.index(c.name) for c in diagnosis.decision.named], "known": [1] if known else []}
 
 
+def _contacts(place, names):
+    """Contacts at a place, or at those of a pair, in the words of the case."""
+    return ", ".join(dict.fromkeys(name for each in place.split(" + ") for name in names.get(each, ())))
+
+
 def _known(diagnosis):
     """Row of what is taken as known, as it stood when it was weighed alone."""
     base, effects = diagnosis.base, diagnosis.nominal.effects
@@ -161,8 +171,9 @@ def _parameters(diagnosis, completed, table):
         effect, location, _ = split_name(parameter.name)
         given = parameter.nominal if parameter.null is None else parameter.null
         rows.append((parameter.name, parameter.unit, given, values[parameter.name], std[parameter.name],
-                     owners.get(label(((effect, location),)), 0)))
-    keys = ("parameter", "parameter_unit", "parameter_nominal", "parameter_value", "parameter_std", "parameter_owner")
+                     owners.get(label(((effect, location),)), 0), int(not effect and is_factor(parameter.name))))
+    keys = ("parameter", "parameter_unit", "parameter_nominal", "parameter_value", "parameter_std", "parameter_owner",
+            "parameter_factor")
     return {key: [row[k] for row in rows] for k, key in enumerate(keys)}
 
 

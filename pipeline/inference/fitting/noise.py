@@ -131,7 +131,8 @@ def whitening(run, covariance, solver_error=None, weight=None):
 
 
 def budget(problem, solver_error=None, above=None, order=ORDER):
-    """{run name: Noise}. Each run by the first that it has: given noise, repeats, the band above ``above`` [Hz].
+    """{run name: Noise}. Each run by the first that it has: given noise, repeats, the band above ``above`` [Hz], and
+    last the repeats of other runs, whose noise then counts as its own.
 
     ``solver_error`` {run name: (c, n)}: what halving step and mesh changed in the prediction.
     """
@@ -184,10 +185,23 @@ def _noise_of(run, problem, solver_error, above, order):
     alike = [other for other in problem.runs if other.point == run.point and other.samples.shape == run.samples.shape]
     if len(alike) > 1:
         return whitening(run, from_repeats(alike, order if run.rate else 0), solver_error)
+    repeated = _repeated_elsewhere(problem, run)
+    if above is None and repeated:
+        order = order if run.rate else 0
+        return whitening(run, np.mean([from_repeats(runs, order) for runs in repeated], axis=0), solver_error)
     if above is None:
-        raise ConfigError(f"run {run.name}: noise", "a given noise, a repeat of the run, or a band of noise alone",
+        raise ConfigError(f"run {run.name}: noise", "a given noise, a repeat of any run, or a band of noise alone",
                           "none", "record a repeat or set the frequency above which there is only noise")
     return whitening(run, _padded(from_high_band(run, above)[:, 0], 0 if solver_error is None else order), solver_error)
+
+
+def _repeated_elsewhere(problem, run):
+    """[runs of one point] of other points that were repeated with the same channels at the same rate."""
+    points = {}
+    for other in problem.runs:
+        if (other.channels, other.rate) == (run.channels, run.rate):
+            points.setdefault((other.point, other.samples.shape), []).append(other)
+    return [runs for runs in points.values() if len(runs) > 1]
 
 
 def _padded(variance, order):

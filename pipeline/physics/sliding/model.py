@@ -17,7 +17,7 @@ joint: its N is its preload. A displacement u imposed on the far end of a joint
 is the force k u along its row.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 import scipy
@@ -93,6 +93,7 @@ class SlidingModel:
 
     ``gyroscopic`` is per unit of ``speed``, ``centrifugal`` per squared speed; ``coordinate_body`` (n,) is the index of
     the body of each coordinate in ``body_name``. ``elements``: each a nonlinear Element, which only transients see.
+    ``moved_ends`` {input: joint}: inputs that are displacements of the far end of a joint, along whose row they act.
     """
 
     body_name: tuple
@@ -110,6 +111,7 @@ class SlidingModel:
     sensor_rows: np.ndarray
     speed: float
     elements: tuple = ()
+    moved_ends: dict = field(default_factory=dict)
 
     @property
     def size(self):
@@ -243,7 +245,8 @@ def sliding_model(reduced, state, speed):
     model = SlidingModel(
         body_name=tuple(reduced.body_name), coordinate_body=reduced.coordinate_body, **matrices, joints=joints,
         contacts=contacts, input_name=tuple(reduced.input_name), input_rows=reduced.input_rows,
-        sensor_name=tuple(reduced.sensor_name), sensor_rows=reduced.sensor_rows, speed=float(speed))
+        sensor_name=tuple(reduced.sensor_name), sensor_rows=reduced.sensor_rows, speed=float(speed),
+        moved_ends={n: j for n, j in zip(reduced.input_name, reduced.input_joint, strict=True) if j})
     if not loss.any():
         return model
     mass, _, stiffness = model.frictionless(gyroscopic=False, centrifugal=False)

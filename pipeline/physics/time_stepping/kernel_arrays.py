@@ -20,8 +20,7 @@ def linear_kernel(model, system, law, dry, step):
     """LinearKernel: rows of contacts, inputs and elements, seen and driven through one step; ``dry`` FrictionKernel."""
     contacts, count = model.contacts, len(model.contacts.area)
     law = parts(law, count)[0][0]       # those of all groups are stepped alike
-    gamma = getattr(law, "gamma", None)
-    matrices = step_matrices(system, step) if gamma is None else newmark_matrices(system, step, gamma)
+    gamma, matrices = getattr(law, "gamma", None), matrices_of(system, law, count, step)
     forced = system.driven(np.vstack((contacts.normal, contacts.tangent, model.input_rows, -_element_rows(model))))
     first, last = (np.einsum("bxy,ryb->rxb", matrix, forced) for matrix in matrices[1:])
     kicks = isinstance(law, Forward)
@@ -40,6 +39,12 @@ def linear_kernel(model, system, law, dry, step):
               system.observed(model.input_rows)[0], _stacked(system.observed(model.sensor_rows)), hold, system.squared,
               np.diag(system.damping), energy, power, struck if kicks else struck[:0])
     return LinearKernel(*(contiguous(a) for a in arrays))
+
+
+def matrices_of(system, law, count, step):
+    """Step matrices of a ModalSystem under a law of ``count`` contacts: exact, or by Newmark's rule."""
+    gamma = getattr(parts(law, count)[0][0], "gamma", None)
+    return step_matrices(system, step) if gamma is None else newmark_matrices(system, step, gamma)
 
 
 def _element_rows(model):

@@ -29,10 +29,11 @@ class LinearKernel(NamedTuple):
 
 
 class HistoryKernel(NamedTuple):
-    """Values at equal intervals from time 0, linear between, constant beyond the last."""
+    """Values at equal intervals from time 0, linear between or held until the next, constant beyond the last."""
 
     value: np.ndarray       # (samples, n)
     interval: float
+    held: np.ndarray        # (n,) whether each is held until the next
 
 
 @njit
@@ -46,6 +47,15 @@ def interpolate(history, time, values):
         values[i] = history.value[k, i]
         if k < last:
             values[i] += share * (history.value[k + 1, i] - history.value[k, i])
+
+
+@njit
+def hold(history, middle, begin, end):
+    """Fill ``begin`` and ``end`` (n,) of a step with the samples of a HistoryKernel that are held at its ``middle``."""
+    k = min(int(middle / history.interval), history.value.shape[0] - 1)
+    for i in range(begin.size):
+        if history.held[i]:
+            begin[i] = end[i] = history.value[k, i]
 
 
 @njit

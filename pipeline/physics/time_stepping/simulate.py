@@ -20,7 +20,7 @@ from pipeline.physics.friction.state_variables import factors, started, state_ke
 from pipeline.physics.time_stepping.contact_solver import JAMMED, OPEN, SLIP, SOLVED, STICK, TOO_LONG, UNCONVERGED
 from pipeline.physics.time_stepping.coupled_solver import no_memory, surface_shift
 from pipeline.physics.time_stepping.element_forces import TOO_STIFF, UNSETTLED
-from pipeline.physics.time_stepping.kernel_arrays import elements_kernel, linear_kernel, refuse
+from pipeline.physics.time_stepping.kernel_arrays import elements_kernel, linear_kernel, matrices_of, refuse
 from pipeline.physics.time_stepping.linear_step import HistoryKernel
 from pipeline.physics.time_stepping.modal_integrator import modal_system
 from pipeline.physics.time_stepping.normal_laws import (
@@ -33,7 +33,8 @@ from pipeline.physics.time_stepping.normal_laws import (
     normal_force,
     normal_kernel,
 )
-from pipeline.physics.time_stepping.step_loop import Record, Schedule, State, System, integrate
+from pipeline.physics.time_stepping.step_loop import UNTURNED, Record, Schedule, State, System, integrate
+from pipeline.physics.time_stepping.turning import turning_kernel
 
 __all__ = ["Forward", "Hard", "History", "Lagrange", "Motion", "Penalty", "Start", "Table", "imposed", "simulate",
            "stepper"]
@@ -41,10 +42,14 @@ __all__ = ["Forward", "Hard", "History", "Lagrange", "Motion", "Penalty", "Start
 
 @dataclass(frozen=True)
 class History:
-    """``value`` (samples,) or (samples, n) every ``interval`` s from time 0; linear between, constant beyond."""
+    """``value`` (samples,) or (samples, n) every ``interval`` s from time 0; linear between, constant beyond.
+
+    ``held``, one or (n,): forces that are held until the next sample instead, in steps that divide the interval.
+    """
 
     value: np.ndarray
     interval: float
+    held: np.ndarray | bool = False
 
 
 @dataclass(frozen=True)
@@ -128,13 +133,14 @@ def simulate(model, law, friction=None, *, step, duration, drive=None, inputs=No
 class Stepper:
     """A SlidingModel with the arrays that steps of ``step`` s need, for runs that differ in loads, start and length.
 
-    ``modes``: its ModalSystem; ``system``: what the compiled loop steps.
+    ``modes``: its ModalSystem; ``system``: what the compiled loop steps; ``matrices``: step matrices of the modes.
     """
 
     model: object
     modes: object
     step: float
     system: System
+    matrices: tuple
 
     def run(self, duration, drive=None, inputs=None, record_every=1, start=None, book=True):
         """Motion over ``duration`` s; arguments and errors as of ``simulate``."""
@@ -145,6 +151,8 @@ class Stepper:
         rest = np.zeros(model.size)
         start = Start(rest, rest) if start is None else start
         system = _fresh(self.system)
+        if isinstance(drive, History):
+            system = system._replace(turning=turning_kernel(model, self.modes, self.matrices, len(drive.value) > 1))
         state = _begin(model, self.modes, system, start, _speed_at_start(model, drive))
         record = _empty(system.linear, system.elements, steps // record_every + 1)
         schedule = Schedule(_history(model.speed if drive is None else drive, 1, "drive"), _inputs(model, inputs),
@@ -167,8 +175,9 @@ def stepper(model, law, friction, step, system=None):
     linear, states = linear_kernel(model, modes, law, dry, step), state_kernel(friction, model.contacts.area)
     refuse(modes, linear, normal, dry, states, model, step)
     elements = elements_kernel(model, modes, linear)
-    return Stepper(model, modes, step, System(linear, normal, dry, elements, states,
-                                              contiguous(model.contacts.lever)))
+    matrices = matrices_of(modes, law, count, step)
+    return Stepper(model, modes, step, System(linear, normal, dry, elements, states, contiguous(model.contacts.lever),
+                                              turning_kernel(model, modes, matrices, varies=False)), matrices)
 
 
 def _fresh(system):
@@ -235,7 +244,7 @@ def _history(given, width, where):
     if value.shape[1] != width or not np.isfinite(value).all() or not history.interval > 0:
         raise ConfigError(f"time stepping: {where}", f"finite samples of {width} values at a positive interval",
                           f"{value.shape[1]} values at {history.interval:g} s")
-    return HistoryKernel(value, float(history.interval))
+    return HistoryKernel(value, float(history.interval), np.array(np.broadcast_to(history.held, width), bool))
 
 
 def _inputs(model, inputs):
@@ -266,6 +275,9 @@ def _failure(code, time, contact, step, model):
             return ConfigError(f"{where}: step", "at least 8 steps in a period of the element",
                                f"steps of {step:.3g} s", "shorten the step, or soften the element")
         return ConvergenceError(where, "a force that settles", "none after the last sweep", "take a shorter step")
+    if code == UNTURNED:
+        return ConvergenceError(f"time stepping at t = {time:.6g} s", "gyroscopic forces that settle",
+                                "none after the last sweep", "take a shorter step")
     where = f"time stepping at t = {time:.6g} s, contact {contact}"
     if code == TOO_LONG:
         return ConfigError(f"{where}: step", "at least 8 steps in a period of the contact", f"steps of {step:.3g} s",

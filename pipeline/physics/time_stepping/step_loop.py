@@ -40,13 +40,15 @@ from pipeline.physics.time_stepping.linear_step import (
     add_forces,
     advance,
     copy,
+    hold,
     interpolate,
     loss_rate,
     project_rows,
     stored_energy,
 )
+from pipeline.physics.time_stepping.turning import TurningKernel, correct, turn, turning_force, turning_work
 
-DIVERGED = 4
+DIVERGED, UNTURNED = 4, 7
 INPUT, DAMPING, NORMAL, FRICTION, SLIDING, ELEMENTS = range(6)
 
 
@@ -59,6 +61,7 @@ class System(NamedTuple):
     elements: ElementKernel
     states: StateKernel
     lever: np.ndarray           # (c,) m, sliding velocity per speed of the drive
+    turning: TurningKernel
 
 
 class Schedule(NamedTuple):
@@ -120,7 +123,7 @@ def _record_row(record, row, sensors, gap, stored, contact, summed, steps, work)
 @njit
 def integrate(system, schedule, state, record):
     """(code, step number, contact or element) of the first step that fails, after filling ``record`` and ``state``."""
-    linear, law, friction, elements, states, lever = system
+    linear, law, friction, elements, states, lever, turning = system
     drive, inputs, age, step, steps, every, book = schedule
     pairs, force, status, memory, value = state.pairs, state.force, state.status, state.memory, state.friction
     contacts, count, count_e = law.gap.size, linear.input_rows.shape[0], elements.kind.size
@@ -154,6 +157,9 @@ def integrate(system, schedule, state, record):
     slip, slip_end, mean = np.zeros(contacts), np.zeros(contacts), np.zeros(contacts)
     laws, wear, worn, pace = laws_of(elements), elements.wear, state.worn, np.zeros(elements.wear.size)
     varies, turns, recalls = inputs.value.shape[0] > 1, drive.value.shape[0] > 1, states.kind.size > 0
+    rotates, count_r = turns and turning.first.shape[0] > 0, turning.first.shape[0]
+    turned, turned_begin, turned_change = np.zeros(count_r), np.zeros(count_r), np.zeros(count_r)
+    seen, seen_begin = np.zeros(2 * count_r), np.zeros(2 * count_r)
     middle, dampers_turn = friction.description == RIGID and not law.newmark, False
     for k in range(count_e):
         dampers_turn = dampers_turn or elements.kind[k] == TURNING
@@ -169,6 +175,9 @@ def integrate(system, schedule, state, record):
         add_forces(input_last, input_begin, steady)
     project_rows(input_rows, pairs, displacement)
     project_rows(rows, pairs, observed_flat)
+    if rotates:
+        project_rows(turning.rows, pairs, seen)
+        turning_force(turning, seen, speed[0], turned)
     if special:
         instant = (age, angle, speed[0])
         advance_wear(wear, force[0], sliding[1], observed[3], 0.0, worn, pace)
@@ -188,6 +197,7 @@ def integrate(system, schedule, state, record):
             if varies:
                 copy(input_end, input_begin)
                 interpolate(inputs, number * step, input_end)
+                hold(inputs, (number - 0.5) * step, input_begin, input_end)
                 add_forces(input_first, input_begin, after)
                 add_forces(input_last, input_end, after)
             speed_begin, angle_begin = speed[0], angle
@@ -200,6 +210,11 @@ def integrate(system, schedule, state, record):
                 angle = angle_after(angle, speed_begin, speed[0], step)
                 instant = (age + number * step, angle, speed[0])
                 add_forces(element_first, element_force, after)
+            if rotates:
+                copy(turned, turned_begin)
+                copy(seen, seen_begin)
+                if not turn(turning, after, speed[0], seen, turned, turned_change):
+                    return UNTURNED, number, 0
             if contacts:
                 if turns:
                     for i in range(contacts):
@@ -259,6 +274,8 @@ def integrate(system, schedule, state, record):
                         mean[i] = force[1, i] if constant[1] else 0.5 * (held[1, i] + force[1, i])
                     settle(states, value, force[0] if constant[0] else held[0], force[0], slip, slip_end, mean, step)
                 advance_wear(wear, force[0], sliding[1], observed[3], step, worn, pace)
+            if rotates and (contacts or special):
+                correct(turning, after, speed[0], seen, turned, turned_change)
             if book:
                 rate = loss_rate(power, damping, after)
                 if impulse.size:
@@ -269,6 +286,7 @@ def integrate(system, schedule, state, record):
                     work[DAMPING] += 0.5 * step * (loss + rate)
                 loss = rate
                 project_rows(input_rows, after, displacement_end)
+                work[INPUT] += turning_work(turned_begin, turned, seen_begin, seen)
                 for i in range(count):
                     work[INPUT] += 0.5 * (input_begin[i] + input_end[i]) * (displacement_end[i] - displacement[i])
                     displacement[i] = displacement_end[i]

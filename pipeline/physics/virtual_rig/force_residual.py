@@ -21,7 +21,7 @@ from pipeline.physics.time_stepping.coupled_solver import advance_wear, no_memor
 from pipeline.physics.time_stepping.element_forces import element_force, update_turning_dampers
 from pipeline.physics.time_stepping.elements import alone, wave_table
 from pipeline.physics.time_stepping.normal_laws import force_along
-from pipeline.physics.virtual_rig.response import run_drive, run_friction, run_inputs
+from pipeline.physics.virtual_rig.response import holding, run_drive, run_friction, run_inputs
 from pipeline.physics.virtual_rig.sensor import DISPLACEMENT
 
 _SMALLEST_SHARE = 1e-9
@@ -91,10 +91,11 @@ def forces_missing(bench, run, motion):
     model, interval = bench.model, 1 / run.sample_rate
     speed = np.gradient(motion, interval, axis=1, edge_order=2)
     turning = np.broadcast_to(run_drive(bench, run), run.samples)
-    mass, damping, stiffness = model.at_speed(turning[0]).supported()
+    mass, damping, stiffness = model.supported(gyroscopic=False, centrifugal=False)
     inertia = np.gradient(speed, interval, axis=1, edge_order=2)
     inertia[:, 1:-1] = (motion[:, 2:] - 2 * motion[:, 1:-1] + motion[:, :-2]) / interval**2
     residual = mass @ inertia + damping @ speed + stiffness @ motion
+    residual = residual + turning * (model.gyroscopic @ speed) + turning**2 * (model.centrifugal @ motion)
     angle = scipy.integrate.cumulative_trapezoid(turning, dx=interval, initial=0.0)
     instants = np.column_stack((run.time, angle, turning))
     normal, drawn, slip = _contacts(bench, run, motion, speed, instants)
@@ -104,7 +105,10 @@ def forces_missing(bench, run, motion):
 
 
 def _applied(bench, run):
+    """Forces (n, samples) of the inputs. Central differences over a held force see the mean before and after."""
     forces = np.array([np.broadcast_to(f, run.samples) for f in run_inputs(bench, run)]).reshape(-1, run.samples)
+    before = np.concatenate((forces[:, :1], forces[:, :-1]), axis=1)
+    forces = np.where(holding(bench, run)[:, None], (before + forces) / 2, forces)
     return bench.model.input_rows.T @ forces
 
 

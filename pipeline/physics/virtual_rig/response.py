@@ -6,6 +6,7 @@
 from dataclasses import dataclass, field, replace
 
 import numpy as np
+import scipy
 
 from pipeline.contract.errors import ConfigError
 from pipeline.physics.contact.groups import Grouped, changed
@@ -19,11 +20,13 @@ from pipeline.physics.virtual_rig.sensor import SimulatedRun, known
 
 @dataclass(frozen=True)
 class Run:
-    """What was done: ``inputs`` {name: N, one value or samples}, ``drive`` rad/s (None: that of the model).
+    """What was done: ``inputs`` {name: N, or m where it moves the end of a joint, one value or samples}, ``drive``
+    rad/s (None: that of the model).
 
-    Samples are at ``sample_rate`` Hz from time 0. ``conditions`` {name: value} stand in for inputs of their names,
-    ``speed`` for the drive, ``normal_load`` for the loads of friction joints; friction may depend on others. ``start``:
-    where the bodies are at time 0, else as the bench says.
+    Samples are at ``sample_rate`` Hz from time 0, linear between; those of inputs named in ``held`` are held until the
+    next. ``conditions`` {name: value} stand in for inputs of their names, ``speed`` for the drive, ``normal_load`` for
+    the loads of friction joints; friction may depend on others. ``start``: where the bodies are at time 0, else as the
+    bench says.
     """
 
     name: str
@@ -33,6 +36,7 @@ class Run:
     drive: object = None
     conditions: dict = field(default_factory=dict)
     start: Start | None = None
+    held: tuple = ()
 
     def __post_init__(self):
         if not (self.sample_rate > 0 and self.duration * self.sample_rate >= 1):
@@ -125,7 +129,7 @@ class Bench:
 def respond(bench, run, system=None):
     """{channel: (samples,)} of one run; ``system`` is the ModalSystem of the model, where runs share it.
 
-    Gyroscopic and centrifugal terms are those of the speed with which the run begins, also in ``system``. Raises
+    Gyroscopic and centrifugal terms follow the speed of the drive; ``system`` holds those of its first value. Raises
     ConfigError for sources that the model does not have, and what ``simulate`` raises.
     """
     return Responder(bench, system).respond(run)
@@ -154,8 +158,8 @@ class Responder:
         start, steps = run.start, (run.samples - 1) * parts
         if start is None and bench.settled:
             start = steady_start(stepping.model, bench.law, friction, first)
-        motion = stepping.run(steps * step, start=start, inputs=_history(inputs, run), drive=_history([drive], run),
-                              book=False)
+        motion = stepping.run(steps * step, start=start, inputs=_history(inputs, run, holding(bench, run)),
+                              drive=_history([drive], run), book=False)
         simulated = SimulatedRun(under_load, run, motion, inputs, step, self._rows)
         return {sensor.name: sensor.written(sensor.measurand.history(simulated, sensor), step)[::parts]
                 for sensor in bench.channels}
@@ -179,12 +183,42 @@ def at_begin(bench, run):
 
 
 def run_inputs(bench, run):
-    """[one value or samples (samples,)] of each input of the model, in its order; 0 N where nothing is said."""
+    """[N, one value or samples (samples,)] of each input of the model, in its order; 0 N where nothing is said.
+
+    Of an end that moves by u the force k u + c u' in its joint.
+    """
+    return [_end_force(bench, run, name, value) if name in bench.model.moved_ends else value
+            for name, value in zip(bench.model.input_name, stated_inputs(bench, run), strict=True)]
+
+
+def stated_inputs(bench, run):
+    """[one value or samples (samples,)] of each input: N, or m where it moves the end of a joint."""
     unknown = set(run.inputs) - set(bench.model.input_name)
     if unknown:
         raise ConfigError(f"run {run.name}: input", f"one of {', '.join(bench.model.input_name)}",
                           ", ".join(sorted(unknown)))
     return [run.inputs.get(n, run.conditions.get(n, 0.0)) for n in bench.model.input_name]
+
+
+def input_unit(bench, name):
+    """Unit in which runs state an input: m of a moved end, else N."""
+    return "m" if name in bench.model.moved_ends else "N"
+
+
+def _end_force(bench, run, name, displacement):
+    _, stiffness, damping = bench.joint(bench.model.moved_ends[name])
+    if not np.ndim(displacement) or not damping:
+        return stiffness * displacement
+    if name in run.held:
+        raise ConfigError(f"run {run.name}: input {name}", "linear or band_limited, because its joint has a damper",
+                          "hold: step", "a displacement that jumps takes an infinite force of a damper")
+    velocity = scipy.interpolate.CubicSpline(run.time, displacement)(run.time, 1)
+    return stiffness * displacement + damping * velocity
+
+
+def holding(bench, run):
+    """(i,) True for inputs whose samples are held until the next."""
+    return np.array([name in run.held for name in bench.model.input_name], bool)
 
 
 def run_drive(bench, run):
@@ -197,13 +231,13 @@ def run_friction(bench, run):
     return under(bench.friction, run.conditions, f"run {run.name}")
 
 
-def _history(values, run):
+def _history(values, run, held=False):
     for value in values:
         if np.ndim(value) and len(value) != run.samples:
             raise ConfigError(f"run {run.name}", f"{run.samples} samples of each history", f"{len(value)}")
     if not any(np.ndim(v) for v in values):
         return History(np.reshape(np.array(values, float), (1, -1)), 1.0)
-    return History(np.stack([np.broadcast_to(v, run.samples) for v in values], axis=1), 1 / run.sample_rate)
+    return History(np.stack([np.broadcast_to(v, run.samples) for v in values], axis=1), 1 / run.sample_rate, held)
 
 
 def _watched(bench):

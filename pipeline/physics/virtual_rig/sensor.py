@@ -16,6 +16,9 @@ import scipy
 
 from pipeline.contract.errors import ConfigError
 
+#: share of a sample by which rounding may put an instant before it
+_ROUNDING = 1e-6
+
 
 @dataclass(frozen=True)
 class SimulatedRun:
@@ -138,7 +141,10 @@ class InputForce(Measurand):
     def history(self, simulated, sensor):
         names, run = self.sources(simulated.bench), simulated.run
         value = simulated.inputs[names.index(known(sensor.source, names, f"channel {sensor.name}: input"))]
-        return np.interp(simulated.motion.time, run.time, np.broadcast_to(value, run.samples))
+        samples = np.broadcast_to(value, run.samples)
+        if sensor.source in run.held:
+            return samples[np.floor(simulated.motion.time * run.sample_rate + _ROUNDING).astype(int)]
+        return np.interp(simulated.motion.time, run.time, samples)
 
 
 DISPLACEMENT, VELOCITY = Motion("displacement", "m", 0), Motion("velocity", "m/s", 1)

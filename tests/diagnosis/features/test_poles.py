@@ -120,6 +120,10 @@ def test_records_that_cannot_be_used_are_refused():
     given = recorded(whole)
     with pytest.raises(ConfigError, match="a repeat"):
         features(whole, {"rest": given["rest"]}, BAND)
+    run = given["rest"].run
+    ramp = replace(given["rest"], run=replace(run, drive=np.linspace(1.0, 1.2, run.samples)))
+    with pytest.raises(ConfigError, match="a speed constant within 5%, .*found 1 to 1.2 rad/s"):
+        features(whole, {**given, "rest": ramp}, BAND)
     short = replace(given["turned"], run=replace(given["turned"].run, conditions={"press": 10.0, "speed": 0.1}))
     with pytest.raises(ConfigError, match="a whole turn"):
         features(whole, {"turned": short}, BAND)

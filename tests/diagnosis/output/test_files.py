@@ -3,6 +3,7 @@
 import json
 from dataclasses import replace
 
+import numpy as np
 import pytest
 import yaml
 
@@ -30,7 +31,33 @@ def test_the_json_holds_the_verdict():
     assert effect["name"] == "cubic_stiffness" and effect["parameters"]["coefficient"]["unit"] == "N/m^3"
     assert found["fit"]["held_out"]["runs"] == ["level_4"]
     assert set(found["parameters"]) == {"joints.mount.stiffness", "joints.mount.damping"}
+    assert not any("meaning" in parameter for parameter in found["parameters"].values())
     assert json.loads(companions(told(), CASE)["diagnosis.json"]) == found
+
+
+def test_contacts_are_answered_by_their_names_too():
+    found = told()
+    named = replace(found, contacts=["tip" if k in found.named else "" for k in range(len(found.hypothesis))])
+    assert as_json(named)["effects"][0]["contacts"] == ["tip"] and "contacts" not in as_json(found)["effects"][0]
+
+
+def test_a_factor_says_that_it_is_one():
+    factor = as_json(replace(told(), parameter_factor=[1, 0, 0]))["parameters"]["joints.mount.stiffness"]
+    assert factor["meaning"] == "factor on the value of the model"
+
+
+def test_a_candidate_that_cannot_be_fitted_stays_with_its_reason():
+    """Micro-slip, which needs a contact, or what fails on the way: neither vanishes from the answer."""
+    found = told()
+    k = next(k for k in range(1, len(found.hypothesis)) if k not in found.named)
+    failed = replace(found, objection=["time stepping at t = 2 s: expected ..." if i == k else "" for i in range(
+        len(found.hypothesis))], refitted=[int(i != k) for i in range(len(found.hypothesis))])
+    assert as_json(failed)["not_judged"] == [{"name": str(found.effect[k]), "place": str(found.place[k]),
+                                              "reason": "time stepping at t = 2 s: expected ..."}]
+    doubted = replace(failed, refitted=[1] * len(found.hypothesis), posterior=np.where(
+        np.arange(len(found.hypothesis)) == k, 0.5, 0.0))
+    assert as_json(doubted)["not_judged"] == []
+    assert as_json(doubted)["alternatives"][0]["objection"].startswith("time stepping at t = 2 s")
 
 
 def test_the_completed_case_has_the_same_held_out_error():

@@ -126,7 +126,7 @@ def test_runs_take_the_first_noise_they_have():
 
 
 @pytest.mark.parametrize("make, told", [
-    (lambda: budget(Problem((run(np.zeros(8)),), predict, NOMINAL)), "a given noise, a repeat of the run, or a band"),
+    (lambda: budget(Problem((run(np.zeros(8)),), predict, NOMINAL)), "a given noise, a repeat of any run, or a band"),
     (lambda: whitening(run(np.zeros(8)), [[0.0]]), "a positive power on every channel"),
     (lambda: from_high_band(run(np.zeros(8)), 60.0), "below half the sample rate"),
     (lambda: from_repeats([run(np.zeros(8)), run(np.zeros(9), "b")]), "two or more runs of the same length"),
@@ -159,3 +159,17 @@ def test_channels_without_samples_do_not_count_in_errors():
     noise = budget(Problem((one,), predict, NOMINAL))["rung"]
     assert normalised_error(one, np.array([[0.5], [0.0], [0.0]])) == pytest.approx(0.25)
     assert floor(one, noise) == pytest.approx(0.05)
+
+
+@pytest.mark.exact
+def test_one_repeat_tells_the_noise_of_all_runs():
+    """Runs of other lengths take the noise of the one that was repeated; with other channels they do not."""
+    random = np.random.default_rng(12)
+    runs = [run(np.sin(np.arange(4000) / 50) + 0.1 * random.standard_normal(4000), name, repeat_of=first)
+            for name, first in (("a", ""), ("b", "a"))]
+    other = run(np.cos(np.arange(900) / 20) + 0.1 * random.standard_normal(900), "c")
+    noises = budget(Problem((*runs, other), None, None))
+    assert [noises[name].std[0] for name in "abc"] == pytest.approx([0.1] * 3, rel=4 / np.sqrt(2 * 4000))
+    assert noises["c"].usable.shape == (1, 900)
+    with pytest.raises(ConfigError, match="a repeat of any run"):
+        budget(Problem((*runs, run(np.zeros((2, 900)), "c")), None, None))

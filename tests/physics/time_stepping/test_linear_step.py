@@ -16,7 +16,8 @@ from pipeline.physics.time_stepping.linear_step import (
 
 @pytest.mark.exact
 def test_histories_are_linear_between_samples_and_constant_beyond():
-    history, values = HistoryKernel(np.array([[0.0, 1.0], [2.0, 1.0], [-2.0, 4.0]]), 0.5), np.zeros(2)
+    history = HistoryKernel(np.array([[0.0, 1.0], [2.0, 1.0], [-2.0, 4.0]]), 0.5, np.zeros(2, bool))
+    values = np.zeros(2)
     for time, exact in ((0.0, (0, 1)), (0.25, (1, 1)), (0.75, (0, 2.5)), (1.0, (-2, 4)), (7.0, (-2, 4))):
         interpolate(history, time, values)
         np.testing.assert_allclose(values, exact, atol=1e-15)

@@ -81,6 +81,16 @@ def test_contacts_and_friction_joints_belong_to_the_equation(law):
         equation_residual(replace(bench, law=Hard()), run, respond(bench, run))
 
 
+@pytest.mark.exact
+def test_a_held_force_is_balanced_exactly_on_a_free_mass():
+    """Second differences of exact parabolas between the samples are the mean of the steps before and after."""
+    bench = Bench(lumps([2.0]), Hard(), constant(0.0), 1e-3, (Sensor("one", DISPLACEMENT, "sensor_0"),))
+    run = Run("held", 1.0, 50.0, held=("input_0",))
+    run = replace(run, inputs={"input_0": np.random.default_rng(4).standard_normal(run.samples)})
+    left = equation_residual(bench, run, respond(bench, run))
+    assert abs(left[0, 1:-1]).max() < 1e-9
+
+
 def test_too_few_channels_and_an_impossible_corner_are_refused():
     bench, run = pair(), shaken(0.1)
     measured = respond(bench, run)

@@ -4,11 +4,13 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from scipy.integrate import solve_ivp
 
 from pipeline.contract.errors import ConfigError
 from pipeline.physics.friction.dry_friction import constant
 from pipeline.physics.time_stepping.elements import Element, Polynomial
 from pipeline.physics.time_stepping.simulate import Hard, Penalty, Start
+from pipeline.physics.virtual_rig.force_residual import equation_residual
 from pipeline.physics.virtual_rig.response import Bench, Run, respond
 from pipeline.physics.virtual_rig.sensor import (
     ACCELERATION,
@@ -83,6 +85,32 @@ def test_contact_forces_are_not_late_by_half_a_step():
     assert errors[-1] < 1e-3 * 50 and errors[0] / errors[-1] > 10
 
 
+def staircase_response(time, force, instants):
+    """x, x' of the sprung mass at ``instants`` under steps of ``force``: each step adds that of a constant force."""
+    shown = np.zeros((2, len(instants)))
+    for begin, jump in zip(time, np.diff(force, prepend=0.0), strict=True):
+        since = np.maximum(instants - begin, 0.0)
+        x, v, _ = free_decay(since, -jump / 100)
+        shown += np.where(instants >= begin, [jump / 100 + x, v], 0.0)
+    return shown
+
+
+@pytest.mark.exact
+@pytest.mark.parametrize("step", [1.0, 1e-3])
+def test_a_held_input_is_a_staircase(step):
+    """15 samples a period of the force, whatever the step."""
+    run = Run("held", 6.0, 23.87, held=("input_0",))
+    run = replace(run, duration=(run.samples - 1) / run.sample_rate)
+    force = 2 * np.sin(2 * np.pi / 15 * np.arange(run.samples) + 0.4)
+    bench = sprung(seen("displacement"), Sensor("v", VELOCITY, "sensor_0"), Sensor("in", INPUT_FORCE, "input_0"),
+                   step=step)
+    found = respond(bench, replace(run, inputs={"input_0": force}))
+    x, v = staircase_response(run.time, force, run.time)
+    np.testing.assert_allclose(found["seen"], x, rtol=0, atol=1e-11 * abs(x).max())
+    np.testing.assert_allclose(found["v"], v, rtol=0, atol=1e-11 * abs(v).max())
+    np.testing.assert_array_equal(found["in"], force)
+
+
 def test_conditions_stand_in_for_inputs_and_drive():
     bench = Bench(belt(), Hard(), constant(0.3), 1e-3, (Sensor("x", DISPLACEMENT, "sensor_0"),
                                                         Sensor("t", FRICTION_FORCE, "contact")), settled=True)
@@ -119,6 +147,25 @@ def test_rotation_is_that_of_the_run():
     root = np.sqrt(100 + 0.7**2)
     exact = 0.1 * np.cos(0.7 * run.time) * np.sin(root * run.time) / root
     np.testing.assert_allclose(respond(bench, run)["seen"], exact, atol=1e-8)
+
+
+@pytest.mark.exact
+def test_a_recorded_ramp_turns_the_motion_by_its_own_course():
+    """Against SciPy, simulated and in the equation of motion, which the first speed alone does not close."""
+    gyro = np.array([[0, 2.0], [-2.0, 0]])
+    bench = Bench(replace(lumps([1.0, 1.0], np.eye(2), [100.0, 100.0]), gyroscopic=gyro), Hard(), constant(0.0), 1e-3,
+                  (seen("displacement"), Sensor("other", DISPLACEMENT, "sensor_1")))
+    run = Run("ramp", 3.0, 100.0, start=Start(np.zeros(2), np.array([0.1, 0.0])))
+    run = replace(run, drive=0.5 + 2 * run.time)
+    truth = solve_ivp(lambda t, s: [*s[2:], *(-(0.5 + 2 * t) * gyro @ s[2:] - 100 * s[:2])], (0, 3), [0, 0, 0.1, 0],
+                      "DOP853", run.time, rtol=1e-11, atol=1e-14).y
+    found = respond(bench, run)
+    both = np.array([found["seen"], found["other"]])
+    assert abs(both - truth[:2]).max() < 1e-4 * abs(truth[:2]).max()
+    measured = {"seen": truth[0], "other": truth[1]}
+    left = equation_residual(bench, run, measured)[:, 2:-2]
+    first = equation_residual(bench, replace(run, drive=0.5), measured)[:, 2:-2]
+    assert abs(left).max() < 0.03 * abs(first).max(), "differences over samples 1/100 s apart"
 
 
 @pytest.mark.parametrize("channel, said", [

@@ -74,7 +74,10 @@ def _measured(product):
 
 
 def _effect(product, k):
-    return f"{str(product.effect[k]).replace('_', ' ')} at {product.place[k]}" if product.effect[k] else "nothing"
+    if not product.effect[k]:
+        return "nothing"
+    contacts = f" ({product.contacts[k]})" if product.contacts[k] else ""
+    return f"{str(product.effect[k]).replace('_', ' ')} at {product.place[k]}{contacts}"
 
 
 def _first_up(text):
@@ -142,6 +145,7 @@ def _value(product, k, given=False):
     name = str(product.parameter[k]).partition("@")
     short = name[2].rpartition(".")[2].replace("_", " ") if name[1] else name[0]
     unit = str(product.parameter_unit[k])
+    short = f"factor on {short}" if product.parameter_factor[k] else short
     text = f"{short} {_with_error(product.parameter_value[k], product.parameter_std[k], unit)}"
     return f"{text} (given {quantity(product.parameter_nominal[k], unit, 3)})" if given else text
 
@@ -288,7 +292,8 @@ def _with_force(product):
 def _parameters(product):
     if not len(product.parameter):
         return None
-    rows = tuple((_words(str(name).replace("@", " at ")), quantity(product.parameter_nominal[k], unit, 4),
+    rows = tuple((("factor on " if product.parameter_factor[k] else "") + _words(str(name).replace("@", " at ")),
+                  quantity(product.parameter_nominal[k], unit, 4),
                   _with_error(product.parameter_value[k], product.parameter_std[k], unit),
                   number(_distance(product, k), 2)) for k, (name, unit) in enumerate(
                       zip(product.parameter, map(str, product.parameter_unit), strict=True)))
