@@ -3,7 +3,7 @@
 import hashlib
 import json
 from copy import deepcopy
-from dataclasses import asdict, dataclass, replace
+from dataclasses import asdict, dataclass, fields, replace
 from difflib import get_close_matches
 from functools import cached_property
 from pathlib import Path
@@ -36,6 +36,10 @@ class CaseFile:
     folders: tuple      # where files are searched for that are not beside the YAML that names them
     measured: object = None     # name of a public recording -> its local file
     unread: tuple = ()          # names of stages that will not run, whose sections are not checked
+
+    def __getstate__(self):
+        """What another process makes the rest from: settings are filled there anew."""
+        return {field.name: getattr(self, field.name) for field in fields(self)}
 
     @property
     def name(self):

@@ -3,11 +3,13 @@
 import ast
 import multiprocessing
 import os
+import pickle
 from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
+import stages
 from pipeline import sources
 from pipeline.cli.console import Bars, RunContext
 from pipeline.contract import ConfigError, Context, ProductError, case, fingerprint, runner, store
@@ -185,6 +187,20 @@ def test_variants_run_in_turn_where_workers_do_not_see_the_run_folder(varied, mo
     told, sent = [], Context.map
     monkeypatch.setattr(Context, "map", lambda *its: told.append(its[3]) or sent(*its))
     assert job(varied).execute(Context()) == 6 and set(told) == {"channels"}
+
+
+def test_variants_of_the_default_case_go_to_other_processes():
+    """With all that was filled in here, and back: the same settings."""
+    given = case.load(ROOT / "configs" / "disc_brake.yaml", stages.CHAINS, stages.load)
+    run = runner.ChainRun(given, Path("nowhere"), "superlu")
+    varied = run.variants(next(stage for stage in given.stages if stage.name == "convergence"))
+    assert len(varied) == 4
+    for _, variant, last, _ in varied:
+        here = variant.case.sections
+        there, same = pickle.loads(pickle.dumps((variant, last)))
+        assert same is last and there.code == variant.code
+        assert {name: s.model_dump() for name, s in there.case.sections.items()} == {
+            name: s.model_dump() for name, s in here.items()}
 
 
 def _hold(folder, ready, free):
