@@ -66,8 +66,8 @@ def statement(cycle):
                     f" {percent(abs(frequency), 2)}." for name, level, frequency in
                     zip(cycle.check, cycle.check_level, cycle.check_frequency, strict=True))
     state = ("Every motion settles at its level." if not unsettled else
-             f"{unsettled} of {len(last)} motions have NOT settled: their levels still change by more than"
-             f" {number(float(cycle.settled_within), 2)} dB over the last two windows.")
+             f"{unsettled} of {len(last)} motions {'has' if unsettled == 1 else 'have'} NOT settled: the level still"
+             f" changes by more than {number(float(cycle.settled_within), 2)} dB over the last two windows.")
     simulated = "Simulated:" if len(last) == 1 else f"Of {len(last)} simulated operating points, the loudest is"
     return (f"{simulated} {point(cycle, loudest)}, where the sensors move with"
             f" {quantity(last[loudest], 'm/s', 3)} ({number(pictures.decibel(last[loudest]), 4)} dB re 1 nm/s), most"

@@ -85,7 +85,7 @@ def test_a_simulated_brake_squeals_and_says_how_loud():
     assert "Every motion settles" in said(told) and "0.05 dB" in said(told)
     doubtful = verdict({"complex_modes": modes, "convergence": ending,
                         "limit_cycle": small.limit_cycle(settled=False)}, ())
-    assert "1 of 2 motions have NOT settled" in said(doubtful)
+    assert "1 of 2 motions has NOT settled" in said(doubtful)
 
 
 def test_how_likely_says_where_how_much_and_what_matters():
