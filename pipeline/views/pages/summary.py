@@ -50,8 +50,10 @@ def _diagnosed(product, products, tuned_settings):
     """Verdict of a case with recordings: what they show to be missing."""
     weighed = products.get("line_evidence")
     headline, tone = diagnosis.headline(product) if weighed is None else line_evidence.headline(weighed)
-    answers = (("What made it squeal", line_evidence.statement(weighed) if weighed is not None else ""),
-               *(diagnosis.note(product) if product is not None else ()), ("Tuned", _tuned(products, tuned_settings)))
+    answers = [] if product is None else list(diagnosis.note(product))
+    if weighed is not None:     # of single frequencies, what to measure remains
+        answers = [*line_evidence.note(weighed), *answers[-1:]]
+    answers.append(("Tuned", _tuned(products, tuned_settings)))
     return Verdict(headline, tone, tuple(a for a in answers if a[1]), tuple(_facts(products)))
 
 

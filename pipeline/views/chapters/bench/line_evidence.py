@@ -22,7 +22,7 @@ def chapter(product, look):
     said, figures, cycle_tables = line_fit.cycle(product, names)
     tables = (_weights(product, names), line_fit.fit(product, names), *_values(product, names), *cycle_tables,
               _confusion(product, names))
-    sentences = (statement(product), line_fit.written(product), needed(product), said)
+    sentences = (_verdict(product), statement(product), line_fit.written(product), needed(product), said)
     return Chapter("line_evidence", "What made it squeal?", see, " ".join(filter(None, sentences)),
                    (*_figures(product, names), *figures), tables, limits(product))
 
@@ -37,6 +37,12 @@ def _tests(product):
 def headline(product):
     """(sentence, tone) of the first screen."""
     return _verdict(product).rstrip("."), "squeal" if str(product.verdict) == "flexible" else "warning"
+
+
+def note(product):
+    """(question, answer) pairs that the first screen shows."""
+    return (("What made it squeal", statement(product)), ("Completed case", line_fit.written(product)),
+            ("What it would take", needed(product)))
 
 
 def key_figure(product):
@@ -57,7 +63,6 @@ def statement(product):
     first = (f"A disc that is flexible in the loop makes what was heard {total} times as probable as a rigid one, over"
              f" all hypotheses of either kind; {names[flexible]} against {names[rigid]}:"
              f" {_power(product.evidence[flexible] - product.evidence[rigid])} times.")
-    first = f"{_verdict(product)} {first}"
     nothing = product.evidence[-1] - product.evidence[:-1].max()
     best = names[int(np.argmax(product.evidence[:-1]))]
     if nothing > 0:
