@@ -195,6 +195,8 @@ class ChainRun:
         Variants run side by side, each in one process, where that process writes to the run folder; else in turn.
         """
         old = [(run, last) for _, run, last, _ in self.variants(stage) if any(s.reasons for s in run.needed(last))]
+        if not old:
+            return []
         if not context.sees_files:
             return [done for run, last in old for done in _computed((run, last), context)]
         with context.stage(stage):

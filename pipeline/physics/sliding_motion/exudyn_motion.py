@@ -7,7 +7,7 @@ fourth order, which shares nothing with the exponential steps but the contact fo
 import numpy as np
 
 from pipeline.contract.errors import ConvergenceError
-from pipeline.physics.sliding_motion.exponential_step import modal_rate, observed
+from pipeline.physics.sliding_motion.exponential_step import observed
 from pipeline.physics.sliding_motion.motion import NO_BOOK, Run
 
 #: largest product of a root and a step, to which longer steps are cut: beyond it contacts fail to settle
@@ -24,13 +24,9 @@ def run(system, start, step, duration, every=1, book=False):
     start, count = start[0] if isinstance(start, tuple) else start, parts * round(duration / step)
     step, every = step / parts, parts * every
     watch = _Watch(system, start, step, count, every, book)
-    half = len(start)
-    root = np.array([system.modes.root.real, system.modes.root.imag])
 
     def rate(multibody, time, item, coordinates):
-        change = np.empty(2 * half)
-        modal_rate(system.patches, system.motion, system.force, root, np.array(coordinates), change)
-        return change
+        return system.real_rate(np.array(coordinates))
 
     _solve(rate, np.concatenate((start.real, start.imag)), count, step, watch)
     return watch.run()

@@ -140,10 +140,18 @@ class SlidingMotion:
 
     def rate(self, start):
         """dz/dt (m,) at modal coordinates (m,): for other integrators and for tests."""
-        state, half = np.concatenate((start.real, start.imag)), len(start)
-        change, root = np.empty(2 * half), np.array([self.modes.root.real, self.modes.root.imag])
-        modal_rate(self.patches, self.motion, self.force, root, state, change)
+        change, half = self.real_rate(np.concatenate((start.real, start.imag))), len(start)
         return change[:half] + 1j * change[half:]
+
+    def real_rate(self, state):
+        """The same in real coordinates (Re z, Im z), (2m,)."""
+        change = np.empty(len(state))
+        modal_rate(self.patches, self.motion, self.force, self._root, state, change)
+        return change
+
+    @cached_property
+    def _root(self):
+        return np.array([self.modes.root.real, self.modes.root.imag])
 
     @cached_property
     def reach(self):
