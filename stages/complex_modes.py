@@ -25,10 +25,11 @@ from pipeline.case_models.steady_sliding import (
     mapped_friction,
     posed,
     refuse_twice,
+    stated_friction,
 )
 from pipeline.case_models.unstable_roots import in_whole_model, nearly
 from pipeline.contract import ConfigError, Context, Quantities, Quantity, Section, option, stage, stored
-from pipeline.physics.friction.dry_friction import Friction, constant, falling
+from pipeline.physics.friction.dry_friction import Friction, constant
 from pipeline.physics.friction.friction_table import refuse_beyond
 from pipeline.physics.friction.tangential_law import tangential_law
 from pipeline.physics.modal.quadratic_eigenproblem import (
@@ -38,7 +39,7 @@ from pipeline.physics.modal.quadratic_eigenproblem import (
     quadratic_roots,
     upper_half,
 )
-from pipeline.physics.sliding.equilibrium import ClosureResponse, closure_response, falling_with_speed, from_map
+from pipeline.physics.sliding.equilibrium import ClosureResponse, closure_response, from_map
 from pipeline.physics.sliding.model import SlidingModel
 from pipeline.physics.stability.constrained_modes import allowed_motions, hard_sliding, is_hard
 from pipeline.physics.stability.friction_basis import FrictionBasis, friction_basis
@@ -240,10 +241,7 @@ def _friction_law(friction_map, model, settings):
     if settings.friction is None:
         law = tangential_law(model).friction_law()
         return Friction(law), partial(from_map, law, 0.0)
-    decay_speed, last = settings.decay_speed, settings.friction
-    at_rest = last if settings.friction_at_rest is None else settings.friction_at_rest
-    law = falling(at_rest, last, decay_speed)
-    return law, partial(falling_with_speed, last, at_rest, decay_speed)
+    return stated_friction(settings)
 
 
 def _basis(model, settings, contact_stiffness=0.0):

@@ -9,15 +9,13 @@
 
 import json
 from dataclasses import replace
-from functools import partial
 from types import SimpleNamespace
 from typing import Literal
 
 import numpy as np
 
-from pipeline.case_models.steady_sliding import mapped_friction
+from pipeline.case_models.steady_sliding import mapped_friction, stated_friction
 from pipeline.contract import ConfigError, Section, option
-from pipeline.physics.sliding.equilibrium import falling_with_speed
 from pipeline.physics.sliding.model import sliding_model
 from pipeline.physics.stability.scatter import Factors, Family, Pivot
 
@@ -145,7 +143,8 @@ def _members(source, names):
 def friction_deviations(friction_map, distance):
     """{kind: standard error} of a product FrictionMap at a sliding ``distance`` m: level and slopes at the pivot.
 
-    None without a map."""
+    Nothing without a map.
+    """
     if friction_map is None:
         return {}
     at = int(np.argmin(abs(friction_map.distance - distance)))
@@ -168,7 +167,8 @@ def family(model, state, friction_map, settings):
         lining = np.zeros_like(model.stiffness)
         lining[np.ix_(lined, lined)] = model.lining_stiffness
     at = settings.sliding_distance
-    law, pivot = _stated_friction(settings) if friction_map is None else _mapped(friction_map, at)
+    law, pivot = ((stated_friction(settings)[1], Pivot()) if friction_map is None      # slopes are about 1 m/s
+                  else _mapped(friction_map, at))
     return Family(
         sliding_model(bare, state, float(np.mean(settings.speeds))), law,
         model.pressure[state] * model.input_area, settings.damping_speed, model.loss, model.joint_loss_factor, lining,
@@ -182,10 +182,3 @@ def _mapped(friction_map, at):
     pivot = Pivot(best, float(np.exp(np.log(friction_map.speed).mean())), tuple(friction_map.pressure[[0, -1]]),
                   tuple(friction_map.speed[[0, -1]]))
     return mapped_friction(friction_map, at)[1], pivot
-
-
-def _stated_friction(settings):
-    """(friction, Pivot) of the section complex_modes: slopes are about 1 m/s."""
-    last = settings.friction
-    at_rest = last if settings.friction_at_rest is None else settings.friction_at_rest
-    return partial(falling_with_speed, last, at_rest, settings.decay_speed), Pivot()

@@ -11,10 +11,10 @@ from pipeline.effects.effect import compose
 from pipeline.physics.contact.closure_law import damping_at_rest
 from pipeline.physics.contact.groups import alike, read
 from pipeline.physics.contact.static_preload import Preload
-from pipeline.physics.friction.dry_friction import Friction, constant, under
+from pipeline.physics.friction.dry_friction import Friction, constant, falling, under
 from pipeline.physics.friction.friction_table import FrictionLaw
 from pipeline.physics.sliding.doublets import doublets
-from pipeline.physics.sliding.equilibrium import from_map, given_state, steady_sliding
+from pipeline.physics.sliding.equilibrium import falling_with_speed, from_map, given_state, steady_sliding
 from pipeline.physics.sliding.model import FrictionState, sliding_model, spread
 from pipeline.physics.stability.linearisation import element_slopes, friction_about, maxwell_branches, present, settling
 from pipeline.physics.time_stepping.elements import Turning, bears
@@ -191,6 +191,13 @@ def _law(model, contacts, damping_speed):
         return Hard(0.0, model.contact_gap)
     return Penalty(np.where(stiffness > 0, stiffness, stiffness.max()),
                    damping_at_rest(contacts.preload, damping_speed), model.contact_gap)
+
+
+def stated_friction(settings):
+    """The same as of ``mapped_friction`` for the friction that the section ``complex_modes`` states."""
+    decay_speed, last = settings.decay_speed, settings.friction
+    at_rest = last if settings.friction_at_rest is None else settings.friction_at_rest
+    return falling(at_rest, last, decay_speed), partial(falling_with_speed, last, at_rest, decay_speed)
 
 
 def mapped_friction(friction_map, distance):

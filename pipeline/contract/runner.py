@@ -187,7 +187,7 @@ class ChainRun:
             state = replace(state, reasons=("forced", *state.reasons))
         seconds = self._compute(stage, context) if state.reasons else None
         report(replace(state, variant=self.variant), seconds)
-        return sum(seconds is not None for _, seconds in varied) + bool(state.reasons)
+        return len(varied) + bool(state.reasons)
 
     def _bring_variants(self, stage, context):
         """(state, seconds) of all that was computed to bring products of variants up to date that ``stage`` reads.
