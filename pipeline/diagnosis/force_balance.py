@@ -61,4 +61,5 @@ def force_balance_problem(bench, recorded, settings, equation):
         problem, noises | {p.name: noises[p.like] for p in planned}, effects, units, solver,
         BalanceAxes(channel_names(bench), Axes.under(problem, noises, solver)),
         DescribeBalance(bench, balances, problem, noises, solver.rules, seed=settings.seed),
-        settings.latent_force.predict, next_runs=tuple(observed(p.shown.seen) for p in planned))
+        settings.latent_force.predict, next_runs=tuple(observed(p.shown.seen) for p in planned),
+        noise_levels=settings.noise.levels)

@@ -37,7 +37,7 @@ def forced_problem(bench, recorded, settings):
         (*effects, *([solver_candidate()] if settings.solver else [])), units, solver,
         ForcedAxes(bench, runs, Axes.under(problem, noises, solver)),
         Describe(bench, runs, problem, noises, solver.rules, seed=settings.seed), settings.latent_force.predict,
-        next_runs=tuple(f.observed for f in planned))
+        next_runs=tuple(f.observed for f in planned), noise_levels=settings.noise.levels)
 
 
 def stated_noise(settings, units):

@@ -51,7 +51,7 @@ class DiagnosisProblem:
 
     ``units`` {channel: SI unit}. ``latent`` describes a missing force, which predicts held-out runs where
     ``predicts_with_force``. ``next_runs`` (Observed, whose samples do not count): what could be recorded next, named by
-    what is changed, each with its budget.
+    what is changed, each with its budget. ``noise_levels``: multiples of the noise at which the verdict is told too.
     """
 
     problem: Problem
@@ -65,6 +65,7 @@ class DiagnosisProblem:
     squeals: SquealComparison | None = None
     revision: Revision | None = None
     next_runs: tuple = ()
+    noise_levels: tuple = ()
 
     @property
     def rules(self):

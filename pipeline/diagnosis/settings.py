@@ -29,6 +29,8 @@ class NoiseOf(Section):
 
     std: dict[str, str | float] = option({}, "standard deviation by channel, with its unit")
     above: Quantity("Hz", gt=0) | None = option(None, "frequency above which recordings hold nothing but noise")
+    levels: tuple[float, ...] = option((0.5, 2.0, 4.0), "noise, as multiples of what is known of it, at which the"
+                                                        " verdict is told too")
 
 
 class PlannedInput(Section):

@@ -15,7 +15,7 @@ from pipeline.inference.decision import second_effect
 from pipeline.inference.decision.decision_rules import Decision, decide
 from pipeline.inference.decision.weighing import Weighing, weigh
 from pipeline.inference.fitting.calibration import Calibration, recalibrate
-from pipeline.inference.fitting.refitting import refit_catalogue
+from pipeline.inference.fitting.refitting import Refits, refit_catalogue
 from pipeline.inference.rules import DEFAULTS, Rules
 from pipeline.inference.search.score_screen import screen_catalogue
 
@@ -39,13 +39,16 @@ class Settings:
 class Diagnosis:
     """What the steps came to: the ``calibration``, the ``weighing`` of a screened and refitted catalogue, the decision.
 
-    ``base``: the Diagnosis that came before a pair, whose nominal hypothesis takes the first effect as known.
+    ``base``: the Diagnosis that came before a pair, whose nominal hypothesis takes the first effect as known;
+    ``refits``: what was weighed. ``further``: what was tried beside the leading effect and did not matter, if anything.
     """
 
     calibration: Calibration
     weighing: Weighing
     decision: Decision
     base: Optional["Diagnosis"] = None
+    refits: Refits | None = None
+    further: Optional["Diagnosis"] = None
 
     @property
     def nominal(self):
@@ -109,9 +112,11 @@ def diagnose(problem, budget, catalogue, settings=None, fan_out=map):
     _, single = _steps(problem, budget, catalogue, settings, fan_out)
     if len(problem.runs) > 1 and single.decision.verdict in ("unknown", "missing"):
         for first in second_effect.leading(single, settings.rules):
-            pair = _pair(problem, budget, catalogue, settings, fan_out, single, first)
-            if pair is not None:
+            pair, matters = _pair(problem, budget, catalogue, settings, fan_out, single, first)
+            if matters:
                 return pair
+            if first in single.named:
+                single = replace(single, further=pair)
     if settings.tied_seconds and single.decision.verdict == "unknown":
         return _tied_pair(problem, budget, catalogue, settings, fan_out, single)
     return single
@@ -133,23 +138,44 @@ def _decided(refits, settings, base):
     if not null.converged and decision.verdict in ("consistent", "parameters"):
         raise ConvergenceError(f"calibration of {null.hypothesis.name}", "a fit that converges",
                                f"none after {null.evaluations} predictions", "check the nominal values and priors")
-    return Diagnosis(refits.calibration, weighing, decision, base)
+    return Diagnosis(refits.calibration, weighing, decision, base, refits)
+
+
+@dataclass(frozen=True)
+class VerdictAtNoise:
+    """What the decision would be if noise were ``factor`` times what is stated: its ``verdict`` and whom it ``named``.
+    """
+
+    factor: float
+    verdict: str
+    named: tuple
+
+
+def over_noise(diagnosis, settings, factors):
+    """[VerdictAtNoise] of a Diagnosis, all fitted values as they are: how far the verdict hangs on the level of noise.
+    """
+    told = []
+    for factor in factors:
+        weighing = weigh(diagnosis.refits.at_noise(factor), settings)
+        decision = decide(weighing.runs, [w.statistics for w in weighing.weighed], settings.rules.decision)
+        told.append(VerdictAtNoise(float(factor), decision.verdict, tuple(c.name for c in decision.named)))
+    return told
 
 
 def _pair(problem, budget, catalogue, settings, fan_out, single, first):
-    """Diagnosis with the ``first`` Weighed taken as known, where it names a second effect that matters; else None."""
+    """(Diagnosis with the ``first`` Weighed taken as known or None, whether it names a second effect that matters)."""
     rules, explained = settings.rules, first.fit.betters(single.null)
     if not second_effect.has_room(first.fit, explained, rules):
-        return None
+        return None, False
     rest = [c for c in catalogue if c.name != first.candidate.name]
     try:
         refits, pair = _steps(problem.given(first.candidate), budget, rest, settings, fan_out, first.fit, single)
     except ConvergenceError:
-        return None
+        return None, False
     if not second_effect.matters(pair, explained, rules):
-        return None
+        return pair, False
     alone = _decided(refits.begun_anew(second_effect.starts_without(first, pair, rest)), settings, single)
-    return alone if second_effect.better_alone(alone, pair) else pair
+    return (alone if second_effect.better_alone(alone, pair) else pair), True
 
 
 def _tied_pair(problem, budget, catalogue, settings, fan_out, single):

@@ -113,7 +113,7 @@ class SquealCheck:
     agrees: Array = count("who feature", "1 where the mean lies within the spread of both from that recorded")
 
 
-@product(version=5)
+@product(version=6)
 class Diagnosis:
     """The verdict on recordings: what differs, where, what is missing, how sure, and what to measure next."""
 
@@ -123,6 +123,15 @@ class Diagnosis:
     channel_unit: Array = text("channel", "their SI units")
     named: Array = count("named", "rows of the hypotheses that the verdict names; all of a tie")
     known: Array = count("known", "rows of the hypotheses that were assumed known (first of a pair)")
+    leading: Array = count("leading", "row of the hypothesis that explains most beyond chance where nothing is named; none where no candidate helps")
+    leading_takes: Array = quantity("1", "leading", "share of the excess error that it takes, on held-out runs where they can tell, else on all")
+    leading_stays: Array = quantity("1", "leading", "share that stays beyond the doubt about noise")
+    noise_level: Array = quantity("1", "level", "noise as a multiple of what is known of it")
+    noise_verdict: Array = text("level", "verdict at that level, all fitted values as they are")
+    noise_named: Array = text("level", "hypotheses named there, joined by ' or '; empty for none")
+    left_floors: Array = quantity("1", "", "root mean square of what the completed model leaves of all runs, whitened: 1 is noise alone")
+    left_sentence: Array = text("", "band and dependence of what is left after naming; empty where nothing is left beyond doubt")
+    left_candidate: Array = text("", "best candidate beside what is named, and why it is not named; empty for none")
     hypothesis: Array = text("hypothesis", "all hypotheses compared; first: nothing missing")
     effect: Array = text("hypothesis", "effect of the catalogue; empty for nothing missing")
     place: Array = text("hypothesis", "location at which it would act")

@@ -73,9 +73,30 @@ def test_wrong_values_are_told_with_what_was_given():
 
 def test_a_description_is_never_called_physics():
     found = diagnosis("unknown")
-    assert dict(note(found))["What is missing"] == found.latent_sentence.item()
+    assert dict(note(found))["What is missing"].endswith(found.latent_sentence.item())
     assert any("not identified physics" in n for n in chapter(found, Look()).notes)
     assert any("not identified physics" in f.caption for f in chapter(found, Look()).figures)
+
+
+def test_what_leads_is_told_with_what_it_takes_and_leaves_and_only_then_is_the_catalogue_in_doubt():
+    found = diagnosis("unknown", leading=[1], leading_takes=[0.81], leading_stays=[0.19],
+                      noise_verdict=["unknown", "missing"], noise_named=["", "coulomb at guide"])
+    assert headline(found)[0] == ("Leading explanation, not confirmed: coulomb at guide; takes 81\u202f% of the excess"
+                                  " error")
+    told = dict(note(found))
+    assert "takes 81\u202f% of the excess error on held-out runs, and 19\u202f% stays" in told["What is missing"]
+    assert "it would be missing (coulomb at guide) at 2 times what is known of it" in told["How certain"]
+    assert "outside it" in dict(note(diagnosis("unknown")))["What is missing"]
+    assert "the same at 0.5 and 2 times the noise" in dict(note(diagnosis()))["How certain"]
+
+
+def test_what_is_left_after_naming_is_told_with_the_next_candidate():
+    found = diagnosis(left_floors=7.6, left_sentence="It lies between 20 and 40 Hz.",
+                      left_candidate="quadratic_damping at arm: it leaves 30% of the excess error")
+    assert dict(note(found))["What is left"] == (
+        "7.6 noise floors remain. It lies between 20 and 40 Hz. Next candidate: Quadratic damping at arm: it leaves"
+        " 30% of the excess error.")
+    assert dict(note(diagnosis()))["What is left"] == ""
 
 
 def test_without_a_held_out_run_the_chapter_says_so():
@@ -113,11 +134,13 @@ def test_pictures_are_the_same_twice_and_follow_the_product():
         assert draw(found) == draw(found) != draw(other)
 
 
-def test_the_page_begins_with_the_map():
+def test_the_page_begins_with_the_held_out_run_under_all_models_and_the_map():
     shown = {"diagnosis": diagnosis(), "bench": bench()}
     text = page([build() for build in plan(shown, Look())], shown, products.case(), Look())
     assert 'id="bench"' in text and 'id="diagnosis"' in text and "Mismatch map" in text
-    assert "<b>Figure 1.</b> Mismatch map" in text
+    first = text[:text.index('id="bench"')]
+    assert "Run pulses (held out): measured, nominal, recalibrated and completed" in first, "seen at once"
+    assert "Mismatch map" in first
 
 
 def test_the_bench_shows_prediction_beside_measurement():

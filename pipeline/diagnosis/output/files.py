@@ -101,6 +101,8 @@ def as_json(product):
     document = {
         "schema": SCHEMA, "verdict": product.verdict.item(), "reasons": [str(r) for r in product.reason],
         "effects": [_effect(product, k) for k in (*product.known, *product.named)],
+        "leading": [_effect(product, k, False) | {"takes": float(takes), "stays": float(stays)} for k, takes, stays in
+                    zip(product.leading, product.leading_takes, product.leading_stays, strict=True)],
         "alternatives": [_effect(product, k, False) for k in ordered if k not in named][:ALTERNATIVES],
         "not_judged": [_not_judged(product, k) for k in range(len(product.hypothesis))
                        if product.objection[k] and not product.refitted[k]],
@@ -110,6 +112,11 @@ def as_json(product):
         "fit": {part: _fit(product, row, held_out) for row, (part, held_out) in enumerate(
             (("training", 0), ("held_out", 1)))},
         "unexplained_share": float(product.unexplained_share),
+        "left": {"noise_floors": float(product.left_floors), "sentence": product.left_sentence.item(),
+                 "next_candidate": product.left_candidate.item()},
+        "at_other_noise": [
+            {"noise": float(level), "verdict": str(verdict), "named": str(named)} for level, verdict, named in zip(
+                product.noise_level, product.noise_verdict, product.noise_named, strict=True)],
         "next_experiment": {"conditions": [str(c) for c in product.next_condition],
                             "separates": [str(s) for s in product.next_separates], "value": float(product.next_value)},
     }

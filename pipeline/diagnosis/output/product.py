@@ -4,11 +4,14 @@ import numpy as np
 
 from pipeline.case_models.corrections import is_factor
 from pipeline.diagnosis.experiment_design.next_run import next_experiment
+from pipeline.diagnosis.output.remainder import remainder
 from pipeline.diagnosis.problem import label, split_name
 from pipeline.diagnosis.signals.localisation import stage_of
 from pipeline.inference.decision.candidate_statistics import unexplained
 from pipeline.inference.decision.held_out import errors
 from pipeline.inference.fitting.noise import normalised_error
+from pipeline.inference.fitting.parameter_drift import spread
+from pipeline.inference.procedure import over_noise
 from pipeline.products import DiagnosedRun, Diagnosis, Follows, LatentForce, LatentPrediction, Located, SquealCheck
 
 #: models that are compared, in the order of the tables
@@ -31,10 +34,12 @@ def product(problem, diagnosis, contacts=None):
     predicts = latent and problem.predicts_with_force and diagnosis.decision.verdict == "unknown"
     use = problem.latent.predicted(diagnosis, latent) if predicts else None
     squeals = problem.squeals.compared(recalibrated, completed) if problem.squeals else {}
-    channels, rows = tuple(problem.units), problem.rules.rows()
+    channels, rows, left = tuple(problem.units), problem.rules.rows(), remainder(problem, diagnosis)
     result = Diagnosis(
         verdict=diagnosis.decision.verdict, reason=list(diagnosis.decision.reasons), channel=channels,
         channel_unit=[problem.units[c] for c in channels], **table, **_parameters(diagnosis, completed, table),
+        **_leading(diagnosis, table), **_levels(problem, diagnosis), left_floors=left.floors,
+        left_sentence=left.sentence, left_candidate=left.candidate,
         fit=[_part(part) for part in fits], unexplained_share=unexplained(recalibrated, completed, problem.rules),
         drift_p_value=diagnosis.weighing.drift.p_value,
         location={name: located(*axis) for name, axis in axes.items()},
@@ -115,6 +120,20 @@ def _hypotheses(diagnosis):
             "named": [names.index(c.name) for c in diagnosis.decision.named], "known": [1] if known else []}
 
 
+def _leading(diagnosis, table):
+    """Fields of what leads where nothing is named."""
+    first = diagnosis.decision.leading
+    return {"leading": [table["hypothesis"].index(first.name)] if first else [],
+            "leading_takes": [first.takes] if first else [], "leading_stays": [first.stays] if first else []}
+
+
+def _levels(problem, diagnosis):
+    """Fields of the verdict at other levels of noise."""
+    levels = over_noise(diagnosis, problem.settings, problem.noise_levels)
+    return {"noise_level": [level.factor for level in levels], "noise_verdict": [level.verdict for level in levels],
+            "noise_named": [" or ".join(level.named) for level in levels]}
+
+
 def _contacts(place, names):
     """Contacts at a place, or at those of a pair, in the words of the case."""
     return ", ".join(dict.fromkeys(name for each in place.split(" + ") for name in names.get(each, ())))
@@ -150,14 +169,15 @@ def _row(name, effects, kind, **values):
 
 
 def _std(diagnosis, completed):
-    """{name: standard deviation} of the values of the Fit ``completed``; what a model leaves counts as its noise.
+    """{name: standard deviation} of the values of the Fit ``completed``; what a model leaves counts as its noise, as
+    does what runs differ by.
 
     Where nothing could be named, values depend on what is missing: they are those of ``completed`` or of a refitted
     candidate that fits better, each as likely as the others since none of them suffices.
     """
     unknown = diagnosis.decision.verdict == "unknown"
     models = [completed, *(w.fit for w in diagnosis.weighed if unknown and w.fit.objective < completed.objective)]
-    std = [fit.spread(fit.weights) for fit in models]
+    std = [spread(fit, fit.weights) for fit in models]
     return {name: float(np.sqrt(np.mean([deviation[name] ** 2 + (fit.values[name] - value) ** 2
                                          for fit, deviation in zip(models, std, strict=True)])))
             for name, value in completed.values.items()}

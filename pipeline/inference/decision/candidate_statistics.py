@@ -5,7 +5,7 @@ import scipy
 
 from pipeline.contract.errors import BrakechainError
 from pipeline.inference.decision.decision_rules import CandidateStatistics, RunStatistics
-from pipeline.inference.decision.held_out import gain, held_out_residuals
+from pipeline.inference.decision.held_out import Gain, gain, held_out_residuals
 from pipeline.inference.fitting.effective_sample_size import coherent_energy, doubt, effective_share
 from pipeline.inference.fitting.least_squares import linearised, orthogonal, whitened
 from pipeline.inference.fitting.parameter_drift import agreement
@@ -51,13 +51,21 @@ def candidate_statistics(null, null_evidence, candidate, fit, evidence, posterio
     differing = [agreement(fit, k, weights, _immaterial(fit, k, rules.decision))[0] for k, _ in added]
     left_out, uncertainty = evidence.left_out - null_evidence.left_out, rules.decision.noise_uncertainty
     unfitted = gained and (gained.errors_with(left_out) if len(left_out) > 1 else gained.errors)
+    powered = bool(gained) and (null.unordered or gained.powered(uncertainty))
+    judged = gained if powered else _everywhere(gained, null, fit)
     return CandidateStatistics(
         candidate.name, candidate.kind, float(posterior), evidence.log_evidence - null_evidence.log_evidence,
         float(p_value), float(left_out.sum()), unfitted, gained and gained.errors, gained and gained.share_at_most,
         gained and gained.left(uncertainty), gained and _growth(gained, fit, uncertainty), held_out[1],
         max(differing, default=0.0), max(moved, default=0.0), unexplained(null, fit, rules),
         candidate.forbidden(fit.values) if candidate.forbidden else "",
-        unfinished(fit, null, rules.evidence) + fit.excluded(LATENT_LIMIT - 1e-6))
+        unfinished(fit, null, rules.evidence) + fit.excluded(LATENT_LIMIT - 1e-6),
+        powered, float(max(judged.share, 0.0)), float(judged.left(uncertainty)))
+
+
+def _everywhere(gained, null, fit):
+    """Gain over all runs, those fitted included; ``gained``: that on held-out runs, or None without any."""
+    return (gained or Gain(0.0, 0.0, 0.0, 0)).with_fitted(null, fit)
 
 
 def _growth(gained, fit, uncertainty):
@@ -101,12 +109,20 @@ def _coherent(fit, rules):
 
 def run_statistics(problem, budget, null, weights, drift, rules):
     """RunStatistics of the recalibrated nominal model ``null`` (Fit) with its Drift, under {run: Noise} ``budget``."""
-    uncertainty = rules.decision.noise_uncertainty
+    uncertainty, without = rules.decision.noise_uncertainty, _powerless(problem, budget, null, rules)
     return RunStatistics(
         len(problem.runs), len(drift.points),
         _misfit(null.noises, null.residuals, null.chi_square.sum(), uncertainty),
         _misfit_held_out(problem, budget, null, weights, uncertainty), _coherent(null, rules) > 0,
-        _moved_p(problem, null, weights), drift.p_value, null.excluded(rules.calibration.excluded))
+        _moved_p(problem, null, weights), drift.p_value, null.excluded(rules.calibration.excluded), without)
+
+
+def _powerless(problem, budget, null, rules):
+    """Names of held-out runs that the Fit ``null`` predicts to the noise, on which no effect has anything to gain."""
+    runs = () if null.unordered else problem.held_out
+    whites = held_out_residuals(problem, tuple(budget[run.name] for run in runs), null, runs)
+    return tuple(run.name for run, white in zip(runs, whites, strict=True)
+                 if white @ white - len(white) <= doubt(len(white), rules.decision.noise_uncertainty))
 
 
 def _misfit(noises, residuals, square, uncertainty):

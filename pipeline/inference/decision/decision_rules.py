@@ -14,7 +14,8 @@ class CandidateStatistics:
     may be of the excess error, a standard error allowed for; ``held_out_left``: what it leaves of it beyond doubt;
     ``growth``: the power of its error there over that on the fitted runs. ``from_null``: largest distance of an effect
     parameter from its null, in standard deviations. ``forbidden``: why its values cannot be (sign, passivity), or
-    empty; ``doubts``: why its fit cannot be relied on, in words.
+    empty; ``doubts``: why its fit cannot be relied on, in words. ``powered``: whether held-out runs can tell, as the
+    nominal model errs on them; ``takes`` and ``stays``: shares of the excess error on them, else on all runs.
     """
 
     name: str
@@ -34,6 +35,9 @@ class CandidateStatistics:
     unexplained: float
     forbidden: str = ""
     doubts: tuple = ()
+    powered: bool = True
+    takes: float = 0.0
+    stays: float = 1.0
 
 
 @dataclass(frozen=True)
@@ -43,7 +47,7 @@ class RunStatistics:
     ``misfit``: standard deviations of its chi^2 beyond noise (noise uncertainty taken off), ``held_out`` the same on
     runs never fitted; ``coherent``: whether its residual holds frequencies that noise does not explain; ``moved_p``: of
     the nominal values; ``drift_p``: drift test; ``excluded``: nominal values that the data want where their priors all
-    but exclude them, in words.
+    but exclude them, in words; ``powerless``: held-out runs that the nominal model predicts to the noise.
     """
 
     runs: int
@@ -54,15 +58,21 @@ class RunStatistics:
     moved_p: float
     drift_p: float
     excluded: tuple = ()
+    powerless: tuple = ()
 
 
 @dataclass(frozen=True)
 class Decision:
-    """``verdict``, the ``named`` CandidateStatistics (one, or all of a tie), and the ``reasons`` in words."""
+    """``verdict``, the ``named`` CandidateStatistics (one, or all of a tie), and the ``reasons`` in words.
+
+    ``leading``: where nothing is named although something is missing, the CandidateStatistics of what explains most of
+    it beyond chance; None where no candidate helps.
+    """
 
     verdict: str
     named: tuple
     reasons: tuple
+    leading: CandidateStatistics | None = None
 
 
 def decide(runs, candidates, rules):
@@ -77,7 +87,19 @@ def decide(runs, candidates, rules):
         reasons += [f"{c.name}: candidates that break a rule are more likely" for c in survivors]
         decision = _nothing_named(runs, rules, bool(significant))
         decision = replace(decision, reasons=decision.reasons + runs.excluded)
+    if decision.verdict == "unknown":
+        decision = replace(decision, leading=leading(significant, rules))
     return replace(decision, reasons=decision.reasons + tuple(reasons) + _not_tested(runs, rules))
+
+
+def leading(significant, rules):
+    """The most probable of the ``significant`` candidates that help beyond chance on runs not fitted, or None."""
+    def helps(candidate):
+        beyond = candidate.unfitted_errors is None or candidate.unfitted_errors >= rules.gain_errors
+        return (beyond and candidate.left_out_gain > 0 and candidate.takes >= rules.gain_share
+                and candidate.from_null >= rules.from_null and not candidate.forbidden)
+
+    return max(filter(helps, significant), key=lambda c: c.posterior, default=None)
 
 
 def objections(candidate, runs, rules):
@@ -94,7 +116,11 @@ def objections(candidate, runs, rules):
     if candidate.held_out_errors is not None:
         if candidate.unfitted_errors < rules.gain_errors:
             reasons.append(f"its gain on runs that were not fitted is {candidate.unfitted_errors:.1f} standard errors")
-        if candidate.held_out_errors < -rules.loss_errors:
+        if not candidate.powered:
+            if candidate.stays > rules.held_out_left:
+                reasons.append(f"it leaves {candidate.stays:.0%} of the excess error on all runs, of which the held-out"
+                               " ones cannot tell")
+        elif candidate.held_out_errors < -rules.loss_errors:
             reasons.append(f"it predicts held-out runs worse, by {-candidate.held_out_errors:.1f} standard errors")
         elif candidate.held_out_share < rules.gain_share:
             reasons.append(f"it takes {candidate.held_out_share:.1%} of the excess error on held-out runs at most")
@@ -103,7 +129,7 @@ def objections(candidate, runs, rules):
         elif candidate.growth > rules.growth:
             reasons.append(f"its squared error on held-out runs is {candidate.growth:.1f} times that on the fitted"
                            " ones")
-        if candidate.beats_decoy is False:
+        if candidate.powered and candidate.beats_decoy is False:
             reasons.append("it predicts held-out runs no better than a decoy of equal size")
     return reasons
 
@@ -157,6 +183,9 @@ def _nothing_named(runs, rules, some_significant):
 def _not_tested(runs, rules):
     """What could not be tested with so few runs, in words."""
     reasons = []
+    if runs.powerless:
+        reasons.append(f"held-out runs without power: {', '.join(runs.powerless)}; the recalibrated nominal model"
+                       " predicts them to the noise, so that they cannot tell what is missing")
     if runs.points < rules.agreement_points:
         reasons.append(f"{runs.points} operating point(s): whether values agree across them was not tested"
                        f" ({rules.agreement_points} are needed)")

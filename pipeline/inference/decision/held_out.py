@@ -21,6 +21,16 @@ class Gain:
     excess: float
     count: int
 
+    def powered(self, uncertainty):
+        """Whether the first model errs beyond noise and the doubt about it, so that there is something to gain."""
+        return self.excess > doubt(self.count, uncertainty)
+
+    def with_fitted(self, first, second):
+        """The gain over all runs: that on the runs from which the Fits ``first`` and ``second`` come joins it."""
+        count = first.counts.sum()
+        return Gain(self.value + second.explains(first), self.std, self.excess + first.chi_square.sum() - count,
+                    self.count + int(count))
+
     @property
     def errors(self):
         """The gain in standard errors."""

@@ -112,6 +112,12 @@ class Fit:
                      f" beyond, {abs(u):.1f} of its standard deviations away; check its unit, or widen the prior"
                      for p, u in zip(self.hypothesis.parameters, self.latent, strict=True) if abs(u) > beyond)
 
+    def at_noise(self, factor):
+        """The same values against noise ``factor`` times as large."""
+        return replace(self, noises=tuple(noise.scaled(factor) for noise in self.noises),
+                       residuals=tuple(r / factor for r in self.residuals),
+                       jacobians=tuple(j / factor for j in self.jacobians))
+
     def explains(self, null):
         """Squared error of the Fit ``null`` that this one explains."""
         return null.chi_square.sum() - self.chi_square.sum()

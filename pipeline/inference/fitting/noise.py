@@ -48,6 +48,10 @@ class Noise:
             return self.usable.shape[1]
         return int(counted[min(max(int(share * len(counted)), fewest), len(counted)) - 1]) + 1
 
+    def scaled(self, factor):
+        """Noise ``factor`` times as large."""
+        return replace(self, filter=self.filter / factor, std=self.std * factor)
+
     def until(self, kept):
         """The noise of the run cut to its first ``kept`` samples."""
         return replace(self, weight=self.weight[:, :kept], usable=self.usable[:, :kept])

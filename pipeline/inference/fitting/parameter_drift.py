@@ -48,6 +48,45 @@ def drift(fit, weights=None, draws=DRAWS, seed=0):
                  statistic, rare, freedom)
 
 
+def _by_run(fit, weights):
+    """Information J'WJ (run, k, k) and score J'W r (run, k) of every run."""
+    weights = np.ones(len(fit.runs)) if weights is None else weights
+    return (np.array([w * j.T @ j for w, j in zip(weights, fit.jacobians, strict=True)]),
+            np.array([w * j.T @ r for w, j, r in zip(weights, fit.jacobians, fit.residuals, strict=True)]))
+
+
+def _seen(information, score):
+    """(value, std) of one parameter for every run that sees it, about the joint fit."""
+    seen = information > 1.0
+    return score[seen] / information[seen], 1 / np.sqrt(information[seen])
+
+
+def _beyond_noise(groups):
+    """Standard deviation of values within ``groups`` [(value (n,), std (n,))] beyond that of each."""
+    square = freedom = size = 0.0
+    for value, std in groups:
+        if len(value) > 1:
+            weight = std**-2.0
+            square += np.sum(weight * (value - np.average(value, weights=weight))**2)
+            freedom += len(value) - 1
+            size += weight.sum() - np.sum(weight**2) / weight.sum()
+    return float(np.sqrt(max(square - freedom, 0.0) / size)) if size > 0 else 0.0
+
+
+def _with_scatter(seen, scatter, std):
+    """Standard deviation of a value whose runs (``seen``) scatter, ``std`` without that."""
+    each = seen[1]
+    if not scatter or len(each) < 2:
+        return std
+    return std * np.sqrt(np.sum(each**-2.0) / np.sum(1 / (each**2 + scatter**2)))
+
+
+def _between_repeats(fit, index, weights):
+    """What the values of one parameter differ by, beyond noise, between runs of one operating point."""
+    information, score = _reduced(*_by_run(fit, weights), index)
+    return _beyond_noise([_seen(information[rows], score[rows]) for rows in operating_points(fit.runs).values()])
+
+
 def by_point(fit, weights=None):
     """Information J'WJ (point, k, k) and score J'W r (point, k) of every operating point at the fit."""
     weights = np.ones(len(fit.runs)) if weights is None else weights
@@ -58,14 +97,34 @@ def by_point(fit, weights=None):
     return np.array(information), np.array(score)
 
 
+def scatter(fit, weights=None):
+    """(scatter (k,) of latent values between runs beyond noise, standard deviation (k,) of the joint ones with it).
+
+    Each run asks for a value of its own, the other parameters free under their priors; what their differences exceed
+    noise by is how far the law itself is off from run to run: random effects, with the variance of R. DerSimonian,
+    N. Laird, Control. Clin. Trials 7 (1986) 177. Values that fewer than two runs see have the scatter 0.
+    """
+    alone, own = _by_run(fit, weights), np.sqrt(np.diag(fit.covariance(weights)))
+    found = np.array([_beyond_noise([_seen(*_reduced(*alone, k))]) for k in range(len(own))]).reshape(-1)
+    return found, np.array([_with_scatter(_seen(*_reduced(*alone, k)), found[k], std) for k, std in enumerate(own)])
+
+
+def spread(fit, weights=None):
+    """{name: standard deviation} of the values of a Fit, noise and their ``scatter`` between runs together."""
+    std = scatter(fit, weights)[1]
+    low, high = fit.hypothesis.values(fit.latent - std), fit.hypothesis.values(fit.latent + std)
+    return {name: 0.5 * (high[name] - low[name]) for name in low}
+
+
 def agreement(fit, index, weights=None, tolerance=0.0):
     """(disagreement in standard deviations, values (point,), std (point,)) of latent parameter ``index`` over points.
 
     Each point estimates it with the other parameters free under their priors. The disagreement is the normal deviate
     that is as rare as sum ((value - mean) / std)^2, chi^2 with one degree less than points. Points that hardly see the
     parameter (std above 1, its prior's) take no part; fewer than two: zero. ``tolerance``: latent spread that does not
-    matter, added to the variance of every point.
+    matter, added to the variance of every point; so is what runs of one point differ by beyond noise.
     """
+    tolerance = max(tolerance, _between_repeats(fit, index, weights))
     information, score = by_point(fit, weights)
     information, score = _reduced(information, score, index)
     seen = information > 1.0

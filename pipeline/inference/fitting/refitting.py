@@ -42,6 +42,14 @@ class Refits:
     results: dict
     refitter: "Refitter"
 
+    def at_noise(self, factor):
+        """These Refits, every value as it is, against noise ``factor`` times as large."""
+        calibration = self.calibration
+        budget = {name: noise.scaled(factor) for name, noise in calibration.budget.items()}
+        results = {i: r._replace(fit=r.fit and r.fit.at_noise(factor)) for i, r in self.results.items()}
+        return replace(self, calibration=replace(calibration, budget=budget, null=calibration.null.at_noise(factor)),
+                       directions=tuple(d.at_noise(factor) for d in self.directions), results=results)
+
     def begun_anew(self, starts):
         """These Refits with fits begun at the latent values ``starts`` {index: (k,)}, where they are better."""
         return replace(self, results=self.refitter.better(self.results, starts))

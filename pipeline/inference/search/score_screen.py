@@ -9,7 +9,7 @@ and the correlation of two scores is that of C^-1/2 g. The p-value of a score is
 whole catalogue reaches it under that null: a parametric bootstrap of the refitted null, in its linearisation.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from itertools import product
 
@@ -42,6 +42,10 @@ class Directions:
     sign: np.ndarray
     tried: tuple
     failure: str = ""
+
+    def at_noise(self, factor):
+        """The directions whitened by noise ``factor`` times as large."""
+        return replace(self, vectors=self.vectors / factor)
 
 
 @dataclass(frozen=True)

@@ -82,6 +82,8 @@ def page(chapters, products, case, look):
 
 def _key_figures(products, look):
     """Figures of the first screen: the answer, and what a simulated brake sounds like."""
+    if products.get("diagnosis") is not None and products.get("line_evidence") is None:
+        return diagnosis.key_figures(products["diagnosis"])
     answer, cycle = _key_figure(products, look), products.get("limit_cycle")
     return tuple(f for f in (answer, cycle and limit_cycle.key_figure(cycle)) if f)
 
@@ -89,8 +91,6 @@ def _key_figures(products, look):
 def _key_figure(products, look):
     if products.get("line_evidence") is not None:
         return line_evidence.key_figure(products["line_evidence"])
-    if products.get("diagnosis") is not None:
-        return diagnosis.key_figure(products["diagnosis"])
     squeal, broken = products.get("squeal"), products.get("rupture")
     if squeal is None and broken is not None:
         return Figure(rupture_pictures.slip_profiles(broken), rupture.headline(broken))

@@ -12,6 +12,7 @@ from pipeline.diagnosis.forced_response import forced_problem
 from pipeline.diagnosis.output.files import as_json, completed_name
 from pipeline.diagnosis.output.product import located, product
 from pipeline.diagnosis.settings import Settings
+from pipeline.inference.fitting.parameter_drift import spread
 from pipeline.inference.search.localisation import against_null
 from tests.diagnosis.small_rig import HIDDEN, NOISE, laid_out, model, recording
 from tests.diagnosis.solving import diagnosis_product, solved
@@ -88,7 +89,7 @@ def test_where_nothing_is_named_values_are_as_uncertain_as_what_is_missing():
     assert better and np.all(null.chi_square > 10 * null.counts)
     for name, std in zip(written.parameter, written.parameter_std, strict=True):
         apart = max(abs(fit.values[name] - null.values[name]) for fit in better)
-        assert apart / np.sqrt(1 + len(better)) < std < apart + 2 * null.spread(null.weights)[name]
+        assert apart / np.sqrt(1 + len(better)) < std < apart + 2 * spread(null, null.weights)[name]
 
 
 def test_an_axis_of_names_and_one_of_bins():

@@ -106,5 +106,32 @@ def test_below_three_points_agreement_is_waived_and_told():
     assert told.verdict == "missing" and any("values agree across them was not tested" in why for why in told.reasons)
 
 
+def test_held_out_runs_without_power_neither_refuse_nor_confirm_and_are_told():
+    situation = replace(FOUR, powerless=("run_9",))
+    weak = replace(GOOD, powered=False, held_out_errors=-3.6, held_out_left=0.9, growth=9.0, beats_decoy=False,
+                   stays=0.08)
+    told = decide(situation, [weak], DecisionRules())
+    assert told.verdict == "missing" and any("without power: run_9" in why for why in told.reasons)
+    assert verdict(situation, replace(weak, stays=0.11)) == "unknown"
+    assert verdict(situation, replace(weak, unfitted_errors=2.9)) == "unknown"
+    assert verdict(situation, replace(weak, powered=True)) == "unknown"
+
+
+@pytest.mark.parametrize("broken", [{"unexplained": 0.19}, {"held_out_left": 0.19}, {"disagreement": 15.5}])
+def test_what_helps_beyond_chance_leads_where_nothing_is_named(broken):
+    partly = replace(GOOD, takes=0.81, stays=0.19, **broken)
+    told = decide(FOUR, [replace(partly, name="gap", posterior=0.01), partly], DecisionRules())
+    assert (told.verdict, told.leading) == ("unknown", partly)
+    assert decide(FINE, [partly], DecisionRules()).leading is None or told.verdict == "unknown"
+
+
+@pytest.mark.parametrize("broken", [{"takes": 0.04}, {"unfitted_errors": 2.9}, {"left_out_gain": -1.0},
+                                    {"forbidden": "its friction is negative"}, {"p_value": 0.02}])
+def test_nothing_leads_that_does_not_help(broken):
+    partly = replace(GOOD, **{"takes": 0.81, "stays": 0.19, "unexplained": 0.19, **broken})
+    told = decide(FOUR, [partly], DecisionRules())
+    assert told.verdict == "unknown" and told.leading is None
+
+
 def test_rules_are_the_users():
     assert decide(FOUR, [replace(GOOD, unexplained=0.15)], DecisionRules(unexplained=0.2)).verdict == "missing"

@@ -1,5 +1,6 @@
 """Drift over operating points: Q in closed form, its null, what drifts, and agreement of a coefficient."""
 
+from dataclasses import replace
 from functools import partial
 
 import numpy as np
@@ -7,7 +8,7 @@ import pytest
 from scipy import stats
 
 from pipeline.inference.fitting.least_squares import fit
-from pipeline.inference.fitting.parameter_drift import agreement, drift, trend
+from pipeline.inference.fitting.parameter_drift import agreement, drift, scatter, spread, trend
 from tests.inference import linear
 
 
@@ -80,3 +81,33 @@ def test_agreement_is_chi_square_over_points_and_forgives_what_does_not_matter()
     expected = np.sum(((value[:, 0] - mean) / std) ** 2)
     assert 2 * stats.norm.sf(agreement(found, 0)[0]) == pytest.approx(stats.chi2.sf(expected, 5), abs=0.01)
     assert agreement(found, 0, tolerance=10.0)[0] == pytest.approx(0.0, abs=0.01)
+
+
+def scattered(seed, spread_of_truth, runs=8, repeat_of=()):
+    """Fit of one value that differs from run to run by ``spread_of_truth``, about 2; wide prior."""
+    whole, noise, _, tables = linear.problem((1,), runs, 60, None, seed, prior=50.0)
+    value = 2.0 + spread_of_truth * np.random.default_rng(1000 + seed).standard_normal(runs)
+    shifted = tuple(replace(run, samples=run.samples + v * tables[run.name]["nominal_0"], repeat_of=of)
+                    for run, v, of in zip(whole.runs, value, repeat_of or [""] * runs, strict=True))
+    whole = replace(whole, runs=shifted)
+    return fit(whole, tuple(noise[r.name] for r in whole.training), whole.nominal, np.zeros(1), whole.training)
+
+
+@pytest.mark.parametrize("truth, least", [(0.0, 0.93), (0.3, 0.90)])
+def test_stated_deviations_hold_where_values_differ_from_run_to_run(truth, least):
+    found = [scattered(seed, truth) for seed in range(200)]
+    off = [abs(f.values["nominal_0"] - 2.0) / spread(f)["nominal_0"] for f in found]
+    assert least < np.mean(np.array(off) < 2) < 0.985
+    if truth:
+        noise_alone = [abs(f.values["nominal_0"] - 2.0) / f.spread()["nominal_0"] for f in found]
+        assert np.mean(np.array(noise_alone) < 2) < 0.6, "noise alone promises too much"
+        sizes = [scatter(f)[0][0] * 50.0 for f in found]
+        assert np.sqrt(np.mean(np.square(sizes))) == pytest.approx(truth, rel=0.1)
+
+
+def test_repeats_that_differ_say_how_far_points_may():
+    """Five runs of each of two points: what they differ by among themselves does not count between points."""
+    repeats = ["", *["run_0"] * 4, "", *["run_5"] * 4]
+    disagreement = [agreement(scattered(seed, 0.3, 10, repeats), 0)[0] for seed in range(60)]
+    alone = [agreement(scattered(seed, 0.3, 10), 0)[0] for seed in range(60)]
+    assert np.mean(np.array(disagreement) > 3) < 0.05 < 0.9 < np.mean(np.array(alone) > 3)

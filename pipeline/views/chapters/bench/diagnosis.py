@@ -29,7 +29,7 @@ def headline(product):
         "numerics": (f"The solver, not the physics: {named}", "warning"),
         "parameters": ("Parameter values are off; no physics is missing", "warning"),
         "consistent": ("Nothing is missing: the model explains the recordings", "quiet"),
-        "unknown": (f"Unmodelled physics{_at(product)}, outside the catalogue", "squeal")}
+        "unknown": (_unknown(product), "squeal")}
     return sentences[product.verdict.item()]
 
 
@@ -37,7 +37,7 @@ def note(product):
     """(question, answer) pairs that the first screen shows."""
     return (("What differs", _differs(product)), ("Where", _where(product)), ("What is missing", _missing(product)),
             ("How certain", _how_certain(product)), ("What it changes", _changes(product)),
-            ("Measure next", _next(product)))
+            ("What is left", _left(product)), ("Measure next", _next(product)))
 
 
 def chapter(product, look):
@@ -45,15 +45,22 @@ def chapter(product, look):
     answers = dict(note(product))
     return Chapter(
         "diagnosis", "What the recordings say is missing", f"{answers['What differs']} {answers['Where']}",
-        " ".join(filter(None, (answers["What is missing"], answers["What it changes"], answers["Measure next"]))),
+        " ".join(filter(None, (answers["What is missing"], answers["What it changes"], answers["What is left"],
+                               answers["Measure next"]))),
         tuple(_figures(product)), tuple(filter(None, (
             _errors(product), _with_force(product), *squeal_tables(product), _parameters(product),
             _hypotheses(product), _location(product), _thresholds(product)))),
         tuple(_notes(product)))
 
 
-def key_figure(product):
-    """The mismatch map, for the first screen."""
+def key_figures(product):
+    """The mismatch map, and above it what the models make of a held-out run, for the first screen."""
+    name, held_out = _shown_run(product)
+    overlay = [_overlay(product, name, held_out)] if pictures.sampled(product.runs[name]) else []
+    return *overlay, _map(product)
+
+
+def _map(product):
     parts = "octave" if all(map(pictures.sampled, product.runs.values())) else "channel"
     return Figure(pictures.mismatch_map(product),
                   f"Mismatch map: residual of each run in each {parts} over its noise, assumed white; 1 (dark) is noise"
@@ -78,6 +85,52 @@ def _effect(product, k):
         return "nothing"
     contacts = f" ({product.contacts[k]})" if product.contacts[k] else ""
     return f"{str(product.effect[k]).replace('_', ' ')} at {product.place[k]}{contacts}"
+
+
+def _unknown(product):
+    """Headline where nothing is named: what leads, or that the catalogue does not hold it."""
+    if not len(product.leading):
+        return f"Unmodelled physics{_at(product)}, outside the catalogue"
+    k, = product.leading
+    takes = percent(product.leading_takes[0], 2)
+    return f"Leading explanation, not confirmed: {_effect(product, k)}; takes {takes} of the excess error"
+
+
+def _leading(product):
+    """What leads where nothing is named, and what stays."""
+    if not len(product.leading):
+        return "No effect of the catalogue helps beyond chance: the physics lies outside it."
+    k, = product.leading
+    judged = "of the excess error on held-out runs" if any(r.held_out for r in product.runs.values()) else \
+        "of the excess error"
+    return (f"The leading explanation is {_effect(product, k)} ({percent(min(product.posterior[k], 0.999), 3)} of the"
+            f" probability): it takes {percent(product.leading_takes[0], 2)} {judged}, and"
+            f" {percent(product.leading_stays[0], 2)} stays beyond the doubt about noise.")
+
+
+def _levels(product):
+    """'unknown at half, missing (coulomb at guide) at 2 times the noise' where the level of noise decides."""
+    verdicts = [(float(level), str(v), str(named)) for level, v, named in zip(
+        product.noise_level, product.noise_verdict, product.noise_named, strict=True)]
+    other = [(level, v, named) for level, v, named in verdicts if v != product.verdict.item()]
+    if not verdicts or not other:
+        return "The verdict is the same at " + _listed([number(v[0], 2) for v in verdicts]) + " times the noise." \
+            if verdicts else ""
+    parts = [f"{v}{f' ({_words(named)})' if named else ''} at {number(level, 2)} times" for level, v, named in other]
+    return f"The verdict hangs on the level of noise: it would be {_listed(parts)} what is known of it."
+
+
+def _listed(items):
+    return items[0] if len(items) == 1 else f"{', '.join(items[:-1])} and {items[-1]}"
+
+
+def _left(product):
+    """What is above the noise once all that is sure has been named."""
+    if not len(product.named) or not product.left_sentence.item():
+        return ""
+    following = product.left_candidate.item()
+    return (f"{number(product.left_floors.item(), 3)} noise floors remain. {_sentence(product.left_sentence.item())}"
+            f"{f' Next candidate: {_sentence(_words(following))}' if following else ''}")
 
 
 def _first_up(text):
@@ -133,7 +186,8 @@ def _missing(product):
         alternatives = "One of these, which the recordings cannot distinguish"
         return f"{alternatives if len(product.named) > 1 else _PROPOSED}: {_named(product)}."
     if verdict == "unknown":
-        return product.latent_sentence.item() or "Physics outside the catalogue; no latent force could be estimated."
+        force = product.latent_sentence.item() or "No latent force could be estimated."
+        return f"{_leading(product)} {force}"
     if verdict == "parameters":
         every = range(len(product.parameter))
         moved = [k for k in every if _distance(product, k) > 2] or [max(every, key=lambda k: _distance(product, k))]
@@ -165,14 +219,14 @@ def _distance(product, k):
 
 def _how_certain(product):
     if product.verdict.item() not in ("missing", "sensor", "numerics"):
-        return " ".join(_sentence(r) for r in product.reason)
+        return " ".join(filter(None, (*(_sentence(r) for r in product.reason), _levels(product))))
     first = product.named[0]
     held_out = any(run.held_out for run in product.runs.values())
     agreed = not any("across them was not tested" in str(reason) for reason in product.reason)
     rules = ("posterior", "false alarms", *["held-out gain"] * held_out, *["agreement over runs"] * agreed, "bounds")
     return (f"Probability {_sure(product)} among {len(product.hypothesis) - 1} hypotheses. Family-wise p-value"
             f" {number(product.p_value[first], 2)}: the chance that some effect of the catalogue scores as high"
-            f" although nothing is missing. Decision rules met: {', '.join(rules)}.")
+            f" although nothing is missing. Decision rules met: {', '.join(rules)}. {_levels(product)}").strip()
 
 
 def _sentence(text):
@@ -218,7 +272,7 @@ def _notes(product):
 
 
 def _figures(product):
-    yield key_figure(product)
+    yield _map(product)
     if len(product.hypothesis) > 1:
         yield Figure(pictures.hypotheses(product), "Probabilities of the leading hypotheses; blue: named.")
         yield Figure(pictures.stage_place(product), "Probability by stage of the chain and location, summed over"
@@ -254,11 +308,15 @@ def _predicted_with_force(product):
 
 def _signals(product, name, held_out, channel=0):
     """Excerpt and spectrum of one channel of a run."""
-    yield Figure(pictures.trace(product, name, channel),
-                 f"Run {name}{' (held out)' if held_out else ''}: measured, nominal, recalibrated and completed"
-                 f" around the largest {product.channel[channel]}; below, the residuals.")
+    yield _overlay(product, name, held_out, channel)
     yield Figure(pictures.spectra(product, name, channel),
                  f"Residual spectra of {product.channel[channel]} in run {name}, with the noise assumed white.")
+
+
+def _overlay(product, name, held_out, channel=0):
+    return Figure(pictures.trace(product, name, channel),
+                  f"Run {name}{' (held out)' if held_out else ''}: measured, nominal, recalibrated and completed"
+                  f" around the largest {product.channel[channel]}; below, the residuals.")
 
 
 def _shown_run(product):
