@@ -15,7 +15,7 @@ READY  := .venv/.ready
 BIN    := .venv/bin
 
 .DEFAULT_GOAL := help
-.PHONY: help setup run test coverage test-kernels test-slow test-study bench trial trial_sealed trial_again study_diagnosis study_squeal study_lines pin_bench worn_bench lint clean $(STAGES)
+.PHONY: help setup run test coverage test-kernels test-slow test-study bench trial trial_sealed trial_again study_diagnosis study_squeal study_lines study_knock_out pin_bench worn_bench lint clean $(STAGES)
 
 help:            ## show this list
 	@echo "usage: make TARGET [CASE=disc_brake] [ARGS=...]      cases: $(basename $(notdir $(wildcard configs/*.yaml)))"
@@ -83,6 +83,9 @@ study_squeal: $(READY)  ## identification rates on the practice pin-on-disc benc
 
 study_lines: $(READY)  ## whether a disc flexible in the loop is named from lines heard on concealed benches; resumes case by case
 	$(BIN)/python -m tests.studies.lines $(ARGS)
+
+study_knock_out: $(READY)  ## whether physics that the catalogue lacks is taken for a known law; resumes case by case
+	$(BIN)/python -m tests.studies.knock_out $(ARGS)
 
 pin_bench: $(READY)  ## write the practice recordings of configs/pin_on_disc_bench.yaml to data/runs/practice
 	$(BIN)/python -m tests.studies.self_excited --practice

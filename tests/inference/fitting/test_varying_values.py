@@ -1,0 +1,53 @@
+"""Values that change along the runs: their size in closed form, even p-values where they do not, features."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from scipy import stats
+
+from pipeline.inference.fitting.least_squares import fit
+from pipeline.inference.fitting.noise import budget
+from pipeline.inference.fitting.varying_values import followed
+from pipeline.inference.problem import Problem
+from tests.inference import linear
+from tests.inference.oscillator import CATALOGUE, bench
+
+
+def fitted(seed=0, samples=400, shape=lambda time: 1.0):
+    """Fit of the effect of a linear problem, 3 noises large at every sample and following ``shape`` of the time."""
+    whole, noise, catalogue, tables = linear.problem((1, 1), 3, samples, {"nominal_0": 0.5}, seed)
+    time, effect = np.linspace(-1, 1, samples), "effect_1_0"
+    runs = tuple(replace(run, samples=run.samples + 1.5 * shape(time) * tables[run.name][effect]) for run in whole.runs)
+    whole = Problem(runs, whole.predict, whole.nominal)
+    return fit(whole, tuple(noise[r.name] for r in runs), whole.nominal.joined(catalogue[0]), np.zeros(2), runs)
+
+
+@pytest.mark.exact
+def test_a_value_that_follows_time_is_told_by_how_much():
+    by_time, _ = followed(fitted(shape=lambda time: 1 + 0.2 * time), 1)
+    assert by_time.what == "time" and by_time.change == pytest.approx(0.2, abs=0.06) and by_time.deviate > 5
+
+
+def test_deviates_are_even_where_nothing_changes():
+    found = np.array([[f.deviate for f in followed(fitted(seed, 150), 1)] for seed in range(150)])
+    for deviates in found.T:
+        assert stats.kstest(2 * stats.norm.sf(deviates), "uniform").statistic < 1.63 / np.sqrt(150)
+
+
+def test_a_law_of_another_power_follows_the_size_of_the_motion():
+    """A quintic spring fitted as a cubic one; a cubic one that is one does not."""
+    def told(law):
+        problem = bench(5, 0.01, extra=law)
+        noises = tuple(budget(problem)[r.name] for r in problem.training)
+        found = fit(problem, noises, problem.nominal.joined(CATALOGUE[0]), np.zeros(3), problem.training)
+        return {f.what: f for f in followed(found, 2, found.weights)}["the size of the motion"]
+
+    wrong, right = told(lambda t, x, v: 2e7 * x**5), told(lambda t, x, v: 1.5e4 * x**3)
+    assert wrong.deviate > 10 and wrong.change > 0.1 and right.deviate < 4
+
+
+def test_nominal_values_and_effects_of_no_size_follow_nothing():
+    found = fitted()
+    assert followed(found, 0) == []
+    assert followed(replace(found, latent=np.zeros(2)), 1) == []

@@ -1,0 +1,101 @@
+"""'make study_knock_out': every effect that a forced rig can hide, hidden while the catalogue lacks it.
+
+What the catalogue does not hold must not be taken for something that it does. Each case is one of a known effect,
+solved without that effect and without the laws that contain it (CONTAINING). Scored are the answers that name no
+physics in its place; cases that leave less than can be seen count apart. One folder a case; a case that has its answer
+is not solved again.
+"""
+
+import argparse
+import json
+import os
+from functools import partial
+from pathlib import Path
+
+from pipeline.blind_trial.generators.spring_mass.hidden_laws import HIDDEN
+from pipeline.blind_trial.generators.spring_mass.rig_case import kind_of
+from pipeline.blind_trial.metrics.criteria import NAMING, VISIBLE
+from pipeline.blind_trial.metrics.rates import line, rate
+from pipeline.contract.errors import BrakechainError
+from pipeline.effects import CATALOGUE
+from tests.studies.forced import COLOURS, LEVELS, ROOT, Plan, run, shared_out
+
+#: laws of the catalogue that have an effect as a limit of theirs, or make the same force on a rig of one shaker
+CONTAINING = {
+    "coulomb": ("asymmetric_friction", "stribeck_friction", "dahl_friction", "lugre_friction", "position_friction",
+                "series_friction", "hysteretic_joint"),
+    "asymmetric_friction": ("coulomb",),
+    "joint_damping": ("viscous", "stribeck_friction", "lugre_friction", "viscoelastic_pad", "shim_damping"),
+    "viscoelastic_pad": ("shim_damping", "hydraulic_compliance"),
+    "shim_damping": ("viscoelastic_pad", "hydraulic_compliance"),
+    "hydraulic_compliance": ("viscoelastic_pad", "shim_damping"),
+    "hysteretic_joint": ("dahl_friction", "series_friction", "micro_slip"),
+    "backlash": ("clearance", "impact_stop"),
+    "moving_base": ("tuned_absorber", "base_shake"),
+    "attached_mass": ("tuned_absorber",),
+    "base_shake": ("pressure_ripple",), "pressure_ripple": ("base_shake",),
+}
+#: draws of every effect at every noise
+DRAWS = 5
+
+
+def plans(draws=DRAWS, first=500_000):
+    """``draws`` cases of every known effect at both levels of noise."""
+    names = [name for name in HIDDEN if kind_of((name,)) == "effect"]
+    wanted = [(name, draw, level) for name in names for level in LEVELS for draw in range(draws)]
+    return [Plan(first + k, name, draw % 2 if HIDDEN[name].place != "shaker" else 0, level,
+                 3 if HIDDEN[name].place == "wall link" else 2, COLOURS[k % len(COLOURS)])
+            for k, (name, draw, level) in enumerate(wanted)]
+
+
+def removed(name):
+    """Effects of the catalogue without which a case of effect ``name`` is solved."""
+    known = {effect.name for effect in CATALOGUE}
+    return tuple(n for n in (name, *CONTAINING.get(name, ())) if n in known)
+
+
+def misnamed(answer):
+    """Whether an answer names physics, a sensor or the solver in the place of what the catalogue lacks."""
+    return answer["verdict"] in NAMING
+
+
+def table(results):
+    """Lines of rates from [(truth, answer)]."""
+    far = [(t, a) for t, a in results if t["left"] >= VISIBLE]
+    rows = [("not taken for a known law", [not misnamed(a) for _, a in far]),
+            ("told unknown", [a["verdict"] == "unknown" for _, a in far])]
+    rows += [(f"not taken for a known law, {level:.0%} noise", [not misnamed(a) for t, a in far if t["noise"] == level])
+             for level in LEVELS]
+    rows.append(("below the threshold", [not misnamed(a) for t, a in results if t["left"] < VISIBLE]))
+    return [line(name, rate(hits)) for name, hits in rows if hits]
+
+
+def solve(folder, kept, plan):
+    """(truth, answer) of one Plan without its effect, or None where its case cannot be made; prints its line."""
+    try:
+        truth, answer = run(plan, folder / f"{plan.seed}", kept=kept, without=removed(plan.hidden))
+    except BrakechainError as error:
+        print(f"{plan.seed} {plan.hidden}: not made: {error}", flush=True)
+        return None
+    named = ", ".join(f"{e['name']} at {e['place']}" for e in answer["effects"])
+    print(f"{plan.seed} {plan.hidden:<22} {truth['noise']:>4.0%} leaves {truth['left']:6.1f}  ->"
+          f" {answer['verdict']:<10} {named}   {answer['cpu_seconds']:.0f} s", flush=True)
+    return truth, answer
+
+
+def main():
+    """Solve what is chosen, print the table."""
+    parser = argparse.ArgumentParser(prog="make study_knock_out", description=__doc__)
+    parser.add_argument("--folder", type=Path, default=ROOT / "data" / "runs" / "study_knock_out")
+    parser.add_argument("--every", type=int, default=1, help="one case in so many")
+    parser.add_argument("--kept", type=int, default=4, help="candidates that are refitted")
+    parser.add_argument("--workers", type=int, default=os.cpu_count(), help="processes; default all processors")
+    chosen = parser.parse_args()
+    results = shared_out(partial(solve, chosen.folder, chosen.kept), plans()[::chosen.every], chosen.workers)
+    kept = [r for r in results if r]
+    (chosen.folder / "rates.json").write_text(json.dumps(table(kept), indent=1) + "\n")
+    print("\n".join(table(kept)))
+
+
+if __name__ == "__main__":
+    main()
