@@ -72,6 +72,9 @@ class DecisionRules:
     disagreement: float = threshold(3.0, "standard deviations between coefficients at different operating points (2"
                                          " would refuse a true effect of two coefficients in one case of ten)")
     tolerance: float = threshold(0.05, "relative spread of coefficients that does not matter")
+    varies: float = threshold(4.0, "standard deviations by which a value may follow time or the size of the motion"
+                                   " along the runs")
+    varies_by: float = threshold(0.1, "relative change of a value along the runs that does not matter")
     from_null: float = threshold(2.0, "distance of the coefficient from its null in standard deviations")
     unexplained: float = threshold(0.05, "fraction of the excess error that the named effect may leave")
     held_out_left: float = threshold(0.1, "the same on held-out runs, whose conditions may be new")

@@ -9,6 +9,7 @@ from pipeline.inference.decision.held_out import Gain, gain, held_out_residuals
 from pipeline.inference.fitting.effective_sample_size import coherent_energy, doubt, effective_share
 from pipeline.inference.fitting.least_squares import linearised, orthogonal, whitened
 from pipeline.inference.fitting.parameter_drift import agreement
+from pipeline.inference.fitting.varying_values import followed
 from pipeline.inference.priors import LATENT_LIMIT
 
 
@@ -60,7 +61,16 @@ def candidate_statistics(null, null_evidence, candidate, fit, evidence, posterio
         max(differing, default=0.0), max(moved, default=0.0), unexplained(null, fit, rules),
         candidate.forbidden(fit.values) if candidate.forbidden else "",
         unfinished(fit, null, rules.evidence) + fit.excluded(LATENT_LIMIT - 1e-6),
-        powered, float(max(judged.share, 0.0)), float(judged.left(uncertainty)))
+        powered, float(max(judged.share, 0.0)), float(judged.left(uncertainty)),
+        tuple(_varying(fit, [k for k, _ in added], weights, rules.decision)))
+
+
+def _varying(fit, indices, weights, rules):
+    """What values of an effect follow along the runs, in words."""
+    for one in (one for k in indices for one in followed(fit, k, weights)):
+        if one.deviate > rules.varies and abs(one.change) > rules.varies_by:
+            yield (f"its value follows {one.what} along the runs, by {abs(one.change):.0%} ({one.deviate:.1f} standard"
+                   " deviations): a law of another form")
 
 
 def _everywhere(gained, null, fit):

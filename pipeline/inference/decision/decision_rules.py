@@ -16,6 +16,7 @@ class CandidateStatistics:
     parameter from its null, in standard deviations. ``forbidden``: why its values cannot be (sign, passivity), or
     empty; ``doubts``: why its fit cannot be relied on, in words. ``powered``: whether held-out runs can tell, as the
     nominal model errs on them; ``takes`` and ``stays``: shares of the excess error on them, else on all runs.
+    ``varying``: what its values follow along the runs, in words.
     """
 
     name: str
@@ -38,6 +39,7 @@ class CandidateStatistics:
     powered: bool = True
     takes: float = 0.0
     stays: float = 1.0
+    varying: tuple = ()
 
 
 @dataclass(frozen=True)
@@ -104,7 +106,7 @@ def leading(significant, rules):
 
 def objections(candidate, runs, rules):
     """Rules that a significant candidate breaks, in words."""
-    reasons = list(candidate.doubts)
+    reasons = [*candidate.doubts, *candidate.varying]
     if candidate.forbidden:
         reasons.append(candidate.forbidden)
     if candidate.from_null < rules.from_null:

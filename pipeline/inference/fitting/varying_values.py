@@ -68,7 +68,7 @@ def _times(fit):
 
 
 def _sizes(fit, columns):
-    """(m,): ln of the local size of a column, the range of all runs on -1 ... 1; what is small beyond counts as that."""
+    """(m,): ln of the local size of a column, the range of all runs on -1 ... 1; what lies beyond counts as its end."""
     logs = [np.concatenate([_local(part) for part in noise.by_channel(column)])
             for noise, column in zip(fit.noises, columns, strict=True)]
     every = np.concatenate(logs)

@@ -58,6 +58,7 @@ def test_values_that_priors_exclude_are_told_where_nothing_is_named():
     ({"held_out_left": 0.11}, "leaves 11% of the excess error on held-out runs"),
     ({"growth": 3.1}, "squared error on held-out runs is 3.1 times that on the fitted ones"),
     ({"beats_decoy": False}, "no better than a decoy"),
+    ({"varying": ("its value follows time along the runs",)}, "follows time along the runs"),
 ])
 def test_a_single_broken_rule_forbids_the_name_and_is_told(broken, told):
     contender = replace(GOOD, **broken)

@@ -7,17 +7,20 @@ import pytest
 from scipy import stats
 
 from pipeline.inference.fitting.least_squares import fit
-from pipeline.inference.fitting.noise import budget
 from pipeline.inference.fitting.varying_values import followed
 from pipeline.inference.problem import Problem
 from tests.inference import linear
-from tests.inference.oscillator import CATALOGUE, bench
 
 
-def fitted(seed=0, samples=400, shape=lambda time: 1.0):
-    """Fit of the effect of a linear problem, 3 noises large at every sample and following ``shape`` of the time."""
+def fitted(seed=0, samples=400, shape=lambda time: 1.0, size=lambda time: 1.0):
+    """Fit of the effect of a linear problem, 3 noises large at every sample and following ``shape`` of the time.
+
+    ``size`` of the time: that of the column of the effect.
+    """
     whole, noise, catalogue, tables = linear.problem((1, 1), 3, samples, {"nominal_0": 0.5}, seed)
     time, effect = np.linspace(-1, 1, samples), "effect_1_0"
+    for columns in tables.values():
+        columns[effect] *= size(time)
     runs = tuple(replace(run, samples=run.samples + 1.5 * shape(time) * tables[run.name][effect]) for run in whole.runs)
     whole = Problem(runs, whole.predict, whole.nominal)
     return fit(whole, tuple(noise[r.name] for r in runs), whole.nominal.joined(catalogue[0]), np.zeros(2), runs)
@@ -35,16 +38,17 @@ def test_deviates_are_even_where_nothing_changes():
         assert stats.kstest(2 * stats.norm.sf(deviates), "uniform").statistic < 1.63 / np.sqrt(150)
 
 
-def test_a_law_of_another_power_follows_the_size_of_the_motion():
-    """A quintic spring fitted as a cubic one; a cubic one that is one does not."""
-    def told(law):
-        problem = bench(5, 0.01, extra=law)
-        noises = tuple(budget(problem)[r.name] for r in problem.training)
-        found = fit(problem, noises, problem.nominal.joined(CATALOGUE[0]), np.zeros(3), problem.training)
-        return {f.what: f for f in followed(found, 2, found.weights)}["the size of the motion"]
+@pytest.mark.parametrize("power", [0.0, 0.1])
+def test_a_value_that_follows_the_size_of_the_motion_is_told(power):
+    """A force that grows as the power 1.1 of what is fitted as proportional: ln 10 of size, 0.115 to either end."""
+    def grows(time):
+        return 10.0 ** (0.5 * np.cos(np.pi * time))
 
-    wrong, right = told(lambda t, x, v: 2e7 * x**5), told(lambda t, x, v: 1.5e4 * x**3)
-    assert wrong.deviate > 10 and wrong.change > 0.1 and right.deviate < 4
+    _, by_size = followed(fitted(samples=2000, size=grows, shape=lambda time: grows(time) ** power), 1)
+    assert by_size.what == "the size of the motion"
+    error = abs(by_size.change) / by_size.deviate
+    assert by_size.change == pytest.approx(power * 0.5 * np.log(10.0), abs=3 * error)
+    assert (by_size.deviate > 4) == (power > 0)
 
 
 def test_nominal_values_and_effects_of_no_size_follow_nothing():
