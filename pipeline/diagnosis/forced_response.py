@@ -7,9 +7,18 @@ from pipeline.contract.units import to_si
 from pipeline.diagnosis.experiment_design.next_run import feasible
 from pipeline.diagnosis.problem import DiagnosisProblem, nominal
 from pipeline.diagnosis.settings import parameter, procedure
-from pipeline.diagnosis.signals.forward_model import Simulated, candidates, largest, observed, reach, solver_candidate
+from pipeline.diagnosis.signals.forward_model import (
+    Simulated,
+    candidates,
+    largest,
+    observed,
+    reach,
+    remembers,
+    solver_candidate,
+)
 from pipeline.diagnosis.signals.latent_force import Describe
 from pipeline.diagnosis.signals.localisation import Axes, ForcedAxes
+from pipeline.diagnosis.signals.start_states import start_parameters
 from pipeline.effects import CATALOGUE
 from pipeline.inference.fitting.noise import budget
 from pipeline.inference.problem import Problem
@@ -26,11 +35,12 @@ def forced_problem(bench, recorded, settings):
     training = [recorded[o.name] for o in observations if not o.held_out]
     planned = feasible(bench, settings.next, training[0]) if training else ()
     forward = Simulated(bench, runs | {f.run.name: f.run for f in planned}, {f.run.name: f.altered for f in planned})
-    problem = Problem(observations, forward, nominal(nominal_parameters(bench, settings)))
-    for run in planned:     # what the model cannot do is refused before anything is fitted
-        forward(problem.nominal, problem.nominal.values(problem.nominal.nominal), run.observed)
     effects = candidates(bench, tuple(record.run for record in training), chosen(settings), settings.places,
                          reach(bench, training), settings.priors, largest(training))
+    begins = [p for record in recorded.values() for p in start_parameters(bench, record, remembers(bench, effects))]
+    problem = Problem(observations, forward, nominal((*nominal_parameters(bench, settings), *begins)))
+    for run in planned:     # what the model cannot do is refused before anything is fitted
+        forward(problem.nominal, problem.nominal.values(problem.nominal.nominal), run.observed)
     noises, solver = budget(problem, above=settings.noise.above), procedure(settings)
     return DiagnosisProblem(
         problem, noises | {f.run.name: noises[training[0].run.name] for f in planned},

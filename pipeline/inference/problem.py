@@ -88,6 +88,15 @@ class Hypothesis:
         """{name: value} at latent coordinates (k,)."""
         return {p.name: float(p.prior.value(u)) for p, u in zip(self.parameters, latent, strict=True)}
 
+    @property
+    def shared(self):
+        """True (k,) for parameters that may change every run, False for those of one run alone."""
+        return np.array([not p.run for p in self.parameters], dtype=bool)
+
+    def moves(self, run):
+        """True (k,) for parameters that may change the prediction of the run of this name."""
+        return np.array([p.run in ("", run) for p in self.parameters], dtype=bool)
+
     def joined(self, other):
         """Both together, named by their effects."""
         name = f"{self.name} + {other.name}" if self.effects else other.name

@@ -52,6 +52,10 @@ class Noise:
         """The noise of the run cut to its first ``kept`` samples."""
         return replace(self, weight=self.weight[:, :kept], usable=self.usable[:, :kept])
 
+    def beyond(self, first):
+        """The noise of the samples from number ``first`` on alone."""
+        return replace(self, usable=self.usable & (np.arange(self.usable.shape[1]) >= first))
+
     def by_channel(self, white):
         """The channels (m_c,) of a whitened residual (m,)."""
         return np.split(white, np.cumsum(self.usable.sum(axis=1))[:-1])
