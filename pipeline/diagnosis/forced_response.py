@@ -1,5 +1,7 @@
 """The problem of forced recordings: a bench, its recorded runs, and the section ``diagnosis``."""
 
+from dataclasses import replace
+
 from pipeline.case_models import corrections
 from pipeline.case_models.effect_block import parameters
 from pipeline.contract import ConfigError
@@ -18,7 +20,7 @@ from pipeline.diagnosis.signals.forward_model import (
 )
 from pipeline.diagnosis.signals.latent_force import Describe
 from pipeline.diagnosis.signals.localisation import Axes, ForcedAxes
-from pipeline.diagnosis.signals.start_states import start_parameters
+from pipeline.diagnosis.signals.start_states import with_starts
 from pipeline.effects import CATALOGUE
 from pipeline.inference.fitting.noise import budget
 from pipeline.inference.problem import Problem
@@ -35,12 +37,12 @@ def forced_problem(bench, recorded, settings):
     training = [recorded[o.name] for o in observations if not o.held_out]
     planned = feasible(bench, settings.next, training[0]) if training else ()
     forward = Simulated(bench, runs | {f.run.name: f.run for f in planned}, {f.run.name: f.altered for f in planned})
-    effects = candidates(bench, tuple(record.run for record in training), chosen(settings), settings.places,
-                         reach(bench, training), settings.priors, largest(training))
-    begins = [p for record in recorded.values() for p in start_parameters(bench, record, remembers(bench, effects))]
-    problem = Problem(observations, forward, nominal((*nominal_parameters(bench, settings), *begins)))
+    problem = Problem(observations, forward, nominal(nominal_parameters(bench, settings)))
     for run in planned:     # what the model cannot do is refused before anything is fitted
         forward(problem.nominal, problem.nominal.values(problem.nominal.nominal), run.observed)
+    effects = candidates(bench, tuple(record.run for record in training), chosen(settings), settings.places,
+                         reach(bench, training), settings.priors, largest(training))
+    problem = replace(problem, nominal=with_starts(problem.nominal, bench, recorded, remembers(bench, effects)))
     noises, solver = budget(problem, above=settings.noise.above), procedure(settings)
     return DiagnosisProblem(
         problem, noises | {f.run.name: noises[training[0].run.name] for f in planned},

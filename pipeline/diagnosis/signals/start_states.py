@@ -118,6 +118,12 @@ def start_parameters(bench, recorded, remembers):
         for name, value, std in zip(names, getattr(run.start, field), getattr(recorded.unknown, field), strict=True))
 
 
+def with_starts(nominal, bench, recorded, remembers):
+    """The nominal hypothesis with the parameters of the unknown starts of all {name: Recorded}."""
+    begins = [p for record in recorded.values() for p in start_parameters(bench, record, remembers)]
+    return replace(nominal, parameters=(*nominal.parameters, *begins))
+
+
 def begun(run, hypothesis, values):
     """The Run with the start that the ``values`` {name: value} of a hypothesis give to it, if they do."""
     names, parts = [p.name for p in hypothesis.parameters if p.run == run.name], {}
