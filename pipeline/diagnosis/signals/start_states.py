@@ -17,6 +17,7 @@ from pipeline.case_models.force_balance import body_names
 from pipeline.case_models.virtual_rig import only
 from pipeline.contract import BrakechainError, ConfigError
 from pipeline.diagnosis.problem import parameter_name
+from pipeline.diagnosis.signals.unknown_blow import struck, with_blow
 from pipeline.inference.priors import Normal, Parameter
 from pipeline.physics.time_stepping.initial_state import steady_start
 from pipeline.physics.time_stepping.simulate import Start
@@ -47,15 +48,28 @@ class StartSpread:
     velocity: np.ndarray
     relaxed: np.ndarray
 
+    def parameters(self, bench, run, remembers):
+        """Parameters of the start of a Run about its estimate."""
+        names = body_names(bench)
+        return tuple(
+            Parameter(_name(run.name, part, name), unit, float(value), Normal(float(value), float(std)), run=run.name)
+            for part, (field, unit) in _PARTS.items() if remembers or field != "relaxed"
+            for name, value, std in zip(names, getattr(run.start, field), getattr(self, field), strict=True))
+
 
 def started(bench, runs, settings):
-    """{name: Recorded} with the starts that the section ``bench`` asks for, those to be fitted at their estimates.
+    """{name: Recorded} with the starts, or blows, that the section ``bench`` asks for, at their estimates.
 
     ConfigError for a run that is to be fitted and is shorter than a period, or does not show how it began.
     """
+    every = settings.start == "fitted" or settings.measured_start
     if settings.start == "rest" and settings.measured_start:
         raise ConfigError("bench.start", "fitted, or no measured_start", "rest beside measured_start: true")
-    every = settings.start == "fitted" or settings.measured_start
+    if settings.blow is not None and every:
+        raise ConfigError("bench.blow", "none where starts are fitted: before a blow the rig is at rest", settings.blow)
+    if settings.blow is not None:
+        return {name: _struck(bench, run, settings.blow) if moves_freely(bench, run) else run
+                for name, run in runs.items()}
     wanted = [name for name, run in runs.items()
               if every or (settings.start is None and not settings.settled and moves_freely(bench, run))]
     return {name: estimated(bench, run) if name in wanted else run for name, run in runs.items()}
@@ -70,6 +84,12 @@ def moves_freely(bench, recorded):
     shown = _shown(bench, recorded.channels, recorded.run)
     return all(np.sqrt(np.mean(shown[k, recorded.valid[k]] ** 2))
                <= _STILL * np.sqrt(np.mean(recorded.samples[k, recorded.valid[k]] ** 2)) for k in moving)
+
+
+def _struck(bench, recorded, name):
+    """The Recorded run with an unknown blow on the input ``name``."""
+    return with_blow(bench, recorded, name, _first_samples(bench, recorded.run) - 1,
+                     lambda run: _shown(bench, recorded.channels, run))
 
 
 def estimated(bench, recorded):
@@ -105,17 +125,11 @@ def estimated(bench, recorded):
 
 
 def start_parameters(bench, recorded, remembers):
-    """Parameters of the start of a Recorded run about its estimate; none of one that is known.
+    """Parameters of how a Recorded run begins; none of one that is known.
 
     ``remembers``: whether any joint does, so that it matters where they were relaxed.
     """
-    if recorded.unknown is None:
-        return ()
-    run, names = recorded.run, body_names(bench)
-    return tuple(
-        Parameter(_name(run.name, part, name), unit, float(value), Normal(float(value), float(std)), run=run.name)
-        for part, (field, unit) in _PARTS.items() if remembers or field != "relaxed"
-        for name, value, std in zip(names, getattr(run.start, field), getattr(recorded.unknown, field), strict=True))
+    return () if recorded.unknown is None else recorded.unknown.parameters(bench, recorded.run, remembers)
 
 
 def with_starts(nominal, bench, recorded, remembers):
@@ -125,8 +139,10 @@ def with_starts(nominal, bench, recorded, remembers):
 
 
 def begun(run, hypothesis, values):
-    """The Run with the start that the ``values`` {name: value} of a hypothesis give to it, if they do."""
-    names, parts = [p.name for p in hypothesis.parameters if p.run == run.name], {}
+    """The Run with the start, or blow, that the ``values`` {name: value} of a hypothesis give to it, if they do."""
+    estimate, parts = {p.name: p.nominal for p in hypothesis.parameters if p.run == run.name}, {}
+    names = list(estimate)
+    run = struck(run, {name: values[name] for name in names}, estimate)
     for part, (field, _) in _PARTS.items():
         if members := [values[name] for name in names if name.startswith(_name(run.name, part, ""))]:
             parts[field] = np.array(members)
