@@ -16,7 +16,8 @@ class Observed:
     ``valid`` (c, n): False where a sample is missing (default: none is). ``rate`` [Hz]; None for features without an
     order in time (frequencies, growth rates), which then count as independent. ``noise_std`` (c,) or (c, n), or
     ``noise_psd`` (c, f), one-sided on the even grid from 0 to rate/2 [unit^2/Hz]; neither: noise is estimated.
-    A held-out run is never fitted. ``repeat_of`` names the run whose conditions this one repeats.
+    A held-out run is never fitted. ``repeat_of`` names the run whose conditions this one repeats; ``unlike``: it begins
+    otherwise than its repeats, so that their difference is no noise.
     """
 
     name: str
@@ -29,6 +30,7 @@ class Observed:
     noise_psd: np.ndarray | None = None
     held_out: bool = False
     repeat_of: str = ""
+    unlike: bool = False
 
     def __post_init__(self):
         samples = np.asarray(self.samples, dtype=float)

@@ -35,7 +35,8 @@ def observed(recorded, noise_std=None, held_out=False):
                           f"none of {', '.join(lacking)}", "give it too, or leave all to the repeats of runs")
     stated = np.array([noise_std[c] for c in channels]) if noise_std else None
     return Observed(run.name, run.conditions, channels, recorded.samples, run.sample_rate, recorded.valid,
-                    noise_std=stated, held_out=held_out, repeat_of=recorded.repeat_of)
+                    noise_std=stated, held_out=held_out, repeat_of=recorded.repeat_of,
+                    unlike=recorded.unknown is not None)
 
 
 def completed(bench, hypothesis, values):

@@ -28,6 +28,8 @@ from pipeline.physics.virtual_rig.roots import linearised
 START = "start"
 _PARTS = {"displacement of": ("displacement", "m"), "velocity of": ("velocity", "m/s"),
           "relaxed position of": ("relaxed", "m")}
+#: relative difference of the strengths of free motions that count as one operating point
+_ALIKE = 0.1
 #: recorded motion that the model at rest shows at most in a run that is taken for a free motion
 _STILL = 0.01
 #: rounds of the estimate: the first from rest, others about the state that it gave
@@ -47,6 +49,11 @@ class StartSpread:
     displacement: np.ndarray
     velocity: np.ndarray
     relaxed: np.ndarray
+
+    @property
+    def strength(self):
+        """The size (n,) of the motion, whatever its phase at the start."""
+        return self.velocity
 
     def parameters(self, bench, run, remembers):
         """Parameters of the start of a Run about its estimate."""
@@ -68,11 +75,26 @@ def started(bench, runs, settings):
     if settings.blow is not None and every:
         raise ConfigError("bench.blow", "none where starts are fitted: before a blow the rig is at rest", settings.blow)
     if settings.blow is not None:
-        return {name: _struck(bench, run, settings.blow) if moves_freely(bench, run) else run
-                for name, run in runs.items()}
+        return _as_repeats({name: _struck(bench, run, settings.blow) if moves_freely(bench, run) else run
+                            for name, run in runs.items()})
     wanted = [name for name, run in runs.items()
               if every or (settings.start is None and not settings.settled and moves_freely(bench, run))]
-    return {name: estimated(bench, run) if name in wanted else run for name, run in runs.items()}
+    return _as_repeats({name: estimated(bench, run) if name in wanted else run for name, run in runs.items()})
+
+
+def _as_repeats(runs):
+    """{name: Recorded} in which free motions of about one strength, under the same conditions, repeat the first."""
+    firsts, grouped = [], {}
+    for name, record in runs.items():
+        if record.unknown is not None and not record.repeat_of:
+            like = next((first for first in firsts if first.run.conditions == record.run.conditions
+                         and np.allclose(first.unknown.strength, record.unknown.strength, rtol=_ALIKE, atol=0)), None)
+            if like is None:
+                firsts.append(record)
+            else:
+                record = replace(record, repeat_of=like.run.name)
+        grouped[name] = record
+    return grouped
 
 
 def moves_freely(bench, recorded):

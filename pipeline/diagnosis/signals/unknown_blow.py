@@ -37,6 +37,11 @@ class Blow:
     time: float
     unsure: float
 
+    @property
+    def strength(self):
+        """The size of the motion."""
+        return abs(self.impulse)
+
     def parameters(self, bench, run, remembers):
         """Parameters of a Run about the estimate: the impulse may have either sign and another size."""
         return (Parameter(_name(run.name, _IMPULSE, self.input), "N s", self.impulse,

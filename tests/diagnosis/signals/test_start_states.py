@@ -12,7 +12,8 @@ from pipeline.diagnosis.signals.forward_model import shown
 from pipeline.diagnosis.signals.start_states import begun, estimated, held, moves_freely, start_parameters, started
 from pipeline.inference.fitting.calibration import recalibrate
 from pipeline.inference.fitting.least_squares import linearised
-from pipeline.inference.problem import Hypothesis
+from pipeline.inference.fitting.noise import budget
+from pipeline.inference.problem import Hypothesis, operating_points
 from pipeline.inference.rules import DEFAULTS
 from pipeline.physics.time_stepping.simulate import Start
 from tests.diagnosis import small_rig
@@ -135,3 +136,19 @@ def test_coordinates_of_effects_start_where_springs_hold_them():
     start = held(model, Start(np.array([0.04]), np.array([2.0])))
     np.testing.assert_allclose([start.displacement, start.velocity], [[0.04, 0.03], [2.0, 1.5]], rtol=1e-12)
     assert start.relaxed is None
+
+
+def test_taps_of_one_strength_are_one_operating_point_whose_differences_are_no_noise():
+    starts = {"a": (0.05, 0.0), "b": (0.0, 1.05), "c": (0.02, 0.4), "d": (-0.051, 0.1)}
+    motions = {name: exact(start) for name, start in starts.items()}
+    bench, runs, section = rig(motions, "velocity")
+    assert {name: run.repeat_of for name, run in started(bench, runs, section).items()} == {
+        "a": "", "b": "a", "c": "", "d": "a"}
+    whole = problem(motions, "velocity", held_out=("d",), weighed=["coulomb"])
+    assert set(operating_points(whole.problem.training)) == {"a", "c"}
+    silent = tuple(replace(run, noise_std=None) for run in whole.problem.runs)
+    with pytest.raises(ConfigError, match="run a: noise"):
+        budget(replace(whole.problem, runs=silent))
+    apart = rig(motions, "velocity")[1]
+    apart["b"] = replace(apart["b"], run=replace(apart["b"].run, conditions={"bolt force": 2.0}))
+    assert started(bench, apart, section)["b"].repeat_of == ""
