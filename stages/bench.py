@@ -5,12 +5,13 @@ from functools import partial
 import numpy as np
 
 from pipeline.case_models.effect_block import with_effects
-from pipeline.case_models.force_balance import balance, started
+from pipeline.case_models.force_balance import balance
 from pipeline.case_models.runs import recorded
 from pipeline.case_models.virtual_rig import Settings, built
 from pipeline.contract import ConfigError, Context, stage, stored
 from pipeline.diagnosis.features.poles import features, observed, predicted
 from pipeline.diagnosis.signals.forward_model import shown
+from pipeline.diagnosis.signals.start_states import started
 from pipeline.products import Bench, BenchRun, Effects, Recording, ReducedModel
 
 

@@ -5,7 +5,6 @@ from typing import NamedTuple
 
 from pipeline.case_models import virtual_rig as benches
 from pipeline.case_models.effect_block import with_effects
-from pipeline.case_models.force_balance import started
 from pipeline.case_models.runs import recorded
 from pipeline.contract import ConfigError, Context, restored, stage
 from pipeline.diagnosis.force_balance import force_balance_problem
@@ -16,6 +15,7 @@ from pipeline.diagnosis.published_lists import Models, published_problem
 from pipeline.diagnosis.rough_pair import rough_pair_problem
 from pipeline.diagnosis.self_excited import pole_problem
 from pipeline.diagnosis.settings import Settings
+from pipeline.diagnosis.signals.start_states import started
 from pipeline.diagnosis.signals.substitution import substituted
 from pipeline.products import (
     Bench,

@@ -90,13 +90,18 @@ def refuse_unforced(name, applied, noise):
         raise ConfigError(f"run {name}: bench.forward: equation", "a run with an applied force",
                           f"at most {np.max(size, initial=0.0):.3g} N root mean square",
                           "a balance of a free motion closes as soon as everything in it is small: compare the motion"
-                          " instead (bench.forward: simulation, with measured_start: true)")
+                          " instead (bench.forward: simulation, where bench.start: fitted finds how it began)")
 
 
 def channel_names(bench):
     """(n,) names of the forces on the coordinates, by their bodies."""
+    return tuple(f"force on {name}" for name in body_names(bench))
+
+
+def body_names(bench):
+    """(n,) names of the coordinates: that of the body, with a number where it has several."""
     owners = [bench.model.body_name[k] for k in bench.model.coordinate_body]
-    return tuple(f"force on {owner}" if owners.count(owner) == 1 else f"force on {owner} {owners[:k].count(owner) + 1}"
+    return tuple(owner if owners.count(owner) == 1 else f"{owner} {owners[:k].count(owner) + 1}"
                  for k, owner in enumerate(owners))
 
 
@@ -115,11 +120,6 @@ def measured_start(bench, recorded):
 def begun(bench, recorded):
     """The Recorded run with its measured start."""
     return replace(recorded, run=replace(recorded.run, start=measured_start(bench, recorded)))
-
-
-def started(bench, runs, settings):
-    """{name: Recorded} with the starts that the section ``bench`` asks for."""
-    return {name: begun(bench, run) for name, run in runs.items()} if settings.measured_start else runs
 
 
 def _displacements(bench, run):

@@ -25,6 +25,7 @@ class Recorded:
     """One recorded run in the form of a bench: how it was run, and what its ``channels`` (c,) wrote.
 
     ``samples`` (c, n) in SI, ``valid`` (c, n), ``unit`` (c,); ``repeat_of`` names the run that it repeats.
+    ``unknown``: how uncertain the start of the run is (``StartSpread``), where it is to be fitted.
     """
 
     run: Run
@@ -33,6 +34,7 @@ class Recorded:
     samples: np.ndarray
     valid: np.ndarray
     repeat_of: str
+    unknown: object = None
 
 
 def recorded(recording, settings, model=None):

@@ -74,7 +74,13 @@ class Settings(Laws):
     drive: Fed | None = option(None, "recorded channel with the speed of the drive in rad/s (belts: m/s)")
     settled: bool = option(False, "runs start in steady sliding under their first inputs, else at rest")
     settle: Quantity("s", ge=0) = option("0 s", "begin of every run that is not compared: an unknown start dies away")
-    measured_start: bool = option(False, "runs start where and as fast as their displacement channels do")
+    start: Literal["rest", "fitted"] | None = option(
+        None, "state in which runs begin; rest: at rest, or as settled says; fitted: estimated with its uncertainty"
+        " from all channels of each run; none = fitted in runs that move where the model at rest would not, as free"
+        " decays do")
+    blow: str | None = option(None, "input on which a hammer of unknown force struck once in every run, at rest before:"
+                                    " size and time of the blow are fitted; none = no blow")
+    measured_start: bool = option(False, "the same as start: fitted, in older cases")
     state: int = option(0, "state of the model whose preload is used", ge=0)
     poles: Poles | None = option(None, "compare poles, sensor ratios and order-locked forces; none = samples")
     corrections: dict[str, str | float] = option({}, "nominal values in place of those of the model, as in"

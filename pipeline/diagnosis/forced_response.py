@@ -1,5 +1,7 @@
 """The problem of forced recordings: a bench, its recorded runs, and the section ``diagnosis``."""
 
+from dataclasses import replace
+
 from pipeline.case_models import corrections
 from pipeline.case_models.effect_block import parameters
 from pipeline.contract import ConfigError
@@ -7,9 +9,18 @@ from pipeline.contract.units import to_si
 from pipeline.diagnosis.experiment_design.next_run import feasible
 from pipeline.diagnosis.problem import DiagnosisProblem, nominal
 from pipeline.diagnosis.settings import parameter, procedure
-from pipeline.diagnosis.signals.forward_model import Simulated, candidates, largest, observed, reach, solver_candidate
+from pipeline.diagnosis.signals.forward_model import (
+    Simulated,
+    candidates,
+    largest,
+    observed,
+    reach,
+    remembers,
+    solver_candidate,
+)
 from pipeline.diagnosis.signals.latent_force import Describe
 from pipeline.diagnosis.signals.localisation import Axes, ForcedAxes
+from pipeline.diagnosis.signals.start_states import with_starts
 from pipeline.effects import CATALOGUE
 from pipeline.inference.fitting.noise import budget
 from pipeline.inference.problem import Problem
@@ -31,6 +42,7 @@ def forced_problem(bench, recorded, settings):
         forward(problem.nominal, problem.nominal.values(problem.nominal.nominal), run.observed)
     effects = candidates(bench, tuple(record.run for record in training), chosen(settings), settings.places,
                          reach(bench, training), settings.priors, largest(training))
+    problem = replace(problem, nominal=with_starts(problem.nominal, bench, recorded, remembers(bench, effects)))
     noises, solver = budget(problem, above=settings.noise.above), procedure(settings)
     return DiagnosisProblem(
         problem, noises | {f.run.name: noises[training[0].run.name] for f in planned},

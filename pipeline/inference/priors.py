@@ -150,7 +150,8 @@ class Parameter:
     """A number of a model that data may change.
 
     ``nominal`` is its value before the data; ``null`` the value at which the effect that owns it vanishes exactly,
-    None for a nominal parameter or one that only shapes an effect. Both in ``unit``, SI.
+    None for a nominal parameter or one that only shapes an effect. Both in ``unit``, SI. ``run``: name of the run whose
+    prediction alone it changes, as its start state does; empty: it may change all.
     """
 
     name: str
@@ -158,6 +159,7 @@ class Parameter:
     nominal: float
     prior: object
     null: float | None = None
+    run: str = ""
 
     def __post_init__(self):
         low, high = self.prior.support

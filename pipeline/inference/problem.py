@@ -16,7 +16,8 @@ class Observed:
     ``valid`` (c, n): False where a sample is missing (default: none is). ``rate`` [Hz]; None for features without an
     order in time (frequencies, growth rates), which then count as independent. ``noise_std`` (c,) or (c, n), or
     ``noise_psd`` (c, f), one-sided on the even grid from 0 to rate/2 [unit^2/Hz]; neither: noise is estimated.
-    A held-out run is never fitted. ``repeat_of`` names the run whose conditions this one repeats.
+    A held-out run is never fitted. ``repeat_of`` names the run whose conditions this one repeats; ``unlike``: it begins
+    otherwise than its repeats, so that their difference is no noise.
     """
 
     name: str
@@ -29,6 +30,7 @@ class Observed:
     noise_psd: np.ndarray | None = None
     held_out: bool = False
     repeat_of: str = ""
+    unlike: bool = False
 
     def __post_init__(self):
         samples = np.asarray(self.samples, dtype=float)
@@ -87,6 +89,15 @@ class Hypothesis:
     def values(self, latent):
         """{name: value} at latent coordinates (k,)."""
         return {p.name: float(p.prior.value(u)) for p, u in zip(self.parameters, latent, strict=True)}
+
+    @property
+    def shared(self):
+        """True (k,) for parameters that may change every run, False for those of one run alone."""
+        return np.array([not p.run for p in self.parameters], dtype=bool)
+
+    def moves(self, run):
+        """True (k,) for parameters that may change the prediction of the run of this name."""
+        return np.array([p.run in ("", run) for p in self.parameters], dtype=bool)
 
     def joined(self, other):
         """Both together, named by their effects."""

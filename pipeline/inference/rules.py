@@ -78,6 +78,8 @@ class DecisionRules:
     from_null: float = threshold(2.0, "distance of the coefficient from its null in standard deviations")
     unexplained: float = threshold(0.05, "fraction of the excess error that the named effect may leave")
     held_out_left: float = threshold(0.1, "the same on held-out runs, whose conditions may be new")
+    start_share: float = threshold(0.25, "fraction of a held-out run to which its unknown start is fitted; the rest is"
+                                         " judged")
     growth: float = threshold(3.0, "power of the error on held-out runs over that on the fitted ones")
     second_share: float = threshold(1e-2, "fraction of what a first effect explains that a second one must explain:"
                                           " the law of the first may be wrong by a tenth of its force")

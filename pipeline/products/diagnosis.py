@@ -152,6 +152,12 @@ class Diagnosis:
     parameter_std: Array = quantity("1", "parameter", "standard deviation")
     parameter_owner: Array = count("parameter", "row of the hypothesis that owns it; 0 for nominal ones")
     parameter_factor: Array = count("parameter", "1 where the value is a factor on that of the model, which 1 leaves")
+    start_run: Array = text("start", "runs whose unknown start state was fitted, one row a number of it; held-out runs"
+                            " are not listed, whose start each model fits to their first part")
+    start_quantity: Array = text("start", "displacement, velocity or relaxed position of which body")
+    start_unit: Array = text("start", "its SI unit")
+    start_value: Array = quantity("1", "start", "fitted value")
+    start_std: Array = quantity("1", "start", "standard deviation")
     fit: Array = quantity("1", "part model", "error over standard deviation, training and held out (0 without):"
                           " nominal, recalibrated, completed, noise alone")
     unexplained_share: Array = quantity("1", "", "fraction of the excess error that the completed model leaves")

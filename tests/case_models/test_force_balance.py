@@ -8,7 +8,7 @@ import pytest
 from pipeline.case_models import virtual_rig as benches
 from pipeline.case_models.corrections import corrected
 from pipeline.case_models.effect_block import with_effects
-from pipeline.case_models.force_balance import balance, channel_names, measured_start, started
+from pipeline.case_models.force_balance import balance, channel_names, measured_start
 from pipeline.case_models.runs import recorded
 from pipeline.contract import ConfigError
 from tests.diagnosis.small_rig import HIDDEN, effects, laid_out, model, recording
@@ -57,12 +57,12 @@ def test_a_run_without_a_force_is_refused_with_the_form_that_fits():
     one = runs["level_1"]
     free = replace(one, run=replace(one.run, inputs={}))
     with pytest.raises(ConfigError, match=r"run level_1: .*a run with an applied force, found at most 0 N.*"
-                                          r"bench.forward: simulation, with measured_start: true"):
+                                          r"bench.forward: simulation, where bench.start: fitted"):
         balance(bench, free, settings.equation)
 
 
 def test_a_run_may_start_where_it_was():
-    bench, runs, settings = rig(measured_start=True)
+    bench, runs, _ = rig()
     one = runs["level_1"]
     later = replace(one, run=replace(one.run, duration=1.0), samples=one.samples[:, 300:501],
                     valid=one.valid[:, 300:501])
@@ -70,8 +70,6 @@ def test_a_run_may_start_where_it_was():
     assert start.displacement == pytest.approx(one.samples[:, 300], abs=1e-3 * one.samples.std())
     assert start.velocity == pytest.approx(np.gradient(one.samples[0], 1 / 200)[300:301], rel=0.05), \
         "(w T)^2 / 10 with T = 30 ms"
-    assert started(bench, {"a": later}, settings)["a"].run.start is not None
-    assert started(bench, runs, laid_out()) is runs
 
 
 def test_gaps_and_short_runs_are_refused():

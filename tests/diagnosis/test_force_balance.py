@@ -61,7 +61,7 @@ def asked_of(given):
 @pytest.mark.parametrize("force_noise", [0.0, 2e-3])
 def test_a_free_decay_is_refused_before_anything_is_fitted(force_noise):
     with pytest.raises(ConfigError, match="run level_1: .*a run with an applied force, found at most 0.* N.*"
-                                          "bench.forward: simulation, with measured_start: true"):
+                                          "bench.forward: simulation, where bench.start: fitted"):
         asked_of(decays(force_noise))
 
 

@@ -1,13 +1,18 @@
 """Stage diagnosis: from products to a verdict; what it refuses before it computes."""
 
+import json
 from dataclasses import replace
+from types import SimpleNamespace
 
 import pytest
 
 from pipeline.contract import ConfigError, ConvergenceError
+from pipeline.contract.documents import yaml_text
 from pipeline.contract.settings import fill
+from pipeline.diagnosis.output.files import as_json, completed
 from stages.bench import bench
 from stages.diagnosis import Settings, diagnosis
+from tests.diagnosis import decays
 from tests.diagnosis.output.test_product import ASKED
 from tests.diagnosis.small_rig import HIDDEN, effects, laid_out, model, recording
 
@@ -98,3 +103,19 @@ def test_recordings_that_are_none_or_of_another_system_are_refused():
 def test_a_nominal_model_that_diverges_is_told():
     with pytest.raises(ConvergenceError, match="unbounded growth"):
         told(recording(levels=GENTLE), laid_out(corrections={"joints.mount.damping": "-500 N s/m"}))
+
+
+def test_a_free_motion_needs_no_start_and_its_completed_case_states_none():
+    """A decay under a law that is not weighed: place and latent force are told with the fitted starts."""
+    starts = {"a": (0.1, 0.3), "b": (-0.03, 1.2), "last": (0.02, -1.6)}
+    given, std = decays.recording({n: decays.decay(decays.duffing, start, 3.0) for n, start in starts.items()},
+                                  "velocity")
+    section = laid_out(channels={"x": {"quantity": "velocity", "source": "block"}}, inputs={})
+    found = told(given, section, effects=["quadratic_damping"], held_out=["last"],
+                 noise={"std": {"x": f"{std!r} m/s"}})
+    assert found.verdict.item() == "unknown" and "mount" in found.location["place"].item[0]
+    assert set(found.start_run) == {"a", "b"} and set(found.start_unit) == {"m", "m/s"}
+    assert not [name for name in found.parameter if "start" in str(name)]
+    case = SimpleNamespace(name="rig", document={"bench": {}, "diagnosis": {}})
+    assert "start" not in yaml_text(completed(found, case))
+    assert "start@" not in json.dumps(as_json(found))

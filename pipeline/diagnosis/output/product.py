@@ -25,8 +25,8 @@ def product(problem, diagnosis, contacts=None):
     """
     completed, recalibrated, table = diagnosis.completed, diagnosis.recalibrated, _hypotheses(diagnosis)
     table["contacts"] = [_contacts(place, contacts or {}) for place in table["place"]]
-    runs = problem.problem
-    fits = [errors(runs, problem.budget, runs.nominal, recalibrated, completed, part)
+    runs, share = problem.problem, problem.rules.decision.start_share
+    fits = [errors(runs, problem.budget, runs.nominal, recalibrated, completed, part, share)
             for part in (runs.training, runs.held_out)]
     axes = problem.locator.located(diagnosis)
     latent = problem.latent.described(diagnosis, axes) if problem.latent else None
@@ -39,7 +39,7 @@ def product(problem, diagnosis, contacts=None):
         verdict=diagnosis.decision.verdict, reason=list(diagnosis.decision.reasons), channel=channels,
         channel_unit=[problem.units[c] for c in channels], **table, **_parameters(diagnosis, completed, table),
         **_leading(diagnosis, table), **_levels(problem, diagnosis), left_floors=left.floors,
-        left_sentence=left.sentence, left_candidate=left.candidate,
+        left_sentence=left.sentence, left_candidate=left.candidate, **_starts(runs, diagnosis, completed),
         fit=[_part(part) for part in fits], unexplained_share=unexplained(recalibrated, completed, problem.rules),
         drift_p_value=diagnosis.weighing.drift.p_value,
         location={name: located(*axis) for name, axis in axes.items()},
@@ -187,7 +187,7 @@ def _parameters(diagnosis, completed, table):
     std, values = _std(diagnosis, completed), completed.values
     owners = dict(zip(table["hypothesis"], range(len(table["hypothesis"])), strict=True))
     rows = []
-    for parameter in completed.hypothesis.parameters:
+    for parameter in (p for p in completed.hypothesis.parameters if not p.run):
         effect, location, _ = split_name(parameter.name)
         given = parameter.nominal if parameter.null is None else parameter.null
         rows.append((parameter.name, parameter.unit, given, values[parameter.name], std[parameter.name],
@@ -195,6 +195,15 @@ def _parameters(diagnosis, completed, table):
     keys = ("parameter", "parameter_unit", "parameter_nominal", "parameter_value", "parameter_std", "parameter_owner",
             "parameter_factor")
     return {key: [row[k] for row in rows] for k, key in enumerate(keys)}
+
+
+def _starts(problem, diagnosis, completed):
+    """Fields of the fitted start states of the runs that were fitted: parameters of these runs alone."""
+    std, values, fitted = _std(diagnosis, completed), completed.values, {run.name for run in problem.training}
+    rows = [(p.run, split_name(p.name)[2], p.unit, values[p.name], std[p.name])
+            for p in completed.hypothesis.parameters if p.run in fitted]
+    return {key: [row[k] for row in rows] for k, key in enumerate(
+        ("start_run", "start_quantity", "start_unit", "start_value", "start_std"))}
 
 
 def _part(errors):

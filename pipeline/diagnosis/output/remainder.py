@@ -23,8 +23,9 @@ class Remainder:
 
 def remainder(problem, diagnosis):
     """Remainder of a DiagnosisProblem and the Diagnosis of it."""
-    fit, runs = diagnosis.completed, problem.problem.runs
-    whites = held_out_residuals(problem.problem, tuple(problem.budget[run.name] for run in runs), fit, runs)
+    fit, runs = diagnosis.completed, problem.problem.held_out
+    noises, share = tuple(problem.budget[run.name] for run in runs), problem.rules.decision.start_share
+    whites = [*fit.residuals, *held_out_residuals(problem.problem, noises, fit, runs, share)]
     square, count = sum(w @ w for w in whites), sum(len(w) for w in whites)
     floors = float(np.sqrt(square / max(count, 1)))
     if square - count <= doubt(count, problem.rules.decision.noise_uncertainty) or not diagnosis.decision.named:

@@ -10,11 +10,14 @@ from pipeline.contract import ConfigError
 from pipeline.diagnosis.experiment_design.next_run import altered
 from pipeline.diagnosis.problem import label, parameter_name, split_name
 from pipeline.diagnosis.settings import prior_of
+from pipeline.diagnosis.signals.start_states import begun, held
 from pipeline.effects import CATALOGUE, named
 from pipeline.effects.effect import Term, compose
 from pipeline.effects.typical import CHANNEL, typical
 from pipeline.inference.priors import Normal, Parameter
 from pipeline.inference.problem import Hypothesis, Observed
+from pipeline.physics.time_stepping.elements import alone
+from pipeline.physics.time_stepping.first_loading import remembers_loading
 from pipeline.physics.virtual_rig.response import Responder
 
 #: the solver as a hypothesis: its place, and its parameter: 0 as it is, 1 with half its step (4/3: none, at order 2)
@@ -32,7 +35,8 @@ def observed(recorded, noise_std=None, held_out=False):
                           f"none of {', '.join(lacking)}", "give it too, or leave all to the repeats of runs")
     stated = np.array([noise_std[c] for c in channels]) if noise_std else None
     return Observed(run.name, run.conditions, channels, recorded.samples, run.sample_rate, recorded.valid,
-                    noise_std=stated, held_out=held_out, repeat_of=recorded.repeat_of)
+                    noise_std=stated, held_out=held_out, repeat_of=recorded.repeat_of,
+                    unlike=recorded.unknown is not None)
 
 
 def completed(bench, hypothesis, values):
@@ -65,7 +69,7 @@ class Simulated:
     built: dict = field(default_factory=dict, compare=False)
 
     def __call__(self, hypothesis, values, run):
-        observed_run, kept = self.runs[run.name], run.samples.shape[1]
+        observed_run, kept = begun(self.runs[run.name], hypothesis, values), run.samples.shape[1]
         observed_run = observed_run.until(kept) if kept < observed_run.samples else observed_run
         change = self.altered.get(run.name, {})
         responder = self._responder(hypothesis, values, run.channels, change)
@@ -80,7 +84,7 @@ class Simulated:
 
     def _responder(self, hypothesis, values, channels, change):
         """Responder of a hypothesis, kept as long as run after run asks for the same values and channels."""
-        key = (hypothesis.effects, tuple(values.items()))
+        key = (hypothesis.effects, tuple(values[p.name] for p in hypothesis.parameters if not p.run))
         if key not in self.built:
             self.built.clear()
             self.built[key] = completed(self.bench, hypothesis, values)
@@ -93,16 +97,14 @@ class Simulated:
 
 
 def shown(bench, run, channels):
-    """Samples (c, n) of ``channels`` in one run; coordinates that an effect adds start at rest."""
+    """Samples (c, n) of ``channels`` in one run; coordinates that an effect adds start where springs hold them."""
     return _answer(Responder(only(bench, channels)), run, channels)
 
 
 def _answer(responder, run, channels):
     bench = responder.bench
     if run.start is not None and len(run.start.displacement) < bench.model.size:
-        rest = np.zeros(bench.model.size - len(run.start.displacement))
-        run = replace(run, start=replace(run.start, displacement=np.append(run.start.displacement, rest),
-                                         velocity=np.append(run.start.velocity, rest)))
+        run = replace(run, start=held(bench.model, run.start))
     answer = responder.respond(run)
     return np.array([answer[c] for c in channels])
 
@@ -125,6 +127,12 @@ def reach(bench, recorded):
             if moves and valid.any() and known[valid].any():
                 ratios.append(np.sqrt(np.mean(samples[valid] ** 2) / np.mean(known[valid] ** 2)))
     return float(np.exp(np.mean(np.log(ratios)))) if ratios and min(ratios) > 0 else 1.0
+
+
+def remembers(bench, candidates):
+    """Whether the bench, alone or with one of the ``candidates``, has joints that remember how they were loaded."""
+    benches = (bench, *(completed(bench, c, {p.name: p.nominal for p in c.parameters}) for c in candidates))
+    return any(remembers_loading(alone(each.model.elements)) for each in benches)
 
 
 def largest(recorded):

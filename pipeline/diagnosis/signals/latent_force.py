@@ -13,6 +13,8 @@ from pipeline.diagnosis.signals.deconvolution import FADE, deconvolved
 from pipeline.diagnosis.signals.forward_model import shown
 from pipeline.diagnosis.signals.latent_force_law import LABEL, used
 from pipeline.diagnosis.signals.localisation import drive_angle, fitted, leading_place, places
+from pipeline.diagnosis.signals.start_states import begun_as
+from pipeline.inference.fitting.run_parameters import on_all_runs
 from pipeline.inference.search import gp_latent_force, localisation
 
 #: samples from which the covariance of the force is estimated
@@ -62,14 +64,21 @@ class Describe:
         leader = leading_place(axes, self.rules.latent_force.place_p)
         if leader is None:
             return None
-        runs = {r.name: (self.runs[r.name], r, self.budget[r.name]) for r in self.problem.runs}
+        begun = self._begun(diagnosis)
+        runs = {r.name: (begun[r.name], r, self.budget[r.name]) for r in self.problem.runs}
         return describe(fitted(self.bench, diagnosis.recalibrated), runs, [r.name for r in self.problem.held_out],
                         axes["place"][0].items[leader], self.draws, self.seed, self.rules.latent_force)
 
     def predicted(self, diagnosis, description):
         """LatentUse of a Description on the held-out runs."""
         return used(self.bench, places(self.bench)[description.location][0], description, self.problem, self.budget,
-                    diagnosis.recalibrated, SimulatedRuns(self.runs), self.rules)
+                    diagnosis.recalibrated, SimulatedRuns(self._begun(diagnosis)), self.rules)
+
+    def _begun(self, diagnosis):
+        """{name: Run} with the starts of the recalibrated nominal model."""
+        hypothesis = diagnosis.recalibrated.hypothesis
+        latent = on_all_runs(self.problem, self.budget, diagnosis.recalibrated)
+        return begun_as(self.runs, hypothesis, hypothesis.values(latent))
 
 
 @dataclass(frozen=True)

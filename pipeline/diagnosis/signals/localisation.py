@@ -12,11 +12,13 @@ import numpy as np
 
 from pipeline.diagnosis.signals.deconvolution import EXTRA, motion, moved
 from pipeline.diagnosis.signals.forward_model import STEP, completed, shown
+from pipeline.diagnosis.signals.start_states import begun_as
 from pipeline.effects import CATALOGUE
 from pipeline.effects.effect import STAGES
 from pipeline.effects.typical import ASPERITIES
 from pipeline.inference.fitting.effective_sample_size import effective_share
 from pipeline.inference.fitting.least_squares import whitened
+from pipeline.inference.fitting.run_parameters import on_all_runs
 from pipeline.inference.rules import DEFAULTS
 from pipeline.inference.search import localisation
 from pipeline.physics.virtual_rig.response import run_drive, run_inputs
@@ -76,7 +78,8 @@ class ForcedAxes:
     def located(self, diagnosis):
         first = diagnosis.base or diagnosis
         axes = self.residual.located(diagnosis)
-        if location := place_axis(fitted(self.bench, first.null), self.runs, first.null, first.weights,
+        runs = begun_as(self.runs, first.null.hypothesis, first.null.values)
+        if location := place_axis(fitted(self.bench, first.null), runs, first.null, first.weights,
                                   self.residual.draws, self.residual.seed):
             axes["place"] = (location, "", None)
         return axes
@@ -99,7 +102,8 @@ def fitted(bench, fit):
 
 def residuals(problem, budget, fit):
     """{run name: whitened residual (m,)} of a Fit on all runs, those held out included."""
-    whites, error = whitened(problem, [budget[r.name] for r in problem.runs], fit.hypothesis, fit.latent, problem.runs)
+    whites, error = whitened(problem, [budget[r.name] for r in problem.runs], fit.hypothesis,
+                             on_all_runs(problem, budget, fit), problem.runs)
     if error:
         raise error
     return {run.name: white for run, white in zip(problem.runs, whites, strict=True)}

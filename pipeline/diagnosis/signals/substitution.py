@@ -17,6 +17,7 @@ from pipeline.contract import BrakechainError
 from pipeline.diagnosis.problem import Locator
 from pipeline.diagnosis.signals.forward_model import Simulated, shown
 from pipeline.diagnosis.signals.localisation import fitted
+from pipeline.diagnosis.signals.start_states import begun_as
 from pipeline.inference.search import localisation
 from pipeline.physics.friction.friction_table import FrictionLaw
 from pipeline.physics.signals.pole_identification import likeness
@@ -43,11 +44,13 @@ class Substituted:
     seed: int = 0
 
     def located(self, diagnosis):
-        axes, bench = self.axes.located(diagnosis), fitted(self.bench, diagnosis.recalibrated)
-        modelled, decrease = self._squares(bench), {}
+        null = diagnosis.recalibrated
+        axes, bench = self.axes.located(diagnosis), fitted(self.bench, null)
+        runs = begun_as(self.runs, null.hypothesis, null.values)
+        modelled, decrease = self._squares(bench, runs), {}
         for stage, swap in self.swaps.items():
             try:
-                decrease[stage] = modelled - self._squares(swap.applied(bench))
+                decrease[stage] = modelled - self._squares(swap.applied(bench), runs)
             except BrakechainError:     # what cannot be simulated takes nothing away
                 continue
         if not decrease:
@@ -55,11 +58,11 @@ class Substituted:
         stages = localisation.stages(tuple(decrease), decrease, self.draws, self.seed)
         return axes | {AXIS: (stages, "", None)}
 
-    def _squares(self, bench):
-        """Squared whitened error (blocks,) of the fitted runs."""
+    def _squares(self, bench, runs):
+        """Squared whitened error (blocks,) of the fitted ``runs`` {name: Run}."""
         squares = []
         for run in self.problem.training:
-            left = run.samples - shown(bench, self.runs[run.name], run.channels)
+            left = run.samples - shown(bench, runs[run.name], run.channels)
             squares += [part @ part for part in np.array_split(self.budget[run.name].whiten(left), _BLOCKS)]
         return np.array(squares)
 

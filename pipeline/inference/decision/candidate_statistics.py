@@ -5,10 +5,11 @@ import scipy
 
 from pipeline.contract.errors import BrakechainError
 from pipeline.inference.decision.decision_rules import CandidateStatistics, RunStatistics
-from pipeline.inference.decision.held_out import Gain, gain, held_out_residuals
+from pipeline.inference.decision.held_out import Gain, gain, held_out_residuals, judged
 from pipeline.inference.fitting.effective_sample_size import coherent_energy, doubt, effective_share
 from pipeline.inference.fitting.least_squares import linearised, orthogonal, whitened
 from pipeline.inference.fitting.parameter_drift import agreement
+from pipeline.inference.fitting.run_parameters import with_own_parameters
 from pipeline.inference.fitting.varying_values import followed
 from pipeline.inference.priors import LATENT_LIMIT
 
@@ -18,14 +19,14 @@ def held_out_gains(problem, budget, null, fits, posterior, rules):
     runs = problem.held_out
     if not runs:
         return dict.fromkeys(fits, (None, None))
-    noises = tuple(budget[run.name] for run in runs)
-    reference = held_out_residuals(problem, noises, null, runs)
-    gains = {}
+    noises, share = tuple(budget[run.name] for run in runs), rules.decision.start_share
+    reference, gains = held_out_residuals(problem, noises, null, runs, share), {}
+    rest = judged(null.hypothesis, noises, runs, share)
     for i, fit in fits.items():
         try:
-            gains[i] = gain(noises, reference, held_out_residuals(problem, noises, fit, runs))
+            gains[i] = gain(rest, reference, held_out_residuals(problem, noises, fit, runs, share))
         except BrakechainError:
-            gains[i] = gain(noises, reference, reference)
+            gains[i] = gain(rest, reference, reference)
     return {i: (gains[i], _beats_decoy(i, null, fits, gains, posterior, rules.evidence)) for i in fits}
 
 
@@ -130,7 +131,8 @@ def run_statistics(problem, budget, null, weights, drift, rules):
 def _powerless(problem, budget, null, rules):
     """Names of held-out runs that the Fit ``null`` predicts to the noise, on which no effect has anything to gain."""
     runs = () if null.unordered else problem.held_out
-    whites = held_out_residuals(problem, tuple(budget[run.name] for run in runs), null, runs)
+    noises = tuple(budget[run.name] for run in runs)
+    whites = held_out_residuals(problem, noises, null, runs, rules.decision.start_share)
     return tuple(run.name for run, white in zip(runs, whites, strict=True)
                  if white @ white - len(white) <= doubt(len(white), rules.decision.noise_uncertainty))
 
@@ -145,24 +147,36 @@ def _misfit(noises, residuals, square, uncertainty):
 def _misfit_held_out(problem, budget, null, weights, uncertainty):
     """The same on held-out runs; what the uncertainty of the values explains there does not count.
 
-    With C their covariance, e'(I + J C J')^-1 e of the residual e with Jacobian J. Features are not asked: the error of
-    a model is common to all those of a run.
+    With C their covariance, e'(I + J C J')^-1 e of the residual e with Jacobian J; the runs' own parameters, of which
+    the fitted runs say nothing, are as uncertain as their priors. Features are not asked: the error of a model is
+    common to all those of a run.
     """
     runs = problem.held_out
     if not runs or null.unordered:
         return 0.0
-    there = linearised(problem, tuple(budget[run.name] for run in runs), null.hypothesis, null.latent, runs)
+    noises = tuple(budget[run.name] for run in runs)
+    latent = with_own_parameters(problem, noises, null.hypothesis, null.latent, runs)
+    there = linearised(problem, noises, null.hypothesis, latent, runs)
     jacobian, residual = np.concatenate(there.jacobians), np.concatenate(there.residuals)
     left = orthogonal(residual, jacobian, np.linalg.inv(null.covariance(weights)))
     return _misfit(there.noises, there.residuals, residual @ left, uncertainty)
 
 
 def _moved_p(problem, null, weights):
-    """p-value of the given values: their squared error over the refitted ones', chi^2 with one degree per parameter."""
-    if not len(null.latent):
+    """p-value of the given values: their squared error over the refitted ones', chi^2 with one degree per parameter.
+
+    Parameters of single runs are refitted beside the given values: nobody has given theirs.
+    """
+    shared = null.hypothesis.shared
+    if not shared.any():
         return 1.0
-    given, error = whitened(problem, null.noises, null.hypothesis, null.hypothesis.nominal, null.runs)
+    try:
+        start = np.where(shared, null.hypothesis.nominal, null.latent)
+        latent = with_own_parameters(problem, null.noises, null.hypothesis, start, null.runs)
+    except BrakechainError:
+        return 0.0
+    given, error = whitened(problem, null.noises, null.hypothesis, latent, null.runs)
     if error:
         return 0.0
     square = np.array([r @ r for r in given])
-    return float(scipy.stats.chi2.sf(weights @ (square - null.chi_square), len(null.latent)))
+    return float(scipy.stats.chi2.sf(weights @ (square - null.chi_square), shared.sum()))

@@ -1,12 +1,16 @@
-"""Verification on runs never fitted: errors before, recalibrated and after, against noise, and the gain."""
+"""Verification on runs never fitted: errors before, recalibrated and after, against noise, and the gain.
 
-from dataclasses import dataclass
+Where a run begins in a state that nobody knows, every model fits it to the first part of the run; the rest is judged.
+"""
+
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from pipeline.inference.fitting.effective_sample_size import doubt, tempering
 from pipeline.inference.fitting.least_squares import whitened
 from pipeline.inference.fitting.noise import floor, normalised_error
+from pipeline.inference.fitting.run_parameters import first_part, with_own_parameters
 
 
 @dataclass(frozen=True)
@@ -100,23 +104,46 @@ def gain(noises, first, second):
     return Gain(float(sum(change)), float(np.sqrt(sum(variance))), float(excess), count)
 
 
-def held_out_residuals(problem, noises, fit, runs):
-    """Whitened residuals [(m_r,)] of a Fit's values on runs it has not seen; raises what the forward model raises."""
-    residuals, error = whitened(problem, noises, fit.hypothesis, fit.latent, runs)
+def judged(hypothesis, noises, runs, share):
+    """[Noise] of the part of held-out ``runs`` that is judged: all, or what follows the first ``share`` of a run whose
+    own parameters are fitted to that."""
+    return tuple(noise.beyond(first_part(hypothesis, noise, run, share))
+                 for noise, run in zip(noises, runs, strict=True))
+
+
+def held_out_residuals(problem, noises, fit, runs, share=1.0):
+    """Whitened residuals [(m_r,)] of a Fit's values on the judged part of runs it has not seen.
+
+    Raises what the forward model raises.
+    """
+    latent = with_own_parameters(problem, noises, fit.hypothesis, fit.latent, runs, share)
+    residuals, error = whitened(problem, judged(fit.hypothesis, noises, runs, share), fit.hypothesis, latent, runs)
     if error:
         raise error
     return residuals
 
 
-def errors(problem, budget, nominal, null, best, runs):
-    """Errors over ``runs`` of the Fits ``null`` and ``best``, and of hypothesis ``nominal`` at its given values."""
+def errors(problem, budget, nominal, null, best, runs, share=1.0):
+    """Errors over ``runs`` of the Fits ``null`` and ``best``, and of hypothesis ``nominal`` at its given values.
+
+    Of held-out runs over the part that is judged.
+    """
     models = ((nominal, nominal.nominal), (null.hypothesis, null.latent), (best.hypothesis, best.latent))
-    predicted = {run.name: np.array([problem.predict(h, h.values(latent), run) for h, latent in models], float)
-                 for run in runs}
+    noises, held_out = [budget[run.name] for run in runs], [run for run in runs if run.held_out]
+    begins = [budget[run.name] for run in held_out]
+    models = [(h, h.values(with_own_parameters(problem, begins, h, latent, held_out, share))) for h, latent in models]
+    predicted = {run.name: np.array([problem.predict(h, values, run) for h, values in models], float) for run in runs}
+    seen = [_from(run, first_part(nominal, noise, run, share) * run.held_out)
+            for run, noise in zip(runs, noises, strict=True)]
     by_run = {run.name: np.array([*(normalised_error(run, run.samples - p) for p in predicted[run.name]),
-                                  floor(run, budget[run.name])]) for run in runs}
+                                  floor(run, budget[run.name])]) for run in seen}
     means = [_root_mean([by_run[run.name][k] for run in runs]) for k in range(4)]
     return Errors(*means, tuple(run.name for run in runs), predicted, by_run)
+
+
+def _from(run, first):
+    """An Observed run whose samples before number ``first`` do not count."""
+    return replace(run, valid=run.valid & (np.arange(run.samples.shape[1]) >= first)) if first else run
 
 
 def _root_mean(values):

@@ -282,24 +282,39 @@ def _scale(state):
 def _jacobians(problem, noises, hypothesis, latent, residuals, runs, first=0, width=DIFFERENCE, central=False):
     """Forward differences (backward at the upper limit and where the forward model fails ahead) from ``first`` on.
 
-    ``central``: the mean of both.
+    ``central``: the mean of both. Parameters of one run alone are moved in their runs at once, as no other is changed.
     """
-    columns, count = [], 0
-    for k in range(first, len(latent)):
-        slopes = []
-        for step in (width, -width):
-            if abs(latent[k] + step) > LATENT_LIMIT or (slopes and not central):
-                continue
-            moved, error = whitened(problem, noises, hypothesis, latent + step * (np.arange(len(latent)) == k), runs)
-            count += 1
-            if moved is not None:
-                slopes.append([(here - there) / step for here, there in zip(residuals, moved, strict=True)])
+    columns = [np.zeros((len(latent) - first, len(residual))) for residual in residuals]
+    count = 0
+    for moved in _moved_together(hypothesis, runs, first):
+        (members, chosen), slopes = zip(*moved, strict=True), []
+        of, among, under = ([every[i] for i in members] for every in (residuals, runs, noises))
+        chosen = list(chosen)
+        for side in (width, -width):
+            if slopes and not central:
+                break
+            ahead, steps = latent.copy(), np.where(np.abs(latent[chosen] + side) > LATENT_LIMIT, -side, side)
+            ahead[chosen] += steps
+            there, error = whitened(problem, under, hypothesis, ahead, among)
+            count += len(moved) / len(runs)
+            if there is not None:
+                slopes.append([(before - after) / step for before, after, step in zip(of, there, steps, strict=True)])
         if not slopes:
             raise error
-        columns.append([np.mean(sides, axis=0) for sides in zip(*slopes, strict=True)])
-    jacobians = tuple(np.array([column[i] for column in columns]).reshape(len(columns), len(residual)).T
-                      for i, residual in enumerate(residuals))
-    return jacobians, count
+        for (i, k), *sides in zip(moved, *slopes, strict=True):
+            columns[i][k - first] = np.mean(sides, axis=0)
+    return tuple(column.T for column in columns), int(np.ceil(count))
+
+
+def _moved_together(hypothesis, runs, first=0):
+    """[[(index of a run, index of a parameter that changes it)]] from parameter ``first`` on, one item a prediction."""
+    shared = hypothesis.shared
+    together = [[(i, k) for i in range(len(runs))] for k in range(first, len(shared)) if shared[k]]
+    members = [(i, [k for k in range(first, len(shared)) if hypothesis.parameters[k].run == run.name])
+               for i, run in enumerate(runs)]
+    for position in range(max((len(each) for _, each in members), default=0)):
+        together.append([(i, each[position]) for i, each in members if position < len(each)])
+    return together
 
 
 def _slopes(state):
@@ -346,7 +361,8 @@ def _step(problem, state, gradient, hessian, damping, growth):
 def _moved(state, latent, residuals, tries):
     """State at ``latent`` with Jacobians that agree with the change of the prediction on the way there."""
     step = latent - state.latent
-    jacobians = tuple(j + np.outer(here - there - j @ step, step) / (step @ step)
-                      for j, here, there in zip(state.jacobians, state.residuals, residuals, strict=True))
+    felt = [step * state.hypothesis.moves(run.name) for run in state.runs]
+    jacobians = tuple(j + np.outer(here - there - j @ way, way) / max(way @ way, 1e-300) for j, here, there, way in zip(
+        state.jacobians, state.residuals, residuals, felt, strict=True))
     return replace(state, latent=latent, residuals=tuple(residuals), jacobians=jacobians, fresh=False,
                    evaluations=state.evaluations + tries)

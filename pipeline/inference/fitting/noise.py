@@ -56,6 +56,10 @@ class Noise:
         """The noise of the run cut to its first ``kept`` samples."""
         return replace(self, weight=self.weight[:, :kept], usable=self.usable[:, :kept])
 
+    def beyond(self, first):
+        """The noise of the samples from number ``first`` on alone."""
+        return replace(self, usable=self.usable & (np.arange(self.usable.shape[1]) >= first))
+
     def by_channel(self, white):
         """The channels (m_c,) of a whitened residual (m,)."""
         return np.split(white, np.cumsum(self.usable.sum(axis=1))[:-1])
@@ -186,7 +190,8 @@ def _noise_of(run, problem, solver_error, above, order):
         return whitening(run, std[:, None] ** 2 if solver_error is None else _padded(std**2, order), solver_error)
     if run.noise_psd is not None:
         return whitening(run, from_density(run.noise_psd, run.rate, order), solver_error)
-    alike = [other for other in problem.runs if other.point == run.point and other.samples.shape == run.samples.shape]
+    alike = [other for other in problem.runs if other.point == run.point and other.samples.shape == run.samples.shape
+             and not (run.unlike or other.unlike)]
     if len(alike) > 1:
         return whitening(run, from_repeats(alike, order if run.rate else 0), solver_error)
     repeated = _repeated_elsewhere(problem, run)
@@ -203,7 +208,7 @@ def _repeated_elsewhere(problem, run):
     """[runs of one point] of other points that were repeated with the same channels at the same rate."""
     points = {}
     for other in problem.runs:
-        if (other.channels, other.rate) == (run.channels, run.rate):
+        if (other.channels, other.rate) == (run.channels, run.rate) and not other.unlike:
             points.setdefault((other.point, other.samples.shape), []).append(other)
     return [runs for runs in points.values() if len(runs) > 1]
 

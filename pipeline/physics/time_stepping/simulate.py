@@ -20,6 +20,7 @@ from pipeline.physics.friction.state_variables import factors, started, state_ke
 from pipeline.physics.time_stepping.contact_solver import JAMMED, OPEN, SLIP, SOLVED, STICK, TOO_LONG, UNCONVERGED
 from pipeline.physics.time_stepping.coupled_solver import no_memory, surface_shift
 from pipeline.physics.time_stepping.element_forces import TOO_STIFF, UNSETTLED
+from pipeline.physics.time_stepping.first_loading import loaded
 from pipeline.physics.time_stepping.kernel_arrays import elements_kernel, linear_kernel, matrices_of, refuse
 from pipeline.physics.time_stepping.linear_step import HistoryKernel
 from pipeline.physics.time_stepping.modal_integrator import modal_system
@@ -56,9 +57,10 @@ class History:
 class Start:
     """Displacement and velocity (n,) at time 0; normal and friction force (c,) where they are known.
 
-    ``memory`` (s,) of the elements, by default 0: those with memory draw with no force where the motion starts;
-    ``angle`` rad of the drive, ``age`` s that passed before, ``worn`` (c,) m that the contacts have
-    receded by, which needs ``normal``; ``states`` (k, 2) of friction, by default settled.
+    ``memory`` (s,) of the elements, by default 0: those with memory draw with no force where the motion starts, or at
+    ``relaxed`` (n,) m, from where they were loaded to the start; ``angle`` rad of the drive, ``age`` s that passed
+    before, ``worn`` (c,) m that the contacts have receded by, which needs ``normal``; ``states`` (k, 2) of friction, by
+    default settled.
     """
 
     displacement: np.ndarray
@@ -70,6 +72,7 @@ class Start:
     age: float = 0.0
     worn: np.ndarray | None = None
     states: np.ndarray | None = None
+    relaxed: np.ndarray | None = None
 
     def kicked(self, velocity):
         """The same with ``velocity`` (n,) added."""
@@ -227,9 +230,19 @@ def _begin(model, modes, system, start, speed):
     force[1] = np.sign(slip) * mu * force[0] if start.friction is None else start.friction
     status = np.where(closed, np.where(slip == 0, STICK, SLIP), OPEN).astype(np.int64)
     return State(contiguous(modes.to_pairs(start.displacement, start.velocity)), force, status,
-                 no_memory(elements, start.age) if start.memory is None else np.array(start.memory, float),
+                 _memory(model, elements, start, speed),
                  np.array(value, float), np.array([float(start.angle)]),
                  np.zeros(len(gap)) if start.worn is None else np.array(start.worn, float))
+
+
+def _memory(model, elements, start, speed):
+    """What the elements remember (s,) at the Start."""
+    if start.memory is not None:
+        return np.array(start.memory, float)
+    if start.relaxed is None or not model.elements:
+        return no_memory(elements, start.age)
+    rows = np.array([element.row for element in model.elements])
+    return loaded(elements, rows, start.relaxed, start.displacement, float(start.age), float(speed))
 
 
 def _speed_at_start(model, drive):

@@ -1,14 +1,18 @@
 """Verification: gains and their standard errors in closed form, errors against the floor."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from pipeline.contract.errors import ConvergenceError
-from pipeline.inference.decision.held_out import errors, gain, held_out_residuals
+from pipeline.inference.decision.held_out import errors, gain, held_out_residuals, judged
 from pipeline.inference.fitting.least_squares import fit
 from pipeline.inference.fitting.noise import budget, whitening
 from tests.inference import oscillator
+from tests.inference.curves import noises_of
 from tests.inference.fitting.test_noise import run
+from tests.inference.fitting.test_run_parameters import made
 
 SIZE = 3000
 WHITE = (whitening(run(np.zeros(SIZE)), np.ones((1, 1))),)
@@ -78,3 +82,22 @@ def test_a_model_that_fails_on_a_held_out_run_says_so():
     broken = type(problem)(problem.runs, lambda h, v, r: np.full((2, oscillator.SAMPLES), np.nan), problem.nominal)
     with pytest.raises(ConvergenceError, match="prediction of run run_1"):
         held_out_residuals(broken, noises, null, problem.training)
+
+
+@pytest.mark.exact
+def test_of_a_run_whose_start_is_fitted_only_the_rest_is_judged():
+    """The start is fitted to the first part, and what is left of the first part counts nowhere."""
+    problem, noise, _ = made(held_out=1)
+    run, = problem.held_out
+    null = fit(problem, noises_of(problem, noise), problem.nominal, np.zeros(8), problem.training)
+    residual, = held_out_residuals(problem, [noise[run.name]], null, [run], 0.5)
+    assert len(residual) == 30 == judged(problem.nominal, [noise[run.name]], [run], 0.5)[0].count
+    spoiled = run.samples.copy()
+    spoiled[0, 30:] += 100.0                    # after the part that the start is fitted to
+    elsewhere = replace(problem, runs=(*problem.training, replace(run, samples=spoiled)))
+    shifted, = held_out_residuals(elsewhere, [noise[run.name]], null, list(elsewhere.held_out), 0.5)
+    np.testing.assert_allclose(shifted - residual, 100.0 / noise[run.name].std[0], rtol=1e-9)
+    told = errors(problem, noise, problem.nominal, null, null, problem.held_out, 0.5)
+    rest = run.samples[0, 30:]
+    assert told.noise_floor == pytest.approx(noise[run.name].std[0] / rest.std(), rel=1e-9)
+    assert told.recalibrated == pytest.approx(np.sqrt(np.mean(residual**2)) * told.noise_floor, rel=1e-9)

@@ -48,7 +48,7 @@ def chapter(product, look):
         " ".join(filter(None, (answers["What is missing"], answers["What it changes"], answers["What is left"],
                                answers["Measure next"]))),
         tuple(_figures(product)), tuple(filter(None, (
-            _errors(product), _with_force(product), *squeal_tables(product), _parameters(product),
+            _errors(product), _with_force(product), *squeal_tables(product), _parameters(product), _starts(product),
             _hypotheses(product), _location(product), _thresholds(product)))),
         tuple(_notes(product)))
 
@@ -356,6 +356,14 @@ def _parameters(product):
                   number(_distance(product, k), 2)) for k, (name, unit) in enumerate(
                       zip(product.parameter, map(str, product.parameter_unit), strict=True)))
     return Table(("parameter", "given", "fitted", "deviation / sigma"), rows, "Fitted values", (1, 2, 3))
+
+
+def _starts(product):
+    """Fitted start states, by run."""
+    rows = tuple((str(run), str(what), _with_error(value, std, str(unit))) for run, what, value, std, unit in zip(
+        product.start_run, product.start_quantity, product.start_value, product.start_std, product.start_unit,
+        strict=True))
+    return Table(("run", "at its first sample", "fitted"), rows, "Start states", (2,), folded=True) if rows else None
 
 
 def _thresholds(product):

@@ -1,0 +1,60 @@
+"""Parameters of one run alone, such as its start state, fitted while everything else is held.
+
+A run that was held out has a start too, which no other run tells. It is fitted to the first part of the run under the
+values of the model that is judged, and what is judged is the rest of the run.
+"""
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from pipeline.inference.fitting.least_squares import fit
+from pipeline.inference.problem import Hypothesis
+
+#: samples of the first part for each parameter that is fitted to it, at least
+_PER_PARAMETER = 8
+
+
+@dataclass(frozen=True)
+class Held:
+    """Forward model of the parameters of one run: ``hypothesis`` with all other ``values`` held, as a problem."""
+
+    whole: Any
+    hypothesis: Hypothesis
+    values: dict
+
+    def predict(self, _, values, run):
+        return self.whole.predict(self.hypothesis, self.values | values, run)
+
+
+def first_part(hypothesis, noise, run, share):
+    """Number of samples from the begin of ``run`` to which its own parameters are fitted: 0 where it has none.
+
+    The part holds this ``share`` of its usable samples, and a few for each parameter.
+    """
+    count = sum(p.run == run.name for p in hypothesis.parameters)
+    return noise.horizon(share, _PER_PARAMETER * count) if count else 0
+
+
+def with_own_parameters(problem, noises, hypothesis, latent, runs, share=1.0):
+    """Latent coordinates (k,) with the parameters of each of ``runs`` alone fitted to its first ``share``.
+
+    ``noises`` [Noise] belong to ``runs``; all other coordinates stay. Raises what the forward model raises.
+    """
+    latent, values = np.array(latent, float), hypothesis.values(latent)
+    for run, noise in zip(runs, noises, strict=True):
+        members = [k for k, p in enumerate(hypothesis.parameters) if p.run == run.name]
+        if not members:
+            continue
+        end = first_part(hypothesis, noise, run, share)
+        alone = Hypothesis(f"own parameters of {run.name}", (), tuple(hypothesis.parameters[k] for k in members))
+        latent[members] = fit(Held(problem, hypothesis, values), (noise.until(end),), alone, latent[members],
+                              (run.until(end),)).latent
+    return latent
+
+
+def on_all_runs(problem, budget, fit):
+    """Latent coordinates (k,) of a Fit, with the parameters of each held-out run alone fitted to that run."""
+    noises = [budget[run.name] for run in problem.held_out]
+    return with_own_parameters(problem, noises, fit.hypothesis, fit.latent, problem.held_out)

@@ -1,0 +1,59 @@
+"""Ring-downs whose starts nobody states, at 20 samples a period with 1 % noise: the hidden law is named, or none.
+
+SciPy makes them; the nominal stiffness and damping are 3 and 9 % off.
+"""
+
+import numpy as np
+import pytest
+
+from pipeline.diagnosis.output.product import product
+from tests.diagnosis.decays import decay, duffing, jenkins, linear, problem
+
+STARTS = {"a": (0.1, 0.3), "b": (-0.03, 1.2), "c": (0.05, -0.2), "last": (0.02, -1.6)}
+WEIGHED = ("coulomb", "cubic_stiffness", "hysteretic_joint", "quadratic_damping", "quadratic_stiffness", "sensor_delay",
+           "added_stiffness")
+#: N/m and N of the Jenkins elements
+SLIDERS = np.full(8, 15.0), 15.0 * np.linspace(0.005, 0.1, 8)
+
+
+def solved(law, quantity, seed, memory=lambda x: (), before=0):
+    """(DiagnosisProblem, Diagnosis) of ring-downs of 5 s, of which the first ``before`` samples were not recorded."""
+    motions = {name: tuple(part[before:] for part in decay(law, start, 5.0 + before / 64, memory(start[0])))
+               for name, start in STARTS.items()}
+    whole = problem(motions, quantity, seed=seed, weighed=WEIGHED)
+    return whole, whole.solved()
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("quantity, seed", [("displacement", 1), ("velocity", 2), ("acceleration", 3)])
+def test_a_duffing_oscillator_is_named(quantity, seed):
+    whole, found = solved(duffing, quantity, seed)
+    assert found.decision.verdict == "missing", found.decision.reasons
+    assert [w.candidate.name for w in found.named] == ["cubic_stiffness at mount"]
+    spread, values = found.completed.spread(found.weights), found.completed.values
+    for name, true in (("cubic_stiffness@mount.coefficient", 15000.0), ("joints.mount.stiffness", 412.0)):
+        assert abs(values[name] - true) < 3 * spread[name], (name, values[name], spread[name])
+    told = product(whole, found)
+    assert not any("start" in str(name) for name in told.parameter), "no value of the model"
+    assert list(told.start_run) == ["a"] * 3 + ["b"] * 3 + ["c"] * 3
+    assert [str(what) for what in told.start_quantity[:2]] == ["displacement of block", "velocity of block"]
+    assert (abs(told.start_value[:2] - STARTS["a"]) < 3 * told.start_std[:2]).all()
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("quantity, before, seed", [("displacement", 0, 1), ("velocity", 0, 2),
+                                                     ("displacement", 40, 4)])
+def test_an_iwan_joint_is_named_wherever_the_record_begins(quantity, before, seed):
+    """Jenkins elements that were loaded to the start, or whose first two periods were not recorded."""
+    stiffness, limit = SLIDERS
+    _, found = solved(jenkins(*SLIDERS), quantity, seed, lambda x: np.clip(stiffness * x, -limit, limit), before)
+    assert found.decision.verdict == "missing", found.decision.reasons
+    assert [w.candidate.name for w in found.named] == ["hysteretic_joint at mount"]
+
+
+@pytest.mark.parametrize("quantity, seed", [("displacement", 1), ("velocity", 2)])
+def test_nothing_is_missing_in_a_linear_decay(quantity, seed):
+    _, found = solved(linear, quantity, seed)
+    assert found.decision.verdict == "parameters", "its stiffness and damping are other ones"
+    spread, values = found.completed.spread(found.weights), found.completed.values
+    assert abs(values["joints.mount.stiffness"] - 412.0) < 3 * spread["joints.mount.stiffness"]
