@@ -53,7 +53,34 @@ def recorded(recording, settings, model=None):
                           f"channels of the recording, of {', '.join(known) or 'which there are none'}",
                           ", ".join(settings.channels) or "none", "name recorded channels and what they show")
     check_units(runs, settings, model)
+    _check_courses(runs, settings, model)
     return runs
+
+
+def led(course, time, where):
+    """Displacement (n,) in m at the instants ``time`` (n,) of an end that is led through a section Course."""
+    begin, speed = np.array(course.at), np.array(course.speed)
+    if len(begin) != len(speed) or (np.diff(begin) <= 0).any():
+        raise ConfigError(where, "rising instants and as many speeds", f"{len(begin)} and {len(speed)}")
+    change = np.diff(speed, prepend=0.0)
+    return np.maximum(time[:, None] - begin, 0.0) @ change
+
+
+def _check_courses(runs, settings, model):
+    """Refuse courses of what is not the far end of a spring, of unknown runs, and beside a recorded channel."""
+    joints = {} if model is None else dict(zip(map(str, model.joint_name), model.joint_stiffness, strict=True))
+    moved = {} if model is None else dict(zip(map(str, model.input_name), map(str, model.input_joint), strict=True))
+    for key, courses in settings.courses.items():
+        if not joints.get(moved.get(key), 0.0) > 0:
+            found = f"no stiffness of {moved[key]}" if moved.get(key) else "a force" if key in moved else "none"
+            raise ConfigError(f"bench.courses.{key}", "an input that displaces a spring: steps of a speed need the"
+                              " stiffness of the machine between drive and block", found,
+                              "add the spring of the machine, and an input that displaces it")
+        if key in settings.inputs:
+            raise ConfigError(f"bench.courses.{key}", "no recorded channel beside it", settings.inputs[key].channel)
+        unknown = [name for name in courses if name not in runs]
+        if unknown:
+            raise ConfigError(f"bench.courses.{key}", f"of the runs {', '.join(runs)}", ", ".join(unknown))
 
 
 def _inputs(model):
@@ -80,6 +107,8 @@ def _recorded(name, run, settings, model_inputs):
     rate, count = rates.pop(), lengths.pop()
     _check_fed(name, run, settings, model_inputs)
     inputs = {key: model_inputs.get(key, ("N", 1.0))[1] * _fed(given, run) for key, given in settings.inputs.items()}
+    inputs |= {key: led(courses[name], np.arange(count) / rate, f"bench.courses.{key}.{name}")
+               for key, courses in settings.courses.items() if name in courses}
     drive = None if settings.drive is None else _fed(settings.drive, run)
     if settings.drive is not None and settings.drive.hold == "step":
         raise ConfigError("bench.drive.hold", "linear or band_limited: a speed that jumps takes an infinite force",

@@ -7,7 +7,7 @@ import numpy as np
 
 from pipeline.case_models import corrections
 from pipeline.case_models.laws import Laws, friction_law, normal_law
-from pipeline.contract import ConfigError, Quantity, Section, option
+from pipeline.contract import ConfigError, Quantities, Quantity, Section, option
 from pipeline.physics.sliding.doublets import doublets
 from pipeline.physics.sliding.model import sliding_model
 from pipeline.physics.virtual_rig.response import Bench
@@ -41,6 +41,13 @@ class Fed(Section):
         " above half the sample rate (an anti-aliasing filter)")
 
 
+class Course(Section):
+    """Speeds through which the far end of a spring was led in one run: velocity steps, holds between slides."""
+
+    at: Quantities("s", ge=0) = option(..., "instants, rising, from each of which its speed holds; before: at rest")
+    speed: Quantities("m/s") = option(..., "speeds, one for each instant")
+
+
 class Equation(Section):
     """How measured displacements are put into the equation of motion."""
 
@@ -71,6 +78,8 @@ class Settings(Laws):
     speed: Quantity("rad/s") = option("1 rad/s", "speed of the drive where a run tells none")
     channels: dict[str, ChannelSettings] = option({}, "recorded channel: what it shows")
     inputs: dict[str, Fed] = option({}, "input of the model: the recorded channel that feeds it")
+    courses: dict[str, dict[str, Course]] = option({}, "input of the model that displaces a spring: by run, the speeds"
+                                                       " of its far end, where no channel recorded its motion")
     drive: Fed | None = option(None, "recorded channel with the speed of the drive in rad/s (belts: m/s)")
     settled: bool = option(False, "runs start in steady sliding under their first inputs, else at rest")
     settle: Quantity("s", ge=0) = option("0 s", "begin of every run that is not compared: an unknown start dies away")

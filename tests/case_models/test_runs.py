@@ -178,3 +178,48 @@ def test_a_recorded_position_drives_by_its_rate_of_change():
     speed = 4e-4 * np.pi * pin_rig.FREQUENCY * np.cos(2 * np.pi * pin_rig.FREQUENCY * time)
     np.testing.assert_allclose(whole[1:-1], speed[1:-1], atol=2e-3 * speed.max())
     np.testing.assert_allclose(patched[1:-1], speed[1:-1], atol=0.03 * speed.max())
+
+
+SPRING = {**LUMPED, "springs": {"mount": {"between": ["block.x", "ground"], "stiffness": "400 N/m"}},
+          "inputs": {"shaker": {"displaces": "mount", "displacement": "1 m"}}}
+SLIDE_HOLD_SLIDE = {"at": ["0.5 s", "2 s", "3 s"], "speed": ["2 mm/s", "0 mm/s", "10 mm/s"]}
+
+
+def led_rig(courses, lumps=SPRING, **more):
+    """(Bench, {name: Recorded}) of a block whose mount is led through ``courses`` {run: section}."""
+    reduced = reduced_model(lumped(settings=fill(LumpedSettings, lumps, "lumped")), settings=ReductionSettings())
+    settings = laid_out(**{"inputs": {}, "courses": {"shaker": courses}, "channels": {
+        "x": {"quantity": "displacement", "source": "block"}, "force": {"quantity": "joint_force", "source": "mount"}}
+    } | more)
+    return built(reduced, settings), recorded(recording(), settings, reduced)
+
+
+@pytest.mark.exact
+def test_speeds_lead_the_end_of_a_spring():
+    """Slide, hold, slide: m x'' + k (x - u) = 0, u = V t in pieces; the spring draws with k (x - u)."""
+    bench, runs = led_rig({"level_1": SLIDE_HOLD_SLIDE})
+    run, angular = runs["level_1"].run, np.sqrt(400.0)
+    since = np.maximum(run.time[:, None] - [0.5, 2.0, 3.0], 0.0)
+    speeds = np.array([2e-3, -2e-3, 1e-2])
+    np.testing.assert_allclose(run.inputs["shaker"], since @ speeds, atol=1e-15)
+    exact = (since - np.sin(angular * since) / angular) @ speeds
+    shown = respond(bench, run)
+    np.testing.assert_allclose(shown["x"], exact, atol=1e-10)
+    np.testing.assert_allclose(shown["force"], 400.0 * (exact - since @ speeds), atol=1e-7)
+    assert "shaker" not in runs["level_2"].run.inputs
+
+
+FORCED = {**LUMPED, "inputs": {"shaker": {"along": {"block.x": 1}, "force": "1 N"}}}
+SLACK = {**SPRING, "springs": {"mount": {"between": ["block.x", "ground"], "damping": "1 N s/m"}}}
+
+
+@pytest.mark.parametrize("courses, more, said", [
+    ({"level_1": SLIDE_HOLD_SLIDE}, {"lumps": FORCED}, "shaker: expected an input that displaces a spring.*a force"),
+    ({"level_1": SLIDE_HOLD_SLIDE}, {"lumps": SLACK}, "stiffness of the machine.*found no stiffness of mount"),
+    ({"level_9": SLIDE_HOLD_SLIDE}, {}, "of the runs level_1, .*found level_9"),
+    ({"level_1": {"at": ["1 s", "0 s"], "speed": ["0 m/s", "1 m/s"]}}, {}, r"shaker.level_1: expected rising instants"),
+    ({"level_1": {"at": ["1 s"], "speed": ["0 m/s", "1 m/s"]}}, {}, "found 1 and 2"),
+    ({"level_1": SLIDE_HOLD_SLIDE}, {"inputs": {"shaker": {"channel": "force", "gain": 1.0}}}, "no recorded channel")])
+def test_courses_that_cannot_be_are_refused(courses, more, said):
+    with pytest.raises(ConfigError, match=said):
+        led_rig(courses, **more)

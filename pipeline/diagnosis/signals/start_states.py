@@ -21,7 +21,7 @@ from pipeline.diagnosis.signals.unknown_blow import struck, with_blow
 from pipeline.inference.priors import Normal, Parameter
 from pipeline.physics.time_stepping.initial_state import steady_start
 from pipeline.physics.time_stepping.simulate import Start
-from pipeline.physics.virtual_rig.response import Responder, at_begin, run_friction
+from pipeline.physics.virtual_rig.response import Responder, at_begin, run_drive, run_friction
 from pipeline.physics.virtual_rig.roots import linearised
 
 #: owner of the parameters, as effects own theirs, and what they are, with the field of a Start and its unit
@@ -98,7 +98,12 @@ def _as_repeats(runs):
 
 
 def moves_freely(bench, recorded):
-    """Whether a Recorded run moves where the bench at rest would not: less than a hundredth of it, in all channels."""
+    """Whether a Recorded run moves where the bench at rest would not: less than a hundredth of it, in all channels.
+
+    Where a drive turns past contacts nothing moves freely.
+    """
+    if len(bench.model.contacts.area) and np.any(run_drive(bench, recorded.run)):
+        return False
     moving = [k for k, name in enumerate(recorded.channels)
               if next(c.moves for c in bench.channels if c.name == name) and recorded.valid[k].any()]
     if recorded.run.start is not None or not moving or not np.abs(recorded.samples[moving]).any():

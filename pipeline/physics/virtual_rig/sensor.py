@@ -86,7 +86,7 @@ class Motion(Measurand):
 
 
 class JointForce(Measurand):
-    """Force of the spring and the damper of a joint."""
+    """Force of the spring and the damper of a joint, whose far end may be moved by inputs."""
 
     def sources(self, bench):
         return bench.model.joints.name
@@ -97,7 +97,9 @@ class JointForce(Measurand):
     def history(self, simulated, sensor):
         _, stiffness, damping = simulated.bench.joint(sensor.source)
         motion, k = simulated.motion, simulated.rows[sensor.name]
-        return stiffness * motion.displacement[k] + damping * motion.velocity[k]
+        force = stiffness * motion.displacement[k] + damping * motion.velocity[k]
+        ends = (n for n, joint in simulated.bench.model.moved_ends.items() if joint == sensor.source)
+        return force - sum(_applied(simulated, name) for name in ends)
 
     def response(self, bench, source, moves, rate):
         row, stiffness, damping = bench.joint(source)
@@ -139,12 +141,16 @@ class InputForce(Measurand):
         return bench.model.input_name
 
     def history(self, simulated, sensor):
-        names, run = self.sources(simulated.bench), simulated.run
-        value = simulated.inputs[names.index(known(sensor.source, names, f"channel {sensor.name}: input"))]
-        samples = np.broadcast_to(value, run.samples)
-        if sensor.source in run.held:
-            return samples[np.floor(simulated.motion.time * run.sample_rate + _ROUNDING).astype(int)]
-        return np.interp(simulated.motion.time, run.time, samples)
+        return _applied(simulated, known(sensor.source, self.sources(simulated.bench), f"channel {sensor.name}: input"))
+
+
+def _applied(simulated, name):
+    """Force (steps + 1,) of an input in a SimulatedRun."""
+    run, value = simulated.run, simulated.inputs[simulated.bench.model.input_name.index(name)]
+    samples = np.broadcast_to(value, run.samples)
+    if name in run.held:
+        return samples[np.floor(simulated.motion.time * run.sample_rate + _ROUNDING).astype(int)]
+    return np.interp(simulated.motion.time, run.time, samples)
 
 
 DISPLACEMENT, VELOCITY = Motion("displacement", "m", 0), Motion("velocity", "m/s", 1)

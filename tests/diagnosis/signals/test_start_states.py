@@ -15,10 +15,11 @@ from pipeline.inference.fitting.least_squares import linearised
 from pipeline.inference.fitting.noise import budget
 from pipeline.inference.problem import Hypothesis, operating_points
 from pipeline.inference.rules import DEFAULTS
-from pipeline.physics.time_stepping.simulate import Start
+from pipeline.physics.friction.dry_friction import constant
+from pipeline.physics.time_stepping.simulate import Hard, Start
 from tests.diagnosis import small_rig
 from tests.diagnosis.decays import DAMPING, MASS, RATE, STIFFNESS, UNITS, problem, recording
-from tests.physics.lumps import lumps
+from tests.physics.lumps import belt, lumps
 
 START = (0.05, -1.1)
 
@@ -152,3 +153,11 @@ def test_taps_of_one_strength_are_one_operating_point_whose_differences_are_no_n
     apart = rig(motions, "velocity")[1]
     apart["b"] = replace(apart["b"], run=replace(apart["b"].run, conditions={"bolt force": 2.0}))
     assert started(bench, apart, section)["b"].repeat_of == ""
+
+
+def test_nothing_moves_freely_where_a_drive_turns_past_contacts():
+    bench, runs, _ = rig({"a": exact(START)}, "velocity")
+    one, seen = runs["a"], replace(bench.channels[0], source="sensor_0")
+    rubbed = replace(bench, model=belt(), law=Hard(), friction=constant(0.3), channels=(seen,))
+    still, turning = (replace(one, run=replace(one.run, drive=speed)) for speed in (0.0, 2.0))
+    assert moves_freely(rubbed, still) and not moves_freely(rubbed, turning)
