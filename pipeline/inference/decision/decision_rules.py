@@ -16,7 +16,8 @@ class CandidateStatistics:
     parameter from its null, in standard deviations. ``forbidden``: why its values cannot be (sign, passivity), or
     empty; ``doubts``: why its fit cannot be relied on, in words. ``powered``: whether held-out runs can tell, as the
     nominal model errs on them; ``takes`` and ``stays``: shares of the excess error on them, else on all runs.
-    ``varying``: what its values follow along the runs, in words.
+    ``loses``: its loss on held-out runs over what it explains of the fitted ones. ``varying``: what its values follow
+    along the runs, in words.
     """
 
     name: str
@@ -39,6 +40,7 @@ class CandidateStatistics:
     powered: bool = True
     takes: float = 0.0
     stays: float = 1.0
+    loses: float = 0.0
     varying: tuple = ()
 
 
@@ -122,6 +124,9 @@ def objections(candidate, runs, rules):
             if candidate.stays > rules.held_out_left:
                 reasons.append(f"it leaves {candidate.stays:.0%} of the excess error on all runs, of which the held-out"
                                " ones cannot tell")
+            if candidate.held_out_errors < -rules.loss_errors and candidate.loses > rules.held_out_left:
+                reasons.append(f"it loses {candidate.loses:.0%} of what it explains again on held-out runs, which need"
+                               " nothing")
         elif candidate.held_out_errors < -rules.loss_errors:
             reasons.append(f"it predicts held-out runs worse, by {-candidate.held_out_errors:.1f} standard errors")
         elif candidate.held_out_share < rules.gain_share:

@@ -114,6 +114,7 @@ def test_held_out_runs_without_power_neither_refuse_nor_confirm_and_are_told():
     told = decide(situation, [weak], DecisionRules())
     assert told.verdict == "missing" and any("without power: run_9" in why for why in told.reasons)
     assert verdict(situation, replace(weak, stays=0.11)) == "unknown"
+    assert verdict(situation, replace(weak, loses=0.3)) == "unknown", "what is not there on held-out runs"
     assert verdict(situation, replace(weak, unfitted_errors=2.9)) == "unknown"
     assert verdict(situation, replace(weak, powered=True)) == "unknown"
 
