@@ -20,6 +20,10 @@ _LOG_ROOT = 0.5 * np.log(2 * np.pi)
 class _Prior:
     """What all families share; each gives value(latent), latent(value), log_density, scale and support."""
 
+    def slope(self, latent):
+        """Change of the value per latent unit, by central differences."""
+        return (self.value(latent + 1e-4) - self.value(latent - 1e-4)) / 2e-4
+
     def quantile(self, share):
         """The value below which ``share`` of the prior lies."""
         return self.value(scipy.special.ndtri(share))

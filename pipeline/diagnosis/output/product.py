@@ -24,6 +24,7 @@ def product(problem, diagnosis, contacts=None):
     ``contacts`` {location: names that the case gives to the contacts there}.
     """
     completed, recalibrated, table = diagnosis.completed, diagnosis.recalibrated, _hypotheses(diagnosis)
+    std = _std(diagnosis, completed)
     table["contacts"] = [_contacts(place, contacts or {}) for place in table["place"]]
     runs, share = problem.problem, problem.rules.decision.start_share
     fits = [errors(runs, problem.budget, runs.nominal, recalibrated, completed, part, share)
@@ -37,9 +38,9 @@ def product(problem, diagnosis, contacts=None):
     channels, rows, left = tuple(problem.units), problem.rules.rows(), remainder(problem, diagnosis)
     result = Diagnosis(
         verdict=diagnosis.decision.verdict, reason=list(diagnosis.decision.reasons), channel=channels,
-        channel_unit=[problem.units[c] for c in channels], **table, **_parameters(diagnosis, completed, table),
+        channel_unit=[problem.units[c] for c in channels], **table, **_parameters(completed, std, table),
         **_leading(diagnosis, table), **_levels(problem, diagnosis), left_floors=left.floors,
-        left_sentence=left.sentence, left_candidate=left.candidate, **_starts(runs, diagnosis, completed),
+        left_sentence=left.sentence, left_candidate=left.candidate, **_starts(runs, completed, std),
         fit=[_part(part) for part in fits], unexplained_share=unexplained(recalibrated, completed, problem.rules),
         drift_p_value=diagnosis.weighing.drift.p_value,
         location={name: located(*axis) for name, axis in axes.items()},
@@ -183,8 +184,8 @@ def _std(diagnosis, completed):
             for name, value in completed.values.items()}
 
 
-def _parameters(diagnosis, completed, table):
-    std, values = _std(diagnosis, completed), completed.values
+def _parameters(completed, std, table):
+    values = completed.values
     owners = dict(zip(table["hypothesis"], range(len(table["hypothesis"])), strict=True))
     rows = []
     for parameter in (p for p in completed.hypothesis.parameters if not p.run):
@@ -197,9 +198,9 @@ def _parameters(diagnosis, completed, table):
     return {key: [row[k] for row in rows] for k, key in enumerate(keys)}
 
 
-def _starts(problem, diagnosis, completed):
+def _starts(problem, completed, std):
     """Fields of the fitted start states of the runs that were fitted: parameters of these runs alone."""
-    std, values, fitted = _std(diagnosis, completed), completed.values, {run.name for run in problem.training}
+    values, fitted = completed.values, {run.name for run in problem.training}
     rows = [(p.run, split_name(p.name)[2], p.unit, values[p.name], std[p.name])
             for p in completed.hypothesis.parameters if p.run in fitted]
     return {key: [row[k] for row in rows] for k, key in enumerate(

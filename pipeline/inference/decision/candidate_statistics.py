@@ -100,7 +100,7 @@ def unfinished(fit, null, rules):
 def _immaterial(fit, index, rules):
     """The latent change of an effect parameter that changes its distance from null by the rules' tolerance."""
     parameter, latent = fit.hypothesis.parameters[index], fit.latent[index]
-    slope = (parameter.prior.value(latent + 1e-4) - parameter.prior.value(latent - 1e-4)) / 2e-4
+    slope = parameter.prior.slope(latent)
     change = rules.tolerance * abs(parameter.prior.value(latent) - parameter.null)
     return change / slope if slope * LATENT_LIMIT > change else LATENT_LIMIT
 

@@ -132,7 +132,11 @@ class Fit:
 
     def spread(self, weights=None):
         """{name: standard deviation} of the values, by the slope of each prior's transform."""
-        std = np.sqrt(np.diag(self.covariance(weights)))
+        return self.of_latent(np.sqrt(np.diag(self.covariance(weights))))
+
+    def of_latent(self, std):
+        """{name: standard deviation} of the values whose latent coordinates have the standard deviations ``std`` (k,).
+        """
         low, high = self.hypothesis.values(self.latent - std), self.hypothesis.values(self.latent + std)
         return {name: 0.5 * (high[name] - low[name]) for name in low}
 

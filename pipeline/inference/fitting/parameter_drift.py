@@ -89,12 +89,10 @@ def _between_repeats(fit, index, weights):
 
 def by_point(fit, weights=None):
     """Information J'WJ (point, k, k) and score J'W r (point, k) of every operating point at the fit."""
-    weights = np.ones(len(fit.runs)) if weights is None else weights
-    information, score = [], []
-    for indices in operating_points(fit.runs).values():
-        information.append(sum(weights[i] * fit.jacobians[i].T @ fit.jacobians[i] for i in indices))
-        score.append(sum(weights[i] * fit.jacobians[i].T @ fit.residuals[i] for i in indices))
-    return np.array(information), np.array(score)
+    points = operating_points(fit.runs).values()
+    information, score = (np.array([sum(each[i] for i in indices) for indices in points])
+                          for each in _by_run(fit, weights))
+    return information, score
 
 
 def scatter(fit, weights=None):
@@ -105,15 +103,14 @@ def scatter(fit, weights=None):
     N. Laird, Control. Clin. Trials 7 (1986) 177. Values that fewer than two runs see have the scatter 0.
     """
     alone, own = _by_run(fit, weights), np.sqrt(np.diag(fit.covariance(weights)))
-    found = np.array([_beyond_noise([_seen(*_reduced(*alone, k))]) for k in range(len(own))]).reshape(-1)
-    return found, np.array([_with_scatter(_seen(*_reduced(*alone, k)), found[k], std) for k, std in enumerate(own)])
+    seen = [_seen(*_reduced(*alone, k)) for k in range(len(own))]
+    found = np.array([_beyond_noise([each]) for each in seen]).reshape(-1)
+    return found, np.array([_with_scatter(*each) for each in zip(seen, found, own, strict=True)])
 
 
 def spread(fit, weights=None):
     """{name: standard deviation} of the values of a Fit, noise and their ``scatter`` between runs together."""
-    std = scatter(fit, weights)[1]
-    low, high = fit.hypothesis.values(fit.latent - std), fit.hypothesis.values(fit.latent + std)
-    return {name: 0.5 * (high[name] - low[name]) for name in low}
+    return fit.of_latent(scatter(fit, weights)[1])
 
 
 def agreement(fit, index, weights=None, tolerance=0.0):

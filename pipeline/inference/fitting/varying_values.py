@@ -34,7 +34,7 @@ def followed(fit, index, weights=None):
     ``weights`` (runs,) of the runs (see ``tempering``).
     """
     parameter, latent = fit.hypothesis.parameters[index], fit.latent[index]
-    slope = (parameter.prior.value(latent + 1e-4) - parameter.prior.value(latent - 1e-4)) / 2e-4
+    slope = parameter.prior.slope(latent)
     if fit.unordered or not slope or parameter.null is None:
         return []
     relative = (parameter.prior.value(latent) - parameter.null) / slope
