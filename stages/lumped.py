@@ -1,15 +1,34 @@
-"""Stage lumped: masses, springs, dampers, contacts, inputs and sensors of a minimal model, from the YAML alone.
-
-Linear combinations {coordinate: weight} define the displacement on which a spring, contact, input or sensor acts:
-weights of translations are numbers, those of rotations are radii ("30 mm").
-"""
-
-from typing import Literal
+"""Stage lumped: masses, springs, dampers, contacts, inputs and sensors of a minimal model, from the YAML alone."""
 
 import numpy as np
 
-from pipeline.contract import ConfigError, Context, InputFile, Quantities, Quantity, Section, option, stage
-from pipeline.contract.units import to_si
+from pipeline.case_models.lumped.connections import (
+    connected,
+    inertia_matrix,
+    is_torsional,
+    joint_fields,
+    row_along,
+    rows,
+    sees_angle,
+    turning,
+    weights,
+)
+from pipeline.case_models.lumped.parts import (
+    Chirp,
+    Contact,
+    Drive,
+    Gyro,
+    Harmonic,
+    Histories,
+    Inertia,
+    Input,
+    Mass,
+    Pendulum,
+    SensorSettings,
+    Spring,
+    Step,
+)
+from pipeline.contract import ConfigError, Context, Quantities, Section, option, stage
 from pipeline.physics.contact.static_forces import static_forces
 from pipeline.physics.signals import input_histories
 from pipeline.products import Lumped
@@ -20,123 +39,13 @@ from pipeline.systems import lumped as system
 _SAMPLES = 10
 
 
-class Mass(Section):
-    """One rigid body."""
-
-    moves: tuple[str, ...] = option(..., "motions: x, y, z, rotation, tilt_x, tilt_y; coordinates are mass.motion")
-    mass: Quantity("kg") = option("0 kg", "mass, needed for motions x, y, z")
-    inertia: Quantity("kg m^2") = option("0 kg m^2", "moment of inertia, needed for rotation and tilts")
-    grounded: bool = option(False, "the mass stands still")
-
-
-class Spring(Section):
-    """Spring and damper in parallel, between two coordinates or along a combination of several."""
-
-    between: tuple[str, str] | None = option(None, "two coordinates, or one and ground")
-    along: dict[str, str | float] | None = option(None, "elongation as a combination of coordinates")
-    stiffness: Quantity("N/m") = option("0 N/m", "stiffness; below 0 it pushes away")
-    damping: Quantity("N s/m", ge=0) = option("0 N s/m", "damping")
-
-
-class Contact(Section):
-    """Sliding contact with the drive: unilateral along ``normal``, or a joint with a given normal force."""
-
-    tangent: dict[str, str | float] = option(..., "displacement of the rubbed mass along sliding")
-    normal: dict[str, str | float] = option({}, "displacement that opens the contact; none for a friction joint")
-    lateral: dict[str, str | float] = option({}, "displacement across sliding")
-    normal_force: Quantity("N", ge=0) | None = option(None, "normal force of a friction joint, at load factor 1")
-    stiffness: Quantity("N/m", gt=0) | None = option(None, "normal stiffness of the contact; none = hard")
-    gap: Quantity("m") = option("0 mm", "gap in the unloaded position, negative where parts are set to press")
-    lever: Quantity("m") = option("1 m", "sliding speed per speed of the drive: a radius, 1 m on a belt")
-    area: Quantity("m^2", gt=0) | None = option(None, "contact area, where friction depends on pressure")
-    angle: Quantity("rad") = option("0 deg", "where it sits about the axis of the drive, for what turns with the drive")
-
-
-class Gyro(Section):
-    """Gyroscopic moments of a mass that rotates with the drive."""
-
-    axes: tuple[str, str] = option(..., "its two tilts, the first turning towards the second under the drive")
-    polar_inertia: Quantity("kg m^2", gt=0) = option(..., "moment of inertia about the axis of the drive")
-
-
-class Harmonic(Section):
-    """sin(2 pi frequency t + phase)."""
-
-    kind: Literal["harmonic"] = "harmonic"
-    frequency: Quantity("Hz", gt=0) = option(..., "frequency")
-    phase: Quantity("rad") = option("0 rad", "phase at time 0")
-
-
-class Chirp(Section):
-    """Sine of rising or falling frequency."""
-
-    kind: Literal["chirp"] = "chirp"
-    first: Quantity("Hz", ge=0) = option(..., "frequency at time 0")
-    last: Quantity("Hz", ge=0) = option(..., "frequency at the end of the sweep")
-    sweep: Quantity("s", gt=0) = option(..., "length of the sweep")
-
-
-class Step(Section):
-    """0, then 1."""
-
-    kind: Literal["step"] = "step"
-    begin: Quantity("s", ge=0) = option("0 s", "when it leaves 0")
-    rise: Quantity("s", ge=0) = option("0 s", "how long it takes to reach 1")
-
-
-class Recording(Section):
-    """A column of a file: a text table with a header, MATLAB, or plain HDF5."""
-
-    kind: Literal["file"] = "file"
-    file: InputFile = option(..., "text table with one row of names, .mat, or .h5 with vectors at its root;"
-                             " measured:PATH for a registered one")
-    column: str = option(..., "name of the column")
-    time: str | None = option(None, "name of the column of times in s; none = equal intervals")
-    interval: Quantity("s", gt=0) = option("1 ms", "time between samples, where there is no column of times")
-
-
-History = Harmonic | Chirp | Step | Recording
-
-
-class Input(Section):
-    """A force along a combination, or a displacement imposed on the far end of a spring."""
-
-    along: dict[str, str | float] | None = option(None, "where the force acts; opposite signs: a pair of forces")
-    force: Quantity("N") | None = option(None, "force at load factor 1, or per SI unit of the history or channel")
-    displaces: str | None = option(None, "the spring whose far end is moved, against its elongation")
-    displacement: Quantity("m") | None = option(None, "displacement of that end, or per SI unit of the history or"
-                                                    " channel")
-    history: History | None = option(None, "time history, with peak 1 where it is none of a file; none = constant",
-                                     discriminator="kind")
-
-
-class SensorSettings(Section):
-    """What is measured along a combination."""
-
-    along: dict[str, str | float] = option(..., "displacement that the sensor sees")
-    quantity: Literal["displacement", "velocity", "acceleration"] = option("velocity", "what it measures")
-    unit: str = option("m/s", "unit of its reading")
-    gain: float = option(1.0, "its reading per SI unit of the quantity")
-
-
-class Drive(Section):
-    """Speed of the drive over time; it multiplies the nominal speed."""
-
-    history: History = option(..., "harmonic: a reversing drive", discriminator="kind")
-
-
-class Histories(Section):
-    """Common samples of all time histories."""
-
-    interval: Quantity("s", gt=0) = option("0.1 ms", "time between samples; linear between")
-    duration: Quantity("s", gt=0) = option("1 s", "length; the last sample holds beyond")
-
-
 class Settings(Section):
     """The whole system, every part by its name."""
 
     masses: dict[str, Mass] = option({}, "masses; at least one that can move")
+    inertias: dict[str, Inertia] = option({}, "masses that move along combinations of coordinates")
     springs: dict[str, Spring] = option({}, "springs and dampers")
+    pendulums: dict[str, Pendulum] = option({}, "weights that rotations lift; each is a joint of its name")
     contacts: dict[str, Contact] = option({}, "contacts and friction joints")
     gyros: dict[str, Gyro] = option({}, "masses that turn with the drive")
     inputs: dict[str, Input] = option({}, "forces and imposed displacements")
@@ -175,62 +84,21 @@ def lumped(settings: Settings, context: Context) -> Lumped:
 def _built(settings):
     masses = {name: system.Mass(m.moves, m.mass, m.inertia, m.grounded) for name, m in settings.masses.items()}
     coordinates = system.coordinates(masses, "lumped.masses")
-    joints, contacts = _joints(settings.springs, coordinates), _contacts(settings.contacts, coordinates)
+    joints = joint_fields(settings.springs, settings.pendulums, coordinates)
+    contacts = _contacts(settings.contacts, coordinates)
     inputs = _inputs(settings, coordinates, joints)
     sensors = settings.sensors.items()
     return Lumped(
         body_name=list(masses), coordinate_name=coordinates.names, coordinate_body=coordinates.body,
-        mass=system.mass_matrix(masses, coordinates),
+        mass=system.mass_matrix(masses, coordinates) + inertia_matrix(settings.inertias, coordinates),
         gyroscopic=system.gyroscopic_matrix(_gyros(settings.gyros), coordinates, "lumped.gyros"), **joints, **contacts,
         **inputs, pressure=settings.load_factors,
         **_preload(settings, coordinates, joints, contacts, inputs), sensor_name=[name for name, _ in sensors],
-        sensor_rows=_rows([_connected(coordinates, s.along, f"lumped.sensors.{name}.along") for name, s in sensors],
-                          coordinates),
-        sensor_turns=[_turns(s.along) for _, s in sensors],
+        sensor_rows=rows([connected(coordinates, s.along, f"lumped.sensors.{name}.along") for name, s in sensors],
+                         coordinates),
+        sensor_turns=[int(sees_angle(s.along)) for _, s in sensors], turning=turning(settings),
         sensor_quantity=[s.quantity for _, s in sensors], sensor_unit=[s.unit for _, s in sensors],
         sensor_gain=[s.gain for _, s in sensors])
-
-
-def _rows(rows, coordinates):
-    return np.reshape(rows, (len(rows), len(coordinates.names)))
-
-
-def _weights(combination, where):
-    """{coordinate: weight} with numbers for translations and radii in m for rotations."""
-    weights = {}
-    for name, weight in combination.items():
-        turns = name.rpartition(".")[2] in system.ROTATIONS
-        weights[name] = to_si(weight, "m" if turns else "1", f"{where}.{name}")
-    return weights
-
-
-def _turns(combination):
-    """1 where a combination sees rotations alone, the largest weight being a radius of 1 m; else 0."""
-    weights = _weights(combination, "sensor")
-    rotations = all(name.rpartition(".")[2] in system.ROTATIONS for name in weights)
-    return int(rotations and max(map(abs, weights.values())) == 1)
-
-
-def _connected(coordinates, combination, where):
-    return coordinates.connected(_weights(combination, where), where)
-
-
-def _joints(springs, coordinates):
-    rows = []
-    for name, spring in springs.items():
-        where = f"lumped.springs.{name}"
-        if (spring.between is None) == (spring.along is None):
-            raise ConfigError(where, "either between or along", "both" if spring.between else "neither",
-                              "name what the spring connects, as in between: [block.x, ground]")
-        if spring.along is not None:
-            rows.append(_connected(coordinates, spring.along, f"{where}.along"))
-            continue
-        first, second = spring.between
-        row = coordinates.row({first: 1.0}, f"{where}.between") - coordinates.row({second: 1.0}, f"{where}.between")
-        rows.append(row if row.any() else coordinates.connected({}, f"{where}.between"))
-    return {"joint_name": list(springs), "joint_rows": _rows(rows, coordinates),
-            "joint_stiffness": [s.stiffness for s in springs.values()],
-            "joint_damping": [s.damping for s in springs.values()]}
 
 
 def _contacts(contacts, coordinates):
@@ -242,14 +110,14 @@ def _contacts(contacts, coordinates):
                               "both" if contact.normal else "neither")
         if contact.normal_force is not None and contact.stiffness is not None:
             raise ConfigError(f"{where}.stiffness", "none beside normal_force", f"{contact.stiffness:g} N/m")
-        for part, rows in parts.items():
-            combination = _weights(getattr(contact, part), f"{where}.{part}")
-            read = coordinates.connected if combination else coordinates.row
-            rows.append(read(combination, f"{where}.{part}"))
+        for part, read in parts.items():
+            combination = weights(getattr(contact, part), f"{where}.{part}", angles=False)
+            row = coordinates.connected if combination else coordinates.row
+            read.append(row(combination, f"{where}.{part}"))
         if not contact.tangent:
             coordinates.connected({}, f"{where}.tangent")
     closure, pressure, area = system.normal_law(contacts, "lumped.contacts")
-    return {"contact_name": list(contacts), **{f"contact_{k}": _rows(rows, coordinates) for k, rows in parts.items()},
+    return {"contact_name": list(contacts), **{f"contact_{k}": rows(read, coordinates) for k, read in parts.items()},
             "contact_body": [coordinates.body[np.flatnonzero(row)[0]] for row in parts["tangent"]],
             "contact_area": area,
             "contact_lever": [c.lever for c in contacts.values()], "contact_gap": [c.gap for c in contacts.values()],
@@ -266,37 +134,47 @@ def _inputs(settings, coordinates, joints):
     """Rows, constant forces (per Pa) and histories of the inputs; a displacement is the force k u + c u'."""
     interval = settings.histories.interval
     time = interval * np.arange(round(settings.histories.duration / interval) + 1)
-    rows, constant, samples, sizes = [], [], [], []
+    along, constant, samples, sizes = [], [], [], []
+    torsional = [name for name, spring in settings.springs.items() if is_torsional(spring)]
     for name, given in settings.inputs.items():
         where = f"lumped.inputs.{name}"
-        row, spring, damper = _input_row(given, coordinates, joints, where)
+        size = _size(given, where)
+        row, spring, damper = _input_row(given, coordinates, joints, torsional, where)
         shape = 1.0 if given.history is None else _shape(given.history, time, f"{where}.history")
-        size = given.force if given.displaces is None else given.displacement
-        rows.append(row)
+        along.append(row)
         sizes.append(size)
         constant.append(spring * size if given.history is None else 0.0)
         samples.append(np.zeros(len(time)) if given.history is None else
                        size * (spring * shape + damper * np.gradient(shape, interval)))
     timed = any(i.history for i in settings.inputs.values())
     drive = [] if settings.drive is None else _shape(settings.drive.history, time, "lumped.drive.history")
-    return {"input_name": list(settings.inputs), "input_rows": _rows(rows, coordinates), "input_area": constant,
+    return {"input_name": list(settings.inputs), "input_rows": rows(along, coordinates), "input_area": constant,
             "input_joint": [i.displaces or "" for i in settings.inputs.values()], "input_scale": sizes,
             "history_interval": interval if timed or len(drive) else 0.0,
-            "input_history": np.transpose(samples) if timed else np.empty((0, len(rows))), "drive_history": drive}
+            "input_history": np.transpose(samples) if timed else np.empty((0, len(along))), "drive_history": drive}
 
 
-def _input_row(given, coordinates, joints, where):
+def _input_row(given, coordinates, joints, torsional, where):
     """(row, N per unit, N s per unit) of one input."""
     if (given.along is None) == (given.displaces is None):
         raise ConfigError(where, "either along, for a force, or displaces, for a displacement",
                           "both" if given.along else "neither")
-    needed = "force" if given.displaces is None else "displacement"
-    if getattr(given, needed) is None:
-        raise ConfigError(f"{where}.{needed}", "a value", "none", "add it to the YAML")
     if given.displaces is None:
-        return _connected(coordinates, given.along, f"{where}.along"), 1.0, 0.0
+        return row_along(coordinates, given.along, given.torque is not None, where), 1.0, 0.0
     k = system.index_of(given.displaces, joints["joint_name"], f"{where}.displaces")
+    if (given.angle is not None) != (given.displaces in torsional):
+        raise ConfigError(where, "an angle of a torsional spring, or a displacement of another", "the other way round")
     return joints["joint_rows"][k], joints["joint_stiffness"][k], joints["joint_damping"][k]
+
+
+def _size(given, where):
+    """Force or torque of an input, or displacement or angle of the end of a spring: the one that is stated."""
+    kinds = ("force", "torque") if given.displaces is None else ("displacement", "angle")
+    stated = [kind for kind in kinds if getattr(given, kind) is not None]
+    if len(stated) != 1:
+        raise ConfigError(f"{where}.{kinds[0]}", f"a value, or {kinds[1]} where rotations alone are moved",
+                          "both" if stated else "none", "add it to the YAML" if not stated else None)
+    return getattr(given, stated[0])
 
 
 def _shape(history, time, where):

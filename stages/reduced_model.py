@@ -21,9 +21,9 @@ NO_SHEAR = {f"shear_{name}": [] for name in ("pressure", "friction", "stiffness"
 
 
 def plain(contacts, inputs, sensors):
-    """Fields of a system of so many contacts without names, inputs that are forces, and sensors of translations."""
+    """Fields of a system of so many contacts without names, inputs that are forces, and translations alone."""
     return {"contact_name": [""] * contacts, "input_joint": [""] * inputs, "input_scale": np.ones(inputs),
-            "sensor_turns": [0] * sensors}
+            "sensor_turns": [0] * sensors, "turning": []}
 
 
 class Settings(Section):

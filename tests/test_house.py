@@ -37,6 +37,7 @@ MAY_IMPORT = {
     "pipeline.recordings.registry": {"pipeline.contract"},
     "pipeline.case_models": {"pipeline.case_models", "pipeline.products", "pipeline.effects", "pipeline.physics",
                              "pipeline.inference.priors", "pipeline.contract"},
+    "pipeline.case_models.lumped": {"pipeline.contract", "pipeline.systems"},
     "pipeline.diagnosis": {"pipeline.diagnosis", "pipeline.case_models", "pipeline.products", "pipeline.effects",
                            "pipeline.inference", "pipeline.physics", "pipeline.contract"},
     "pipeline.blind_trial": set(),

@@ -10,7 +10,7 @@
 Factors are of the given model; ``frequency`` is that of all modes of a body held by the joints that touch nothing else,
 at the same mass, and ``damping`` of body and those joints; ``modal_mass`` is of mass, damping and stiffness of body and
 those joints, which keep their frequencies; ``friction.stiffness`` is that of a contact before it slides.
-Bodies of one coordinate also have masses.NAME in kg.
+Bodies of one coordinate also have masses.NAME in kg. What acts about an axis has N m/rad, N m s/rad, N m and kg m^2.
 """
 
 from dataclasses import replace
@@ -19,7 +19,7 @@ from difflib import get_close_matches
 import numpy as np
 
 from pipeline.contract import ConfigError
-from pipeline.contract.units import to_si
+from pipeline.contract.units import TURNED, to_si
 from pipeline.physics.friction.friction_table import FrictionLaw
 from pipeline.physics.time_stepping.elements import Element, Wave
 from pipeline.physics.time_stepping.simulate import Penalty
@@ -44,7 +44,8 @@ def known(bench):
         units |= {f"inputs.{name}.gain": "1", f"inputs.{name}.offset": "N"}
     for channel in bench.channels:
         units |= {f"channels.{channel.name}.gain": "1", f"channels.{channel.name}.delay": "s"}
-    return units
+    turned = {name for name in units if name in model.turning or name.rpartition(".")[0] in model.turning}
+    return {name: TURNED.get(unit, unit) if name in turned else unit for name, unit in units.items()}
 
 
 def read(bench, given, where):

@@ -11,11 +11,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from pipeline.contract import ConfigError
+from pipeline.contract.units import TURNED
 from pipeline.physics.virtual_rig.response import Run
 from pipeline.physics.virtual_rig.sensor import measurand
 
-#: unit of a motion -> that of an angle at a radius of 1 m
-_ANGULAR = {"m": "rad", "m/s": "rad/s", "m/s^2": "rad/s^2"}
+#: what an input of each unit is
+_FEEDS = {"m": "a displacement", "N": "a force", "rad": "an angle", "N m": "a torque"}
 #: conditions that a bench reads by themselves, and their units
 _CONDITIONS = {"speed": ("rad/s", "m/s"), "normal_load": ("N",)}
 
@@ -87,8 +88,10 @@ def _inputs(model):
     """{input: (unit that feeds it, what it does per unit)} of a product ReducedModel; none of None."""
     if model is None:
         return {}
-    return {str(name): ("m" if joint else "N", float(scale))
-            for name, joint, scale in zip(model.input_name, model.input_joint, model.input_scale, strict=True)}
+    turning = set(map(str, model.turning))
+    units = {str(name): "m" if joint else "N" for name, joint in zip(model.input_name, model.input_joint, strict=True)}
+    return {name: (TURNED[unit] if f"inputs.{name}" in turning else unit, float(scale))
+            for (name, unit), scale in zip(units.items(), model.input_scale, strict=True)}
 
 
 def _recorded(name, run, settings, model_inputs):
@@ -148,7 +151,7 @@ def _check_fed(name, run, settings, model_inputs):
         unit = model_inputs.get(key, ("N", 1.0))[0]
         wanted = (f"{unit} s",) if given.derivative else (unit, "1")
         _check_unit(f"bench.inputs.{key}", run.channels[given.channel].unit, wanted, given, name,
-                    "a displacement" if unit == "m" else "a force")
+                    _FEEDS[unit])
     if settings.drive is not None:
         wanted = ("rad", "m") if settings.drive.derivative else ("rad/s", "m/s")
         _check_unit("bench.drive", run.channels[settings.drive.channel].unit, wanted, settings.drive, name, "the drive")
@@ -183,7 +186,7 @@ def check_units(runs, settings, model=None):
         for channel, unit in zip(recorded_run.channels, recorded_run.unit, strict=True):
             shown = settings.channels[channel]
             wanted = measurand(shown.quantity, f"bench.channels.{channel}.quantity").unit
-            if shown.source in turning and unit == _ANGULAR.get(wanted):
+            if shown.source in turning and unit == TURNED.get(wanted):
                 continue
             if unit != wanted and shown.gain is None:
                 raise ConfigError(f"bench.channels.{channel}",

@@ -12,9 +12,8 @@ from pipeline.contract.errors import ConfigError
 #: every unit a product or a setting may carry (each is coherent SI; a test asks pint)
 SI = frozenset({
     "1", "m", "m^2", "m^3", "m^4", "1/m", "1/m^2", "rad/m", "s", "1/s", "Hz", "rad", "rad/s", "kg", "kg m^2",
-    "1/kg^0.5",
-    "kg/m^3", "m/s", "m/s^2", "N", "N m", "N/m", "N m/rad", "N s/m", "N s^2/m", "Pa", "Pa/m", "m/Pa", "1/Pa",
-    "K", "J", "J/m", "W", "J/K/kg", "W/m/K", "1/K", "m^2/s", "m^2/s^2/Hz", "m^2/N",
+    "1/kg^0.5", "kg/m^3", "m/s", "m/s^2", "N", "N m", "N/m", "N m/rad", "N m s/rad", "N s/m", "N s^2/m",
+    "Pa", "Pa/m", "m/Pa", "1/Pa", "K", "J", "J/m", "W", "J/K/kg", "W/m/K", "1/K", "m^2/s", "m^2/s^2/Hz", "m^2/N",
 })
 
 
@@ -28,6 +27,10 @@ QUANTITIES = {"displacement": ("m", "rad"), "position": ("m", "rad"), "velocity"
               "moment": ("N m",), "pressure": ("Pa",), "voltage": ("V",), "current": ("A",), "temperature": ("K",)}
 #: accelerations as accelerometers state them, in m/s^2: g is standard gravity there, and no gram
 GRAVITIES = {"g": 9.80665, "mg": 9.80665e-3, "ug": 9.80665e-6}
+
+#: unit of a linear quantity -> that of its counterpart about an axis, at a radius of 1 m of one size
+TURNED = {"m": "rad", "m/s": "rad/s", "m/s^2": "rad/s^2", "N": "N m", "N/m": "N m/rad", "N s/m": "N m s/rad",
+          "kg": "kg m^2"}
 
 _ANGULAR = {"radian", "degree", "turn", "revolution", "cycle", "revolutions_per_minute", "revolutions_per_second"}
 _NUMBER = re.compile(r"\s*[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?\s*(?P<unit>.*)")

@@ -3,7 +3,7 @@
 from pipeline.contract import Array, count, product, quantity, text
 
 
-@product(version=3)
+@product(version=4)
 class Lumped:
     """Masses on springs and dampers, their contacts, inputs and sensors: a sliding model without finite elements.
 
@@ -44,6 +44,7 @@ class Lumped:
     sensor_name: Array = text("sensor", "sensors")
     sensor_rows: Array = quantity("1", "sensor coordinate", "displacement rows")
     sensor_turns: Array = count("sensor", "1 where it sees rotations at a radius of 1 m, where metres are radians")
+    turning: Array = text("turning", "joints.NAME, inputs.NAME and masses.NAME about an axis: radians and N m at a radius of 1 m")
     sensor_quantity: Array = text("sensor", "measured quantity: displacement, velocity or acceleration")
     sensor_unit: Array = text("sensor", "unit of its reading")
     sensor_gain: Array = quantity("1", "sensor", "its reading in that unit per SI unit of its quantity")

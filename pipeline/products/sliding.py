@@ -5,7 +5,7 @@ import numpy as np
 from pipeline.contract import Array, count, product, quantity, text
 
 
-@product(version=7)
+@product(version=8)
 class ReducedModel:
     """The reduced sliding model: everything that a solver or an effect needs to know of a sliding system.
 
@@ -65,6 +65,7 @@ class ReducedModel:
     sensor_direction: Array = quantity("1", "sensor xyz", "sensor directions")
     sensor_rows: Array = quantity("1", "sensor coordinate", "sensor displacement rows")
     sensor_turns: Array = count("sensor", "1 where it sees rotations at a radius of 1 m, where metres are radians")
+    turning: Array = text("turning", "joints.NAME, inputs.NAME and masses.NAME about an axis: radians and N m at a radius of 1 m")
     sensor_quantity: Array = text("sensor", "measured quantity: displacement, velocity or acceleration")
     sensor_unit: Array = text("sensor", "unit of its reading")
     sensor_gain: Array = quantity("1", "sensor", "its reading in that unit per SI unit of its quantity")

@@ -106,6 +106,37 @@ def test_a_channel_counts_times_the_force_that_the_case_states(unit, gain):
     np.testing.assert_allclose(run_inputs(bench, run)[0], 10 * force(2.0, 0))
 
 
+@pytest.mark.exact
+def test_a_recorded_torque_turns_an_arm_and_an_angle_its_far_end():
+    """J t'' + c t' + k t = T, or c u' + k u, steady: torque recorded in N m, angles in rad."""
+    angular, arm = 2 * np.pi * 2.0, (0.5, 3.0, 90.0)
+    share = 1 / (arm[2] - arm[0] * angular**2 + 1j * arm[1] * angular)
+    for given, unit, push in (({"along": {"arm.rotation": 1}, "torque": "1 N m"}, "N m", 1.0),
+                              ({"displaces": "bar", "angle": "1 rad"}, "rad", arm[2] + 1j * arm[1] * angular)):
+        bench, run = turned(given, unit)
+        time = np.arange(8001) / 400
+        run = replace(run, duration=time[-1], sample_rate=400.0, inputs={"motor": 0.2 * np.sin(angular * time)})
+        late, exact = time > 18, 0.2 * np.imag(push * share * np.exp(1j * angular * time))
+        assert abs(respond(bench, run)["x"] - exact)[late].max() < 2e-3 * abs(exact).max()
+        with pytest.raises(ConfigError, match=f"{unit} or 1, because it feeds"):
+            turned(given, "N" if unit == "N m" else "m")
+
+
+def turned(given, unit):
+    """(Bench, Run) of an arm whose torque or far end is a recorded channel, and whose angle is recorded in rad."""
+    parts = {"masses": {"arm": {"moves": ["rotation"], "inertia": "0.5 kg m^2"}},
+             "springs": {"bar": {"between": ["arm.rotation", "ground"], "torsional_stiffness": "90 N m/rad",
+                                 "torsional_damping": "3 N m s/rad"}},
+             "inputs": {"motor": given}, "sensors": {"arm": {"along": {"arm.rotation": 1}}}}
+    reduced = reduced_model(lumped(settings=fill(LumpedSettings, parts, "lumped")), settings=ReductionSettings())
+    run = recording(levels=(2.0,)).runs["level_1"]
+    channels = {"x": replace(run.channels["x"], unit="rad"), "force": replace(run.channels["force"], unit=unit)}
+    settings = laid_out(inputs={"motor": {"channel": "force"}},
+                        channels={"x": {"quantity": "displacement", "source": "arm"}})
+    runs = recorded(replace(recording(), runs={"level_1": replace(run, channels=channels)}), settings, reduced)
+    return built(reduced, settings), runs["level_1"].run
+
+
 @pytest.mark.parametrize("given, unit, said", [
     ({"along": {"block.x": 1}, "force": "1 N"}, "V", "N or 1, because it feeds a force"),
     ({"displaces": "mount", "displacement": "1 m"}, "N", "m or 1, because it feeds a displacement")])

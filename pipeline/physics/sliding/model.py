@@ -94,6 +94,8 @@ class SlidingModel:
     ``gyroscopic`` is per unit of ``speed``, ``centrifugal`` per squared speed; ``coordinate_body`` (n,) is the index of
     the body of each coordinate in ``body_name``. ``elements``: each a nonlinear Element, which only transients see.
     ``moved_ends`` {input: joint}: inputs that are displacements of the far end of a joint, along whose row they act.
+    ``turning``: what acts about an axis, as joints.NAME, inputs.NAME or masses.NAME: metres and newtons of it are
+    radians and N m, at a radius of 1 m.
     """
 
     body_name: tuple
@@ -112,6 +114,7 @@ class SlidingModel:
     speed: float
     elements: tuple = ()
     moved_ends: dict = field(default_factory=dict)
+    turning: frozenset = frozenset()
 
     @property
     def size(self):
@@ -246,7 +249,8 @@ def sliding_model(reduced, state, speed):
         body_name=tuple(reduced.body_name), coordinate_body=reduced.coordinate_body, **matrices, joints=joints,
         contacts=contacts, input_name=tuple(reduced.input_name), input_rows=reduced.input_rows,
         sensor_name=tuple(reduced.sensor_name), sensor_rows=reduced.sensor_rows, speed=float(speed),
-        moved_ends={n: j for n, j in zip(reduced.input_name, reduced.input_joint, strict=True) if j})
+        moved_ends={n: j for n, j in zip(reduced.input_name, reduced.input_joint, strict=True) if j},
+        turning=frozenset(map(str, reduced.turning)))
     if not loss.any():
         return model
     mass, _, stiffness = model.frictionless(gyroscopic=False, centrifugal=False)
