@@ -30,6 +30,7 @@ def read_columns(path):
 def read_matlab(path):
     """Name -> 1-D array of every numeric variable of a MATLAB file, version 4 to 7.3; vectors lose their second axis.
 
+    Cells of a cell array are x{1}, x{2}, ..., fields of a structure s.name, of an array of structures s(1).name.
     Raises ConfigError for a file that is not a MATLAB file, is truncated or holds no numbers.
     """
     path = Path(path)
@@ -53,9 +54,21 @@ def _decoded(content, path):
         if not _whole(content, byte_order):
             raise ConfigError(path, "a whole MATLAB file", "one that is cut off", "copy it again")
     try:
-        return {k: v for k, v in loadmat(BytesIO(content)).items() if not k.startswith("__")}
+        found = loadmat(BytesIO(content)).items()
+        return {name: part for k, v in found if not k.startswith("__") for name, part in _leaves(k, v)}
     except Exception as error:  # loadmat passes on whatever its parser stumbles over
         raise ConfigError(path, "an undamaged MATLAB file", str(error) or type(error).__name__) from None
+
+
+def _leaves(name, value):
+    """[(name, array)] of the parts of a variable as loadmat returns it: cells and structures are opened."""
+    if value.dtype.names:
+        count = value.size
+        return [leaf for k, item in enumerate(value.ravel()) for field in value.dtype.names
+                for leaf in _leaves(f"{name}{f'({k + 1})' if count > 1 else ''}.{field}", item[field])]
+    if value.dtype == object:
+        return [leaf for k, item in enumerate(value.ravel(order="F")) for leaf in _leaves(f"{name}{{{k + 1}}}", item)]
+    return [(name, value)]
 
 
 def _whole(content, byte_order):
@@ -81,9 +94,21 @@ def _read_hdf5(path, expected):
 
     try:
         with h5py.File(path, "r") as h5:
-            return {name: node[()] for name, node in h5.items() if isinstance(node, h5py.Dataset)}
+            return {name: value for key, node in h5.items() if key != "#refs#" for name, value in _nodes(key, node)}
     except OSError as error:
         raise ConfigError(path, expected, str(error)) from None
+
+
+def _nodes(name, node):
+    """[(name, array)] of a node: the structures and cells of MATLAB 7.3 are groups and references."""
+    import h5py
+
+    if isinstance(node, h5py.Group):
+        return [leaf for key, inner in node.items() for leaf in _nodes(f"{name}.{key}", inner)]
+    if h5py.check_ref_dtype(node.dtype):
+        cells = enumerate(node[()].T.ravel(order="F"))
+        return [leaf for k, cell in cells if cell for leaf in _nodes(f"{name}{{{k + 1}}}", node.file[cell])]
+    return [(name, node[()])]
 
 
 def read_table(path, delimiter=None, skip=0):

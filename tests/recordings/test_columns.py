@@ -23,6 +23,31 @@ def test_matlab_7_3_is_hdf5(tmp_path):
     assert read_matlab(tmp_path / "b.mat")["x"].tolist() == [0, 1, 2, 3]
 
 
+@pytest.mark.parametrize("version", ["5", "7.3"])
+def test_cells_and_structures_are_opened(tmp_path, version):
+    """x = {[0 1], 'text'; [2 3 4], {5}}; s.rate = 100, column by column as MATLAB counts cells."""
+    parts = [np.arange(2.0), np.array([2.0, 3.0, 4.0]), "text", np.array([[np.array([5.0])]], object)]
+    cells, path = np.empty((2, 2), object), tmp_path / "f.mat"
+    for k, part in enumerate(parts):
+        cells[k % 2, k // 2] = part
+    if version == "5":
+        savemat(path, {"x": cells, "s": {"rate": 100.0}})
+    else:
+        with h5py.File(path, "w", userblock_size=512) as h5:
+            kept = h5.create_group("#refs#")
+            for name, part in (("a", parts[0]), ("b", parts[1]), ("c", np.array([116], np.uint16)[:, None, None]),
+                               ("e", np.array([5.0]))):
+                kept[name] = part
+            kept.create_dataset("d", (1, 1), h5py.ref_dtype)[0, 0] = kept["e"].ref
+            table = h5.create_dataset("x", (2, 2), h5py.ref_dtype)       # MATLAB's axes, turned round
+            table[0, 0], table[0, 1], table[1, 0], table[1, 1] = (kept[n].ref for n in "abcd")
+            h5["s/rate"] = [[100.0]]
+        with open(path, "r+b") as stream:
+            stream.write(b"MATLAB 7.3 MAT-file, Platform: any")
+    found = {name: values.tolist() for name, values in read_matlab(path).items()}
+    assert found == {"x{1}": [0, 1], "x{2}": [2, 3, 4], "x{4}{1}": [5], "s.rate": [100]}
+
+
 def test_matlab_refuses_what_is_none(tmp_path):
     (tmp_path / "c.mat").write_bytes(b"no matlab file at all" * 20)
     with pytest.raises(ConfigError, match=r"c\.mat: expected a MATLAB file"):
