@@ -4,6 +4,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from pipeline.contract import BrakechainError
 from pipeline.inference.decision.held_out import held_out_residuals
 from pipeline.inference.fitting.effective_sample_size import doubt
 
@@ -31,10 +32,19 @@ def remainder(problem, diagnosis):
     if square - count <= doubt(count, problem.rules.decision.noise_uncertainty) or not diagnosis.decision.named:
         return Remainder(floors, "", "")
     left = replace(diagnosis, base=None, calibration=replace(diagnosis.calibration, null=fit))
-    axes = problem.locator.located(left)
-    latent = problem.latent.described(left, axes) if problem.latent else None
-    told = [words for words in (_band(axes.get("band")), latent.sentence if latent else "") if words]
-    return Remainder(floors, " ".join(told) or "Neither a place nor a band stands out.", _candidate(diagnosis))
+    return Remainder(floors, _told(problem, left), _candidate(diagnosis))
+
+
+def _told(problem, left):
+    """Where what is left lies and what it follows; a model that cannot be pushed off its fit does not cost the verdict.
+    """
+    try:
+        axes = problem.locator.located(left)
+        latent = problem.latent.described(left, axes) if problem.latent else None
+    except BrakechainError as error:
+        return f"Where it lies could not be computed: {error}."
+    words = [_band(axes.get("band")), latent.sentence if latent else ""]
+    return " ".join(w for w in words if w) or "Neither a place nor a band stands out."
 
 
 def _band(axis):

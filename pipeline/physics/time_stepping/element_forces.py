@@ -225,10 +225,12 @@ def solve_elements(laws, step, instant):
 def _solve_element(laws, k, elongation_free, rate_free, begin, memory_begin, memory, guess, instant):
     """(F, its rounding, code) of element ``k``, from elongation and rate without its own force."""
     give, mobile, force = laws.response[0, k, k], laws.response[1, k, k], guess
+    carried = laws.kind[k] in (SLIDERS, BOUC_WEN, MAXWELL)      # a linear part that may nearly cancel the others
+    cancels = 2 * abs(laws.parameter[k, 0]) if carried else 0.0
     for _ in range(ITERATIONS):
         elongation, rate = elongation_free + give * force, rate_free + mobile * force
         value, slope, drag = element_force(laws, k, elongation, rate, begin, memory_begin, memory, instant)
-        rounding = ROUNDING * (abs(slope * elongation) + abs(drag * rate))
+        rounding = ROUNDING * ((abs(slope) + cancels) * abs(elongation) + abs(drag * rate))
         against = 1.0 - slope * give - drag * mobile
         if abs(slope * give) > LARGEST_STIFFNESS or against <= 0.0:
             return 0.0, 0.0, TOO_STIFF

@@ -154,8 +154,8 @@ class Stepper:
         rest = np.zeros(model.size)
         start = Start(rest, rest) if start is None else start
         system = _fresh(self.system)
-        if isinstance(drive, History):
-            system = system._replace(turning=turning_kernel(model, self.modes, self.matrices, len(drive.value) > 1))
+        if isinstance(drive, History) and len(drive.value) > 1:
+            system = system._replace(turning=turning_kernel(model, self.modes, self.matrices, varies=True))
         state = _begin(model, self.modes, system, start, _speed_at_start(model, drive))
         record = _empty(system.linear, system.elements, steps // record_every + 1)
         schedule = Schedule(_history(model.speed if drive is None else drive, 1, "drive"), _inputs(model, inputs),

@@ -8,6 +8,7 @@ import pytest
 
 from pipeline.case_models import virtual_rig as benches
 from pipeline.case_models.runs import recorded
+from pipeline.contract.errors import ConvergenceError
 from pipeline.contract.settings import fill
 from pipeline.diagnosis.forced_response import forced_problem
 from pipeline.diagnosis.output.product import product
@@ -47,3 +48,13 @@ def test_a_tone_that_the_named_effect_does_not_make_is_told_with_its_band_and_si
     written = product(asked, found)
     assert written.left_floors == told.floors and written.left_sentence == told.sentence
     assert list(written.noise_level) == [0.5, 2.0, 4.0] and "missing" in list(written.noise_verdict)
+
+
+def test_a_fit_that_cannot_be_pushed_costs_no_verdict():
+    class Stuck:
+        def located(self, diagnosis):
+            raise ConvergenceError("time stepping at t = 1 s", "a force that settles", "none")
+
+    asked, found = weighed(1.5)
+    told = remainder(replace(asked, locator=Stuck()), found)
+    assert told.sentence.startswith("Where it lies could not be computed: time stepping at t = 1 s") and told.floors > 1

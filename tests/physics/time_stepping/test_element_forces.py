@@ -199,6 +199,17 @@ def test_coupled_elements_are_solved_together():
     np.testing.assert_allclose(force, exact, rtol=1e3 * LOCAL_TOLERANCE)
 
 
+def test_forces_that_nearly_cancel_settle_within_their_rounding():
+    """A joint of 320 N/m whose slip of 45 N takes away some 1e-6 of what its sliders and its spring carry."""
+    kernel = compiled(iwan(320.0, 45.0, elastic=True), own=-np.array([[[3e-4]], [[0.0]]]))
+    memory, begin, force = np.zeros(kernel.first[-1]), np.zeros((2, 1)), np.zeros(1)
+    for place in 1e-3 * np.sin(np.arange(3000) / 40) + 1e-6 * np.random.default_rng(0).standard_normal(3000):
+        free, after = np.array([[place], [0.0]]), memory.copy()
+        step = ElementStep(free, free, begin, memory, after, force, np.zeros(1), np.zeros((2, 1)))
+        assert solve_elements(laws_of(kernel), step, REST)[0] == SOLVED
+        begin, memory = free + kernel.response[:, 0] * force, after
+
+
 def test_an_element_too_stiff_for_the_step_is_told():
     kernel = compiled(Polynomial(3.0), own=-np.array([[[0.05]], [[0.0]]]))
     code, element = solve_elements(laws_of(kernel), element_step(np.ones((2, 1)), np.zeros(1)), REST)
