@@ -12,7 +12,7 @@ from pipeline.physics.contact.groups import parts
 from pipeline.physics.friction.dry_friction import Friction, under
 from pipeline.physics.friction.state_kernels import DISTANCE, SCATTER
 from pipeline.physics.friction.state_variables import Scatter, state_kernel
-from pipeline.physics.pads.pad_system import pad_elements, pad_friction
+from pipeline.physics.pads.pad_system import on_springs, pad_elements, pad_friction
 from pipeline.physics.sliding.doublets import doublets
 from pipeline.physics.sliding.model import sliding_model
 from pipeline.physics.time_stepping.elements import Turning, wave_table
@@ -36,22 +36,23 @@ def with_terms(bench, terms, conditions):
     elements on a PadSystem; ``conditions`` {name: value} are those that friction depends on."""
     whole = compose(bench, terms)
     friction = under(whole.friction, conditions, "effects")
-    return whole.model, lambda system, model: _dressed(system, model, whole.law, friction) if terms else system
+    return whole.model, lambda system, model: _dressed(system, model, whole, friction) if terms else system
 
 
-def _dressed(system, model, law, friction):
-    """A PadSystem with the laws of contact and friction, and the surfaces and elements of its SlidingModel."""
+def _dressed(system, model, bench, friction):
+    """A PadSystem with the law of contact of a Bench, and the surfaces and elements of its SlidingModel."""
     count = len(model.contacts.area)
     states = state_kernel(friction, model.contacts.area)
     acting = ~np.isin(states.kind, _BY_THE_SUB_DISCS)
     contact = system.contact._replace(
-        law=normal_kernel(law, model.contacts), dry=pad_friction(friction, count),
+        law=normal_kernel(bench.law, model.contacts), dry=pad_friction(friction, count),
         waviness=wave_table(model.contacts.waviness), scatter=_scatter(friction, count),
         states=states._replace(kind=states.kind[acting], contact=states.contact[acting],
                                parameter=states.parameter[acting], begin=0 * states.begin),
         wear=np.array(np.broadcast_to(model.contacts.wear, count), float))
     _refuse_turning(model.elements)
-    return system._replace(contact=contact, elements=pad_elements(model.elements, model.size))
+    elements = on_springs(model.elements, system.mass, bench.step)
+    return system._replace(contact=contact, elements=pad_elements(elements, model.size))
 
 
 def _scatter(friction, count):

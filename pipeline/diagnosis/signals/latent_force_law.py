@@ -16,7 +16,6 @@ from pipeline.contract import BrakechainError
 from pipeline.diagnosis.problem import parameter_name
 from pipeline.diagnosis.rules import DEFAULTS
 from pipeline.diagnosis.signals.forward_model import completed
-from pipeline.effects.joint.stick import stick_stiffness
 from pipeline.inference.fitting.least_squares import fit
 from pipeline.inference.priors import Normal, Parameter
 from pipeline.inference.problem import Problem
@@ -60,7 +59,7 @@ class LatentLaw:
         if "|v| v" in given:
             laws["quadratic"] = Power(-given["|v| v"], 2.0)
         if dry := -given.get("sign of v", 0.0):
-            laws["dry"] = Dry(stick_stiffness(bench, row), dry, dry)
+            laws["dry"] = Dry(forward=dry, backward=dry)
         for n in _ORDERS if f"cos {_ORDERS[0]} angle" in given else ():
             wave = given[f"cos {n} angle"] + 1j * given[f"sin {n} angle"]
             laws[f"order {n}"] = Wave(1.0, amplitude=abs(wave), order=n, phase=float(np.angle(wave)))

@@ -3,10 +3,10 @@
 It comes on top of what resists in both directions; either sign takes energy out.
 """
 
+from pipeline.effects.attached import beside_joint
 from pipeline.effects.effect import Effect
-from pipeline.effects.joint.stick import stick_stiffness
 from pipeline.inference.priors import Normal, Parameter
-from pipeline.physics.time_stepping.elements import Dry, Element
+from pipeline.physics.time_stepping.elements import Dry
 
 
 def parameters(typical):
@@ -14,9 +14,8 @@ def parameters(typical):
 
 
 def apply(bench, location, values):
-    row, _, _ = bench.joint(location)
-    law = Dry(stick_stiffness(bench, row), max(values["force"], 0.0), max(-values["force"], 0.0))
-    return bench.with_elements(Element(f"asymmetric_friction {location}", row, law))
+    law = Dry(forward=max(values["force"], 0.0), backward=max(-values["force"], 0.0))
+    return beside_joint(bench, "asymmetric_friction", location, law)
 
 
 EFFECT = Effect(

@@ -1,14 +1,12 @@
-"""Coulomb friction in a joint: F = F_c sgn(v).
+"""Coulomb friction in a joint: F = F_c sgn(v), and at rest whatever up to F_c keeps it there.
 
-Before it slides the joint gives way elastically, by as little as the step of the bench resolves: 8 steps in a period
-of the mass on that spring, which is numerics, no physics. Friction of guide pins under a steady load is this effect at
-the joint of the pins.
+Friction of guide pins under a steady load is this effect at the joint of the pins.
 """
 
+from pipeline.effects.attached import beside_joint
 from pipeline.effects.effect import Effect
-from pipeline.effects.joint.stick import stick_stiffness
 from pipeline.inference.priors import HalfNormal, Parameter
-from pipeline.physics.time_stepping.elements import Dry, Element
+from pipeline.physics.time_stepping.elements import Dry
 
 
 def parameters(typical):
@@ -16,9 +14,7 @@ def parameters(typical):
 
 
 def apply(bench, location, values):
-    row, _, _ = bench.joint(location)
-    law = Dry(stick_stiffness(bench, row), values["force"], values["force"])
-    return bench.with_elements(Element(f"coulomb {location}", row, law))
+    return beside_joint(bench, "coulomb", location, Dry(forward=values["force"], backward=values["force"]))
 
 
 EFFECT = Effect(

@@ -1,5 +1,6 @@
 """Reduced pads and caliper on a rigid disc: M q'' + C q' + K q = load + contact force."""
 
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
@@ -22,7 +23,10 @@ from pipeline.physics.time_stepping.coupled_solver import no_memory
 from pipeline.physics.time_stepping.element_forces import LawKernel, element_force
 from pipeline.physics.time_stepping.elements import alone
 from pipeline.physics.time_stepping.normal_laws import Table, normal_kernel
+from pipeline.physics.time_stepping.rigid_friction import located
 
+#: steps in a period of the mass along dry friction that sticks on a spring
+STICK_STEPS = 16
 #: residual of a time step, as a share of the load
 STEP_TOLERANCE = 1e-8
 #: patches whose radii and heights differ by less than this share of the radius lie on one circle
@@ -46,6 +50,16 @@ def pad_elements(elements, size):
     kernel = alone(elements)
     return PadElements(LawKernel(*(getattr(kernel, name) for name in LawKernel._fields)), rows, np.zeros(len(rows)),
                        np.zeros(len(rows)), no_memory(kernel), no_memory(kernel))
+
+
+def on_springs(elements, mass, step):
+    """Elements whose rigid dry friction gives way before it slides, by as little as a ``step`` (s) resolves.
+
+    ``mass`` (n, n) kg. Newton's method needs a slope at rest: here 16 steps in a period of the mass on that spring.
+    """
+    mobility = [float(e.row @ np.linalg.solve(mass, e.row)) for e in elements]
+    return tuple(replace(e, law=replace(e.law, stiffness=(2 * np.pi / STICK_STEPS / step) ** 2 / mobile))
+                 if located(e) else e for e, mobile in zip(elements, mobility, strict=True))
 
 
 class PadSystem(NamedTuple):

@@ -7,7 +7,8 @@ they remember from there:
     polynomial  F = k1 e + k2 e^2 + k3 e^3
     power       F = c |v|^(p - 1) v
     sliders     F = k1 e + sum_j clip(F_j + k_j de, -L_j, L_j)      parallel Jenkins elements (Iwan 1966)
-    dry         F = clip(F + k de, -L(v), L(v)), L = F_c (1 + r exp(-|v| / v_s)), F_c of each direction
+    dry         F = clip(F + k de, -L(v), L(v)), L = F_c (1 + r exp(-|v| / v_s)), F_c of each direction; rigid with k
+                infinite: F = L(v) sgn(v), at v = 0 what keeps it there (``rigid_friction``)
     bouc_wen    F = k1 e + k z, dz = (1 - |z / d|^n (s + (1 - s) sgn(z de))) de       (Wen 1976, s = beta d^n)
     maxwell     F = k1 e + sum_j F_j, F_j' = k_j v - F_j / tau_j             v constant over the step
     gap         F = k_stop (e - i) + k_inner i, i = clip(e, -lower, upper)
@@ -24,6 +25,8 @@ from pipeline.physics.numerics.compiled import njit
 from pipeline.physics.time_stepping.contact_solver import LARGEST_STIFFNESS, SOLVED
 
 POLYNOMIAL, POWER, SLIDERS, DRY, BOUC_WEN, GAP, SOFTENING, WAVE, MAXWELL, TURNING = range(10)
+#: state of a rigid element over a step at whose end it is decided whether it slides, beside 0 (at rest) and its sign
+FREE = 2.0
 #: codes of a step that has no solution, beside those of the contacts
 TOO_STIFF, UNSETTLED = 5, 6
 #: sizes of the way of a Bouc-Wen element after which nothing is left of where it started
@@ -118,6 +121,9 @@ def element_force(kernel, k, elongation, rate, begin, remembered, memory, instan
         return force, slope, 0.0
     if kind == DRY:
         rise = 1.0 + p[3] * np.exp(-abs(rate) / p[4])
+        if np.isinf(p[0]):
+            memory[start] = np.sign(rate)
+            return rise * (p[1] * max(memory[start], 0.0) + p[2] * min(memory[start], 0.0)), 0.0, 0.0
         trial = remembered[start] + p[0] * moved
         memory[start] = min(max(trial, -p[2] * rise), p[1] * rise)
         return memory[start], p[0] if memory[start] == trial else 0.0, 0.0
@@ -225,6 +231,8 @@ def solve_elements(laws, step, instant):
 def _solve_element(laws, k, elongation_free, rate_free, begin, memory_begin, memory, guess, instant):
     """(F, its rounding, code) of element ``k``, from elongation and rate without its own force."""
     give, mobile, force = laws.response[0, k, k], laws.response[1, k, k], guess
+    if laws.kind[k] == DRY and np.isinf(laws.parameter[k, 0]):
+        return _solve_rigid(laws, k, rate_free, memory_begin, memory, guess)
     carried = laws.kind[k] in (SLIDERS, BOUC_WEN, MAXWELL)      # a linear part that may nearly cancel the others
     cancels = 2 * abs(laws.parameter[k, 0]) if carried else 0.0
     for _ in range(ITERATIONS):
@@ -238,4 +246,30 @@ def _solve_element(laws, k, elongation_free, rate_free, begin, memory_begin, mem
         force += change
         if abs(change) <= LOCAL_TOLERANCE * max(abs(force), abs(value)) + rounding:
             return force, rounding, SOLVED
+    return 0.0, 0.0, UNSETTLED
+
+
+@njit
+def _solve_rigid(laws, k, rate_free, memory_begin, memory, guess):
+    """The same of rigid dry friction in the state that ``memory_begin`` says: at rest, or sliding whatever its rate."""
+    p, start, mobile = laws.parameter[k], laws.first[k], laws.response[1, k, k]
+    state, free = memory_begin[start], p[5] > 0.0 or memory_begin[start] == FREE
+    memory[start] = 0.0
+    if max(p[1], p[2]) == 0.0:
+        return 0.0, 0.0, SOLVED
+    if state == 0.0 or free:
+        force = -rate_free / mobile
+        if not free or -p[2] * (1.0 + p[3]) <= force <= p[1] * (1.0 + p[3]):
+            return force, ROUNDING * abs(force), SOLVED
+        state = np.sign(force)
+    memory[start], force, size = state, guess, state * (p[1] if state > 0.0 else p[2])
+    for _ in range(ITERATIONS):
+        grown = p[3] * np.exp(-max(state * (rate_free + mobile * force), 0.0) / p[4])
+        against = 1.0 + abs(size) / p[4] * grown * mobile
+        if against <= 0.0:
+            return 0.0, 0.0, TOO_STIFF
+        change = (size * (1.0 + grown) - force) / against
+        force += change
+        if abs(change) <= LOCAL_TOLERANCE * abs(size):
+            return force, 0.0, SOLVED
     return 0.0, 0.0, UNSETTLED

@@ -42,12 +42,12 @@ class Sliders:
 
 @dataclass(frozen=True)
 class Dry:
-    """Dry friction with a small elastic way before it slides: ``stiffness`` N/m, sliding force of each direction in N.
+    """Dry friction, sliding force of each direction in N; rigid, or with an elastic way of ``stiffness`` N/m before.
 
     At the speed v the force is (1 + rise exp(-|v| / decay_speed)) times that of its direction.
     """
 
-    stiffness: float
+    stiffness: float = np.inf
     forward: float = 0.0
     backward: float = 0.0
     rise: float = 0.0
@@ -180,14 +180,19 @@ def iwan(stiffness, force, exponent=0.0, count=40, elastic=False):
     return Sliders(stiffness * share, empty * force * strength, -stiffness if elastic else 0.0)
 
 
-def element_kernel(elements, waviness, wear=(), **linear):
-    """ElementKernel of Elements, Waviness and ``wear`` (c,); ``linear``: its arrays that depend on modes and step."""
+def element_kernel(elements, waviness, wear=(), captured=False, **linear):
+    """ElementKernel of Elements, Waviness and ``wear`` (c,); ``linear``: its arrays that depend on modes and step.
+
+    ``captured``: rigid friction is judged at the end of steps, as beside contacts, instead of being located in them.
+    """
     kept = [_remembered(e.law) for e in elements]
     parameter = np.zeros((len(elements), 6))
     for k, element in enumerate(elements):
         law = element.law
         values = (law.linear,) if isinstance(law, Sliders | Maxwell) else astuple(law)
         parameter[k, :len(values)] = values
+        if isinstance(law, Dry):
+            parameter[k, 5] = float(captured)
     return kinds.ElementKernel(
         np.array([_KIND[type(e.law)] for e in elements], np.int64), parameter,
         np.cumsum([0, *(len(k[0]) for k in kept)]),
@@ -222,6 +227,10 @@ def bears(element):
     return force > 0
 
 
+#: values that may be infinite: stops that are never reached, friction without an elastic way
+_ENDLESS = {(Gap, "lower"), (Gap, "upper"), (Dry, "stiffness")}
+
+
 def _check(name, law):
     wrong = {Power: lambda p: p.exponent < 1, Dry: lambda p: min(p.forward, p.backward) < 0 or p.stiffness < 0
              or p.decay_speed <= 0 or p.rise <= -1,
@@ -230,6 +239,6 @@ def _check(name, law):
              Maxwell: lambda p: np.shape(p.stiffness) != np.shape(p.time) or np.min(p.time, initial=1) <= 0
              or np.min(p.stiffness, initial=0) < 0,
              Sliders: lambda p: np.shape(p.stiffness) != np.shape(p.limit) or np.min(p.limit, initial=0) < 0}
-    values = [v for v in law.__dict__.values() if not np.isinf(v).any()] if isinstance(law, Gap) else astuple(law)
+    values = [v for key, v in law.__dict__.items() if (type(law), key) not in _ENDLESS or not np.isinf(v)]
     if not all(np.isfinite(v).all() for v in values) or wrong.get(type(law), lambda p: False)(law):
         raise ConfigError(f"element {name}", f"values as the description of {type(law).__name__} says", str(law))

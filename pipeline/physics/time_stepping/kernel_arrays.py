@@ -11,13 +11,17 @@ from pipeline.physics.time_stepping.elements import element_kernel
 from pipeline.physics.time_stepping.linear_step import LinearKernel
 from pipeline.physics.time_stepping.modal_integrator import newmark_matrices, step_matrices
 from pipeline.physics.time_stepping.normal_laws import Forward, Hard, contiguous
+from pipeline.physics.time_stepping.rigid_friction import located
 
 #: fewest steps in a period of the highest mode
 STEPS_PER_PERIOD = 2.5
 
 
-def linear_kernel(model, system, law, dry, step):
-    """LinearKernel: rows of contacts, inputs and elements, seen and driven through one step; ``dry`` FrictionKernel."""
+def linear_kernel(model, system, law, dry, step, captured=False):
+    """LinearKernel: rows of contacts, inputs and elements, seen and driven through one step; ``dry`` FrictionKernel.
+
+    ``captured``: the forces of rigid elements are constant over a step.
+    """
     contacts, count = model.contacts, len(model.contacts.area)
     law = parts(law, count)[0][0]       # those of all groups are stepped alike
     gamma, matrices = getattr(law, "gamma", None), matrices_of(system, law, count, step)
@@ -31,6 +35,8 @@ def linear_kernel(model, system, law, dry, step):
         block = slice(f * count, (f + 1) * count)
         flown = step * np.einsum("bxy,ryb->rxb", matrices[0], forced[block])
         last[block], first[block] = flown if kicks else first[block] + last[block], 0.0
+    rigid = len(last) - len(model.elements) + np.flatnonzero([captured and located(e) for e in model.elements])
+    last[rigid], first[rigid] = first[rigid] + last[rigid], 0.0
     rows = np.concatenate([system.observed(r) for r in (contacts.normal, contacts.tangent)])
     response = np.einsum("oibx,fjbx->ofij", rows, last[:2 * count].reshape(2, count, *last.shape[1:]))
     struck = step * np.repeat(hold, count)[:, None, None] * forced[:2 * count]
@@ -51,7 +57,7 @@ def _element_rows(model):
     return np.array([e.row for e in model.elements], float).reshape(-1, model.size)
 
 
-def elements_kernel(model, system, linear):
+def elements_kernel(model, system, linear, captured=False):
     """ElementKernel: rows of the elements, seen and driven through one step, with those of the contacts."""
     contacts, count, elements = model.contacts, len(model.contacts.area), len(model.elements)
     wear = np.broadcast_to(contacts.wear, count) if np.any(contacts.wear) else ()
@@ -61,7 +67,8 @@ def elements_kernel(model, system, linear):
     arrays = {"rows": _stacked(seen), "response": np.einsum("oeax,fax->oef", seen, drawn),
               "to_contacts": np.einsum("ocax,fax->ocf", contact_rows, drawn),
               "to_elements": np.einsum("oeax,fax->oef", seen, pressed).reshape(2, elements, 2, count)}
-    return element_kernel(model.elements, contacts.waviness, wear, **{n: contiguous(a) for n, a in arrays.items()})
+    return element_kernel(model.elements, contacts.waviness, wear, captured,
+                          **{n: contiguous(a) for n, a in arrays.items()})
 
 
 def _stacked(rows):

@@ -190,8 +190,7 @@ def force_along(law, i, area, closure, closing):
         given = (float(np.broadcast_to(v, len(area))[i]) for v in (each.stiffness, each.damping))
         return penalty_forces(*motion, *given)[0].reshape(shape)
     if not isinstance(each, Table):
-        raise ConfigError(f"contact {i}", "a contact law that yields", type(each).__name__,
-                          "give the contact a stiffness, or simulate instead")
+        raise ConfigError(f"contact {i}", "one that yields", type(each).__name__, "give it a stiffness, or simulate")
     return table_forces(*motion, np.full(len(motion[0]), float(area[i])), contiguous(each.closure),
                         contiguous(each.pressure), float(each.damping_speed))[0].reshape(shape)
 

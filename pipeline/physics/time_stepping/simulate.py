@@ -34,6 +34,7 @@ from pipeline.physics.time_stepping.normal_laws import (
     normal_force,
     normal_kernel,
 )
+from pipeline.physics.time_stepping.rigid_friction import part_of, rigid_kernel
 from pipeline.physics.time_stepping.step_loop import UNTURNED, Record, Schedule, State, System, integrate
 from pipeline.physics.time_stepping.turning import turning_kernel
 
@@ -155,7 +156,7 @@ class Stepper:
         start = Start(rest, rest) if start is None else start
         system = _fresh(self.system)
         if isinstance(drive, History) and len(drive.value) > 1:
-            system = system._replace(turning=turning_kernel(model, self.modes, self.matrices, varies=True))
+            system = self._turned(system)
         state = _begin(model, self.modes, system, start, _speed_at_start(model, drive))
         record = _empty(system.linear, system.elements, steps // record_every + 1)
         schedule = Schedule(_history(model.speed if drive is None else drive, 1, "drive"), _inputs(model, inputs),
@@ -167,6 +168,17 @@ class Stepper:
                     start.age + steps * step, state.worn, state.friction)
         return _motion(record, step * record_every, steps, end)
 
+    def _turned(self, system):
+        """The System with terms of a drive whose speed varies; beside them switches of friction are not located."""
+        model, modes = self.model, self.modes
+        turning = turning_kernel(model, modes, self.matrices, varies=True)
+        if turning.rows.size and system.rigid.index.size:
+            linear = linear_kernel(model, modes, Hard(), system.friction, self.step, captured=True)
+            elements = elements_kernel(model, modes, linear, captured=True)
+            rigid = rigid_kernel(model, modes, captured=True)
+            system = system._replace(linear=linear, elements=elements, rigid=rigid, part=part_of(rigid, elements))
+        return system._replace(turning=turning)
+
 
 def stepper(model, law, friction, step, system=None):
     """Stepper of a SlidingModel; arguments and errors as of ``simulate``."""
@@ -175,12 +187,14 @@ def stepper(model, law, friction, step, system=None):
     modes, count = modal_system(model) if system is None else system, len(model.contacts.area)
     friction = friction or constant(0.0)
     normal, dry = normal_kernel(law, model.contacts), kernel(friction, count)
-    linear, states = linear_kernel(model, modes, law, dry, step), state_kernel(friction, model.contacts.area)
+    captured, states = count > 0, state_kernel(friction, model.contacts.area)
+    linear = linear_kernel(model, modes, law, dry, step, captured)
     refuse(modes, linear, normal, dry, states, model, step)
-    elements = elements_kernel(model, modes, linear)
+    elements, rigid = elements_kernel(model, modes, linear, captured), rigid_kernel(model, modes, captured)
     matrices = matrices_of(modes, law, count, step)
     return Stepper(model, modes, step, System(linear, normal, dry, elements, states, contiguous(model.contacts.lever),
-                                              turning_kernel(model, modes, matrices, varies=False)), matrices)
+                                              turning_kernel(model, modes, matrices, varies=False), rigid,
+                                              part_of(rigid, elements)), matrices)
 
 
 def _fresh(system):

@@ -28,6 +28,7 @@ from pipeline.physics.time_stepping.coupled_solver import (
 )
 from pipeline.physics.time_stepping.element_forces import (
     TURNING,
+    UNSETTLED,
     ElementKernel,
     ElementStep,
     laws_of,
@@ -46,6 +47,16 @@ from pipeline.physics.time_stepping.linear_step import (
     project_rows,
     stored_energy,
 )
+from pipeline.physics.time_stepping.rigid_friction import (
+    Part,
+    RigidKernel,
+    begin_at_rest,
+    margin,
+    split_step,
+    states_at_start,
+    stop,
+    switches,
+)
 from pipeline.physics.time_stepping.turning import TurningKernel, correct, turn, turning_force, turning_work
 
 DIVERGED, UNTURNED = 4, 7
@@ -62,6 +73,8 @@ class System(NamedTuple):
     states: StateKernel
     lever: np.ndarray           # (c,) m, sliding velocity per speed of the drive
     turning: TurningKernel
+    rigid: RigidKernel
+    part: Part
 
 
 class Schedule(NamedTuple):
@@ -123,7 +136,7 @@ def _record_row(record, row, sensors, gap, stored, contact, summed, steps, work)
 @njit
 def integrate(system, schedule, state, record):
     """(code, step number, contact or element) of the first step that fails, after filling ``record`` and ``state``."""
-    linear, law, friction, elements, states, lever, turning = system
+    linear, law, friction, elements, states, lever, turning, rigid, part = system
     drive, inputs, age, step, steps, every, book = schedule
     pairs, force, status, memory, value = state.pairs, state.force, state.status, state.memory, state.friction
     contacts, count, count_e = law.gap.size, linear.input_rows.shape[0], elements.kind.size
@@ -156,6 +169,7 @@ def integrate(system, schedule, state, record):
     status_begin = status.copy()
     slip, slip_end, mean = np.zeros(contacts), np.zeros(contacts), np.zeros(contacts)
     laws, wear, worn, pace = laws_of(elements), elements.wear, state.worn, np.zeros(elements.wear.size)
+    sticks, part_flat = rigid.index.size > 0, part.end.ravel()
     varies, turns, recalls = inputs.value.shape[0] > 1, drive.value.shape[0] > 1, states.kind.size > 0
     rotates, count_r = turns and turning.first.shape[0] > 0, turning.first.shape[0]
     turned, turned_begin, turned_change = np.zeros(count_r), np.zeros(count_r), np.zeros(count_r)
@@ -190,6 +204,7 @@ def integrate(system, schedule, state, record):
         project_rows(element_rows, pairs, elongation_flat)
         update_turning_dampers(laws, force[1], slip, elongation[1])
         first_forces(laws, elongation, memory, element_force, instant)
+        states_at_start(rigid, laws, memory, elongation, step)
     loss, recorded = loss_rate(power, damping, pairs) if book else 0.0, min(every, 1)
     for number in range(steps + 1):
         if number > 0:
@@ -204,9 +219,14 @@ def integrate(system, schedule, state, record):
             if turns or special:
                 interpolate(drive, number * step, speed)
             if special:
+                copy(memory, element.memory_begin)
+                if sticks:
+                    stop(rigid, laws, element.memory_begin, elongation, step)
+                    if not begin_at_rest(rigid, laws, element.memory_begin, pairs, input_begin, element_force,
+                                         part.inertia):
+                        return UNSETTLED, number, rigid.index[0]
                 copy(element_force, element_force_begin)
                 copy(shift_flat, shift_begin_flat)
-                copy(memory, element.memory_begin)
                 angle = angle_after(angle, speed_begin, speed[0], step)
                 instant = (age + number * step, angle, speed[0])
                 add_forces(element_first, element_force, after)
@@ -250,7 +270,17 @@ def integrate(system, schedule, state, record):
                 if code != SOLVED:
                     return code, number, where
                 add_forces(element_last, element_force, after)
-                work[ELEMENTS] += element_work(elongation[0], element.end[0], element_force_begin, element_force)
+                if sticks and switches(margin(rigid, laws, element.memory_begin, after, input_end, element_force,
+                                              element.end, step, part.needed, part.inertia)):
+                    clock = instant[0] - step, 0.0, step, angle_begin, speed_begin, speed[0]
+                    code, where, worked = split_step(rigid, element_rows, element, part, pairs, element_force_begin,
+                                                     input_begin, input_end, clock)
+                    if code != SOLVED:
+                        return code, number, where
+                    copy(part_flat, after_flat)
+                    work[ELEMENTS] += worked
+                else:
+                    work[ELEMENTS] += element_work(elongation[0], element.end[0], element_force_begin, element_force)
                 work[NORMAL] -= shift_work(shift_begin[0], shift[0], held, force, constant[0])
                 copy(elongation_end, elongation_flat)
             elif contacts:

@@ -213,7 +213,7 @@ def test_order_with_elements_and_a_closed_contact_is_two(laws):
     np.testing.assert_allclose(order(errors) / 2, 2, atol=0.2)
 
 
-NULL = (Polynomial(), Power(), iwan(0.0, 3.0, elastic=True), Dry(4e4), BoucWen(), Gap(),
+NULL = (Polynomial(), Power(), iwan(0.0, 3.0, elastic=True), Dry(4e4), Dry(), BoucWen(), Gap(),
         Gap(inner=-5.0, lower=0.0, upper=0.0), Softening(), Wave(1e3, 1.0, 0.0, 2.0), Maxwell(np.zeros(2), np.ones(2)))
 
 
