@@ -64,7 +64,7 @@ _FILES = (
     "joint_friction.lugre",
     "joint_friction.series_stiffness",
     "joint_friction.stribeck_joint",
-    "joint.impact",
+    "structure.impact",
     "joint_friction.position_friction",
     "sensor.reversed_channel",
     "sensor.swapped_channels",

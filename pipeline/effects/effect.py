@@ -28,8 +28,8 @@ class Effect:
     ``linear``: parameters that the forces are linear in; ``kind``: physics or sensor; ``conditions``: conditions that
     every run must state; ``micro``: whether it also acts on a Rubbing (effects located at the asperities act there
     only); ``small``: whether it enters the model linearised about steady sliding, and so the complex modes;
-    ``elaborate``: whether it has so many values, or so costly ones, that it is weighed only where simpler effects do not
-    explain the recordings.
+    ``elaborate``: whether it has so many values, or is so costly, that it is weighed only where simpler effects leave
+    something.
     """
 
     name: str

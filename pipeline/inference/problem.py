@@ -64,7 +64,7 @@ class Hypothesis:
     """What may be so: ``effects`` ((effect, place), ...) and ``parameters`` (Parameter, ...) that come with them.
 
     ``kind``: ``physics``, ``sensor`` (the measurement) or ``numerics`` (the solver). ``forbidden``: a constraint on
-    fitted values; priors already keep single signs. ``elaborate``: weighed only where simpler hypotheses leave something.
+    fitted values; priors already keep single signs. ``elaborate``: weighed only where simpler ones leave something.
     """
 
     name: str

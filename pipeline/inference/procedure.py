@@ -139,7 +139,8 @@ def _steps(problem, budget, catalogue, settings, fan_out, start=None, base=None)
 
 
 def _explained(diagnosis, rules):
-    """Whether a Diagnosis leaves nothing to explain: the nominal model, or a candidate, reaches the noise everywhere."""
+    """Whether a Diagnosis leaves nothing to explain: the nominal model, or a candidate, reaches the noise on all runs.
+    """
     def reaches(weighed):
         statistics = weighed.statistics
         return (weighed.fit.reaches_noise(rules.decision.noise_uncertainty) and not statistics.unexplained

@@ -1,7 +1,7 @@
 """Friction that depends on the position along a joint: F = F_c max(0, 1 + g e) sgn(v).
 
-A guide that is tighter at one end, or a bearing surface of uneven finish, has a gradient g. At rest the joint creeps by a
-tenth of what friction takes off the speed within one step, which is numerics, no physics.
+A guide that is tighter at one end, or a bearing surface of uneven finish, has a gradient g. At rest the joint creeps by
+a tenth of what friction takes off the speed within one step, which is numerics, no physics.
 """
 
 from pipeline.effects.attached import beside_joint

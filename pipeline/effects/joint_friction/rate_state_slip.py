@@ -15,7 +15,7 @@ def apply(bench, location, values):
 
 
 EFFECT = Effect(
-    name="rate_state_slip", summary="friction that follows speed and state of the contact, which changes with slip alone",
+    name="rate_state_slip", summary="friction that follows speed and state of the contact, which slip alone changes",
     location="joint", stage="friction", parameters=parameters, apply=apply, small=False, linear=("force",),
     elaborate=True,
     source="A. Ruina, J. Geophys. Res. 88 (1983) 10359; J. R. Rice, N. Lapusta, K. Ranjith, J. Mech. Phys. Solids 49"

@@ -2,8 +2,8 @@
 
     sticking  F = k_c de,    sliding  F = (k e + F_c sgn(v)) / (1 + k s)
 
-which is k / (1 + k s) beside a Jenkins element of stiffness k_c - k / (1 + k s) and limit F_c / (1 + k s). The damper of
-the joint goes on in parallel. A contact stiffer than the step of the bench resolves is as stiff as it does.
+which is k / (1 + k s) beside a Jenkins element of stiffness k_c - k / (1 + k s) and limit F_c / (1 + k s). The damper
+of the joint goes on in parallel. A contact stiffer than the step of the bench resolves is as stiff as it does.
 """
 
 import numpy as np

@@ -41,6 +41,8 @@ FORGOTTEN = 40.0
 STRONGEST_TURNING = 10.0
 #: relative rounding of an elongation that is a sum of a few terms
 ROUNDING = 4 * np.finfo(np.float64).eps
+#: forces in N that count as none, far above the smallest numbers
+SMALLEST = 1e-290
 SWEEPS, ITERATIONS, TOLERANCE, LOCAL_TOLERANCE = 500, 100, 1e-10, 1e-13
 
 
@@ -290,14 +292,14 @@ def _enclose(laws, k, elongation_free, rate_free, begin, memory_begin, memory, g
     value = element_force(laws, k, elongation_free + give * low, rate_free + mobile * low, begin, memory_begin, memory,
                           instant)[0]
     low_left = value - low
-    if abs(low_left) <= LOCAL_TOLERANCE * max(abs(low), abs(value)):
+    if abs(low_left) <= LOCAL_TOLERANCE * max(abs(low), abs(value)) + SMALLEST:
         return value, abs(low_left), SOLVED
     high, wider = value, low_left
     for _ in range(ITERATIONS):
         value = element_force(laws, k, elongation_free + give * high, rate_free + mobile * high, begin, memory_begin,
                               memory, instant)[0]
         high_left = value - high
-        if abs(high_left) <= LOCAL_TOLERANCE * max(abs(high), abs(value)):
+        if abs(high_left) <= LOCAL_TOLERANCE * max(abs(high), abs(value)) + SMALLEST:
             return value, abs(high_left), SOLVED
         if (high_left > 0.0) != (low_left > 0.0):
             return _narrow(laws, k, elongation_free, rate_free, begin, memory_begin, memory, instant, low, low_left,
@@ -311,6 +313,7 @@ def _enclose(laws, k, elongation_free, rate_free, begin, memory_begin, memory, g
 def _narrow(laws, k, elongation_free, rate_free, begin, memory_begin, memory, instant, low, low_left, high, high_left):
     """The same from a bracket ``low`` ... ``high`` with what is left at its ends."""
     give, mobile, slow = laws.response[0, k, k], laws.response[1, k, k], False
+    smallest = LOCAL_TOLERANCE * max(abs(low), abs(high)) + SMALLEST
     for _ in range(2 * ITERATIONS):
         width = abs(high - low)
         force = high - high_left * (high - low) / (high_left - low_left)
@@ -319,7 +322,6 @@ def _narrow(laws, k, elongation_free, rate_free, begin, memory_begin, memory, in
         value = element_force(laws, k, elongation_free + give * force, rate_free + mobile * force, begin, memory_begin,
                               memory, instant)[0]
         left = value - force
-        smallest = LOCAL_TOLERANCE * max(abs(low), abs(high))
         if abs(left) <= smallest or width <= smallest:
             return force, width if abs(left) > smallest else abs(left), SOLVED
         if (left > 0.0) != (high_left > 0.0):

@@ -159,7 +159,7 @@ class Presliding:
 
 @dataclass(frozen=True)
 class RateState:
-    """Rate-and-state friction: ``force`` N at 1e-6 m/s, direct effect, evolution over ``length`` m; ``slip`` law 1 or 0.
+    """Rate-and-state friction: ``force`` N at 1e-6 m/s, direct effect, evolution over ``length`` m; ``slip`` law: 1.
 
     Without ``evolution`` the force follows the logarithm of the speed alone.
     """
@@ -289,13 +289,16 @@ def _check(name, law):
     wrong = {Power: lambda p: p.exponent < 1, Dry: lambda p: min(p.forward, p.backward) < 0 or p.stiffness < 0
              or p.decay_speed <= 0 or p.rise <= -1,
              BoucWen: lambda p: p.size <= 0 or p.exponent < 1 or not 0.5 <= p.shape <= 1,
-             Gap: lambda p: p.lower < 0 or p.upper < 0, Stop: lambda p: min(p.lower, p.upper, p.stiffness, p.damping) < 0,
+             Gap: lambda p: p.lower < 0 or p.upper < 0,
+             Stop: lambda p: min(p.lower, p.upper, p.stiffness, p.damping) < 0,
              Presliding: lambda p: min(p.force, p.time, p.viscous) < 0 or min(p.length, p.speed) <= 0 or p.rise <= -1,
              RateState: lambda p: min(p.force, p.evolution) < 0 or min(p.direct, p.length) <= 0,
              Positional: lambda p: min(p.force, p.creep) < 0, Softening: lambda p: p.time <= 0,
              Maxwell: lambda p: np.shape(p.stiffness) != np.shape(p.time) or np.min(p.time, initial=1) <= 0
              or np.min(p.stiffness, initial=0) < 0,
              Sliders: lambda p: np.shape(p.stiffness) != np.shape(p.limit) or np.min(p.limit, initial=0) < 0}
-    values = [v for v in law.__dict__.values() if not np.isinf(v).any()] if isinstance(law, Gap | Stop) else astuple(law)
+    values = astuple(law)
+    if isinstance(law, Gap | Stop):      # places without a stop
+        values = [v for v in values if not np.isinf(v)]
     if not all(np.isfinite(v).all() for v in values) or wrong.get(type(law), lambda p: False)(law):
         raise ConfigError(f"element {name}", f"values as the description of {type(law).__name__} says", str(law))

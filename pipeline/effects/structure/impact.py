@@ -1,9 +1,10 @@
-"""A stop in a joint, hit with a restitution: beyond the elongation g, a spring with a damper that pushes back alone.
+"""A stop in front of a point, hit with a restitution: a spring and a damper that push back alone.
 
-    F = max(0, k (e - g) + c v)    for e > g,    g = 1 / inverse_gap    (below g for inverse_gap < 0)
+    F = max(0, k (x - g) + c v)    for x > g,    g = 1 / inverse_gap    (below g for inverse_gap < 0)
 
-Bodies of the mass m that the joint feels leave the stop with the restitution exp(-(pi - 2 alpha) tan(alpha)) of their
-speed, sin(alpha) = c / (2 sqrt(k m)), which is solved for c. The step is shortened to what resolves the stop.
+x is the displacement along the direction of the sensor. Bodies of the mass m that the point feels leave the stop with
+the restitution exp(-(pi - 2 alpha) tan(alpha)) of their speed, sin(alpha) = c / (2 sqrt(k m)), which is solved for c.
+The step is shortened to about 100 in a period of the mass on the stop.
 """
 
 from dataclasses import replace
@@ -11,14 +12,15 @@ from dataclasses import replace
 import numpy as np
 import scipy
 
-from pipeline.effects.attached import beside_joint
 from pipeline.effects.effect import Effect
 from pipeline.effects.resolved import felt_mass, resolving_step
 from pipeline.inference.priors import LogNormal, Normal, Parameter, Uniform
-from pipeline.physics.time_stepping.elements import Stop
+from pipeline.physics.time_stepping.elements import Element, Stop
 
 #: restitutions of an under-damped stop end at exp(-2)
 _LOWEST = 0.15
+#: steps that follow a blow, over those that resolve its spring
+_FINER = 12
 
 
 def parameters(typical):
@@ -32,11 +34,12 @@ def apply(bench, location, values):
     inverse, stiffness = values["inverse_gap"], values["stiffness"]
     if inverse == 0:
         return bench
-    mass = felt_mass(bench, bench.joint(location)[0])
+    row = bench.sensor(location)
+    mass = felt_mass(bench, row)
     damping = 2 * np.sin(loss_angle(values["restitution"])) * np.sqrt(stiffness * mass)
     side = {"upper" if inverse > 0 else "lower": 1 / abs(inverse)}
-    bench = replace(bench, step=min(bench.step, resolving_step(mass, stiffness)))
-    return beside_joint(bench, "impact", location, Stop(stiffness, damping, **side))
+    bench = replace(bench, step=min(bench.step, resolving_step(mass, stiffness) / _FINER))
+    return bench.with_elements(Element(f"impact {location}", row, Stop(stiffness, damping, **side)))
 
 
 def loss_angle(restitution):
@@ -46,7 +49,7 @@ def loss_angle(restitution):
 
 
 EFFECT = Effect(
-    name="impact", summary="a stop in a joint that is hit and gives back part of the speed", location="joint",
+    name="impact", summary="a stop that a point hits, and that gives back part of the speed", location="point",
     stage="structure", parameters=parameters, apply=apply, elaborate=True,
     source="T. Schwager, T. Poeschel, Granular Matter 9 (2007) 465: spring and damper that do not pull",
-    valid="Valid while the stop is hit by the bodies that the joint feels as one mass, on one side.")
+    valid="Valid while the stop is hit by bodies that the point feels as one mass, on one side.")
