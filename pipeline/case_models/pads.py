@@ -15,7 +15,7 @@ from pipeline.physics.friction.state_variables import Scatter, state_kernel
 from pipeline.physics.pads.pad_system import on_springs, pad_elements, pad_friction
 from pipeline.physics.sliding.doublets import doublets
 from pipeline.physics.sliding.model import sliding_model
-from pipeline.physics.time_stepping.elements import Turning, wave_table
+from pipeline.physics.time_stepping.elements import ENCLOSED, Turning, wave_table
 from pipeline.physics.time_stepping.normal_laws import normal_kernel
 from pipeline.physics.time_stepping.simulate import Table
 from pipeline.physics.virtual_rig.response import Bench
@@ -50,7 +50,7 @@ def _dressed(system, model, bench, friction):
         states=states._replace(kind=states.kind[acting], contact=states.contact[acting],
                                parameter=states.parameter[acting], begin=0 * states.begin),
         wear=np.array(np.broadcast_to(model.contacts.wear, count), float))
-    _refuse_turning(model.elements)
+    _refuse_laws(model.elements)
     elements = on_springs(model.elements, system.mass, bench.step)
     return system._replace(contact=contact, elements=pad_elements(elements, model.size))
 
@@ -62,10 +62,13 @@ def _scatter(friction, count):
     return np.array(rows, float).reshape(-1, 4)
 
 
-def _refuse_turning(elements):
+def _refuse_laws(elements):
     for element in elements:
         if isinstance(element.law, Turning):
             raise refused(element.name.split()[0], "turns friction that turns anyway")
+        if isinstance(element.law, ENCLOSED):
+            raise refused(element.name.split()[0], "jumps where the motion turns, which its Newton iterations do not"
+                                                   " follow")
 
 
 def kept(terms, without):

@@ -53,6 +53,22 @@ _FILES = (
     "contact.material_transfer",
     "contact.wear_law",
     "contact.shear_limit",
+    "joint_friction.logarithmic_friction",
+    "structure.tuned_absorber",
+    "joint_friction.rate_state_ageing",
+    "structure.second_mode",
+    "joint_friction.rate_state_slip",
+    "structure.parametric_stiffness",
+    "joint_friction.dahl",
+    "joint_friction.jenkins",
+    "joint_friction.lugre",
+    "joint_friction.series_stiffness",
+    "joint_friction.stribeck_joint",
+    "structure.impact",
+    "joint_friction.position_friction",
+    "sensor.reversed_channel",
+    "sensor.swapped_channels",
+    "sensor.unit_factor",
 )
 CATALOGUE = tuple(import_module(f"pipeline.effects.{name}").EFFECT for name in _FILES)
 

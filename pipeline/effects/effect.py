@@ -27,7 +27,9 @@ class Effect:
     sign and passivity; ``apply(bench, location, values)``: the equation; ``source``; ``valid``: "Valid while ...";
     ``linear``: parameters that the forces are linear in; ``kind``: physics or sensor; ``conditions``: conditions that
     every run must state; ``micro``: whether it also acts on a Rubbing (effects located at the asperities act there
-    only); ``small``: whether it enters the model linearised about steady sliding, and so the complex modes.
+    only); ``small``: whether it enters the model linearised about steady sliding, and so the complex modes;
+    ``elaborate``: whether it has so many values, or is so costly, that it is weighed only where simpler effects leave
+    something.
     """
 
     name: str
@@ -43,6 +45,7 @@ class Effect:
     conditions: tuple = ()
     micro: bool = False
     small: bool = True
+    elaborate: bool = False
 
     def locations(self, model):
         """Names of the locations of a Bench or a Rubbing where the effect can act."""

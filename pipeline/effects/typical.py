@@ -1,6 +1,7 @@
 """Typical quantities at a location of a bench, taken from nominal runs: they scale the priors of effects."""
 
 from dataclasses import dataclass, replace
+from itertools import combinations
 
 import numpy as np
 
@@ -13,10 +14,13 @@ from pipeline.physics.virtual_rig.sensor import DISPLACEMENT, NORMAL_FORCE, VELO
 
 #: kinds of location that an effect can have: ``contact`` is a group of contacts, ``contacts`` all together, ``pressed
 #: contact`` a group that can open (a friction joint cannot), ``contact row`` one whose contacts lie one behind the
-#: other along the sliding direction, ``sideways contact`` one that can move across it
+#: other along the sliding direction, ``sideways contact`` one that can move across it, ``pair of channels`` two of one
+#: unit
 JOINT, CONTACT, CONTACTS, POINT, CHANNEL = "joint", "contact", "contacts", "point", "channel"
 PRESSED, CONTACT_ROW, DOUBLET, INPUT = "pressed contact", "contact row", "doublet", "input"
-SIDEWAYS = "sideways contact"
+SIDEWAYS, CHANNEL_PAIR = "sideways contact", "pair of channels"
+#: what stands between the names of a pair of channels
+PAIR_MARK = " and "
 #: the only location of a Rubbing, and its kind
 ASPERITIES = "asperities"
 _CONTACTS, _SENSOR = (CONTACT, CONTACTS, PRESSED, CONTACT_ROW, SIDEWAYS), "typical"
@@ -69,7 +73,9 @@ def locations(kind, bench):
             CONTACT_ROW: tuple(g for g in pressed if np.ptp(sliding_angle(model.contacts, bench.contacts(g))) > 0),
             SIDEWAYS: tuple(g for g in contact if model.contacts.lateral[bench.contacts(g)].any()),
             POINT: tuple(model.sensor_name), INPUT: tuple(model.input_name), DOUBLET: tuple(bench.doublets),
-            CHANNEL: tuple(c.name for c in bench.channels)}[kind]
+            CHANNEL: tuple(c.name for c in bench.channels),
+            CHANNEL_PAIR: tuple(PAIR_MARK.join((a.name, b.name)) for a, b in combinations(bench.channels, 2)
+                                if a.measurand.unit == b.measurand.unit)}[kind]
 
 
 def typical(kind, bench, location, runs):
@@ -83,6 +89,8 @@ def typical(kind, bench, location, runs):
         return _rubbed(bench, runs)
     drive = max(float(np.abs(run_drive(bench, run)).max()) for run in runs)
     common = {"time": max(r.duration for r in runs), "interval": 1 / max(r.sample_rate for r in runs), "drive": drive}
+    if kind == CHANNEL_PAIR:
+        return Typical(**common)
     if kind == CHANNEL:
         shown = _largest(replace(bench, channels=tuple(c for c in bench.channels if c.name == location)), runs)
         return Typical(**common, shown=shown[location])

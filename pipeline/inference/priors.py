@@ -150,6 +150,55 @@ class Uniform(_Prior):
 
 
 @dataclass(frozen=True)
+class Factors(_Prior):
+    """One of a few discrete factors ``each``, all as likely, known to a relative ``spread``.
+
+    No smooth path leads from one to another, or to a null between them: fits begin at each of them.
+    """
+
+    each: tuple
+    spread: float
+
+    def __post_init__(self):
+        self._check(all(self.each) and self.spread > 0, "factors other than 0 and a positive spread")
+
+    @property
+    def scale(self):
+        return self.spread * max(map(abs, self.each))
+
+    @property
+    def support(self):
+        return -np.inf, np.inf
+
+    @property
+    def alternatives(self):
+        """Latent coordinates (k,) of the factors themselves."""
+        return scipy.special.ndtri((np.arange(len(self.each)) + 0.5) / len(self.each))
+
+    def log_density(self, value):
+        each = np.array(self.each)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            off = np.log(value / each) / self.spread
+        near = np.where(np.isfinite(off), np.exp(-0.5 * off**2) / (abs(each) * self.spread * np.sqrt(2 * np.pi)), 0.0)
+        return np.log(near.mean())
+
+    def value(self, latent):
+        share = scipy.special.ndtr(latent) * len(self.each)
+        index = np.minimum(share.astype(int) if np.ndim(share) else int(share), len(self.each) - 1)
+        within = latent if len(self.each) == 1 else _limited(scipy.special.ndtri(share - index))
+        return np.array(self.each)[index] * np.exp(self.spread * within)
+
+    def latent(self, value):
+        alike = [k for k, factor in enumerate(self.each) if factor * value > 0]
+        if not alike:
+            return -LATENT_LIMIT
+        offs = {k: np.log(value / self.each[k]) / self.spread for k in alike}
+        nearest = min(offs, key=lambda k: abs(offs[k]))
+        within = scipy.special.ndtr(_limited(offs[nearest]))
+        return _limited(scipy.special.ndtri((nearest + within) / len(self.each)))
+
+
+@dataclass(frozen=True)
 class Parameter:
     """A number of a model that data may change.
 
@@ -171,6 +220,11 @@ class Parameter:
             if value is not None and not low <= value <= high:
                 raise ConfigError(f"parameter {self.name}: {what}", f"a value between {low:g} and {high:g}",
                                   f"{value:g} ({self.prior})", "change the value or its prior")
+
+    @property
+    def discrete(self):
+        """Whether it is one of a few values, to which no smooth path leads from its null."""
+        return isinstance(self.prior, Factors)
 
     @property
     def sign(self):

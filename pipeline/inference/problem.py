@@ -64,7 +64,7 @@ class Hypothesis:
     """What may be so: ``effects`` ((effect, place), ...) and ``parameters`` (Parameter, ...) that come with them.
 
     ``kind``: ``physics``, ``sensor`` (the measurement) or ``numerics`` (the solver). ``forbidden``: a constraint on
-    fitted values; priors already keep single signs.
+    fitted values; priors already keep single signs. ``elaborate``: weighed only where simpler ones leave something.
     """
 
     name: str
@@ -72,6 +72,7 @@ class Hypothesis:
     parameters: tuple = ()
     kind: str = "physics"
     forbidden: Constraint | None = None
+    elaborate: bool = False
 
     def __post_init__(self):
         names = [p.name for p in self.parameters]

@@ -3,6 +3,7 @@
 Where the nominal model does not reach the noise, its linearisation may rank nothing: there every candidate begins its
 fit unless one of the first few explains enough, and the best few go on. What else could move as the best one does is
 looked for at the nominal values that the best one asks for.
+Elaborate candidates are weighed beside the simple ones only where neither these nor the nominal model reach the noise.
 A null hypothesis that has not converged lets every candidate win: it is refitted from each candidate's optimum. A model
 that lacks physics may have no smooth optimum at all: then a candidate counts only where it goes far below the null.
 """
@@ -125,9 +126,27 @@ def diagnose(problem, budget, catalogue, settings=None, fan_out=map):
 def _steps(problem, budget, catalogue, settings, fan_out, start=None, base=None):
     """(Refits, Diagnosis) of the five steps; the nominal model is fitted from the Fit ``start``, if there is one."""
     calibration = recalibrate(problem, budget, settings.rules.calibration, start)
-    screening = screen_catalogue(calibration, catalogue, settings, fan_out, base is not None)
-    refits = refit_catalogue(screening, catalogue, settings, fan_out)
+    simple = tuple(c for c in catalogue if not c.elaborate)
+    screening = screen_catalogue(calibration, simple, settings, fan_out, base is not None)
+    refits = refit_catalogue(screening, simple, settings, fan_out)
+    decided = _decided(refits, settings, base)
+    if len(simple) == len(catalogue) or _explained(decided, settings.rules):
+        return refits, decided
+    every = (*simple, *(c for c in catalogue if c.elaborate))
+    screening = screen_catalogue(refits.calibration, every, settings, fan_out, base is not None, refits.directions)
+    refits = refit_catalogue(screening, every, settings, fan_out, refits.results)
     return refits, _decided(refits, settings, base)
+
+
+def _explained(diagnosis, rules):
+    """Whether a Diagnosis leaves nothing to explain: the nominal model, or a candidate, reaches the noise on all runs.
+    """
+    def reaches(weighed):
+        statistics = weighed.statistics
+        return (weighed.fit.reaches_noise(rules.decision.noise_uncertainty) and not statistics.unexplained
+                and not statistics.held_out_left)
+
+    return diagnosis.decision.verdict in ("consistent", "parameters") or any(map(reaches, diagnosis.weighed))
 
 
 def _decided(refits, settings, base):

@@ -82,6 +82,11 @@ def test_what_does_not_act_is_refused_or_left_out_by_name():
     same(braking(block, without=(name,)), braking(), rtol=0)
 
 
+def test_friction_that_jumps_is_refused():
+    with pytest.raises(ConfigError, match="effects.dahl: expected .*stage multibody.*jumps where the motion turns"):
+        braking({"dahl": {"piston": {"force": "1 N", "length": "1 um"}}})
+
+
 @pytest.mark.parametrize("block", [
     {"wear": {"contact": {"rate": "1e-12 m^2/N"}}}, {"contact_memory": {"contact": {"length": "1 mm"}}},
     {"viscoelastic_pad": {"piston": {"share": 0.3, "time": "1 ms"}}}])

@@ -9,7 +9,7 @@ import pytest
 from pipeline.contract import ConfigError
 from pipeline.effects import CATALOGUE, named
 from pipeline.effects.effect import null_values, shaped_values
-from pipeline.effects.typical import ASPERITIES
+from pipeline.effects.typical import ASPERITIES, CHANNEL
 from pipeline.physics.virtual_rig.response import Run
 from pipeline.physics.virtual_rig.roots import roots
 from stages.bench import bench as bench_stage
@@ -17,7 +17,7 @@ from tests.diagnosis.small_rig import effects, laid_out, model, recording
 from tests.effects.systems import MODES, SYSTEMS, Telling, lumped_bench, system
 
 PHYSICS = tuple(e for e in CATALOGUE if e.kind == "physics" and e.location != ASPERITIES)
-SENSORS = tuple(e for e in CATALOGUE if e.kind == "sensor")
+SENSORS = tuple(e for e in CATALOGUE if e.location == CHANNEL)
 UPPER, MEDIAN = (partial(shaped_values, probability=p) for p in (0.75, 0.6))
 #: needs a row of contacts that wear: of all transients only those of lumped systems have one
 ROWS_ALONE = ("taper_wear",)
@@ -105,7 +105,8 @@ def test_friction_that_turns_is_added_once():
 @each(SENSORS)
 def test_an_effect_of_a_sensor_belongs_to_benches(effect):
     said = {"sensor_gain": {"error": 0.1}, "sensor_delay": {"delay": "5 ms"}, "clipping": {"inverse_limit": 100.0},
-            "sensor_offset_drift": {"offset": 1e-3, "drift": 1e-3}}[effect.name]
+            "sensor_offset_drift": {"offset": 1e-3, "drift": 1e-3}, "reversed_channel": {"factor": -1.0},
+            "unit_factor": {"factor": 10.0}}[effect.name]
     taken = recording(levels=(5.0,))
     before, after = (bench_stage(model(), effects(block), taken, laid_out()).runs["level_1"].predicted
                      for block in ({}, {effect.name: {"x": said}}))

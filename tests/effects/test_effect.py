@@ -11,7 +11,7 @@ import pytest
 from pipeline.contract.errors import BrakechainError, ConfigError
 from pipeline.effects import CATALOGUE, named
 from pipeline.effects.effect import STAGES, Term, compose, null_values, shaped_values
-from pipeline.effects.typical import ASPERITIES, CHANNEL, Typical
+from pipeline.effects.typical import ASPERITIES, CHANNEL, CHANNEL_PAIR, Typical
 from pipeline.physics.time_stepping.simulate import Start
 from pipeline.physics.virtual_rig.force_residual import equation_residual
 from pipeline.physics.virtual_rig.response import Responder, respond
@@ -128,7 +128,8 @@ def test_an_effect_describes_itself(effect):
     module = sys.modules[effect.apply.__module__]
     assert module.__name__.endswith(f".{effect.name}")
     assert module.__doc__ and effect.summary and effect.source and effect.valid.startswith("Valid ")
-    assert effect.stage in STAGES and effect.kind == ("sensor" if effect.location == CHANNEL else "physics")
+    assert effect.stage in STAGES and (effect.kind == "sensor") == (effect.location in (CHANNEL, CHANNEL_PAIR))
+    assert effect.kind in ("physics", "sensor")
     assert pickle.loads(pickle.dumps(effect)) == effect
     parameters = effect.parameters(Typical())
     assert all(p.unit for p in parameters) and set(effect.linear) <= {p.name for p in parameters}

@@ -8,6 +8,7 @@ import pytest
 from pipeline.contract.errors import ConfigError
 from pipeline.effects.typical import (
     CHANNEL,
+    CHANNEL_PAIR,
     CONTACT,
     CONTACT_ROW,
     CONTACTS,
@@ -82,3 +83,8 @@ def test_what_cannot_open_is_no_pressed_contact():
     assert locations(PRESSED, bench) == locations(CONTACT, held) == ("contact",) and locations(PRESSED, held) == ()
     run = replace(steady(), inputs={"input_0": 8.0})
     assert typical(CONTACTS, held, "contact", (run,)).length == respond(held, run)["x"].max() > 0
+
+
+def test_pairs_of_channels_are_of_one_unit():
+    assert locations(CHANNEL_PAIR, sprung()) == () and "x and turn" in locations(CHANNEL_PAIR, rubbing())
+    assert typical(CHANNEL_PAIR, rubbing(), "x and y", (let_go(0.02),)).time == 0.5

@@ -6,7 +6,7 @@ from scipy import stats
 from scipy.integrate import quad
 
 from pipeline.contract.errors import ConfigError
-from pipeline.inference.priors import LATENT_LIMIT, HalfNormal, LogNormal, Normal, Parameter, Uniform
+from pipeline.inference.priors import LATENT_LIMIT, Factors, HalfNormal, LogNormal, Normal, Parameter, Uniform
 
 PRIORS = [(Normal(2.0, 0.5), stats.norm(2.0, 0.5)), (LogNormal(3.0, 0.4), stats.lognorm(0.4, scale=3.0)),
           (HalfNormal(1.5), stats.halfnorm(scale=1.5)), (Uniform(-1.0, 3.0), stats.uniform(-1.0, 4.0))]
@@ -70,3 +70,24 @@ def test_the_sign_of_an_effect_is_known_where_its_null_ends_the_support():
     assert Parameter("a", "1", 0.5, Uniform(0.0, 1.0), 1.0).sign == -1
     assert Parameter("a", "1", 0.5, Normal(0.0, 1.0), 0.0).sign == 0
     assert Parameter("a", "1", 0.5, HalfNormal(1.0)).sign == 0
+
+
+@pytest.mark.exact
+def test_factors_are_as_likely_as_each_other_and_known_to_their_spread():
+    prior = Factors((-10.0, -1.0, 0.1, 1e3), 0.02)
+    values = prior.sample(np.random.default_rng(1), 4000)
+    for factor in prior.each:
+        near = values[np.abs(values / factor - 1) < 0.2]
+        assert len(near) == pytest.approx(1000, abs=100)
+        assert np.std(np.log(near / factor)) == pytest.approx(0.02, rel=0.1)
+    np.testing.assert_allclose([prior.value(u) for u in prior.alternatives], prior.each, rtol=1e-12)
+    for value in (-10.3, -0.98, 0.1, 1.01e3):
+        assert prior.value(prior.latent(value)) == pytest.approx(value, rel=1e-9)
+    assert Factors((-1.0,), 0.02).latent(1.0) == -8.0
+    assert np.exp(prior.log_density(1e3)) == pytest.approx(1 / (4 * 20 * np.sqrt(2 * np.pi)))
+    assert Parameter("sign", "1", -1.0, Factors((-1.0,), 0.02), 1.0).discrete
+
+
+def test_a_factor_of_zero_is_refused():
+    with pytest.raises(ConfigError, match="factors other than 0"):
+        Factors((0.0, 1.0), 0.02)

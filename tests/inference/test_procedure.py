@@ -16,6 +16,7 @@ from pipeline.inference.priors import Normal, Parameter
 from pipeline.inference.problem import Hypothesis
 from pipeline.inference.procedure import Settings, diagnose, over_noise
 from pipeline.inference.rules import DEFAULTS
+from pipeline.inference.search import score_screen
 from tests.inference import linear
 from tests.inference.oscillator import CATALOGUE, SOLVER, alone, bench, predict_with_lag
 
@@ -233,3 +234,23 @@ def test_twenty_five_hypotheses_take_less_than_twenty_seconds():
     start = process_time()
     diagnose(problem, budget(problem), many)
     assert process_time() - start < 20
+
+
+def elaborated(*names):
+    """The catalogue with the candidates of these names marked as elaborate."""
+    return tuple(replace(c, elaborate=c.name in names) for c in CATALOGUE)
+
+
+def test_elaborate_candidates_are_weighed_only_where_simpler_ones_leave_something(monkeypatch):
+    """Beside a simple law that reaches the noise none is tried; where nothing does, all are weighed together."""
+    screened = []
+    look = score_screen.directions
+    monkeypatch.setattr(score_screen, "directions", lambda problem, null, candidate, like=None: (
+        screened.append(candidate.name), look(problem, null, candidate, like))[1])
+    problem = bench(5, 0.1, stiffness=380.0, extra=cubic)
+    simple = diagnose(problem, budget(problem), elaborated("coulomb", "quadratic"))
+    assert [c.name for c in simple.decision.named] == ["cubic"] and "coulomb" not in screened
+    found = diagnose(problem, budget(problem), elaborated("cubic"))
+    assert found.decision.verdict == "missing" and [c.name for c in found.decision.named] == ["cubic"]
+    assert {w.candidate.name for w in found.weighed} > {"cubic"} and screened.count("cubic") >= 1
+    assert len(found.posterior) == 1 + len(CATALOGUE)

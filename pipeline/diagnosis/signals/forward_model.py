@@ -162,7 +162,8 @@ def candidates(bench, runs, catalogue, places=(), scale=1.0, priors=(), peaks=()
                 sizes[kind] = replace(size, shown=peak) if peak else size
             parameters = tuple(_named(p, effect, location, dict(priors)) for p in effect.parameters(sizes[kind]))
             pair = effect.name, location
-            hypotheses.append(Hypothesis(label((pair,)), (pair,), parameters, effect.kind))
+            hypotheses.append(Hypothesis(label((pair,)), (pair,), parameters, effect.kind,
+                                         elaborate=effect.elaborate))
     return tuple(hypotheses)
 
 

@@ -1,7 +1,6 @@
 """A gain that is off: the channel shows (1 + g) times what it should."""
 
-from dataclasses import replace
-
+from pipeline.effects.attached import scaled_channel
 from pipeline.effects.effect import Effect
 from pipeline.inference.priors import Parameter, Uniform
 
@@ -11,7 +10,7 @@ def parameters(typical):
 
 
 def apply(bench, location, values):
-    return bench.with_channels(lambda c: replace(c, gain=c.gain * (1 + values["error"])) if c.name == location else c)
+    return scaled_channel(bench, location, 1 + values["error"])
 
 
 EFFECT = Effect(

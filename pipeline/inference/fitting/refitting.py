@@ -11,15 +11,17 @@ from pipeline.inference.decision.candidate_statistics import unexplained
 from pipeline.inference.decision.weighing import evidence_of_all
 from pipeline.inference.fitting import tone_starts
 from pipeline.inference.fitting.calibration import Calibration, begun, paired_anew
-from pipeline.inference.fitting.least_squares import Fit, continued, linearised
+from pipeline.inference.fitting.least_squares import Fit, continued, linearised, whitened
 from pipeline.inference.problem import FanOut, Problem
 from pipeline.inference.rules import Rules
-from pipeline.inference.search.score_screen import directions, screen, short_name
+from pipeline.inference.search.score_screen import alternatives, directions, screen, short_name
 
 #: iterations of a nominal model from a candidate's optimum before it is given up where it is still worse than before
 _GIVEN_UP = 16
 #: times that a better candidate found beside the best one is taken for the best
 _ROUNDS = 2
+#: discrete values of a candidate at which fits begin
+_ALTERNATIVES = 2
 
 
 class Refitted(NamedTuple):
@@ -55,11 +57,12 @@ class Refits:
         return replace(self, results=self.refitter.better(self.results, starts))
 
 
-def refit_catalogue(screening, catalogue, settings, fan_out):
-    """Refits of the promising candidates of a Screening, of their imitators, and of what they overlook."""
+def refit_catalogue(screening, catalogue, settings, fan_out, results=None):
+    """Refits of the promising candidates of a Screening, of their imitators, and of what they overlook, beside earlier
+    ``results``."""
     calibration, starts = screening.calibration, screening.screen.start
     refitter = Refitter(calibration.problem, calibration.null, tuple(catalogue), settings, fan_out)
-    results = refitter.best_of(screening.promising, starts)
+    results = refitter.best_of(screening.promising, starts, results or {})
     fits = {i: r.fit for i, r in results.items() if r.fit is not None}
     if fits:
         evidences = evidence_of_all(calibration.null, screening.directions, fits, settings)
@@ -90,13 +93,13 @@ class Refitter:
     def rules(self) -> Rules:
         return self.settings.rules
 
-    def best_of(self, promising, starts):
-        """{index: Refitted}: the best few ``promising`` ones and their imitators, else all of them.
+    def best_of(self, promising, starts, results):
+        """{index: Refitted} of ``results``, the best few ``promising`` ones and their imitators, else all of them.
 
         All begin only where the linearisation of the null may fail and none of the first few explains enough.
         """
         kept, decision = self.settings.kept, self.rules.decision
-        results = self.with_imitators(self.of(promising[:kept], starts))
+        results = self.with_imitators(self.of(promising[:kept], starts, results))
         enough = any(unexplained(self.null, r.fit, self.rules) <= decision.unexplained
                      for r in results.values() if r.fit)
         if enough or self.null.reaches_noise(decision.noise_uncertainty) or self.null.unordered:
@@ -201,7 +204,20 @@ def _begun(problem, null, offsets, rules, item):
         screened_start, *(np.full(len(candidate.parameters), offset) for offset in offsets)])
     starts += _starts(null.latent, [screened_start] * at_odds(null, rules)
                       + tone_starts.starts(problem, null, candidate))
+    starts += _alternative_starts(problem, null, candidate, starts[0][:len(null.latent)])
     return _tried(problem, null, candidate, starts, () if misled else null.jacobians)
+
+
+def _alternative_starts(problem, null, candidate, base):
+    """Starts at the discrete values of a candidate that err least beside the nominal latent values ``base``."""
+    if not any(p.discrete for p in candidate.parameters):
+        return []
+    hypothesis, ranked = problem.nominal.joined(candidate), []
+    for start in _starts(base, alternatives(candidate)):
+        residuals, _ = whitened(problem, null.noises, hypothesis, start, null.runs)
+        if residuals is not None:
+            ranked.append((sum(r @ r for r in residuals), start))
+    return [start for _, start in sorted(ranked, key=lambda pair: pair[0])[:_ALTERNATIVES]]
 
 
 def _begun_at(problem, anchor, item):

@@ -80,21 +80,24 @@ class Screening:
     promising: tuple
 
 
-def screen_catalogue(calibration, catalogue, settings, fan_out, beside_a_first=False):
+def screen_catalogue(calibration, catalogue, settings, fan_out, beside_a_first=False, known=()):
     """Screening of a ``catalogue`` (Hypothesis, ...); ``beside_a_first``: for the second effect of a pair.
+
+    ``known``: Directions of its first candidates, which were refitted before and are not promised again.
 
     Where the linearisation of the null may fail, all candidates are worth a fit. It holds where the null reaches
     the noise; of features, which are few and far from linear only where they are paired anew, wherever the null
     has an optimum.
     """
     problem, null, rules = calibration.problem, calibration.null, settings.rules
-    every = tuple(fan_out(partial(directions, problem, null), catalogue))
+    every = (*known, *fan_out(partial(directions, problem, null), catalogue[len(known):]))
     rough = screen(null, every, None, settings.draws, settings.seed, rules.screening)
     linear = null.reaches_noise(rules.decision.noise_uncertainty) or (null.unordered and null.converged)
     likely = rules.decision.p_value if beside_a_first else rules.screening.p_value
     largest = likely if linear else 1.0
     return Screening(calibration, every, rough, tuple(
-        int(i) for i in rough.order() if np.isfinite(rough.score[i]) and rough.p_value[i] <= largest))
+        int(i) for i in rough.order()
+        if i >= len(known) and np.isfinite(rough.score[i]) and rough.p_value[i] <= largest))
 
 
 def directions(problem, null, candidate, like=None):
@@ -114,6 +117,9 @@ def directions(problem, null, candidate, like=None):
         signs.append(sign)
         tried.append(latent)
     vectors = np.array(vectors).reshape(len(vectors), len(base))
+    if len(vectors) and any(p.discrete for p in candidate.parameters):     # of discrete values the one that errs least
+        best = [int(np.argmin(((base - vectors) ** 2).sum(axis=1)))]
+        vectors, signs, tried = vectors[best], [signs[i] for i in best], [tried[i] for i in best]
     return Directions(candidate, vectors, np.array(signs, int), tuple(tried), "" if len(vectors) else failure)
 
 
@@ -168,6 +174,10 @@ def _trials(candidate, like):
     """(latent values, sign, step in prior scales) of every direction: one effect parameter moved, shapes varied."""
     parameters = candidate.parameters
     shapes = [k for k, p in enumerate(parameters) if p.null is None]
+    if any(p.discrete for p in parameters):
+        for latent in alternatives(candidate):
+            yield latent, 1, 1.0
+        return
     shares = [ANGLES if parameters[k].unit == "rad" else SHAPES for k in shapes]
     combinations = [[_latent_of(parameters[i], share) for i, share in zip(shapes, each, strict=True)]
                     for each in list(product(*shares))[:_COMBINATIONS]]
@@ -183,6 +193,12 @@ def _trials(candidate, like):
             latent = np.array([p.prior.latent(v) for p, v in zip(parameters, values, strict=True)])
             latent[shapes] = shape
             yield latent, int(parameter.sign != 0), step
+
+
+def alternatives(candidate):
+    """Latent values [(k,)] of a candidate at each of the values of its discrete parameters, the others as nominal."""
+    return [np.array(each) for each in product(*(p.prior.alternatives if p.discrete else [p.prior.latent(p.nominal)]
+                                                 for p in candidate.parameters))]
 
 
 def _away(parameter, step):

@@ -15,7 +15,7 @@ from pipeline.physics.friction.state_kernels import MEMORY, PLATEAUS, SETTLING, 
 from pipeline.physics.friction.state_variables import factors, started, state_kernel
 from pipeline.physics.sliding.model import FrictionState
 from pipeline.physics.time_stepping.coupled_solver import no_memory
-from pipeline.physics.time_stepping.element_forces import DRY, element_force, update_turning_dampers
+from pipeline.physics.time_stepping.element_forces import FRICTION, element_force, update_turning_dampers
 from pipeline.physics.time_stepping.elements import Maxwell, alone
 
 
@@ -123,7 +123,7 @@ def element_slopes(model, start, slip):
     update_turning_dampers(kernel, start.friction, slip, np.zeros(len(rows)))
     slopes = np.zeros((2, len(rows)))
     for k, row in enumerate(rows):
-        if kernel.kind[k] != DRY:
+        if kernel.kind[k] not in FRICTION:
             place = float(row @ start.displacement)
             slopes[:, k] = element_force(kernel, k, place, 0.0, place, memory, memory.copy(),
                                          (0.0, 0.0, model.speed))[1:]

@@ -15,18 +15,27 @@ they remember from there:
     softening   F = -k (1 - exp(-t / tau)) e
     wave        F = -(k u + c u'), u = a cos(order * angle + 2 pi f t - phase)
     turning     F = share |T| v / |slip|, slip and T of a contact; |slip| with v, along the row, as its other part
+    parametric  F = k cos(order * angle + 2 pi f t - phase) e
+    stop        F = max(0, k (e - upper) + c v) beyond upper, min(0, k (e + lower) + c v) beyond -lower
+    presliding, rate_state, positional: see ``physics.friction.joint_friction``
 """
 
 from typing import NamedTuple
 
 import numpy as np
 
+from pipeline.physics.friction.joint_friction import positional, presliding, rate_state
 from pipeline.physics.numerics.compiled import njit
 from pipeline.physics.time_stepping.contact_solver import LARGEST_STIFFNESS, SOLVED
 
 POLYNOMIAL, POWER, SLIDERS, DRY, BOUC_WEN, GAP, SOFTENING, WAVE, MAXWELL, TURNING = range(10)
 #: state of a rigid element over a step at whose end it is decided whether it slides, beside 0 (at rest) and its sign
 FREE = 2.0
+PARAMETRIC, STOP, PRESLIDING, RATE_STATE, POSITIONAL = range(10, 15)
+#: friction, which has no force where a motion starts and none at rest
+FRICTION = (DRY, PRESLIDING, RATE_STATE, POSITIONAL)
+#: from this one on the forces of laws, which jump or have no slope of use, are enclosed, not found by Newton's method
+ENCLOSED = STOP
 #: codes of a step that has no solution, beside those of the contacts
 TOO_STIFF, UNSETTLED = 5, 6
 #: sizes of the way of a Bouc-Wen element after which nothing is left of where it started
@@ -35,6 +44,8 @@ FORGOTTEN = 40.0
 STRONGEST_TURNING = 10.0
 #: relative rounding of an elongation that is a sum of a few terms
 ROUNDING = 4 * np.finfo(np.float64).eps
+#: forces in N that count as none, far above the smallest numbers
+SMALLEST = 1e-290
 SWEEPS, ITERATIONS, TOLERANCE, LOCAL_TOLERANCE = 500, 100, 1e-10, 1e-13
 
 
@@ -138,11 +149,36 @@ def element_force(kernel, k, elongation, rate, begin, remembered, memory, instan
         return slope * elongation, slope, 0.0
     if kind == TURNING:
         return p[2] * rate, 0.0, p[2]
+    if kind == PARAMETRIC:
+        slope = p[0] * np.cos(p[1] * instant[1] + 2 * np.pi * p[2] * instant[0] - p[3])
+        return slope * elongation, slope, 0.0
+    if kind == STOP:
+        return _stop(elongation, rate, p)
+    if kind > STOP:
+        return _friction(kind, elongation, rate, moved, remembered[start:last], memory[start:last], p, instant[0])
     if kind == MAXWELL:
         force, slope = _maxwell(kernel, start, last - 1, moved, remembered, memory, instant[0])
         return p[0] * elongation + force, p[0] + slope, 0.0
     height, speed = wave(p[2], p[3], p[4], p[5], instant)
     return -(p[0] * height + p[1] * speed), 0.0, 0.0
+
+
+@njit
+def _stop(elongation, rate, p):
+    """(F, dF/de, dF/dv) of stops."""
+    beyond = max(0.0, elongation - p[3]) + min(0.0, elongation + p[2])
+    force = p[0] * beyond + p[1] * rate
+    return (force, p[0], p[1]) if force * beyond > 0.0 else (0.0, 0.0, 0.0)
+
+
+@njit
+def _friction(kind, elongation, rate, moved, remembered, memory, p, time):
+    """(F, 0, 0) of friction, which has no slope of use where it turns."""
+    if kind == PRESLIDING:
+        return presliding(moved, rate, remembered, memory, p), 0.0, 0.0
+    if kind == RATE_STATE:
+        return rate_state(rate, time, remembered, memory, p), 0.0, 0.0
+    return positional(elongation, rate, p), 0.0, 0.0
 
 
 @njit
@@ -215,8 +251,12 @@ def solve_elements(laws, step, instant):
                 if j != k:
                     elongation += laws.response[0, k, j] * force[j]
                     rate += laws.response[1, k, j] * force[j]
-            result, rounding[k], code = _solve_element(laws, k, elongation, rate, step.begin[0, k], step.memory_begin,
-                                                       step.memory, force[k], instant)
+            if laws.kind[k] >= ENCLOSED:
+                result, rounding[k], code = _enclose(laws, k, elongation, rate, step.begin[0, k], step.memory_begin,
+                                                     step.memory, force[k], instant)
+            else:
+                result, rounding[k], code = _solve_element(laws, k, elongation, rate, step.begin[0, k],
+                                                           step.memory_begin, step.memory, force[k], instant)
             if code != SOLVED:
                 return code, k
             if abs(result - force[k]) > TOLERANCE * max(size, abs(result)) + rounding[k]:
@@ -272,4 +312,59 @@ def _solve_rigid(laws, k, rate_free, memory_begin, memory, guess):
         force += change
         if abs(change) <= LOCAL_TOLERANCE * abs(size):
             return force, 0.0, SOLVED
+    return 0.0, 0.0, UNSETTLED
+
+
+@njit
+def _enclose(laws, k, elongation_free, rate_free, begin, memory_begin, memory, guess, instant):
+    """(F, width of its bracket, code) of element ``k``, whose force at the end of the step resists the motion there.
+
+    What a force leaves to be desired, law(F) - F, changes sign between any F and law(F) where the law resists; a law
+    that weakens with speed may need a wider bracket. The bracket is narrowed by the method of Anderson and Bjoerck (BIT
+    13 (1973) 253), by halves where that is slow.
+    """
+    give, mobile = laws.response[0, k, k], laws.response[1, k, k]
+    low = guess
+    value = element_force(laws, k, elongation_free + give * low, rate_free + mobile * low, begin, memory_begin, memory,
+                          instant)[0]
+    low_left = value - low
+    if abs(low_left) <= LOCAL_TOLERANCE * max(abs(low), abs(value)) + SMALLEST:
+        return value, abs(low_left), SOLVED
+    high, wider = value, low_left
+    for _ in range(ITERATIONS):
+        value = element_force(laws, k, elongation_free + give * high, rate_free + mobile * high, begin, memory_begin,
+                              memory, instant)[0]
+        high_left = value - high
+        if abs(high_left) <= LOCAL_TOLERANCE * max(abs(high), abs(value)) + SMALLEST:
+            return value, abs(high_left), SOLVED
+        if (high_left > 0.0) != (low_left > 0.0):
+            return _narrow(laws, k, elongation_free, rate_free, begin, memory_begin, memory, instant, low, low_left,
+                           high, high_left)
+        low, low_left, wider = high, high_left, 2 * wider
+        high += wider
+    return 0.0, 0.0, UNSETTLED
+
+
+@njit
+def _narrow(laws, k, elongation_free, rate_free, begin, memory_begin, memory, instant, low, low_left, high, high_left):
+    """The same from a bracket ``low`` ... ``high`` with what is left at its ends."""
+    give, mobile, slow = laws.response[0, k, k], laws.response[1, k, k], False
+    smallest = LOCAL_TOLERANCE * max(abs(low), abs(high)) + SMALLEST
+    for _ in range(2 * ITERATIONS):
+        width = abs(high - low)
+        force = high - high_left * (high - low) / (high_left - low_left)
+        if slow or not min(low, high) < force < max(low, high):
+            force = 0.5 * (low + high)
+        value = element_force(laws, k, elongation_free + give * force, rate_free + mobile * force, begin, memory_begin,
+                              memory, instant)[0]
+        left = value - force
+        if abs(left) <= smallest or width <= smallest:
+            return force, width if abs(left) > smallest else abs(left), SOLVED
+        if (left > 0.0) != (high_left > 0.0):
+            low, low_left = high, high_left
+        else:
+            shrink = 1.0 - left / high_left
+            low_left *= shrink if shrink > 0.0 else 0.5
+        high, high_left = force, left
+        slow = abs(high - low) > 0.5 * width
     return 0.0, 0.0, UNSETTLED

@@ -122,9 +122,72 @@ class Turning:
     share: float = 1.0
 
 
+@dataclass(frozen=True)
+class Parametric:
+    """A stiffness that swings: ``stiffness`` N/m times cos(order angle + 2 pi frequency t - phase); Hz, rad."""
+
+    stiffness: float = 0.0
+    order: float = 0.0
+    frequency: float = 0.0
+    phase: float = 0.0
+
+
+@dataclass(frozen=True)
+class Stop:
+    """Stops beyond -lower and upper (m) that push back alone: a spring ``stiffness`` N/m beside a ``damping`` N s/m."""
+
+    stiffness: float = 0.0
+    damping: float = 0.0
+    lower: float = np.inf
+    upper: float = np.inf
+
+
+@dataclass(frozen=True)
+class Presliding:
+    """Friction of bristles: ``force`` N is built up over ``length`` m; ``rise`` more at rest, gone by ``speed`` m/s.
+
+    ``time`` s damps the bristles, ``viscous`` N s/m adds to the force. Dahl's law has none of the last four.
+    """
+
+    force: float
+    length: float
+    rise: float = 0.0
+    speed: float = 1.0
+    time: float = 0.0
+    viscous: float = 0.0
+
+
+@dataclass(frozen=True)
+class RateState:
+    """Rate-and-state friction: ``force`` N at 1e-6 m/s, direct effect, evolution over ``length`` m; ``slip`` law: 1.
+
+    Without ``evolution`` the force follows the logarithm of the speed alone.
+    """
+
+    force: float
+    direct: float
+    evolution: float = 0.0
+    length: float = 1.0
+    slip: float = 0.0
+
+
+@dataclass(frozen=True)
+class Positional:
+    """Dry friction ``force`` N where the elongation is 0, with a relative ``gradient`` per m; ``creep`` m/s at rest."""
+
+    force: float
+    gradient: float
+    creep: float
+
+
 _KIND = {Polynomial: kinds.POLYNOMIAL, Power: kinds.POWER, Sliders: kinds.SLIDERS, Dry: kinds.DRY,
          BoucWen: kinds.BOUC_WEN, Gap: kinds.GAP, Softening: kinds.SOFTENING, Wave: kinds.WAVE, Maxwell: kinds.MAXWELL,
-         Turning: kinds.TURNING}
+         Turning: kinds.TURNING, Parametric: kinds.PARAMETRIC, Stop: kinds.STOP, Presliding: kinds.PRESLIDING,
+         RateState: kinds.RATE_STATE, Positional: kinds.POSITIONAL}
+#: laws whose forces are enclosed, not found by Newton's method
+ENCLOSED = tuple(law for law, kind in _KIND.items() if kind >= kinds.ENCLOSED)
+#: numbers that a law remembers, where they are no forces of sliders or branches
+_REMEMBERS = {Dry: 1, BoucWen: 1, Presliding: 2, RateState: 3}
 
 
 @dataclass(frozen=True)
@@ -206,7 +269,7 @@ def _remembered(law):
         return law.stiffness, law.limit
     if isinstance(law, Maxwell):
         return [*law.stiffness, 0.0], [*law.time, 0.0]
-    return ([0.0], [0.0]) if isinstance(law, Dry | BoucWen) else ([], [])
+    return ([0.0] * _REMEMBERS.get(type(law), 0),) * 2
 
 
 def alone(elements):
@@ -219,7 +282,7 @@ def alone(elements):
 def bears(element):
     """Whether an Element has a force at rest on some elongation, as where a motion starts; dry friction has none."""
     kernel, force = alone((element,)), 0.0
-    if kernel.kind[0] == kinds.DRY:
+    if kernel.kind[0] in kinds.FRICTION:
         return False
     memory = np.zeros(int(kernel.first[-1]))
     for elongation in (-1.0, 1.0):
@@ -228,14 +291,18 @@ def bears(element):
 
 
 #: values that may be infinite: stops that are never reached, friction without an elastic way
-_ENDLESS = {(Gap, "lower"), (Gap, "upper"), (Dry, "stiffness")}
+_ENDLESS = {(Gap, "lower"), (Gap, "upper"), (Stop, "lower"), (Stop, "upper"), (Dry, "stiffness")}
 
 
 def _check(name, law):
     wrong = {Power: lambda p: p.exponent < 1, Dry: lambda p: min(p.forward, p.backward) < 0 or p.stiffness < 0
              or p.decay_speed <= 0 or p.rise <= -1,
              BoucWen: lambda p: p.size <= 0 or p.exponent < 1 or not 0.5 <= p.shape <= 1,
-             Gap: lambda p: p.lower < 0 or p.upper < 0, Softening: lambda p: p.time <= 0,
+             Gap: lambda p: p.lower < 0 or p.upper < 0,
+             Stop: lambda p: min(p.lower, p.upper, p.stiffness, p.damping) < 0,
+             Presliding: lambda p: min(p.force, p.time, p.viscous) < 0 or min(p.length, p.speed) <= 0 or p.rise <= -1,
+             RateState: lambda p: min(p.force, p.evolution) < 0 or min(p.direct, p.length) <= 0,
+             Positional: lambda p: min(p.force, p.creep) < 0, Softening: lambda p: p.time <= 0,
              Maxwell: lambda p: np.shape(p.stiffness) != np.shape(p.time) or np.min(p.time, initial=1) <= 0
              or np.min(p.stiffness, initial=0) < 0,
              Sliders: lambda p: np.shape(p.stiffness) != np.shape(p.limit) or np.min(p.limit, initial=0) < 0}

@@ -7,10 +7,10 @@ never slipped: what is left is the displacement about which a joint is relaxed.
 import numpy as np
 
 from pipeline.physics.time_stepping.coupled_solver import no_memory
-from pipeline.physics.time_stepping.element_forces import DRY, MAXWELL, element_force
+from pipeline.physics.time_stepping.element_forces import FRICTION, MAXWELL, element_force
 
 #: laws that start without a force: relaxing branches, and dry friction, whose elastic way is short
-_FORCELESS = (DRY, MAXWELL)
+_FORCELESS = (*FRICTION, MAXWELL)
 
 
 def loaded(elements, rows, relaxed, displacement, time=0.0, speed=0.0):

@@ -20,7 +20,7 @@ from pipeline.physics.contact.groups import read
 from pipeline.physics.friction.dry_friction import coefficients
 from pipeline.physics.friction.state_variables import factors, started, state_kernel
 from pipeline.physics.time_stepping.coupled_solver import no_memory, surface_shift
-from pipeline.physics.time_stepping.element_forces import DRY, element_force
+from pipeline.physics.time_stepping.element_forces import FRICTION, element_force
 from pipeline.physics.time_stepping.elements import alone, wave_table
 from pipeline.physics.time_stepping.normal_laws import closing
 from pipeline.physics.time_stepping.simulate import Start
@@ -78,7 +78,7 @@ def _drawn(elements, model, displacement):
     memory, none = no_memory(elements), no_memory(elements)
     force, slope = np.zeros((2, len(rows)))
     for k, row in enumerate(rows):
-        if elements.kind[k] != DRY:
+        if elements.kind[k] not in FRICTION:
             force[k], slope[k], _ = element_force(elements, k, float(row @ displacement), 0.0, 0.0, none, memory,
                                                   (0.0, 0.0, model.speed))
     return rows.T @ (force - slope * (rows @ displacement)), (rows.T * slope) @ rows, memory

@@ -5,7 +5,7 @@ import pytest
 from scipy import stats
 
 from pipeline.inference.fitting.least_squares import fit
-from pipeline.inference.priors import HalfNormal, LogNormal, Parameter, Uniform
+from pipeline.inference.priors import Factors, HalfNormal, LogNormal, Parameter, Uniform
 from pipeline.inference.problem import Hypothesis
 from pipeline.inference.search.score_screen import _trials, directions, family_p, largest_scores, screen
 from tests.inference import linear
@@ -113,3 +113,18 @@ def test_angles_are_tried_in_every_quarter():
     tried = np.array([phase.prior.value(latent[1]) for latent, _, _ in _trials(wave, {})])
     away = np.subtract.outer(np.linspace(-np.pi, np.pi, 50), tried)
     assert np.cos(away).max(axis=1).min() >= np.cos(np.pi / 4) - 1e-6
+
+
+def test_of_discrete_values_the_one_that_errs_least_is_screened():
+    whole, noise, _, tables = linear.problem((1, 1), truth={"effect_1_0": 9.0})
+    factor = Parameter("factor", "1", 10.0, Factors((0.1, 10.0, 1e3), 0.01), 0.0)
+
+    def predict(hypothesis, values, run):
+        table = tables[run.name]
+        return (values["nominal_0"] * table["nominal_0"] + values.get("factor", 0.0) * table["effect_1_0"])[None]
+
+    whole = type(whole)(whole.runs, predict, whole.nominal)
+    null = fit(whole, tuple(noise[r.name] for r in whole.training), whole.nominal, np.zeros(1), whole.training)
+    shown = directions(whole, null, Hypothesis("scaled", (("scaled", "here"),), (factor,)))
+    assert len(shown.vectors) == 1 and factor.prior.value(shown.tried[0][0]) == pytest.approx(10.0)
+    assert screen(null, [shown]).p_value[0] < 1e-3

@@ -270,8 +270,8 @@ _PIECES = (
         offset=lambda s, size: size * s.length, drift=lambda s, size: size * (s.shape[0] - 0.5) * s.length / s.time)),
     Hidden("clipping", "channel", _channel(limit=lambda s, size: 2 * s.length / size)),
     Hidden("film_drag", "link", _drag(1.5), known=False),
-    Hidden("parametric_stiffness", "link", _along(_modulated), known=False),
-    Hidden("impact", "mass", _bouncing, known=False),
+    Hidden("parametric_stiffness", "link", _along(_modulated)),
+    Hidden("impact", "mass", _bouncing),
     Hidden("magnetic_softening", "link", _along(_magnet), known=False),
     Hidden("fractional_damping", "link", _branches(
         lambda s: _fractional_weights(0.5), lambda s: _DECADES / s.angular), known=False),

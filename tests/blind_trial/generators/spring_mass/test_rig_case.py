@@ -90,5 +90,5 @@ def test_a_decoy_of_the_solver_is_a_control_whose_step_is_too_long():
 
 
 def test_a_case_is_of_the_class_of_what_it_hides():
-    assert [kind_of(h) for h in ((), ("coulomb",), ("clipping",), ("impact",), ("coulomb", "backlash"))] == [
+    assert [kind_of(h) for h in ((), ("coulomb",), ("clipping",), ("film_drag",), ("coulomb", "backlash"))] == [
         "control", "effect", "sensor", "foreign", "pair"]

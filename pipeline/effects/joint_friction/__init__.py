@@ -1,0 +1,1 @@
+"""Friction laws of joints with states, or that follow the position."""
