@@ -17,7 +17,7 @@ from pipeline.inference.decision.decision_rules import Decision, decide
 from pipeline.inference.decision.weighing import Weighing, weigh
 from pipeline.inference.fitting.calibration import Calibration, recalibrate
 from pipeline.inference.fitting.least_squares import continued, linearised
-from pipeline.inference.fitting.refitting import Refits, refit_catalogue
+from pipeline.inference.fitting.refitting import Refits, refit_catalogue, refit_from
 from pipeline.inference.problem import FanOut, Problem
 from pipeline.inference.rules import DEFAULTS, Rules
 from pipeline.inference.search.score_screen import screen_catalogue
@@ -186,22 +186,24 @@ class Asked:
         *known, last = (self.catalogue[i] for i in members)
         names = tuple(c.name for c in (*known, last))
         tried = next((c for c in selection.tried if set(c.effects) == set(names)), several.Combination(names, 0.0))
-        asked = self.given(known)
+        asked, rules = self.given(known), self.settings.rules.decision
+        index = asked.catalogue.index(last)
         try:
             begin = linearised(asked.problem, single.null.noises, asked.problem.nominal,
                                selection.start(members[:-1]), single.null.runs)
-            refits, _ = asked.steps(continued(asked.problem, begin), single)
-            refits = refits.begun_anew({asked.catalogue.index(last): selection.start(members)})
-            whole = _decided(refits, self.settings, single)
+            calibration = recalibrate(asked.problem, self.budget, self.settings.rules.calibration,
+                                      continued(asked.problem, begin, patient=False))
+            screening = screen_catalogue(calibration, asked.catalogue, self.settings, self.fan_out, True)
+            refits = refit_from(screening, asked.catalogue, {index: selection.start(members)}, self.settings,
+                                self.fan_out)
+            whole = _decided(refits, several_laws.allowing(self.settings, len(members)), single)
+            weighed = next(w for w in whole.weighed if w.candidate.name == last.name)
+            tried = replace(tried, objective=weighed.fit.objective, held_out=weighed.statistics.held_out_error)
+            if whole.decision.verdict not in second_effect.NAMING or weighed not in whole.named:
+                return None, replace(tried, outcome="; ".join(whole.decision.reasons[:2]))
+            reasons = several_laws.unneeded(asked.problem, self.budget, single.null, whole.null, weighed.fit, rules)
         except BrakechainError as error:
             return None, replace(tried, outcome=str(error))
-        weighed = next(w for w in whole.weighed if w.candidate.name == last.name)
-        tried = replace(tried, objective=weighed.fit.objective, held_out=weighed.statistics.held_out_error)
-        if whole.decision.verdict not in second_effect.NAMING or weighed not in whole.named:
-            return None, replace(tried, outcome="; ".join(whole.decision.reasons[:2]))
-        reasons = [why for effect in (e for c in (*known, last) for e in c.effects) for why in several_laws.needed(
-            asked.problem, self.budget, single.null, weighed.fit, effect,
-            self.settings.rules.decision).objections(self.settings.rules.decision)]
         return (None if reasons else whole), replace(tried, outcome="; ".join(reasons) or "named")
 
     def pairs(self, single, seconds):

@@ -31,7 +31,7 @@ LAWS = ("quadratic_stiffness", "cubic_stiffness", "coulomb")
 #: few rivals, for a fast answer
 RIVALS = (*LAWS, "quadratic_damping", "hysteretic_joint", "clearance", "joint_damping", "sensor_gain")
 #: corner of the low pass of displacements, samples left out at the ends, and every so many kept
-EQUATION = {"corner": "25 Hz", "trim": 64, "decimation": 4}
+EQUATION = {"corner": "15 Hz", "trim": 64, "decimation": 4}
 
 
 @dataclass(frozen=True)
@@ -105,7 +105,7 @@ def _noise_of_balance(bench, std):
     """Standard deviation (N) of a balance of noise of ``std`` (m) alone."""
     noise = std * np.random.default_rng(0).standard_normal(round(DURATION * RATE) + 1)
     run = RigRun("noise", DURATION, RATE, {"shaker": np.zeros(len(noise))})
-    return float(equation_residual(bench, run, {"x": noise}, 25.0, decimation=4, trim=64).std())
+    return float(equation_residual(bench, run, {"x": noise}, 15.0, decimation=4, trim=64).std())
 
 
 def answer(diagnosis):

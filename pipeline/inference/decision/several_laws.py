@@ -1,6 +1,6 @@
 """Whether each of several laws is needed beside the others: by evidence, and on runs that were not fitted."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -33,21 +33,42 @@ class Needed:
         return tuple(reasons)
 
 
-def needed(problem, budget, null, whole, effect, rules):
-    """Needed of one ``effect`` (name, place) beside the others of the Fit ``whole``; ``null`` Fit of the nominal model.
+def allowing(settings, laws):
+    """The settings of inference for a set of so many ``laws``: a coefficient takes up the errors of all their laws.
 
-    The others are fitted once more without it. Raises what the forward model raises.
+    It may follow the motion along the runs by as much, and between runs, where one law fades before the others, by
+    more: whether coefficients hold for other runs is asked by leaving runs out (``several``).
     """
-    without = _without(problem, whole, effect)
-    weights = whole.weights
-    with_it, other = evidence(whole, weights), evidence(without, weights)
+    decision = settings.rules.decision
+    varies = max(decision.varies_by, laws * decision.law_error)
+    return replace(settings, rules=replace(settings.rules, decision=replace(
+        decision, varies_by=varies, disagreement=np.inf)))
+
+
+def unneeded(problem, budget, null, without, whole, rules):
+    """Why the laws of the Fit ``whole`` can do without one of them, in words; ``null``: Fit of the nominal model.
+
+    ``without``: the Fit without the last of them; the others are left out one by one and the rest fitted once more.
+    Raises what the forward model raises.
+    """
+    new = whole.hypothesis.effects[len(null.hypothesis.effects):]
+    last = whole.hypothesis.effects[len(without.hypothesis.effects):]
+    fits = {effect: _without(problem, whole, effect) for effect in new if effect not in last}
+    named = {" and ".join(" at ".join(e) for e in last): without, **{" at ".join(e): f for e, f in fits.items()}}
+    return tuple(why for name, fit in named.items()
+                 for why in _needed(problem, budget, name, null, fit, whole, rules).objections(rules))
+
+
+def _needed(problem, budget, name, null, without, whole, rules):
+    """Needed of what the Fit ``whole`` has and the Fit ``without`` has not; ``null`` Fit of the nominal model."""
+    with_it, other = evidence(whole, whole.weights), evidence(without, whole.weights)
     runs, errors = problem.held_out, None
     if runs:
         noises, share = tuple(budget[run.name] for run in runs), rules.start_share
         gained = gain(judged(null.hypothesis, noises, runs, share),
                       *(held_out_residuals(problem, noises, fit, runs, share) for fit in (without, whole)))
         errors = gained.errors_with(with_it.left_out - other.left_out)
-    return Needed(" at ".join(effect), with_it.log_evidence - other.log_evidence,
+    return Needed(name, with_it.log_evidence - other.log_evidence,
                   whole.betters(without) / max(whole.betters(null), 1e-300), errors)
 
 

@@ -73,6 +73,19 @@ def refit_catalogue(screening, catalogue, settings, fan_out):
     return Refits(better, again, results, refitter)
 
 
+def refit_from(screening, catalogue, starts, settings, fan_out):
+    """Refits of the candidates at latent values ``starts`` {index: (k,)} alone, and of what outshines them."""
+    calibration = screening.calibration
+    refitter = Refitter(calibration.problem, calibration.null, tuple(catalogue), settings, fan_out)
+    results = refitter.better({}, starts)
+    fits = {i: r.fit for i, r in results.items() if r.fit is not None}
+    if fits:
+        evidences = evidence_of_all(calibration.null, screening.directions, fits, settings)
+        more = evidences.overlooked(settings.rules.decision)[:settings.kept]
+        results = refitter.of(more, screening.screen.start, results)
+    return Refits(calibration, screening.directions, results, refitter)
+
+
 @dataclass(frozen=True)
 class Refitter:
     """Fits candidates of a ``catalogue`` (Hypothesis, ...) beside the Fit ``null`` of the nominal hypothesis.
