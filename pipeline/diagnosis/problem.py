@@ -5,8 +5,8 @@ from dataclasses import dataclass
 from typing import Any, Protocol
 
 from pipeline.inference.problem import Hypothesis, Problem
-from pipeline.inference.several import Motions
 from pipeline.inference.procedure import Diagnosis, Settings, diagnose
+from pipeline.inference.several import Motions
 
 
 class Locator(Protocol):

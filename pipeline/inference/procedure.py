@@ -17,7 +17,7 @@ from pipeline.inference.decision.decision_rules import Decision, decide
 from pipeline.inference.decision.weighing import Weighing, weigh
 from pipeline.inference.fitting.calibration import Calibration, recalibrate
 from pipeline.inference.fitting.least_squares import continued, linearised
-from pipeline.inference.fitting.refitting import Refits, refit_catalogue, refit_from
+from pipeline.inference.fitting.refitting import NOT_BEGUN, Refits, refit_catalogue, refit_from
 from pipeline.inference.problem import FanOut, Problem
 from pipeline.inference.rules import DEFAULTS, Rules
 from pipeline.inference.search.score_screen import screen_catalogue
@@ -44,7 +44,8 @@ class Diagnosis:
 
     ``base``: the Diagnosis that came before a pair, whose nominal hypothesis takes the first effect as known, or before
     a set of several, which takes all but one as known; ``refits``: what was weighed. ``further``: what was tried beside
-    the leading effect and did not matter, if anything. ``combinations``: the several Combinations that were tried.
+    the leading effect and did not matter, if anything. ``combinations``: the several Combinations that were tried;
+    ``laws``: how many were fitted as one set.
     """
 
     calibration: Calibration
@@ -54,6 +55,7 @@ class Diagnosis:
     refits: Refits | None = None
     further: Optional["Diagnosis"] = None
     combinations: tuple = ()
+    laws: int = 1
 
     @property
     def nominal(self):
@@ -196,8 +198,10 @@ class Asked:
             screening = screen_catalogue(calibration, asked.catalogue, self.settings, self.fan_out, True)
             refits = refit_from(screening, asked.catalogue, {index: selection.start(members)}, self.settings,
                                 self.fan_out)
-            whole = _decided(refits, several_laws.allowing(self.settings, len(members)), single)
-            weighed = next(w for w in whole.weighed if w.candidate.name == last.name)
+            whole = _decided(refits, self.settings, single, len(members))
+            weighed = next((w for w in whole.weighed if w.candidate.name == last.name), None)
+            if weighed is None:
+                return None, replace(tried, outcome=refits.results.get(index, NOT_BEGUN).failure)
             tried = replace(tried, objective=weighed.fit.objective, held_out=weighed.statistics.held_out_error)
             if whole.decision.verdict not in second_effect.NAMING or weighed not in whole.named:
                 return None, replace(tried, outcome="; ".join(whole.decision.reasons[:2]))
@@ -239,15 +243,25 @@ def _explained(single):
     return single.named[0].fit.betters(single.null)
 
 
-def _decided(refits, settings, base):
-    """Diagnosis of Refits: weighing and decision. ConvergenceError where nothing is missing but nothing converged."""
-    weighing = weigh(refits, settings)
-    decision = decide(weighing.runs, [w.statistics for w in weighing.weighed], settings.rules.decision)
+def _decided(refits, settings, base, laws=1):
+    """Diagnosis of Refits, the last of so many ``laws``. ConvergenceError where nothing is missing but nothing
+    converged."""
+    weighing, decision = _weighed(refits, settings, base and base.null, laws)
     null = refits.calibration.null
     if not null.converged and decision.verdict in ("consistent", "parameters"):
         raise ConvergenceError(f"calibration of {null.hypothesis.name}", "a fit that converges",
                                f"none after {null.evaluations} predictions", "check the nominal values and priors")
-    return Diagnosis(refits.calibration, weighing, decision, base, refits)
+    return Diagnosis(refits.calibration, weighing, decision, base, refits, laws=laws)
+
+
+def _weighed(refits, settings, null, laws):
+    """(Weighing, Decision) of Refits; of a set of ``laws`` together, as it stands beside the Fit ``null``."""
+    if laws > 1:
+        settings = several_laws.allowing(settings, laws)
+    weighing, calibration = weigh(refits, settings), refits.calibration
+    if laws > 1:
+        weighing = several_laws.against(null, calibration.problem, calibration.budget, weighing, settings.rules)
+    return weighing, decide(weighing.runs, [w.statistics for w in weighing.weighed], settings.rules.decision)
 
 
 @dataclass(frozen=True)
@@ -265,8 +279,8 @@ def over_noise(diagnosis, settings, factors):
     """
     told = []
     for factor in factors:
-        weighing = weigh(diagnosis.refits.at_noise(factor), settings)
-        decision = decide(weighing.runs, [w.statistics for w in weighing.weighed], settings.rules.decision)
+        _, decision = _weighed(diagnosis.refits.at_noise(factor), settings, diagnosis.recalibrated.at_noise(factor),
+                               diagnosis.laws)
         told.append(VerdictAtNoise(float(factor), decision.verdict, tuple(c.name for c in decision.named)))
     return told
 

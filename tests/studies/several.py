@@ -110,8 +110,9 @@ def _noise_of_balance(bench, std):
 
 def answer(diagnosis):
     """(verdict, names of the effects that are said to be there) of a Diagnosis."""
-    names = [effect for effect, _ in diagnosis.nominal.effects]
-    return diagnosis.decision.verdict, tuple(sorted({*names, *(c.name.split(" at ")[0] for c in diagnosis.decision.named)}))
+    known = {effect for effect, _ in diagnosis.nominal.effects}
+    named = {c.name.split(" at ")[0] for c in diagnosis.decision.named}
+    return diagnosis.decision.verdict, tuple(sorted(known | named))
 
 
 def plans(draws):
@@ -135,8 +136,10 @@ def main():
         solved = given.solved()
         verdict, names = answer(solved)
         right.setdefault(laws, []).append((verdict, names) == ("missing", tuple(sorted(laws))))
-        print(f"{' + '.join(laws)}, draw {seed}: {verdict} {' + '.join(names)}, {time.process_time() - begin:.1f} CPU s",
-              *(f"    {reason}" for reason in solved.decision.reasons[:4] if not right[laws][-1]), sep="\n", flush=True)
+        taken = time.process_time() - begin
+        print(f"{' + '.join(laws)}, draw {seed}: {verdict} {' + '.join(names)}, {taken:.1f} CPU s", flush=True)
+        if not right[laws][-1]:
+            print(*(f"    {c}" for c in solved.combinations if c.outcome), sep="\n", flush=True)
     for laws, hits in right.items():
         print(f"{' + '.join(laws)}: {sum(hits)} of {len(hits)} named, all and nothing else")
 

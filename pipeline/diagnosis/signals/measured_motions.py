@@ -48,7 +48,7 @@ class AlongMotions:
         return self._shown(bench, begins, run, self._forces(bench, run))
 
     def law_errors(self, hypothesis, values, run, effects):
-        """[(c, n)] what channels show of ``shapes`` of the force of ``effects`` ((name, place), ...) of a hypothesis."""
+        """[(c, n)] what channels show of ``shapes`` of the force of ``effects`` ((name, place), ...)."""
         others = tuple(pair for pair in hypothesis.effects if pair not in effects)
         force = self._forces(completed(self.bench, hypothesis, values), run) - self._forces(
             completed(self.bench, replace(hypothesis, effects=others), values), run)
@@ -112,7 +112,8 @@ def motion(bench, run, observed, noise):
     model = replace(bench.model, sensor_name=tuple(map(str, range(bench.model.size))),
                     sensor_rows=np.eye(bench.model.size))
     names = model.sensor_name
-    simulated = shown(replace(bench, model=model, channels=tuple(Sensor(n, DISPLACEMENT, n) for n in names)), run, names)
+    sensors = tuple(Sensor(name, DISPLACEMENT, name) for name in names)
+    simulated = shown(replace(bench, model=model, channels=sensors), run, names)
     residual = np.where(observed.valid, observed.samples - shown(bench, run, observed.channels), 0.0)[seen]
     gain = np.array([c.gain for c in _moving(bench, observed.channels)])
     corrected = np.array([_corrected(r / g, s / abs(g), o, run.sample_rate) for r, g, s, o in zip(

@@ -4,6 +4,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from pipeline.inference.decision.candidate_statistics import held_out_gains, unexplained
 from pipeline.inference.decision.evidence import evidence
 from pipeline.inference.decision.held_out import gain, held_out_residuals, judged
 from pipeline.inference.fitting.least_squares import continued, linearised
@@ -26,8 +27,8 @@ class Needed:
         if self.evidence_gain < rules.evidence_gain:
             reasons.append(f"{self.name} adds an evidence of {self.evidence_gain:.1f} nat")
         if self.share < rules.second_share:
-            reasons.append(f"{self.name} gives {self.share:.2%} of what the laws explain together, which an error of the"
-                           " others may be")
+            reasons.append(f"{self.name} gives {self.share:.2%} of what the laws explain together, which an error of"
+                           " the others may be")
         if self.errors is not None and self.errors < rules.gain_errors:
             reasons.append(f"the gain by {self.name} on runs that were not fitted is {self.errors:.1f} standard errors")
         return tuple(reasons)
@@ -43,6 +44,27 @@ def allowing(settings, laws):
     varies = max(decision.varies_by, laws * decision.law_error)
     return replace(settings, rules=replace(settings.rules, decision=replace(
         decision, varies_by=varies, disagreement=np.inf)))
+
+
+def against(null, problem, budget, weighing, rules):
+    """The Weighing of the last law of a set with what each candidate leaves of the error of the nominal model alone.
+
+    ``null``: the Fit of that. What a small law leaves beside the large ones is small, though much of its own.
+    """
+    fits = {k: w.fit for k, w in enumerate(weighing.weighed)}
+    gains = held_out_gains(problem, budget, null, fits, np.ones(len(fits)), rules)
+    uncertainty = rules.decision.noise_uncertainty
+
+    def of_all(k, weighed):
+        gained, statistics = gains[k][0], weighed.statistics
+        statistics = replace(statistics, unexplained=unexplained(null, weighed.fit, rules))
+        if gained is not None and gained.powered(uncertainty):
+            left = gained.left(uncertainty)
+            statistics = replace(statistics, powered=True, held_out_left=left, takes=max(gained.share, 0.0), stays=left,
+                                 held_out_share=gained.share_at_most)
+        return replace(weighed, statistics=statistics)
+
+    return replace(weighing, weighed=tuple(of_all(k, w) for k, w in enumerate(weighing.weighed)))
 
 
 def unneeded(problem, budget, null, without, whole, rules):

@@ -30,6 +30,10 @@ class Refitted(NamedTuple):
     failure: str
 
 
+#: of a candidate that could not even begin
+NOT_BEGUN = Refitted(None, None, "its fit could not begin")
+
+
 @dataclass(frozen=True)
 class Refits:
     """Third step: ``results`` {index: Refitted} of candidates, beside the Calibration as their optima improved it.

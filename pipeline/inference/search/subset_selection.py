@@ -94,7 +94,7 @@ def table(null, every):
 
 
 def best_subsets(of, most=MOST, count=8):
-    """[Subset], best first: the best ``count`` by candidates, of all subsets up to ``most`` directions, one a candidate.
+    """[Subset], best first: the best ``count`` sets of up to ``most`` candidates, by one direction each.
 
     Pairs of all directions are compared; larger ones are drawn from those of the best pairs.
     """

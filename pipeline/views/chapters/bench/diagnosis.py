@@ -49,7 +49,7 @@ def chapter(product, look):
                                answers["Measure next"]))),
         tuple(_figures(product)), tuple(filter(None, (
             _errors(product), _with_force(product), *squeal_tables(product), _parameters(product), _starts(product),
-            _hypotheses(product), _location(product), _thresholds(product)))),
+            _hypotheses(product), _combinations(product), _location(product), _thresholds(product)))),
         tuple(_notes(product)))
 
 
@@ -379,10 +379,25 @@ def _hypotheses(product):
     order = np.argsort(-product.posterior, kind="stable")
     rows = tuple((_words(product.hypothesis[k]), str(product.kind[k]), percent(product.posterior[k], 3),
                   number(product.score[k], 3), number(product.p_value[k], 2), number(product.power[k], 3),
-                  number(product.evidence_gain[k], 3) if product.refitted[k] else "—", _words(product.objection[k]))
-                 for k in order)
-    head = ("hypothesis", "kind", "probability", "score", "family-wise p", "detectability", "ln evidence", "objection")
-    return Table(head, rows, "All hypotheses considered", (2, 3, 4, 5, 6), (7,), folded=len(rows) > ROWS)
+                  number(product.evidence_gain[k], 3) if product.refitted[k] else "—",
+                  _error(product.held_out_error[k]), _words(product.objection[k])) for k in order)
+    head = ("hypothesis", "kind", "probability", "score", "family-wise p", "detectability", "ln evidence",
+            "held-out error in noise floors", "objection")
+    return Table(head, rows, "All hypotheses considered", (2, 3, 4, 5, 6, 7), (8,), folded=len(rows) > ROWS)
+
+
+def _combinations(product):
+    rows = tuple((_words(product.combination[k]), number(product.combination_gain[k], 3),
+                  number(product.combination_objective[k], 3) if product.combination_refitted[k] else "—",
+                  _error(product.combination_held_out[k]), _words(product.combination_outcome[k]))
+                 for k in range(len(product.combination)))
+    head = ("effects together", "ln evidence", "objective", "held-out error in noise floors", "outcome")
+    return Table(head, rows, "Combinations of effects that were tried", (1, 2, 3), (4,), folded=True) if rows else None
+
+
+def _error(floors):
+    """An error in noise floors; a dash where it is not known."""
+    return number(floors, 3) if floors else "—"
 
 
 def _location(product):
