@@ -15,7 +15,7 @@ READY  := .venv/.ready
 BIN    := .venv/bin
 
 .DEFAULT_GOAL := help
-.PHONY: help setup run test coverage test-kernels test-slow test-study bench trial trial_sealed trial_again study_diagnosis study_squeal study_lines study_knock_out pin_bench worn_bench lint clean $(STAGES)
+.PHONY: help setup run test coverage test-kernels test-slow test-study bench trial trial_sealed trial_again study_diagnosis study_squeal study_lines study_knock_out study_several pin_bench worn_bench lint clean $(STAGES)
 
 help:            ## show this list
 	@echo "usage: make TARGET [CASE=disc_brake] [ARGS=...]      cases: $(basename $(notdir $(wildcard configs/*.yaml)))"
@@ -86,6 +86,9 @@ study_lines: $(READY)  ## whether a disc flexible in the loop is named from line
 
 study_knock_out: $(READY)  ## whether physics that the catalogue lacks is taken for a known law; resumes case by case
 	$(BIN)/python -m tests.studies.knock_out $(ARGS)
+
+study_several: $(READY)  ## joints with one to three laws at once, by simulation or (--equation) the equation of motion
+	$(BIN)/python -m tests.studies.several $(ARGS)
 
 pin_bench: $(READY)  ## write the practice recordings of configs/pin_on_disc_bench.yaml to data/runs/practice
 	$(BIN)/python -m tests.studies.self_excited --practice

@@ -205,7 +205,8 @@ class Asked:
             tried = replace(tried, objective=weighed.fit.objective, held_out=weighed.statistics.held_out_error)
             if whole.decision.verdict not in second_effect.NAMING or weighed not in whole.named:
                 return None, replace(tried, outcome="; ".join(whole.decision.reasons[:2]))
-            reasons = several_laws.unneeded(asked.problem, self.budget, single.null, whole.null, weighed.fit, rules)
+            reasons = several_laws.unneeded(asked.problem, self.budget, single.null, whole.null, weighed.fit,
+                                            (*known, last), rules)
         except BrakechainError as error:
             return None, replace(tried, outcome=str(error))
         return (None if reasons else whole), replace(tried, outcome="; ".join(reasons) or "named")

@@ -29,7 +29,11 @@ _ALONG = "force along coordinate {}"
 #: share of its largest size at which the logarithm of a force ends
 _FAINT = 1e-3
 #: neighbouring frequencies over which the density of a residual is averaged before noise is taken off
-_NEIGHBOURS = 15
+_NEIGHBOURS = 45
+#: samples of the line that tells where a residual begins and ends
+_FIRST = 24
+#: density over that of noise up to whose highest frequency a residual counts
+_LOUD = 4.0
 #: smallest share of the largest singular value at which rows of channels give all coordinates
 _SMALLEST_SHARE = 1e-9
 
@@ -142,14 +146,23 @@ def _corrected(residual, std, order, rate):
     Wiener's filter on the residual continued to both sides, point by point mirrored about its ends.
     """
     count = len(residual)
-    whole = np.concatenate((2 * residual[0] - residual[:0:-1], residual, 2 * residual[-1] - residual[-2::-1]))
+    first, last = _end(residual), _end(residual[::-1])
+    whole = np.concatenate((2 * first - residual[:0:-1], residual, 2 * last - residual[-2::-1]))
     spectrum, frequency = np.fft.rfft(whole), np.fft.rfftfreq(len(whole), 1 / rate)
     power = scipy.ndimage.uniform_filter1d(np.abs(spectrum) ** 2, _NEIGHBOURS)
-    spectrum *= np.maximum(1 - len(whole) * std**2 / np.maximum(power, 1e-300), 0.0)
+    noise = len(whole) * std**2
+    spectrum *= np.maximum(1 - noise / np.maximum(power, 1e-300), 0.0)
+    spectrum[np.max(np.flatnonzero(power > _LOUD * noise), initial=-1) + 1:] = 0.0
     if order:
         spectrum[0] = 0.0
         spectrum[1:] /= (2j * np.pi * frequency[1:]) ** order
     return np.fft.irfft(spectrum, len(whole))[count - 1:2 * count - 1]
+
+
+def _end(series):
+    """Where a series begins: the straight line through its first few samples."""
+    few = series[:_FIRST]
+    return np.polynomial.polynomial.polyfit(np.arange(len(few)), few, 1)[0]
 
 
 def _rows(bench, channels):

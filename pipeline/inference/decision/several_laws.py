@@ -8,7 +8,6 @@ from pipeline.inference.decision.candidate_statistics import held_out_gains, une
 from pipeline.inference.decision.evidence import evidence
 from pipeline.inference.decision.held_out import gain, held_out_residuals, judged
 from pipeline.inference.fitting.least_squares import continued, linearised
-from pipeline.inference.problem import Hypothesis
 
 
 @dataclass(frozen=True)
@@ -67,17 +66,16 @@ def against(null, problem, budget, weighing, rules):
     return replace(weighing, weighed=tuple(of_all(k, w) for k, w in enumerate(weighing.weighed)))
 
 
-def unneeded(problem, budget, null, without, whole, rules):
-    """Why the laws of the Fit ``whole`` can do without one of them, in words; ``null``: Fit of the nominal model.
+def unneeded(problem, budget, null, without, whole, members, rules):
+    """Why ``members`` (Hypotheses), fitted together as the Fit ``whole``, can do without one of them, in words.
 
-    ``without``: the Fit without the last of them; the others are left out one by one and the rest fitted once more.
-    Raises what the forward model raises.
+    ``null``: Fit of the nominal model alone; ``without``: that without the last member. The others are left out one by
+    one and the rest fitted once more. Raises what the forward model raises.
     """
-    new = whole.hypothesis.effects[len(null.hypothesis.effects):]
-    last = whole.hypothesis.effects[len(without.hypothesis.effects):]
-    fits = {effect: _without(problem, whole, effect) for effect in new if effect not in last}
-    named = {" and ".join(" at ".join(e) for e in last): without, **{" at ".join(e): f for e, f in fits.items()}}
-    return tuple(why for name, fit in named.items()
+    *others, last = members
+    fits = [(member.name, _without(problem, whole, null.hypothesis, [m for m in members if m is not member]))
+            for member in others]
+    return tuple(why for name, fit in (*fits, (last.name, without))
                  for why in _needed(problem, budget, name, null, fit, whole, rules).objections(rules))
 
 
@@ -94,12 +92,12 @@ def _needed(problem, budget, name, null, without, whole, rules):
                   whole.betters(without) / max(whole.betters(null), 1e-300), errors)
 
 
-def _without(problem, whole, effect):
-    """Fit of the hypothesis of the Fit ``whole`` without one ``effect``, from the values that it has there."""
-    hypothesis, prefix = whole.hypothesis, f"{'@'.join(effect)}."
-    kept = np.array([not p.name.startswith(prefix) for p in hypothesis.parameters])
-    effects = tuple(pair for pair in hypothesis.effects if pair != effect)
-    less = Hypothesis(" + ".join(" at ".join(pair) for pair in effects), effects,
-                      tuple(p for p, k in zip(hypothesis.parameters, kept, strict=True) if k))
-    begin = linearised(problem, whole.noises, less, whole.latent[kept], whole.runs)
+def _without(problem, whole, nominal, members):
+    """Fit of the Hypothesis ``nominal`` with ``members`` alone, from the values that they have in the Fit ``whole``."""
+    hypothesis = nominal
+    for member in members:
+        hypothesis = hypothesis.joined(member)
+    names = {p.name for p in hypothesis.parameters}
+    kept = np.array([p.name in names for p in whole.hypothesis.parameters])
+    begin = linearised(problem, whole.noises, hypothesis, whole.latent[kept], whole.runs)
     return continued(problem, begin, patient=False)

@@ -12,9 +12,9 @@ Gaussian case); the last term pays for the number of subsets of that size among 
 
 from dataclasses import dataclass
 from itertools import combinations
+from math import comb, log
 
 import numpy as np
-from scipy.special import gammaln
 
 from pipeline.inference.fitting.effective_sample_size import tempering
 from pipeline.inference.fitting.least_squares import from_prior_mean, orthogonal
@@ -73,7 +73,7 @@ class Subset:
 
 def multiplicity(count, size):
     """ln of the number of sets of this ``size`` among ``count`` candidates."""
-    return float(gammaln(count + 1) - gammaln(size + 1) - gammaln(count - size + 1))
+    return log(comb(count, size))
 
 
 def table(null, every):
