@@ -4,7 +4,7 @@ Nothing is simulated, so that no solver can be wrong and no start state is neede
 every coordinate.
 """
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from pipeline.case_models.force_balance import balance, begun, channel_names, refuse_unforced
 from pipeline.diagnosis.experiment_design.next_motion import planned_motions
@@ -15,6 +15,7 @@ from pipeline.diagnosis.settings import procedure
 from pipeline.diagnosis.signals.balance_residual import BalanceAxes, DescribeBalance
 from pipeline.diagnosis.signals.forward_model import candidates, completed, observed, reach
 from pipeline.diagnosis.signals.localisation import Axes
+from pipeline.diagnosis.signals.measured_motions import shapes
 from pipeline.inference.fitting.noise import budget
 from pipeline.inference.problem import Problem
 
@@ -33,6 +34,16 @@ class Balanced:
     def __call__(self, hypothesis, values, run):
         bench = altered(completed(self.bench, hypothesis, values), self.altered.get(run.name, {}))
         return self.balances[run.name].predicted(bench)
+
+    def along(self, null):
+        """The Problem of the runs of a Fit ``null``: all its forces are along measured motions."""
+        return Problem(null.runs, self, null.hypothesis)
+
+    def law_errors(self, hypothesis, values, run, effects):
+        """[(n, m)] ``shapes`` of the forces of ``effects`` ((name, place), ...) of a hypothesis."""
+        others = tuple(pair for pair in hypothesis.effects if pair not in effects)
+        with_them, without = (self(h, values, run) for h in (hypothesis, replace(hypothesis, effects=others)))
+        return shapes(with_them - without, self.balances[run.name].left(self.bench)[1])
 
 
 def force_balance_problem(bench, recorded, settings, equation):
@@ -62,4 +73,4 @@ def force_balance_problem(bench, recorded, settings, equation):
         BalanceAxes(channel_names(bench), Axes.under(problem, noises, solver)),
         DescribeBalance(bench, balances, problem, noises, solver.rules, seed=settings.seed),
         settings.latent_force.predict, next_runs=tuple(observed(p.shown.seen) for p in planned),
-        noise_levels=settings.noise.levels)
+        noise_levels=settings.noise.levels, motions=forward)

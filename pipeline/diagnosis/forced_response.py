@@ -20,6 +20,7 @@ from pipeline.diagnosis.signals.forward_model import (
 )
 from pipeline.diagnosis.signals.latent_force import Describe
 from pipeline.diagnosis.signals.localisation import Axes, ForcedAxes
+from pipeline.diagnosis.signals.measured_motions import MeasuredMotions, measured
 from pipeline.diagnosis.signals.start_states import with_starts
 from pipeline.effects import CATALOGUE
 from pipeline.inference.fitting.noise import budget
@@ -49,7 +50,9 @@ def forced_problem(bench, recorded, settings):
         (*effects, *([solver_candidate()] if settings.solver else [])), units, solver,
         ForcedAxes(bench, runs, Axes.under(problem, noises, solver)),
         Describe(bench, runs, problem, noises, solver.rules, seed=settings.seed), settings.latent_force.predict,
-        next_runs=tuple(f.observed for f in planned), noise_levels=settings.noise.levels)
+        next_runs=tuple(f.observed for f in planned), noise_levels=settings.noise.levels,
+        motions=MeasuredMotions(bench, runs, noises) if all(
+            measured(bench, o.channels) for o in observations) else None)
 
 
 def stated_noise(settings, units):

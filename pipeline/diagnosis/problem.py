@@ -6,6 +6,7 @@ from typing import Any, Protocol
 
 from pipeline.inference.problem import Hypothesis, Problem
 from pipeline.inference.procedure import Diagnosis, Settings, diagnose
+from pipeline.inference.several import Motions
 
 
 class Locator(Protocol):
@@ -52,6 +53,7 @@ class DiagnosisProblem:
     ``units`` {channel: SI unit}. ``latent`` describes a missing force, which predicts held-out runs where
     ``predicts_with_force``. ``next_runs`` (Observed, whose samples do not count): what could be recorded next, named by
     what is changed, each with its budget. ``noise_levels``: multiples of the noise at which the verdict is told too.
+    ``motions``: measured ones of all coordinates, along which several laws are selected.
     """
 
     problem: Problem
@@ -66,6 +68,7 @@ class DiagnosisProblem:
     revision: Revision | None = None
     next_runs: tuple = ()
     noise_levels: tuple = ()
+    motions: Motions | None = None
 
     @property
     def rules(self):
@@ -73,7 +76,7 @@ class DiagnosisProblem:
 
     def solved(self, fan_out=map):
         """Diagnosis by the five steps of inference."""
-        return diagnose(self.problem, self.budget, self.candidates, self.settings, fan_out)
+        return diagnose(self.problem, self.budget, self.candidates, self.settings, fan_out, self.motions)
 
 
 def parameter_name(effect, location, parameter):

@@ -1,4 +1,4 @@
-"""A diagnosis in five steps: calibration, screening, refits, weighing, decision; pairs by greedy addition.
+"""A diagnosis in five steps: calibration, screening, refits, weighing, decision; several laws at once, else in pairs.
 
 Where the nominal model does not reach the noise, its linearisation may rank nothing: there every candidate begins its
 fit unless one of the first few explains enough, and the best few go on. What else could move as the best one does is
@@ -11,12 +11,15 @@ that lacks physics may have no smooth optimum at all: then a candidate counts on
 from dataclasses import dataclass, replace
 from typing import Optional
 
-from pipeline.contract.errors import ConvergenceError
-from pipeline.inference.decision import second_effect
+from pipeline.contract.errors import BrakechainError, ConvergenceError
+from pipeline.inference import several
+from pipeline.inference.decision import second_effect, several_laws
 from pipeline.inference.decision.decision_rules import Decision, decide
 from pipeline.inference.decision.weighing import Weighing, weigh
 from pipeline.inference.fitting.calibration import Calibration, recalibrate
-from pipeline.inference.fitting.refitting import Refits, refit_catalogue
+from pipeline.inference.fitting.least_squares import continued, linearised
+from pipeline.inference.fitting.refitting import NOT_BEGUN, Refits, refit_catalogue, refit_from
+from pipeline.inference.problem import FanOut, Problem
 from pipeline.inference.rules import DEFAULTS, Rules
 from pipeline.inference.search.score_screen import screen_catalogue
 
@@ -40,8 +43,10 @@ class Settings:
 class Diagnosis:
     """What the steps came to: the ``calibration``, the ``weighing`` of a screened and refitted catalogue, the decision.
 
-    ``base``: the Diagnosis that came before a pair, whose nominal hypothesis takes the first effect as known;
-    ``refits``: what was weighed. ``further``: what was tried beside the leading effect and did not matter, if anything.
+    ``base``: the Diagnosis that came before a pair, whose nominal hypothesis takes the first effect as known, or before
+    a set of several, which takes all but one as known; ``refits``: what was weighed. ``further``: what was tried beside
+    the leading effect and did not matter, if anything. ``combinations``: the several Combinations that were tried;
+    ``laws``: how many were fitted as one set.
     """
 
     calibration: Calibration
@@ -50,6 +55,8 @@ class Diagnosis:
     base: Optional["Diagnosis"] = None
     refits: Refits | None = None
     further: Optional["Diagnosis"] = None
+    combinations: tuple = ()
+    laws: int = 1
 
     @property
     def nominal(self):
@@ -101,44 +108,147 @@ class Diagnosis:
         return next((w.fit for name in names for w in self.weighed if w.candidate.name == name), self.null)
 
 
-def diagnose(problem, budget, catalogue, settings=None, fan_out=map):
+def diagnose(problem, budget, catalogue, settings=None, fan_out=map, motions=None):
     """Diagnosis of a Problem with {run: Noise} ``budget`` over a ``catalogue`` of Hypotheses (effects alone).
 
-    ``fan_out(function, items)`` maps as the builtin does. Where one effect is not enough, pairs with each of the
-    leading ones that can be fitted are tried by the same rules, the first taken as known; a second effect has to
-    explain more than the law of the first can be wrong by (see ``second_effect``). Raises ConvergenceError where the
-    nominal model has no fit.
+    ``fan_out(function, items)`` maps as the builtin does. Where one effect is not enough, the set of laws that the
+    equation of motion asks for along ``motions`` (Motions, where all are measured) is fitted together; what these do
+    not show is tried in pairs with each of the leading effects by the same rules, the first taken as known. A further
+    effect has to explain more than the laws of the others can be wrong by (``several``, ``second_effect``). Raises
+    ConvergenceError where the nominal model has no fit.
     """
     settings = settings or Settings()
-    _, single = _steps(problem, budget, catalogue, settings, fan_out)
+    asked = Asked(problem, budget, tuple(sorted(catalogue, key=lambda c: c.elaborate)), settings, fan_out)
+    _, single = asked.steps()
     if len(problem.runs) > 1 and single.decision.verdict in ("unknown", "missing"):
-        for first in second_effect.leading(single, settings.rules):
-            pair, matters = _pair(problem, budget, catalogue, settings, fan_out, single, first)
-            if matters:
-                return pair
-            if first in single.named:
-                single = replace(single, further=pair)
+        single = asked.along(single, motions) if motions else asked.by_the_screen(asked.pairs(single, asked.catalogue))
     if settings.tied_seconds and single.decision.verdict == "unknown":
         return _tied_pair(problem, budget, catalogue, settings, fan_out, single)
     return single
 
 
-def _steps(problem, budget, catalogue, settings, fan_out, start=None, base=None):
-    """(Refits, Diagnosis) of the five steps; the nominal model is fitted from the Fit ``start``, if there is one."""
-    calibration = recalibrate(problem, budget, settings.rules.calibration, start)
-    simple = tuple(c for c in catalogue if not c.elaborate)
-    screening = screen_catalogue(calibration, simple, settings, fan_out, base is not None)
-    refits = refit_catalogue(screening, simple, settings, fan_out)
-    decided = _decided(refits, settings, base)
-    if len(simple) == len(catalogue) or _explained(decided, settings.rules):
-        return refits, decided
-    every = (*simple, *(c for c in catalogue if c.elaborate))
-    screening = screen_catalogue(refits.calibration, every, settings, fan_out, base is not None, refits.directions)
-    refits = refit_catalogue(screening, every, settings, fan_out, refits.results)
-    return refits, _decided(refits, settings, base)
+@dataclass(frozen=True)
+class Asked:
+    """What ``diagnose`` was asked; elaborate candidates come last in the ``catalogue``."""
+
+    problem: Problem
+    budget: dict
+    catalogue: tuple
+    settings: Settings
+    fan_out: FanOut
+
+    def steps(self, start=None, base=None):
+        """(Refits, Diagnosis) of the five steps; the nominal model is fitted from the Fit ``start``, if there is one.
+        """
+        settings, fan_out = self.settings, self.fan_out
+        calibration = recalibrate(self.problem, self.budget, settings.rules.calibration, start)
+        simple = self.catalogue[:sum(not c.elaborate for c in self.catalogue)]
+        screening = screen_catalogue(calibration, simple, settings, fan_out, base is not None)
+        refits = refit_catalogue(screening, simple, settings, fan_out)
+        decided = _decided(refits, settings, base)
+        if len(simple) == len(self.catalogue) or _reaches_noise(decided, settings.rules):
+            return refits, decided
+        screening = screen_catalogue(refits.calibration, self.catalogue, settings, fan_out, base is not None,
+                                     refits.directions)
+        refits = refit_catalogue(screening, self.catalogue, settings, fan_out, refits.results)
+        return refits, _decided(refits, settings, base)
+
+    def given(self, known):
+        """The same with Hypotheses ``known`` taken as known."""
+        problem, rest = self.problem, tuple(c for c in self.catalogue if c.name not in [k.name for k in known])
+        for candidate in known:
+            problem = problem.given(candidate)
+        return replace(self, problem=problem, catalogue=rest)
+
+    def along(self, single, motions):
+        """The Diagnosis of several laws, selected along Motions, or ``single``; what motions do not show in pairs."""
+        rules = self.settings.rules
+        if single.named and not second_effect.has_room(single.named[0].fit, _explained(single), rules):
+            return single
+        selection = several.along_motions(single.null, self.catalogue, motions, rules.decision, self.fan_out)
+        if selection is None:
+            return self.pairs(single, self.catalogue)
+        best = self.together(single, selection)
+        unseen = tuple(c for i, c in enumerate(self.catalogue) if i not in selection.judged)
+        return self.pairs(best, unseen) if best.base is None and unseen else best
+
+    def by_the_screen(self, single):
+        """The Diagnosis of several laws that explain only together by the screen of ``single``, else that."""
+        if single.base is not None or single.decision.verdict != "unknown":
+            return single
+        every = single.refits.directions
+        return self.together(single, several.linearised_about(single.null, every, self.catalogue,
+                                                              self.settings.rules.decision))
+
+    def together(self, single, selection):
+        """The Diagnosis of the largest set of a Selection all of whose members are named; else ``single``, which tells
+        what was tried."""
+        members, tried = selection.members, selection.tried
+        while len(members) > 1:
+            whole, combination = self._set(single, selection, members)
+            tried = (combination, *(c for c in tried if set(c.effects) != set(combination.effects)))
+            if whole is not None:
+                return replace(whole, combinations=tried)
+            members = members[:-1]
+        return replace(single, combinations=tried)
+
+    def _set(self, single, selection, members):
+        """(Diagnosis that names the last of ``members`` beside the others or None, Combination: what became of it)."""
+        *known, last = (self.catalogue[i] for i in members)
+        names = tuple(c.name for c in (*known, last))
+        tried = next((c for c in selection.tried if set(c.effects) == set(names)), several.Combination(names, 0.0))
+        asked, rules = self.given(known), self.settings.rules.decision
+        index = asked.catalogue.index(last)
+        try:
+            begin = linearised(asked.problem, single.null.noises, asked.problem.nominal,
+                               selection.start(members[:-1]), single.null.runs)
+            calibration = recalibrate(asked.problem, self.budget, self.settings.rules.calibration,
+                                      continued(asked.problem, begin, patient=False))
+            screening = screen_catalogue(calibration, asked.catalogue, self.settings, self.fan_out, True)
+            refits = refit_from(screening, asked.catalogue, {index: selection.start(members)}, self.settings,
+                                self.fan_out)
+            whole = _decided(refits, self.settings, single, len(members))
+            weighed = next((w for w in whole.weighed if w.candidate.name == last.name), None)
+            if weighed is None:
+                return None, replace(tried, outcome=refits.results.get(index, NOT_BEGUN).failure)
+            tried = replace(tried, objective=weighed.fit.objective, held_out=weighed.statistics.held_out_error)
+            if whole.decision.verdict not in second_effect.NAMING or weighed not in whole.named:
+                return None, replace(tried, outcome="; ".join(whole.decision.reasons[:2]))
+            reasons = several_laws.unneeded(asked.problem, self.budget, single.null, whole.null, weighed.fit,
+                                            (*known, last), rules)
+        except BrakechainError as error:
+            return None, replace(tried, outcome=str(error))
+        return (None if reasons else whole), replace(tried, outcome="; ".join(reasons) or "named")
+
+    def pairs(self, single, seconds):
+        """The Diagnosis of a pair of a leading effect and one of ``seconds`` that matters, else ``single``."""
+        for first in second_effect.leading(single, self.settings.rules):
+            pair, matters = self._pair(single, first, seconds)
+            if matters:
+                return replace(pair, combinations=single.combinations)
+            if first in single.named:
+                single = replace(single, further=pair)
+        return single
+
+    def _pair(self, single, first, seconds):
+        """(Diagnosis with the ``first`` Weighed taken as known or None, whether it names one of ``seconds`` that
+        matters)."""
+        rules, explained = self.settings.rules, first.fit.betters(single.null)
+        if not second_effect.has_room(first.fit, explained, rules):
+            return None, False
+        asked = replace(self, catalogue=seconds).given([first.candidate])
+        try:
+            refits, pair = asked.steps(first.fit, single)
+        except ConvergenceError:
+            return None, False
+        if not second_effect.matters(pair, explained, rules):
+            return pair, False
+        starts = second_effect.starts_without(first, pair, asked.catalogue)
+        alone = _decided(refits.begun_anew(starts), self.settings, single)
+        return (alone if second_effect.better_alone(alone, pair) else pair), True
 
 
-def _explained(diagnosis, rules):
+def _reaches_noise(diagnosis, rules):
     """Whether a Diagnosis leaves nothing to explain: the nominal model, or a candidate, reaches the noise on all runs.
     """
     def reaches(weighed):
@@ -149,15 +259,30 @@ def _explained(diagnosis, rules):
     return diagnosis.decision.verdict in ("consistent", "parameters") or any(map(reaches, diagnosis.weighed))
 
 
-def _decided(refits, settings, base):
-    """Diagnosis of Refits: weighing and decision. ConvergenceError where nothing is missing but nothing converged."""
-    weighing = weigh(refits, settings)
-    decision = decide(weighing.runs, [w.statistics for w in weighing.weighed], settings.rules.decision)
+def _explained(single):
+    """Decrease of the objective that what a Diagnosis names explains."""
+    return single.named[0].fit.betters(single.null)
+
+
+def _decided(refits, settings, base, laws=1):
+    """Diagnosis of Refits, the last of so many ``laws``. ConvergenceError where nothing is missing but nothing
+    converged."""
+    weighing, decision = _weighed(refits, settings, base and base.null, laws)
     null = refits.calibration.null
     if not null.converged and decision.verdict in ("consistent", "parameters"):
         raise ConvergenceError(f"calibration of {null.hypothesis.name}", "a fit that converges",
                                f"none after {null.evaluations} predictions", "check the nominal values and priors")
-    return Diagnosis(refits.calibration, weighing, decision, base, refits)
+    return Diagnosis(refits.calibration, weighing, decision, base, refits, laws=laws)
+
+
+def _weighed(refits, settings, null, laws):
+    """(Weighing, Decision) of Refits; of a set of ``laws`` together, as it stands beside the Fit ``null``."""
+    if laws > 1:
+        settings = several_laws.allowing(settings, laws)
+    weighing, calibration = weigh(refits, settings), refits.calibration
+    if laws > 1:
+        weighing = several_laws.against(null, calibration.problem, calibration.budget, weighing, settings.rules)
+    return weighing, decide(weighing.runs, [w.statistics for w in weighing.weighed], settings.rules.decision)
 
 
 @dataclass(frozen=True)
@@ -175,26 +300,10 @@ def over_noise(diagnosis, settings, factors):
     """
     told = []
     for factor in factors:
-        weighing = weigh(diagnosis.refits.at_noise(factor), settings)
-        decision = decide(weighing.runs, [w.statistics for w in weighing.weighed], settings.rules.decision)
+        _, decision = _weighed(diagnosis.refits.at_noise(factor), settings, diagnosis.recalibrated.at_noise(factor),
+                               diagnosis.laws)
         told.append(VerdictAtNoise(float(factor), decision.verdict, tuple(c.name for c in decision.named)))
     return told
-
-
-def _pair(problem, budget, catalogue, settings, fan_out, single, first):
-    """(Diagnosis with the ``first`` Weighed taken as known or None, whether it names a second effect that matters)."""
-    rules, explained = settings.rules, first.fit.betters(single.null)
-    if not second_effect.has_room(first.fit, explained, rules):
-        return None, False
-    rest = [c for c in catalogue if c.name != first.candidate.name]
-    try:
-        refits, pair = _steps(problem.given(first.candidate), budget, rest, settings, fan_out, first.fit, single)
-    except ConvergenceError:
-        return None, False
-    if not second_effect.matters(pair, explained, rules):
-        return pair, False
-    alone = _decided(refits.begun_anew(second_effect.starts_without(first, pair, rest)), settings, single)
-    return (alone if second_effect.better_alone(alone, pair) else pair), True
 
 
 def _tied_pair(problem, budget, catalogue, settings, fan_out, single):

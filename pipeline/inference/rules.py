@@ -83,6 +83,8 @@ class DecisionRules:
     growth: float = threshold(3.0, "power of the error on held-out runs over that on the fitted ones")
     second_share: float = threshold(1e-2, "fraction of what a first effect explains that a second one must explain:"
                                           " the law of the first may be wrong by a tenth of its force")
+    law_error: float = threshold(0.05, "relative standard deviation of the force of a law, by which a further law is"
+                                       " not needed")
     second_at_noise: float = threshold(1e-4, "the same where both together reach the noise on all runs")
     misfit: float = threshold(3.0, "standard deviations of chi^2 beyond which the nominal model does not fit")
     noise_uncertainty: float = threshold(0.05, "relative uncertainty of the noise power")

@@ -113,7 +113,7 @@ class SquealCheck:
     agrees: Array = count("who feature", "1 where the mean lies within the spread of both from that recorded")
 
 
-@product(version=6)
+@product(version=7)
 class Diagnosis:
     """The verdict on recordings: what differs, where, what is missing, how sure, and what to measure next."""
 
@@ -122,7 +122,7 @@ class Diagnosis:
     channel: Array = text("channel", "sensors, or features")
     channel_unit: Array = text("channel", "their SI units")
     named: Array = count("named", "rows of the hypotheses that the verdict names; all of a tie")
-    known: Array = count("known", "rows of the hypotheses that were assumed known (first of a pair)")
+    known: Array = count("known", "rows of the hypotheses that were assumed known (first of a pair, all but one of several)")
     leading: Array = count("leading", "row of the hypothesis that explains most beyond chance where nothing is named; none where no candidate helps")
     leading_takes: Array = quantity("1", "leading", "share of the excess error that it takes, on held-out runs where they can tell, else on all")
     leading_stays: Array = quantity("1", "leading", "share that stays beyond the doubt about noise")
@@ -144,7 +144,14 @@ class Diagnosis:
     power: Array = quantity("1", "hypothesis", "score expected at the prior's size: detectability in these runs")
     evidence_gain: Array = quantity("1", "hypothesis", "ln Z over the recalibrated nominal model; 0 where not refitted")
     refitted: Array = count("hypothesis", "1 where it was refitted in the full model")
+    held_out_error: Array = quantity("1", "hypothesis", "root mean square that it leaves of held-out runs, whitened: 1 is noise alone; 0 where not known")
     objection: Array = text("hypothesis", "rules that it violates, or why it could not be assessed")
+    combination: Array = text("combination", "several effects that were tried together, joined by ' + '")
+    combination_gain: Array = quantity("1", "combination", "ln Z over the nominal model along measured motions or linearised, the number of such sets paid for")
+    combination_refitted: Array = count("combination", "1 where it was refitted in the full model")
+    combination_objective: Array = quantity("1", "combination", "squared error and squared latent values there; 0 where not refitted")
+    combination_held_out: Array = quantity("1", "combination", "as held_out_error; 0 where not known")
+    combination_outcome: Array = text("combination", "what became of it")
     parameter: Array = text("parameter", "fitted parameters: nominal ones, then those of the named effects")
     parameter_unit: Array = text("parameter", "their SI units")
     parameter_nominal: Array = quantity("1", "parameter", "given value")

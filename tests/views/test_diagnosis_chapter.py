@@ -165,3 +165,13 @@ def test_friction_is_drawn_point_by_point():
 def test_every_threshold_is_listed_with_its_unit():
     table = next(t for t in chapter(diagnosis(), Look()).tables if t.title == "Rules by which it was decided")
     assert [row[:2] for row in table.rows] == [("decision.posterior", "0.9"), ("poles.delay_std", "1e-06\u202fs")]
+
+
+def test_combinations_are_listed_with_what_became_of_them_and_left_out_where_there_are_none():
+    title = "Combinations of effects that were tried"
+    table = next(t for t in chapter(diagnosis(), Look()).tables if t.title == title)
+    assert table.rows == (("coulomb at a + cubic stiffness at a", "12", "120", "1.1",
+                           "coulomb at a adds an evidence of 1.0 nat"),)
+    none = dict.fromkeys(("combination", "combination_gain", "combination_refitted", "combination_objective",
+                          "combination_held_out", "combination_outcome"), [])
+    assert all(t.title != title for t in chapter(changed(diagnosis(), **none), Look()).tables)

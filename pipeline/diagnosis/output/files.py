@@ -7,6 +7,7 @@ import numpy as np
 
 from pipeline.case_models.effect_block import written
 from pipeline.contract import documents as yaml
+from pipeline.diagnosis.output.combinations import as_rows
 from pipeline.diagnosis.problem import split_name
 from pipeline.diagnosis.signals.forward_model import NAMES
 from pipeline.diagnosis.signals.latent_force_law import LABEL
@@ -104,6 +105,7 @@ def as_json(product):
         "leading": [_effect(product, k, False) | {"takes": float(takes), "stays": float(stays)} for k, takes, stays in
                     zip(product.leading, product.leading_takes, product.leading_stays, strict=True)],
         "alternatives": [_effect(product, k, False) for k in ordered if k not in named][:ALTERNATIVES],
+        "combinations": as_rows(product),
         "not_judged": [_not_judged(product, k) for k in range(len(product.hypothesis))
                        if product.objection[k] and not product.refitted[k]],
         "location": _location(product),
@@ -150,6 +152,8 @@ def _effect(product, k, with_parameters=True):
         entry["name"] = "nothing missing"
     if product.objection[k]:
         entry["objection"] = str(product.objection[k])
+    if product.held_out_error[k]:
+        entry["held_out_error"] = float(product.held_out_error[k])
     if with_parameters:
         entry["parameters"] = {
             split_name(str(name))[2]: {"value": float(product.parameter_value[i]),

@@ -4,6 +4,7 @@ import numpy as np
 
 from pipeline.case_models.corrections import is_factor
 from pipeline.diagnosis.experiment_design.next_run import next_experiment
+from pipeline.diagnosis.output.combinations import combinations
 from pipeline.diagnosis.output.remainder import remainder
 from pipeline.diagnosis.problem import label, split_name
 from pipeline.diagnosis.signals.localisation import stage_of
@@ -39,7 +40,7 @@ def product(problem, diagnosis, contacts=None):
     result = Diagnosis(
         verdict=diagnosis.decision.verdict, reason=list(diagnosis.decision.reasons), channel=channels,
         channel_unit=[problem.units[c] for c in channels], **table, **_parameters(completed, std, table),
-        **_leading(diagnosis, table), **_levels(problem, diagnosis), left_floors=left.floors,
+        **combinations(diagnosis), **_leading(diagnosis, table), **_levels(problem, diagnosis), left_floors=left.floors,
         left_sentence=left.sentence, left_candidate=left.candidate, **_starts(runs, completed, std),
         fit=[_part(part) for part in fits], unexplained_share=unexplained(recalibrated, completed, problem.rules),
         drift_p_value=diagnosis.weighing.drift.p_value,
@@ -105,20 +106,21 @@ def _hypotheses(diagnosis):
 
     Nothing missing first, then what is taken as known, alone, then the catalogue: candidates beside what is known.
     """
-    known, screen = diagnosis.nominal.effects, diagnosis.screen
+    screen = diagnosis.screen
     weighed = {w.candidate.name: w for w in diagnosis.weighed}
     rows, posterior = [_row("nothing missing", (), "physics", posterior=diagnosis.posterior[0])], diagnosis.posterior
+    known = _known(diagnosis)
     if known:
         nothing = diagnosis.base.posterior[0]
         rows[0]["posterior"], posterior = nothing, (1 - nothing) * posterior
-        rows.append(_known(diagnosis) | {"posterior": posterior[0]})
+        rows += [known[0] | {"posterior": posterior[0]}, *known[1:]]
     for k, candidate in enumerate(screen.candidates):
         refitted = weighed.get(candidate.name)
         rows.append(_screened(screen, k, refitted) | {
             "posterior": posterior[1 + k], "objection": _objection(diagnosis, candidate, refitted)})
     names = [row["hypothesis"] for row in rows]
     return {**{key: [row[key] for row in rows] for key in rows[0]},
-            "named": [names.index(c.name) for c in diagnosis.decision.named], "known": [1] if known else []}
+            "named": [names.index(c.name) for c in diagnosis.decision.named], "known": list(range(1, 1 + len(known)))}
 
 
 def _leading(diagnosis, table):
@@ -141,10 +143,13 @@ def _contacts(place, names):
 
 
 def _known(diagnosis):
-    """Row of what is taken as known, as it stood when it was weighed alone."""
-    base, effects = diagnosis.base, diagnosis.nominal.effects
-    k = next(k for k, c in enumerate(base.screen.candidates) if c.effects == effects)
-    return _screened(base.screen, k, next(w for w in base.weighed if w.candidate.effects == effects))
+    """Rows of what is taken as known, as each stood when it was weighed alone."""
+    base, effects = diagnosis.base, set(diagnosis.nominal.effects)
+    if base is None or not effects:
+        return []
+    weighed = {w.candidate.name: w for w in base.weighed}
+    return [_screened(base.screen, k, weighed.get(c.name)) for k, c in enumerate(base.screen.candidates)
+            if effects.issuperset(c.effects) and c.effects]
 
 
 def _screened(screen, k, refitted):
@@ -153,7 +158,8 @@ def _screened(screen, k, refitted):
     candidate, seen = screen.candidates[k], refitted.statistics if refitted else None
     return _row(candidate.name, candidate.effects, candidate.kind, score=max(float(screen.score[k]), -1e3),
                 p_value=float(seen.p_value if seen else screen.p_value[k]), power=float(screen.power[k]),
-                evidence_gain=seen.evidence_gain if seen else 0.0, refitted=int(refitted is not None))
+                evidence_gain=seen.evidence_gain if seen else 0.0, refitted=int(refitted is not None),
+                held_out_error=(seen.held_out_error if seen else None) or 0.0)
 
 
 def _objection(diagnosis, candidate, refitted):
@@ -165,7 +171,7 @@ def _objection(diagnosis, candidate, refitted):
 def _row(name, effects, kind, **values):
     row = {"hypothesis": name, "effect": " + ".join(e for e, _ in effects), "place": " + ".join(p for _, p in effects),
            "kind": kind, "stage": stage_of(effects), "posterior": 0.0, "score": 0.0, "p_value": 1.0, "power": 0.0,
-           "evidence_gain": 0.0, "refitted": 0, "objection": ""}
+           "evidence_gain": 0.0, "refitted": 0, "held_out_error": 0.0, "objection": ""}
     return row | values
 
 

@@ -17,7 +17,7 @@ class CandidateStatistics:
     empty; ``doubts``: why its fit cannot be relied on, in words. ``powered``: whether held-out runs can tell, as the
     nominal model errs on them; ``takes`` and ``stays``: shares of the excess error on them, else on all runs.
     ``loses``: its loss on held-out runs over what it explains of the fitted ones. ``varying``: what its values follow
-    along the runs, in words.
+    along the runs, in words. ``held_out_error``: root mean square that it leaves there, in noise floors.
     """
 
     name: str
@@ -42,6 +42,7 @@ class CandidateStatistics:
     stays: float = 1.0
     loses: float = 0.0
     varying: tuple = ()
+    held_out_error: float | None = None
 
 
 @dataclass(frozen=True)

@@ -36,6 +36,11 @@ class Gain:
                     self.count + int(count))
 
     @property
+    def error(self):
+        """Root mean square whitened error of the second model: 1 is noise alone."""
+        return float(np.sqrt(max(self.excess + self.count - self.value, 0.0) / max(self.count, 1)))
+
+    @property
     def errors(self):
         """The gain in standard errors."""
         return self.value / self.std if self.std > 0 else 0.0

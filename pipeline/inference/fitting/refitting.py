@@ -32,6 +32,10 @@ class Refitted(NamedTuple):
     failure: str
 
 
+#: of a candidate that could not even begin
+NOT_BEGUN = Refitted(None, None, "its fit could not begin")
+
+
 @dataclass(frozen=True)
 class Refits:
     """Third step: ``results`` {index: Refitted} of candidates, beside the Calibration as their optima improved it.
@@ -74,6 +78,19 @@ def refit_catalogue(screening, catalogue, settings, fan_out, results=None):
     refitter = replace(refitter, null=better.null)
     again = tuple(fan_out(partial(directions, better.problem, better.null), catalogue))
     return Refits(better, again, results, refitter)
+
+
+def refit_from(screening, catalogue, starts, settings, fan_out):
+    """Refits of the candidates at latent values ``starts`` {index: (k,)} alone, and of what outshines them."""
+    calibration = screening.calibration
+    refitter = Refitter(calibration.problem, calibration.null, tuple(catalogue), settings, fan_out)
+    results = refitter.better({}, starts)
+    fits = {i: r.fit for i, r in results.items() if r.fit is not None}
+    if fits:
+        evidences = evidence_of_all(calibration.null, screening.directions, fits, settings)
+        more = evidences.overlooked(settings.rules.decision)[:settings.kept]
+        results = refitter.of(more, screening.screen.start, results)
+    return Refits(calibration, screening.directions, results, refitter)
 
 
 @dataclass(frozen=True)

@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from pipeline.views.chapters.bench.hypotheses import combination_table, hypothesis_table, words
 from pipeline.views.chapters.chapter import Chapter, Figure, Table
 from pipeline.views.chapters.squeal_check import squeal_tables
 from pipeline.views.figures.bench import diagnosis as pictures
@@ -11,8 +12,6 @@ from pipeline.views.figures.number_format import number, percent, quantity, scal
 #: location axes that are bins of the motion, and all axes in reading order
 REGIMES = ("amplitude", "velocity", "time")
 AXES = ("stage", "substitution", "place", "run", "band", *REGIMES)
-#: rows of the table of hypotheses that are shown unfolded
-ROWS = 12
 #: verdict of a tie with one member: a single run, or a list alone, cannot confirm an effect
 _PROPOSED = "Proposed, not confirmed"
 
@@ -49,7 +48,7 @@ def chapter(product, look):
                                answers["Measure next"]))),
         tuple(_figures(product)), tuple(filter(None, (
             _errors(product), _with_force(product), *squeal_tables(product), _parameters(product), _starts(product),
-            _hypotheses(product), _location(product), _thresholds(product)))),
+            hypothesis_table(product), combination_table(product), _location(product), _thresholds(product)))),
         tuple(_notes(product)))
 
 
@@ -116,7 +115,7 @@ def _levels(product):
     if not verdicts or not other:
         return "The verdict is the same at " + _listed([number(v[0], 2) for v in verdicts]) + " times the noise." \
             if verdicts else ""
-    parts = [f"{v}{f' ({_words(named)})' if named else ''} at {number(level, 2)} times" for level, v, named in other]
+    parts = [f"{v}{f' ({words(named)})' if named else ''} at {number(level, 2)} times" for level, v, named in other]
     return f"The verdict hangs on the level of noise: it would be {_listed(parts)} what is known of it."
 
 
@@ -130,7 +129,7 @@ def _left(product):
         return ""
     following = product.left_candidate.item()
     return (f"{number(product.left_floors.item(), 3)} noise floors remain. {_sentence(product.left_sentence.item())}"
-            f"{f' Next candidate: {_sentence(_words(following))}' if following else ''}")
+            f"{f' Next candidate: {_sentence(words(following))}' if following else ''}")
 
 
 def _first_up(text):
@@ -251,13 +250,9 @@ def _changes(product):
 def _next(product):
     if not len(product.next_condition):
         return ""
-    pair = " from ".join(_words(s) for s in product.next_separates)
+    pair = " from ".join(words(s) for s in product.next_separates)
     return (f"{', '.join(str(c) for c in product.next_condition)}; expected to distinguish {pair} by"
             f" {number(product.next_value, 2)} nats.")
-
-
-def _words(text):
-    return str(text).replace("_", " ")
 
 
 def _notes(product):
@@ -350,7 +345,7 @@ def _with_force(product):
 def _parameters(product):
     if not len(product.parameter):
         return None
-    rows = tuple((("factor on " if product.parameter_factor[k] else "") + _words(str(name).replace("@", " at ")),
+    rows = tuple((("factor on " if product.parameter_factor[k] else "") + words(str(name).replace("@", " at ")),
                   quantity(product.parameter_nominal[k], unit, 4),
                   _with_error(product.parameter_value[k], product.parameter_std[k], unit),
                   number(_distance(product, k), 2)) for k, (name, unit) in enumerate(
@@ -373,16 +368,6 @@ def _thresholds(product):
         product.threshold, product.threshold_value, units, product.threshold_meaning, strict=True))
     return Table(("diagnosis.rules", "value", "meaning"), rows, "Rules by which it was decided", (1,), (2,),
                  folded=True) if rows else None
-
-
-def _hypotheses(product):
-    order = np.argsort(-product.posterior, kind="stable")
-    rows = tuple((_words(product.hypothesis[k]), str(product.kind[k]), percent(product.posterior[k], 3),
-                  number(product.score[k], 3), number(product.p_value[k], 2), number(product.power[k], 3),
-                  number(product.evidence_gain[k], 3) if product.refitted[k] else "—", _words(product.objection[k]))
-                 for k in order)
-    head = ("hypothesis", "kind", "probability", "score", "family-wise p", "detectability", "ln evidence", "objection")
-    return Table(head, rows, "All hypotheses considered", (2, 3, 4, 5, 6), (7,), folded=len(rows) > ROWS)
 
 
 def _location(product):

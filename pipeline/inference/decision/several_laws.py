@@ -1,0 +1,103 @@
+"""Whether each of several laws is needed beside the others: by evidence, and on runs that were not fitted."""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from pipeline.inference.decision.candidate_statistics import held_out_gains, unexplained
+from pipeline.inference.decision.evidence import evidence
+from pipeline.inference.decision.held_out import gain, held_out_residuals, judged
+from pipeline.inference.fitting.least_squares import continued, linearised
+
+
+@dataclass(frozen=True)
+class Needed:
+    """What a member of a set of laws is worth: ``evidence_gain`` (nat), its ``share`` of what the set explains of the
+    objective, and ``errors``: its gain on runs not fitted in standard errors, None without any."""
+
+    name: str
+    evidence_gain: float
+    share: float
+    errors: float | None
+
+    def objections(self, rules):
+        """Why the set can do without it, in words."""
+        reasons = []
+        if self.evidence_gain < rules.evidence_gain:
+            reasons.append(f"{self.name} adds an evidence of {self.evidence_gain:.1f} nat")
+        if self.share < rules.second_share:
+            reasons.append(f"{self.name} gives {self.share:.2%} of what the laws explain together, which an error of"
+                           " the others may be")
+        if self.errors is not None and self.errors < rules.gain_errors:
+            reasons.append(f"the gain by {self.name} on runs that were not fitted is {self.errors:.1f} standard errors")
+        return tuple(reasons)
+
+
+def allowing(settings, laws):
+    """The settings of inference for a set of so many ``laws``: a coefficient takes up the errors of all their laws.
+
+    It may follow the motion along the runs by as much, and between runs, where one law fades before the others, by
+    more: whether coefficients hold for other runs is asked by leaving runs out (``several``).
+    """
+    decision = settings.rules.decision
+    varies = max(decision.varies_by, laws * decision.law_error)
+    return replace(settings, rules=replace(settings.rules, decision=replace(
+        decision, varies_by=varies, disagreement=np.inf)))
+
+
+def against(null, problem, budget, weighing, rules):
+    """The Weighing of the last law of a set with what each candidate leaves of the error of the nominal model alone.
+
+    ``null``: the Fit of that. What a small law leaves beside the large ones is small, though much of its own.
+    """
+    fits = {k: w.fit for k, w in enumerate(weighing.weighed)}
+    gains = held_out_gains(problem, budget, null, fits, np.ones(len(fits)), rules)
+    uncertainty = rules.decision.noise_uncertainty
+
+    def of_all(k, weighed):
+        gained, statistics = gains[k][0], weighed.statistics
+        statistics = replace(statistics, unexplained=unexplained(null, weighed.fit, rules))
+        if gained is not None and gained.powered(uncertainty):
+            left = gained.left(uncertainty)
+            statistics = replace(statistics, powered=True, held_out_left=left, takes=max(gained.share, 0.0), stays=left,
+                                 held_out_share=gained.share_at_most)
+        return replace(weighed, statistics=statistics)
+
+    return replace(weighing, weighed=tuple(of_all(k, w) for k, w in enumerate(weighing.weighed)))
+
+
+def unneeded(problem, budget, null, without, whole, members, rules):
+    """Why ``members`` (Hypotheses), fitted together as the Fit ``whole``, can do without one of them, in words.
+
+    ``null``: Fit of the nominal model alone; ``without``: that without the last member. The others are left out one by
+    one and the rest fitted once more. Raises what the forward model raises.
+    """
+    *others, last = members
+    fits = [(member.name, _without(problem, whole, null.hypothesis, [m for m in members if m is not member]))
+            for member in others]
+    return tuple(why for name, fit in (*fits, (last.name, without))
+                 for why in _needed(problem, budget, name, null, fit, whole, rules).objections(rules))
+
+
+def _needed(problem, budget, name, null, without, whole, rules):
+    """Needed of what the Fit ``whole`` has and the Fit ``without`` has not; ``null`` Fit of the nominal model."""
+    with_it, other = evidence(whole, whole.weights), evidence(without, whole.weights)
+    runs, errors = problem.held_out, None
+    if runs:
+        noises, share = tuple(budget[run.name] for run in runs), rules.start_share
+        gained = gain(judged(null.hypothesis, noises, runs, share),
+                      *(held_out_residuals(problem, noises, fit, runs, share) for fit in (without, whole)))
+        errors = gained.errors_with(with_it.left_out - other.left_out)
+    return Needed(name, with_it.log_evidence - other.log_evidence,
+                  whole.betters(without) / max(whole.betters(null), 1e-300), errors)
+
+
+def _without(problem, whole, nominal, members):
+    """Fit of the Hypothesis ``nominal`` with ``members`` alone, from the values that they have in the Fit ``whole``."""
+    hypothesis = nominal
+    for member in members:
+        hypothesis = hypothesis.joined(member)
+    names = {p.name for p in hypothesis.parameters}
+    kept = np.array([p.name in names for p in whole.hypothesis.parameters])
+    begin = linearised(problem, whole.noises, hypothesis, whole.latent[kept], whole.runs)
+    return continued(problem, begin, patient=False)

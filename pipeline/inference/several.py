@@ -1,0 +1,199 @@
+"""Several laws at once: the set that the equation of motion asks for, none of which has to pass alone.
+
+Where all motions are measured, a prediction along them is linear in every coefficient (``Motions``); elsewhere it is
+the screen's linearisation about the recalibrated nominal model. There the best subsets of candidates are compared
+exhaustively (``subset_selection``). Every law that is taken for true is wrong by some percent: along measured motions
+the error of each member's law is one more uncertain direction, so that no further law is named that only mends it.
+"""
+
+from dataclasses import dataclass, replace
+from functools import partial
+from itertools import combinations
+from typing import Protocol
+
+import numpy as np
+
+from pipeline.contract.errors import BrakechainError
+from pipeline.inference.fitting.least_squares import Fit, fit, from_prior_mean
+from pipeline.inference.problem import ForwardModel, Problem
+from pipeline.inference.search.score_screen import directions
+from pipeline.inference.search.subset_selection import best_subsets, multiplicity, table
+
+
+class LinearInLaws(ForwardModel, Protocol):
+    """A ForwardModel along measured motions, which knows what errors of laws change in its predictions."""
+
+    def law_errors(self, hypothesis, values, run, effects) -> list:
+        """[(c, n)] what ``effects`` of a hypothesis change, times shapes that tell other laws of their kind apart."""
+
+
+class Motions(Protocol):
+    """Measured motions of all coordinates."""
+
+    def along(self, null: Fit) -> Problem:
+        """The Problem of the fitted runs along their motions, its forward model LinearInLaws.
+
+        Raises what the forward model raises.
+        """
+
+
+@dataclass(frozen=True)
+class Combination:
+    """A combination of candidates that was tried: their ``effects`` (name, ...) and the ``gain`` of its evidence.
+
+    ``gain``: ln Z over the nominal model along measured motions or linearised, multiplicity paid for. ``objective`` of
+    its refit and ``held_out`` error there in noise floors, None where it was not refitted. ``outcome``: in words.
+    """
+
+    effects: tuple
+    gain: float
+    objective: float | None = None
+    held_out: float | None = None
+    outcome: str = ""
+
+
+@dataclass(frozen=True)
+class Selection:
+    """``members``: indices of the candidates of the best set, the least necessary last; ``tried`` (Combination, ...).
+
+    ``nominal`` (k,): latent values of the nominal parameters beside them; ``values`` {index: (j,)}: those of members.
+    ``judged``: indices of the candidates whose part measured motions can show.
+    """
+
+    members: tuple
+    tried: tuple
+    nominal: np.ndarray
+    values: dict
+    judged: frozenset
+
+    def start(self, members):
+        """Latent values of the nominal parameters and of ``members``, in that order."""
+        return np.concatenate([self.nominal, *(self.values[i] for i in members)])
+
+
+@dataclass(frozen=True)
+class _Columns:
+    """Moments (run, k, k), (run, k) of all columns of a Table's best set: nominal ones, members, errors of laws.
+
+    ``owner`` (k,): -1 of nominal columns, else the candidate that a column belongs to; ``law`` (k,): its own column.
+    """
+
+    information: np.ndarray
+    projection: np.ndarray
+    owner: np.ndarray
+
+    def log_evidence(self, members, left_out=None):
+        """ln Z of the ``members`` (candidate, ...), up to a constant; without the run ``left_out``, where given."""
+        kept = np.flatnonzero(np.isin(self.owner, (-1, *members)))
+        runs = [r for r in range(len(self.projection)) if r != left_out]
+        hessian = np.eye(len(kept)) + self.information[runs].sum(axis=0)[np.ix_(kept, kept)]
+        projection = self.projection[runs].sum(axis=0)[kept]
+        return float(0.5 * projection @ np.linalg.solve(hessian, projection) - 0.5 * np.linalg.slogdet(hessian)[1])
+
+    def nominal(self, members):
+        """Latent values (k,) of the nominal parameters beside the ``members``."""
+        kept = np.flatnonzero(np.isin(self.owner, (-1, *members)))
+        hessian = np.eye(len(kept)) + self.information.sum(axis=0)[np.ix_(kept, kept)]
+        solved = np.linalg.solve(hessian, self.projection.sum(axis=0)[kept])
+        return np.clip(solved[:np.count_nonzero(self.owner == -1)], -3, 3)
+
+    def predictive(self, members):
+        """(run,) log predictive density of each run from the others, up to a constant of the run."""
+        whole = self.log_evidence(members)
+        return np.array([whole - self.log_evidence(members, run) for run in range(len(self.projection))])
+
+
+def along_motions(null, catalogue, motions, rules, fan_out):
+    """Selection along Motions that the Fit ``null`` of the nominal hypothesis completes; None where they fail."""
+    try:
+        along = motions.along(null)
+        null = fit(along, null.noises, along.nominal, null.latent, along.runs)
+    except BrakechainError:
+        return None
+    every = tuple(fan_out(partial(directions, along, null), catalogue))
+    return _selected(null, every, catalogue, rules, along)
+
+
+def linearised_about(null, every, catalogue, rules):
+    """Selection by the Directions ``every`` of a ``catalogue`` at the Fit ``null`` itself; it judges nobody."""
+    return replace(_selected(null, every, catalogue, rules), judged=frozenset())
+
+
+def _selected(null, every, catalogue, rules, along=None):
+    of = table(null, every)
+    subsets, judged = best_subsets(of), frozenset(int(i) for i in of.owner)
+    if not subsets:
+        return Selection((), (), null.latent, {}, judged)
+    best = subsets[0]
+    values = {owner: _scaled(catalogue[owner].parameters, of.tried[direction], coefficient)
+              for owner, coefficient, direction in zip(best.owners, best.coefficients, best.directions, strict=True)}
+    columns = _columns(null, every, of, best, _law_errors(along, null, catalogue, values, rules.law_error))
+    gains = _gains(columns, best.owners, of.count)
+    members = _necessary(columns, gains, rules)
+    tried = [Combination(_names(catalogue, owners), gain) for owners, gain in gains.items() if owners]
+    tried += [Combination(_names(catalogue, s.owners), s.gain) for s in subsets if s.owners not in gains]
+    return Selection(members, tuple(sorted(tried, key=lambda c: -c.gain)), columns.nominal(members), values, judged)
+
+
+def _names(catalogue, owners):
+    return tuple(catalogue[i].name for i in owners)
+
+
+def _scaled(parameters, tried, coefficient):
+    """Latent values (k,) of an effect where what a direction ``tried`` moved lies ``coefficient`` scales from null."""
+    latent = np.array(tried, float)
+    for k, p in enumerate(parameters):
+        if p.null is None or np.isclose(latent[k], p.prior.latent(p.null)):
+            continue
+        side = np.sign(p.prior.value(latent[k]) - p.null)
+        low, high = p.prior.support
+        latent[k] = p.prior.latent(float(np.clip(p.null + side * coefficient * p.prior.scale, low, high)))
+    return np.clip(latent, -2, 2)
+
+
+def _law_errors(along, null, catalogue, values, size):
+    """{index: whitened (e, m) errors} of the laws of candidates at latent ``values`` {index: (k,)}, each of this
+    relative ``size``; none without a Problem ``along`` motions."""
+    errors = {}
+    for index, latent in values.items() if along else ():
+        hypothesis = null.hypothesis.joined(catalogue[index])
+        given, effect = hypothesis.values(np.concatenate((null.latent, latent))), catalogue[index].effects
+        errors[index] = size * np.concatenate([
+            noise.whiten(np.array(along.predict.law_errors(hypothesis, given, run, effect)))
+            for run, noise in zip(null.runs, null.noises, strict=True)], axis=1)
+    return errors
+
+
+def _columns(null, every, of, best, errors):
+    """_Columns of the best Subset with the ``errors`` {index: (e, m)} of its laws."""
+    vectors = np.concatenate([d.vectors for d in every])[of.index[list(best.directions)]]
+    columns = np.concatenate([np.concatenate(null.jacobians), vectors.T, *(e.T for e in errors.values())], axis=1)
+    owner = [-1] * len(null.latent) + list(best.owners) + [i for i, e in errors.items() for _ in e]
+    residual = np.concatenate(from_prior_mean(null))
+    parts = np.split(np.arange(len(residual)), np.cumsum(null.counts)[:-1])
+    return _Columns(np.array([w * columns[p].T @ columns[p] for w, p in zip(of.weights, parts, strict=True)]),
+                    np.array([w * columns[p].T @ residual[p] for w, p in zip(of.weights, parts, strict=True)]),
+                    np.array(owner))
+
+
+def _gains(columns, owners, count):
+    """{members: ln Z over the nominal model, multiplicity paid for} of all sets of ``owners``, the empty one too."""
+    nothing = columns.log_evidence(())
+    return {members: columns.log_evidence(members) - nothing - multiplicity(count, len(members))
+            for size in range(len(owners) + 1) for members in combinations(owners, size)}
+
+
+def _necessary(columns, gains, rules):
+    """Members of the best set each of which is needed, the least needed last.
+
+    By evidence, of which it gives a share that an error of the others cannot, and for runs left out.
+    """
+    for members in sorted(gains, key=lambda m: -gains[m]):
+        lost = {m: gains[members] - gains[tuple(i for i in members if i != m)] for m in members}
+        predicted = columns.predictive(members)
+        needed = all(loss >= max(rules.evidence_gain, rules.second_share * gains[members])
+                     and (predicted - columns.predictive([i for i in members if i != m])).sum() > 0
+                     for m, loss in lost.items())
+        if needed:
+            return tuple(sorted(members, key=lambda m: -lost[m]))
+    return ()

@@ -1,0 +1,46 @@
+"""When each of several laws is needed beside the others."""
+
+from dataclasses import replace
+
+import pytest
+
+from pipeline.inference.decision import several_laws
+from pipeline.inference.fitting.least_squares import fit
+from pipeline.inference.procedure import Settings
+from pipeline.inference.rules import DEFAULTS
+from tests.inference import linear
+
+
+def fits(truth):
+    """(Problem, {run: Noise}, catalogue, Fits of the nominal model, with effect_1, and with both effects)."""
+    whole, noise, catalogue, _ = linear.problem((2, 1, 1), runs=4, held_out=1, truth=truth)
+    noises, made, hypothesis = [noise[run.name] for run in whole.training], [], whole.nominal
+    for candidate in (None, *catalogue):
+        hypothesis = hypothesis.joined(candidate) if candidate else hypothesis
+        made.append(fit(whole, noises, hypothesis, hypothesis.nominal, whole.training))
+    return whole, noise, catalogue, made
+
+
+def test_both_are_needed_where_both_are_there():
+    whole, noise, both, fitted = fits({"effect_1_0": 1.0, "effect_2_0": 0.8})
+    assert several_laws.unneeded(whole, noise, *fitted, both, DEFAULTS.decision) == ()
+
+
+@pytest.mark.parametrize("there, idle", [(1, 2), (2, 1)])
+def test_the_one_that_is_not_there_is_told_whatever_their_order(there, idle):
+    whole, noise, both, fitted = fits({f"effect_{there}_0": 1.0})
+    reasons = several_laws.unneeded(whole, noise, *fitted, both, DEFAULTS.decision)
+    assert reasons and all(f"effect_{idle}" in why for why in reasons)
+
+
+def test_a_share_that_an_error_of_the_others_may_be_is_not_enough():
+    whole, noise, both, fitted = fits({"effect_1_0": 1.0, "effect_2_0": 0.8})
+    rules = replace(DEFAULTS.decision, second_share=0.9)
+    reasons = several_laws.unneeded(whole, noise, *fitted, both, rules)
+    assert reasons and "an error of the others" in reasons[0]
+
+
+def test_values_may_vary_by_the_errors_of_all_laws():
+    rules = several_laws.allowing(Settings(), 3).rules.decision
+    assert rules.varies_by == pytest.approx(3 * DEFAULTS.decision.law_error)
+    assert several_laws.allowing(Settings(), 1).rules.decision.varies_by == DEFAULTS.decision.varies_by
