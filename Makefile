@@ -7,6 +7,7 @@ KERNELS ?= Haswell Nehalem
 ROUNDING ?= tests/physics tests/systems tests/stages tests/inference tests/diagnosis tests/chain/test_every_case.py
 PRACTICE ?= data/runs/trial_practice
 SEALED ?= data/trial/sealed_3
+SEED   ?= 1
 AGAIN ?= data/runs/trial_again
 STAGES := surface effects micro_friction friction_map structure reduced_model complex_modes multibody response squeal comparison report convergence limit_cycle probability interface_law friction_descriptions pin_on_disc transient lock_in lumped rupture beam_on_beam motion_scatter beam_geometry recording bench diagnosis line_evidence
 
@@ -15,7 +16,7 @@ READY  := .venv/.ready
 BIN    := .venv/bin
 
 .DEFAULT_GOAL := help
-.PHONY: help setup run test coverage test-kernels test-slow test-study bench trial trial_sealed trial_again study_diagnosis study_squeal study_lines study_knock_out study_sharp study_several pin_bench worn_bench lint clean $(STAGES)
+.PHONY: help setup run test coverage test-kernels test-slow test-study bench trial trial_sealed trial_again study_diagnosis study_squeal study_lines study_knock_out study_sharp study_several study_second_family pin_bench worn_bench lint clean $(STAGES)
 
 help:            ## show this list
 	@echo "usage: make TARGET [CASE=disc_brake] [ARGS=...]      cases: $(basename $(notdir $(wildcard configs/*.yaml)))"
@@ -92,6 +93,9 @@ study_sharp: $(READY)  ## whether friction that sticks, play and stops are named
 
 study_several: $(READY)  ## joints with one to three laws at once, by simulation or (--equation) the equation of motion
 	$(BIN)/python -m tests.studies.several $(ARGS)
+
+study_second_family: $(READY)  ## identification rates on rigs that truly switch, the set of SEED; resumes case by case
+	$(BIN)/python -m tests.studies.second_family --seed $(SEED) $(ARGS)
 
 pin_bench: $(READY)  ## write the practice recordings of configs/pin_on_disc_bench.yaml to data/runs/practice
 	$(BIN)/python -m tests.studies.self_excited --practice

@@ -1,0 +1,108 @@
+"""What a recalibrated nominal model leaves of a motion: a linear rig refitted in closed form, starts and gains as well.
+
+    d^2 = min |(seen - y(u)) / noise|^2 + |u|^2
+
+u: values of the rig off by u standard deviations, of the gains, and of starts or blows, which are as good as free.
+About four are needed to tell two laws apart.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+import scipy
+
+from pipeline.blind_trial.generators.switching.event_motion import Motion
+
+#: standard deviation of the logarithm of a value, of a gain; of a start or blow in its own size
+SPREAD, GAIN_SPREAD, _FREE = 0.2, 0.02, 3.0
+_EVALUATIONS = 25
+
+
+@dataclass(frozen=True)
+class Beginning:
+    """A run: instants ``fine`` and samples ``time`` in s, its Drive, and the ``start`` (2 n,) at the first of ``fine``.
+
+    ``free``: what of it the workshop does not know: '' nothing, start, or blow.
+    """
+
+    fine: np.ndarray
+    time: np.ndarray
+    drive: object
+    start: np.ndarray
+    free: str = ""
+
+    def unknown(self):
+        """Sizes (k,) of what is not known of the beginning."""
+        if self.free == "start":
+            half = len(self.start) // 2
+            return np.repeat([np.linalg.norm(self.start[:half]), np.linalg.norm(self.start[half:])], half)
+        return np.array([1.0, self.time[1] - self.time[0]]) if self.free == "blow" else np.zeros(0)
+
+
+def linear(rig, beginning, off=()):
+    """Motion of a Rig alone, by its modes, exact for forces that are straight between the instants.
+
+    ``off`` (k,): what the unknown of the beginning differs by, in SI; of a blow its relative size and its time in s.
+    """
+    mass, damping, stiffness = rig.matrices()
+    n, drive, fine = len(mass), beginning.drive, beginning.fine
+    blow = beginning.free == "blow" and len(off)
+    start = beginning.start + (np.asarray(off) if len(off) and not blow else 0.0)
+    force = (1 + off[0]) * drive.force(fine - off[1]) if blow else drive.force(fine)
+    inverse = np.linalg.inv(mass)
+    system = np.block([[np.zeros((n, n)), np.eye(n)], [-inverse @ stiffness, -inverse @ damping]])
+    values, shapes = np.linalg.eig(system)
+    weights = np.linalg.solve(shapes, np.concatenate((np.zeros(n), inverse @ drive.row)))
+    begin = np.linalg.solve(shapes, start.astype(complex))
+    step = fine[1] - fine[0]
+    turn = np.exp(values * step)
+    later = (turn - 1 - values * step) / (values**2 * step)
+    now = (turn - 1) / values - later
+    modes = []
+    for k in range(2 * n):
+        forced = scipy.signal.lfilter([later[k], now[k]], [1.0, -turn[k]], force, zi=[-later[k] * force[0]
+                                      + 0j])[0] if force.any() else 0.0
+        modes.append(weights[k] * forced + begin[k] * np.exp(values[k] * (fine - fine[0])))
+    states = (shapes @ np.array(modes)).real
+    acceleration = inverse @ (np.outer(drive.row, force) - stiffness @ states[:n] - damping @ states[n:])
+    return Motion(states[:n], states[n:], acceleration, 0)
+
+
+class Recalibration:
+    """Refits of a true ``rig`` with ``sensors`` to what other physics shows in ``runs`` [Beginning].
+
+    ``exact``: names of values that are known. ``base`` [(sensor, n)]: what the sensors show without it.
+    """
+
+    def __init__(self, rig, sensors, runs, exact, base):
+        self.rig, self.sensors, self.runs, self.base = rig, sensors, runs, base
+        self.names = [name for name in rig.names if name not in exact]
+        self.unknown = [run.unknown() for run in runs]
+        self.size = len(self.names) + len(sensors) + sum(map(len, self.unknown))
+        self.at_rest = self.shown(np.zeros(self.size))
+
+    def shown(self, u):
+        """[(sensor, n)] at values off by u (size,) standard deviations."""
+        values, gains, rest = np.split(u, [len(self.names), len(self.names) + len(self.sensors)])
+        rig = self.rig.with_values({name: self.rig.value(name) * np.exp(SPREAD * off)
+                                    for name, off in zip(self.names, values, strict=True)})
+        shown = []
+        for run, sizes in zip(self.runs, self.unknown, strict=True):
+            off, rest = _FREE * sizes * rest[:len(sizes)], rest[len(sizes):]
+            motion = linear(rig, run, off)
+            shown.append(np.array([(1 + GAIN_SPREAD * g) * s.shown(motion, run.fine, run.time)
+                                   for s, g in zip(self.sensors, gains, strict=True)]))
+        return shown
+
+    def left(self, seen, noise):
+        """d of what the sensors have ``seen`` [(sensor, n)] under ``noise`` (sensor,); infinite where not finite."""
+        wanted = [s - b + r for s, b, r in zip(seen, self.base, self.at_rest, strict=True)]
+        if not all(np.isfinite(w).all() for w in wanted):
+            return np.inf
+
+        def residual(u):
+            parts = [((w - y) / noise[:, None]).ravel() for w, y in zip(wanted, self.shown(u), strict=True)]
+            return np.concatenate((*parts, u))
+
+        fit = scipy.optimize.least_squares(residual, np.zeros(self.size), max_nfev=_EVALUATIONS, xtol=1e-4, ftol=1e-4)
+        return float(np.sqrt(2 * fit.cost))

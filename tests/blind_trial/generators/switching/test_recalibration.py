@@ -1,0 +1,69 @@
+"""Recalibration: the linear motion is that of the integrator; other values leave nothing, another law leaves itself."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from pipeline.blind_trial.generators.switching import drive, joint_laws
+from pipeline.blind_trial.generators.switching.event_motion import Mechanism, moved
+from pipeline.blind_trial.generators.switching.instruments import PARTS, Sensor
+from pipeline.blind_trial.generators.switching.recalibration import Beginning, Recalibration, linear
+from pipeline.blind_trial.generators.switching.rig import LAYOUTS, Rig
+
+RIG = Rig((1.0, 1.5), LAYOUTS["row"], (4000.0, 3000.0), (2.0, 1.0))
+RATE = 200.0
+TIME = np.arange(301) / RATE
+FINE = np.arange(PARTS * 300 + 1) / (RATE * PARTS)
+SENSORS = (Sensor("ch1", 0, "displacement", "mm", 1e-3), Sensor("ch2", 1, "velocity", "mm/s", 1e-3))
+
+
+def shaken():
+    shape = drive.course(np.random.default_rng(1), "multisine", 4.0, 15.0, TIME[-1], RATE)
+    return Beginning(FINE, TIME, drive.shaker(np.array([0.0, 1.0]), 1.0, shape), np.zeros(4))
+
+
+def released():
+    return Beginning(FINE, TIME, drive.still(np.array([1.0, 0.0])), np.array([1e-3, -5e-4, 0.02, 0.03]), "start")
+
+
+def struck():
+    return Beginning(FINE, TIME, drive.blow(np.array([1.0, 0.0]), 0.02, 0.1, 0.006), np.zeros(4), "blow")
+
+
+@pytest.mark.exact
+@pytest.mark.parametrize("begin", [shaken, released])
+def test_the_motion_by_modes_is_that_of_the_integrator(begin):
+    run = begin()
+    exact = moved(Mechanism(*RIG.matrices(), (), 1e-3, 0.05), run.drive.pushing(FINE), FINE, run.start)
+    shown = linear(RIG, run)
+    for field in ("displacement", "velocity", "acceleration"):
+        wanted = getattr(exact, field)
+        np.testing.assert_allclose(getattr(shown, field), wanted, atol=3e-4 * abs(wanted).max())
+
+
+@pytest.mark.parametrize("begin", [shaken, released, struck])
+def test_other_values_leave_their_prior_alone_and_friction_more(begin):
+    run = begin()
+    base = [np.array([s.shown(linear(RIG, run), FINE, TIME) for s in SENSORS])]
+    noise = 0.01 * np.sqrt(np.mean(base[0] ** 2, axis=1))
+    fit = Recalibration(RIG, SENSORS, (run,), (), base)
+    assert fit.left(base, noise) < 1e-6
+    other = RIG.with_values({"stiffness.0": 4000.0 * np.exp(0.1), "mass.1": 1.5 * np.exp(-0.1)})
+    off = [np.array([s.shown(linear(other, run), FINE, TIME) for s in SENSORS])]
+    assert fit.left(off, noise) < 1.0
+    length = np.sqrt(np.mean(linear(RIG, run).displacement[0] ** 2))
+    spot = joint_laws.Spot(RIG.rows[0], length, 20 * length, 4000.0, (0.5,) * 3)
+    rubbed = moved(Mechanism(*RIG.matrices(), joint_laws.coulomb(spot, 0.1), 1e-3, 0.05), run.drive.pushing(FINE), FINE,
+                   run.start, run.drive.breaks)
+    assert fit.left([np.array([s.shown(rubbed, FINE, TIME) for s in SENSORS])], noise) > 12
+    assert fit.left([np.full_like(base[0], np.nan)], noise) == np.inf
+
+
+def test_a_start_and_a_blow_are_free():
+    for run, off in ((released(), np.array([2e-4, 1e-4, 0.0, 0.01])), (struck(), np.array([0.2, 0.004]))):
+        base = [np.array([s.shown(linear(RIG, run), FINE, TIME) for s in SENSORS])]
+        noise = 0.01 * np.sqrt(np.mean(base[0] ** 2, axis=1))
+        moved_on = [np.array([s.shown(linear(RIG, run, off), FINE, TIME) for s in SENSORS])]
+        assert Recalibration(RIG, SENSORS, (run,), (), base).left(moved_on, noise) < 1.0
+        assert Recalibration(RIG, SENSORS, (replace(run, free=""),), (), base).left(moved_on, noise) > 10

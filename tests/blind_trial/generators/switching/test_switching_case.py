@@ -1,0 +1,32 @@
+"""Cases: what is hidden can be seen, noise and samples are as drawn, the same seed draws the same case."""
+
+import numpy as np
+import pytest
+
+from pipeline.blind_trial.generators.switching.instruments import written
+from pipeline.blind_trial.generators.switching.switching_case import LEAST, made
+
+
+def test_a_control_shows_its_rig_in_noise_of_its_level():
+    case = made(3, "control", level=0.05)
+    assert (case.kind, case.form, case.left, case.change) == ("control", "", 0.0, 0.0)
+    assert len(case.runs) == len(case.shown) == 4 and 14.9 < case.rate / case.truth.frequencies[-1] < 60.1
+    for sensor, std in zip(case.sensors, case.noise, strict=True):
+        rows = [run[case.sensors.index(sensor)] * sensor.per_unit for run in case.shown]
+        assert np.sqrt(np.mean([np.nanmean(row**2) for row in rows])) == pytest.approx(std / 0.05, rel=0.05)
+
+
+def test_hidden_friction_leaves_what_can_be_seen_and_a_seed_repeats_itself():
+    case, again = (made(1, "effect", "coulomb") for _ in range(2))
+    assert case.left >= LEAST and case.change > 0 and case.reach < 5 and case.name == "coulomb"
+    for first, second in zip(case.shown, again.shown, strict=True):
+        np.testing.assert_array_equal(first, second)
+
+
+def test_a_wrong_value_is_far_off_and_a_faulty_sensor_is_one_of_the_channels():
+    wrong = made(2, "wrong_value")
+    assert wrong.far in wrong.truth.names
+    assert abs(np.log(wrong.belief.value(wrong.far) / wrong.truth.value(wrong.far))) > np.log(1.59)
+    faulty = made(4, "sensor", "reversed")
+    assert faulty.name == "sensor_gain" and faulty.left > LEAST and faulty.index < len(faulty.sensors)
+    assert written(np.ones(3), 1.0, np.zeros(3, bool)).shape == (3,)

@@ -1,0 +1,46 @@
+"""Files of a switching rig: the stages read them, their units mean what they say, nothing betrays the truth."""
+
+import numpy as np
+import pytest
+import yaml
+
+from pipeline.blind_trial.generators.switching.switching_case import made
+from pipeline.blind_trial.generators.switching.switching_files import nominal, truth, write
+from pipeline.blind_trial.generators.systems import SYSTEMS, Draw
+from pipeline.contract.units import to_si
+from pipeline.recordings.neutral import read_neutral
+from stages.bench import bench
+from stages.lumped import lumped
+from tests.blind_trial.generators.imported import imported
+from tests.studies.forced import filled
+
+
+def test_two_files_that_the_stages_accept(tmp_path):
+    for seed in range(3):
+        told = write(Draw(seed, "switching_rig", "control", (), 0.0, 0.01), tmp_path / f"{seed}")
+        assert sorted(p.name for p in (tmp_path / f"{seed}").iterdir()) == ["nominal.yaml", "recordings.h5"]
+        document = yaml.safe_load((tmp_path / f"{seed}" / "nominal.yaml").read_text())
+        model = lumped(settings=filled(document, lumped))
+        assert len(model.mass) == told["bodies"] and filled(document, bench).channels
+        runs = read_neutral(tmp_path / f"{seed}" / "recordings.h5")
+        assert list(runs) == ["take_1", "take_2", "take_3", "take_4"] and told["class"] == "control"
+        assert told["way"] not in (tmp_path / f"{seed}" / "nominal.yaml").read_text() or told["way"] in ("wall", "blow")
+
+
+def test_values_are_stated_in_units_of_their_own():
+    case = made(5, "control")
+    document = nominal(case)
+    for k, mass in enumerate(case.belief.mass):
+        assert to_si(document["lumped"]["masses"][f"body_{k + 1}"]["mass"], "kg", "") == pytest.approx(mass, rel=1e-5)
+    for k, stiffness in enumerate(case.belief.stiffness):
+        stated = document["lumped"]["springs"][f"mount_{k + 1}"]["stiffness"]
+        assert to_si(stated, "N/m", "") == pytest.approx(stiffness, rel=1e-5)
+    assert truth(case)["parameters"]["masses.body_1"] == case.truth.mass[0]
+    assert "effects" not in document["diagnosis"] and truth(case)["effects"] == []
+
+
+def test_it_is_a_system_of_the_trial_that_stands_apart_from_the_diagnosis():
+    assert SYSTEMS["switching_rig"].hides["sensor"] and np.isclose(SYSTEMS["switching_rig"].weight, 0.1)
+    assert not [m for m in imported("pipeline.blind_trial.generators.switching.switching_files") if m.startswith((
+        "pipeline.effects", "pipeline.case_models", "pipeline.diagnosis", "pipeline.inference", "pipeline.physics",
+        "pipeline.systems", "stages"))]

@@ -1,0 +1,124 @@
+"""'make study_second_family SEED=1': rigs that truly switch, coarse samples, unknown starts, diagnosed and scored.
+
+A set has 30 effects, 15 controls, 10 laws that no catalogue holds and 5 faulty sensors. It is drawn from SEED alone;
+seed 101 is for the last measure and is not solved before. One folder a case; what is there is not made or solved again.
+"""
+
+import argparse
+import json
+from dataclasses import asdict, replace
+from functools import partial
+from pathlib import Path
+
+import numpy as np
+
+from pipeline.blind_trial.generators.switching.hidden import hides
+from pipeline.blind_trial.generators.switching.switching_files import write
+from pipeline.blind_trial.generators.systems import Draw
+from pipeline.blind_trial.metrics.criteria import EMPTY, NAMING, VISIBLE, judged
+from pipeline.blind_trial.metrics.failure_reasons import why
+from pipeline.blind_trial.metrics.rates import line, rate
+from pipeline.contract.errors import BrakechainError
+from tests.studies.forced import ROOT, answered, shared_out, solved
+
+#: cases of each class; controls with one value far off count among the controls
+COUNTS = {"effect": 30, "control": 10, "wrong_value": 5, "foreign": 10, "sensor": 5}
+NOISES = (0.01, 0.05)
+_TRIES = 12
+
+
+def plans(seed):
+    """[Draw] of the set of a seed: each form in turn in random order, both levels of noise, all in random order."""
+    random = np.random.default_rng([seed, 60])
+    draws, forms = [], hides()
+    for kind, count in COUNTS.items():
+        order = [forms[kind][k] for _ in range(count) for k in random.permutation(len(forms[kind]))][:count]
+        draws += [(kind, form, NOISES[int(random.integers(len(NOISES)))]) for form in order]
+    return [Draw(1000 * seed + number, "switching_rig", *draws[k][:2], 0.0, draws[k][2])
+            for number, k in enumerate(random.permutation(len(draws)), 1)]
+
+
+def case(draw, folder):
+    """Truth of a Draw whose files are in ``folder``, of a seed further on where none can be made of its own."""
+    kept = folder / "truth.json"
+    for attempt in range(0 if kept.exists() else _TRIES):
+        again = replace(draw, seed=int(np.random.SeedSequence([draw.seed, attempt]).generate_state(1)[0]))
+        try:
+            truth = {**write(again, folder), "visible": VISIBLE, "motion": "forced", "draw": asdict(again)}
+        except BrakechainError as error:
+            message = error
+            continue
+        kept.write_text(json.dumps(truth, indent=1) + "\n")
+        break
+    if not kept.exists():
+        raise message
+    return json.loads(kept.read_text())
+
+
+def solve(folder, kept, only_made, draw):
+    """(truth, answer) of one Draw in its folder; prints its line. None where it cannot be made, or is only made."""
+    own = folder / f"{draw.seed}"
+    try:
+        truth = case(draw, own)
+    except BrakechainError as error:
+        print(f"{draw.seed} {draw.kind} {draw.hidden}: not made: {error}", flush=True)
+        return None
+    if only_made:
+        print(described(draw, truth), flush=True)
+        return None
+    answer = answered(own, partial(solved, own, kept=kept))
+    named = ", ".join(f"{e['name']} at {e['place']}" for e in answer["effects"])
+    right = "right" if judged(truth, answer)["right"] else "wrong"
+    print(f"{described(draw, truth)}  -> {right} {answer['verdict']:<10} {named}   {answer['cpu_seconds']:.0f} s",
+          flush=True)
+    return truth, answer
+
+
+def described(draw, truth):
+    """One line of a truth."""
+    hidden = ", ".join(f"{truth['form']} at {e['place']}" for e in truth["effects"])
+    return (f"{draw.seed} {truth['class']:<11} {hidden:<32} {truth['noise']:>4.0%} {truth['way']:<9}"
+            f" {truth['bodies']} bodies, {truth['a_period']:.0f} a period, leaves {truth['left']:.0f}")
+
+
+def table(results):
+    """Lines of rates with their Wilson intervals from [(truth, answer)]."""
+    scores = [(t, a, judged(t, a)) for t, a in results]
+
+    def of(what, *kinds):
+        return [s[what] for t, _, s in scores if t["class"] in kinds]
+
+    rows = [("effects: type and place", of("right", "effect")), ("effects: type", of("type", "effect")),
+            ("effects: among the first three", of("top", "effect")),
+            ("controls: false alarms", of("false_alarm", *EMPTY)), ("controls: told right", of("right", *EMPTY)),
+            ("foreign: not misnamed", [a["verdict"] not in NAMING for t, a, _ in scores if t["class"] == "foreign"]),
+            ("foreign: unknown", of("right", "foreign")), ("sensors: channel and type", of("right", "sensor")),
+            ("sensors: called so", of("called", "sensor")),
+            ("refused", [a["verdict"] == "refused" for _, a, _ in scores])]
+    rows += [(f"effects at {level:.0%} noise", [s["right"] for t, _, s in scores
+                                               if t["class"] == "effect" and t["noise"] == level]) for level in NOISES]
+    return [line(name, rate(hits)) for name, hits in rows if hits]
+
+
+def main():
+    """Make and solve what is chosen, print the table and why answers are not right."""
+    parser = argparse.ArgumentParser(prog="make study_second_family", description=__doc__)
+    parser.add_argument("--seed", type=int, required=True)
+    parser.add_argument("--folder", type=Path, default=ROOT / "data" / "runs" / "study_second_family")
+    parser.add_argument("--first", type=int, default=None, help="so many cases only")
+    parser.add_argument("--kept", type=int, default=4, help="candidates that are refitted")
+    parser.add_argument("--make", action="store_true", help="make the cases, and do not solve them")
+    parser.add_argument("--workers", type=int, default=2, help="processes")
+    chosen = parser.parse_args()
+    folder = chosen.folder / f"seed_{chosen.seed}"
+    results = shared_out(partial(solve, folder, chosen.kept, chosen.make), plans(chosen.seed)[:chosen.first],
+                         chosen.workers)
+    kept = [r for r in results if r]
+    if kept:
+        reasons = {f"{t['draw']['seed']}": why(t, a, judged(t, a)) for t, a in kept if not judged(t, a)["right"]}
+        (folder / "rates.json").write_text(json.dumps({"rates": table(kept), "why": reasons}, indent=1) + "\n")
+        print("\n".join(table(kept)))
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,40 @@
+"""The study of the second family: its composition, its rates, its files."""
+
+from collections import Counter
+
+import pytest
+
+from pipeline.blind_trial.generators.systems import Draw
+from tests.studies.second_family import COUNTS, case, described, plans, solve, table
+
+
+def test_a_set_has_60_cases_and_its_seed_alone_decides():
+    draws = plans(1)
+    assert Counter(d.kind for d in draws) == COUNTS and len(draws) == 60 == len({d.seed for d in draws})
+    assert plans(1) == draws != plans(2) and len({d.hidden for d in draws if d.kind == "foreign"}) == 10
+    assert len({d.hidden for d in draws if d.kind == "effect"}) >= 14 and {d.noise for d in draws} == {0.01, 0.05}
+
+
+def test_rates_are_those_of_the_trial():
+    effect = {"class": "effect", "effects": [{"name": "coulomb", "place": "mount_1"}], "noise": 0.01, "left": 50.0,
+              "visible": 7.0}
+    foreign = {"class": "foreign", "effects": [{"name": "lift", "place": "mount_1"}], "noise": 0.05, "left": 50.0}
+    named = {"verdict": "missing", "effects": [{"name": "coulomb", "place": "mount_1"}]}
+    rows = table([(effect, named), (foreign, named), ({"class": "control", "effects": [], "noise": 0.01},
+                                                      {"verdict": "parameters", "effects": []})])
+    assert "1 of 1" in rows[0] and any(r.startswith("foreign: not misnamed") and "0 of 1" in r for r in rows)
+    assert any(r.startswith("controls: false alarms") and "0 of 1" in r for r in rows)
+
+
+def test_a_case_is_made_once(tmp_path, capsys):
+    draw = Draw(7, "switching_rig", "control", (), 0.0, 0.01)
+    first = case(draw, tmp_path / "7")
+    assert case(draw, tmp_path / "7") == first and "control" in described(draw, first)
+    assert solve(tmp_path, 2, True, draw) is None and "control" in capsys.readouterr().out
+
+
+@pytest.mark.slow
+@pytest.mark.study
+def test_a_control_is_told_right(tmp_path):
+    truth, answer = solve(tmp_path, 2, False, Draw(7, "switching_rig", "control", (), 0.0, 0.01))
+    assert truth["class"] == "control" and answer["verdict"] in ("consistent", "parameters")
