@@ -4,7 +4,6 @@
 """
 
 from pipeline.effects.effect import Effect
-from pipeline.effects.joint.stick import stick_stiffness
 from pipeline.inference.priors import HalfNormal, LogNormal, Parameter
 from pipeline.physics.time_stepping.elements import Dry, Element, Power
 
@@ -19,7 +18,7 @@ def parameters(typical):
 
 def apply(bench, location, values):
     row, force = bench.joint(location)[0], values["force"]
-    dry = Dry(stick_stiffness(bench, row), force, force, values["rise"], values["speed"])
+    dry = Dry(forward=force, backward=force, rise=values["rise"], decay_speed=values["speed"])
     return bench.with_elements(Element(f"stribeck_joint {location}", row, dry),
                                Element(f"stribeck_joint film {location}", row, Power(values["damping"], 1.0)))
 
