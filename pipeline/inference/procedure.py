@@ -169,7 +169,7 @@ def _pair(problem, budget, catalogue, settings, fan_out, single, first):
         return None, False
     rest = [c for c in catalogue if c.name != first.candidate.name]
     try:
-        refits, pair = _steps(problem.given(first.candidate), budget, rest, settings, fan_out, first.fit, single)
+        refits, pair = _steps(problem.given(first.refined), budget, rest, settings, fan_out, first.fit, single)
     except ConvergenceError:
         return None, False
     if not second_effect.matters(pair, explained, rules):
@@ -186,7 +186,7 @@ def _tied_pair(problem, budget, catalogue, settings, fan_out, single):
         if first.statistics.p_value > rules.p_value or first.statistics.evidence_gain < rules.evidence_gain:
             continue
         rest = tuple(c for c in catalogue if c.name != first.candidate.name)
-        pair = diagnose(problem.given(first.candidate), budget, rest, replace(settings, tied_seconds=False), fan_out)
+        pair = diagnose(problem.given(first.refined), budget, rest, replace(settings, tied_seconds=False), fan_out)
         if pair.decision.named:
             return replace(pair, base=single)
     return single
