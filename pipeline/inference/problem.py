@@ -65,6 +65,8 @@ class Hypothesis:
 
     ``kind``: ``physics``, ``sensor`` (the measurement) or ``numerics`` (the solver). ``forbidden``: a constraint on
     fitted values; priors already keep single signs. ``elaborate``: weighed only where simpler ones leave something.
+    ``halvings``: how many times the time step of the forward model is halved, where its error would matter (see
+    ``fitting.step_error``).
     """
 
     name: str
@@ -73,6 +75,7 @@ class Hypothesis:
     kind: str = "physics"
     forbidden: Constraint | None = None
     elaborate: bool = False
+    halvings: int = 0
 
     def __post_init__(self):
         names = [p.name for p in self.parameters]
@@ -104,14 +107,16 @@ class Hypothesis:
         """Both together, named by their effects."""
         name = f"{self.name} + {other.name}" if self.effects else other.name
         kind = other.kind if not self.effects or other.kind == self.kind else "physics"
-        return Hypothesis(name, self.effects + other.effects, self.parameters + other.parameters, kind)
+        return Hypothesis(name, self.effects + other.effects, self.parameters + other.parameters, kind,
+                          halvings=max(self.halvings, other.halvings))
 
 
 class ForwardModel(Protocol):
     """(c, n): what the channels of a run (Observed) would show under a hypothesis.
 
     ``values`` holds every parameter of the hypothesis by name: nominal ones first, then those of its effects. Runs in
-    order of time may come cut to their first samples, so that only these need to be predicted. It may raise a
+    order of time may come cut to their first samples, so that only these need to be predicted. One that steps through
+    time halves its step as often as the hypothesis says. It may raise a
     BrakechainError where it cannot predict (no convergence); it must be picklable to fan out.
     """
 

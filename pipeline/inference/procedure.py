@@ -236,7 +236,7 @@ class Asked:
         rules, explained = self.settings.rules, first.fit.betters(single.null)
         if not second_effect.has_room(first.fit, explained, rules):
             return None, False
-        asked = replace(self, catalogue=seconds).given([first.candidate])
+        asked = replace(self, catalogue=seconds).given([first.refined])
         try:
             refits, pair = asked.steps(first.fit, single)
         except ConvergenceError:
@@ -314,7 +314,7 @@ def _tied_pair(problem, budget, catalogue, settings, fan_out, single):
         if first.statistics.p_value > rules.p_value or first.statistics.evidence_gain < rules.evidence_gain:
             continue
         rest = tuple(c for c in catalogue if c.name != first.candidate.name)
-        pair = diagnose(problem.given(first.candidate), budget, rest, replace(settings, tied_seconds=False), fan_out)
+        pair = diagnose(problem.given(first.refined), budget, rest, replace(settings, tied_seconds=False), fan_out)
         if pair.decision.named:
             return replace(pair, base=single)
     return single

@@ -31,8 +31,8 @@ from tests.studies.forced import ROOT, shared_out
 JOINTS, ROWS = ("mount", "coupling"), np.array([[1.0, 0.0], [-1.0, 1.0]])
 MASS, STIFFNESS, DAMPING = np.array([1.0, 0.6]), np.array([900.0, 500.0]), np.array([2.0, 1.0])
 RATE, DURATION, LEVELS, NOISES, DRAWS = 200.0, 5.0, (1.0, 2.0, 3.0, 1.6), (0.01, 0.05), 12
-#: the stop in front of the left mass: N/m, and the nominal gap, out of reach
-STOP, AWAY = 3e4, 1.0
+#: the stop in front of the left mass: N/m, and its nominal gap over the root mean square of the linear motion there
+STOP, THOUGHT = 3e4, 2.0
 KINDS = ("coulomb", "backlash", "stop", "coulomb + cubic", "nothing")
 
 
@@ -52,11 +52,13 @@ class Plan:
 
 @dataclass(frozen=True)
 class Truth:
-    """``effects`` ((name, place), ...) that a Recording hides, and its ``noise`` {channel: m}."""
+    """``effects`` ((name, place), ...) that a Recording hides, its ``noise`` {channel: m}, the nominal ``gap`` m of a
+    stop."""
 
     effects: tuple
     noise: dict
     recording: Recording
+    gap: float = 0.0
 
 
 def plans(kinds=KINDS):
@@ -94,7 +96,8 @@ def made(plan, levels=LEVELS):
                     "force": _channel(np.array([level * force(t) for t in instants]), "N")}
         runs[f"run_{k + 1}"] = RunProduct(description="", repeat_of="", channels=channels, conditions={}, frf={},
                                           modes={}, lines={}, topography={}, friction={})
-    return Truth(effects, dict(zip(("left", "right"), std, strict=True)), Recording(source=["events"], runs=runs))
+    return Truth(effects, dict(zip(("left", "right"), std, strict=True)), Recording(source=["events"], runs=runs),
+                 float(THOUGHT * elongation[0]))
 
 
 def hidden(kind, random, elongation, stiffness):
@@ -130,7 +133,7 @@ def _channel(samples, unit):
 
 
 def document(truth, stop=False):
-    """{section: settings} of the nominal case of a Truth; with the ``stop``, out of reach, where one may be."""
+    """{section: settings} of the nominal case of a Truth; with the ``stop``, where it is thought to be."""
     case = {
         "lumped": {
             "masses": {n: {"mass": f"{m} kg", "moves": ["x"]} for n, m in zip(("left", "right"), MASS, strict=True)},
@@ -148,7 +151,8 @@ def document(truth, stop=False):
                       "noise": {"std": {n: f"{float(std)!r} m" for n, std in truth.noise.items()}}}}
     if stop:
         case["lumped"]["contacts"] = {"stop": {"tangent": {"right.x": 1}, "normal": {"left.x": 1},
-                                               "stiffness": f"{STOP} N/m", "gap": f"{AWAY} m"}}
+                                               "stiffness": f"{STOP} N/m", "gap": f"{truth.gap!r} m"}}
+        case["bench"] |= {"contact": "penalty", "contact_stiffness": f"{STOP} N/m", "friction": 0.0, "step": "2.5 ms"}
     return case
 
 

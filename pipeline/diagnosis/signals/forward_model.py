@@ -84,15 +84,16 @@ class Simulated:
 
     def _responder(self, hypothesis, values, channels, change):
         """Responder of a hypothesis, kept as long as run after run asks for the same values and channels."""
-        key = (hypothesis.effects, tuple(values[p.name] for p in hypothesis.parameters if not p.run))
+        finer = hypothesis.halvings
+        key = (hypothesis.effects, finer, tuple(values[p.name] for p in hypothesis.parameters if not p.run))
         if key not in self.built:
             self.built.clear()
             self.built[key] = completed(self.bench, hypothesis, values)
         bench = self.built[key]
         if change:
-            return Responder(only(altered(bench, change), channels))
+            return Responder(only(altered(bench, change), channels), halvings=finer)
         if channels not in self.built:
-            self.built[channels] = Responder(only(bench, channels))
+            self.built[channels] = Responder(only(bench, channels), halvings=finer)
         return self.built[channels]
 
 

@@ -106,11 +106,11 @@ def _immaterial(fit, index, rules):
 
 
 def unexplained(null, fit, rules):
-    """Fraction of the null's excess error that a Fit leaves: by squared error or in frequencies that noise does not
-    explain."""
+    """Fraction of the null's excess error that a Fit leaves: by squared error, beside that of its time step, or in
+    frequencies that noise does not explain."""
     counts, uncertainty = fit.counts.sum(), rules.decision.noise_uncertainty
     excess = max(null.chi_square.sum() - counts, fit.explains(null), 1e-300)
-    by_size = max(0.0, fit.chi_square.sum() - counts - doubt(counts, uncertainty)) / excess
+    by_size = max(0.0, fit.chi_square.sum() - counts - doubt(counts, uncertainty) - fit.step_error) / excess
     return float(max(by_size, _coherent(fit, rules) / max(_coherent(null, rules), excess)))
 
 

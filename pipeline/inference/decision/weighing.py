@@ -1,6 +1,6 @@
 """Evidence of all candidates, refitted or only screened, and the numbers that the rules see."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -65,6 +65,11 @@ class Weighed:
     fit: Fit
     evidence: Evidence
     statistics: CandidateStatistics
+
+    @property
+    def refined(self):
+        """The candidate, its time step halved as often as its Fit asked for."""
+        return replace(self.candidate, halvings=self.fit.hypothesis.halvings)
 
 
 @dataclass(frozen=True)

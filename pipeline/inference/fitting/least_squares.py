@@ -47,7 +47,8 @@ class Fit:
 
     Per run: whitened ``residuals`` (m_r,) = observed less predicted and ``jacobians`` (m_r, k) of the prediction.
     ``converged``: whether the iteration reached its tolerance; ``evaluations`` counts predictions of all runs;
-    ``fresh``: whether the Jacobians are differences taken here, not updates of earlier ones.
+    ``fresh``: whether the Jacobians are differences taken here, not updates of earlier ones. ``step_error``: what half
+    the time step would change in the residuals, squared and summed; 0 where nobody has looked.
     """
 
     hypothesis: object
@@ -59,6 +60,7 @@ class Fit:
     converged: bool
     evaluations: int
     fresh: bool = True
+    step_error: float = 0.0
 
     @property
     def values(self):
@@ -116,7 +118,7 @@ class Fit:
         """The same values against noise ``factor`` times as large."""
         return replace(self, noises=tuple(noise.scaled(factor) for noise in self.noises),
                        residuals=tuple(r / factor for r in self.residuals),
-                       jacobians=tuple(j / factor for j in self.jacobians))
+                       jacobians=tuple(j / factor for j in self.jacobians), step_error=self.step_error / factor**2)
 
     def explains(self, null):
         """Squared error of the Fit ``null`` that this one explains."""
@@ -198,6 +200,11 @@ def continued(problem, state, iterations=ITERATIONS, enough=np.inf, patient=True
         return state
     state = iterated(problem, state, iterations // _AGAIN, enough, patient)
     return state if state.converged or state.objective > enough else _at_central_differences(problem, state)
+
+
+def again(problem, state):
+    """The Fit at its latent values with differences taken anew over wide steps, which look beyond kinks."""
+    return _refreshed(problem, state, _WIDEST)
 
 
 def _at_central_differences(problem, state):

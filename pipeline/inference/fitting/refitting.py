@@ -11,7 +11,8 @@ from pipeline.inference.decision.candidate_statistics import unexplained
 from pipeline.inference.decision.weighing import evidence_of_all
 from pipeline.inference.fitting import tone_starts
 from pipeline.inference.fitting.calibration import Calibration, begun, paired_anew
-from pipeline.inference.fitting.least_squares import Fit, continued, linearised, whitened
+from pipeline.inference.fitting.least_squares import Fit, again, continued, linearised, whitened
+from pipeline.inference.fitting.step_error import refined
 from pipeline.inference.problem import FanOut, Problem
 from pipeline.inference.rules import Rules
 from pipeline.inference.search.score_screen import alternatives, directions, screen, short_name
@@ -72,6 +73,7 @@ def refit_catalogue(screening, catalogue, settings, fan_out, results=None):
         evidences = evidence_of_all(calibration.null, screening.directions, fits, settings)
         more = evidences.overlooked(settings.rules.decision)[:settings.kept]
         results = refitter.of(more, starts, results)
+    results = refitter.settled(results)
     better = calibration.improved([r.null for r in results.values()], settings.rules.calibration)
     if better is calibration:
         return Refits(calibration, screening.directions, results, refitter)
@@ -152,6 +154,25 @@ class Refitter:
         begins = [(i, *_tried(self.problem, self.null, self.catalogue[i], [start], ())) for i, start in starts.items()]
         return _lowest(results, {i: _finished(self.problem, self.null, np.inf, self.rules, begin)
                                  for i, begin, _ in begins if begin is not None})
+
+    def settled(self, results):
+        """{index: Refitted} once the best fit has converged, if it can, and the step errors of the leading ones do not
+        matter.
+
+        Those lead that come within reach of the best, which explains more than chance.
+        """
+        for _ in range(self.rules.refit.restarts):
+            top = _best(results)
+            if top is None or results[top].fit.converged or not self._explains(results[top].fit):
+                break
+            results = _lowest(results, {top: _finished(self.problem, self.null, np.inf, self.rules,
+                                                       again(self.problem, results[top].fit))})
+        enough = self._enough(results.values())
+        leading = [i for i, r in results.items() if r.fit is not None and not r.fit.unordered
+                   and r.fit.objective <= enough and r.fit.hypothesis.kind != "numerics" and self._explains(r.fit)]
+        look = partial(refined, self.problem, self.rules.refit)
+        finer = self.fan_out(look, [results[i].fit for i in leading])
+        return results | {i: results[i]._replace(fit=fit) for i, fit in zip(leading, finer, strict=True)}
 
     def _explains(self, fit):
         return fit.weights.max() * fit.betters(self.null) > 2 * self.rules.decision.evidence_gain

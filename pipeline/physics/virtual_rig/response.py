@@ -138,17 +138,18 @@ def respond(bench, run, system=None):
 class Responder:
     """Answers of one Bench to many runs, which share what depends on speed, step and friction alone.
 
-    ``system`` is the ModalSystem of the model, where there is one already.
+    ``system`` is the ModalSystem of the model, where there is one already; ``halvings``: how often the steps of the
+    bench are halved.
     """
 
-    def __init__(self, bench, system=None):
-        self.bench, self._system, self._steppers = bench, system, {}
+    def __init__(self, bench, system=None, halvings=0):
+        self.bench, self._system, self._steppers, self._finer = bench, system, {}, 2**halvings
         self._rows, self._model = _watched(bench)
 
     def respond(self, run):
         """{channel: (samples,)} of a Run; errors as of ``respond``."""
         bench = self.bench
-        parts = max(1, int(np.ceil(1 / (run.sample_rate * bench.step) * (1 - 1e-12))))
+        parts = max(1, int(np.ceil(1 / (run.sample_rate * bench.step) * (1 - 1e-12)))) * self._finer
         step = 1 / run.sample_rate / parts
         inputs, drive = run_inputs(bench, run), run_drive(bench, run)
         speed, first = at_begin(bench, run)

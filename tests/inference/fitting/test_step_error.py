@@ -1,0 +1,55 @@
+"""The error of the time step: found by half of it, refined where it matters, left alone where it does not."""
+
+import numpy as np
+import pytest
+
+from pipeline.inference.fitting.least_squares import fit
+from pipeline.inference.fitting.noise import budget
+from pipeline.inference.fitting.step_error import changed, halved, refined
+from pipeline.inference.priors import Normal, Parameter
+from pipeline.inference.problem import Hypothesis, Observed, Problem
+from pipeline.inference.rules import RefitRules
+
+TIME, RATE = np.arange(200) / 100, 100.0
+
+
+def decays(std, asked=None, steps=2):
+    """A run that shows exp(-t), and a model exp(-a t) by the midpoint rule, ``steps`` a time unit of 0.2."""
+    def predict(hypothesis, values, run):
+        step = 0.2 / steps / 2**hypothesis.halvings
+        if asked is not None:
+            asked.append(hypothesis.halvings)
+        a = values["a"] * step
+        return ((1 - a + a**2 / 2) ** (TIME / step))[None]
+
+    noise = std * np.random.default_rng(3).standard_normal(len(TIME))
+    run = Observed("a", {}, ("y",), (np.exp(-TIME) + noise)[None], RATE, noise_std=np.array([std]))
+    parameters = (Parameter("a", "1/s", 1.2, Normal(1.2, 0.5)),)
+    problem = Problem((run,), predict, Hypothesis("nominal", (), parameters))
+    start = problem.nominal.nominal
+    return problem, fit(problem, [budget(problem)["a"]], problem.nominal, start, problem.runs)
+
+
+@pytest.mark.exact
+def test_half_the_step_changes_three_quarters_of_an_error_of_order_two():
+    problem, whole = decays(1e-4, steps=8)
+    finer, exact = halved(problem, whole), whole.values["a"]
+    error = np.exp(-exact * TIME) - problem.predict(whole.hypothesis, whole.values, problem.runs[0])[0]
+    assert changed(whole, finer)[0] == pytest.approx((0.75 * error / 1e-4) @ (0.75 * error / 1e-4), rel=0.05)
+
+
+def test_a_step_whose_error_matters_is_halved_until_it_does_not():
+    problem, whole = decays(1e-4)
+    better = refined(problem, RefitRules(), whole)
+    assert better.hypothesis.halvings >= 2 and better.converged
+    assert better.step_error < changed(whole, halved(problem, whole))[0] / 10
+    assert abs(better.values["a"] - 1) < 0.2 * abs(whole.values["a"] - 1)
+
+
+def test_a_step_whose_error_does_not_matter_costs_one_prediction_more():
+    asked = []
+    problem, whole = decays(0.1, asked)
+    asked.clear()
+    same = refined(problem, RefitRules(), whole)
+    assert asked == [1] and same.hypothesis is whole.hypothesis and same.latent is whole.latent
+    assert 0 < same.step_error < 0.01 * len(TIME)
