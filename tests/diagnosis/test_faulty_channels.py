@@ -1,4 +1,4 @@
-"""A channel of reversed sign, or in another unit than stated, is named as such; slow: the whole catalogue is weighed."""
+"""A channel of reversed sign, or in another unit than stated, is named as such, be it among the whole catalogue."""
 
 from dataclasses import replace
 
