@@ -13,7 +13,7 @@ from pipeline.diagnosis.settings import prior_of
 from pipeline.diagnosis.signals.start_states import begun, held
 from pipeline.effects import CATALOGUE, named
 from pipeline.effects.effect import Term, compose
-from pipeline.effects.typical import CHANNEL, typical
+from pipeline.effects.typical import CHANNEL, JOINT, typical
 from pipeline.inference.priors import Normal, Parameter
 from pipeline.inference.problem import Hypothesis, Observed
 from pipeline.physics.time_stepping.elements import alone
@@ -159,13 +159,23 @@ def candidates(bench, runs, catalogue, places=(), scale=1.0, priors=(), peaks=()
             kind = effect.kind_at(location), location
             if kind not in sizes:       # nominal runs are simulated once for all effects of a place
                 size = typical(kind[0], bench, location, runs).scaled(scale)
-                peak = kind[0] == CHANNEL and dict(peaks).get(location)
-                sizes[kind] = replace(size, shown=peak) if peak else size
+                sizes[kind] = _as_recorded(size, kind, bench, dict(peaks))
             parameters = tuple(_named(p, effect, location, dict(priors)) for p in effect.parameters(sizes[kind]))
             pair = effect.name, location
             hypotheses.append(Hypothesis(label((pair,)), (pair,), parameters, effect.kind,
                                          elaborate=effect.elaborate))
     return tuple(hypotheses)
+
+
+def _as_recorded(size, kind, bench, peaks):
+    """Typical quantities with what recordings show at most: of a channel, and of a joint without a spring, whose force
+    no nominal motion tells, the largest force that a channel shows."""
+    if kind[0] == CHANNEL:
+        return replace(size, shown=peaks.get(kind[1]) or size.shown)
+    if kind[0] == JOINT and not size.stiffness:
+        forces = [peaks.get(c.name, 0.0) for c in bench.channels if c.measurand.unit == "N"]
+        return replace(size, force=max([size.force, *forces]))
+    return size
 
 
 def _named(parameter, effect, location, priors):

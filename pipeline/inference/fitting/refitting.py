@@ -238,6 +238,7 @@ def _begun(problem, null, offsets, rules, item):
     """(Fit of a candidate after a few iterations or None, why there is none)."""
     candidate, screened_start = item
     misled = _misled(null, rules)
+    offsets = () if candidate.elaborate else offsets    # the screen has tried many values of these
     starts = _starts(problem.nominal.nominal if misled else null.latent, [
         screened_start, *(np.full(len(candidate.parameters), offset) for offset in offsets)])
     starts += _starts(null.latent, [screened_start] * at_odds(null, rules)
