@@ -115,14 +115,14 @@ def main():
     parser = argparse.ArgumentParser(prog="make study_second_family", description=__doc__)
     parser.add_argument("--seed", type=int, required=True)
     parser.add_argument("--folder", type=Path, default=ROOT / "data" / "runs" / "study_second_family")
-    parser.add_argument("--first", type=int, default=None, help="so many cases only")
+    parser.add_argument("--only", type=int, nargs="*", help="numbers of the cases, 1 to 60; default all")
     parser.add_argument("--kept", type=int, default=4, help="candidates that are refitted")
     parser.add_argument("--make", action="store_true", help="make the cases, and do not solve them")
     parser.add_argument("--workers", type=int, default=2, help="processes")
     chosen = parser.parse_args()
     folder = chosen.folder / f"seed_{chosen.seed}"
-    results = shared_out(partial(solve, folder, chosen.kept, chosen.make), plans(chosen.seed)[:chosen.first],
-                         chosen.workers)
+    wanted = [plans(chosen.seed)[k - 1] for k in chosen.only or range(1, sum(COUNTS.values()) + 1)]
+    results = shared_out(partial(solve, folder, chosen.kept, chosen.make), wanted, chosen.workers)
     kept = [r for r in results if r]
     if kept:
         reasons = {f"{t['draw']['seed']}": why(t, a, judged(t, a)) for t, a in kept if not judged(t, a)["right"]}
