@@ -93,11 +93,11 @@ def made(seed, kind, form="", level=0.01):
     random = np.random.default_rng([seed, 22])
     piece = PIECES.get(form)
     layout = str(random.choice(_LAYOUTS))
-    way = str(random.choice([w for w in _WAYS if not (w == "wall" and piece and piece.place == "wall spring")]))
+    way = str(random.choice([w for w in _WAYS if w != "wall" or _beside_a_moved_wall(piece, layout)]))
     truth = rig.drawn(random, layout)
     rate, count = _sampling(random, truth)
     bench, at = _laid_out(random, truth, way, rate, count)
-    index = _index(random, piece, bench)
+    index = _index(random, piece, bench, at if way == "wall" else None)
     exact = known_exactly(piece, truth, index) if piece else ()
     if not exact and kind != "wrong_value" and random.uniform() < 1 / 3:
         exact = (str(random.choice(truth.names)),)
@@ -126,12 +126,18 @@ def made(seed, kind, form="", level=0.01):
                 bench.runs, bench.sensors, shown, spread, _change(seen, base), _reach(seen, base), hiding.told(size))
 
 
-def _index(random, piece, bench):
+def _beside_a_moved_wall(piece, layout):
+    """Whether a Piece has a place on a rig one of whose walls is moved: not at the spring there."""
+    return piece is None or piece.place == "mass" or (piece.place == "spring" and len(rig.LAYOUTS[layout]) > 1)
+
+
+def _index(random, piece, bench, moved_spring):
     """Number of the spring or body of a Piece, bodies with a sensor alone, else that of a sensor."""
     if piece is None:
         return int(random.integers(len(bench.sensors)))
     sensed = [s.body for s in bench.sensors]
-    return int(random.choice([k for k in places(piece, bench.rig) if piece.place != "mass" or k in sensed]))
+    return int(random.choice([
+        k for k in places(piece, bench.rig) if (k in sensed if piece.place == "mass" else k != moved_spring)]))
 
 
 def _sampling(random, truth):

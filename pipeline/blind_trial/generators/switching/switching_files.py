@@ -42,7 +42,7 @@ def place(case):
 
 
 def alike(case):
-    """[{name, place}] of laws of the input that make the force of the hidden one: it pushes at a wall spring there."""
+    """[{name, place}] of laws of the input whose force is that of the hidden one, at a spring of what it pushes."""
     pushed = not any(run.free == "start" for run in case.runs) and case.way != "wall"
     if case.name in _OF_INPUT and pushed and case.truth.ends[case.index] == (case.at, WALL):
         return [{"name": _OF_INPUT[case.name], "place": "push"}]
@@ -54,8 +54,8 @@ def truth(case):
     hidden = {"name": case.name, "place": place(case), "parameters": case.told, "alike": alike(case)}
     values = {_named(name): float(case.truth.value(name)) for name in case.truth.names}
     return {"class": case.kind, "effects": [hidden] if case.form else [], "noise": case.level, "size": case.change,
-            "parameters": values, "left": case.left, "seed": case.seed, "colour": case.colour, "wrong": case.far, "way": case.way,
-            "form": case.form, "gaps": case.gap, "amount": case.size, "bodies": len(case.truth.mass),
+            "parameters": values, "left": case.left, "seed": case.seed, "colour": case.colour, "wrong": case.far,
+            "way": case.way, "form": case.form, "gaps": case.gap, "amount": case.size, "bodies": len(case.truth.mass),
             "a_period": case.rate / float(case.truth.frequencies[-1])}
 
 
