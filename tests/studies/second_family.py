@@ -12,9 +12,7 @@ from pathlib import Path
 
 import numpy as np
 
-from pipeline.blind_trial.generators.switching.hidden import hides
-from pipeline.blind_trial.generators.switching.switching_files import write
-from pipeline.blind_trial.generators.systems import Draw
+from pipeline.blind_trial.generators.systems import SYSTEMS, Draw
 from pipeline.blind_trial.metrics.criteria import EMPTY, NAMING, VISIBLE, judged
 from pipeline.blind_trial.metrics.failure_reasons import why
 from pipeline.blind_trial.metrics.rates import line, rate
@@ -24,35 +22,47 @@ from tests.studies.forced import ROOT, answered, shared_out, solved
 #: cases of each class; controls with one value far off count among the controls
 COUNTS = {"effect": 30, "control": 10, "wrong_value": 5, "foreign": 10, "sensor": 5}
 NOISES = (0.01, 0.05)
+#: cases of a set from whose number on blocks are pulled instead of rigs, in the classes that a pulled block can make
+_PULLED = 49
 _TRIES = 12
 
 
 def plans(seed):
     """[Draw] of the set of a seed: each form in turn in random order, both levels of noise, all in random order."""
     random = np.random.default_rng([seed, 60])
-    draws, forms = [], hides()
+    draws, forms, pulled = [], SYSTEMS["switching_rig"].hides, SYSTEMS["pulled_block"].hides
     for kind, count in COUNTS.items():
         order = [forms[kind][k] for _ in range(count) for k in random.permutation(len(forms[kind]))][:count]
         draws += [(kind, form, NOISES[int(random.integers(len(NOISES)))]) for form in order]
-    return [Draw(1000 * seed + number, "switching_rig", *draws[k][:2], 0.0, draws[k][2])
-            for number, k in enumerate(random.permutation(len(draws)), 1)]
+    plan = []
+    for number, k in enumerate(random.permutation(len(draws)), 1):
+        kind, form, noise = draws[k]
+        system = "pulled_block" if number >= _PULLED and kind in pulled else "switching_rig"
+        if system == "pulled_block":
+            form = pulled[kind][int(random.integers(len(pulled[kind])))]
+        plan.append(Draw(1000 * seed + number, system, kind, form, 0.0, noise))
+    return plan
 
 
 def case(draw, folder):
-    """Truth of a Draw whose files are in ``folder``, of a seed further on where none can be made of its own."""
+    """Truth of a Draw whose files are in ``folder``."""
     kept = folder / "truth.json"
-    for attempt in range(0 if kept.exists() else _TRIES):
+    if not kept.exists():
+        kept.write_text(json.dumps(_made(draw, folder), indent=1) + "\n")
+    return json.loads(kept.read_text())
+
+
+def _made(draw, folder):
+    """The same where its files are new, of a seed further on where none can be made of its own."""
+    for attempt in range(_TRIES):
         again = replace(draw, seed=int(np.random.SeedSequence([draw.seed, attempt]).generate_state(1)[0]))
         try:
-            truth = {**write(again, folder), "visible": VISIBLE, "motion": "forced", "draw": asdict(again)}
+            truth = SYSTEMS[again.system].write(again, folder)
         except BrakechainError as error:
             message = error
-            continue
-        kept.write_text(json.dumps(truth, indent=1) + "\n")
-        break
-    if not kept.exists():
-        raise message
-    return json.loads(kept.read_text())
+        else:
+            return {**truth, "visible": VISIBLE, "motion": "forced", "draw": asdict(again)}
+    raise message
 
 
 def solve(folder, kept, only_made, draw):
@@ -105,14 +115,14 @@ def main():
     parser = argparse.ArgumentParser(prog="make study_second_family", description=__doc__)
     parser.add_argument("--seed", type=int, required=True)
     parser.add_argument("--folder", type=Path, default=ROOT / "data" / "runs" / "study_second_family")
-    parser.add_argument("--first", type=int, default=None, help="so many cases only")
+    parser.add_argument("--only", type=int, nargs="*", help="numbers of the cases, 1 to 60; default all")
     parser.add_argument("--kept", type=int, default=4, help="candidates that are refitted")
     parser.add_argument("--make", action="store_true", help="make the cases, and do not solve them")
     parser.add_argument("--workers", type=int, default=2, help="processes")
     chosen = parser.parse_args()
     folder = chosen.folder / f"seed_{chosen.seed}"
-    results = shared_out(partial(solve, folder, chosen.kept, chosen.make), plans(chosen.seed)[:chosen.first],
-                         chosen.workers)
+    wanted = [plans(chosen.seed)[k - 1] for k in chosen.only or range(1, sum(COUNTS.values()) + 1)]
+    results = shared_out(partial(solve, folder, chosen.kept, chosen.make), wanted, chosen.workers)
     kept = [r for r in results if r]
     if kept:
         reasons = {f"{t['draw']['seed']}": why(t, a, judged(t, a)) for t, a in kept if not judged(t, a)["right"]}

@@ -28,7 +28,7 @@ from pipeline.blind_trial.generators.spring_mass.hidden_laws import HIDDEN
 from pipeline.blind_trial.generators.spring_mass.placement import places
 from pipeline.blind_trial.generators.spring_mass.rig_case import KINDS, kind_of, made
 from pipeline.blind_trial.generators.switching import hidden as switching
-from pipeline.blind_trial.generators.switching import switching_files
+from pipeline.blind_trial.generators.switching import pulled_files, switching_files
 
 CLASSES = ("effect", "pair", "control", "wrong_value", "sensor", "solver", "foreign", "below")
 
@@ -141,6 +141,7 @@ SYSTEMS = {system.name: system for system in (
            weight=0.03),
     System("disc_brake", brake_files.write, brake_files.hides(), (0.0,), (0.0,), "disc_brake", weight=0.14),
     System("switching_rig", switching_files.write, switching.hides(), sizes=(0.0,), noises=(0.01, 0.05), weight=0.1),
+    System("pulled_block", pulled_files.write, pulled_files.hides(), sizes=(0.0,), noises=(0.01, 0.05), weight=0.03),
     System("coarse_rig", _forced, {"solver": ((),)}, sizes=(0.0,), noises=(0.003, 0.01)),
 )}
 #: the same of real recordings, for those who have them: see ``pipeline.blind_trial.generators.real_recordings``

@@ -4,7 +4,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from pipeline.blind_trial.generators.switching import drive, rig
+from pipeline.blind_trial.generators.switching import drive, reported_values, rig
 from pipeline.blind_trial.generators.switching.event_motion import Mechanism, moved
 from pipeline.blind_trial.generators.switching.hidden import FAULTS, PIECES, known_exactly, places, row_of
 from pipeline.blind_trial.generators.switching.instruments import PARTS, QUANTITIES, Sensor, gaps, noise, written
@@ -35,7 +35,8 @@ class Case:
 
     ``truth`` and ``belief`` are Rigs, ``exact`` names of values that are stated exactly, ``far`` that of a wrong one;
     ``runs`` [Beginning], ``shown`` [(sensor, n)] as written, ``noise`` (sensor,) in SI; ``change`` of what the sensors
-    show, relative; ``at``: number of the body or spring that is excited.
+    show, relative; ``at``: number of the body or spring that is excited; ``told`` {parameter: SI value} of what is
+    hidden, where others have words for it.
     """
 
     seed: int
@@ -61,6 +62,7 @@ class Case:
     noise: np.ndarray
     change: float
     reach: float
+    told: dict
 
 
 @dataclass(frozen=True)
@@ -91,11 +93,11 @@ def made(seed, kind, form="", level=0.01):
     random = np.random.default_rng([seed, 22])
     piece = PIECES.get(form)
     layout = str(random.choice(_LAYOUTS))
-    way = str(random.choice([w for w in _WAYS if not (w == "wall" and piece and piece.place == "wall spring")]))
+    way = str(random.choice([w for w in _WAYS if w != "wall" or _beside_a_moved_wall(piece, layout)]))
     truth = rig.drawn(random, layout)
     rate, count = _sampling(random, truth)
     bench, at = _laid_out(random, truth, way, rate, count)
-    index = int(random.choice(places(piece, truth))) if piece else int(random.integers(len(bench.sensors)))
+    index = _index(random, piece, bench, at if way == "wall" else None)
     exact = known_exactly(piece, truth, index) if piece else ()
     if not exact and kind != "wrong_value" and random.uniform() < 1 / 3:
         exact = (str(random.choice(truth.names)),)
@@ -121,7 +123,21 @@ def made(seed, kind, form="", level=0.01):
     shown = tuple(_written(random, run, spread, bench.sensors, colour, gap) for run in seen)
     name = piece.name if piece else FAULTS.get(form, "")
     return Case(seed, kind, form, name, index, size, left, level, colour, gap, way, at, truth, belief, exact, far, rate,
-                bench.runs, bench.sensors, shown, spread, _change(seen, base), _reach(seen, base))
+                bench.runs, bench.sensors, shown, spread, _change(seen, base), _reach(seen, base), hiding.told(size))
+
+
+def _beside_a_moved_wall(piece, layout):
+    """Whether a Piece has a place on a rig one of whose walls is moved: not at the spring there."""
+    return piece is None or piece.place == "mass" or (piece.place == "spring" and len(rig.LAYOUTS[layout]) > 1)
+
+
+def _index(random, piece, bench, moved_spring):
+    """Number of the spring or body of a Piece, bodies with a sensor alone, else that of a sensor."""
+    if piece is None:
+        return int(random.integers(len(bench.sensors)))
+    sensed = [s.body for s in bench.sensors]
+    return int(random.choice([
+        k for k in places(piece, bench.rig) if (k in sensed if piece.place == "mass" else k != moved_spring)]))
 
 
 def _sampling(random, truth):
@@ -215,6 +231,14 @@ class _Hiding:
         if self.piece.change is not None:
             return bench.seen(bench.motions((), self.piece.change(bench.rig, self.index, size)))
         return bench.seen(bench.motions(self.piece.laws(self.spot, size)))
+
+    def told(self, size):
+        """{parameter: SI value} of a piece at a size; {} of a fault and of nothing."""
+        if self.piece is None:
+            return {}
+        if self.piece.change is not None:
+            return reported_values.of_change(self.form, self.bench.rig, self.index, size)
+        return reported_values.of_law(self.form, self.spot, size)
 
     def faulty(self, size):
         """The sensors with the fault ``form`` in one of them."""

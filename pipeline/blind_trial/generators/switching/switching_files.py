@@ -10,6 +10,8 @@ from pipeline.blind_trial.generators.switching.switching_case import LEVELS, mad
 
 #: steps of the workshop's model in a period of the fastest mode, at least
 _STEPS = 100
+#: laws of a wall spring -> those of an input that make the same force
+_OF_INPUT = {"base_shake": "pressure_ripple", "viscoelastic_pad": "hydraulic_compliance"}
 #: kind of a value -> (name in the case, units that it is stated in with their size in SI)
 _UNITS = {"mass": {"kg": 1.0, "g": 1e-3}, "stiffness": {"N/m": 1.0, "N/mm": 1e3, "kN/m": 1e3},
           "damping": {"N s/m": 1.0, "kN s/m": 1e3}}
@@ -39,13 +41,21 @@ def place(case):
     return body(case.index) if piece.place == "mass" else spring(case.index)
 
 
+def alike(case):
+    """[{name, place}] of laws of the input whose force is that of the hidden one, at a spring of what it pushes."""
+    pushed = not any(run.free == "start" for run in case.runs) and case.way != "wall"
+    if case.name in _OF_INPUT and pushed and case.truth.ends[case.index] == (case.at, WALL):
+        return [{"name": _OF_INPUT[case.name], "place": "push"}]
+    return []
+
+
 def truth(case):
     """What is opened only for the score: see ``pipeline.blind_trial.generators.systems``."""
-    effects = [{"name": case.name, "place": place(case), "parameters": {}, "alike": []}] if case.form else []
+    hidden = {"name": case.name, "place": place(case), "parameters": case.told, "alike": alike(case)}
     values = {_named(name): float(case.truth.value(name)) for name in case.truth.names}
-    return {"class": case.kind, "effects": effects, "noise": case.level, "size": case.change, "parameters": values,
-            "left": case.left, "seed": case.seed, "colour": case.colour, "wrong": case.far, "way": case.way,
-            "form": case.form, "gaps": case.gap, "amount": case.size, "bodies": len(case.truth.mass),
+    return {"class": case.kind, "effects": [hidden] if case.form else [], "noise": case.level, "size": case.change,
+            "parameters": values, "left": case.left, "seed": case.seed, "colour": case.colour, "wrong": case.far,
+            "way": case.way, "form": case.form, "gaps": case.gap, "amount": case.size, "bodies": len(case.truth.mass),
             "a_period": case.rate / float(case.truth.frequencies[-1])}
 
 
@@ -78,11 +88,11 @@ def nominal(case):
                               for k in range(len(case.belief.mass))},
                    "springs": {spring(k): _spring(case, k) for k in range(len(case.belief.ends))},
                    **_inputs(case),
-                   "sensors": {f"at_{body(s.body)}": {"along": {f"{body(s.body)}.x": 1}, "quantity": s.quantity,
+                   "sensors": {body(s.body): {"along": {f"{body(s.body)}.x": 1}, "quantity": s.quantity,
                                                       "unit": s.si} for s in case.sensors}},
         "recording": {"files": [{"kind": "hdf5", "file": "recordings.h5"}]},
         "bench": {"step": f"{_step(case):.9g} s", **_fed(case), "channels": {s.name: {
-            "quantity": s.quantity, "source": f"at_{body(s.body)}", "corner": f"{s.stated_corner:.6g} Hz",
+            "quantity": s.quantity, "source": body(s.body), "corner": f"{s.stated_corner:.6g} Hz",
             "delay": f"{s.stated_delay:.6g} s"} for s in case.sensors}},
         "diagnosis": {"parameters": free | gains, "held_out": [f"take_{len(case.runs)}"],
                       "noise": {"std": {s.name: f"{std:.6g} {s.si}"

@@ -3,8 +3,10 @@
 import numpy as np
 import pytest
 
-from pipeline.blind_trial.generators.switching.instruments import written
-from pipeline.blind_trial.generators.switching.switching_case import LEAST, made
+from pipeline.blind_trial.generators.switching.hidden import PIECES
+from pipeline.blind_trial.generators.switching.instruments import Sensor, written
+from pipeline.blind_trial.generators.switching.rig import drawn
+from pipeline.blind_trial.generators.switching.switching_case import LEAST, _Bench, _beside_a_moved_wall, _index, made
 
 
 def test_a_control_shows_its_rig_in_noise_of_its_level():
@@ -16,11 +18,26 @@ def test_a_control_shows_its_rig_in_noise_of_its_level():
         assert np.sqrt(np.mean([np.nanmean(row**2) for row in rows])) == pytest.approx(std / 0.05, rel=0.05)
 
 
-def test_hidden_friction_leaves_what_can_be_seen_and_a_seed_repeats_itself():
-    case, again = (made(1, "effect", "coulomb") for _ in range(2))
+def test_hidden_friction_leaves_what_can_be_seen():
+    case = made(1, "effect", "coulomb")
     assert case.left >= LEAST and case.change > 0 and case.reach < 5 and case.name == "coulomb"
+
+
+def test_a_seed_repeats_itself():
+    case, again = (made(3, "control") for _ in range(2))
     for first, second in zip(case.shown, again.shown, strict=True):
         np.testing.assert_array_equal(first, second)
+
+
+def test_nothing_is_hidden_at_the_spring_whose_wall_is_moved():
+    """There a law would act on the motion relative to the wall."""
+    for form, layout, possible in (("coulomb", "single", False), ("coulomb", "row", True), ("base_shake", "row", False),
+                                   ("attached_mass", "single", True)):
+        assert _beside_a_moved_wall(PIECES[form], layout) == possible
+    random, truth = np.random.default_rng(1), drawn(np.random.default_rng(1), "bridge")
+    bench = _Bench(truth, (), (Sensor("ch2", 1, "displacement", "mm", 1e-4),))
+    assert {_index(random, PIECES["coulomb"], bench, 0) for _ in range(40)} == {1, 2}
+    assert {_index(random, PIECES["attached_mass"], bench, 0) for _ in range(40)} == {1}
 
 
 def test_a_wrong_value_is_far_off_and_a_faulty_sensor_is_one_of_the_channels():

@@ -1,11 +1,14 @@
 """Files of a switching rig: the stages read them, their units mean what they say, nothing betrays the truth."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 import yaml
 
+from pipeline.blind_trial.generators.switching.rig import drawn
 from pipeline.blind_trial.generators.switching.switching_case import made
-from pipeline.blind_trial.generators.switching.switching_files import nominal, truth, write
+from pipeline.blind_trial.generators.switching.switching_files import alike, nominal, truth, write
 from pipeline.blind_trial.generators.systems import SYSTEMS, Draw
 from pipeline.contract.units import to_si
 from pipeline.recordings.neutral import read_neutral
@@ -37,6 +40,13 @@ def test_values_are_stated_in_units_of_their_own():
         assert to_si(stated, "N/m", "") == pytest.approx(stiffness, rel=1e-5)
     assert truth(case)["parameters"]["masses.body_1"] == case.truth.mass[0]
     assert "effects" not in document["diagnosis"] and truth(case)["effects"] == []
+
+
+@pytest.mark.parametrize("at, way, found", [(0, "sweep", ["hydraulic_compliance"]), (1, "sweep", []), (0, "wall", [])])
+def test_a_law_of_the_pushed_body_beside_a_wall_is_like_one_of_the_input(at, way, found):
+    rig = drawn(np.random.default_rng(1), "row")
+    case = replace(made(5, "control"), name="viscoelastic_pad", index=0, at=at, way=way, runs=(), truth=rig)
+    assert [law["name"] for law in alike(case)] == found
 
 
 def test_it_is_a_system_of_the_trial_that_stands_apart_from_the_diagnosis():
