@@ -182,14 +182,16 @@ class Asked:
 
     def together(self, single, selection):
         """The Diagnosis of the largest set of a Selection all of whose members are named; else ``single``, which tells
-        what was tried."""
-        members, tried = selection.members, selection.tried
-        while len(members) > 1:
+        what was tried.
+
+        Where nothing is named a law that gives little along motions may be what the others lack.
+        """
+        tried, wider = selection.tried, (selection.wider,) if single.decision.verdict == "unknown" else ()
+        for members in _sets(selection.members, *wider):
             whole, combination = self._set(single, selection, members)
             tried = (combination, *(c for c in tried if set(c.effects) != set(combination.effects)))
             if whole is not None:
                 return replace(whole, combinations=tried)
-            members = members[:-1]
         return replace(single, combinations=tried)
 
     def _set(self, single, selection, members):
@@ -257,6 +259,12 @@ def _reaches_noise(diagnosis, rules):
                 and not statistics.held_out_left)
 
     return diagnosis.decision.verdict in ("consistent", "parameters") or any(map(reaches, diagnosis.weighed))
+
+
+def _sets(*members):
+    """[(index, ...)]: each of the sets ``members``, then each without its last ones, none twice and none below two."""
+    smaller = [each[:count] for each in members for count in range(len(each) - 1, 1, -1)]
+    return list({frozenset(each): each for each in (*members, *smaller) if len(each) > 1}.values())
 
 
 def _explained(single):

@@ -56,11 +56,13 @@ class Combination:
 class Selection:
     """``members``: indices of the candidates of the best set, the least necessary last; ``tried`` (Combination, ...).
 
+    ``wider``: the same of the best set whose members need not give a share that an error of the others cannot.
     ``nominal`` (k,): latent values of the nominal parameters beside them; ``values`` {index: (j,)}: those of members.
     ``judged``: indices of the candidates whose part measured motions can show.
     """
 
     members: tuple
+    wider: tuple
     tried: tuple
     nominal: np.ndarray
     values: dict
@@ -123,16 +125,17 @@ def _selected(null, every, catalogue, rules, along=None):
     of = table(null, every)
     subsets, judged = best_subsets(of), frozenset(int(i) for i in of.owner)
     if not subsets:
-        return Selection((), (), null.latent, {}, judged)
+        return Selection((), (), (), null.latent, {}, judged)
     best = subsets[0]
     values = {owner: _scaled(catalogue[owner].parameters, of.tried[direction], coefficient)
               for owner, coefficient, direction in zip(best.owners, best.coefficients, best.directions, strict=True)}
     columns = _columns(null, every, of, best, _law_errors(along, null, catalogue, values, rules.law_error))
     gains = _gains(columns, best.owners, of.count)
-    members = _necessary(columns, gains, rules)
+    members, wider = (_necessary(columns, gains, rules.evidence_gain, share) for share in (rules.second_share, 0.0))
     tried = [Combination(_names(catalogue, owners), gain) for owners, gain in gains.items() if owners]
     tried += [Combination(_names(catalogue, s.owners), s.gain) for s in subsets if s.owners not in gains]
-    return Selection(members, tuple(sorted(tried, key=lambda c: -c.gain)), columns.nominal(members), values, judged)
+    return Selection(members, wider, tuple(sorted(tried, key=lambda c: -c.gain)), columns.nominal(wider), values,
+                     judged)
 
 
 def _names(catalogue, owners):
@@ -183,15 +186,15 @@ def _gains(columns, owners, count):
             for size in range(len(owners) + 1) for members in combinations(owners, size)}
 
 
-def _necessary(columns, gains, rules):
+def _necessary(columns, gains, evidence_gain, share):
     """Members of the best set each of which is needed, the least needed last.
 
-    By evidence, of which it gives a share that an error of the others cannot, and for runs left out.
+    By evidence, of which it gives this ``share``, and for runs left out.
     """
     for members in sorted(gains, key=lambda m: -gains[m]):
         lost = {m: gains[members] - gains[tuple(i for i in members if i != m)] for m in members}
         predicted = columns.predictive(members)
-        needed = all(loss >= max(rules.evidence_gain, rules.second_share * gains[members])
+        needed = all(loss >= max(evidence_gain, share * gains[members])
                      and (predicted - columns.predictive([i for i in members if i != m])).sum() > 0
                      for m, loss in lost.items())
         if needed:
