@@ -117,7 +117,7 @@ def hidden(kind, random, elongation, stiffness):
                                              "kinks": ((0, -gap),)}
     if kind == "coulomb + cubic":
         other = int(random.integers(2))
-        cubic = random.uniform(0.1, 0.3) * stiffness[other] / elongation[other] ** 2
+        cubic = random.uniform(0.03, 0.1) * stiffness[other] / elongation[other] ** 2
         return ((("coulomb", place), ("cubic_stiffness", JOINTS[other])),
                 {"limit": limit, "spring": lambda x: _at(other, cubic * x[other] ** 3)})
     return (), {}

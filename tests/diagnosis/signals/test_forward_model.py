@@ -72,6 +72,16 @@ def test_refinement_goes_from_the_step_to_half_of_it():
     np.testing.assert_array_equal(predict(hypothesis, {name: 0.0}, run), predict(nominal([]), {}, run))
 
 
+def test_a_hypothesis_halves_the_step_between_samples():
+    """Also where the step of the bench is longer than the distance of samples."""
+    whole = with_effects(benches.built(model(), laid_out(step="8 ms")), effects(HIDDEN))
+    run, predict = observed(RECORDED["level_3"]), Simulated(whole, RUNS)
+    coarse, finer = (predict(replace(nominal([]), halvings=k), {}, run) for k in (0, 2))
+    quarter = shown(replace(whole, step=1 / 200 / 4), RUNS["level_3"], ("x",))
+    np.testing.assert_array_equal(finer, quarter)
+    assert not np.array_equal(coarse, finer)
+
+
 def test_refinement_is_that_of_the_values_at_hand():
     """At order 2 half the step leaves a fifth of what the step is off by beside a quarter of it, 5/4 of the change
     nothing."""

@@ -1,5 +1,7 @@
 """Refits of candidates: all begin where the nominal model misses the noise, rivals begin at the best one's values."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -75,3 +77,17 @@ def test_what_is_better_is_kept(found):
     told = found.with_imitators({CUBIC: best})
     assert told[CUBIC] is best
     assert all(r.fit is None or r.fit.objective >= best.fit.objective - 1e-6 for r in told.values())
+
+
+def test_a_leading_fit_that_did_not_converge_begins_again(found):
+    starts = {CUBIC: np.zeros(1)}
+    begun, _ = refitting._begun(found.problem, found.null, (), DEFAULTS.calibration, (CATALOGUE[CUBIC], starts[CUBIC]))
+    told = found.settled({CUBIC: refitting.Refitted(replace(begun, converged=False), None, "it stopped")})[CUBIC]
+    assert told.fit.converged and not told.failure and told.fit.objective <= begun.objective
+
+
+def test_step_errors_of_leading_candidates_alone_are_looked_for(found, monkeypatch):
+    looked, look = [], refitting.refined
+    monkeypatch.setattr(refitting, "refined", lambda *given: looked.append(given[-1]) or look(*given))
+    told = found.settled(found.of(range(len(CATALOGUE)), [np.zeros(1)] * len(CATALOGUE)))
+    assert [fit.hypothesis.name for fit in looked] == ["cubic"] and told[CUBIC].fit.step_error == 0.0
