@@ -121,6 +121,7 @@ def made(seed, kind, form="", level=0.01):
     if gap == "uneven" and rate < 2 * _A_PERIOD[0] * truth.frequencies[-1]:
         gap = ""
     shown = tuple(_written(random, run, spread, bench.sensors, colour, gap) for run in seen)
+    left *= np.sqrt(np.mean([np.isfinite(run).mean() for run in shown[:-1]]))     # missing samples tell nothing
     name = piece.name if piece else FAULTS.get(form, "")
     return Case(seed, kind, form, name, index, size, left, level, colour, gap, way, at, truth, belief, exact, far, rate,
                 bench.runs, bench.sensors, shown, spread, _change(seen, base), _reach(seen, base), hiding.told(size))
