@@ -27,6 +27,9 @@ from pipeline.physics.time_stepping.simulate import Start
 
 _ROUNDS = 200
 _TOLERANCE = 1e-10
+#: rounds of Newton's method before elements are read halfway, as it may go to and fro over a slider that sticks; from
+#: then on every so many rounds are whole again
+_PLAIN, _WHOLE = 50, 8
 
 
 def steady_start(model, law, friction, inputs):
@@ -41,7 +44,9 @@ def steady_start(model, law, friction, inputs):
     elements, memory, rest, slope = alone(model.elements), None, 0.0, 0.0
     states, fixed = state_kernel(friction, contacts.area), contacts.fixed
     sign, closed, force = np.sign(model.sliding_speed), ~fixed, contacts.preload
-    for _ in range(_ROUNDS):
+    place = np.zeros(model.size)
+    for number in range(_ROUNDS):
+        whole = number < _PLAIN or number % _WHOLE == 0
         grown = factors(states, started(states, force, model.sliding_speed), 0.0)
         ratio = sign * grown * coefficients(friction, model.sliding_speed, force / contacts.area)
         give, offset = closing(law, force, contacts.area)
@@ -53,10 +58,11 @@ def steady_start(model, law, friction, inputs):
         settled = abs(solved - force).max(initial=0.0) <= _TOLERANCE * abs(solved).max(initial=0.0)
         if model.elements:
             counted = rest + slope @ displacement if np.ndim(slope) else np.zeros(model.size)
-            rest, slope, memory = _drawn(elements, model, displacement)
+            place = displacement if whole else (place + displacement) / 2
+            rest, slope, memory = _drawn(elements, model, place)
             error = rest + slope @ displacement - counted
             scale = max(abs(held).max(), abs(stiffness @ displacement).max())
-            settled = settled and abs(error).max() <= _TOLERANCE * scale
+            settled = settled and whole and abs(error).max() <= _TOLERANCE * scale
         if settled and np.array_equal(wanted, closed | ((solved > 0) & ~fixed)):
             return Start(displacement, np.zeros(model.size), solved, ratio * solved, memory)
         closed, force = wanted, np.where(wanted | fixed, solved, 0.0)
