@@ -75,6 +75,8 @@ def rigid_kernel(model, system, captured):
     """RigidKernel of a SlidingModel and its ModalSystem; without elements where they are ``captured`` instead."""
     rows = np.array([e.row for e in model.elements], float).reshape(-1, model.size)
     index = np.array([k for k, e in enumerate(model.elements) if located(e) and not captured], np.int64)
+    if not len(index):
+        return RigidKernel(index, *(np.zeros(shape) for shape in ((0, 2, 2), *[(0, 2, 0)] * 2, *[(0, 0)] * 2)))
     driven = system.driven(np.vstack((model.input_rows, -rows)))
     rate = system.observed(rows[index])[1]
     by_force, inputs = np.einsum("rbm,fbm->rf", rate, driven), len(model.input_rows)
