@@ -23,15 +23,15 @@ SIDEWAYS, CHANNEL_PAIR = "sideways contact", "pair of channels"
 PAIR_MARK = " and "
 #: the only location of a Rubbing, and its kind
 ASPERITIES = "asperities"
-_CONTACTS, _SENSOR = (CONTACT, CONTACTS, PRESSED, CONTACT_ROW, SIDEWAYS), "typical"
+_CONTACTS, _SENSOR, _SLIP = (CONTACT, CONTACTS, PRESSED, CONTACT_ROW, SIDEWAYS), "typical", "typical slip"
 
 
 @dataclass(frozen=True)
 class Typical:
     """Typical quantities at a location: amplitudes, forces, times; 0 where a quantity has no meaning there.
 
-    ``stiffness`` N/m, ``damping`` N s/m, effective ``mass`` kg, ``length`` m, ``speed`` m/s (of sliding, for
-    contacts), ``force`` N, ``pressure`` Pa, ``time`` s of the longest run, ``interval`` s between samples, ``drive``
+    ``stiffness`` N/m, ``damping`` N s/m, effective ``mass`` kg, ``length`` m, ``speed`` m/s (of the drive, for
+    contacts; of their motion along sliding where it rests), ``force`` N, ``pressure`` Pa, ``time`` s of the longest run, ``interval`` s between samples, ``drive``
     rad/s, ``shown``: largest value in units of the channel.
     """
 
@@ -95,15 +95,16 @@ def typical(kind, bench, location, runs):
         shown = _largest(replace(bench, channels=tuple(c for c in bench.channels if c.name == location)), runs)
         return Typical(**common, shown=shown[location])
     row, stiffness, damping = _at(kind, bench, location)
-    channels = [Sensor("length", DISPLACEMENT, _SENSOR), Sensor("speed", VELOCITY, _SENSOR)]
+    channels, along = [Sensor("length", DISPLACEMENT, _SENSOR), Sensor("speed", VELOCITY, _SLIP)], row
     if kind in _CONTACTS:
         channels.append(Sensor("force", NORMAL_FORCE, location))
-    model = replace(bench.model, sensor_name=(*bench.model.sensor_name, _SENSOR),
-                    sensor_rows=np.vstack((bench.model.sensor_rows, row)))
+        along = bench.model.contacts.tangent[bench.contacts(location)].mean(axis=0)
+    model = replace(bench.model, sensor_name=(*bench.model.sensor_name, _SENSOR, _SLIP),
+                    sensor_rows=np.vstack((bench.model.sensor_rows, row, along)))
     seen = _largest(replace(bench, model=model, channels=tuple(channels)), runs)
     if kind in _CONTACTS:
         contacts, members = bench.model.contacts, bench.contacts(location)
-        seen["speed"] = drive * abs(contacts.lever[members]).max()
+        seen["speed"] = drive * abs(contacts.lever[members]).max() or seen["speed"]
         seen["pressure"] = seen["force"] / contacts.area[members].sum()
     else:
         seen["force"] = stiffness * seen["length"] + damping * seen["speed"]

@@ -21,7 +21,7 @@ from pipeline.effects.typical import (
     locations,
     typical,
 )
-from pipeline.physics.time_stepping.simulate import Hard
+from pipeline.physics.time_stepping.simulate import Hard, Start
 from pipeline.physics.virtual_rig.response import respond
 from tests.effects.benches import RATE, let_go, pressed, rubbing, slider, sprung, steady
 
@@ -40,6 +40,12 @@ def test_sizes_of_a_contact():
     found = typical(CONTACT, slider(), "contact", (steady(speed=-3.0),))
     assert (found.force, found.speed, found.stiffness) == (pytest.approx(40.0), 3.0, 2e4)
     assert found.pressure == pytest.approx(40.0 / 1e-3) and found.length == pytest.approx(2e-3)
+
+
+def test_a_contact_past_a_drive_at_rest_slides_as_fast_as_it_moves():
+    released = replace(steady(speed=0.0), start=Start(np.array([0.0, 0.0]), np.array([0.2, 0.0])))
+    found = typical(CONTACT, slider(), "contact", (released,))
+    assert 0.05 < found.speed <= 0.2
 
 
 @pytest.mark.exact
