@@ -52,4 +52,4 @@ def test_a_step_whose_error_does_not_matter_costs_one_prediction_more():
     asked.clear()
     same = refined(problem, RefitRules(), whole)
     assert asked == [1] and same.hypothesis is whole.hypothesis and same.latent is whole.latent
-    assert 0 < same.step_error < 0.01 * len(TIME)
+    assert 0 < same.step_error < 1e-3 * len(TIME)
