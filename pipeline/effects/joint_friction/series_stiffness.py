@@ -18,7 +18,7 @@ from pipeline.physics.time_stepping.elements import Sliders
 def parameters(typical):
     give = 0.1 / typical.holding
     return (Parameter("compliance", "m/N", give, HalfNormal(2 * give), null=0.0),
-            Parameter("friction", "N", 0.2 * typical.force, HalfNormal(0.3 * typical.force), null=0.0))
+            Parameter("friction", "N", 0.1 * typical.force, HalfNormal(0.15 * typical.force), null=0.0))
 
 
 def apply(bench, location, values):
