@@ -4,9 +4,8 @@ what is left."""
 from dataclasses import dataclass
 from typing import Any, Protocol
 
-from pipeline.inference.problem import Hypothesis, Problem
+from pipeline.inference.problem import Hypothesis, Motions, Problem
 from pipeline.inference.procedure import Diagnosis, Settings, diagnose
-from pipeline.inference.several import Motions
 
 
 class Locator(Protocol):

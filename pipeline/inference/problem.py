@@ -163,6 +163,23 @@ class Problem:
         return replace(self, nominal=self.nominal.joined(candidate))
 
 
+class LinearInLaws(ForwardModel, Protocol):
+    """A ForwardModel along measured motions, which knows what errors of laws change in its predictions."""
+
+    def law_errors(self, hypothesis, values, run, effects) -> list:
+        """[(c, n)] what ``effects`` of a hypothesis change, times shapes that tell other laws of their kind apart."""
+
+
+class Motions(Protocol):
+    """Measured motions of all coordinates."""
+
+    def along(self, null) -> Problem:
+        """The Problem of the fitted runs along their motions, its forward model LinearInLaws.
+
+        Raises what the forward model raises.
+        """
+
+
 def operating_points(runs):
     """{point: indices into ``runs``}, in order of appearance."""
     points = {}

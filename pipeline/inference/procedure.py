@@ -262,9 +262,9 @@ def _reaches_noise(diagnosis, rules):
 
 
 def _sets(*members):
-    """[(index, ...)]: each of the sets ``members``, then each without its last ones, none twice and none below two."""
-    smaller = [each[:count] for each in members for count in range(len(each) - 1, 1, -1)]
-    return list({frozenset(each): each for each in (*members, *smaller) if len(each) > 1}.values())
+    """[(index, ...)]: each of the sets ``members``, followed by what is left without its last ones, none twice."""
+    smaller = [each[:count] for each in members for count in range(len(each), 1, -1)]
+    return list({frozenset(each): each for each in smaller}.values())
 
 
 def _explained(single):

@@ -9,32 +9,14 @@ the error of each member's law is one more uncertain direction, so that no furth
 from dataclasses import dataclass, replace
 from functools import partial
 from itertools import combinations
-from typing import Protocol
 
 import numpy as np
 
 from pipeline.contract.errors import BrakechainError
-from pipeline.inference.fitting.least_squares import Fit, fit, from_prior_mean
-from pipeline.inference.problem import ForwardModel, Problem
+from pipeline.inference.fitting.least_squares import fit, from_prior_mean
+from pipeline.inference.problem import Motions
 from pipeline.inference.search.score_screen import directions
 from pipeline.inference.search.subset_selection import best_subsets, multiplicity, table
-
-
-class LinearInLaws(ForwardModel, Protocol):
-    """A ForwardModel along measured motions, which knows what errors of laws change in its predictions."""
-
-    def law_errors(self, hypothesis, values, run, effects) -> list:
-        """[(c, n)] what ``effects`` of a hypothesis change, times shapes that tell other laws of their kind apart."""
-
-
-class Motions(Protocol):
-    """Measured motions of all coordinates."""
-
-    def along(self, null: Fit) -> Problem:
-        """The Problem of the fitted runs along their motions, its forward model LinearInLaws.
-
-        Raises what the forward model raises.
-        """
 
 
 @dataclass(frozen=True)
@@ -77,7 +59,7 @@ class Selection:
 class _Columns:
     """Moments (run, k, k), (run, k) of all columns of a Table's best set: nominal ones, members, errors of laws.
 
-    ``owner`` (k,): -1 of nominal columns, else the candidate that a column belongs to; ``law`` (k,): its own column.
+    ``owner`` (k,): -1 of nominal columns, else the candidate that a column belongs to.
     """
 
     information: np.ndarray
@@ -86,18 +68,19 @@ class _Columns:
 
     def log_evidence(self, members, left_out=None):
         """ln Z of the ``members`` (candidate, ...), up to a constant; without the run ``left_out``, where given."""
-        kept = np.flatnonzero(np.isin(self.owner, (-1, *members)))
-        runs = [r for r in range(len(self.projection)) if r != left_out]
-        hessian = np.eye(len(kept)) + self.information[runs].sum(axis=0)[np.ix_(kept, kept)]
-        projection = self.projection[runs].sum(axis=0)[kept]
+        hessian, projection = self._posed(members, left_out)
         return float(0.5 * projection @ np.linalg.solve(hessian, projection) - 0.5 * np.linalg.slogdet(hessian)[1])
 
     def nominal(self, members):
         """Latent values (k,) of the nominal parameters beside the ``members``."""
-        kept = np.flatnonzero(np.isin(self.owner, (-1, *members)))
-        hessian = np.eye(len(kept)) + self.information.sum(axis=0)[np.ix_(kept, kept)]
-        solved = np.linalg.solve(hessian, self.projection.sum(axis=0)[kept])
+        solved = np.linalg.solve(*self._posed(members))
         return np.clip(solved[:np.count_nonzero(self.owner == -1)], -3, 3)
+
+    def _posed(self, members, left_out=None):
+        kept = np.flatnonzero(np.isin(self.owner, (-1, *members)))
+        runs = [r for r in range(len(self.projection)) if r != left_out]
+        return (np.eye(len(kept)) + self.information[runs].sum(axis=0)[np.ix_(kept, kept)],
+                self.projection[runs].sum(axis=0)[kept])
 
     def predictive(self, members):
         """(run,) log predictive density of each run from the others, up to a constant of the run."""
@@ -105,7 +88,7 @@ class _Columns:
         return np.array([whole - self.log_evidence(members, run) for run in range(len(self.projection))])
 
 
-def along_motions(null, catalogue, motions, rules, fan_out):
+def along_motions(null, catalogue, motions: Motions, rules, fan_out):
     """Selection along Motions that the Fit ``null`` of the nominal hypothesis completes; None where they fail."""
     try:
         along = motions.along(null)
@@ -173,9 +156,9 @@ def _columns(null, every, of, best, errors):
     columns = np.concatenate([np.concatenate(null.jacobians), vectors.T, *(e.T for e in errors.values())], axis=1)
     owner = [-1] * len(null.latent) + list(best.owners) + [i for i, e in errors.items() for _ in e]
     residual = np.concatenate(from_prior_mean(null))
-    parts = np.split(np.arange(len(residual)), np.cumsum(null.counts)[:-1])
-    return _Columns(np.array([w * columns[p].T @ columns[p] for w, p in zip(of.weights, parts, strict=True)]),
-                    np.array([w * columns[p].T @ residual[p] for w, p in zip(of.weights, parts, strict=True)]),
+    ends = np.cumsum(null.counts)[:-1]
+    parts = list(zip(of.weights, np.split(columns, ends), np.split(residual, ends), strict=True))
+    return _Columns(np.array([w * c.T @ c for w, c, _ in parts]), np.array([w * c.T @ r for w, c, r in parts]),
                     np.array(owner))
 
 
