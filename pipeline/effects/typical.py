@@ -31,8 +31,8 @@ class Typical:
     """Typical quantities at a location: amplitudes, forces, times; 0 where a quantity has no meaning there.
 
     ``stiffness`` N/m, ``damping`` N s/m, effective ``mass`` kg, ``length`` m, ``speed`` m/s (of the drive, for
-    contacts; of their motion along sliding where it rests), ``force`` N, ``pressure`` Pa, ``time`` s of the longest run, ``interval`` s between samples, ``drive``
-    rad/s, ``shown``: largest value in units of the channel.
+    contacts; of their motion along sliding where it rests), ``force`` N, ``pressure`` Pa, ``time`` s of the longest
+    run, ``interval`` s between samples, ``drive`` rad/s, ``shown``: largest value in units of the channel.
     """
 
     stiffness: float = 1.0
