@@ -104,6 +104,7 @@ def typical(kind, bench, location, runs):
     seen = _largest(replace(bench, model=model, channels=tuple(channels)), runs)
     if kind in _CONTACTS:
         contacts, members = bench.model.contacts, bench.contacts(location)
+        seen["force"] = seen["force"] or stiffness * seen["length"]     # one that nominal runs never close
         seen["speed"] = drive * abs(contacts.lever[members]).max() or seen["speed"]
         seen["pressure"] = seen["force"] / contacts.area[members].sum()
     else:

@@ -21,7 +21,7 @@ from pipeline.effects.typical import (
     locations,
     typical,
 )
-from pipeline.physics.time_stepping.simulate import Hard, Start
+from pipeline.physics.time_stepping.simulate import Hard, Penalty, Start
 from pipeline.physics.virtual_rig.response import respond
 from tests.effects.benches import RATE, let_go, pressed, rubbing, slider, sprung, steady
 
@@ -46,6 +46,12 @@ def test_a_contact_past_a_drive_at_rest_slides_as_fast_as_it_moves():
     released = replace(steady(speed=0.0), start=Start(np.array([0.0, 0.0]), np.array([0.2, 0.0])))
     found = typical(CONTACT, slider(), "contact", (released,))
     assert 0.05 < found.speed <= 0.2
+
+
+def test_a_contact_that_never_closes_has_the_force_of_its_motion():
+    moved = replace(steady(0.0, speed=0.0), start=Start(np.zeros(2), np.array([0.0, 0.2])))
+    found = typical(CONTACT, slider(Penalty(2e4, gap=1.0), speed=0.0), "contact", (moved,))
+    assert found.force == 2e4 * found.length > 0
 
 
 @pytest.mark.exact

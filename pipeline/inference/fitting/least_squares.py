@@ -48,7 +48,8 @@ class Fit:
     Per run: whitened ``residuals`` (m_r,) = observed less predicted and ``jacobians`` (m_r, k) of the prediction.
     ``converged``: whether the iteration reached its tolerance; ``evaluations`` counts predictions of all runs;
     ``fresh``: whether the Jacobians are differences taken here, not updates of earlier ones. ``step_error``: what half
-    the time step would change in the residuals, squared and summed; 0 where nobody has looked.
+    the time step would change in the residuals, squared and summed; 0 where nobody has looked. ``strict``: whether it
+    ends by what its samples say, all of them, and not by what evidence makes of them.
     """
 
     hypothesis: object
@@ -61,6 +62,7 @@ class Fit:
     evaluations: int
     fresh: bool = True
     step_error: float = 0.0
+    strict: bool = False
 
     @property
     def values(self):
@@ -203,8 +205,9 @@ def continued(problem, state, iterations=ITERATIONS, enough=np.inf, patient=True
 
 
 def again(problem, state):
-    """The Fit at its latent values with differences taken anew over wide steps, which look beyond kinks."""
-    return _refreshed(problem, state, _WIDEST)
+    """The Fit at its latent values, not converged and ``strict`` from there on, with differences taken anew over wide
+    steps, which look beyond kinks."""
+    return replace(_refreshed(problem, state, _WIDEST), converged=False, strict=True)
 
 
 def _at_central_differences(problem, state):
@@ -286,8 +289,8 @@ def _information(jacobians, weights=None):
 
 
 def _scale(state):
-    """Objective per unit of log evidence (see ``effective.tempering``)."""
-    return 1 / max(state.weights.max(), 1e-12)
+    """Objective per unit of log evidence (see ``effective.tempering``); 1 of a strict fit."""
+    return 1.0 if state.strict else 1 / max(state.weights.max(), 1e-12)
 
 
 def _jacobians(problem, noises, hypothesis, latent, residuals, runs, first=0, width=DIFFERENCE, central=False):

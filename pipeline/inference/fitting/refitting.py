@@ -156,23 +156,31 @@ class Refitter:
                                  for i, begin, _ in begins if begin is not None})
 
     def settled(self, results):
-        """{index: Refitted} once the best fit has converged, if it can, and the step errors of the leading ones do not
-        matter.
+        """{index: Refitted} once the best fit has come down to the noise or to a strict optimum, if it can, and the
+        step errors of the leading ones do not matter.
 
-        Those lead that come within reach of the best, which explains more than chance.
+        Those lead that come within reach of the best, which explains more than chance. Far above the noise residuals
+        count for little evidence, and fits end early: nothing may be named beside the best one for that.
         """
         for _ in range(self.rules.refit.restarts):
             top = _best(results)
-            if top is None or results[top].fit.converged or not self._explains(results[top].fit):
+            if top is None or not self._explains(results[top].fit) or self._at_its_end(results[top].fit):
                 break
+            before = results[top].fit
             results = _lowest(results, {top: _finished(self.problem, self.null, np.inf, self.rules,
-                                                       again(self.problem, results[top].fit))})
+                                                       again(self.problem, before))})
+            if results[top].fit is before:
+                break
         enough = self._enough(results.values())
         leading = [i for i, r in results.items() if r.fit is not None and not r.fit.unordered
                    and r.fit.objective <= enough and r.fit.hypothesis.kind != "numerics" and self._explains(r.fit)]
         look = partial(refined, self.problem, self.rules.refit)
         finer = self.fan_out(look, [results[i].fit for i in leading])
         return results | {i: results[i]._replace(fit=fit) for i, fit in zip(leading, finer, strict=True)}
+
+    def _at_its_end(self, fit):
+        return fit.converged and (fit.strict or fit.unordered
+                                  or fit.reaches_noise(self.rules.decision.noise_uncertainty))
 
     def _explains(self, fit):
         return fit.weights.max() * fit.betters(self.null) > 2 * self.rules.decision.evidence_gain

@@ -7,6 +7,7 @@ import pytest
 
 from pipeline.inference.fitting import refitting
 from pipeline.inference.fitting.calibration import calibrate
+from pipeline.inference.fitting.least_squares import linearised
 from pipeline.inference.fitting.noise import budget
 from pipeline.inference.fitting.refitting import Refitter, at_odds
 from pipeline.inference.procedure import Settings, diagnose
@@ -84,6 +85,16 @@ def test_a_leading_fit_that_did_not_converge_begins_again(found):
     begun, _ = refitting._begun(found.problem, found.null, (), DEFAULTS.calibration, (CATALOGUE[CUBIC], starts[CUBIC]))
     told = found.settled({CUBIC: refitting.Refitted(replace(begun, converged=False), None, "it stopped")})[CUBIC]
     assert told.fit.converged and not told.failure and told.fit.objective <= begun.objective
+
+
+def test_a_leading_fit_that_ended_above_the_noise_goes_on(found):
+    """A little off its optimum, and called converged as residuals that are far from noise count for little."""
+    best = found.of([CUBIC], {CUBIC: np.zeros(1)})[CUBIC].fit
+    off = np.concatenate((best.latent[:-1], [best.latent[-1] + 0.02]))
+    early = replace(linearised(found.problem, best.noises, best.hypothesis, off, best.runs), converged=True)
+    assert not early.reaches_noise(DEFAULTS.decision.noise_uncertainty)
+    told = found.settled({CUBIC: refitting.Refitted(early, None, "")})[CUBIC].fit
+    assert told.strict and told.converged and told.objective == pytest.approx(best.objective, rel=1e-4)
 
 
 def test_step_errors_of_leading_candidates_alone_are_looked_for(found, monkeypatch):
