@@ -51,6 +51,7 @@ def forced_problem(bench, recorded, settings):
         ForcedAxes(bench, runs, Axes.under(problem, noises, solver)),
         Describe(bench, runs, problem, noises, solver.rules, seed=settings.seed), settings.latent_force.predict,
         next_runs=tuple(f.observed for f in planned), noise_levels=settings.noise.levels,
+        step=min(run.step(bench.step) for run in runs.values()),
         motions=MeasuredMotions(bench, runs, noises) if all(
             measured(bench, o.channels) for o in observations) else None)
 

@@ -52,7 +52,8 @@ class DiagnosisProblem:
     ``units`` {channel: SI unit}. ``latent`` describes a missing force, which predicts held-out runs where
     ``predicts_with_force``. ``next_runs`` (Observed, whose samples do not count): what could be recorded next, named by
     what is changed, each with its budget. ``noise_levels``: multiples of the noise at which the verdict is told too.
-    ``motions``: measured ones of all coordinates, along which several laws are selected.
+    ``motions``: measured ones of all coordinates, along which several laws are selected. ``step``: time step of the
+    model in s, 0 where it does not step through time.
     """
 
     problem: Problem
@@ -68,6 +69,7 @@ class DiagnosisProblem:
     next_runs: tuple = ()
     noise_levels: tuple = ()
     motions: Motions | None = None
+    step: float = 0.0
 
     @property
     def rules(self):

@@ -29,7 +29,7 @@ class Effect:
     every run must state; ``micro``: whether it also acts on a Rubbing (effects located at the asperities act there
     only); ``small``: whether it enters the model linearised about steady sliding, and so the complex modes;
     ``elaborate``: whether it has so many values, or is so costly, that it is weighed only where simpler effects leave
-    something.
+    something; ``extends``: names of effects that are limits of it, beside which it counts by what it adds.
     """
 
     name: str
@@ -46,6 +46,7 @@ class Effect:
     micro: bool = False
     small: bool = True
     elaborate: bool = False
+    extends: tuple = ()
 
     def locations(self, model):
         """Names of the locations of a Bench or a Rubbing where the effect can act."""

@@ -65,6 +65,7 @@ class Hypothesis:
 
     ``kind``: ``physics``, ``sensor`` (the measurement) or ``numerics`` (the solver). ``forbidden``: a constraint on
     fitted values; priors already keep single signs. ``elaborate``: weighed only where simpler ones leave something.
+    ``extends``: names of hypotheses that it has as limits, beside which it counts by what it adds to them.
     ``halvings``: how many times the time step of the forward model is halved, where its error would matter (see
     ``fitting.step_error``).
     """
@@ -75,6 +76,7 @@ class Hypothesis:
     kind: str = "physics"
     forbidden: Constraint | None = None
     elaborate: bool = False
+    extends: tuple = ()
     halvings: int = 0
 
     def __post_init__(self):

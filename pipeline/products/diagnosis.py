@@ -129,6 +129,7 @@ class Diagnosis:
     noise_level: Array = quantity("1", "level", "noise as a multiple of what is known of it")
     noise_verdict: Array = text("level", "verdict at that level, all fitted values as they are")
     noise_named: Array = text("level", "hypotheses named there, joined by ' or '; empty for none")
+    completed_step: Array = quantity("s", "", "time step that the completed model needs; 0 where that of the case does")
     left_floors: Array = quantity("1", "", "root mean square of what the completed model leaves of all runs, whitened: 1 is noise alone")
     left_sentence: Array = text("", "band and dependence of what is left after naming; empty where nothing is left beyond doubt")
     left_candidate: Array = text("", "best candidate beside what is named, and why it is not named; empty for none")

@@ -23,6 +23,8 @@ BENCH = {"step": "2.5 ms", "channels": {"x": {"quantity": "displacement", "sourc
          "inputs": {"shaker": {"channel": "force"}}}
 HIDDEN = {"cubic_stiffness": {"mount": {"coefficient": "15000 N/m^3"}}}
 NOISE = 2e-4
+#: time step of the recordings
+FINE = "0.3125 ms"
 
 
 def model():
@@ -49,8 +51,9 @@ def force(level, seed):
 
 
 def recording(hidden=None, levels=(2.0, 5.0, 9.0, 7.0), noise=NOISE, seed=1, corrections=None):
-    """Product Recording: runs ``level_1`` ... of the rig with the block ``hidden`` of effects."""
-    whole = with_effects(benches.built(model(), laid_out(corrections=corrections or {})), effects(hidden or {}))
+    """Product Recording: runs ``level_1`` ... of the rig with the block ``hidden`` of effects, in FINE steps."""
+    finely = laid_out(corrections=corrections or {}, step=FINE)
+    whole = with_effects(benches.built(model(), finely), effects(hidden or {}))
     random, runs = np.random.default_rng(seed), {}
     for k, level in enumerate(levels):
         shaken = force(level, k)

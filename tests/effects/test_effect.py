@@ -184,3 +184,9 @@ def test_no_contact_no_location():
     empty = replace(contacts, **{n: getattr(contacts, n)[:0] for n in ("normal", "tangent", "lateral", "position",
                                                                       "area", "lever", "preload")})
     assert named("runout").locations(replace(BASE, groups={}, model=replace(BASE.model, contacts=empty))) == ()
+
+
+def test_what_an_effect_extends_is_in_the_catalogue_at_the_same_kind_of_location():
+    known = {e.name: e.location for e in CATALOGUE}
+    extending = [e for e in CATALOGUE if e.extends]
+    assert extending and all(known[name] == e.location and name != e.name for e in extending for name in e.extends)

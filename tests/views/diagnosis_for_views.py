@@ -51,6 +51,7 @@ def diagnosis(verdict="missing", **values):
         "objection": ["", "", "its sign cannot be", ""],
         "parameter": ["joints.guide.damping", "coulomb@guide.force"], "parameter_unit": ["N s/m", "N"],
         "parameter_nominal": [200.0, 0.0], "parameter_value": [215.0, 20.4], "parameter_std": [4.0, 0.3],
+        "completed_step": 0.0,
         "start_run": [], "start_quantity": [], "start_unit": [], "start_value": [], "start_std": [],
         "parameter_owner": [0, 1], "parameter_factor": [0, 0],
         "fit": [[0.6, 0.3, 0.014, 0.014], [0.6, 0.3, 0.015, 0.014]],

@@ -67,6 +67,9 @@ def completed(product, case):
         _correct_rubbing(document, corrections)
     else:
         bench = document.setdefault("bench", {})
+        if product.completed_step:
+            bench["step"] = {"value": f"{float(product.completed_step)!r} s", "origin": "inferred",
+                             "source": f"diagnosis of {case.name}: a longer one changes what the effects predict"}
         bench["corrections"] = {**(bench.get("corrections") or {}), **corrections}
     stated_effects = document["effects"] = document.get("effects") or {}
     for effect, places in effects.items():

@@ -163,7 +163,8 @@ def candidates(bench, runs, catalogue, places=(), scale=1.0, priors=(), peaks=()
             parameters = tuple(_named(p, effect, location, dict(priors)) for p in effect.parameters(sizes[kind]))
             pair = effect.name, location
             hypotheses.append(Hypothesis(label((pair,)), (pair,), parameters, effect.kind,
-                                         elaborate=effect.elaborate))
+                                         elaborate=effect.elaborate,
+                                         extends=tuple(label(((name, location),)) for name in effect.extends)))
     return tuple(hypotheses)
 
 

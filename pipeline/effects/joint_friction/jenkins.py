@@ -27,5 +27,6 @@ def apply(bench, location, values):
 EFFECT = Effect(
     name="jenkins", summary="a spring with a dry slider beside a joint", location="joint", stage="structure",
     parameters=parameters, apply=apply,
+    extends=("coulomb",),
     source="G. M. Jenkins, Br. J. Appl. Phys. 13 (1962) 30",
     valid="Valid while the whole contact slips at once.")

@@ -96,7 +96,9 @@ def weigh(refits, settings):
     failures |= {d.candidate.name: d.failure for d in refits.directions if d.failure}
     evidences = evidence_of_all(null, refits.directions, fits, settings, failures)
     count, weights = len(refits.directions), evidences.weights
-    probability = posterior(evidences.log_evidence, cautious_prior(count))
+    counted = _without_mere_extensions(evidences.log_evidence, [d.candidate for d in refits.directions], fits,
+                                       settings.rules.decision.evidence_gain)
+    probability = posterior(counted, cautious_prior(count))
     held_out = held_out_gains(problem, budget, null, fits, probability[1:], settings.rules)
     drifting = drift(null, weights, seed=settings.seed)
 
@@ -111,3 +113,16 @@ def weigh(refits, settings):
     every = sorted((weighed(i, fit) for i, fit in fits.items()), key=lambda w: -w.evidence.log_evidence)
     runs = run_statistics(problem, budget, null, weights, drifting, settings.rules)
     return Weighing(runs, tuple(every), probability, evidences, drifting, failures)
+
+
+def _without_mere_extensions(log_evidence, candidates, fits, margin):
+    """Log evidence (1 + candidates,), -inf of those that extend a refitted one without a gain of ``margin`` over it.
+
+    With another value or two a law fits as well as its limit does: that is no rival of it.
+    """
+    index, counted = {c.name: i for i, c in enumerate(candidates)}, log_evidence.copy()
+    for i, candidate in enumerate(candidates):
+        limits = [log_evidence[1 + index[name]] for name in candidate.extends if index.get(name) in fits]
+        if limits and log_evidence[1 + i] < max(limits) + margin:
+            counted[1 + i] = -np.inf
+    return counted

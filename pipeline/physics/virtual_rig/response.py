@@ -56,6 +56,10 @@ class Run:
         """Number of samples, both ends counted."""
         return round(self.duration * self.sample_rate) + 1
 
+    def step(self, longest):
+        """Time step in s that divides the time between samples evenly and is no longer than ``longest``."""
+        return 1 / self.sample_rate / max(1, int(np.ceil(1 / (self.sample_rate * longest) * (1 - 1e-12))))
+
     @property
     def time(self):
         """Instants (samples,) in s."""
@@ -149,8 +153,8 @@ class Responder:
     def respond(self, run):
         """{channel: (samples,)} of a Run; errors as of ``respond``."""
         bench = self.bench
-        parts = max(1, int(np.ceil(1 / (run.sample_rate * bench.step) * (1 - 1e-12)))) * self._finer
-        step = 1 / run.sample_rate / parts
+        step = run.step(bench.step) / self._finer
+        parts = round(1 / run.sample_rate / step)
         inputs, drive = run_inputs(bench, run), run_drive(bench, run)
         speed, first = at_begin(bench, run)
         under_load = loaded(bench, run)

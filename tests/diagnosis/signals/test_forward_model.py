@@ -10,6 +10,7 @@ from pipeline.case_models import virtual_rig as benches
 from pipeline.case_models.effect_block import with_effects
 from pipeline.case_models.runs import recorded
 from pipeline.contract import ConfigError
+from pipeline.contract.units import to_si
 from pipeline.diagnosis.problem import nominal
 from pipeline.diagnosis.signals.forward_model import (
     REFINEMENT,
@@ -25,7 +26,7 @@ from pipeline.diagnosis.signals.forward_model import (
 from pipeline.effects import CATALOGUE
 from pipeline.inference.priors import LogNormal, Parameter
 from pipeline.physics.time_stepping.simulate import Start
-from tests.diagnosis.small_rig import HIDDEN, effects, laid_out, model, recording
+from tests.diagnosis.small_rig import FINE, HIDDEN, effects, laid_out, model, recording
 
 SETTINGS = laid_out()
 BENCH = benches.built(model(), SETTINGS)
@@ -49,7 +50,7 @@ def test_every_place_of_every_effect_is_a_candidate():
 
 
 def test_true_values_reproduce_the_recording():
-    predict = Simulated(BENCH, RUNS)
+    predict = Simulated(replace(BENCH, step=to_si(FINE, "s", "step")), RUNS)
     run = observed(RECORDED["level_1"])
     found = pickle.loads(pickle.dumps(predict))(CUBIC, {CUBIC.parameters[0].name: 1.5e4}, run)
     np.testing.assert_array_equal(found, run.samples)

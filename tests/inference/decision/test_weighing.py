@@ -4,9 +4,10 @@ import numpy as np
 import pytest
 
 from pipeline.inference.decision.evidence import evidence, screened
-from pipeline.inference.decision.weighing import evidence_of_all, weigh
+from pipeline.inference.decision.weighing import _without_mere_extensions, evidence_of_all, weigh
 from pipeline.inference.fitting.calibration import recalibrate
 from pipeline.inference.fitting.refitting import refit_catalogue
+from pipeline.inference.problem import Hypothesis
 from pipeline.inference.procedure import Settings
 from pipeline.inference.rules import DEFAULTS
 from pipeline.inference.search.score_screen import screen_catalogue
@@ -55,3 +56,13 @@ def test_the_hidden_effect_is_weighed_first_and_probabilities_sum_to_one():
     assert weighing.weighed[0].candidate.name == "effect_1" and weighing.posterior[1] > 0.99
     assert weighing.posterior.sum() == pytest.approx(1.0) and not weighing.failures
     assert weighing.weighed[0].statistics.held_out_errors > 3 and weighing.runs.runs == 4
+
+
+@pytest.mark.parametrize("gain, counts", [(0.0, False), (4.9, False), (5.1, True)])
+def test_a_law_that_extends_another_counts_by_what_it_adds(gain, counts):
+    """Margin 5 nat over its limit; a limit that was not refitted, or is none of the candidates, takes nothing away."""
+    limit, law = Hypothesis("limit"), Hypothesis("law", extends=("limit", "elsewhere"))
+    logs = np.array([0.0, 40.0, 40.0 + gain])
+    counted = _without_mere_extensions(logs, [limit, law], {0: None, 1: None}, 5.0)
+    assert list(counted[:2]) == [0.0, 40.0] and counted[2] == (logs[2] if counts else -np.inf)
+    assert np.array_equal(_without_mere_extensions(logs, [limit, law], {1: None}, 5.0), logs)
