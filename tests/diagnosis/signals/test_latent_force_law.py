@@ -17,7 +17,7 @@ from pipeline.diagnosis.signals.latent_force import LatentRun
 from pipeline.diagnosis.signals.latent_force_law import LABEL, LatentLaw, regressed
 from pipeline.inference.search.gp_latent_force import Dependence
 from tests.case_models.test_force_balance import BALANCED
-from tests.diagnosis.small_rig import HIDDEN, NOISE, laid_out, model, recording
+from tests.diagnosis.small_rig import FINE, HIDDEN, NOISE, laid_out, model, recording
 from tests.diagnosis.solving import diagnosis_product
 
 TIME = np.linspace(0, 20, 4001)
@@ -52,7 +52,8 @@ def test_what_is_followed_by_nothing_is_no_law_and_friction_never_drives():
 @pytest.mark.exact
 def test_as_elements_it_is_the_force_that_was_hidden():
     """-15000 x^3, as an element, is the hidden cubic spring of the rig bit for bit."""
-    bench, one = benches.built(model(), laid_out()), recorded(recording(HIDDEN, noise=0.0), laid_out())["level_3"]
+    bench = benches.built(model(), laid_out(step=FINE))
+    one = recorded(recording(HIDDEN, noise=0.0), laid_out())["level_3"]
     told = LatentLaw({"constant": 0.0, "x": 0.0, "x^2": 0.0, "x^3": -15000.0}, {}, 1.0, (1.0, 1.0))
     row, *_ = bench.joint("mount")
     np.testing.assert_allclose(shown(bench.with_elements(*told.elements(bench, row)), one.run, one.channels),
