@@ -163,7 +163,8 @@ class Asked:
     def along(self, single, motions):
         """The Diagnosis of several laws, selected along Motions, or ``single``; what motions do not show in pairs."""
         rules = self.settings.rules
-        if single.named and not second_effect.has_room(single.named[0].fit, _explained(single), rules):
+        if single.named and (_reaches_noise(single, rules)
+                             or not second_effect.has_room(single.named[0].fit, _explained(single), rules)):
             return single
         selection = several.along_motions(single.null, self.catalogue, motions, rules.decision, self.fan_out)
         if selection is None:
@@ -216,6 +217,8 @@ class Asked:
             tried = replace(tried, objective=weighed.fit.objective, held_out=weighed.statistics.held_out_error)
             if whole.decision.verdict not in second_effect.NAMING or weighed not in whole.named:
                 return None, replace(tried, outcome="; ".join(whole.decision.reasons[:2]))
+            if second_effect.better_alone(single, whole):
+                return None, replace(tried, outcome=f"{single.named[0].candidate.name} alone has more evidence")
             reasons = several_laws.unneeded(asked.problem, self.budget, single.null, whole.null, weighed.fit,
                                             (*known, last), rules)
         except BrakechainError as error:
