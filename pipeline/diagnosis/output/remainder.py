@@ -5,6 +5,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from pipeline.contract import BrakechainError
+from pipeline.diagnosis.output.combinations import NOT_REFITTED
 from pipeline.inference.decision.held_out import held_out_residuals
 from pipeline.inference.fitting.effective_sample_size import doubt
 
@@ -62,7 +63,17 @@ def _candidate(diagnosis):
     """The best candidate beside what is named, and why it is not named too."""
     further = diagnosis.further
     if further is None or not further.weighed:
-        return ""
+        return _of_combinations(diagnosis)
     best = further.weighed[0].candidate.name
     why = next((reason for reason in further.decision.reasons if reason.startswith(f"{best}: ")), "")
     return why or f"{best}: it explains less than the law of what is named can be wrong by"
+
+
+def _of_combinations(diagnosis):
+    """What the best set of laws that was tried adds to those named, and what became of it."""
+    named = {w.candidate.name for w in diagnosis.named}
+    beside = [c for c in diagnosis.combinations if named < set(c.effects)]
+    if not beside:
+        return ""
+    best = max(beside, key=lambda c: (c.objective is not None, c.gain))
+    return f"{' + '.join(c for c in best.effects if c not in named)}: {best.outcome or NOT_REFITTED}"

@@ -11,9 +11,11 @@ from pipeline.case_models.runs import recorded
 from pipeline.contract.errors import ConvergenceError
 from pipeline.contract.settings import fill
 from pipeline.diagnosis.forced_response import forced_problem
+from pipeline.diagnosis.output.combinations import NOT_REFITTED
 from pipeline.diagnosis.output.product import product
 from pipeline.diagnosis.output.remainder import remainder
 from pipeline.diagnosis.settings import Settings
+from pipeline.inference.several import Combination
 from tests.diagnosis.small_rig import HIDDEN, NOISE, RATE, SAMPLES, laid_out, model, recording
 from tests.diagnosis.solving import solved
 
@@ -58,3 +60,13 @@ def test_a_fit_that_cannot_be_pushed_costs_no_verdict():
     asked, found = weighed(1.5)
     told = remainder(replace(asked, locator=Stuck()), found)
     assert told.sentence.startswith("Where it lies could not be computed: time stepping at t = 1 s") and told.floors > 1
+
+
+def test_the_best_set_that_was_tried_tells_what_comes_next():
+    asked, found = weighed(1.5)
+    name = found.named[0].candidate.name
+    sets = (Combination((name, "coulomb at mount"), 30.0), Combination(("coulomb at mount",), 90.0),
+            Combination((name, "clipping at x"), 20.0, 1.0, 1.2, "clipping at x adds an evidence of 1.0 nat"))
+    told = [remainder(asked, replace(found, further=None, combinations=tried)).candidate
+            for tried in (sets, sets[:2], sets[1:2])]
+    assert told == ["clipping at x: clipping at x adds an evidence of 1.0 nat", f"coulomb at mount: {NOT_REFITTED}", ""]
