@@ -7,6 +7,7 @@ import numpy as np
 
 from pipeline.contract.errors import ConfigError
 from pipeline.effects.contact.contact_surface import sliding_angle
+from pipeline.effects.resolved import felt_mass
 from pipeline.physics.contact.groups import parts
 from pipeline.physics.time_stepping.simulate import Penalty, Table
 from pipeline.physics.virtual_rig.response import respond, run_drive, run_inputs
@@ -111,7 +112,7 @@ def typical(kind, bench, location, runs):
         seen["force"] = stiffness * seen["length"] + damping * seen["speed"]
     if kind == INPUT:
         seen["force"] = max(seen["force"], *(float(np.abs(_input(bench, run, location)).max()) for run in runs))
-    mass = 1 / (row @ np.linalg.solve(bench.model.mass, row)) if row.any() else 0.0
+    mass = felt_mass(bench, row) if row.any() else 0.0
     return Typical(stiffness, damping, mass, **seen, **common)
 
 
