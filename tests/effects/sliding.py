@@ -6,9 +6,19 @@ import numpy as np
 from scipy.integrate import solve_ivp
 
 from pipeline.effects import named
+from pipeline.physics.friction.joint_friction import REFERENCE_SPEED
 from pipeline.physics.time_stepping.simulate import Start
 from pipeline.physics.virtual_rig.response import Run, respond
 from tests.effects.benches import RATE, sprung
+
+#: values of both laws of rate-and-state friction
+RATE_STATE = {"force": 1.0, "direct": 0.03, "evolution": 0.02, "length": 5e-3}
+
+
+def steady_force(speed):
+    """Force in N that keeps a mass with a drag of 3 N s/m and RATE_STATE friction at a ``speed``, its contact settled.
+    """
+    return 3.0 * speed + 1 + 0.01 * np.log(speed / REFERENCE_SPEED)
 
 
 def steady_speed(effect, values, force, near, drag=3.0):
