@@ -18,7 +18,7 @@ from pipeline.inference.decision.decision_rules import Decision, decide
 from pipeline.inference.decision.weighing import Weighing, weigh
 from pipeline.inference.fitting.calibration import Calibration, recalibrate
 from pipeline.inference.fitting.least_squares import continued, linearised
-from pipeline.inference.fitting.refitting import NOT_BEGUN, Refits, refit_catalogue, refit_from
+from pipeline.inference.fitting.refitting import NOT_BEGUN, Refits, Refitter, refit_catalogue, refit_from
 from pipeline.inference.problem import FanOut, Problem
 from pipeline.inference.rules import DEFAULTS, Rules
 from pipeline.inference.search.score_screen import screen_catalogue
@@ -140,17 +140,16 @@ class Asked:
     def steps(self, start=None, base=None):
         """(Refits, Diagnosis) of the five steps; the nominal model is fitted from the Fit ``start``, if there is one.
         """
-        settings, fan_out = self.settings, self.fan_out
+        settings, fan_out, second = self.settings, self.fan_out, base is not None
         calibration = recalibrate(self.problem, self.budget, settings.rules.calibration, start)
         simple = self.catalogue[:sum(not c.elaborate for c in self.catalogue)]
-        screening = screen_catalogue(calibration, simple, settings, fan_out, base is not None)
-        refits = refit_catalogue(screening, simple, settings, fan_out)
+        screening = screen_catalogue(calibration, simple, settings, fan_out, second)
+        refits = refit_catalogue(screening, simple, settings, fan_out, {}, second)
         decided = _decided(refits, settings, base)
         if len(simple) == len(self.catalogue) or _reaches_noise(decided, settings.rules):
             return refits, decided
-        screening = screen_catalogue(refits.calibration, self.catalogue, settings, fan_out, base is not None,
-                                     refits.directions)
-        refits = refit_catalogue(screening, self.catalogue, settings, fan_out, refits.results)
+        screening = screen_catalogue(refits.calibration, self.catalogue, settings, fan_out, second, refits.directions)
+        refits = refit_catalogue(screening, self.catalogue, settings, fan_out, refits.results, second)
         return refits, _decided(refits, settings, base)
 
     def given(self, known):
@@ -188,42 +187,65 @@ class Asked:
         Where nothing is named a law that gives little along motions may be what the others lack.
         """
         tried, wider = selection.tried, (selection.wider,) if single.decision.verdict == "unknown" else ()
+        lacking = []        # sets that leave too much: so do those that are parts of them
         for members in _sets(selection.members, *wider):
-            whole, combination = self._set(single, selection, members)
+            if any(set(members) < larger for larger in lacking):
+                continue
+            whole, combination, enough = self._set(single, selection, members)
             tried = (combination, *(c for c in tried if set(c.effects) != set(combination.effects)))
             if whole is not None:
                 return replace(whole, combinations=tried)
+            if not enough:
+                lacking.append(set(members))
         return replace(single, combinations=tried)
 
     def _set(self, single, selection, members):
-        """(Diagnosis that names the last of ``members`` beside the others or None, Combination: what became of it)."""
+        """(Diagnosis that names the last of ``members`` beside the others or None, Combination: what became of it,
+        whether it explains enough)."""
         *known, last = (self.catalogue[i] for i in members)
         names = tuple(c.name for c in (*known, last))
         tried = next((c for c in selection.tried if set(c.effects) == set(names)), several.Combination(names, 0.0))
-        asked, rules = self.given(known), self.settings.rules.decision
-        index = asked.catalogue.index(last)
+        asked = self.given(known)
+        begins = {asked.catalogue.index(last): selection.start(members)}
         try:
-            begin = linearised(asked.problem, single.null.noises, asked.problem.nominal,
-                               selection.start(members[:-1]), single.null.runs)
-            calibration = recalibrate(asked.problem, self.budget, self.settings.rules.calibration,
-                                      continued(asked.problem, begin, patient=False))
-            screening = screen_catalogue(calibration, asked.catalogue, self.settings, self.fan_out, True)
-            refits = refit_from(screening, asked.catalogue, {index: selection.start(members)}, self.settings,
-                                self.fan_out)
-            whole = _decided(refits, self.settings, single, len(members))
-            weighed = next((w for w in whole.weighed if w.candidate.name == last.name), None)
-            if weighed is None:
-                return None, replace(tried, outcome=refits.results.get(index, NOT_BEGUN).failure)
-            tried = replace(tried, objective=weighed.fit.objective, held_out=weighed.statistics.held_out_error)
-            if whole.decision.verdict not in second_effect.NAMING or weighed not in whole.named:
-                return None, replace(tried, outcome="; ".join(whole.decision.reasons[:2]))
-            if second_effect.better_alone(single, whole):
-                return None, replace(tried, outcome=f"{single.named[0].candidate.name} alone has more evidence")
-            reasons = several_laws.unneeded(asked.problem, self.budget, single.null, whole.null, weighed.fit,
-                                            (*known, last), rules)
+            calibration, results = asked.begun_together(single.null, selection.start(members[:-1]), begins)
+            fit = next((r.fit for r in results.values()), None)
+            if fit is None:
+                return None, replace(tried, outcome=NOT_BEGUN.failure), True
+            left, error = several_laws.left_by(asked.problem, self.budget, single.null, fit, self.settings.rules)
+            tried = replace(tried, objective=fit.objective, held_out=error)
+            if left > self.settings.rules.decision.unexplained:
+                return None, replace(tried, outcome=f"together they leave {left:.0%} of the excess error"), False
+            whole, why = asked.named_together(single, calibration, results, (*known, last))
         except BrakechainError as error:
-            return None, replace(tried, outcome=str(error))
-        return (None if reasons else whole), replace(tried, outcome="; ".join(reasons) or "named")
+            return None, replace(tried, outcome=str(error)), True
+        return whole, replace(tried, outcome=why or "named"), True
+
+    def begun_together(self, null, start, begins):
+        """(Calibration of the laws that are taken as known, from latent values ``start``; {index: Refitted} of one more
+        law from ``begins`` {index: latent values}); ``null``: Fit of the nominal model alone."""
+        problem, rules = self.problem, self.settings.rules
+        begin = linearised(problem, null.noises, problem.nominal, start, null.runs)
+        calibration = recalibrate(problem, self.budget, rules.calibration, continued(problem, begin, patient=False))
+        refitter = Refitter(problem, calibration.null, self.catalogue, self.settings, self.fan_out)
+        return calibration, refitter.better({}, begins)
+
+    def named_together(self, single, calibration, results, members):
+        """(Diagnosis that names the last of ``members`` (Hypotheses) beside the others or None, why there is none);
+        ``results`` {index: Refitted} of that."""
+        rules, last = self.settings.rules.decision, members[-1]
+        screening = screen_catalogue(calibration, self.catalogue, self.settings, self.fan_out, True)
+        refits = refit_from(screening, self.catalogue, results, self.settings, self.fan_out)
+        whole = _decided(refits, self.settings, single, len(members))
+        weighed = next((w for w in whole.weighed if w.candidate.name == last.name), None)
+        if weighed is None:
+            return None, NOT_BEGUN.failure
+        if whole.decision.verdict not in second_effect.NAMING or weighed not in whole.named:
+            return None, "; ".join(whole.decision.reasons[:2])
+        if second_effect.better_alone(single, whole):
+            return None, f"{single.named[0].candidate.name} alone has more evidence"
+        reasons = several_laws.unneeded(self.problem, self.budget, single.null, whole.null, weighed.fit, members, rules)
+        return (None if reasons else whole), "; ".join(reasons)
 
     def pairs(self, single, seconds):
         """The Diagnosis of a pair of a leading effect and one of ``seconds`` that matters, else ``single``."""

@@ -15,7 +15,7 @@ import numpy as np
 from pipeline.contract.errors import BrakechainError
 from pipeline.inference.fitting.least_squares import fit, from_prior_mean
 from pipeline.inference.problem import Motions
-from pipeline.inference.search.score_screen import directions
+from pipeline.inference.search.score_screen import directions, scaled
 from pipeline.inference.search.subset_selection import best_subsets, multiplicity, table
 
 
@@ -110,7 +110,7 @@ def _selected(null, every, catalogue, rules, along=None):
     if not subsets:
         return Selection((), (), (), null.latent, {}, judged)
     best = subsets[0]
-    values = {owner: _scaled(catalogue[owner].parameters, of.tried[direction], coefficient)
+    values = {owner: scaled(catalogue[owner].parameters, of.tried[direction], coefficient)
               for owner, coefficient, direction in zip(best.owners, best.coefficients, best.directions, strict=True)}
     columns = _columns(null, every, of, best, _law_errors(along, null, catalogue, values, rules.law_error))
     gains = _gains(columns, best.owners, of.count)
@@ -123,18 +123,6 @@ def _selected(null, every, catalogue, rules, along=None):
 
 def _names(catalogue, owners):
     return tuple(catalogue[i].name for i in owners)
-
-
-def _scaled(parameters, tried, coefficient):
-    """Latent values (k,) of an effect where what a direction ``tried`` moved lies ``coefficient`` scales from null."""
-    latent = np.array(tried, float)
-    for k, p in enumerate(parameters):
-        if p.null is None or np.isclose(latent[k], p.prior.latent(p.null)):
-            continue
-        side = np.sign(p.prior.value(latent[k]) - p.null)
-        low, high = p.prior.support
-        latent[k] = p.prior.latent(float(np.clip(p.null + side * coefficient * p.prior.scale, low, high)))
-    return np.clip(latent, -2, 2)
 
 
 def _law_errors(along, null, catalogue, values, size):

@@ -66,6 +66,13 @@ def against(null, problem, budget, weighing, rules):
     return replace(weighing, weighed=tuple(of_all(k, w) for k, w in enumerate(weighing.weighed)))
 
 
+def left_by(problem, budget, null, fit, rules):
+    """(Share of the excess error of the Fit ``null`` that a Fit leaves, its error on held-out runs in noise floors or
+    None without any)."""
+    gained, _ = held_out_gains(problem, budget, null, {0: fit}, np.ones(1), rules)[0]
+    return unexplained(null, fit, rules), gained and gained.error
+
+
 def unneeded(problem, budget, null, without, whole, members, rules):
     """Why ``members`` (Hypotheses), fitted together as the Fit ``whole``, can do without one of them, in words.
 

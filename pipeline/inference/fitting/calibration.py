@@ -11,6 +11,8 @@ from pipeline.inference.rules import DEFAULTS
 
 #: iterations from every start before only the best goes on
 _TRIAL = 3
+#: how many starts near enough are tried, those that leave least
+_NEAREST = 3
 #: iterations of an easier problem on the way
 _EASIER = 8
 #: fractions of the runs that are fitted first where the residual is beyond FAR noise powers: over a short horizon the
@@ -102,13 +104,16 @@ def _ended(problem, begins):
         return None
 
 
-def begun(problem, noises, hypothesis, starts, runs, known=()):
-    """The best Fit after a few iterations from each of ``starts``, to be ``continued``; ``known`` as ``linearised``.
+def begun(problem, noises, hypothesis, starts, runs, anchors=()):
+    """The best Fit after a few iterations from each of ``starts``, to be ``continued``.
+
+    ``anchors``: for each start the Fit of the nominal hypothesis beside which it lies, whose Jacobians serve at first;
+    where that is not far off, no easier problem is needed.
 
     Raises ConvergenceError where the forward model cannot begin from any.
     """
     reasons = []
-    begins = _begun(problem, noises, hypothesis, starts, runs, reasons, known)
+    begins = _begun(problem, noises, hypothesis, starts, runs, reasons, anchors)
     if not begins:
         raise _stopped(hypothesis, reasons)
     return begins[0]
@@ -119,23 +124,29 @@ def _stopped(hypothesis, reasons):
                             "; ".join(dict.fromkeys(reasons)), "check the nominal values and priors")
 
 
-def _begun(problem, noises, hypothesis, starts, runs, reasons, known=()):
+def _begun(problem, noises, hypothesis, starts, runs, reasons, anchors=()):
     """[Fit] after a few iterations from each start, best first; ``reasons`` gets what stopped the others."""
     sizes = [_mean_square(problem, noises, hypothesis, start, runs) for start in starts]
-    if min(sizes) < FAR:
-        return _tried(problem, noises, hypothesis, starts, runs, reasons, known)
+    if min(sizes) < FAR or not all(anchor.far for anchor in anchors):
+        near = [k for k in np.argsort(sizes) if sizes[k] < max(FAR, 2 * min(sizes))][:_NEAREST]
+        fits = _tried(problem, noises, hypothesis, [starts[k] for k in near], runs, reasons,
+                      anchors and [anchors[k].jacobians for k in near])
+        return [iterated(problem, fits[0], _TRIAL), *fits[1:]] if fits and anchors else fits
     if not all(noise.ordered for noise in noises):
         return _tightened(problem, noises, hypothesis, starts, runs, reasons, _LOOSE)
-    near = [*_over_horizons(problem, noises, hypothesis, starts, runs, reasons), starts[int(np.argmin(sizes))]]
-    return _tried(problem, noises, hypothesis, near, runs, reasons, known)
+    nearest = int(np.argmin(sizes))
+    near = [*_over_horizons(problem, noises, hypothesis, starts, runs, reasons), starts[nearest]]
+    return _tried(problem, noises, hypothesis, near, runs, reasons,
+                  anchors and [anchors[nearest].jacobians] * len(near))
 
 
 def _tried(problem, noises, hypothesis, starts, runs, reasons, known=(), rough=False):
     fits = []
-    for start in starts:
+    for start, slopes in zip(starts, known or [()] * len(starts), strict=True):
         try:
-            begin = linearised(problem, noises, hypothesis, start, runs, known)
-            fits.append(iterated(problem, begin, _EASIER if rough else _TRIAL, patient=not rough, rough=rough))
+            begin = linearised(problem, noises, hypothesis, start, runs, slopes)
+            fits.append(iterated(problem, begin, _EASIER if rough else _TRIAL, patient=not rough, rough=rough,
+                                 frugal=len(slopes) > 0))
         except BrakechainError as error:
             reasons.append(str(error))
     return sorted(fits, key=lambda fit: fit.objective)

@@ -35,6 +35,8 @@ _HOPE = 10.0
 FAR = 100.0
 #: iterations, and the share of the objective that is left after them where a fit crawls
 _CRAWLING = ((5, 0.97), (8, 0.7))
+#: iterations over which a fit is judged that has to come down to what others reach
+_LATE = 4
 #: share of the objective that a step of a rough fit must gain for another to follow
 _ROUGHLY = 0.01
 #: share of the promised decrease below which an updated Jacobian is replaced by differences
@@ -97,9 +99,20 @@ class Fit:
         return tempering(self.noises, self.residuals)
 
     @cached_property
+    def slopes(self):
+        """Descent (k,), the negative gradient, and Gauss-Newton's Hessian (k, k) of half the objective; bounds that
+        hold do not take part."""
+        gradient = sum(j.T @ r for j, r in zip(self.jacobians, self.residuals, strict=True)) - self.latent
+        hessian = _information(self.jacobians) + np.eye(len(self.latent))
+        held = (np.abs(self.latent) >= LATENT_LIMIT) & (gradient * self.latent > 0)
+        gradient[held] = hessian[held] = hessian[:, held] = 0.0
+        hessian[held, held] = 1.0
+        return gradient, hessian
+
+    @cached_property
     def promised(self):
         """Decrease of the objective that the slopes still promise."""
-        gradient, hessian = _slopes(self)
+        gradient, hessian = self.slopes
         return float(gradient @ np.linalg.solve(hessian, gradient))
 
     def ended(self, explained, fraction):
@@ -210,35 +223,53 @@ def again(problem, state):
     return replace(_refreshed(problem, state, _WIDEST), converged=False, strict=True)
 
 
+def beside(problem, state, kept, iterations=4):
+    """The Fit after a few iterations over the parameters that are not ``kept`` (k,) as they are."""
+    free = np.flatnonzero(~kept)
+    for _ in range(iterations):
+        gradient, hessian = state.slopes
+        latent = state.latent.copy()
+        step = np.linalg.solve(hessian[np.ix_(free, free)], gradient[free])
+        step *= min(1.0, _LONGEST / max(np.abs(step).max(initial=0.0), 1e-300))
+        latent[free] = np.clip(latent[free] + step, -LATENT_LIMIT, LATENT_LIMIT)
+        moved = linearised(problem, state.noises, state.hypothesis, latent, state.runs)
+        if moved.objective >= state.objective:
+            break
+        state = moved
+    return state
+
+
 def _at_central_differences(problem, state):
     """The Fit with central differences, converged where they show it at its optimum."""
     state = _refreshed(problem, state, central=True)
     return replace(state, converged=state.promised < _STALLED * _scale(state))
 
 
-def iterated(problem, state, iterations, enough=np.inf, patient=True, rough=False):
+def iterated(problem, state, iterations, enough=np.inf, patient=True, rough=False, frugal=False):
     """The Fit after ``iterations``; where no step helps, differences are taken over wider steps before it ends.
 
-    A ``rough`` one stops where updated Jacobians promise no more: its latent values are of use.
+    A ``rough`` one stops where updated Jacobians promise no more: its latent values are of use. A ``frugal`` one takes
+    no differences at all: it stops where the Jacobians that it has, and their updates, lead no further.
     """
     damping, growth, width, objectives = 1e-3, 2.0, DIFFERENCE, []
     for _ in range(iterations):
         objectives.append(state.objective)
         if (not patient and _crawls(state, objectives)) or (rough and _settles(state, objectives)):
             break
-        gradient, hessian = _slopes(state)
-        expected, scale = gradient @ np.linalg.solve(hessian, gradient), _scale(state)
-        if state.objective - _HOPE * expected > enough:
+        expected, scale = state.promised, _scale(state)
+        if state.objective - _HOPE * expected > enough or _lags(objectives, enough):
             break
         if expected < _tolerance(state, scale, patient):
-            if rough or state.fresh:
-                return replace(state, converged=not rough)
+            if rough or frugal or state.fresh:
+                return replace(state, converged=state.fresh and not rough)
             state = _refreshed(problem, state)
             continue
-        moved, damping, growth = _step(problem, state, gradient, hessian, damping, growth)
+        moved, damping, growth = _step(problem, state, damping, growth, frugal)
         if moved is not None and state.objective - moved.objective > _LEAST * TOLERANCE * scale:
             state = moved
             continue
+        if frugal:
+            break
         if state.fresh and expected < _STALLED * scale:
             return replace(state, converged=True)
         if state.fresh and width >= _WIDEST:
@@ -257,6 +288,13 @@ def _crawls(state, objectives):
     return (state.unordered and state.far
             and any(len(objectives) > n and objectives[-1] > fraction * objectives[-1 - n]
                     for n, fraction in _CRAWLING))
+
+
+def _lags(objectives, enough):
+    """Whether a fit that is above ``enough`` has come down so little of late that it will not get there."""
+    if len(objectives) <= _LATE or objectives[-1] <= enough:
+        return False
+    return (objectives[-1 - _LATE] - objectives[-1]) * _HOPE < objectives[-1] - enough
 
 
 def _settles(state, objectives):
@@ -284,8 +322,13 @@ def _ones(fit, weights):
 
 
 def _information(jacobians, weights=None):
-    weights = np.ones(len(jacobians)) if weights is None else weights
-    return sum(w * (j.T @ j) for w, j in zip(weights, jacobians, strict=True))
+    """Weighted J'J (k, k) of all runs; most columns of parameters of one run alone are zero in the others."""
+    total = np.zeros((jacobians[0].shape[1],) * 2)
+    for weight, jacobian in zip(np.ones(len(jacobians)) if weights is None else weights, jacobians, strict=True):
+        moving = np.flatnonzero(jacobian.any(axis=0))
+        part = jacobian if len(moving) == len(total) else jacobian[:, moving]
+        total[np.ix_(moving, moving)] += weight * (part.T @ part)
+    return total
 
 
 def _scale(state):
@@ -331,26 +374,15 @@ def _moved_together(hypothesis, runs, first=0):
     return together
 
 
-def _slopes(state):
-    """Descent (k,), the negative gradient, and Gauss-Newton's Hessian (k, k) of half the objective; bounds that hold do
-    not take part."""
-    gradient = sum(j.T @ r for j, r in zip(state.jacobians, state.residuals, strict=True)) - state.latent
-    hessian = _information(state.jacobians) + np.eye(len(state.latent))
-    held = (np.abs(state.latent) >= LATENT_LIMIT) & (gradient * state.latent > 0)
-    gradient[held] = hessian[held] = hessian[:, held] = 0.0
-    hessian[held, held] = 1.0
-    return gradient, hessian
-
-
 def _refreshed(problem, state, width=DIFFERENCE, central=False):
     jacobians, count = _jacobians(problem, state.noises, state.hypothesis, state.latent, state.residuals, state.runs,
                                   width=width, central=central)
     return replace(state, jacobians=jacobians, fresh=True, evaluations=state.evaluations + count)
 
 
-def _step(problem, state, gradient, hessian, damping, growth):
+def _step(problem, state, damping, growth, frugal):
     """The next state that lowers the objective, with the new damping; None where no step does."""
-    objective, tries = state.objective, 0
+    (gradient, hessian), objective, tries = state.slopes, state.objective, 0
     while damping < 1e12:
         step = np.linalg.solve(hessian + damping * np.diag(np.diag(hessian)), gradient)
         step *= min(1.0, _LONGEST / max(np.abs(step).max(), 1e-300))
@@ -363,7 +395,7 @@ def _step(problem, state, gradient, hessian, damping, growth):
             if gain > 0:
                 ratio = gain / expected if expected > 0 else 0.5
                 moved = _moved(state, latent, residuals, tries)
-                if ratio < _TRUSTED:
+                if ratio < _TRUSTED and not frugal:
                     moved = _refreshed(problem, moved)
                 return moved, min(damping * max(1 / 3, 1 - (2 * ratio - 1) ** 3), 1e6), 2.0
         if not state.fresh:

@@ -11,16 +11,27 @@ from pipeline.inference.decision.candidate_statistics import unexplained
 from pipeline.inference.decision.weighing import evidence_of_all
 from pipeline.inference.fitting import tone_starts
 from pipeline.inference.fitting.calibration import Calibration, begun, paired_anew
-from pipeline.inference.fitting.least_squares import Fit, again, continued, linearised, whitened
+from pipeline.inference.fitting.least_squares import Fit, again, beside, continued, iterated, linearised, whitened
 from pipeline.inference.fitting.step_error import refined
 from pipeline.inference.problem import FanOut, Problem
 from pipeline.inference.rules import Rules
-from pipeline.inference.search.score_screen import alternatives, directions, screen, short_name
+from pipeline.inference.search.score_screen import (
+    alternatives,
+    directions,
+    least,
+    screen,
+    shapes_like,
+    short_name,
+)
 
 #: iterations of a nominal model from a candidate's optimum before it is given up where it is still worse than before
 _GIVEN_UP = 16
+#: iterations after which the worse half of the candidates that have begun is given up
+_LAP = 4
 #: times that a better candidate found beside the best one is taken for the best
 _ROUNDS = 2
+#: candidates beside a first effect that begin, over the number of those that go on
+_LIKELY = 4
 #: discrete values of a candidate at which fits begin
 _ALTERNATIVES = 2
 
@@ -62,12 +73,12 @@ class Refits:
         return replace(self, results=self.refitter.better(self.results, starts))
 
 
-def refit_catalogue(screening, catalogue, settings, fan_out, results=None):
+def refit_catalogue(screening, catalogue, settings, fan_out, results=None, beside_a_first=False):
     """Refits of the promising candidates of a Screening, of their imitators, and of what they overlook, beside earlier
     ``results``."""
     calibration, starts = screening.calibration, screening.screen.start
     refitter = Refitter(calibration.problem, calibration.null, tuple(catalogue), settings, fan_out)
-    results = refitter.best_of(screening.promising, starts, results or {})
+    results = refitter.best_of(screening.promising, starts, results or {}, beside_a_first)
     fits = {i: r.fit for i, r in results.items() if r.fit is not None}
     if fits:
         evidences = evidence_of_all(calibration.null, screening.directions, fits, settings)
@@ -82,11 +93,10 @@ def refit_catalogue(screening, catalogue, settings, fan_out, results=None):
     return Refits(better, again, results, refitter)
 
 
-def refit_from(screening, catalogue, starts, settings, fan_out):
-    """Refits of the candidates at latent values ``starts`` {index: (k,)} alone, and of what outshines them."""
+def refit_from(screening, catalogue, results, settings, fan_out):
+    """Refits of the candidates that have ``results`` {index: Refitted} alone, and of what outshines them."""
     calibration = screening.calibration
     refitter = Refitter(calibration.problem, calibration.null, tuple(catalogue), settings, fan_out)
-    results = refitter.better({}, starts)
     fits = {i: r.fit for i, r in results.items() if r.fit is not None}
     if fits:
         evidences = evidence_of_all(calibration.null, screening.directions, fits, settings)
@@ -112,29 +122,44 @@ class Refitter:
     def rules(self) -> Rules:
         return self.settings.rules
 
-    def best_of(self, promising, starts, results):
+    def best_of(self, promising, starts, results, beside_a_first=False):
         """{index: Refitted} of ``results``, the best few ``promising`` ones and their imitators, else all of them.
 
-        All begin only where the linearisation of the null may fail and none of the first few explains enough.
+        All begin only where the linearisation of the null may fail and none of the first few explains enough;
+        ``beside_a_first`` effect, which has taken up what is far from linear, the likely ones.
         """
         kept, decision = self.settings.kept, self.rules.decision
-        results = self.with_imitators(self.of(promising[:kept], starts, results))
+        results = self.with_imitators(self.of(promising[:kept], starts, results), starts)
+        promising = promising[:_LIKELY * kept] if beside_a_first else promising
         enough = any(unexplained(self.null, r.fit, self.rules) <= decision.unexplained
                      for r in results.values() if r.fit)
         if enough or self.null.reaches_noise(decision.noise_uncertainty) or self.null.unordered:
             return results
-        return self.with_imitators(self.of(promising[kept:], starts, results))
+        return self.with_imitators(self.of(promising[kept:], starts, results), starts)
 
     def of(self, chosen, starts, results=None):
         """{index: Refitted} of ``results`` and of the candidates ``chosen``, begun at latent ``starts``.
 
         All begin; the best few go on, first the best of them, as the others have to come near it.
         """
-        begin = partial(_begun, self.problem, self.null, self.settings.starts, self.rules.calibration)
+        begin = partial(_begun, self.problem, self.null, self._anchor(), self.settings.starts)
         items = [(self.catalogue[i], starts[i]) for i in chosen]
         return self._ended(chosen, self.fan_out(begin, items), results or {})
 
-    def with_imitators(self, results):
+    def _anchor(self):
+        """The Fit beside which candidates begin: the null, or, where that misleads, what it is with those values as
+        they were that its priors exclude."""
+        if not _misled(self.null, self.rules.calibration):
+            return self.null
+        pulled, nominal = abs(self.null.latent) > self.rules.calibration.excluded, self.problem.nominal
+        latent = np.where(pulled | self.null.unordered, nominal.nominal, self.null.latent)
+        try:
+            state = linearised(self.problem, self.null.noises, nominal, latent, self.null.runs)
+            return beside(self.problem, state, pulled) if pulled.any() else state
+        except BrakechainError:
+            return self.null
+
+    def with_imitators(self, results, starts):
         """{index: Refitted} once others have begun at the nominal values that the best of ``results`` asks for.
 
         A nominal model that has to make up for what is missing is off its true values, and what moves as the best
@@ -144,7 +169,7 @@ class Refitter:
             top = _best(results)
             if top is None or not self._explains(results[top].fit):
                 break
-            results = self._beside(top, results)
+            results = self._beside(top, starts, results)
             if _best(results) == top:
                 break
         return results
@@ -185,13 +210,14 @@ class Refitter:
     def _explains(self, fit):
         return fit.weights.max() * fit.betters(self.null) > 2 * self.rules.decision.evidence_gain
 
-    def _beside(self, top, results):
-        """Results with those of the imitators of candidate ``top``, where they are better."""
+    def _beside(self, top, starts, results):
+        """Results with those of the imitators of candidate ``top``, shaped as it or as at ``starts``, where better."""
         size, fit = len(self.null.latent), results[top].fit
         anchor = linearised(self.problem, self.null.noises, self.problem.nominal, fit.latent[:size], self.null.runs)
         like = {short_name(p): fit.values[p.name] for p in fit.hypothesis.parameters[size:]}
-        look = partial(directions, self.problem, anchor, like=like)
-        scores = screen(anchor, list(self.fan_out(look, self.catalogue)), draws=0, rules=self.rules.screening)
+        look = partial(_directions_like, self.problem, anchor, like)
+        scores = screen(anchor, list(self.fan_out(look, zip(self.catalogue, starts, strict=True))), draws=0,
+                        rules=self.rules.screening)
         enough = self.rules.refit.imitates * scores.score[top]**2
         imitators = [i for i in scores.order() if i != top and scores.score[i] > 0
                      and scores.score[i]**2 >= enough][:self.settings.kept]
@@ -205,22 +231,34 @@ class Refitter:
         first = dict(zip(chosen, begins, strict=True))
         ended = {**results, **{i: Refitted(None, None, why) for i, (begin, why) in first.items() if begin is None}}
         begun_fits = {i: begin for i, (begin, _) in first.items() if begin is not None}
-        best = sorted(begun_fits, key=lambda i: begun_fits[i].objective)[:self.settings.kept]
+        begun_fits = self._raced(begun_fits)
+        best = sorted(begun_fits, key=lambda i: begun_fits[i].objective)
         for group in (best[:1], best[1:]):
             finish = partial(_finished, self.problem, self.null, self._enough(ended.values()), self.rules)
             ended |= dict(zip(group, self.fan_out(finish, [begun_fits[i] for i in group]), strict=True))
         return ended
+
+    def _raced(self, fits):
+        """The best few {index: Fit} of those that have begun: the better half goes on, again and again.
+
+        Along a narrow valley what a few iterations reach says little of where it ends; where one is at the noise, no
+        other needs to go far.
+        """
+        while True:
+            half = max(self.settings.kept, (len(fits) + 1) // 2)
+            fits = dict(sorted(fits.items(), key=lambda item: item[1].objective)[:half])
+            best = next(iter(fits.values()), None)
+            if len(fits) <= self.settings.kept or best.unordered:
+                return dict(list(fits.items())[:self.settings.kept])
+            if best.reaches_noise(self.rules.decision.noise_uncertainty):
+                return dict(list(fits.items())[:self.settings.kept])
+            fits = dict(zip(fits, self.fan_out(partial(_further, self.problem), fits.values()), strict=True))
 
     def _enough(self, results):
         """The objective to which a candidate must be able to come down: near the best so far, as evidence is tempered.
         """
         best = min((r.fit for r in results if r.fit is not None), key=lambda fit: fit.objective, default=None)
         return np.inf if best is None else best.objective + self.rules.refit.within_reach / best.weights.max()
-
-
-def at_odds(null, rules):
-    """Whether samples pull the null to values at odds with their priors: then its linearisation ranks nothing."""
-    return bool(null.excluded(rules.excluded)) and not null.unordered
 
 
 def _misled(null, rules):
@@ -242,17 +280,20 @@ def _lowest(results, others):
     return {**results, **{i: r for i, r in others.items() if i not in results or lower(r.fit, results[i].fit)}}
 
 
-def _begun(problem, null, offsets, rules, item):
-    """(Fit of a candidate after a few iterations or None, why there is none)."""
+def _begun(problem, null, anchor, offsets, item):
+    """(Fit of a candidate after a few iterations or None, why there is none), beside the nominal values of ``anchor``.
+
+    Where that is not the null, the candidate begins at the values of the null as well.
+    """
     candidate, screened_start = item
-    misled = _misled(null, rules)
     offsets = () if candidate.elaborate else offsets    # the screen has tried many values of these
-    starts = _starts(problem.nominal.nominal if misled else null.latent, [
-        screened_start, *(np.full(len(candidate.parameters), offset) for offset in offsets)])
-    starts += _starts(null.latent, [screened_start] * at_odds(null, rules)
-                      + tone_starts.starts(problem, null, candidate))
-    starts += _alternative_starts(problem, null, candidate, starts[0][:len(null.latent)])
-    return _tried(problem, null, candidate, starts, () if misled else null.jacobians)
+    starts = _starts(anchor.latent, [
+        screened_start, least(candidate, screened_start), *(np.full(len(candidate.parameters), offset)
+                                                            for offset in offsets)])
+    starts += _alternative_starts(problem, null, candidate, anchor.latent)
+    at_null = [] if anchor is null or null.unordered else [screened_start]
+    at_null = _starts(null.latent, at_null + tone_starts.starts(problem, null, candidate))
+    return _tried(problem, null, candidate, starts + at_null, [anchor] * len(starts) + [null] * len(at_null))
 
 
 def _alternative_starts(problem, null, candidate, base):
@@ -267,11 +308,17 @@ def _alternative_starts(problem, null, candidate, base):
     return [start for _, start in sorted(ranked, key=lambda pair: pair[0])[:_ALTERNATIVES]]
 
 
+def _directions_like(problem, anchor, values, item):
+    """Directions of a candidate at the Fit ``anchor``, shaped as at its start and by ``values``."""
+    candidate, start = item
+    return directions(problem, anchor, candidate, shapes_like(candidate, start, values))
+
+
 def _begun_at(problem, anchor, item):
     """The same from the nominal values of the Fit ``anchor`` alone."""
     candidate, start = item
     starts = _starts(anchor.latent, [start, *tone_starts.starts(problem, anchor, candidate)])
-    return _tried(problem, anchor, candidate, starts, anchor.jacobians)
+    return _tried(problem, anchor, candidate, starts, [anchor] * len(starts))
 
 
 def _starts(base, begins):
@@ -279,11 +326,19 @@ def _starts(base, begins):
     return [np.concatenate((base, np.clip(begin, -2, 2))) for begin in begins]
 
 
-def _tried(problem, null, candidate, starts, known):
+def _tried(problem, null, candidate, starts, anchors):
     try:
-        return begun(problem, null.noises, problem.nominal.joined(candidate), starts, null.runs, known), ""
+        return begun(problem, null.noises, problem.nominal.joined(candidate), starts, null.runs, anchors), ""
     except BrakechainError as error:
         return None, str(error)
+
+
+def _further(problem, fit):
+    """A Fit after a few more iterations, as far as its forward model goes."""
+    try:
+        return fit if fit.converged else iterated(problem, fit, _LAP, patient=False)
+    except BrakechainError:
+        return fit
 
 
 def _finished(problem, null, enough, rules, begin):

@@ -25,6 +25,8 @@ STEPS = (0.02, 1.0)
 SHAPES = (0.2, 0.8)
 #: and angles in every quarter of theirs: no wave is at right angles to all of them
 ANGLES = (0.125, 0.375, 0.625, 0.875)
+#: variance of a score that draws of the null may lack
+_NEGLIGIBLE = 1e-6
 #: at most this many combinations of shapes per effect parameter
 _COMBINATIONS = 8
 DRAWS = 20000
@@ -52,7 +54,7 @@ class Directions:
 class Screen:
     """Per candidate (n,): largest score, its family-wise p-value, and the power d (score expected at prior scale).
 
-    ``start`` [(k,)]: latent values of the effect's parameters at the best direction.
+    ``start`` [(k,)]: latent values of the effect's parameters, as far along the best direction as it is linear.
     """
 
     candidates: tuple
@@ -100,14 +102,15 @@ def screen_catalogue(calibration, catalogue, settings, fan_out, beside_a_first=F
         if i >= len(known) and np.isfinite(rough.score[i]) and rough.p_value[i] <= largest))
 
 
-def directions(problem, null, candidate, like=None):
+def directions(problem, null, candidate, shapes=None):
     """Directions of one candidate (Hypothesis of its effects alone) at the Fit ``null`` of the nominal hypothesis.
 
-    ``like`` {name without place: value}: shapes that are tried too, where the candidate has parameters of these names.
+    ``shapes`` [(s,)]: latent values of the parameters that only shape it, at which alone it is tried; by default they
+    are spread over their priors.
     """
     hypothesis, vectors, signs, tried = problem.nominal.joined(candidate), [], [], []
     base, failure = np.concatenate(null.residuals), ""
-    for latent, sign, step in _trials(candidate, like or {}):
+    for latent, sign, step in _trials(candidate, shapes):
         full = np.concatenate((null.latent, latent))
         moved, error = whitened(problem, null.noises, hypothesis, full, null.runs)
         if moved is None:
@@ -138,19 +141,21 @@ def screen(null, every, weights=None, draws=DRAWS, seed=0, rules=DEFAULTS.screen
     square = np.einsum("qm,qm->q", vectors, cleaned)
     visible = square > rules.visible * np.einsum("qm,qm->q", vectors, vectors)
     size = np.sqrt(np.where(visible, square, 1.0))
-    score = np.where(visible, _one_sided(cleaned @ residual / size, sign), -np.inf)
+    normal = cleaned @ residual / size
+    score = np.where(visible, _one_sided(normal, sign), -np.inf)
     largest = np.empty(0)
     if draws:
         correlation = np.where(visible[:, None] & visible, (cleaned @ vectors.T) / np.outer(size, size), 0.0)
         largest = largest_scores(correlation, np.where(visible, sign, 0), draws, seed)
-    return _gathered(every, owner, score, np.where(visible, size, 0.0), largest)
+    return _gathered(every, owner, score, np.where(visible, size, 0.0), normal / size, largest)
 
 
 def largest_scores(correlation, sign, draws=DRAWS, seed=0):
     """Largest of q scores (draws,) under the null: N(0, correlation), taken one-sided where ``sign`` is not 0."""
     values, basis = np.linalg.eigh(0.5 * (correlation + correlation.T))
-    root = basis * np.sqrt(np.maximum(values, 0.0))
-    normal = np.random.default_rng(seed).standard_normal((draws, len(sign)))
+    few = values > _NEGLIGIBLE * len(sign)      # many directions are nearly the same: most of the rank is rounding
+    root = basis[:, few] * np.sqrt(values[few])
+    normal = np.random.default_rng(seed).standard_normal((draws, np.count_nonzero(few)))
     return _one_sided(normal @ root.T, sign).max(axis=1, initial=-np.inf)
 
 
@@ -170,35 +175,53 @@ def short_name(parameter):
     return parameter.name.rpartition(".")[2]
 
 
-def _trials(candidate, like):
+def _trials(candidate, shapes):
     """(latent values, sign, step in prior scales) of every direction: one effect parameter moved, shapes varied."""
     parameters = candidate.parameters
-    shapes = [k for k, p in enumerate(parameters) if p.null is None]
     if any(p.discrete for p in parameters):
         for latent in alternatives(candidate):
             yield latent, 1, 1.0
         return
-    shares = [ANGLES if parameters[k].unit == "rad" else SHAPES for k in shapes]
-    combinations = [[_latent_of(parameters[i], share) for i, share in zip(shapes, each, strict=True)]
-                    for each in list(product(*shares))[:_COMBINATIONS]]
-    if shapes and all(short_name(parameters[i]) in like for i in shapes):
-        combinations.append([float(np.clip(parameters[i].prior.latent(like[short_name(parameters[i])]), -2, 2))
-                             for i in shapes])
+    shaping = [k for k, p in enumerate(parameters) if p.null is None]
+    shapes = _spread([parameters[k] for k in shaping]) if shapes is None else shapes
     for k, parameter in enumerate(parameters):
         if parameter.null is None:
             continue
-        for step, shape in product(STEPS, combinations):
+        for step, shape in product(STEPS, shapes):
             values = [p.nominal if p.null is None else p.null for p in parameters]
             values[k] = _away(parameter, step)
             latent = np.array([p.prior.latent(v) for p, v in zip(parameters, values, strict=True)])
-            latent[shapes] = shape
+            latent[shaping] = shape
             yield latent, int(parameter.sign != 0), step
+
+
+def _spread(shaping):
+    """[(latent values,)] of parameters that shape an effect, over their priors."""
+    shares = [ANGLES if p.unit == "rad" else SHAPES for p in shaping]
+    return [[_latent_of(p, share) for p, share in zip(shaping, each, strict=True)]
+            for each in list(product(*shares))[:_COMBINATIONS]]
+
+
+def shapes_like(candidate, start, values):
+    """Shapes [(s,)] of a candidate: as at its latent values ``start`` (k,), and those of ``values`` {name without
+    place: value}, where these hold all of its shapes."""
+    shaping = [(k, p) for k, p in enumerate(candidate.parameters) if p.null is None]
+    shapes = [[start[k] for k, _ in shaping]]
+    if shaping and all(short_name(p) in values for _, p in shaping):
+        shapes.append([float(np.clip(p.prior.latent(values[short_name(p)]), -2, 2)) for _, p in shaping])
+    return shapes
 
 
 def alternatives(candidate):
     """Latent values [(k,)] of a candidate at each of the values of its discrete parameters, the others as nominal."""
     return [np.array(each) for each in product(*(p.prior.alternatives if p.discrete else [p.prior.latent(p.nominal)]
                                                  for p in candidate.parameters))]
+
+
+def least(candidate, start):
+    """Latent values (k,) of a candidate, shaped as at ``start`` (k,), that hardly changes anything."""
+    return np.array([u if p.null is None or p.discrete else p.prior.latent(_away(p, STEPS[0]))
+                     for p, u in zip(candidate.parameters, start, strict=True)])
 
 
 def _away(parameter, step):
@@ -212,10 +235,32 @@ def _latent_of(parameter, share):
     return parameter.prior.latent(parameter.prior.quantile(share))
 
 
-def _gathered(every, owner, score, power, largest):
+def scaled(parameters, tried, coefficient):
+    """Latent values (k,) of an effect where what a direction ``tried`` moved lies ``coefficient`` scales from null."""
+    latent = np.array(tried, float)
+    for k, p in enumerate(parameters):
+        if p.null is None or np.isclose(latent[k], p.prior.latent(p.null)):
+            continue
+        side = np.sign(p.prior.value(latent[k]) - p.null)
+        low, high = p.prior.support
+        latent[k] = p.prior.latent(float(np.clip(p.null + side * coefficient * p.prior.scale, low, high)))
+    return np.clip(latent, -2, 2)
+
+
+def _gathered(every, owner, score, power, coefficient, largest):
     best = [max(np.flatnonzero(owner == n), key=lambda q: score[q], default=None) for n in range(len(every))]
     top = np.array([-np.inf if q is None else score[q] for q in best])
-    starts = tuple(np.zeros(len(d.candidate.parameters)) if q is None else d.tried[q - np.flatnonzero(owner == n)[0]]
+    starts = tuple(np.zeros(len(d.candidate.parameters)) if q is None else
+                   _start(d, q - np.flatnonzero(owner == n)[0], coefficient[q])
                    for n, (d, q) in enumerate(zip(every, best, strict=True)))
     return Screen(tuple(d.candidate for d in every), top, family_p(top, largest),
                   np.array([0.0 if q is None else power[q] for q in best]), starts, tuple(d.failure for d in every))
+
+
+def _start(found, number, coefficient):
+    """Latent values (k,) at a ``coefficient`` along direction ``number`` of a candidate, not at its null."""
+    parameters, tried, sign = found.candidate.parameters, found.tried[number], found.sign[number]
+    if any(p.discrete for p in parameters):
+        return tried
+    least = max(coefficient, STEPS[0]) if sign else np.copysign(max(abs(coefficient), STEPS[0]), coefficient)
+    return scaled(parameters, tried, least)

@@ -9,7 +9,7 @@ from pipeline.inference.fitting import refitting
 from pipeline.inference.fitting.calibration import calibrate
 from pipeline.inference.fitting.least_squares import linearised
 from pipeline.inference.fitting.noise import budget
-from pipeline.inference.fitting.refitting import Refitter, at_odds
+from pipeline.inference.fitting.refitting import Refitter
 from pipeline.inference.procedure import Settings, diagnose
 from pipeline.inference.rules import DEFAULTS
 from tests.inference.oscillator import CATALOGUE, bench
@@ -54,14 +54,14 @@ def test_only_the_best_few_go_on(found):
     assert sum(r.fit is not None for r in told.values()) == 2 and told[CUBIC].fit.converged
     uncertainty = DEFAULTS.decision.noise_uncertainty
     assert told[CUBIC].fit.reaches_noise(uncertainty)
-    assert not found.null.reaches_noise(uncertainty) and not at_odds(found.null, DEFAULTS.calibration)
+    assert not found.null.reaches_noise(uncertainty) and found._anchor() is found.null
 
 
 def test_a_rival_is_found_from_the_nominal_values_of_the_best(found):
     """Of two equal laws one was left where it began: it comes down to the other."""
     twin = type(found)(found.problem, found.null, (CATALOGUE[CUBIC], CATALOGUE[CUBIC]), found.settings, map)
     best = found.of([CUBIC], {CUBIC: np.zeros(1)})[CUBIC]
-    told = twin.with_imitators({0: best})
+    told = twin.with_imitators({0: best}, [np.zeros(1)] * 2)
     assert [told[k].fit.objective for k in (0, 1)] == pytest.approx([best.fit.objective] * 2, rel=1e-4)
 
 
@@ -75,14 +75,14 @@ def test_where_nothing_explains_more_than_chance_nothing_is_looked_for(monkeypat
 def test_what_is_better_is_kept(found):
     """A rival that ends above what was found before does not take its place."""
     best = found.of([CUBIC], {CUBIC: np.zeros(1)})[CUBIC]
-    told = found.with_imitators({CUBIC: best})
+    told = found.with_imitators({CUBIC: best}, [np.zeros(len(c.parameters)) for c in CATALOGUE])
     assert told[CUBIC] is best
     assert all(r.fit is None or r.fit.objective >= best.fit.objective - 1e-6 for r in told.values())
 
 
 def test_a_leading_fit_that_did_not_converge_begins_again(found):
     starts = {CUBIC: np.zeros(1)}
-    begun, _ = refitting._begun(found.problem, found.null, (), DEFAULTS.calibration, (CATALOGUE[CUBIC], starts[CUBIC]))
+    begun, _ = refitting._begun(found.problem, found.null, found.null, (), (CATALOGUE[CUBIC], starts[CUBIC]))
     told = found.settled({CUBIC: refitting.Refitted(replace(begun, converged=False), None, "it stopped")})[CUBIC]
     assert told.fit.converged and not told.failure and told.fit.objective <= begun.objective
 
