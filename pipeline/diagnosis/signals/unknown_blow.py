@@ -1,12 +1,16 @@
 """Blows of a hammer whose force was not recorded: one half-sine pulse a run, fitted with everything else.
 
-Before the blow the rig is at rest. Of the pulse the impulse, the time of its centre and the contact time are unknown. The
-contact time decides in which ratio the modes of a rig ring: a pulse of width w excites a mode of frequency f by the
-factor cos(pi f w) / (1 - (2 f w)^2). Whoever strikes takes a tip hard enough for the modes of interest: 20 dB at the
-highest of them is the rule (Avitabile, Modal Testing, 2018). Hence 95 of 100 contact times of the prior are shorter than
-that of a pulse that excites the fastest mode below half the sample rate to a tenth, 1.3 of its periods; and as tips from
-steel to rubber differ some fifty-fold, e^4, 95 of 100 lie in such a range. The estimate that fits begin from has the median
-contact time, and is the pulse that explains most of the period behind its begin and leaves least before it.
+Before the blow the rig is at rest. Impulse, time of the centre and contact time of the pulse are unknown. The contact
+time decides in which ratios modes ring: a pulse of width w excites one of frequency f by the factor
+cos(pi f w) / (1 - (2 f w)^2).
+
+A tip is chosen that is hard enough for the modes of interest: the spectrum of the force may fall by 10 to 20 dB up to
+the highest of them (Avitabile, Modal Testing, 2018). Hence 95 of 100 contact times of the prior are shorter than that
+of the pulse that excites the fastest mode below half the sample rate to a tenth, 1.3 of its periods. Tips from steel to
+soft rubber differ some fifty-fold, e^4, which holds 95 of 100 contact times about the median.
+
+The estimate that fits begin from has the median contact time; it is the pulse that explains most of the period behind
+its begin and leaves least before it.
 """
 
 from dataclasses import dataclass, replace
@@ -36,7 +40,8 @@ _CYCLES = (scipy.optimize.brentq(lambda cycles: spectrum(cycles) - _LEAST, 0.0, 
 
 @dataclass(frozen=True)
 class Blow:
-    """Estimate of a blow on ``input``: ``impulse`` N s about ``time`` s, of ``width`` s; standard deviation of its time, s.
+    """Estimate of a blow on ``input``: ``impulse`` N s about ``time`` s, ``width`` s long; ``unsure``: deviation of the
+    time, s.
     """
 
     input: str
@@ -90,8 +95,8 @@ def with_blow(bench, recorded, name, period, fastest, shown):
 
     ``shown(run)`` (c, n): what the channels show of a Run.
 
-    ``period``: number of samples of the slowest one; ``fastest``: highest natural frequency in Hz. ConfigError where the input does not take a force, and where
-    nothing is struck early enough.
+    ``period``: number of samples of the slowest one; ``fastest``: highest natural frequency in Hz. ConfigError where
+    the input does not take a force, and where nothing is struck early enough.
     """
     run, where = recorded.run, f"run {recorded.run.name}: blow"
     if name not in bench.model.input_name or name in bench.model.moved_ends or name in run.held:
@@ -109,8 +114,9 @@ def with_blow(bench, recorded, name, period, fastest, shown):
     last = int(_EARLY * run.samples - first * run.sample_rate) - period // 2
     scores = [_score(left, weight, answer, k, period) for k in range(max(last, 0))]
     if not scores or not max(scores)[0] > 0:
-        raise ConfigError(where, f"a blow within the first {max(last / run.sample_rate + first, 0):.3g} s, at rest before it",
-                          "none", "let the run begin shortly before the blow, and end several periods after it")
+        latest = max(last / run.sample_rate + first, 0)
+        raise ConfigError(where, f"a blow within the first {latest:.3g} s, at rest before it", "none",
+                          "let the run begin shortly before the blow, and end several periods after it")
     k = int(np.argmax([score for score, _ in scores]))
     blow = replace(blow, impulse=scores[k][1], time=k / run.sample_rate + first)
     return replace(recorded, run=_hit(bench, run, blow), unknown=blow)

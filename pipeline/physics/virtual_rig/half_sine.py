@@ -9,8 +9,8 @@ threefold integral of F. The smoothing and the straight lines between samples mu
 
     (y / sin y)^5 = 1 + 5/24 d + 47/1152 d^2 + ...,     d = 4 sin^2 y.
 
-Impulse, centre and variance are hence exact for pulses of any width, wherever they lie between samples, and the force is
-smooth in all three numbers.
+Impulse, centre and variance are hence exact for pulses of any width, wherever they lie between samples, and the force
+is smooth in all three numbers. At 7 samples a period a mode answers to 1 % as to the pulse itself, at 35 to 0.004 %.
 """
 
 from dataclasses import dataclass
