@@ -203,20 +203,21 @@ def stated_inputs(bench, run):
     if unknown:
         raise ConfigError(f"run {run.name}: input", f"one of {', '.join(bench.model.input_name)}",
                           ", ".join(sorted(unknown)))
-    return [run.inputs.get(n, run.conditions.get(n, 0.0)) + _pulse(run, n) for n in bench.model.input_name]
+    return [_struck(run.inputs.get(n, run.conditions.get(n, 0.0)), run, n) for n in bench.model.input_name]
 
 
-def _pulse(run, name):
-    return run.pulses[name].force(run.samples, run.sample_rate) if name in run.pulses else 0.0
+def _struck(value, run, name):
+    """``value`` of an input with its pulse on top, where a Run has one there."""
+    return value + run.pulses[name].force(run.samples, run.sample_rate) if name in run.pulses else value
 
 
 def _resolved(bench, run, parts):
-    """(Run, its inputs) with ``parts`` samples for each, where it has pulses, so that the steps resolve them."""
+    """(Run, its inputs), of a run with pulses at ``parts`` times its rate, so that the steps resolve them."""
     if not run.pulses:
         return run, run_inputs(bench, run)
     finer = replace(run, sample_rate=parts * run.sample_rate, inputs={}, drive=None)
     smooth = run_inputs(bench, replace(run, pulses={}))
-    return finer, [_between(value, run, finer, name in run.held) + _pulse(finer, name)
+    return finer, [_struck(_between(value, run, finer, name in run.held), finer, name)
                    for name, value in zip(bench.model.input_name, smooth, strict=True)]
 
 
