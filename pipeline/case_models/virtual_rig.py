@@ -88,7 +88,7 @@ class Settings(Laws):
         " from all channels of each run; none = fitted in runs that move where the model at rest would not, as free"
         " decays do")
     blow: str | None = option(None, "input on which a hammer of unknown force struck once in every run, at rest before:"
-                                    " size and time of the blow are fitted; none = no blow")
+                                    " impulse, time and contact time of a half-sine pulse are fitted; none = no blow")
     measured_start: bool = option(False, "the same as start: fitted, in older cases")
     state: int = option(0, "state of the model whose preload is used", ge=0)
     poles: Poles | None = option(None, "compare poles, sensor ratios and order-locked forces; none = samples")

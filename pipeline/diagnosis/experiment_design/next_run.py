@@ -142,7 +142,8 @@ def changed(bench, run, name, value, where):
     unit = "rad/s" if name == "speed" else input_unit(bench, name)
     there = value * np.asarray(conditions[name], float) if factor else to_si(value, unit, where)
     if name in bench.model.input_name:
-        return replace(run, inputs={**run.inputs, name: there}), {}
+        others = {n: pulse for n, pulse in run.pulses.items() if n != name}
+        return replace(run, inputs={**run.inputs, name: there}, pulses=others), {}
     drive = None if name == "speed" else run.drive
     return replace(run, drive=drive, conditions={**run.conditions, name: float(there)}), {}
 

@@ -115,7 +115,7 @@ def moves_freely(bench, recorded):
 
 def _struck(bench, recorded, name):
     """The Recorded run with an unknown blow on the input ``name``."""
-    return with_blow(bench, recorded, name, _first_samples(bench, recorded.run) - 1,
+    return with_blow(bench, recorded, name, _first_samples(bench, recorded.run) - 1, _fastest(bench, recorded.run),
                      lambda run: _shown(bench, recorded.channels, run))
 
 
@@ -167,9 +167,8 @@ def with_starts(nominal, bench, recorded, remembers):
 
 def begun(run, hypothesis, values):
     """The Run with the start, or blow, that the ``values`` {name: value} of a hypothesis give to it, if they do."""
-    estimate, parts = {p.name: p.nominal for p in hypothesis.parameters if p.run == run.name}, {}
-    names = list(estimate)
-    run = struck(run, {name: values[name] for name in names}, estimate)
+    names, parts = [p.name for p in hypothesis.parameters if p.run == run.name], {}
+    run = struck(run, {name: values[name] for name in names})
     for part, (field, _) in _PARTS.items():
         if members := [values[name] for name in names if name.startswith(_name(run.name, part, ""))]:
             parts[field] = np.array(members)
@@ -229,6 +228,12 @@ def _first_samples(bench, run):
         raise ConfigError(f"run {run.name}: start", f"a run of at least one period, {period:.3g} s, so that its start"
                           " can be estimated", f"{run.duration:.3g} s", "record longer, or state bench.start: rest")
     return min(int(np.ceil(period * run.sample_rate)) + 1, run.samples)
+
+
+def _fastest(bench, run):
+    """Highest natural frequency in Hz that the samples of a run resolve; half their rate where there is none."""
+    natural, limit = np.sqrt(np.maximum(_vibrations(bench, run)[0], 0.0)) / (2 * np.pi), run.sample_rate / 2
+    return float(natural[natural < limit].max(initial=0.0)) or limit
 
 
 def _reach(model, state, square, shapes):

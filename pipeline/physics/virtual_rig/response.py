@@ -26,7 +26,7 @@ class Run:
     Samples are at ``sample_rate`` Hz from time 0, linear between; those of inputs named in ``held`` are held until the
     next. ``conditions`` {name: value} stand in for inputs of their names, ``speed`` for the drive, ``normal_load`` for
     the loads of friction joints; friction may depend on others. ``start``: where the bodies are at time 0, else as the
-    bench says.
+    bench says. ``pulses`` {input: HalfSine} act on top of the inputs, and are resolved by the steps of the bench.
     """
 
     name: str
@@ -37,6 +37,7 @@ class Run:
     conditions: dict = field(default_factory=dict)
     start: Start | None = None
     held: tuple = ()
+    pulses: dict = field(default_factory=dict)
 
     def __post_init__(self):
         if not (self.sample_rate > 0 and self.duration * self.sample_rate >= 1):
@@ -155,7 +156,7 @@ class Responder:
         bench = self.bench
         step = run.step(bench.step) / self._finer
         parts = round(1 / run.sample_rate / step)
-        inputs, drive = run_inputs(bench, run), run_drive(bench, run)
+        driven, inputs = _resolved(bench, run, parts)
         speed, first = at_begin(bench, run)
         under_load = loaded(bench, run)
         friction = run_friction(under_load, run)
@@ -163,9 +164,9 @@ class Responder:
         start, steps = run.start, (run.samples - 1) * parts
         if start is None and bench.settled:
             start = steady_start(stepping.model, bench.law, friction, first)
-        motion = stepping.run(steps * step, start=start, inputs=_history(inputs, run, holding(bench, run)),
-                              drive=_history([drive], run), book=False)
-        simulated = SimulatedRun(under_load, run, motion, inputs, step, self._rows)
+        motion = stepping.run(steps * step, start=start, inputs=_history(inputs, driven, holding(bench, run)),
+                              drive=_history([run_drive(bench, run)], run), book=False)
+        simulated = SimulatedRun(under_load, driven, motion, inputs, step, self._rows)
         return {sensor.name: sensor.written(sensor.measurand.history(simulated, sensor), step)[::parts]
                 for sensor in bench.channels}
 
@@ -198,11 +199,34 @@ def run_inputs(bench, run):
 
 def stated_inputs(bench, run):
     """[one value or samples (samples,)] of each input: N, or m where it moves the end of a joint."""
-    unknown = set(run.inputs) - set(bench.model.input_name)
+    unknown = {*run.inputs, *run.pulses} - set(bench.model.input_name)
     if unknown:
         raise ConfigError(f"run {run.name}: input", f"one of {', '.join(bench.model.input_name)}",
                           ", ".join(sorted(unknown)))
-    return [run.inputs.get(n, run.conditions.get(n, 0.0)) for n in bench.model.input_name]
+    return [_struck(run.inputs.get(n, run.conditions.get(n, 0.0)), run, n) for n in bench.model.input_name]
+
+
+def _struck(value, run, name):
+    """``value`` of an input with its pulse on top, where a Run has one there."""
+    return value + run.pulses[name].force(run.samples, run.sample_rate) if name in run.pulses else value
+
+
+def _resolved(bench, run, parts):
+    """(Run, its inputs), of a run with pulses at ``parts`` times its rate, so that the steps resolve them."""
+    if not run.pulses:
+        return run, run_inputs(bench, run)
+    finer = replace(run, sample_rate=parts * run.sample_rate, inputs={}, drive=None)
+    smooth = run_inputs(bench, replace(run, pulses={}))
+    return finer, [_struck(_between(value, run, finer, name in run.held), finer, name)
+                   for name, value in zip(bench.model.input_name, smooth, strict=True)]
+
+
+def _between(value, run, finer, held):
+    if not np.ndim(value):
+        return value
+    if held:
+        return np.append(np.repeat(value[:-1], (finer.samples - 1) // (run.samples - 1)), value[-1])
+    return np.interp(finer.time, run.time, value)
 
 
 def input_unit(bench, name):

@@ -4,12 +4,16 @@ import numpy as np
 import pytest
 
 from pipeline.case_models import corrections
+from pipeline.case_models import virtual_rig as benches
 from pipeline.case_models.runs import recorded
 from pipeline.contract import ConfigError
 from pipeline.contract.settings import fill
-from pipeline.diagnosis.experiment_design.next_run import altered, feasible
+from pipeline.diagnosis.experiment_design.next_run import altered, changed, feasible
 from pipeline.diagnosis.forced_response import forced_problem
 from pipeline.diagnosis.settings import Settings
+from pipeline.physics.virtual_rig.half_sine import HalfSine
+from pipeline.physics.virtual_rig.response import Run
+from tests.diagnosis import small_rig
 from tests.diagnosis.pin_rig import MICRO_SLIP, bench, laid_out, recording
 from tests.diagnosis.solving import diagnosis_product
 
@@ -59,13 +63,21 @@ def test_a_run_differs_by_one_thing_from_the_recorded_one():
     np.testing.assert_array_equal(heavy.run.drive, recorded_drive)
     assert [f.observed.name for f in (slow, heavy, double, stiff)] == [
         "drive x 0.1", "normal_load = 2 N", "normal_load x 2", "joints.arm.stiffness x 5"]
-    changed = altered(bench(), stiff.altered)
-    assert corrections.nominal(changed, "joints.arm.stiffness") == 5e5
+    other = altered(bench(), stiff.altered)
+    assert corrections.nominal(other, "joints.arm.stiffness") == 5e5
 
 
 def test_a_value_with_a_unit_takes_the_place_of_a_number():
     stiff, = plain(**{"joints.arm.stiffness": ["20 N/mm"]})
     assert corrections.nominal(altered(bench(), stiff.altered), "joints.arm.stiffness") == 2e4
+
+
+def test_a_blow_may_be_twice_as_hard():
+    pulse = HalfSine(0.9, 0.5, 0.05)
+    harder, _ = changed(benches.built(small_rig.model(), small_rig.laid_out(inputs={})),
+                        Run("a", 2.0, 64.0, pulses={"shaker": pulse}), "shaker", 2.0, "diagnosis.next.shaker")
+    np.testing.assert_array_equal(harder.inputs["shaker"], 2 * pulse.force(harder.samples, 64.0))
+    assert not harder.pulses
 
 
 @pytest.mark.parametrize("given, said", [
