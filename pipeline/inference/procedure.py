@@ -11,6 +11,8 @@ that lacks physics may have no smooth optimum at all: then a candidate counts on
 from dataclasses import dataclass, replace
 from typing import Optional
 
+import numpy as np
+
 from pipeline.contract.errors import BrakechainError, ConvergenceError
 from pipeline.inference import several
 from pipeline.inference.decision import second_effect, several_laws
@@ -22,6 +24,10 @@ from pipeline.inference.fitting.refitting import NOT_BEGUN, Refits, Refitter, re
 from pipeline.inference.problem import FanOut, Problem
 from pipeline.inference.rules import DEFAULTS, Rules
 from pipeline.inference.search.score_screen import screen_catalogue
+
+
+#: share of the best candidate's gain at which another one tells that its place matters
+_FELT = 0.05
 
 
 @dataclass(frozen=True)
@@ -148,8 +154,9 @@ class Asked:
         decided = _decided(refits, settings, base)
         if len(simple) == len(self.catalogue) or _reaches_noise(decided, settings.rules):
             return refits, decided
-        screening = screen_catalogue(refits.calibration, self.catalogue, settings, fan_out, second, refits.directions)
-        refits = refit_catalogue(screening, self.catalogue, settings, fan_out, refits.results, second)
+        catalogue = (*simple, *_where_felt(self.catalogue[len(simple):], simple, screening.screen, refits))
+        screening = screen_catalogue(refits.calibration, catalogue, settings, fan_out, second, refits.directions)
+        refits = refit_catalogue(screening, catalogue, settings, fan_out, refits.results, second)
         return refits, _decided(refits, settings, base)
 
     def given(self, known):
@@ -176,9 +183,9 @@ class Asked:
         """The Diagnosis of several laws that explain only together by the screen of ``single``, else that."""
         if single.base is not None or single.decision.verdict != "unknown":
             return single
-        every = single.refits.directions
-        return self.together(single, several.linearised_about(single.null, every, self.catalogue,
-                                                              self.settings.rules.decision))
+        every, catalogue = single.refits.directions, single.refits.refitter.catalogue
+        selection = several.linearised_about(single.null, every, catalogue, self.settings.rules.decision)
+        return replace(self, catalogue=catalogue).together(single, selection)
 
     def together(self, single, selection):
         """The Diagnosis of the largest set of a Selection all of whose members are named; else ``single``, which tells
@@ -270,7 +277,7 @@ class Asked:
             return None, False
         if not second_effect.matters(pair, explained, rules):
             return pair, False
-        starts = second_effect.starts_without(first, pair, asked.catalogue)
+        starts = second_effect.starts_without(first, pair, refits.refitter.catalogue)
         alone = _decided(refits.begun_anew(starts), self.settings, single)
         return (alone if second_effect.better_alone(alone, pair) else pair), True
 
@@ -284,6 +291,22 @@ def _reaches_noise(diagnosis, rules):
                 and statistics.held_out_left <= rules.decision.held_out_left)
 
     return diagnosis.decision.verdict in ("consistent", "parameters") or any(map(reaches, diagnosis.weighed))
+
+
+def _where_felt(elaborate, simple, screen, refits):
+    """Those of the ``elaborate`` candidates that act where a simple one matters: it scores, or its refit explains, a
+    share of what the best does."""
+    def places(candidate):
+        return {place for _, place in candidate.effects}
+
+    gains = np.array([max(score, 0.0) ** 2 for score in screen.score])
+    explained = {i: max(r.fit.betters(refits.calibration.null), 0.0) for i, r in refits.results.items() if r.fit}
+    most, best = gains.max(initial=0.0), max(explained.values(), default=0.0)
+    felt = set()
+    for i, candidate in enumerate(simple):
+        if gains[i] >= _FELT * most or explained.get(i, -1.0) >= _FELT * best:
+            felt |= places(candidate)
+    return tuple(c for c in elaborate if places(c) & felt)
 
 
 def _sets(*members):

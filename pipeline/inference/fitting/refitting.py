@@ -128,14 +128,23 @@ class Refitter:
         All begin only where the linearisation of the null may fail and none of the first few explains enough;
         ``beside_a_first`` effect, which has taken up what is far from linear, the likely ones.
         """
-        kept, decision = self.settings.kept, self.rules.decision
-        results = self.with_imitators(self.of(promising[:kept], starts, results), starts)
-        promising = promising[:_LIKELY * kept] if beside_a_first else promising
-        enough = any(unexplained(self.null, r.fit, self.rules) <= decision.unexplained
-                     for r in results.values() if r.fit)
-        if enough or self.null.reaches_noise(decision.noise_uncertainty) or self.null.unordered:
+        kept, rules = self.settings.kept, self.rules.decision
+        results = self._rivalled(self.of(promising[:kept], starts, results), starts, beside_a_first)
+        if self._explained(results) or self.null.reaches_noise(rules.noise_uncertainty) or self.null.unordered:
             return results
-        return self.with_imitators(self.of(promising[kept:], starts, results), starts)
+        further = promising[kept:_LIKELY * kept] if beside_a_first else promising[kept:]
+        return self._rivalled(self.of(further, starts, results), starts, beside_a_first)
+
+    def _rivalled(self, results, starts, beside_a_first):
+        """{index: Refitted} with imitators; beside a first effect only where one may be named."""
+        if beside_a_first and not self._explained(results):
+            return results
+        return self.with_imitators(results, starts)
+
+    def _explained(self, results):
+        """Whether one of the ``results`` explains enough."""
+        return any(unexplained(self.null, r.fit, self.rules) <= self.rules.decision.unexplained
+                   for r in results.values() if r.fit)
 
     def of(self, chosen, starts, results=None):
         """{index: Refitted} of ``results`` and of the candidates ``chosen``, begun at latent ``starts``.

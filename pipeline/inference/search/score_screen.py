@@ -183,11 +183,11 @@ def _trials(candidate, shapes):
             yield latent, 1, 1.0
         return
     shaping = [k for k, p in enumerate(parameters) if p.null is None]
-    shapes = _spread([parameters[k] for k in shaping]) if shapes is None else shapes
+    shapes = _spread([parameters[k] for k in shaping], candidate.elaborate) if shapes is None else shapes
     for k, parameter in enumerate(parameters):
         if parameter.null is None:
             continue
-        for step, shape in product(STEPS, shapes):
+        for step, shape in product(STEPS[-1:] if candidate.elaborate else STEPS, shapes):
             values = [p.nominal if p.null is None else p.null for p in parameters]
             values[k] = _away(parameter, step)
             latent = np.array([p.prior.latent(v) for p, v in zip(parameters, values, strict=True)])
@@ -195,11 +195,14 @@ def _trials(candidate, shapes):
             yield latent, int(parameter.sign != 0), step
 
 
-def _spread(shaping):
-    """[(latent values,)] of parameters that shape an effect, over their priors."""
+def _spread(shaping, half):
+    """[(latent values,)] of parameters that shape an effect, over their priors; ``half`` a factorial design of two
+    levels (Box, Hunter & Hunter, Statistics for Experimenters, 2005): those with an even number of high levels."""
     shares = [ANGLES if p.unit == "rad" else SHAPES for p in shaping]
-    return [[_latent_of(p, share) for p, share in zip(shaping, each, strict=True)]
-            for each in list(product(*shares))[:_COMBINATIONS]]
+    every = list(product(*shares))
+    if half and len(shaping) > 1:
+        every = [each for each in every if sum(share == SHAPES[1] for share in each) % 2 == 0]
+    return [[_latent_of(p, share) for p, share in zip(shaping, each, strict=True)] for each in every[:_COMBINATIONS]]
 
 
 def shapes_like(candidate, start, values):
