@@ -25,7 +25,6 @@ from pipeline.inference.problem import FanOut, Problem
 from pipeline.inference.rules import DEFAULTS, Rules
 from pipeline.inference.search.score_screen import screen_catalogue
 
-
 #: share of the best candidate's gain at which another one tells that its place matters
 _FELT = 0.05
 

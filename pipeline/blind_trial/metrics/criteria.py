@@ -37,7 +37,8 @@ def judged(truth, answer):
     named, wanted = answer["effects"], truth["effects"]
     called = verdict == NAMED_BY[truth["class"]]
     alone = called and len(named) == len(wanted)
-    exactly = (alone and _all_in(wanted, named)) or _same_forces(verdict, wanted, named)
+    tied = verdict == "tie" or (called and verdict == "sensor")
+    exactly = (alone and _all_in(wanted, named)) or (tied and _same_forces(wanted, named))
     judgement = {"right": exactly, "named": exactly, "called": called,
              "type": alone and sorted(e["name"] for e in named) == sorted(e["name"] for e in wanted),
              "among_tied": verdict in ("tie", "sensor") and len(named) > len(wanted) and _all_in(wanted, named),
@@ -48,9 +49,10 @@ def judged(truth, answer):
     return judgement
 
 
-def _same_forces(verdict, wanted, named):
-    """Whether a tie holds the one effect that is hidden, and beside it only laws of the same force."""
-    return (verdict == "tie" and len(wanted) == 1 and _all_in(wanted, named)
+def _same_forces(wanted, named):
+    """Whether a tie holds the one effect that is hidden, and beside it only laws of the same force, or channels whose
+    fault shows the same."""
+    return (len(wanted) == 1 and _all_in(wanted, named)
             and all(_like(wanted[0], [effect]) for effect in named))
 
 

@@ -36,19 +36,20 @@ class Beginning:
         if self.free == "start":
             half = len(self.start) // 2
             return np.repeat([np.linalg.norm(self.start[:half]), np.linalg.norm(self.start[half:])], half)
-        return np.array([1.0, self.time[1] - self.time[0]]) if self.free == "blow" else np.zeros(0)
+        return np.array([1.0, self.time[1] - self.time[0], 0.2]) if self.free == "blow" else np.zeros(0)
 
 
 def linear(rig, beginning, off=()):
     """Motion of a Rig alone, by its modes, exact for forces that are straight between the instants.
 
-    ``off`` (k,): what the unknown of the beginning differs by, in SI; of a blow its relative size and its time in s.
+    ``off`` (k,): what the unknown of the beginning differs by, in SI; of a blow its relative size, its time in s, and
+    the logarithm of its width.
     """
     mass, damping, stiffness = rig.matrices()
     n, drive, fine = len(mass), beginning.drive, beginning.fine
     blow = beginning.free == "blow" and len(off)
     start = beginning.start + (np.asarray(off) if len(off) and not blow else 0.0)
-    force = (1 + off[0]) * drive.force(fine - off[1]) if blow else drive.force(fine)
+    force = _struck(drive, fine, *off) if blow else drive.force(fine)
     inverse = np.linalg.inv(mass)
     system = np.block([[np.zeros((n, n)), np.eye(n)], [-inverse @ stiffness, -inverse @ damping]])
     values, shapes = np.linalg.eig(system)
@@ -66,6 +67,12 @@ def linear(rig, beginning, off=()):
     states = (shapes @ np.array(modes)).real
     acceleration = inverse @ (np.outer(drive.row, force) - stiffness @ states[:n] - damping @ states[n:])
     return Motion(states[:n], states[n:], acceleration, 0)
+
+
+def _struck(drive, fine, size, late, wider):
+    """Force of a blow of other size, later, wider about its middle, at the instants ``fine``."""
+    middle, stretch = np.mean(drive.breaks), np.exp(np.clip(wider, -2.0, 2.0))
+    return (1 + size) * drive.force(middle + (fine - late - middle) / stretch) / stretch
 
 
 class Recalibration:

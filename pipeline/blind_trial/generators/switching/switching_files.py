@@ -12,6 +12,8 @@ from pipeline.blind_trial.generators.switching.switching_case import LEVELS, mad
 _STEPS = 100
 #: laws of a wall spring -> those of an input that make the same force
 _OF_INPUT = {"base_shake": "pressure_ripple", "viscoelastic_pad": "hydraulic_compliance"}
+#: faults that multiply what a channel shows
+_RATIOS = ("gain", "factor_1000", "reversed")
 #: kind of a value -> (name in the case, units that it is stated in with their size in SI)
 _UNITS = {"mass": {"kg": 1.0, "g": 1e-3}, "stiffness": {"N/m": 1.0, "N/mm": 1e3, "kN/m": 1e3},
           "damping": {"N s/m": 1.0, "kN s/m": 1e3}}
@@ -42,7 +44,11 @@ def place(case):
 
 
 def alike(case):
-    """[{name, place}] of laws of the input whose force is that of the hidden one, at a spring of what it pushes."""
+    """[{name, place}] of what shows the same: laws of the input whose force is that of the hidden one, at a spring of
+    what it pushes; of two channels that see a motion of unknown size the other one, as their ratio is all that shows.
+    """
+    if case.form in _RATIOS and len(case.sensors) == 2 and all(run.free for run in case.runs):
+        return [{"name": case.name, "place": s.name} for k, s in enumerate(case.sensors) if k != case.index]
     pushed = not any(run.free == "start" for run in case.runs) and case.way != "wall"
     if case.name in _OF_INPUT and pushed and case.truth.ends[case.index] == (case.at, WALL):
         return [{"name": _OF_INPUT[case.name], "place": "push"}]

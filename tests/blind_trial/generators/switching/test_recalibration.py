@@ -42,6 +42,14 @@ def test_the_motion_by_modes_is_that_of_the_integrator(begin):
         np.testing.assert_allclose(getattr(shown, field), wanted, atol=3e-4 * abs(wanted).max())
 
 
+def test_a_blow_of_another_width_is_not_told_from_what_is_unknown_of_it():
+    run, wider = struck(), drive.blow(np.array([1.0, 0.0]), 0.022, 0.1, 0.009)
+    base = [np.array([s.shown(linear(RIG, run), FINE, TIME) for s in SENSORS])]
+    seen = [np.array([s.shown(linear(RIG, replace(run, drive=wider)), FINE, TIME) for s in SENSORS])]
+    noise = 0.01 * np.sqrt(np.mean(base[0] ** 2, axis=1))
+    assert Recalibration(RIG, SENSORS, (run,), (), base).left(seen, noise) < 2.0
+
+
 @pytest.mark.parametrize("begin", [shaken, released, struck])
 def test_other_values_leave_their_prior_alone_and_friction_more(begin):
     run = begin()
@@ -61,7 +69,7 @@ def test_other_values_leave_their_prior_alone_and_friction_more(begin):
 
 
 def test_a_start_and_a_blow_are_free():
-    for run, off in ((released(), np.array([2e-4, 1e-4, 0.0, 0.01])), (struck(), np.array([0.2, 0.004]))):
+    for run, off in ((released(), np.array([2e-4, 1e-4, 0.0, 0.01])), (struck(), np.array([0.2, 0.004, 0.3]))):
         base = [np.array([s.shown(linear(RIG, run), FINE, TIME) for s in SENSORS])]
         noise = 0.01 * np.sqrt(np.mean(base[0] ** 2, axis=1))
         moved_on = [np.array([s.shown(linear(RIG, run, off), FINE, TIME) for s in SENSORS])]
