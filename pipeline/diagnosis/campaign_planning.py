@@ -16,7 +16,7 @@ from pipeline.contract.units import to_si
 from pipeline.diagnosis.forced_response import check_names, chosen, nominal_parameters
 from pipeline.diagnosis.problem import nominal
 from pipeline.diagnosis.signals.forward_model import Simulated, candidates
-from pipeline.inference.fitting.least_squares import linearised, whitened
+from pipeline.inference.fitting.fit_state import linearised, whitened
 from pipeline.inference.fitting.noise import budget
 from pipeline.inference.planning import campaign as mathematics
 from pipeline.inference.problem import Observed, Problem

@@ -19,7 +19,8 @@ from pipeline.inference.decision import second_effect, several_laws
 from pipeline.inference.decision.decision_rules import Decision, decide
 from pipeline.inference.decision.weighing import Weighing, weigh
 from pipeline.inference.fitting.calibration import Calibration, recalibrate
-from pipeline.inference.fitting.least_squares import continued, linearised
+from pipeline.inference.fitting.fit_state import linearised
+from pipeline.inference.fitting.least_squares import continued
 from pipeline.inference.fitting.refitting import NOT_BEGUN, Refits, Refitter, refit_catalogue, refit_from
 from pipeline.inference.problem import FanOut, Problem
 from pipeline.inference.rules import DEFAULTS, Rules

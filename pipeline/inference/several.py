@@ -13,7 +13,8 @@ from itertools import combinations
 import numpy as np
 
 from pipeline.contract.errors import BrakechainError
-from pipeline.inference.fitting.least_squares import fit, from_prior_mean
+from pipeline.inference.fitting.fit_state import from_prior_mean
+from pipeline.inference.fitting.least_squares import fit
 from pipeline.inference.problem import Motions
 from pipeline.inference.search.score_screen import directions, scaled
 from pipeline.inference.search.subset_selection import best_subsets, multiplicity, table

@@ -10,7 +10,8 @@ from functools import cache
 import numpy as np
 
 from pipeline.inference.fitting.calibration import calibrate
-from pipeline.inference.fitting.least_squares import fit, whitened
+from pipeline.inference.fitting.fit_state import whitened
+from pipeline.inference.fitting.least_squares import fit
 from pipeline.inference.fitting.noise import budget
 from pipeline.inference.priors import HalfNormal, LogNormal, Normal, Parameter
 from pipeline.inference.problem import Hypothesis, Observed, Problem

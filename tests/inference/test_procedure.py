@@ -10,7 +10,7 @@ import pytest
 
 from pipeline.contract.errors import ConvergenceError
 from pipeline.inference.fitting import refitting
-from pipeline.inference.fitting.least_squares import linearised
+from pipeline.inference.fitting.fit_state import linearised
 from pipeline.inference.fitting.noise import budget
 from pipeline.inference.priors import Normal, Parameter
 from pipeline.inference.problem import Hypothesis

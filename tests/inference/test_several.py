@@ -8,7 +8,7 @@ import pytest
 
 from pipeline.contract.errors import ConvergenceError
 from pipeline.inference import several
-from pipeline.inference.fitting.least_squares import linearised
+from pipeline.inference.fitting.fit_state import linearised
 from pipeline.inference.problem import Problem
 from pipeline.inference.procedure import Settings, diagnose
 from pipeline.inference.rules import DEFAULTS

@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from pipeline.diagnosis.rules import DEFAULTS
-from pipeline.inference.fitting.least_squares import linearised
+from pipeline.inference.fitting.fit_state import linearised
 from pipeline.inference.fitting.noise import budget
 from pipeline.inference.planning.experiment_choice import Prediction, choose, predicted
 from pipeline.inference.problem import Observed, Problem

@@ -15,7 +15,7 @@ import numpy as np
 from pipeline.case_models import corrections
 from pipeline.contract import BrakechainError, ConfigError
 from pipeline.contract.units import to_si
-from pipeline.inference.fitting.least_squares import linearised
+from pipeline.inference.fitting.fit_state import linearised
 from pipeline.inference.planning.experiment_choice import choose, predicted
 from pipeline.inference.problem import Observed
 from pipeline.physics.virtual_rig.normal_load import CONDITION as NORMAL_LOAD

@@ -16,7 +16,7 @@ import scipy
 from pipeline.contract import ConfigError
 from pipeline.diagnosis.problem import DiagnosisProblem, label, nominal, parameter_name
 from pipeline.diagnosis.rules import DEFAULTS, ListRules
-from pipeline.inference.fitting.least_squares import whitened
+from pipeline.inference.fitting.fit_state import whitened
 from pipeline.inference.fitting.noise import budget
 from pipeline.inference.priors import HalfNormal, Parameter
 from pipeline.inference.problem import Hypothesis, Observed, Problem

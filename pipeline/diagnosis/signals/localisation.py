@@ -17,7 +17,7 @@ from pipeline.effects import CATALOGUE
 from pipeline.effects.effect import STAGES
 from pipeline.effects.typical import ASPERITIES
 from pipeline.inference.fitting.effective_sample_size import effective_share
-from pipeline.inference.fitting.least_squares import whitened
+from pipeline.inference.fitting.fit_state import whitened
 from pipeline.inference.fitting.run_parameters import on_all_runs
 from pipeline.inference.rules import DEFAULTS
 from pipeline.inference.search import localisation

@@ -7,7 +7,7 @@ from pipeline.contract.errors import BrakechainError
 from pipeline.inference.decision.decision_rules import CandidateStatistics, RunStatistics
 from pipeline.inference.decision.held_out import Gain, gain, held_out_residuals, judged
 from pipeline.inference.fitting.effective_sample_size import coherent_energy, doubt, effective_share
-from pipeline.inference.fitting.least_squares import linearised, orthogonal, whitened
+from pipeline.inference.fitting.fit_state import linearised, orthogonal, whitened
 from pipeline.inference.fitting.parameter_drift import agreement
 from pipeline.inference.fitting.run_parameters import with_own_parameters
 from pipeline.inference.fitting.varying_values import followed

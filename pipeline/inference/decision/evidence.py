@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 import scipy
 
-from pipeline.inference.fitting.least_squares import from_prior_mean, whitened
+from pipeline.inference.fitting.fit_state import from_prior_mean, whitened
 from pipeline.inference.problem import operating_points
 
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from pipeline.inference.fitting.effective_sample_size import doubt, tempering
-from pipeline.inference.fitting.least_squares import whitened
+from pipeline.inference.fitting.fit_state import whitened
 from pipeline.inference.fitting.noise import floor, normalised_error
 from pipeline.inference.fitting.run_parameters import first_part, with_own_parameters
 

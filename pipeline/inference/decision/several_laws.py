@@ -7,7 +7,8 @@ import numpy as np
 from pipeline.inference.decision.candidate_statistics import held_out_gains, unexplained
 from pipeline.inference.decision.evidence import evidence
 from pipeline.inference.decision.held_out import gain, held_out_residuals, judged
-from pipeline.inference.fitting.least_squares import continued, linearised
+from pipeline.inference.fitting.fit_state import linearised
+from pipeline.inference.fitting.least_squares import continued
 
 
 @dataclass(frozen=True)

@@ -15,7 +15,7 @@ from pipeline.inference.decision.evidence import (
     reached,
     screened,
 )
-from pipeline.inference.fitting.least_squares import Fit
+from pipeline.inference.fitting.fit_state import Fit
 from pipeline.inference.fitting.parameter_drift import Drift, drift
 from pipeline.inference.problem import Hypothesis
 from pipeline.inference.search.score_screen import Screen, screen

@@ -5,7 +5,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from pipeline.contract.errors import BrakechainError, ConvergenceError
-from pipeline.inference.fitting.least_squares import FAR, Fit, continued, iterated, linearised, whitened
+from pipeline.inference.fitting.fit_state import FAR, Fit, linearised, whitened
+from pipeline.inference.fitting.least_squares import continued, iterated
 from pipeline.inference.problem import Problem
 from pipeline.inference.rules import DEFAULTS
 
@@ -107,8 +108,8 @@ def _ended(problem, begins):
 def begun(problem, noises, hypothesis, starts, runs, anchors=()):
     """The best Fit after a few iterations from each of ``starts``, to be ``continued``.
 
-    ``anchors``: for each start the Fit of the nominal hypothesis beside which it lies, whose Jacobians serve at first;
-    where that is not far off, no easier problem is needed.
+    ``anchors``: for each start the Fit of the nominal hypothesis beside which it lies, whose Jacobians serve at first,
+    or None; where that is not far off, no easier problem is needed.
 
     Raises ConvergenceError where the forward model cannot begin from any.
     """
@@ -127,17 +128,21 @@ def _stopped(hypothesis, reasons):
 def _begun(problem, noises, hypothesis, starts, runs, reasons, anchors=()):
     """[Fit] after a few iterations from each start, best first; ``reasons`` gets what stopped the others."""
     sizes = [_mean_square(problem, noises, hypothesis, start, runs) for start in starts]
-    if min(sizes) < FAR or not all(anchor.far for anchor in anchors):
+    if min(sizes) < FAR or not all(anchor is None or anchor.far for anchor in anchors):
         near = [k for k in np.argsort(sizes) if sizes[k] < max(FAR, 2 * min(sizes))][:_NEAREST]
         fits = _tried(problem, noises, hypothesis, [starts[k] for k in near], runs, reasons,
-                      anchors and [anchors[k].jacobians for k in near])
+                      [_slopes_of(anchors[k]) for k in near] if anchors else ())
         return [iterated(problem, fits[0], _TRIAL), *fits[1:]] if fits and anchors else fits
     if not all(noise.ordered for noise in noises):
         return _tightened(problem, noises, hypothesis, starts, runs, reasons, _LOOSE)
     nearest = int(np.argmin(sizes))
     near = [*_over_horizons(problem, noises, hypothesis, starts, runs, reasons), starts[nearest]]
     return _tried(problem, noises, hypothesis, near, runs, reasons,
-                  anchors and [anchors[nearest].jacobians] * len(near))
+                  [_slopes_of(anchors[nearest])] * len(near) if anchors else ())
+
+
+def _slopes_of(anchor):
+    return () if anchor is None else anchor.jacobians
 
 
 def _tried(problem, noises, hypothesis, starts, runs, reasons, known=(), rough=False):

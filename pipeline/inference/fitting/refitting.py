@@ -11,7 +11,9 @@ from pipeline.inference.decision.candidate_statistics import unexplained
 from pipeline.inference.decision.weighing import evidence_of_all
 from pipeline.inference.fitting import tone_starts
 from pipeline.inference.fitting.calibration import Calibration, begun, paired_anew
-from pipeline.inference.fitting.least_squares import Fit, again, beside, continued, iterated, linearised, whitened
+from pipeline.inference.fitting.fit_state import Fit, linearised, whitened
+from pipeline.inference.fitting.least_squares import again, beside, continued, iterated
+from pipeline.inference.fitting.run_parameters import with_own_parameters
 from pipeline.inference.fitting.step_error import refined
 from pipeline.inference.problem import FanOut, Problem
 from pipeline.inference.rules import Rules
@@ -299,18 +301,21 @@ def _begun(problem, null, anchor, offsets, item):
     starts = _starts(anchor.latent, [
         screened_start, least(candidate, screened_start), *(np.full(len(candidate.parameters), offset)
                                                             for offset in offsets)])
-    starts += _alternative_starts(problem, null, candidate, anchor.latent)
+    discrete = _alternative_starts(problem, null, candidate, anchor.latent)
     at_null = [] if anchor is null or null.unordered else [screened_start]
     at_null = _starts(null.latent, at_null + tone_starts.starts(problem, null, candidate))
-    return _tried(problem, null, candidate, starts + at_null, [anchor] * len(starts) + [null] * len(at_null))
+    return _tried(problem, null, candidate, discrete + starts + at_null,
+                  [None] * len(discrete) + [anchor] * len(starts) + [null] * len(at_null))
 
 
 def _alternative_starts(problem, null, candidate, base):
-    """Starts at the discrete values of a candidate that err least beside the nominal latent values ``base``."""
+    """Starts at the discrete values of a candidate that err least beside the nominal latent values ``base``, once what
+    is of one run alone is fitted: a start that was read from a channel is as wrong as that."""
     if not any(p.discrete for p in candidate.parameters):
         return []
     hypothesis, ranked = problem.nominal.joined(candidate), []
     for start in _starts(base, alternatives(candidate)):
+        start = with_own_parameters(problem, null.noises, hypothesis, start, null.runs)
         residuals, _ = whitened(problem, null.noises, hypothesis, start, null.runs)
         if residuals is not None:
             ranked.append((sum(r @ r for r in residuals), start))

@@ -10,7 +10,8 @@ from dataclasses import replace
 import numpy as np
 
 from pipeline.contract.errors import BrakechainError
-from pipeline.inference.fitting.least_squares import continued, whitened
+from pipeline.inference.fitting.fit_state import whitened
+from pipeline.inference.fitting.least_squares import continued
 
 
 def halved(problem, fit):

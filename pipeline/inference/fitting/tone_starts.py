@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 import scipy
 
-from pipeline.inference.fitting.least_squares import from_prior_mean, orthogonal, whitened
+from pipeline.inference.fitting.fit_state import from_prior_mean, orthogonal, whitened
 
 #: frequencies that are tried, and how many of them a fit begins at
 _TRIED, _BEGUN = 4, 2

@@ -7,7 +7,7 @@ the nominal parameters hide within their priors, C = I + J J'. Its square adds o
 import numpy as np
 
 from pipeline.contract.errors import ConfigError
-from pipeline.inference.fitting.least_squares import orthogonal
+from pipeline.inference.fitting.fit_state import orthogonal
 
 
 def power(direction, jacobian):

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from pipeline.contract.errors import ConfigError
-from pipeline.inference.fitting.least_squares import from_prior_mean, orthogonal
+from pipeline.inference.fitting.fit_state import from_prior_mean, orthogonal
 from pipeline.inference.search.score_screen import family_p
 
 DRAWS = 4000

@@ -16,7 +16,7 @@ from itertools import product
 import numpy as np
 
 from pipeline.inference.fitting.calibration import Calibration
-from pipeline.inference.fitting.least_squares import from_prior_mean, orthogonal, whitened
+from pipeline.inference.fitting.fit_state import from_prior_mean, orthogonal, whitened
 from pipeline.inference.rules import DEFAULTS
 
 #: steps away from the null, in scales of the parameter's prior: its derivative, and a change one would notice

@@ -17,7 +17,7 @@ from math import comb, log
 import numpy as np
 
 from pipeline.inference.fitting.effective_sample_size import tempering
-from pipeline.inference.fitting.least_squares import from_prior_mean, orthogonal
+from pipeline.inference.fitting.fit_state import from_prior_mean, orthogonal
 
 #: most laws of a subset
 MOST = 4

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from pipeline.blind_trial.metrics.criteria import VISIBLE, class_of, judged, same
-from pipeline.inference.fitting.least_squares import orthogonal
+from pipeline.inference.fitting.fit_state import orthogonal
 from pipeline.inference.procedure import Settings, diagnose
 from tests.inference import linear
 

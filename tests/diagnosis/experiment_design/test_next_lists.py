@@ -6,7 +6,7 @@ import pytest
 from pipeline.diagnosis.experiment_design.next_lists import Check, best_check, best_outcome
 from pipeline.diagnosis.experiment_design.next_run import Rival
 from pipeline.diagnosis.published.frequency_lists import Alternative, Features, list_problem
-from pipeline.inference.fitting.least_squares import linearised
+from pipeline.inference.fitting.fit_state import linearised
 from pipeline.inference.planning.experiment_choice import divergence, predicted
 from tests.diagnosis.solving import solved
 

@@ -11,7 +11,7 @@ from pipeline.contract.settings import fill
 from pipeline.diagnosis.forced_response import forced_problem
 from pipeline.diagnosis.settings import Settings
 from pipeline.diagnosis.signals.localisation import band_axis, place_axis, places, run_axis, stage_axis, stage_of
-from pipeline.inference.fitting.least_squares import linearised
+from pipeline.inference.fitting.fit_state import linearised
 from pipeline.inference.fitting.noise import budget
 from pipeline.inference.priors import LogNormal, Parameter
 from pipeline.inference.problem import Hypothesis, Observed, Problem

@@ -7,7 +7,7 @@ import pytest
 
 from pipeline.contract import ConfigError
 from pipeline.diagnosis.signals.measured_motions import AlongMotions, measured, shapes
-from pipeline.inference.fitting.least_squares import linearised
+from pipeline.inference.fitting.fit_state import linearised
 from tests.studies import several
 
 

@@ -11,7 +11,7 @@ from pipeline.contract import ConfigError
 from pipeline.diagnosis.signals.forward_model import shown
 from pipeline.diagnosis.signals.start_states import begun, estimated, held, moves_freely, start_parameters, started
 from pipeline.inference.fitting.calibration import recalibrate
-from pipeline.inference.fitting.least_squares import linearised
+from pipeline.inference.fitting.fit_state import linearised
 from pipeline.inference.fitting.noise import budget
 from pipeline.inference.problem import Hypothesis, operating_points
 from pipeline.inference.rules import DEFAULTS

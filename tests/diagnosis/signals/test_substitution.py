@@ -14,7 +14,7 @@ from pipeline.diagnosis import forced_response
 from pipeline.diagnosis.problem import Nowhere
 from pipeline.diagnosis.settings import Settings
 from pipeline.diagnosis.signals.substitution import AXIS, MeasuredShapes, Substituted, measured_law, substituted, swaps
-from pipeline.inference.fitting.least_squares import linearised
+from pipeline.inference.fitting.fit_state import linearised
 from pipeline.products import MeasuredFriction, MeasuredModes
 from pipeline.products import Run as RunProduct
 from tests.diagnosis import pin_rig, two_masses

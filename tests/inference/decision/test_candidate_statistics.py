@@ -70,7 +70,7 @@ def test_half_of_an_effect_leaves_a_quarter_of_the_excess():
 
 
 def fit_at(whole, found, latent):
-    from pipeline.inference.fitting.least_squares import linearised
+    from pipeline.inference.fitting.fit_state import linearised
 
     return linearised(whole, found.noises, found.hypothesis, latent, found.runs)
 

@@ -16,7 +16,8 @@ from pipeline.inference.decision.evidence import (
     reached,
     screened,
 )
-from pipeline.inference.fitting.least_squares import fit, linearised
+from pipeline.inference.fitting.fit_state import linearised
+from pipeline.inference.fitting.least_squares import fit
 from pipeline.inference.fitting.noise import budget
 from pipeline.inference.priors import HalfNormal, Parameter
 from pipeline.inference.problem import Hypothesis, Observed, Problem

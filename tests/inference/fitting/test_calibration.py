@@ -6,7 +6,8 @@ import pytest
 from pipeline.contract.errors import ConvergenceError
 from pipeline.inference.fitting import calibration
 from pipeline.inference.fitting.calibration import _under, begun, calibrate, paired_anew
-from pipeline.inference.fitting.least_squares import fit, linearised
+from pipeline.inference.fitting.fit_state import linearised
+from pipeline.inference.fitting.least_squares import fit
 from pipeline.inference.priors import Normal, Parameter
 from pipeline.inference.rules import DEFAULTS
 from tests.inference.curves import curve_problem, either_of_two, features

@@ -2,20 +2,12 @@
 
 import numpy as np
 import pytest
+from scipy import optimize as optimise
 
-from pipeline.contract.errors import ConfigError, ConvergenceError
-from pipeline.inference.fitting.least_squares import (
-    TOLERANCE,
-    _crawls,
-    continued,
-    fit,
-    from_prior_mean,
-    linearised,
-    orthogonal,
-)
+from pipeline.inference.fitting.fit_state import linearised
+from pipeline.inference.fitting.least_squares import _crawls, beside, continued, fit, iterated
 from pipeline.inference.fitting.noise import budget
 from pipeline.inference.priors import HalfNormal, LogNormal, Normal, Parameter
-from pipeline.inference.problem import Problem
 from tests.inference import linear, oscillator
 from tests.inference.curves import curve_problem, features, noises_of
 
@@ -30,34 +22,6 @@ def test_a_linear_problem_has_the_closed_form_of_its_posterior():
     np.testing.assert_allclose(4 * found.covariance(), covariance, rtol=1e-6, atol=1e-9)
     np.testing.assert_allclose(list(found.spread().values()), np.sqrt(np.diag(covariance)), rtol=1e-6)
     assert found.converged and found.counts.sum() == len(data)
-
-
-@pytest.mark.exact
-def test_weights_of_runs_scale_their_information():
-    whole, noise, _, tables = linear.problem((2,))
-    found = fit(whole, noises_of(whole, noise), whole.nominal, np.zeros(2), whole.training)
-    design = [linear.dense(Problem((run,), whole.predict, whole.nominal), whole.nominal, tables)[1]
-              for run in whole.training]
-    expected = np.linalg.inv(np.eye(2) + sum(w * d.T @ d for w, d in zip((1.0, 0.5, 0.1), design, strict=True)))
-    np.testing.assert_allclose(found.covariance((1.0, 0.5, 0.1)), expected, rtol=1e-6)
-
-
-@pytest.mark.exact
-def test_the_orthogonal_residual_is_that_of_generalised_least_squares():
-    generator = np.random.default_rng(0)
-    jacobian, residual, root = (generator.standard_normal(s) for s in ((40, 3), 40, (3, 3)))
-    prior = root @ root.T + np.eye(3)
-    expected = np.linalg.solve(np.eye(40) + jacobian @ prior @ jacobian.T, residual)
-    np.testing.assert_allclose(orthogonal(residual, jacobian, np.linalg.inv(prior)), expected, atol=1e-12)
-
-
-@pytest.mark.exact
-def test_at_the_optimum_the_residual_is_the_orthogonal_one_of_the_prior_mean():
-    whole, noise, _, _ = linear.problem((3,), truth={"nominal_0": 0.7})
-    found = fit(whole, noises_of(whole, noise), whole.nominal, np.zeros(3), whole.training)
-    start = np.concatenate(from_prior_mean(found))
-    gap = orthogonal(start, np.concatenate(found.jacobians)) - np.concatenate(found.residuals)
-    assert gap @ gap < TOLERANCE, "the change that the last, omitted step would make"
 
 
 def test_a_nonlinear_problem_is_solved_from_afar():
@@ -99,19 +63,6 @@ def test_features_that_stay_far_off_crawl():
     assert not _crawls(near, [near.objective] * 9)
 
 
-def test_numbers_that_are_not_finite_are_refused():
-    problem, noises = curve_problem(lambda v, x: np.full(50, np.nan), (Parameter("a", "1", 1.0, Normal(1.0, 1.0)),),
-                                    lambda x: x, 0.1)
-    with pytest.raises(ConvergenceError, match="prediction of run a: expected finite numbers"):
-        linearised(problem, noises, problem.nominal, [0.0], problem.runs)
-
-
-def test_a_prediction_of_another_shape_is_refused():
-    problem, noises = curve_problem(lambda v, x: x[1:], (Parameter("a", "1", 1.0, Normal(1.0, 1.0)),), lambda x: x, 0.1)
-    with pytest.raises(ConfigError, match=r"prediction of run a: expected channels and samples \(1, 50\)"):
-        linearised(problem, noises, problem.nominal, [0.0], problem.runs)
-
-
 def test_where_a_small_difference_hits_a_jump_a_wider_one_shows_the_way():
     """Jumps against the slope, the start just before one of them."""
     def jumping(a, grid):
@@ -141,16 +92,6 @@ def test_a_fit_that_is_stopped_is_judged_by_central_differences():
     assert stopped.converged and stopped.promised < 1e-2 and stopped.evaluations == begin.evaluations + 2
 
 
-def test_known_columns_are_taken_and_not_called_fresh():
-    whole, noise, _, _ = linear.problem((3,), truth={"nominal_0": 0.7})
-    full = linearised(whole, noises_of(whole, noise), whole.nominal, np.zeros(3), whole.training)
-    known = [j[:, :2] for j in full.jacobians]
-    found = linearised(whole, noises_of(whole, noise), whole.nominal, np.zeros(3), whole.training, known)
-    assert full.fresh and not found.fresh and (full.evaluations, found.evaluations) == (4, 2)
-    for one, other in zip(full.jacobians, found.jacobians, strict=True):
-        np.testing.assert_array_equal(one, other)
-
-
 def test_at_a_bound_the_other_parameters_still_find_their_optimum():
     """Two parameters that act almost alike, one of them wanted far beyond its bound."""
     parameters = tuple(Parameter(name, "1", 0.0, Normal(0.0, width)) for name, width in (("a", 1e-3), ("b", 10.0)))
@@ -160,3 +101,37 @@ def test_at_a_bound_the_other_parameters_still_find_their_optimum():
     assert found.converged and found.values["a"] == pytest.approx(bound, rel=1e-9)
     mean = np.mean(3.0 + np.linspace(0, 1, 50) - bound * (1 + 0.3 * np.linspace(0, 1, 50)))
     assert found.values["b"] == pytest.approx(mean, rel=1e-5)
+
+
+@pytest.mark.parametrize("steep, slope", [(10.0, 0.1), (10.0, 0.01), (100.0, 1.0), (100.0, 0.1)])
+def test_a_long_bent_valley_is_followed_to_its_end(steep, slope):
+    """Rosenbrock's valley: a straight step leaves y = x^2 at once, and a damped one hardly moves along it."""
+    std, prior = 0.01, Normal(0.0, 1.0)
+
+    def bent(values, grid):
+        return np.where(grid < 0.5, steep * (values["y"] - values["x"] ** 2), slope * (1 - values["x"]))
+
+    def objective(u):
+        return 25 * ((steep * (u[1] - u[0]**2) / std)**2 + (slope * (1 - u[0]) / std)**2) + u @ u
+
+    whole, noises = curve_problem(bent, (Parameter("x", "1", 0.0, prior), Parameter("y", "1", 0.0, prior)),
+                                  np.zeros_like, std)
+    found = fit(whole, noises, whole.nominal, np.array([-1.0, 1.0]), whole.training)
+    best = optimise.minimize(objective, [1.0, 1.0], method="Nelder-Mead", options={"xatol": 1e-9, "fatol": 1e-9})
+    assert found.converged and found.objective == pytest.approx(best.fun, abs=0.02)
+
+
+def test_a_frugal_fit_takes_no_differences():
+    whole, noises = curve_problem(lambda v, grid: np.exp(v["x"] * grid), (Parameter("x", "1", 0.0, Normal(0.0, 1.0)),),
+                                  lambda grid: np.exp(0.8 * grid), 0.01)
+    begin = linearised(whole, noises, whole.nominal, [0.0], whole.training)
+    shown = iterated(whole, begin, 3, frugal=True)
+    assert shown.objective < begin.objective and not shown.fresh and not shown.converged
+    assert shown.evaluations - begin.evaluations <= 3 * 8
+
+
+def test_what_is_kept_stays_while_the_rest_is_fitted():
+    whole, noise, _, _ = linear.problem((2,), truth={"nominal_0": 1.5, "nominal_1": -0.5})
+    noises = noises_of(whole, noise)
+    state = beside(whole, linearised(whole, noises, whole.nominal, [0.0, 0.0], whole.training), np.array([True, False]))
+    assert state.latent[0] == 0.0 and abs(state.slopes[0][1]) < 1e-6

@@ -7,7 +7,7 @@ import pytest
 
 from pipeline.inference.fitting import refitting
 from pipeline.inference.fitting.calibration import calibrate
-from pipeline.inference.fitting.least_squares import linearised
+from pipeline.inference.fitting.fit_state import linearised
 from pipeline.inference.fitting.noise import budget
 from pipeline.inference.fitting.refitting import Refitter
 from pipeline.inference.procedure import Settings, diagnose

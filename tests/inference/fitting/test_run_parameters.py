@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from pipeline.contract.errors import ConvergenceError
-from pipeline.inference.fitting.least_squares import fit, linearised
+from pipeline.inference.fitting.fit_state import linearised
+from pipeline.inference.fitting.least_squares import fit
 from pipeline.inference.fitting.run_parameters import first_part, on_all_runs, with_own_parameters
 from pipeline.inference.priors import Normal, Parameter
 from pipeline.inference.problem import Hypothesis

@@ -7,7 +7,7 @@ from math import comb, log
 import numpy as np
 import pytest
 
-from pipeline.inference.fitting.least_squares import linearised
+from pipeline.inference.fitting.fit_state import linearised
 from pipeline.inference.search.score_screen import directions
 from pipeline.inference.search.subset_selection import best_subsets, multiplicity, table
 from tests.inference import linear

@@ -12,10 +12,11 @@ import numpy as np
 import scipy
 
 from pipeline.blind_trial.generators.switching.event_motion import Motion
+from pipeline.contract.errors import ConvergenceError
 
 #: standard deviation of the logarithm of a value, of a gain; of a start or blow in its own size
 SPREAD, GAIN_SPREAD, _FREE = 0.2, 0.02, 3.0
-_EVALUATIONS = 25
+_EVALUATIONS = 60
 
 
 @dataclass(frozen=True)
@@ -102,7 +103,10 @@ class Recalibration:
         return shown
 
     def left(self, seen, noise):
-        """d of what the sensors have ``seen`` [(sensor, n)] under ``noise`` (sensor,); infinite where not finite."""
+        """d of what the sensors have ``seen`` [(sensor, n)] under ``noise`` (sensor,); infinite where not finite.
+
+        Raises ConvergenceError: what an unfinished refit leaves would count as hidden physics.
+        """
         wanted = [s - b + r for s, b, r in zip(seen, self.base, self.at_rest, strict=True)]
         if not all(np.isfinite(w).all() for w in wanted):
             return np.inf
@@ -111,5 +115,9 @@ class Recalibration:
             parts = [((w - y) / noise[:, None]).ravel() for w, y in zip(wanted, self.shown(u), strict=True)]
             return np.concatenate((*parts, u))
 
-        fit = scipy.optimize.least_squares(residual, np.zeros(self.size), max_nfev=_EVALUATIONS, xtol=1e-4, ftol=1e-4)
+        fit = scipy.optimize.least_squares(residual, np.zeros(self.size), method="lm", xtol=1e-4, ftol=1e-4,
+                                           max_nfev=_EVALUATIONS * (self.size + 1))
+        if not fit.success:
+            raise ConvergenceError("recalibration of a switching rig", "a refit that ends",
+                                   f"none after {fit.nfev} evaluations", "draw another seed")
         return float(np.sqrt(2 * fit.cost))
