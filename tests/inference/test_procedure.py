@@ -4,6 +4,7 @@ from concurrent.futures import ProcessPoolExecutor
 from dataclasses import replace
 from multiprocessing import get_context
 from time import process_time
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -14,7 +15,7 @@ from pipeline.inference.fitting.fit_state import linearised
 from pipeline.inference.fitting.noise import budget
 from pipeline.inference.priors import Normal, Parameter
 from pipeline.inference.problem import Hypothesis
-from pipeline.inference.procedure import Settings, diagnose, over_noise
+from pipeline.inference.procedure import Settings, _where_felt, diagnose, over_noise
 from pipeline.inference.rules import DEFAULTS
 from pipeline.inference.search import score_screen
 from tests.inference import linear
@@ -254,3 +255,17 @@ def test_elaborate_candidates_are_weighed_only_where_simpler_ones_leave_somethin
     assert found.decision.verdict == "missing" and [c.name for c in found.decision.named] == ["cubic"]
     assert {w.candidate.name for w in found.weighed} > {"cubic"} and screened.count("cubic") >= 1
     assert len(found.posterior) == 1 + len(CATALOGUE)
+
+
+def test_elaborate_candidates_are_weighed_where_simple_ones_are_felt():
+    def candidate(name, place):
+        return Hypothesis(f"{name} at {place}", ((name, place),))
+
+    simple = [candidate("spring", "left"), candidate("spring", "right"), candidate("damper", "right")]
+    elaborate = [candidate("lugre", "left"), candidate("lugre", "right"), candidate("lugre", "above")]
+    nothing = SimpleNamespace(results={}, calibration=SimpleNamespace(null=None))
+    screen = SimpleNamespace(score=np.array([10.0, -np.inf, 1.0]))
+    assert _where_felt(elaborate, simple, screen, nothing) == (elaborate[0],)
+    explaining = SimpleNamespace(fit=SimpleNamespace(betters=lambda null: 5.0))
+    refitted = SimpleNamespace(results={1: explaining}, calibration=SimpleNamespace(null=None))
+    assert _where_felt(elaborate, simple, screen, refitted) == tuple(elaborate[:2])

@@ -102,3 +102,27 @@ def test_step_errors_of_leading_candidates_alone_are_looked_for(found, monkeypat
     monkeypatch.setattr(refitting, "refined", lambda *given: looked.append(given[-1]) or look(*given))
     told = found.settled(found.of(range(len(CATALOGUE)), [np.zeros(1)] * len(CATALOGUE)))
     assert [fit.hypothesis.name for fit in looked] == ["cubic"] and told[CUBIC].fit.step_error == 0.0
+
+
+def test_the_better_half_goes_on_until_few_are_left(found, monkeypatch):
+    lapped, further = [], refitting._further
+    monkeypatch.setattr(refitting, "_further",
+                        lambda problem, fit: lapped.append(fit.hypothesis.name) or further(problem, fit))
+    begun = [refitting._begun(found.problem, found.null, found.null, (), (c, np.zeros(len(c.parameters))))[0]
+             for c in CATALOGUE]
+    fits = {i: fit for i, fit in enumerate(begun) if fit is not None and i != CUBIC}
+    left = found._raced(fits)
+    assert len(left) == found.settings.kept < len(lapped) < 2 * len(fits)
+    assert min(fits, key=lambda i: fits[i].objective) in left
+    lapped.clear()
+    assert CUBIC in found._raced(fits | {CUBIC: found.of([CUBIC], {CUBIC: np.zeros(1)})[CUBIC].fit})
+    assert not lapped, "where one is at the noise no other needs to go on"
+
+
+def test_where_the_null_is_at_odds_with_its_priors_candidates_begin_with_those_values_as_they_were(found):
+    pulled = np.array(found.null.latent)
+    pulled[0] = DEFAULTS.calibration.excluded + 1
+    away = linearised(found.problem, found.null.noises, found.problem.nominal, pulled, found.null.runs)
+    anchor = replace(found, null=away)._anchor()
+    assert anchor.latent[0] == pytest.approx(found.problem.nominal.nominal[0])
+    assert found._anchor() is found.null
