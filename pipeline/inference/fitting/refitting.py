@@ -80,7 +80,10 @@ def refit_catalogue(screening, catalogue, settings, fan_out, results=None, besid
     ``results``."""
     calibration, starts = screening.calibration, screening.screen.start
     refitter = Refitter(calibration.problem, calibration.null, tuple(catalogue), settings, fan_out)
-    results = refitter.best_of(screening.promising, starts, results or {}, beside_a_first)
+    if results and refitter.explained(results):     # what may do as well begins at the values that the best asks for
+        results = refitter.with_imitators(results, starts)
+    else:
+        results = refitter.best_of(screening.promising, starts, results or {}, beside_a_first)
     fits = {i: r.fit for i, r in results.items() if r.fit is not None}
     if fits:
         evidences = evidence_of_all(calibration.null, screening.directions, fits, settings)
@@ -132,20 +135,21 @@ class Refitter:
         """
         kept, rules = self.settings.kept, self.rules.decision
         results = self._rivalled(self.of(promising[:kept], starts, results), starts, beside_a_first)
-        if self._explained(results) or self.null.reaches_noise(rules.noise_uncertainty) or self.null.unordered:
+        if self.explained(results) or self.null.reaches_noise(rules.noise_uncertainty) or self.null.unordered:
             return results
         further = promising[kept:_LIKELY * kept] if beside_a_first else promising[kept:]
         return self._rivalled(self.of(further, starts, results), starts, beside_a_first)
 
     def _rivalled(self, results, starts, beside_a_first):
         """{index: Refitted} with imitators; beside a first effect only where one may be named."""
-        if beside_a_first and not self._explained(results):
+        if beside_a_first and not self.explained(results):
             return results
         return self.with_imitators(results, starts)
 
-    def _explained(self, results):
-        """Whether one of the ``results`` explains enough."""
-        return any(unexplained(self.null, r.fit, self.rules) <= self.rules.decision.unexplained
+    def explained(self, results):
+        """Whether one of the ``results`` explains enough, without values at odds with their priors."""
+        return any(not r.fit.excluded(self.rules.calibration.excluded)
+                   and unexplained(self.null, r.fit, self.rules) <= self.rules.decision.unexplained
                    for r in results.values() if r.fit)
 
     def of(self, chosen, starts, results=None):
