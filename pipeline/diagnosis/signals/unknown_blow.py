@@ -14,6 +14,7 @@ its begin and leaves least before it.
 """
 
 from dataclasses import dataclass, replace
+from functools import cache
 
 import numpy as np
 import scipy
@@ -33,9 +34,6 @@ _UNSURE = 0.1
 _SPREAD = 1.0
 #: least answer of the fastest mode to a blow that was meant to excite it, over that to one of no length: 20 dB less
 _LEAST = 0.1
-#: periods of the fastest mode in the median contact time
-_CYCLES = (scipy.optimize.brentq(lambda cycles: spectrum(cycles) - _LEAST, 0.0, 1.5)
-           * np.exp(-_SPREAD * scipy.special.ndtri(0.95)))
 
 
 @dataclass(frozen=True)
@@ -107,7 +105,7 @@ def with_blow(bench, recorded, name, period, fastest, shown):
     weight = recorded.valid / np.where(scale > 0, scale, np.inf)[:, None]
     still = shown(run)
     left = weight * (np.where(recorded.valid, recorded.samples, 0.0) - still)
-    width = _CYCLES / fastest
+    width = _cycles() / fastest
     first = _margin(run, width)
     blow = Blow(name, 1.0, first, width, _UNSURE * period / run.sample_rate)
     answer = shown(_hit(bench, run, blow)) - still
@@ -136,3 +134,10 @@ def _score(left, weight, answer, k, period):
 
 def _name(run, part, name):
     return parameter_name(BLOW, run, f"{part} {name}")
+
+
+@cache
+def _cycles():
+    """Periods of the fastest mode in the median contact time: 95 % of contact times excite that mode."""
+    longest = scipy.optimize.brentq(lambda cycles: spectrum(cycles) - _LEAST, 0.0, 1.5)
+    return longest * np.exp(-_SPREAD * scipy.special.ndtri(0.95))

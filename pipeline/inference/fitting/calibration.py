@@ -167,10 +167,18 @@ def _over_horizons(problem, noises, hypothesis, starts, runs, reasons):
         cut = [noise.until(n) for noise, n in zip(noises, ends, strict=True)]
         first = [run.until(n) for run, n in zip(runs, ends, strict=True)]
         if len(ahead) > _AHEAD:
-            ahead = sorted(ahead, key=lambda start: _mean_square(problem, cut, hypothesis, start, first))[:_AHEAD]
+            ahead = _nearest(problem, cut, hypothesis, ahead, first)
         fits = _tried(problem, cut, hypothesis, ahead, first, reasons, rough=True)
         ahead = [fits[0].latent] if fits else []
     return ahead
+
+
+def _nearest(problem, noises, hypothesis, starts, runs):
+    """The few of ``starts`` that leave least; the first few where the forward model does not cut runs."""
+    try:
+        return sorted(starts, key=lambda start: _mean_square(problem, noises, hypothesis, start, runs))[:_AHEAD]
+    except BrakechainError:
+        return starts[:_AHEAD]
 
 
 def _tightened(problem, noises, hypothesis, starts, runs, reasons, factors):

@@ -8,7 +8,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from pipeline.inference.fitting.fit_state import DIFFERENCE, linearised, refreshed, whitened
+from pipeline.inference.fitting.fit_state import DIFFERENCE, linearised, refreshed
+from pipeline.inference.fitting.steps import LONGEST, along_valley, damped_step
 from pipeline.inference.priors import LATENT_LIMIT
 
 ITERATIONS = 60
@@ -18,8 +19,6 @@ _WIDEST = 1e-2
 TOLERANCE = 1e-3
 #: the same of features, as a share of the objective: far off, a small change of it says nothing
 _SHARE = 1e-4
-#: longest step of a latent coordinate in one iteration
-_LONGEST = 1.5
 #: where no step helps (rounding, kinks of the forward model) or iterations are used up, a fit counts as converged below
 #: this: a posterior standard deviation from its linearised optimum
 _STALLED = 1.0
@@ -37,10 +36,6 @@ _LATE = 4
 _ROUGHLY = 0.01
 #: share of the promised decrease below which a step by differences is taken along the bent valley instead
 _BENT = 0.1
-#: part of a step at which its second derivative is taken; parts of the bent path that are tried
-_PROBE, _PATH = 0.1, (1.0, 0.5, 0.25, 0.1, 0.03)
-#: share of the promised decrease below which an updated Jacobian is replaced by differences
-_TRUSTED = 0.25
 
 
 def fit(problem, noises, hypothesis, start, runs, iterations=ITERATIONS):
@@ -82,7 +77,7 @@ def beside(problem, state, kept, iterations=4):
         gradient, hessian = state.slopes
         latent = state.latent.copy()
         step = np.linalg.solve(hessian[np.ix_(free, free)], gradient[free])
-        step *= min(1.0, _LONGEST / max(np.abs(step).max(initial=0.0), 1e-300))
+        step *= min(1.0, LONGEST / max(np.abs(step).max(initial=0.0), 1e-300))
         latent[free] = np.clip(latent[free] + step, -LATENT_LIMIT, LATENT_LIMIT)
         moved = linearised(problem, state.noises, state.hypothesis, latent, state.runs)
         if moved.objective >= state.objective:
@@ -116,9 +111,9 @@ def iterated(problem, state, iterations, enough=np.inf, patient=True, rough=Fals
                 return replace(state, converged=state.fresh and not rough)
             state = refreshed(problem, state)
             continue
-        moved, damping, growth = _step(problem, state, damping, growth, frugal)
+        moved, damping, growth = damped_step(problem, state, damping, growth, frugal)
         if state.fresh and not frugal and (moved is None or state.objective - moved.objective < _BENT * expected):
-            moved = min(_along_valley(problem, state), moved or state, key=lambda s: s.objective)
+            moved = min(along_valley(problem, state), moved or state, key=lambda s: s.objective)
         if moved is not None and state.objective - moved.objective > _LEAST * TOLERANCE * scale:
             state = moved
             continue
@@ -159,67 +154,3 @@ def _settles(state, objectives):
 def _scale(state):
     """Objective per unit of log evidence (see ``effective.tempering``); 1 of a strict fit."""
     return 1.0 if state.strict else 1 / max(state.weights.max(), 1e-12)
-
-
-def _step(problem, state, damping, growth, frugal):
-    """The next state that lowers the objective, with the new damping; None where no step does."""
-    (gradient, hessian), objective, tries = state.slopes, state.objective, 0
-    while damping < 1e12:
-        step = np.linalg.solve(hessian + damping * np.diag(np.diag(hessian)), gradient)
-        step *= min(1.0, _LONGEST / max(np.abs(step).max(), 1e-300))
-        latent = np.clip(state.latent + step, -LATENT_LIMIT, LATENT_LIMIT)
-        residuals, _ = whitened(problem, state.noises, state.hypothesis, latent, state.runs)
-        tries += 1
-        if residuals is not None:
-            gain = objective - sum(r @ r for r in residuals) - latent @ latent
-            expected = step @ (2 * gradient - hessian @ step)
-            if gain > 0:
-                ratio = gain / expected if expected > 0 else 0.5
-                moved = _moved(state, latent, residuals, tries)
-                if ratio < _TRUSTED and not frugal:
-                    moved = refreshed(problem, moved)
-                return moved, min(damping * max(1 / 3, 1 - (2 * ratio - 1) ** 3), 1e6), 2.0
-        if not state.fresh:
-            break
-        damping, growth = damping * growth, 2 * growth
-    return None, damping, growth
-
-
-def _along_valley(problem, state):
-    """The best state on the path that Gauss-Newton's step v begins, t v + t^2 a, bent as the prediction is.
-
-    Geodesic acceleration a (Transtrum & Sethna, arXiv:1201.5885, 2012): along a narrow, bent valley a straight step
-    leaves it at once, and a damped one hardly moves. ``state`` itself where none is lower.
-    """
-    gradient, hessian = state.slopes
-    step, best, tries = np.linalg.solve(hessian, gradient), state, 1
-    step *= min(1.0, _LONGEST / max(np.abs(step).max(), 1e-300))
-    there, _ = whitened(problem, state.noises, state.hypothesis, _within(state.latent + _PROBE * step), state.runs)
-    if there is None:
-        return state
-    curved = [2 / _PROBE**2 * (before - after - _PROBE * (j @ step))
-              for j, before, after in zip(state.jacobians, state.residuals, there, strict=True)]
-    bend = -0.5 * np.linalg.solve(hessian, sum(j.T @ c for j, c in zip(state.jacobians, curved, strict=True)))
-    for t in _PATH:
-        latent = _within(state.latent + t * step + t**2 * bend)
-        residuals, _ = whitened(problem, state.noises, state.hypothesis, latent, state.runs)
-        tries += 1
-        if residuals is not None and sum(r @ r for r in residuals) + latent @ latent < best.objective:
-            best = _moved(state, latent, residuals, tries)
-        elif best is not state:
-            break
-    return best
-
-
-def _within(latent):
-    return np.clip(latent, -LATENT_LIMIT, LATENT_LIMIT)
-
-
-def _moved(state, latent, residuals, tries):
-    """State at ``latent`` with Jacobians that agree with the change of the prediction on the way there."""
-    step = latent - state.latent
-    felt = [step * state.hypothesis.moves(run.name) for run in state.runs]
-    jacobians = tuple(j + np.outer(here - there - j @ way, way) / max(way @ way, 1e-300) for j, here, there, way in zip(
-        state.jacobians, state.residuals, residuals, felt, strict=True))
-    return replace(state, latent=latent, residuals=tuple(residuals), jacobians=jacobians, fresh=False,
-                   evaluations=state.evaluations + tries)

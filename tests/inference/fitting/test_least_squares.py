@@ -2,7 +2,6 @@
 
 import numpy as np
 import pytest
-from scipy import optimize as optimise
 
 from pipeline.inference.fitting.fit_state import linearised
 from pipeline.inference.fitting.least_squares import _crawls, beside, continued, fit, iterated
@@ -101,24 +100,6 @@ def test_at_a_bound_the_other_parameters_still_find_their_optimum():
     assert found.converged and found.values["a"] == pytest.approx(bound, rel=1e-9)
     mean = np.mean(3.0 + np.linspace(0, 1, 50) - bound * (1 + 0.3 * np.linspace(0, 1, 50)))
     assert found.values["b"] == pytest.approx(mean, rel=1e-5)
-
-
-@pytest.mark.parametrize("steep, slope", [(10.0, 0.1), (10.0, 0.01), (100.0, 1.0), (100.0, 0.1)])
-def test_a_long_bent_valley_is_followed_to_its_end(steep, slope):
-    """Rosenbrock's valley: a straight step leaves y = x^2 at once, and a damped one hardly moves along it."""
-    std, prior = 0.01, Normal(0.0, 1.0)
-
-    def bent(values, grid):
-        return np.where(grid < 0.5, steep * (values["y"] - values["x"] ** 2), slope * (1 - values["x"]))
-
-    def objective(u):
-        return 25 * ((steep * (u[1] - u[0]**2) / std)**2 + (slope * (1 - u[0]) / std)**2) + u @ u
-
-    whole, noises = curve_problem(bent, (Parameter("x", "1", 0.0, prior), Parameter("y", "1", 0.0, prior)),
-                                  np.zeros_like, std)
-    found = fit(whole, noises, whole.nominal, np.array([-1.0, 1.0]), whole.training)
-    best = optimise.minimize(objective, [1.0, 1.0], method="Nelder-Mead", options={"xatol": 1e-9, "fatol": 1e-9})
-    assert found.converged and found.objective == pytest.approx(best.fun, abs=0.02)
 
 
 def test_a_frugal_fit_takes_no_differences():
