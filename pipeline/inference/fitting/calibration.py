@@ -12,8 +12,8 @@ from pipeline.inference.rules import DEFAULTS
 
 #: iterations from every start before only the best goes on
 _TRIAL = 3
-#: how many starts near enough are tried, those that leave least; how many over the shortest horizon
-_NEAREST, _AHEAD = 3, 2
+#: how many starts near enough are tried, those that leave least
+_NEAREST = 3
 #: iterations of an easier problem on the way
 _EASIER = 8
 #: fractions of the runs that are fitted first where the residual is beyond FAR noise powers: over a short horizon the
@@ -135,12 +135,10 @@ def _begun(problem, noises, hypothesis, starts, runs, reasons, anchors=()):
         return [iterated(problem, fits[0], _TRIAL), *fits[1:]] if fits and anchors else fits
     if not all(noise.ordered for noise in noises):
         return _tightened(problem, noises, hypothesis, starts, runs, reasons, _LOOSE)
-    near = _over_horizons(problem, noises, hypothesis, starts, runs, reasons)
-    if near:
-        return _tried(problem, noises, hypothesis, near, runs, reasons)
     nearest = int(np.argmin(sizes))
-    return _tried(problem, noises, hypothesis, [starts[nearest]], runs, reasons,
-                  [_slopes_of(anchors[nearest])] if anchors else ())
+    near = [*_over_horizons(problem, noises, hypothesis, starts, runs, reasons), starts[nearest]]
+    return _tried(problem, noises, hypothesis, near, runs, reasons,
+                  [_slopes_of(anchors[nearest])] * len(near) if anchors else ())
 
 
 def _slopes_of(anchor):
@@ -164,21 +162,10 @@ def _over_horizons(problem, noises, hypothesis, starts, runs, reasons):
     ahead = starts
     for fraction in _HORIZONS:
         ends = [noise.horizon(fraction, _FEWEST) for noise in noises]
-        cut = [noise.until(n) for noise, n in zip(noises, ends, strict=True)]
-        first = [run.until(n) for run, n in zip(runs, ends, strict=True)]
-        if len(ahead) > _AHEAD:
-            ahead = _nearest(problem, cut, hypothesis, ahead, first)
-        fits = _tried(problem, cut, hypothesis, ahead, first, reasons, rough=True)
+        fits = _tried(problem, [noise.until(n) for noise, n in zip(noises, ends, strict=True)], hypothesis, ahead,
+                      [run.until(n) for run, n in zip(runs, ends, strict=True)], reasons, rough=True)
         ahead = [fits[0].latent] if fits else []
     return ahead
-
-
-def _nearest(problem, noises, hypothesis, starts, runs):
-    """The few of ``starts`` that leave least; the first few where the forward model does not cut runs."""
-    try:
-        return sorted(starts, key=lambda start: _mean_square(problem, noises, hypothesis, start, runs))[:_AHEAD]
-    except BrakechainError:
-        return starts[:_AHEAD]
 
 
 def _tightened(problem, noises, hypothesis, starts, runs, reasons, factors):
