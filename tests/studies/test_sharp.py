@@ -41,6 +41,13 @@ def test_coulomb_friction_that_really_sticks_is_named_at_its_joint():
     assert answer["fit"]["held_out"]["after"] < 1.1 * answer["fit"]["held_out"]["noise_floor"]
 
 
+def test_a_play_in_little_noise_is_found_from_far_off():
+    """The nominal model is hundreds of noise powers off, and fits of the play begin over short parts of the runs."""
+    plan = Plan("backlash", 0, 0.01)
+    truth = made(plan)
+    assert right(plan, truth, solved(truth, effects=["coulomb", "cubic_stiffness", "backlash", "moving_base"]))
+
+
 @pytest.mark.slow
 @pytest.mark.study
 @pytest.mark.parametrize("kind, draw", [("coulomb", 2), ("backlash", 2), ("coulomb + cubic", 0), ("nothing", 0)])
