@@ -150,7 +150,7 @@ class Asked:
         calibration = recalibrate(self.problem, self.budget, settings.rules.calibration, start)
         simple = self.catalogue[:sum(not c.elaborate for c in self.catalogue)]
         screening = screen_catalogue(calibration, simple, settings, fan_out, second)
-        refits = refit_catalogue(screening, simple, settings, fan_out, {}, second)
+        refits = refit_catalogue(screening, simple, settings, fan_out, beside_a_first=second)
         decided = _decided(refits, settings, base)
         if len(simple) == len(self.catalogue) or _reaches_noise(decided, settings.rules):
             return refits, decided
@@ -234,7 +234,7 @@ class Asked:
         problem, rules = self.problem, self.settings.rules
         begin = linearised(problem, null.noises, problem.nominal, start, null.runs)
         calibration = recalibrate(problem, self.budget, rules.calibration, continued(problem, begin, patient=False))
-        refitter = Refitter(problem, calibration.null, self.catalogue, self.settings, self.fan_out)
+        refitter = Refitter.about(calibration, self.catalogue, self.settings, self.fan_out)
         return calibration, refitter.better({}, begins)
 
     def named_together(self, single, calibration, results, members):
@@ -299,7 +299,7 @@ def _where_felt(elaborate, simple, screen, refits):
     def places(candidate):
         return {place for _, place in candidate.effects}
 
-    gains = np.array([max(score, 0.0) ** 2 for score in screen.score])
+    gains = np.maximum(screen.score, 0.0) ** 2
     explained = {i: max(r.fit.betters(refits.calibration.null), 0.0) for i, r in refits.results.items() if r.fit}
     most, best = gains.max(initial=0.0), max(explained.values(), default=0.0)
     felt = set()

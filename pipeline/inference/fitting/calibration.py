@@ -128,21 +128,16 @@ def _stopped(hypothesis, reasons):
 def _begun(problem, noises, hypothesis, starts, runs, reasons, anchors=()):
     """[Fit] after a few iterations from each start, best first; ``reasons`` gets what stopped the others."""
     sizes = [_mean_square(problem, noises, hypothesis, start, runs) for start in starts]
+    known = [anchor.jacobians if anchor else () for anchor in anchors or [None] * len(starts)]
     if min(sizes) < FAR or not all(anchor is None or anchor.far for anchor in anchors):
         near = [k for k in np.argsort(sizes) if sizes[k] < max(FAR, 2 * min(sizes))][:_NEAREST]
-        fits = _tried(problem, noises, hypothesis, [starts[k] for k in near], runs, reasons,
-                      [_slopes_of(anchors[k]) for k in near] if anchors else ())
+        fits = _tried(problem, noises, hypothesis, [starts[k] for k in near], runs, reasons, [known[k] for k in near])
         return [iterated(problem, fits[0], _TRIAL), *fits[1:]] if fits and anchors else fits
     if not all(noise.ordered for noise in noises):
         return _tightened(problem, noises, hypothesis, starts, runs, reasons, _LOOSE)
     nearest = int(np.argmin(sizes))
     near = [*_over_horizons(problem, noises, hypothesis, starts, runs, reasons), starts[nearest]]
-    return _tried(problem, noises, hypothesis, near, runs, reasons,
-                  [_slopes_of(anchors[nearest])] * len(near) if anchors else ())
-
-
-def _slopes_of(anchor):
-    return () if anchor is None else anchor.jacobians
+    return _tried(problem, noises, hypothesis, near, runs, reasons, [known[nearest]] * len(near))
 
 
 def _tried(problem, noises, hypothesis, starts, runs, reasons, known=(), rough=False):

@@ -1,7 +1,6 @@
 """Maximum a posteriori by Levenberg-Marquardt in latent coordinates and whitened residuals.
 
-In latent coordinates the prior is N(0, I), so that the objective is |r(u)|^2 + |u|^2 (Nielsen's damping: Madsen,
-Nielsen & Tingleff, Methods for Non-Linear Least Squares Problems, 2004).
+In latent coordinates the prior is N(0, I), so that the objective is |r(u)|^2 + |u|^2; the steps are those of ``steps``.
 """
 
 from dataclasses import replace
@@ -9,8 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from pipeline.inference.fitting.fit_state import DIFFERENCE, linearised, refreshed
-from pipeline.inference.fitting.steps import LONGEST, along_valley, damped_step
-from pipeline.inference.priors import LATENT_LIMIT
+from pipeline.inference.fitting.steps import along_valley, damped_step, newton_step, within
 
 ITERATIONS = 60
 #: widest forward-difference step in latent coordinates, which looks beyond kinks of the forward model
@@ -76,9 +74,7 @@ def beside(problem, state, kept, iterations=4):
     for _ in range(iterations):
         gradient, hessian = state.slopes
         latent = state.latent.copy()
-        step = np.linalg.solve(hessian[np.ix_(free, free)], gradient[free])
-        step *= min(1.0, LONGEST / max(np.abs(step).max(initial=0.0), 1e-300))
-        latent[free] = np.clip(latent[free] + step, -LATENT_LIMIT, LATENT_LIMIT)
+        latent[free] = within(latent[free] + newton_step(gradient[free], hessian[np.ix_(free, free)]))
         moved = linearised(problem, state.noises, state.hypothesis, latent, state.runs)
         if moved.objective >= state.objective:
             break

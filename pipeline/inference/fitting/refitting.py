@@ -1,7 +1,7 @@
 """Refits of candidates: from where each begins, which ones go on, and when one is given up."""
 
 from dataclasses import dataclass, replace
-from functools import partial
+from functools import cached_property, partial
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -17,14 +17,7 @@ from pipeline.inference.fitting.run_parameters import with_own_parameters
 from pipeline.inference.fitting.step_error import refined
 from pipeline.inference.problem import FanOut, Problem
 from pipeline.inference.rules import Rules
-from pipeline.inference.search.score_screen import (
-    alternatives,
-    directions,
-    least,
-    screen,
-    shapes_like,
-    short_name,
-)
+from pipeline.inference.search.score_screen import alternatives, directions, least, screen, shapes_like, short_name
 
 #: iterations of a nominal model from a candidate's optimum before it is given up where it is still worse than before
 _GIVEN_UP = 16
@@ -79,17 +72,12 @@ def refit_catalogue(screening, catalogue, settings, fan_out, results=None, besid
     """Refits of the promising candidates of a Screening, of their imitators, and of what they overlook, beside earlier
     ``results``."""
     calibration, starts = screening.calibration, screening.screen.start
-    refitter = Refitter(calibration.problem, calibration.null, tuple(catalogue), settings, fan_out)
+    refitter = Refitter.about(calibration, catalogue, settings, fan_out)
     if results and refitter.explained(results):     # what may do as well begins at the values that the best asks for
         results = refitter.with_imitators(results, starts)
     else:
         results = refitter.best_of(screening.promising, starts, results or {}, beside_a_first)
-    fits = {i: r.fit for i, r in results.items() if r.fit is not None}
-    if fits:
-        evidences = evidence_of_all(calibration.null, screening.directions, fits, settings)
-        more = evidences.overlooked(settings.rules.decision)[:settings.kept]
-        results = refitter.of(more, starts, results)
-    results = refitter.settled(results)
+    results = refitter.settled(refitter.with_overlooked(screening, results))
     better = calibration.improved([r.null for r in results.values()], settings.rules.calibration)
     if better is calibration:
         return Refits(calibration, screening.directions, results, refitter)
@@ -100,14 +88,8 @@ def refit_catalogue(screening, catalogue, settings, fan_out, results=None, besid
 
 def refit_from(screening, catalogue, results, settings, fan_out):
     """Refits of the candidates that have ``results`` {index: Refitted} alone, and of what outshines them."""
-    calibration = screening.calibration
-    refitter = Refitter(calibration.problem, calibration.null, tuple(catalogue), settings, fan_out)
-    fits = {i: r.fit for i, r in results.items() if r.fit is not None}
-    if fits:
-        evidences = evidence_of_all(calibration.null, screening.directions, fits, settings)
-        more = evidences.overlooked(settings.rules.decision)[:settings.kept]
-        results = refitter.of(more, screening.screen.start, results)
-    return Refits(calibration, screening.directions, results, refitter)
+    refitter = Refitter.about(screening.calibration, catalogue, settings, fan_out)
+    return Refits(screening.calibration, screening.directions, refitter.with_overlooked(screening, results), refitter)
 
 
 @dataclass(frozen=True)
@@ -122,6 +104,11 @@ class Refitter:
     catalogue: tuple
     settings: Any
     fan_out: FanOut
+
+    @classmethod
+    def about(cls, calibration, catalogue, settings, fan_out):
+        """Refitter beside the null of a Calibration."""
+        return cls(calibration.problem, calibration.null, tuple(catalogue), settings, fan_out)
 
     @property
     def rules(self) -> Rules:
@@ -157,11 +144,14 @@ class Refitter:
 
         All begin; the best few go on, first the best of them, as the others have to come near it.
         """
-        begin = partial(_begun, self.problem, self.null, self._anchor(), self.settings.starts)
+        if not len(chosen):
+            return results or {}
+        begin = partial(_begun, self.problem, self.null, self.anchor, self.settings.starts)
         items = [(self.catalogue[i], starts[i]) for i in chosen]
         return self._ended(chosen, self.fan_out(begin, items), results or {})
 
-    def _anchor(self):
+    @cached_property
+    def anchor(self):
         """The Fit beside which candidates begin: the null, or, where that misleads, what it is with those values as
         they were that its priors exclude."""
         if not _misled(self.null, self.rules.calibration):
@@ -173,6 +163,14 @@ class Refitter:
             return beside(self.problem, state, pulled) if pulled.any() else state
         except BrakechainError:
             return self.null
+
+    def with_overlooked(self, screening, results):
+        """{index: Refitted} once those have begun that a Screening promised little of, and evidence may favour."""
+        fits = {i: r.fit for i, r in results.items() if r.fit is not None}
+        if not fits:
+            return results
+        evidences = evidence_of_all(self.null, screening.directions, fits, self.settings)
+        return self.of(evidences.overlooked(self.rules.decision)[:self.settings.kept], screening.screen.start, results)
 
     def with_imitators(self, results, starts):
         """{index: Refitted} once others have begun at the nominal values that the best of ``results`` asks for.
@@ -245,29 +243,26 @@ class Refitter:
         """{index: Refitted} of ``results`` and of candidates with their [(Fit or None, what went wrong)] of a begin."""
         first = dict(zip(chosen, begins, strict=True))
         ended = {**results, **{i: Refitted(None, None, why) for i, (begin, why) in first.items() if begin is None}}
-        begun_fits = {i: begin for i, (begin, _) in first.items() if begin is not None}
-        begun_fits = self._raced(begun_fits)
-        best = sorted(begun_fits, key=lambda i: begun_fits[i].objective)
+        begun_fits = self._raced({i: begin for i, (begin, _) in first.items() if begin is not None})
+        best = list(begun_fits)
         for group in (best[:1], best[1:]):
             finish = partial(_finished, self.problem, self.null, self._enough(ended.values()), self.rules)
             ended |= dict(zip(group, self.fan_out(finish, [begun_fits[i] for i in group]), strict=True))
         return ended
 
     def _raced(self, fits):
-        """The best few {index: Fit} of those that have begun: the better half goes on, again and again.
+        """The best few {index: Fit} of those that have begun, best first: the better half goes on, again and again.
 
         Along a narrow valley what a few iterations reach says little of where it ends; where one is at the noise, no
         other needs to go far.
         """
+        kept, uncertainty = self.settings.kept, self.rules.decision.noise_uncertainty
         while True:
-            half = max(self.settings.kept, (len(fits) + 1) // 2)
-            fits = dict(sorted(fits.items(), key=lambda item: item[1].objective)[:half])
-            best = next(iter(fits.values()), None)
-            if len(fits) <= self.settings.kept or best.unordered:
-                return dict(list(fits.items())[:self.settings.kept])
-            if best.reaches_noise(self.rules.decision.noise_uncertainty):
-                return dict(list(fits.items())[:self.settings.kept])
-            fits = dict(zip(fits, self.fan_out(partial(_further, self.problem), fits.values()), strict=True))
+            order = sorted(fits, key=lambda i: fits[i].objective)[:max(kept, (len(fits) + 1) // 2)]
+            if len(order) <= kept or fits[order[0]].unordered or fits[order[0]].reaches_noise(uncertainty):
+                return {i: fits[i] for i in order[:kept]}
+            further = self.fan_out(partial(_further, self.problem), [fits[i] for i in order])
+            fits = dict(zip(order, further, strict=True))
 
     def _enough(self, results):
         """The objective to which a candidate must be able to come down: near the best so far, as evidence is tempered.

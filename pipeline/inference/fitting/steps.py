@@ -1,4 +1,7 @@
-"""One step of a least-squares fit: damped, with updated Jacobians, or along a bent valley."""
+"""One step of a least-squares fit: damped, with updated Jacobians, or along a bent valley.
+
+Nielsen's damping: Madsen, Nielsen & Tingleff, Methods for Non-Linear Least Squares Problems, 2004.
+"""
 
 from dataclasses import replace
 
@@ -8,20 +11,30 @@ from pipeline.inference.fitting.fit_state import refreshed, whitened
 from pipeline.inference.priors import LATENT_LIMIT
 
 #: longest step of a latent coordinate in one iteration
-LONGEST = 1.5
+_LONGEST = 1.5
 #: part of a step at which its second derivative is taken; parts of the bent path that are tried
 _PROBE, _PATH = 0.1, (1.0, 0.5, 0.25, 0.1, 0.03)
 #: share of the promised decrease below which an updated Jacobian is replaced by differences
 _TRUSTED = 0.25
 
 
+def newton_step(gradient, hessian):
+    """Gauss-Newton's step (k,), no coordinate of it too long."""
+    step = np.linalg.solve(hessian, gradient)
+    return step * min(1.0, _LONGEST / max(np.abs(step).max(initial=0.0), 1e-300))
+
+
+def within(latent):
+    """Latent coordinates (k,) within their bounds."""
+    return np.clip(latent, -LATENT_LIMIT, LATENT_LIMIT)
+
+
 def damped_step(problem, state, damping, growth, frugal):
     """The next state that lowers the objective, with the new damping; None where no step does."""
     (gradient, hessian), objective, tries = state.slopes, state.objective, 0
     while damping < 1e12:
-        step = np.linalg.solve(hessian + damping * np.diag(np.diag(hessian)), gradient)
-        step *= min(1.0, LONGEST / max(np.abs(step).max(), 1e-300))
-        latent = np.clip(state.latent + step, -LATENT_LIMIT, LATENT_LIMIT)
+        step = newton_step(gradient, hessian + damping * np.diag(np.diag(hessian)))
+        latent = within(state.latent + step)
         residuals, _ = whitened(problem, state.noises, state.hypothesis, latent, state.runs)
         tries += 1
         if residuals is not None:
@@ -46,16 +59,15 @@ def along_valley(problem, state):
     leaves it at once, and a damped one hardly moves. ``state`` itself where none is lower.
     """
     gradient, hessian = state.slopes
-    step, best, tries = np.linalg.solve(hessian, gradient), state, 1
-    step *= min(1.0, LONGEST / max(np.abs(step).max(), 1e-300))
-    there, _ = whitened(problem, state.noises, state.hypothesis, _within(state.latent + _PROBE * step), state.runs)
+    step, best, tries = newton_step(gradient, hessian), state, 1
+    there, _ = whitened(problem, state.noises, state.hypothesis, within(state.latent + _PROBE * step), state.runs)
     if there is None:
         return state
     curved = [2 / _PROBE**2 * (before - after - _PROBE * (j @ step))
               for j, before, after in zip(state.jacobians, state.residuals, there, strict=True)]
     bend = -0.5 * np.linalg.solve(hessian, sum(j.T @ c for j, c in zip(state.jacobians, curved, strict=True)))
     for t in _PATH:
-        latent = _within(state.latent + t * step + t**2 * bend)
+        latent = within(state.latent + t * step + t**2 * bend)
         residuals, _ = whitened(problem, state.noises, state.hypothesis, latent, state.runs)
         tries += 1
         if residuals is not None and sum(r @ r for r in residuals) + latent @ latent < best.objective:
@@ -63,10 +75,6 @@ def along_valley(problem, state):
         elif best is not state:
             break
     return best
-
-
-def _within(latent):
-    return np.clip(latent, -LATENT_LIMIT, LATENT_LIMIT)
 
 
 def _moved(state, latent, residuals, tries):

@@ -265,5 +265,5 @@ def _start(found, number, coefficient):
     parameters, tried, sign = found.candidate.parameters, found.tried[number], found.sign[number]
     if any(p.discrete for p in parameters):
         return tried
-    least = max(coefficient, STEPS[0]) if sign else np.copysign(max(abs(coefficient), STEPS[0]), coefficient)
-    return scaled(parameters, tried, least)
+    away = max(coefficient, STEPS[0]) if sign else np.copysign(max(abs(coefficient), STEPS[0]), coefficient)
+    return scaled(parameters, tried, away)

@@ -54,7 +54,7 @@ def test_only_the_best_few_go_on(found):
     assert sum(r.fit is not None for r in told.values()) == 2 and told[CUBIC].fit.converged
     uncertainty = DEFAULTS.decision.noise_uncertainty
     assert told[CUBIC].fit.reaches_noise(uncertainty)
-    assert not found.null.reaches_noise(uncertainty) and found._anchor() is found.null
+    assert not found.null.reaches_noise(uncertainty) and found.anchor is found.null
 
 
 def test_a_rival_is_found_from_the_nominal_values_of_the_best(found):
@@ -123,6 +123,6 @@ def test_where_the_null_is_at_odds_with_its_priors_candidates_begin_with_those_v
     pulled = np.array(found.null.latent)
     pulled[0] = DEFAULTS.calibration.excluded + 1
     away = linearised(found.problem, found.null.noises, found.problem.nominal, pulled, found.null.runs)
-    anchor = replace(found, null=away)._anchor()
+    anchor = replace(found, null=away).anchor
     assert anchor.latent[0] == pytest.approx(found.problem.nominal.nominal[0])
-    assert found._anchor() is found.null
+    assert found.anchor is found.null

@@ -16,6 +16,9 @@ from pipeline.contract.errors import ConvergenceError
 
 #: standard deviation of the logarithm of a value, of a gain; of a start or blow in its own size
 SPREAD, GAIN_SPREAD, _FREE = 0.2, 0.02, 3.0
+#: size of what is unknown of the logarithm of the width of a blow
+_WIDER = 0.2
+#: most evaluations of a refit, for each value and one more
 _EVALUATIONS = 60
 
 
@@ -37,7 +40,7 @@ class Beginning:
         if self.free == "start":
             half = len(self.start) // 2
             return np.repeat([np.linalg.norm(self.start[:half]), np.linalg.norm(self.start[half:])], half)
-        return np.array([1.0, self.time[1] - self.time[0], 0.2]) if self.free == "blow" else np.zeros(0)
+        return np.array([1.0, self.time[1] - self.time[0], _WIDER]) if self.free == "blow" else np.zeros(0)
 
 
 def linear(rig, beginning, off=()):
