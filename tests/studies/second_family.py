@@ -116,7 +116,7 @@ def main():
     parser.add_argument("--seed", type=int, required=True)
     parser.add_argument("--folder", type=Path, default=ROOT / "data" / "runs" / "study_second_family")
     parser.add_argument("--only", type=int, nargs="*", help="numbers of the cases, 1 to 60; default all")
-    parser.add_argument("--kept", type=int, default=4, help="candidates that are refitted")
+    parser.add_argument("--kept", type=int, default=8, help="candidates that are refitted")
     parser.add_argument("--make", action="store_true", help="make the cases, and do not solve them")
     parser.add_argument("--workers", type=int, default=2, help="processes")
     chosen = parser.parse_args()

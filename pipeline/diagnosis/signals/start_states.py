@@ -18,6 +18,7 @@ from pipeline.case_models.virtual_rig import only
 from pipeline.contract import BrakechainError, ConfigError
 from pipeline.diagnosis.problem import parameter_name
 from pipeline.diagnosis.signals.unknown_blow import struck, with_blow
+from pipeline.diagnosis.signals.unseen import without_jumps, without_past
 from pipeline.inference.priors import Normal, Parameter
 from pipeline.physics.time_stepping.initial_state import steady_start
 from pipeline.physics.time_stepping.simulate import Start
@@ -69,6 +70,7 @@ def started(bench, runs, settings):
 
     ConfigError for a run that is to be fitted and is shorter than a period, or does not show how it began.
     """
+    runs = {name: without_jumps(bench, run) for name, run in runs.items()}
     every = settings.start == "fitted" or settings.measured_start
     if settings.start == "rest" and settings.measured_start:
         raise ConfigError("bench.start", "fitted, or no measured_start", "rest beside measured_start: true")
@@ -121,6 +123,7 @@ def _struck(bench, recorded, name):
 
 def estimated(bench, recorded):
     """The Recorded run with its start by least squares over the slowest period, and how uncertain that is."""
+    recorded = without_past(bench, recorded)
     run, size = recorded.run, bench.model.size
     count = _first_samples(bench, run)
     first, (least, vectors) = run.until(count), _vibrations(bench, run)

@@ -9,6 +9,9 @@ the highest of them (Avitabile, Modal Testing, 2018). Hence 95 of 100 contact ti
 of the pulse that excites the fastest mode below half the sample rate to a tenth, 1.3 of its periods. Tips from steel to
 soft rubber differ some fifty-fold, e^4, which holds 95 of 100 contact times about the median.
 
+The course of the force is a half sine by convention only: while the hammer is in contact accelerometers do not count
+(``unseen``).
+
 The estimate that fits begin from has the median contact time; it is the pulse that explains most of the period behind
 its begin and leaves least before it.
 """
@@ -21,6 +24,7 @@ import scipy
 
 from pipeline.contract import ConfigError
 from pipeline.diagnosis.problem import parameter_name
+from pipeline.diagnosis.signals.unseen import without_course
 from pipeline.inference.priors import LogNormal, Normal, Parameter
 from pipeline.physics.virtual_rig.half_sine import SPREAD, HalfSine, spectrum
 
@@ -117,7 +121,8 @@ def with_blow(bench, recorded, name, period, fastest, shown):
                           "let the run begin shortly before the blow, and end several periods after it")
     k = int(np.argmax([score for score, _ in scores]))
     blow = replace(blow, impulse=scores[k][1], time=k / run.sample_rate + first)
-    return replace(recorded, run=_hit(bench, run, blow), unknown=blow)
+    seen = without_course(bench, recorded, blow.time - blow.width / 2, blow.width)
+    return replace(seen, run=_hit(bench, run, blow), unknown=blow)
 
 
 def _hit(bench, run, blow):

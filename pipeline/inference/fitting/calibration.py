@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from pipeline.contract.errors import BrakechainError, ConvergenceError
-from pipeline.inference.fitting.fit_state import FAR, Fit, linearised, whitened
+from pipeline.inference.fitting.fit_state import FAR, Fit, linearised, refreshed, whitened
 from pipeline.inference.fitting.least_squares import continued, iterated
 from pipeline.inference.problem import Problem
 from pipeline.inference.rules import DEFAULTS
@@ -105,16 +105,17 @@ def _ended(problem, begins):
         return None
 
 
-def begun(problem, noises, hypothesis, starts, runs, anchors=()):
+def begun(problem, noises, hypothesis, starts, runs, anchors=(), ahead=()):
     """The best Fit after a few iterations from each of ``starts``, to be ``continued``.
 
     ``anchors``: for each start the Fit of the nominal hypothesis beside which it lies, whose Jacobians serve at first,
-    or None; where that is not far off, no easier problem is needed.
+    or None; where that is not far off, no easier problem is needed. Where it is, ``ahead`` are its ``ahead_of``, beside
+    which the easier problems begin.
 
     Raises ConvergenceError where the forward model cannot begin from any.
     """
     reasons = []
-    begins = _begun(problem, noises, hypothesis, starts, runs, reasons, anchors)
+    begins = _begun(problem, noises, hypothesis, starts, runs, reasons, anchors, ahead)
     if not begins:
         raise _stopped(hypothesis, reasons)
     return begins[0]
@@ -125,7 +126,24 @@ def _stopped(hypothesis, reasons):
                             "; ".join(dict.fromkeys(reasons)), "check the nominal values and priors")
 
 
-def _begun(problem, noises, hypothesis, starts, runs, reasons, anchors=()):
+def ahead_of(problem, anchor):
+    """(Fit, ...) of the hypothesis of the Fit ``anchor``, which is far off, over rising horizons; () where none can."""
+    fits, starts = [], _starts_of(anchor)
+    for noises, runs in _horizons(anchor.noises, anchor.runs):
+        tried = _tried(problem, noises, anchor.hypothesis, starts, runs, [], rough=True)
+        if not tried:
+            return ()
+        fits.append(tried[0] if tried[0].fresh else refreshed(problem, tried[0]))
+        starts = [tried[0].latent]
+    return tuple(fits)
+
+
+def _starts_of(anchor):
+    own = np.array([p.run is not None for p in anchor.hypothesis.parameters])
+    return [anchor.latent, np.where(own, anchor.latent, 0.0)]
+
+
+def _begun(problem, noises, hypothesis, starts, runs, reasons, anchors=(), ahead=()):
     """[Fit] after a few iterations from each start, best first; ``reasons`` gets what stopped the others."""
     sizes = [_mean_square(problem, noises, hypothesis, start, runs) for start in starts]
     known = [anchor.jacobians if anchor else () for anchor in anchors or [None] * len(starts)]
@@ -135,9 +153,11 @@ def _begun(problem, noises, hypothesis, starts, runs, reasons, anchors=()):
         return [iterated(problem, fits[0], _TRIAL), *fits[1:]] if fits and anchors else fits
     if not all(noise.ordered for noise in noises):
         return _tightened(problem, noises, hypothesis, starts, runs, reasons, _LOOSE)
-    nearest = int(np.argmin(sizes))
-    near = [*_over_horizons(problem, noises, hypothesis, starts, runs, reasons), starts[nearest]]
-    return _tried(problem, noises, hypothesis, near, runs, reasons, [known[nearest]] * len(near))
+    nearest = [int(k) for k in np.argsort(sizes)[:_NEAREST - 1]]
+    ends = (_beside(problem, ahead, hypothesis, starts, reasons) if ahead else
+            _over_horizons(problem, noises, hypothesis, starts, runs, reasons))
+    near = [*ends, *(starts[k] for k in nearest)]
+    return _tried(problem, noises, hypothesis, near, runs, reasons, [known[nearest[0]]] * len(near))
 
 
 def _tried(problem, noises, hypothesis, starts, runs, reasons, known=(), rough=False):
@@ -155,12 +175,30 @@ def _tried(problem, noises, hypothesis, starts, runs, reasons, known=(), rough=F
 def _over_horizons(problem, noises, hypothesis, starts, runs, reasons):
     """[latent] where fits over rising horizons end, the best start of each the begin of the next; [] where none can."""
     ahead = starts
-    for fraction in _HORIZONS:
-        ends = [noise.horizon(fraction, _FEWEST) for noise in noises]
-        fits = _tried(problem, [noise.until(n) for noise, n in zip(noises, ends, strict=True)], hypothesis, ahead,
-                      [run.until(n) for run, n in zip(runs, ends, strict=True)], reasons, rough=True)
+    for fewer_noises, shorter in _horizons(noises, runs):
+        fits = _tried(problem, fewer_noises, hypothesis, ahead, shorter, reasons, rough=True)
         ahead = [fits[0].latent] if fits else []
     return ahead
+
+
+def _beside(problem, ahead, hypothesis, starts, reasons):
+    """The same beside the Fits ``ahead`` of the nominal hypothesis over the horizons."""
+    ends = []
+    for short in ahead:
+        own = [start[len(short.latent):] for start in ends or starts]
+        begins = [*ends, *(np.concatenate((short.latent, latent)) for latent in own)]
+        known = [short.jacobians] * len(begins)
+        fits = _tried(problem, short.noises, hypothesis, begins, short.runs, reasons, known, rough=True)
+        ends = [fits[0].latent] if fits else []
+    return ends
+
+
+def _horizons(noises, runs):
+    """[(noises, runs)] cut to each of the fractions of the runs."""
+    for fraction in _HORIZONS:
+        ends = [noise.horizon(fraction, _FEWEST) for noise in noises]
+        yield (tuple(noise.until(n) for noise, n in zip(noises, ends, strict=True)),
+               tuple(run.until(n) for run, n in zip(runs, ends, strict=True)))
 
 
 def _tightened(problem, noises, hypothesis, starts, runs, reasons, factors):

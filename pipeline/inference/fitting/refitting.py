@@ -10,14 +10,22 @@ from pipeline.contract.errors import BrakechainError
 from pipeline.inference.decision.candidate_statistics import unexplained
 from pipeline.inference.decision.weighing import evidence_of_all
 from pipeline.inference.fitting import tone_starts
-from pipeline.inference.fitting.calibration import Calibration, begun, paired_anew
+from pipeline.inference.fitting.calibration import Calibration, ahead_of, begun, paired_anew
 from pipeline.inference.fitting.fit_state import Fit, linearised, whitened
 from pipeline.inference.fitting.least_squares import again, beside, continued, iterated
 from pipeline.inference.fitting.run_parameters import with_own_parameters
 from pipeline.inference.fitting.step_error import refined
 from pipeline.inference.problem import FanOut, Problem
 from pipeline.inference.rules import Rules
-from pipeline.inference.search.score_screen import alternatives, directions, least, screen, shapes_like, short_name
+from pipeline.inference.search.score_screen import (
+    alternatives,
+    directions,
+    faint,
+    least,
+    screen,
+    shapes_like,
+    short_name,
+)
 
 #: iterations of a nominal model from a candidate's optimum before it is given up where it is still worse than before
 _GIVEN_UP = 16
@@ -146,7 +154,7 @@ class Refitter:
         """
         if not len(chosen):
             return results or {}
-        begin = partial(_begun, self.problem, self.null, self.anchor, self.settings.starts)
+        begin = partial(_begun, self.problem, self.null, self.anchor, self.ahead, self.settings.starts)
         items = [(self.catalogue[i], starts[i]) for i in chosen]
         return self._ended(chosen, self.fan_out(begin, items), results or {})
 
@@ -163,6 +171,11 @@ class Refitter:
             return beside(self.problem, state, pulled) if pulled.any() else state
         except BrakechainError:
             return self.null
+
+    @cached_property
+    def ahead(self):
+        """Fits of the nominal hypothesis over rising horizons beside which candidates begin where the anchor is far."""
+        return ahead_of(self.problem, self.anchor) if self.anchor.far and not self.null.unordered else ()
 
     def with_overlooked(self, screening, results):
         """{index: Refitted} once those have begun that a Screening promised little of, and evidence may favour."""
@@ -261,7 +274,8 @@ class Refitter:
             order = sorted(fits, key=lambda i: fits[i].objective)[:max(kept, (len(fits) + 1) // 2)]
             if len(order) <= kept or fits[order[0]].unordered or fits[order[0]].reaches_noise(uncertainty):
                 return {i: fits[i] for i in order[:kept]}
-            further = self.fan_out(partial(_further, self.problem), [fits[i] for i in order])
+            enough = fits[order[0]].objective + self.rules.refit.within_reach / fits[order[0]].weights.max()
+            further = self.fan_out(partial(_further, self.problem, enough), [fits[i] for i in order])
             fits = dict(zip(order, further, strict=True))
 
     def _enough(self, results):
@@ -290,7 +304,7 @@ def _lowest(results, others):
     return {**results, **{i: r for i, r in others.items() if i not in results or lower(r.fit, results[i].fit)}}
 
 
-def _begun(problem, null, anchor, offsets, item):
+def _begun(problem, null, anchor, ahead, offsets, item):
     """(Fit of a candidate after a few iterations or None, why there is none), beside the nominal values of ``anchor``.
 
     Where that is not the null, the candidate begins at the values of the null as well.
@@ -300,11 +314,13 @@ def _begun(problem, null, anchor, offsets, item):
     starts = _starts(anchor.latent, [
         screened_start, least(candidate, screened_start), *(np.full(len(candidate.parameters), offset)
                                                             for offset in offsets)])
+    if not anchor.far:      # else what is nearest is what changes nothing, and leads nowhere
+        starts.append(np.concatenate((anchor.latent, faint(candidate, screened_start))))
     discrete = _alternative_starts(problem, null, candidate, anchor.latent)
     at_null = [] if anchor is null or null.unordered else [screened_start]
     at_null = _starts(null.latent, at_null + tone_starts.starts(problem, null, candidate))
     return _tried(problem, null, candidate, discrete + starts + at_null,
-                  [None] * len(discrete) + [anchor] * len(starts) + [null] * len(at_null))
+                  [None] * len(discrete) + [anchor] * len(starts) + [null] * len(at_null), ahead)
 
 
 def _alternative_starts(problem, null, candidate, base):
@@ -339,17 +355,18 @@ def _starts(base, begins):
     return [np.concatenate((base, np.clip(begin, -2, 2))) for begin in begins]
 
 
-def _tried(problem, null, candidate, starts, anchors):
+def _tried(problem, null, candidate, starts, anchors, ahead=()):
     try:
-        return begun(problem, null.noises, problem.nominal.joined(candidate), starts, null.runs, anchors), ""
+        return begun(problem, null.noises, problem.nominal.joined(candidate), starts, null.runs, anchors, ahead), ""
     except BrakechainError as error:
         return None, str(error)
 
 
-def _further(problem, fit):
-    """A Fit after a few more iterations, as far as its forward model goes."""
+def _further(problem, enough, fit):
+    """A Fit after a few more iterations, as far as its forward model goes; as it is where it cannot come to ``enough``.
+    """
     try:
-        return fit if fit.converged else iterated(problem, fit, _LAP, patient=False)
+        return fit if fit.converged else iterated(problem, fit, _LAP, enough, patient=False)
     except BrakechainError:
         return fit
 

@@ -27,6 +27,10 @@ SHAPES = (0.2, 0.8)
 ANGLES = (0.125, 0.375, 0.625, 0.875)
 #: variance of a score that draws of the null may lack
 _NEGLIGIBLE = 1e-6
+#: standard deviations below the median of its prior at which a size is faint
+_FAINT = 3.0
+#: relative difference of two scores below which they are of one direction
+_SAME = 1e-6
 #: at most this many combinations of shapes per effect parameter
 _COMBINATIONS = 8
 DRAWS = 20000
@@ -97,9 +101,21 @@ def screen_catalogue(calibration, catalogue, settings, fan_out, beside_a_first=F
     linear = null.reaches_noise(rules.decision.noise_uncertainty) or (null.unordered and null.converged)
     likely = rules.decision.p_value if beside_a_first else rules.screening.p_value
     largest = likely if linear else 1.0
-    return Screening(calibration, every, rough, tuple(
-        int(i) for i in rough.order()
-        if i >= len(known) and np.isfinite(rough.score[i]) and rough.p_value[i] <= largest))
+    promising = [int(i) for i in rough.order()
+                 if i >= len(known) and np.isfinite(rough.score[i]) and rough.p_value[i] <= largest]
+    return Screening(calibration, every, rough, _each_once(promising, rough.score, settings.kept))
+
+
+def _each_once(promising, score, kept):
+    """Indices (n,) in their order, but those of one ``score``, as of one direction, only once among the first ``kept``.
+
+    A gain, a factor of units and a reversed sign are one change of a channel as long as it is small.
+    """
+    first = []
+    for i in promising:
+        if len(first) < kept and not any(abs(score[i] - score[k]) <= _SAME * abs(score[i]) for k in first):
+            first.append(i)
+    return (*first, *(i for i in promising if i not in first))
 
 
 def directions(problem, null, candidate, shapes=None):
@@ -248,6 +264,12 @@ def scaled(parameters, tried, coefficient):
         low, high = p.prior.support
         latent[k] = p.prior.latent(float(np.clip(p.null + side * coefficient * p.prior.scale, low, high)))
     return np.clip(latent, -2, 2)
+
+
+def faint(candidate, start):
+    """Latent values (k,) of a candidate, shaped as at ``start`` (k,), of a size far below what its prior expects."""
+    return np.array([-_FAINT if p.null is not None and p.null == p.prior.support[0] else u
+                     for p, u in zip(candidate.parameters, start, strict=True)])
 
 
 def _gathered(every, owner, score, power, coefficient, largest):

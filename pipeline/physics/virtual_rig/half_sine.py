@@ -43,6 +43,18 @@ class HalfSine:
             force[first:end] = self.impulse * rate * np.convolve(_integral(x, width), _WEIGHTS, "valid")
         return force
 
+    def filtered(self, time, corner):
+        """Force (m,) in N at ``time`` (m,) behind a first-order low pass of ``corner`` Hz, exact."""
+        turn, since = np.pi / self.width, time - (self.time - self.width / 2)
+        inside, phase = (since > 0) & (since < self.width), turn * np.clip(since, 0.0, self.width)
+        largest, pole = self.impulse * turn / 2, 2 * np.pi * corner
+        if not np.isfinite(corner):
+            return np.where(inside, largest * np.sin(phase), 0.0)
+        fading = np.exp(-pole * np.clip(since, 0.0, self.width))
+        answer = pole * np.sin(phase) - turn * np.cos(phase) + turn * fading
+        after = np.exp(-pole * np.maximum(since - self.width, 0.0))
+        return np.where(since > 0, largest * pole * answer * after / (pole**2 + turn**2), 0.0)
+
 
 def spectrum(cycles):
     """Spectrum of a pulse over that of a blow of no length, at the frequency of ``cycles`` in a contact time."""

@@ -17,6 +17,9 @@ from pipeline.physics.time_stepping.simulate import History, Start, stepper
 from pipeline.physics.virtual_rig.normal_load import loaded
 from pipeline.physics.virtual_rig.sensor import SimulatedRun, known
 
+#: relative excess at which a step counts as the one that was stated: nine digits may be all that is
+_EVEN = 1e-6
+
 
 @dataclass(frozen=True)
 class Run:
@@ -58,8 +61,8 @@ class Run:
         return round(self.duration * self.sample_rate) + 1
 
     def step(self, longest):
-        """Time step in s that divides the time between samples evenly and is no longer than ``longest``."""
-        return 1 / self.sample_rate / max(1, int(np.ceil(1 / (self.sample_rate * longest) * (1 - 1e-12))))
+        """Time step in s that divides the time between samples evenly and is, but for rounding, at most ``longest``."""
+        return 1 / self.sample_rate / max(1, int(np.ceil(1 / (self.sample_rate * longest) * (1 - _EVEN))))
 
     @property
     def time(self):
@@ -167,7 +170,7 @@ class Responder:
         motion = stepping.run(steps * step, start=start, inputs=_history(inputs, driven, holding(bench, run)),
                               drive=_history([run_drive(bench, run)], run), book=False)
         simulated = SimulatedRun(under_load, driven, motion, inputs, step, self._rows)
-        return {sensor.name: sensor.written(sensor.measurand.history(simulated, sensor), step)[::parts]
+        return {sensor.name: sensor.shown(simulated)[::parts]
                 for sensor in bench.channels}
 
     def _stepper(self, bench, friction, speed, step):

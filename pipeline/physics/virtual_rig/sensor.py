@@ -5,6 +5,10 @@ values in a simulated run and its response to small motions. A sensor writes
 
     clip(gain filtered(x(t - delay)) + offset + drift t)
 
+An acceleration takes part in every change of an input that acts on a mass: that part of it is M^-1 times the input
+itself, and only the rest, which is smooth, is differentiated. Of inputs that are held, which jump, and of pulses, which
+may be shorter than a step, that part is filtered and delayed in closed form.
+
 Contact forces, known as means over steps, are interpolated to instants, so that no channel lags by half a step.
 """
 
@@ -18,6 +22,8 @@ from pipeline.contract.errors import ConfigError
 
 #: share of a sample by which rounding may put an instant before it
 _ROUNDING = 1e-6
+#: time constants after which a filter has forgotten all but a thousandth
+_FADED = 7.0
 
 
 @dataclass(frozen=True)
@@ -56,7 +62,11 @@ class Measurand(ABC):
 
     @abstractmethod
     def history(self, simulated, sensor):
-        """Values (steps + 1,) of a Sensor in a SimulatedRun."""
+        """Values (steps + 1,) of a Sensor in a SimulatedRun, without its ``sharp`` parts."""
+
+    def sharp(self, simulated, sensor):
+        """[(factor, part)] that come on top and that steps do not resolve: Held or HalfSine, in N."""
+        return ()
 
     def response(self, bench, source, moves, rate):
         """(f,) where the coordinates move by ``moves`` (n, f) exp(``rate`` t); 0 for forces in contacts and inputs."""
@@ -77,9 +87,24 @@ class Motion(Measurand):
 
     def history(self, simulated, sensor):
         motion, k = simulated.motion, simulated.rows[sensor.name]
-        if self.order == 2:
-            return np.gradient(motion.velocity[k], simulated.step, edge_order=2)
-        return (motion.displacement, motion.velocity)[self.order][k]
+        if self.order < 2:
+            return (motion.displacement, motion.velocity)[self.order][k]
+        velocity, at_once = motion.velocity[k], 0.0
+        for name, given, share in _acting(simulated, sensor):
+            if name in simulated.run.held:
+                impulse = np.append(0.0, np.cumsum(given[:-1]))
+            else:
+                impulse = scipy.integrate.cumulative_trapezoid(given, initial=0.0)
+                at_once = at_once + share * (given - _struck(simulated, name))
+            velocity = velocity - share * simulated.step * impulse
+        return at_once + np.gradient(velocity, simulated.step, edge_order=2)
+
+    def sharp(self, simulated, sensor):
+        if self.order < 2:
+            return ()
+        run = simulated.run
+        return tuple((share, Held(given[:-1], simulated.step) if name in run.held else run.pulses[name])
+                     for name, given, share in _acting(simulated, sensor) if name in run.held or name in run.pulses)
 
     def response(self, bench, source, moves, rate):
         return rate ** self.order * (bench.sensor(source) @ moves)
@@ -144,6 +169,23 @@ class InputForce(Measurand):
         return _applied(simulated, known(sensor.source, self.sources(simulated.bench), f"channel {sensor.name}: input"))
 
 
+def _acting(simulated, sensor):
+    """[(name, force (steps + 1,) in N, acceleration of a Sensor per N)] of the inputs that vary."""
+    model = simulated.bench.model
+    acting = [i for i, value in enumerate(simulated.inputs) if np.ndim(value)]
+    if not acting:
+        return []
+    shares = sensor.row(simulated.bench) @ np.linalg.solve(model.mass, model.input_rows[acting].T)
+    return [(model.input_name[i], _applied(simulated, model.input_name[i]), share)
+            for i, share in zip(acting, shares, strict=True)]
+
+
+def _struck(simulated, name):
+    """Force (steps + 1,) of the pulse of an input, as steps resolve it; 0 without one."""
+    pulse = simulated.run.pulses.get(name)
+    return 0.0 if pulse is None else pulse.force(len(simulated.motion.time), 1 / simulated.step)
+
+
 def _applied(simulated, name):
     """Force (steps + 1,) of an input in a SimulatedRun."""
     run, value = simulated.run, simulated.inputs[simulated.bench.model.input_name.index(name)]
@@ -199,17 +241,29 @@ class Sensor:
         """Whether it measures a motion."""
         return isinstance(self.measurand, Motion)
 
+    @property
+    def lag(self):
+        """Time in s for which it shows what happened before: its delay, and until its filter has forgotten."""
+        return self.delay + (_FADED / (2 * np.pi * self.corner) if np.isfinite(self.corner) else 0.0)
+
     def row(self, bench):
         """Displacement row (n,) that it needs of a Bench, or None."""
         return self.measurand.row(bench, self.source, self.name)
 
-    def written(self, values, step):
-        """What it writes of ``values`` at equal steps (s)."""
+    def shown(self, simulated):
+        """What it writes (steps + 1,) in a SimulatedRun."""
+        return self.written(self.measurand.history(simulated, self), simulated.step,
+                            self.measurand.sharp(simulated, self))
+
+    def written(self, values, step, sharp=()):
+        """What it writes of ``values`` (n,) at equal steps (s), with [(factor, part)] that are ``sharp`` on top."""
         time = step * np.arange(len(values))
         if np.isfinite(self.corner):
             values = low_pass(values, step, self.corner)
         if self.delay > 0:
             values = np.interp(time - self.delay, time, values)
+        for factor, part in sharp:
+            values = values + factor * part.filtered(time - self.delay, self.corner)
         return np.clip(self.gain * values + (self.offset + self.drift * time), -self.limit, self.limit)
 
     def measured(self, written, time):
@@ -231,6 +285,27 @@ def low_pass(values, step, corner):
     first, last = 1 - keep - ramp, ramp
     filtered, _ = scipy.signal.lfilter([last, first], [1.0, -keep], values, zi=[(1 - last) * values[0]])
     return filtered
+
+
+@dataclass(frozen=True)
+class Held:
+    """Values (n,), each ``held`` over one ``step`` (s) from time 0."""
+
+    held: np.ndarray
+    step: float
+
+    def filtered(self, time, corner):
+        """Values at ``time`` (m,) behind a first-order low pass of ``corner`` Hz, exact; settled before time 0. Without
+        it, at a jump those after it."""
+        late = time / self.step
+        within = np.clip(np.floor(late + _ROUNDING).astype(int), 0, len(self.held) - 1)
+        reach = 2 * np.pi * corner * self.step
+        if not np.isfinite(reach):
+            return self.held[within]
+        keep = np.exp(-reach)
+        ends = scipy.signal.lfilter([1 - keep], [1.0, -keep], self.held, zi=[keep * self.held[0]])[0]
+        begins = np.append(self.held[0], ends)[within]
+        return self.held[within] + (begins - self.held[within]) * np.exp(-reach * np.maximum(late - within, 0.0))
 
 
 def at_instants(means):

@@ -82,7 +82,7 @@ def test_what_is_better_is_kept(found):
 
 def test_a_leading_fit_that_did_not_converge_begins_again(found):
     starts = {CUBIC: np.zeros(1)}
-    begun, _ = refitting._begun(found.problem, found.null, found.null, (), (CATALOGUE[CUBIC], starts[CUBIC]))
+    begun, _ = refitting._begun(found.problem, found.null, found.null, (), (), (CATALOGUE[CUBIC], starts[CUBIC]))
     told = found.settled({CUBIC: refitting.Refitted(replace(begun, converged=False), None, "it stopped")})[CUBIC]
     assert told.fit.converged and not told.failure and told.fit.objective <= begun.objective
 
@@ -107,8 +107,8 @@ def test_step_errors_of_leading_candidates_alone_are_looked_for(found, monkeypat
 def test_the_better_half_goes_on_until_few_are_left(found, monkeypatch):
     lapped, further = [], refitting._further
     monkeypatch.setattr(refitting, "_further",
-                        lambda problem, fit: lapped.append(fit.hypothesis.name) or further(problem, fit))
-    begun = [refitting._begun(found.problem, found.null, found.null, (), (c, np.zeros(len(c.parameters))))[0]
+                        lambda *given: lapped.append(given[-1].hypothesis.name) or further(*given))
+    begun = [refitting._begun(found.problem, found.null, found.null, (), (), (c, np.zeros(len(c.parameters))))[0]
              for c in CATALOGUE]
     fits = {i: fit for i, fit in enumerate(begun) if fit is not None and i != CUBIC}
     left = found._raced(fits)

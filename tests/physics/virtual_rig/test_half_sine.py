@@ -1,5 +1,7 @@
 """Half-sine pulses: exact moments whatever lies between samples, and the exact response of modes to them."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 import scipy
@@ -8,7 +10,7 @@ from pipeline.physics.friction.dry_friction import constant
 from pipeline.physics.time_stepping.simulate import Hard
 from pipeline.physics.virtual_rig.half_sine import SPREAD, HalfSine, spectrum
 from pipeline.physics.virtual_rig.response import Bench, Run, respond
-from pipeline.physics.virtual_rig.sensor import DISPLACEMENT, INPUT_FORCE, Sensor
+from pipeline.physics.virtual_rig.sensor import ACCELERATION, DISPLACEMENT, INPUT_FORCE, Sensor
 from tests.physics.lumps import lumps
 
 WIDTHS = [0.1, 0.5, 1.5, 5.0, 40.0]
@@ -136,3 +138,34 @@ def test_a_pulse_acts_on_top_of_an_input(held):
     run = Run("struck", (SAMPLES - 1) / rate, rate, {"input_0": ramp}, held=held, pulses={"input_0": pulse})
     seen = respond(bench, run)["x"]
     np.testing.assert_allclose(seen, ramp + pulse.force(4 * SAMPLES - 3, 4 * rate)[::4], atol=1e-12)
+
+
+@pytest.mark.exact
+@pytest.mark.parametrize("width", [0.02, 0.7, 6.0])
+def test_a_pulse_behind_a_filter_is_the_convolution(width):
+    pulse, corner, time = HalfSine(1.3, 2.0, width), 0.4, np.linspace(-3, 9, 41)
+    pole, turn = 2 * np.pi * corner, np.pi / width
+
+    def exact(t):
+        begin, end = 2.0 - width / 2, min(t, 2.0 + width / 2)
+        if end <= begin:
+            return 0.0
+        course = scipy.integrate.quad(lambda s: np.sin(turn * (s - begin)) * np.exp(-pole * (t - s)), begin, end)[0]
+        return pole * 1.3 * turn / 2 * course
+
+    np.testing.assert_allclose(pulse.filtered(time, corner), [exact(t) for t in time], atol=1e-9)
+    inside = np.linspace(2.0 - 0.499 * width, 2.0 + 0.499 * width, 7)
+    force = 1.3 * turn / 2 * np.cos(turn * (inside - 2.0))
+    np.testing.assert_allclose(pulse.filtered(inside, np.inf), force, rtol=1e-9)
+    assert not pulse.filtered(np.array([2.0 - 0.6 * width, 2.0 + 0.6 * width]), np.inf).any()
+
+
+@pytest.mark.exact
+@pytest.mark.parametrize("width", [0.05, 0.6, 3.0])
+def test_an_accelerometer_sees_a_pulse_shorter_than_a_step(width):
+    """Widths in steps; what a filtered accelerometer shows, against the same in steps a fortieth as long."""
+    bench, rate = rig(1, 5)
+    seen = Sensor("x", ACCELERATION, "sensor_0", corner=0.8 * rate, delay=0.1 / rate)
+    run = Run("r", (SAMPLES - 1) / rate, rate, pulses={"input_0": HalfSine(IMPULSE, CENTRE / rate, width * bench.step)})
+    coarse, fine = (respond(replace(bench, step=bench.step / finer, channels=(seen,)), run)["x"] for finer in (1, 40))
+    assert np.abs(coarse - fine).max() < 2e-3 * np.abs(fine).max()

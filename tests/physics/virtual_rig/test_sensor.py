@@ -4,11 +4,12 @@ import pickle
 
 import numpy as np
 import pytest
+import scipy
 
 from pipeline.contract.errors import ConfigError
 from pipeline.physics.friction.dry_friction import constant
 from pipeline.physics.time_stepping.simulate import Hard
-from pipeline.physics.virtual_rig.response import Bench
+from pipeline.physics.virtual_rig.response import Bench, Run, respond
 from pipeline.physics.virtual_rig.sensor import (
     ACCELERATION,
     DISPLACEMENT,
@@ -16,6 +17,7 @@ from pipeline.physics.virtual_rig.sensor import (
     MEASURANDS,
     NORMAL_FORCE,
     VELOCITY,
+    Held,
     Sensor,
     at_instants,
     low_pass,
@@ -44,6 +46,42 @@ def test_first_order_filter_of_a_sine_and_of_a_ramp():
     np.testing.assert_allclose(low_pass(np.sin(3 * 2 * np.pi * time), 1e-3, 0.7)[10000:], exact[10000:], atol=1e-4)
     np.testing.assert_allclose(low_pass(time, 1e-3, 0.7)[10000:], time[10000:] - 1 / (2 * np.pi * 0.7), rtol=1e-12)
     np.testing.assert_array_equal(low_pass(np.full(5, 3.0), 1e-3, 0.7), low_pass(np.full(5, 3.0), 1e-3, 0.7))
+
+
+@pytest.mark.exact
+@pytest.mark.parametrize("corner", [0.7, np.inf])
+def test_held_values_behind_a_filter_are_exact_between_steps(corner):
+    held, time = np.array([2.0, 2.0, -1.0, 4.0]), np.linspace(-0.3, 1.9, 45)
+    found = Held(held, 0.5).filtered(time, corner)
+
+    def risen(since):
+        return np.where(since < -1e-12, 0.0, 1 - np.exp(-2 * np.pi * min(corner, 1e9) * np.maximum(since, 0.0))
+                        if np.isfinite(corner) else 1.0)
+
+    exact = 2.0 - 3.0 * risen(time - 1.0) + 5.0 * risen(time - 1.5)
+    np.testing.assert_allclose(found, exact, atol=1e-12)
+
+
+@pytest.mark.exact
+@pytest.mark.parametrize(("kind", "largest"), [("held", 1e-3), ("linear", 3e-3)])
+def test_accelerations_are_of_second_order_though_forces_jump_or_bend(kind, largest):
+    """1 kg on k = 40 N/m and c = 2 N s/m behind a filter and a delay, against the exact answer in state space."""
+    rate, force = 50.0, np.repeat(np.random.default_rng(4).standard_normal(12), 9)
+    sensor, pole = Sensor("x", ACCELERATION, "sensor_0", corner=11.0, delay=0.3 / rate), 2 * np.pi * 11.0
+    run = Run("r", (len(force) - 1) / rate, rate, {"input_0": force}, held=("input_0",) if kind == "held" else ())
+    system = scipy.signal.StateSpace([[0, 1, 0], [-40, -2, 0], [-40 * pole, -2 * pole, -pole]], [[0], [1], [pole]],
+                                     [[0, 0, 1]], [[0]])
+    fine = np.arange(100 * (len(force) - 1) + 1) / (100 * rate)
+    given = np.interp(fine, run.time, force) if kind == "linear" else np.append(np.repeat(force[:-1], 100), force[-1])
+    *_, states = scipy.signal.lsim(system, given, fine, [0.0, 0.0, force[0]], interp=kind == "linear")
+    exact = np.interp(run.time - sensor.delay, fine, states[:, 2])
+
+    def error(steps):
+        mass = Bench(lumps([1.0], [[1.0]], [40.0], [2.0]), Hard(), constant(0.0), 1 / (steps * rate), (sensor,))
+        return np.abs(respond(mass, run)["x"] - exact).max() / np.abs(exact).max()
+
+    assert error(4) < largest
+    assert error(16) < error(4) / 10
 
 
 @pytest.mark.exact

@@ -71,7 +71,7 @@ _FOREIGN = tuple(_law(name, getattr(foreign_laws, name), known=False) for name i
     "threshold_flow", "rigid_stop", "clamped"))
 PIECES = {piece.form: piece for piece in (*_KNOWN, *_FOREIGN)}
 #: faults of a sensor: form -> name of the catalogue
-FAULTS = {"gain": "sensor_gain", "reversed": "sensor_gain", "factor_1000": "sensor_gain", "delay": "sensor_delay",
+FAULTS = {"gain": "sensor_gain", "reversed": "reversed_channel", "factor_1000": "unit_factor", "delay": "sensor_delay",
           "clipping": "clipping", "drift": "sensor_offset_drift"}
 
 

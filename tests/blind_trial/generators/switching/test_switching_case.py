@@ -45,5 +45,5 @@ def test_a_wrong_value_is_far_off_and_a_faulty_sensor_is_one_of_the_channels():
     assert wrong.far in wrong.truth.names
     assert abs(np.log(wrong.belief.value(wrong.far) / wrong.truth.value(wrong.far))) > np.log(1.59)
     faulty = made(4, "sensor", "reversed")
-    assert faulty.name == "sensor_gain" and faulty.left > LEAST and faulty.index < len(faulty.sensors)
+    assert faulty.name == "reversed_channel" and faulty.left > LEAST and faulty.index < len(faulty.sensors)
     assert written(np.ones(3), 1.0, np.zeros(3, bool)).shape == (3,)
