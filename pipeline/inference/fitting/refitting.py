@@ -314,7 +314,7 @@ def _begun(problem, null, anchor, ahead, offsets, item):
     starts = _starts(anchor.latent, [
         screened_start, least(candidate, screened_start), *(np.full(len(candidate.parameters), offset)
                                                             for offset in offsets)])
-    if not anchor.far:      # else what is nearest is what changes nothing, and leads nowhere
+    if not (anchor.far or null.unordered):      # else what is nearest changes nothing, and leads nowhere
         starts.append(np.concatenate((anchor.latent, faint(candidate, screened_start))))
     discrete = _alternative_starts(problem, null, candidate, anchor.latent)
     at_null = [] if anchor is null or null.unordered else [screened_start]

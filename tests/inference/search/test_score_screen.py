@@ -8,8 +8,10 @@ from pipeline.inference.fitting.least_squares import fit
 from pipeline.inference.priors import Factors, HalfNormal, LogNormal, Parameter, Uniform
 from pipeline.inference.problem import Hypothesis
 from pipeline.inference.search.score_screen import (
+    _each_once,
     _trials,
     directions,
+    faint,
     family_p,
     largest_scores,
     screen,
@@ -56,6 +58,21 @@ def test_the_largest_of_independent_scores_is_sidak():
 def test_equal_directions_cost_nothing():
     largest = largest_scores(np.ones((5, 5)), np.zeros(5, int), 40000)
     assert family_p(2.0, largest) == pytest.approx(2 * stats.norm.sf(2.0), abs=4 * np.sqrt(0.05 / 40000))
+
+
+def test_one_direction_counts_once_among_the_first_candidates():
+    score = np.array([9.0, 9.0, 9.0 + 1e-9, 7.0, 6.0, 5.0])
+    assert _each_once([0, 1, 2, 3, 4, 5], score, 3) == (0, 3, 4, 1, 2, 5)
+    assert _each_once([0, 1, 2], score, 3) == (0, 1, 2)
+    assert _each_once([], score, 3) == ()
+
+
+def test_a_faint_start_is_near_a_null_at_the_end_of_its_prior_alone():
+    gap = Parameter("gap", "m", 1e-4, LogNormal(1e-4, 2.0), 0.0)
+    factor = Parameter("factor", "1", 0.1, Factors((10.0, 0.1), 0.01), 1.0)
+    time = Parameter("time", "s", 1.0, LogNormal(1.0, 1.0))
+    found = faint(Hypothesis("some", (("some", "here"),), (gap, factor, time)), np.array([0.5, -0.2, 1.0]))
+    np.testing.assert_allclose(found, [-3.0, -0.2, 1.0])
 
 
 def test_a_direction_inside_the_parameters_is_never_found():

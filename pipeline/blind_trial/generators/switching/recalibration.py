@@ -23,7 +23,7 @@ _EVALUATIONS = 60
 #: standard deviations by which values may be off where a refit begins
 _ALONG = np.linspace(-2.5, 2.5, 51)
 #: parts of an interval over which a blow is averaged
-_PARTS = 16
+_PARTS = 64
 
 
 @dataclass(frozen=True)

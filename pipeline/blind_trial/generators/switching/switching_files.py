@@ -12,6 +12,8 @@ from pipeline.blind_trial.generators.switching.switching_case import LEVELS, mad
 _STEPS = 100
 #: laws of a wall spring -> those of an input that make the same force
 _OF_INPUT = {"base_shake": "pressure_ripple", "viscoelastic_pad": "hydraulic_compliance"}
+#: laws of friction that are one but for a constant force
+_DRY = ("coulomb", "asymmetric_friction")
 #: faults that multiply what a channel shows
 _RATIOS = ("gain", "factor_1000", "reversed")
 #: kind of a value -> (name in the case, units that it is stated in with their size in SI)
@@ -46,7 +48,12 @@ def place(case):
 def alike(case):
     """[{name, place}] of what shows the same: laws of the input whose force is that of the hidden one, at a spring of
     what it pushes; of two channels that see a motion of unknown size the other one, as their ratio is all that shows.
+
+    Friction of two strengths, one each way, is that of their mean and a constant force, which moves the position of
+    rest alone: velocities and accelerations do not show it.
     """
+    if case.name in _DRY and all(s.quantity != "displacement" for s in case.sensors):
+        return [{"name": name, "place": place(case)} for name in _DRY if name != case.name]
     if case.form in _RATIOS and len(case.sensors) == 2 and all(run.free for run in case.runs):
         return [{"name": case.name, "place": s.name} for k, s in enumerate(case.sensors) if k != case.index]
     pushed = not any(run.free == "start" for run in case.runs) and case.way != "wall"

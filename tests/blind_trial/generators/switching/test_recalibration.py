@@ -50,6 +50,30 @@ def test_a_blow_of_another_width_is_not_told_from_what_is_unknown_of_it():
     assert Recalibration(RIG, SENSORS, (run,), (), base).left(seen, noise) < 2.0
 
 
+@pytest.mark.exact
+@pytest.mark.parametrize("width", [1e-4, 0.006])
+def test_a_sampled_blow_has_its_impulse_however_short_it_is(width):
+    run = Beginning(FINE, TIME, drive.blow(np.array([1.0, 0.0]), 0.02, 0.1, width), np.zeros(4), "blow")
+    shown = linear(RIG, run)
+    undamped = np.linalg.eigvalsh(RIG.matrices()[2]).max()
+    at = np.searchsorted(FINE, 0.1 + width + 2 * (FINE[1] - FINE[0]))
+    momentum = RIG.matrices()[0] @ shown.velocity[:, at]
+    late = FINE[at] - 0.1 - width / 2
+    assert momentum.sum() == pytest.approx(0.02, rel=undamped * late**2 + 2e-3)
+
+
+def test_a_mass_on_a_single_spring_is_not_visible_behind_a_blow():
+    """Other values of spring, damper and blow make the same motion, turns of phase away."""
+    alone = Rig((1.0,), LAYOUTS["single"], (4000.0,), (2.0,))
+    run = Beginning(FINE, TIME, drive.blow(np.array([1.0]), 0.02, 0.1, 0.006), np.zeros(2), "blow")
+    seen = Sensor("ch1", 0, "velocity", "mm/s", 1e-3)
+    base, heavier = ([np.array([seen.shown(linear(rig, run), FINE, TIME)])]
+                     for rig in (alone, alone.with_values({"mass.0": 1.4})))
+    noise = 0.01 * np.sqrt(np.mean(base[0] ** 2, axis=1))
+    off = np.hypot(np.log(1.4) / 0.2, np.log(1.4) / 0.2)
+    assert Recalibration(alone, (seen,), (run,), ("mass.0",), base).left(heavier, noise) == pytest.approx(off, abs=0.5)
+
+
 @pytest.mark.parametrize("begin", [shaken, released, struck])
 def test_other_values_leave_their_prior_alone_and_friction_more(begin):
     run = begin()

@@ -49,6 +49,14 @@ def test_a_law_of_the_pushed_body_beside_a_wall_is_like_one_of_the_input(at, way
     assert [law["name"] for law in alike(case)] == found
 
 
+@pytest.mark.parametrize("quantity, found", [("velocity", ["coulomb"]), ("displacement", [])])
+def test_friction_of_two_strengths_is_that_of_their_mean_where_no_position_is_seen(quantity, found):
+    case = made(5, "control")
+    sensors = tuple(replace(s, quantity=quantity) for s in case.sensors)
+    case = replace(case, name="asymmetric_friction", form="asymmetric_friction", index=0, sensors=sensors)
+    assert [law["name"] for law in alike(case)] == found
+
+
 def test_it_is_a_system_of_the_trial_that_stands_apart_from_the_diagnosis():
     assert SYSTEMS["switching_rig"].hides["sensor"] and np.isclose(SYSTEMS["switching_rig"].weight, 0.1)
     assert not [m for m in imported("pipeline.blind_trial.generators.switching.switching_files") if m.startswith((
