@@ -31,12 +31,12 @@ def without_jumps(bench, recorded):
     """The same without what accelerometers with a filter show of jumps of held inputs, if these are few."""
     run = recorded.run
     jumps = [np.flatnonzero(np.diff(run.inputs[name])) + 1 for name in run.held if np.ndim(run.inputs.get(name))]
-    if not jumps:
+    instants = np.unique(np.concatenate([[], *jumps])) / run.sample_rate
+    if not len(instants):
         return recorded
-    instants = np.unique(np.concatenate(jumps)) / run.sample_rate
 
     def behind(sensor, time):
-        if sensor.measurand is not ACCELERATION or not np.isfinite(sensor.corner) or not len(instants):
+        if sensor.measurand is not ACCELERATION or not np.isfinite(sensor.corner):
             return False
         since = time - instants[np.maximum(np.searchsorted(instants, time, side="right") - 1, 0)]
         return (since >= 0) & (since <= sensor.lag)

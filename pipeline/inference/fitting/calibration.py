@@ -128,19 +128,8 @@ def _stopped(hypothesis, reasons):
 
 def ahead_of(problem, anchor):
     """(Fit, ...) of the hypothesis of the Fit ``anchor``, which is far off, over rising horizons; () where none can."""
-    fits, starts = [], _starts_of(anchor)
-    for noises, runs in _horizons(anchor.noises, anchor.runs):
-        tried = _tried(problem, noises, anchor.hypothesis, starts, runs, [], rough=True)
-        if not tried:
-            return ()
-        fits.append(tried[0] if tried[0].fresh else refreshed(problem, tried[0]))
-        starts = [tried[0].latent]
-    return tuple(fits)
-
-
-def _starts_of(anchor):
-    own = np.array([p.run is not None for p in anchor.hypothesis.parameters])
-    return [anchor.latent, np.where(own, anchor.latent, 0.0)]
+    ends = _over_horizons(problem, anchor.noises, anchor.hypothesis, [anchor.latent], anchor.runs, [])
+    return tuple(fit if fit.fresh else refreshed(problem, fit) for fit in ends)
 
 
 def _begun(problem, noises, hypothesis, starts, runs, reasons, anchors=(), ahead=()):
@@ -156,7 +145,7 @@ def _begun(problem, noises, hypothesis, starts, runs, reasons, anchors=(), ahead
     nearest = [int(k) for k in np.argsort(sizes)[:_NEAREST - 1]]
     ends = (_beside(problem, ahead, hypothesis, starts, reasons) if ahead else
             _over_horizons(problem, noises, hypothesis, starts, runs, reasons))
-    near = [*ends, *(starts[k] for k in nearest)]
+    near = [*(fit.latent for fit in ends[-1:]), *(starts[k] for k in nearest)]
     return _tried(problem, noises, hypothesis, near, runs, reasons, [known[nearest[0]]] * len(near))
 
 
@@ -173,16 +162,19 @@ def _tried(problem, noises, hypothesis, starts, runs, reasons, known=(), rough=F
 
 
 def _over_horizons(problem, noises, hypothesis, starts, runs, reasons):
-    """[latent] where fits over rising horizons end, the best start of each the begin of the next; [] where none can."""
-    ahead = starts
-    for fewer_noises, shorter in _horizons(noises, runs):
-        fits = _tried(problem, fewer_noises, hypothesis, ahead, shorter, reasons, rough=True)
-        ahead = [fits[0].latent] if fits else []
-    return ahead
+    """[Fit] over rising horizons, the best start of each the begin of the next; [] where none can."""
+    ends = []
+    for fewer, shorter in _horizons(noises, runs):
+        begins = [ends[-1].latent] if ends else starts
+        fits = _tried(problem, fewer, hypothesis, begins, shorter, reasons, rough=True)
+        if not fits:
+            return []
+        ends.append(fits[0])
+    return ends
 
 
 def _beside(problem, ahead, hypothesis, starts, reasons):
-    """The same beside the Fits ``ahead`` of the nominal hypothesis over the horizons."""
+    """[Fit] of the last horizon, each begun beside the Fit of the nominal hypothesis ``ahead``; [] where none can."""
     ends = []
     for short in ahead:
         own = [start[len(short.latent):] for start in ends or starts]
@@ -190,7 +182,7 @@ def _beside(problem, ahead, hypothesis, starts, reasons):
         known = [short.jacobians] * len(begins)
         fits = _tried(problem, short.noises, hypothesis, begins, short.runs, reasons, known, rough=True)
         ends = [fits[0].latent] if fits else []
-    return ends
+    return fits[:1]
 
 
 def _horizons(noises, runs):

@@ -17,15 +17,8 @@ from pipeline.inference.fitting.run_parameters import with_own_parameters
 from pipeline.inference.fitting.step_error import refined
 from pipeline.inference.problem import FanOut, Problem
 from pipeline.inference.rules import Rules
-from pipeline.inference.search.score_screen import (
-    alternatives,
-    directions,
-    faint,
-    least,
-    screen,
-    shapes_like,
-    short_name,
-)
+from pipeline.inference.search import score_screen
+from pipeline.inference.search.score_screen import alternatives, directions, screen, shapes_like, short_name
 
 #: iterations of a nominal model from a candidate's optimum before it is given up where it is still worse than before
 _GIVEN_UP = 16
@@ -274,15 +267,18 @@ class Refitter:
             order = sorted(fits, key=lambda i: fits[i].objective)[:max(kept, (len(fits) + 1) // 2)]
             if len(order) <= kept or fits[order[0]].unordered or fits[order[0]].reaches_noise(uncertainty):
                 return {i: fits[i] for i in order[:kept]}
-            enough = fits[order[0]].objective + self.rules.refit.within_reach / fits[order[0]].weights.max()
-            further = self.fan_out(partial(_further, self.problem, enough), [fits[i] for i in order])
-            fits = dict(zip(order, further, strict=True))
+            go_on = partial(_further, self.problem, self._near(fits[order[0]]))
+            fits = dict(zip(order, self.fan_out(go_on, [fits[i] for i in order]), strict=True))
 
     def _enough(self, results):
         """The objective to which a candidate must be able to come down: near the best so far, as evidence is tempered.
         """
         best = min((r.fit for r in results if r.fit is not None), key=lambda fit: fit.objective, default=None)
-        return np.inf if best is None else best.objective + self.rules.refit.within_reach / best.weights.max()
+        return np.inf if best is None else self._near(best)
+
+    def _near(self, best):
+        """The objective to which others must come beside the Fit ``best``."""
+        return best.objective + self.rules.refit.within_reach / best.weights.max()
 
 
 def _misled(null, rules):
@@ -312,10 +308,10 @@ def _begun(problem, null, anchor, ahead, offsets, item):
     candidate, screened_start = item
     offsets = () if candidate.elaborate else offsets    # the screen has tried many values of these
     starts = _starts(anchor.latent, [
-        screened_start, least(candidate, screened_start), *(np.full(len(candidate.parameters), offset)
-                                                            for offset in offsets)])
+        screened_start, score_screen.least(candidate, screened_start),
+        *(np.full(len(candidate.parameters), offset) for offset in offsets)])
     if not (anchor.far or null.unordered):      # else what is nearest changes nothing, and leads nowhere
-        starts.append(np.concatenate((anchor.latent, faint(candidate, screened_start))))
+        starts.append(np.concatenate((anchor.latent, score_screen.faint(candidate, screened_start))))
     discrete = _alternative_starts(problem, null, candidate, anchor.latent)
     at_null = [] if anchor is null or null.unordered else [screened_start]
     at_null = _starts(null.latent, at_null + tone_starts.starts(problem, null, candidate))

@@ -170,8 +170,7 @@ class Responder:
         motion = stepping.run(steps * step, start=start, inputs=_history(inputs, driven, holding(bench, run)),
                               drive=_history([run_drive(bench, run)], run), book=False)
         simulated = SimulatedRun(under_load, driven, motion, inputs, step, self._rows)
-        return {sensor.name: sensor.shown(simulated)[::parts]
-                for sensor in bench.channels}
+        return {sensor.name: sensor.shown(simulated)[::parts] for sensor in bench.channels}
 
     def _stepper(self, bench, friction, speed, step):
         """Stepper of the bench under the load of a run; runs without one share that of their speed, step and friction.

@@ -62,11 +62,11 @@ class Measurand(ABC):
 
     @abstractmethod
     def history(self, simulated, sensor):
-        """Values (steps + 1,) of a Sensor in a SimulatedRun, without its ``sharp`` parts."""
+        """Values (steps + 1,) of a Sensor in a SimulatedRun, as far as steps resolve them."""
 
-    def sharp(self, simulated, sensor):
-        """[(factor, part)] that come on top and that steps do not resolve: Held or HalfSine, in N."""
-        return ()
+    def parts(self, simulated, sensor):
+        """(``history``, [(factor, part)] that come on top and that steps do not resolve: Held or HalfSine, in N)."""
+        return self.history(simulated, sensor), ()
 
     def response(self, bench, source, moves, rate):
         """(f,) where the coordinates move by ``moves`` (n, f) exp(``rate`` t); 0 for forces in contacts and inputs."""
@@ -87,27 +87,34 @@ class Motion(Measurand):
 
     def history(self, simulated, sensor):
         motion, k = simulated.motion, simulated.rows[sensor.name]
-        if self.order < 2:
-            return (motion.displacement, motion.velocity)[self.order][k]
-        velocity, at_once = motion.velocity[k], 0.0
-        for name, given, share in _acting(simulated, sensor):
-            if name in simulated.run.held:
-                impulse = np.append(0.0, np.cumsum(given[:-1]))
-            else:
-                impulse = scipy.integrate.cumulative_trapezoid(given, initial=0.0)
-                at_once = at_once + share * (given - _struck(simulated, name))
-            velocity = velocity - share * simulated.step * impulse
-        return at_once + np.gradient(velocity, simulated.step, edge_order=2)
-
-    def sharp(self, simulated, sensor):
-        if self.order < 2:
-            return ()
-        run = simulated.run
-        return tuple((share, Held(given[:-1], simulated.step) if name in run.held else run.pulses[name])
-                     for name, given, share in _acting(simulated, sensor) if name in run.held or name in run.pulses)
+        return (motion.displacement, motion.velocity)[self.order][k]
 
     def response(self, bench, source, moves, rate):
         return rate ** self.order * (bench.sensor(source) @ moves)
+
+
+@dataclass(frozen=True)
+class Acceleration(Motion):
+    """What inputs give a mass at once, and the rest of its velocity, differentiated."""
+
+    def history(self, simulated, sensor):
+        return self.parts(simulated, sensor)[0]
+
+    def parts(self, simulated, sensor):
+        run, at_once, sharp = simulated.run, 0.0, []
+        velocity = simulated.motion.velocity[simulated.rows[sensor.name]]
+        for name, given, share in _acting(simulated, sensor):
+            if name in run.held:
+                impulse = np.append(0.0, np.cumsum(given[:-1]))
+                sharp.append((share, Held(given[:-1], simulated.step)))
+            else:
+                impulse = scipy.integrate.cumulative_trapezoid(given, initial=0.0)
+                at_once = at_once + share * given
+            if name in run.pulses:
+                at_once = at_once - share * run.pulses[name].force(len(given), 1 / simulated.step)
+                sharp.append((share, run.pulses[name]))
+            velocity = velocity - share * simulated.step * impulse
+        return at_once + np.gradient(velocity, simulated.step, edge_order=2), sharp
 
 
 class JointForce(Measurand):
@@ -180,12 +187,6 @@ def _acting(simulated, sensor):
             for i, share in zip(acting, shares, strict=True)]
 
 
-def _struck(simulated, name):
-    """Force (steps + 1,) of the pulse of an input, as steps resolve it; 0 without one."""
-    pulse = simulated.run.pulses.get(name)
-    return 0.0 if pulse is None else pulse.force(len(simulated.motion.time), 1 / simulated.step)
-
-
 def _applied(simulated, name):
     """Force (steps + 1,) of an input in a SimulatedRun."""
     run, value = simulated.run, simulated.inputs[simulated.bench.model.input_name.index(name)]
@@ -196,7 +197,7 @@ def _applied(simulated, name):
 
 
 DISPLACEMENT, VELOCITY = Motion("displacement", "m", 0), Motion("velocity", "m/s", 1)
-ACCELERATION = Motion("acceleration", "m/s^2", 2)
+ACCELERATION = Acceleration("acceleration", "m/s^2", 2)
 JOINT_FORCE, ELEMENT_FORCE = JointForce("joint_force", "N"), ElementForce("element_force", "N")
 INPUT_FORCE = InputForce("input", "N")
 NORMAL_FORCE = ContactForce("normal_force", "N", "normal_force")
@@ -252,8 +253,8 @@ class Sensor:
 
     def shown(self, simulated):
         """What it writes (steps + 1,) in a SimulatedRun."""
-        return self.written(self.measurand.history(simulated, self), simulated.step,
-                            self.measurand.sharp(simulated, self))
+        values, sharp = self.measurand.parts(simulated, self)
+        return self.written(values, simulated.step, sharp)
 
     def written(self, values, step, sharp=()):
         """What it writes of ``values`` (n,) at equal steps (s), with [(factor, part)] that are ``sharp`` on top."""

@@ -55,9 +55,10 @@ def linear(rig, beginning, off=()):
     """
     mass, damping, stiffness = rig.matrices()
     n, drive, fine = len(mass), beginning.drive, beginning.fine
-    blow = beginning.free == "blow" and len(off)
-    start = beginning.start + (np.asarray(off) if len(off) and not blow else 0.0)
-    force = _struck(drive, fine, *(off if blow else (0.0, 0.0, 0.0))) if beginning.free == "blow" else drive.force(fine)
+    if beginning.free == "blow":
+        start, force = beginning.start, _struck(drive, fine, *(off if len(off) else np.zeros(3)))
+    else:
+        start, force = beginning.start + (np.asarray(off) if len(off) else 0.0), drive.force(fine)
     inverse = np.linalg.inv(mass)
     system = np.block([[np.zeros((n, n)), np.eye(n)], [-inverse @ stiffness, -inverse @ damping]])
     values, shapes = np.linalg.eig(system)
