@@ -9,6 +9,7 @@ from pipeline.contract.units import to_si
 from pipeline.diagnosis.experiment_design.next_run import feasible
 from pipeline.diagnosis.problem import DiagnosisProblem, nominal
 from pipeline.diagnosis.settings import parameter, procedure
+from pipeline.diagnosis.signals.added_starts import with_added_starts
 from pipeline.diagnosis.signals.forward_model import (
     Simulated,
     candidates,
@@ -43,6 +44,7 @@ def forced_problem(bench, recorded, settings):
         forward(problem.nominal, problem.nominal.values(problem.nominal.nominal), run.observed)
     effects = candidates(bench, tuple(record.run for record in training), chosen(settings), settings.places,
                          reach(bench, training), settings.priors, largest(training))
+    effects = with_added_starts(bench, effects, recorded)
     problem = replace(problem, nominal=with_starts(problem.nominal, bench, recorded, remembers(bench, effects)))
     noises, solver = budget(problem, above=settings.noise.above), procedure(settings)
     return DiagnosisProblem(

@@ -62,7 +62,8 @@ def test_a_joint_changed_by_an_effect_is_that_joint():
     pin = np.array(model.joint_name) == "guide_pin"
     softer = changed(model, joint_stiffness=np.where(pin, model.joint_stiffness / 1.2, model.joint_stiffness))
     own = float(model.joint_stiffness[pin][0])
-    same(braking({"compliant_arm": {"guide_pin": {"compliance": f"{0.2 / own!r} m/N"}}}), braking(model=softer))
+    arm = {"compliance": f"{0.2 / own!r} m/N", "behind": 0.0}
+    same(braking({"compliant_arm": {"guide_pin": arm}}), braking(model=softer))
 
 
 def test_runout_moves_the_pads_and_leaves_the_stability_map_alone():

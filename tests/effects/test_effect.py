@@ -153,7 +153,7 @@ def test_names_are_unique_and_found():
 
 
 def test_the_order_of_stages_is_declared_and_does_not_depend_on_that_of_the_terms():
-    softer = Term(named("compliant_arm"), "joint_0", {"compliance": 1e-4})
+    softer = Term(named("compliant_arm"), "joint_0", {"compliance": 1e-4, "behind": 0.0})
     play = Term(named("sensor_gain"), "x", {"error": 0.2})
     fall = Term(named("falling_friction"), "contact", {"rise": 0.3, "decay_speed": 0.5})
     one, other = (respond(compose(BASE, terms), RUN) for terms in ((softer, play, fall), (fall, play, softer)))

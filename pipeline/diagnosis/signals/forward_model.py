@@ -98,13 +98,13 @@ class Simulated:
 
 
 def shown(bench, run, channels):
-    """Samples (c, n) of ``channels`` in one run; coordinates that an effect adds start where springs hold them."""
+    """Samples (c, n) of ``channels`` in one run; see ``held`` for starts that lack coordinates of the bench."""
     return _answer(Responder(only(bench, channels)), run, channels)
 
 
 def _answer(responder, run, channels):
     bench = responder.bench
-    if run.start is not None and len(run.start.displacement) < bench.model.size:
+    if run.start is not None:
         run = replace(run, start=held(bench.model, run.start))
     answer = responder.respond(run)
     return np.array([answer[c] for c in channels])

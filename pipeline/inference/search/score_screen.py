@@ -198,7 +198,7 @@ def _trials(candidate, shapes):
         for latent in alternatives(candidate):
             yield latent, 1, 1.0
         return
-    shaping = [k for k, p in enumerate(parameters) if p.null is None]
+    shaping = [k for k, p in enumerate(parameters) if p.null is None and not p.run]
     shapes = _spread([parameters[k] for k in shaping], candidate.elaborate) if shapes is None else shapes
     for k, parameter in enumerate(parameters):
         if parameter.null is None:
@@ -224,7 +224,7 @@ def _spread(shaping, half):
 def shapes_like(candidate, start, values):
     """Shapes [(s,)] of a candidate: as at its latent values ``start`` (k,), and those of ``values`` {name without
     place: value}, where these hold all of its shapes."""
-    shaping = [(k, p) for k, p in enumerate(candidate.parameters) if p.null is None]
+    shaping = [(k, p) for k, p in enumerate(candidate.parameters) if p.null is None and not p.run]
     shapes = [[start[k] for k, _ in shaping]]
     if shaping and all(short_name(p) in values for _, p in shaping):
         shapes.append([float(np.clip(p.prior.latent(values[short_name(p)]), -2, 2)) for _, p in shaping])

@@ -18,8 +18,8 @@ from pipeline.contract.errors import ConvergenceError
 HELD = 0
 _RELATIVE, _ABSOLUTE = 1e-8, 1e-10
 #: steps of the fastest vibration, and of a motion, at least, so that hardly a pair of events hides within one; most
-#: events of a motion
-_STEPS, _PIECES, _MOST = 10, 50, 20_000
+#: events of a motion; most within a step, more of which are a chatter that nothing ends
+_STEPS, _PIECES, _MOST, _CROWD = 10, 50, 20_000, 300
 #: first steps of a piece, in longest ones: a slip that ends within the first one hides its end
 _FIRST_STEPS = (0.03, 1e-3, 3e-5, 1e-6)
 #: where the push is asked for the value left of a break, in longest steps
@@ -104,6 +104,7 @@ def moved(mechanism, push, time, start=None, breaks=(), accelerated=True):
     modes = run.first_modes(time[0], state)
     ends = [t for t in sorted(breaks) if time[0] < t < time[-1]] + [time[-1]]
     found, now, events = [], time[0], 0
+    since, crowd = now, 0
     for end in ends:
         while now < end:
             piece = run.piece(now, end, state, modes)
@@ -114,8 +115,11 @@ def moved(mechanism, push, time, start=None, breaks=(), accelerated=True):
             if piece.status == 1:
                 state, modes = run.switched(now, state, modes, [len(t) > 0 for t in piece.t_events])
                 events += 1
-            if events > _MOST:
-                raise ConvergenceError("motion of a switching rig", f"at most {_MOST} events", f"more, at {now:.3g} s")
+                crowd = crowd + 1 if now - since < run.longest else 0
+                since = since if crowd else now
+            if events > _MOST or crowd > _CROWD:
+                raise ConvergenceError("motion of a switching rig", f"at most {_MOST} events, {_CROWD} of them within"
+                                       f" {run.longest:.3g} s", f"more, at {now:.3g} s")
     return Motion(*(np.concatenate(parts, axis=1) for parts in zip(*found, strict=True)), events)
 
 

@@ -70,6 +70,8 @@ _FOREIGN = tuple(_law(name, getattr(foreign_laws, name), known=False) for name i
     "quintic", "magnet", "lagging", "dead_time", "root_drag", "lift", "slosh", "impacts", "switched_spring",
     "threshold_flow", "rigid_stop", "clamped"))
 PIECES = {piece.form: piece for piece in (*_KNOWN, *_FOREIGN)}
+#: laws of two strengths, one each way -> the law of their mean, at the same size
+MEANS = {"asymmetric_friction": "coulomb"}
 #: faults of a sensor: form -> name of the catalogue
 FAULTS = {"gain": "sensor_gain", "reversed": "reversed_channel", "factor_1000": "unit_factor", "delay": "sensor_delay",
           "clipping": "clipping", "drift": "sensor_offset_drift"}

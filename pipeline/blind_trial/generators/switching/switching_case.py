@@ -6,7 +6,7 @@ import numpy as np
 
 from pipeline.blind_trial.generators.switching import drive, reported_values, rig
 from pipeline.blind_trial.generators.switching.event_motion import Mechanism, moved
-from pipeline.blind_trial.generators.switching.hidden import FAULTS, PIECES, known_exactly, places, row_of
+from pipeline.blind_trial.generators.switching.hidden import FAULTS, MEANS, PIECES, known_exactly, places, row_of
 from pipeline.blind_trial.generators.switching.instruments import PARTS, QUANTITIES, Sensor, gaps, noise, written
 from pipeline.blind_trial.generators.switching.joint_laws import Spot
 from pipeline.blind_trial.generators.switching.recalibration import GAIN_SPREAD, Beginning, Recalibration, linear
@@ -36,7 +36,7 @@ class Case:
     ``truth`` and ``belief`` are Rigs, ``exact`` names of values that are stated exactly, ``far`` that of a wrong one;
     ``runs`` [Beginning], ``shown`` [(sensor, n)] as written, ``noise`` (sensor,) in SI; ``change`` of what the sensors
     show, relative; ``at``: number of the body or spring that is excited; ``told`` {parameter: SI value} of what is
-    hidden, where others have words for it.
+    hidden, where others have words for it; ``beyond``: ``left`` of it beside the mean of two strengths of friction.
     """
 
     seed: int
@@ -63,6 +63,7 @@ class Case:
     change: float
     reach: float
     told: dict
+    beyond: float = np.inf
 
 
 @dataclass(frozen=True)
@@ -121,10 +122,12 @@ def made(seed, kind, form="", level=0.01):
     if gap == "uneven" and rate < 2 * _A_PERIOD[0] * truth.frequencies[-1]:
         gap = ""
     shown = tuple(_written(random, run, spread, bench.sensors, colour, gap) for run in seen)
+    beyond = hiding.beyond_mean(size, seen[:-1]) if form in MEANS else np.inf
     left *= np.sqrt(np.mean([np.isfinite(run).mean() for run in shown[:-1]]))     # missing samples tell nothing
     name = piece.name if piece else FAULTS.get(form, "")
     return Case(seed, kind, form, name, index, size, left, level, colour, gap, way, at, truth, belief, exact, far, rate,
-                bench.runs, bench.sensors, shown, spread, _change(seen, base), _reach(seen, base), hiding.told(size))
+                bench.runs, bench.sensors, shown, spread, _change(seen, base), _reach(seen, base), hiding.told(size),
+                beyond)
 
 
 def _beside_a_moved_wall(piece, layout):
@@ -276,6 +279,12 @@ class _Hiding:
             raise ConfigError(f"trial: {self.form}", f"a size of which about {wanted:.3g} standard deviations are left",
                               f"one that is off by a factor of {np.exp(best[0]):.3g}", "draw another seed")
         return best[1], [*best[2], *self.seen(best[1], slice(-1, None))]
+
+    def beyond_mean(self, size, seen):
+        """What a recalibrated nominal model leaves where of what is ``seen`` the mean of two strengths is known."""
+        mean = self.bench.seen(self.bench.motions(PIECES[MEANS[self.form]].laws(self.spot, size)))
+        beside = [b + s - m for b, s, m in zip(self.nominal.base, seen, mean, strict=False)]
+        return self.nominal.left(beside, self.noise)
 
     def _tried(self, size):
         """(What is seen in all runs but the last, what of it is left); infinite where the rig goes too far."""

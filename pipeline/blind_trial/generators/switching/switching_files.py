@@ -3,10 +3,10 @@
 import numpy as np
 
 from pipeline.blind_trial.generators import case_files
-from pipeline.blind_trial.generators.switching.hidden import PIECES
+from pipeline.blind_trial.generators.switching.hidden import MEANS, PIECES
 from pipeline.blind_trial.generators.switching.recalibration import GAIN_SPREAD, SPREAD
 from pipeline.blind_trial.generators.switching.rig import WALL
-from pipeline.blind_trial.generators.switching.switching_case import LEVELS, made
+from pipeline.blind_trial.generators.switching.switching_case import LEAST, LEVELS, made
 
 #: steps of the workshop's model in a period of the fastest mode, at least
 _STEPS = 100
@@ -14,6 +14,8 @@ _STEPS = 100
 _OF_INPUT = {"base_shake": "pressure_ripple", "viscoelastic_pad": "hydraulic_compliance"}
 #: laws of friction that are one but for a constant force
 _DRY = ("coulomb", "asymmetric_friction")
+#: changes of a linear rig that are one of the scale of its motion, at other values
+_RESCALED = ("compliant_arm", "added_stiffness", "attached_mass")
 #: faults that multiply what a channel shows
 _RATIOS = ("gain", "factor_1000", "reversed")
 #: kind of a value -> (name in the case, units that it is stated in with their size in SI)
@@ -50,10 +52,15 @@ def alike(case):
     what it pushes; of two channels that see a motion of unknown size the other one, as their ratio is all that shows.
 
     Friction of two strengths, one each way, is that of their mean and a constant force, which moves the position of
-    rest alone: velocities and accelerations do not show it.
+    rest alone: velocities and accelerations do not show it, nor displacements where it is small. Of one body seen by
+    one sensor all changes of the linear rig but of its damping are a gain of that sensor, at other values.
     """
     if case.name in _DRY and all(s.quantity != "displacement" for s in case.sensors):
         return [{"name": name, "place": place(case)} for name in _DRY if name != case.name]
+    if case.form in MEANS and case.beyond < LEAST:
+        return [{"name": MEANS[case.form], "place": place(case)}]
+    if case.form in _RESCALED and len(case.truth.mass) == len(case.sensors) == 1:
+        return [{"name": "sensor_gain", "place": case.sensors[0].name}]
     if case.form in _RATIOS and len(case.sensors) == 2 and all(run.free for run in case.runs):
         return [{"name": case.name, "place": s.name} for k, s in enumerate(case.sensors) if k != case.index]
     pushed = not any(run.free == "start" for run in case.runs) and case.way != "wall"
@@ -64,9 +71,11 @@ def alike(case):
 
 def truth(case):
     """What is opened only for the score: see ``pipeline.blind_trial.generators.systems``."""
-    hidden = {"name": case.name, "place": place(case), "parameters": case.told, "alike": alike(case)}
+    hidden = [{"name": case.name, "place": place(case), "parameters": case.told, "alike": alike(case)}]
+    if case.form in MEANS and case.beyond >= LEAST:       # in the words of the catalogue one comes on top of the other
+        hidden.append({"name": MEANS[case.form], "place": place(case), "parameters": {}, "alike": []})
     values = {_named(name): float(case.truth.value(name)) for name in case.truth.names}
-    return {"class": case.kind, "effects": [hidden] if case.form else [], "noise": case.level, "size": case.change,
+    return {"class": case.kind, "effects": hidden if case.form else [], "noise": case.level, "size": case.change,
             "parameters": values, "left": case.left, "seed": case.seed, "colour": case.colour, "wrong": case.far,
             "way": case.way, "form": case.form, "gaps": case.gap, "amount": case.size, "bodies": len(case.truth.mass),
             "a_period": case.rate / float(case.truth.frequencies[-1])}
