@@ -39,6 +39,7 @@ class RefitRules:
                                           " come, else its fit is given up", "nat")
     imitates: float = threshold(0.25, "fraction of the best candidate's squared score, at the nominal values that it"
                                       " asks for, at which another one is refitted there too")
+    moves_alike: float = threshold(0.8, "the same, at which a candidate that comes nowhere near is led over")
     step_error: float = threshold(1e-3, "fraction of the noise power that half the time step may change in what a"
                                         " leading candidate predicts; beyond, its step is halved")
     step_shift: float = threshold(0.5, "standard deviations that this change may shift one of its values")

@@ -9,16 +9,14 @@ import numpy as np
 from pipeline.contract.errors import BrakechainError
 from pipeline.inference.decision.candidate_statistics import unexplained
 from pipeline.inference.decision.weighing import evidence_of_all
-from pipeline.inference.fitting import tone_starts
-from pipeline.inference.fitting.calibration import Calibration, ahead_of, begun, paired_anew
-from pipeline.inference.fitting.fit_state import Fit, linearised, whitened
+from pipeline.inference.fitting.begins import begun_at, begun_beside, directions_like, tried
+from pipeline.inference.fitting.calibration import Calibration, ahead_of, paired_anew
+from pipeline.inference.fitting.fit_state import Fit, linearised
 from pipeline.inference.fitting.least_squares import again, beside, continued, iterated
-from pipeline.inference.fitting.run_parameters import with_own_parameters
 from pipeline.inference.fitting.step_error import refined
 from pipeline.inference.problem import FanOut, Problem
 from pipeline.inference.rules import Rules
-from pipeline.inference.search import score_screen
-from pipeline.inference.search.score_screen import alternatives, directions, screen, shapes_like, short_name
+from pipeline.inference.search.score_screen import directions, least, screen, short_name
 
 #: iterations of a nominal model from a candidate's optimum before it is given up where it is still worse than before
 _GIVEN_UP = 16
@@ -28,8 +26,6 @@ _LAP = 4
 _ROUNDS = 2
 #: candidates beside a first effect that begin, over the number of those that go on
 _LIKELY = 4
-#: discrete values of a candidate at which fits begin
-_ALTERNATIVES = 2
 
 
 class Refitted(NamedTuple):
@@ -147,7 +143,7 @@ class Refitter:
         """
         if not len(chosen):
             return results or {}
-        begin = partial(_begun, self.problem, self.null, self.anchor, self.ahead, self.settings.starts)
+        begin = partial(begun_beside, self.problem, self.null, self.anchor, self.ahead, self.settings.starts)
         items = [(self.catalogue[i], starts[i]) for i in chosen]
         return self._ended(chosen, self.fan_out(begin, items), results or {})
 
@@ -195,7 +191,7 @@ class Refitter:
 
     def better(self, results, starts):
         """{index: Refitted} with fits begun at the latent values ``starts`` {index: (k,)}, where they are better."""
-        begins = [(i, *_tried(self.problem, self.null, self.catalogue[i], [start], ())) for i, start in starts.items()]
+        begins = [(i, *tried(self.problem, self.null, self.catalogue[i], [start], ())) for i, start in starts.items()]
         return _lowest(results, {i: _finished(self.problem, self.null, np.inf, self.rules, begin)
                                  for i, begin, _ in begins if begin is not None})
 
@@ -234,16 +230,31 @@ class Refitter:
         size, fit = len(self.null.latent), results[top].fit
         anchor = linearised(self.problem, self.null.noises, self.problem.nominal, fit.latent[:size], self.null.runs)
         like = {short_name(p): fit.values[p.name] for p in fit.hypothesis.parameters[size:]}
-        look = partial(_directions_like, self.problem, anchor, like)
+        look = partial(directions_like, self.problem, anchor, like)
         scores = screen(anchor, list(self.fan_out(look, zip(self.catalogue, starts, strict=True))), draws=0,
                         rules=self.rules.screening)
         enough = self.rules.refit.imitates * scores.score[top]**2
         imitators = [i for i in scores.order() if i != top and scores.score[i] > 0
                      and scores.score[i]**2 >= enough][:self.settings.kept]
-        begin = partial(_begun_at, self.problem, anchor)
+        begin = partial(begun_at, self.problem, anchor)
         refitted = self._ended(imitators, self.fan_out(begin, [(self.catalogue[i], scores.start[i])
                                                                for i in imitators]), {top: results[top]})
-        return _lowest(results, refitted)
+        alike = [i for i in imitators if scores.score[i]**2 >= self.rules.refit.moves_alike * scores.score[top]**2]
+        return self._led_over(top, scores.start, alike, _lowest(results, refitted))
+
+    def _led_over(self, top, starts, alike, results):
+        """Results with those of candidates that move ``alike``, at other places, begun where they change next to
+        nothing beside the nominal values that ``top`` asks for.
+
+        What is one change at other nominal values, as a gain and a stiffer spring of an oscillator whose mass and
+        damping are not known, lies at the far end of a bent valley: its slope leads there from this end alone.
+        """
+        fit, place, enough = results[top].fit, self.catalogue[top].effects[0][1:], self._near(results[top].fit)
+        nominal = fit.latent[:len(self.null.latent)]
+        return self.better(results, {
+            i: np.concatenate((nominal, least(self.catalogue[i], starts[i]))) for i in alike
+            if self.catalogue[i].effects[0][1:] != place
+            and (results[i].fit is None or results[i].fit.objective > enough)})
 
     def _ended(self, chosen, begins, results):
         """{index: Refitted} of ``results`` and of candidates with their [(Fit or None, what went wrong)] of a begin."""
@@ -271,8 +282,7 @@ class Refitter:
             fits = dict(zip(order, self.fan_out(go_on, [fits[i] for i in order]), strict=True))
 
     def _enough(self, results):
-        """The objective to which a candidate must be able to come down: near the best so far, as evidence is tempered.
-        """
+        """The objective to which candidates must be able to come down: near the best, as evidence is tempered."""
         best = min((r.fit for r in results if r.fit is not None), key=lambda fit: fit.objective, default=None)
         return np.inf if best is None else self._near(best)
 
@@ -298,64 +308,6 @@ def _lowest(results, others):
         return fit is not None and (other is None or fit.objective < other.objective)
 
     return {**results, **{i: r for i, r in others.items() if i not in results or lower(r.fit, results[i].fit)}}
-
-
-def _begun(problem, null, anchor, ahead, offsets, item):
-    """(Fit of a candidate after a few iterations or None, why there is none), beside the nominal values of ``anchor``.
-
-    Where that is not the null, the candidate begins at the values of the null as well.
-    """
-    candidate, screened_start = item
-    offsets = () if candidate.elaborate else offsets    # the screen has tried many values of these
-    starts = _starts(anchor.latent, [
-        screened_start, score_screen.least(candidate, screened_start),
-        *(np.full(len(candidate.parameters), offset) for offset in offsets)])
-    if not (anchor.far or null.unordered):      # else what is nearest changes nothing, and leads nowhere
-        starts.append(np.concatenate((anchor.latent, score_screen.faint(candidate, screened_start))))
-    discrete = _alternative_starts(problem, null, candidate, anchor.latent)
-    at_null = [] if anchor is null or null.unordered else [screened_start]
-    at_null = _starts(null.latent, at_null + tone_starts.starts(problem, null, candidate))
-    return _tried(problem, null, candidate, discrete + starts + at_null,
-                  [None] * len(discrete) + [anchor] * len(starts) + [null] * len(at_null), ahead)
-
-
-def _alternative_starts(problem, null, candidate, base):
-    """Starts at the discrete values of a candidate that err least beside the nominal latent values ``base``, once what
-    is of one run alone is fitted: a start that was read from a channel is as wrong as that."""
-    if not any(p.discrete for p in candidate.parameters):
-        return []
-    hypothesis, ranked = problem.nominal.joined(candidate), []
-    for start in _starts(base, alternatives(candidate)):
-        start = with_own_parameters(problem, null.noises, hypothesis, start, null.runs)
-        residuals, _ = whitened(problem, null.noises, hypothesis, start, null.runs)
-        if residuals is not None:
-            ranked.append((sum(r @ r for r in residuals), start))
-    return [start for _, start in sorted(ranked, key=lambda pair: pair[0])[:_ALTERNATIVES]]
-
-
-def _directions_like(problem, anchor, values, item):
-    """Directions of a candidate at the Fit ``anchor``, shaped as at its start and by ``values``."""
-    candidate, start = item
-    return directions(problem, anchor, candidate, shapes_like(candidate, start, values))
-
-
-def _begun_at(problem, anchor, item):
-    """The same from the nominal values of the Fit ``anchor`` alone."""
-    candidate, start = item
-    starts = _starts(anchor.latent, [start, *tone_starts.starts(problem, anchor, candidate)])
-    return _tried(problem, anchor, candidate, starts, [anchor] * len(starts))
-
-
-def _starts(base, begins):
-    """Latent values of a candidate beside nominal ones ``base``, from those of its own effect, none of them far out."""
-    return [np.concatenate((base, np.clip(begin, -2, 2))) for begin in begins]
-
-
-def _tried(problem, null, candidate, starts, anchors, ahead=()):
-    try:
-        return begun(problem, null.noises, problem.nominal.joined(candidate), starts, null.runs, anchors, ahead), ""
-    except BrakechainError as error:
-        return None, str(error)
 
 
 def _further(problem, enough, fit):

@@ -21,6 +21,9 @@ from pipeline.inference.rules import DEFAULTS
 
 #: steps away from the null, in scales of the parameter's prior: its derivative, and a change one would notice
 STEPS = (0.02, 1.0)
+#: the same where candidates are told from what they imitate: at a sharp resonance two changes that the nominal values
+#: make one differ by the square of a step
+FINE_STEPS = (0.001, *STEPS)
 #: parameters that only shape an effect are tried at these shares of their priors
 SHAPES = (0.2, 0.8)
 #: and angles in every quarter of theirs: no wave is at right angles to all of them
@@ -103,30 +106,34 @@ def screen_catalogue(calibration, catalogue, settings, fan_out, beside_a_first=F
     largest = likely if linear else 1.0
     promising = [int(i) for i in rough.order()
                  if i >= len(known) and np.isfinite(rough.score[i]) and rough.p_value[i] <= largest]
-    return Screening(calibration, every, rough, _each_once(promising, rough.score, settings.kept))
+    return Screening(calibration, every, rough, _each_once(promising, rough, settings.kept))
 
 
-def _each_once(promising, score, kept):
-    """Indices (n,) in their order, but those of one ``score``, as of one direction, only once among the first ``kept``.
+def _each_once(promising, screen, kept):
+    """Indices (n,) in their order, but those of one score at one place, as of one direction, only once among the first
+    ``kept``.
 
-    A gain, a factor of units and a reversed sign are one change of a channel as long as it is small.
+    A gain, a factor of units and a reversed sign are one change of a channel as long as it is small. What is the same
+    at another place is a rival, and is weighed.
     """
-    first = []
+    first, score = [], screen.score
+    place = [tuple(where for _, where in c.effects) for c in screen.candidates]
     for i in promising:
-        if len(first) < kept and not any(abs(score[i] - score[k]) <= _SAME * abs(score[i]) for k in first):
+        if len(first) < kept and not any(place[i] == place[k] and abs(score[i] - score[k]) <= _SAME * abs(score[i])
+                                         for k in first):
             first.append(i)
     return (*first, *(i for i in promising if i not in first))
 
 
-def directions(problem, null, candidate, shapes=None):
+def directions(problem, null, candidate, shapes=None, steps=STEPS):
     """Directions of one candidate (Hypothesis of its effects alone) at the Fit ``null`` of the nominal hypothesis.
 
     ``shapes`` [(s,)]: latent values of the parameters that only shape it, at which alone it is tried; by default they
-    are spread over their priors.
+    are spread over their priors. ``steps``: from its null, in scales of its prior.
     """
     hypothesis, vectors, signs, tried = problem.nominal.joined(candidate), [], [], []
     base, failure = np.concatenate(null.residuals), ""
-    for latent, sign, step in _trials(candidate, shapes):
+    for latent, sign, step in _trials(candidate, shapes, steps):
         full = np.concatenate((null.latent, latent))
         moved, error = whitened(problem, null.noises, hypothesis, full, null.runs)
         if moved is None:
@@ -191,7 +198,7 @@ def short_name(parameter):
     return parameter.name.rpartition(".")[2]
 
 
-def _trials(candidate, shapes):
+def _trials(candidate, shapes, steps=STEPS):
     """(latent values, sign, step in prior scales) of every direction: one effect parameter moved, shapes varied."""
     parameters = candidate.parameters
     if any(p.discrete for p in parameters):
@@ -203,7 +210,7 @@ def _trials(candidate, shapes):
     for k, parameter in enumerate(parameters):
         if parameter.null is None:
             continue
-        for step, shape in product(STEPS[-1:] if candidate.elaborate else STEPS, shapes):
+        for step, shape in product(steps[-1:] if candidate.elaborate else steps, shapes):
             values = [p.nominal if p.null is None else p.null for p in parameters]
             values[k] = _away(parameter, step)
             latent = np.array([p.prior.latent(v) for p, v in zip(parameters, values, strict=True)])

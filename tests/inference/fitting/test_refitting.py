@@ -5,13 +5,14 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from pipeline.inference.fitting import refitting
+from pipeline.inference.fitting import begins, refitting
 from pipeline.inference.fitting.calibration import calibrate
 from pipeline.inference.fitting.fit_state import linearised
 from pipeline.inference.fitting.noise import budget
 from pipeline.inference.fitting.refitting import Refitter
 from pipeline.inference.procedure import Settings, diagnose
 from pipeline.inference.rules import DEFAULTS
+from tests.inference import resonance
 from tests.inference.oscillator import CATALOGUE, bench
 
 CUBIC = [c.name for c in CATALOGUE].index("cubic")
@@ -33,7 +34,7 @@ def found():
     return Refitter(problem, null, CATALOGUE, Settings(kept=2), map)
 
 
-def begins(monkeypatch, name="_begun"):
+def begun(monkeypatch, name="begun_beside"):
     """Names of candidates that begin, in order."""
     seen, begun = [], getattr(refitting, name)
     monkeypatch.setattr(refitting, name, lambda *given: seen.append(given[-1][0].name) or begun(*given))
@@ -42,7 +43,7 @@ def begins(monkeypatch, name="_begun"):
 
 @pytest.mark.parametrize("extra, all_begin", [(cubic, False), (odd, True)])
 def test_above_the_noise_all_begin_unless_one_of_the_first_explains_enough(monkeypatch, extra, all_begin):
-    problem, seen = bench(5, 0.01, stiffness=380.0, extra=extra), begins(monkeypatch)
+    problem, seen = bench(5, 0.01, stiffness=380.0, extra=extra), begun(monkeypatch)
     diagnose(problem, budget(problem), CATALOGUE, Settings(kept=3))
     first = list(dict.fromkeys(seen))
     assert len(first) == len(CATALOGUE) if all_begin else first.count("cubic") == 1 and len(first) <= 6
@@ -65,9 +66,23 @@ def test_a_rival_is_found_from_the_nominal_values_of_the_best(found):
     assert [told[k].fit.objective for k in (0, 1)] == pytest.approx([best.fit.objective] * 2, rel=1e-4)
 
 
+@pytest.mark.exact
+def test_what_is_one_change_at_other_nominal_values_is_led_over():
+    """Of an oscillator of unknown mass and damping a smaller gain is a stiffer spring: (m, c, k) times its inverse."""
+    problem = resonance.problem(gain=0.69)
+    noises = tuple(budget(problem)[run.name] for run in problem.training)
+    null = calibrate(problem, noises, problem.nominal, [problem.nominal.nominal], problem.training, settled=False)
+    seeking = Refitter(problem, null, resonance.CATALOGUE, Settings(), map)
+    best = seeking.of([0], {0: np.zeros(1)})
+    told = seeking.with_imitators(best, [np.zeros(1)] * 2)[1].fit
+    assert told.converged and told.chi_square.sum() < 1.1 * told.counts.sum()
+    assert told.values["added_stiffness"] / resonance.STIFFNESS == pytest.approx(1 / 0.69 - 1, rel=0.02)
+    assert told.values["mass"] == pytest.approx(1 / 0.69, rel=0.02)
+
+
 def test_where_nothing_explains_more_than_chance_nothing_is_looked_for(monkeypatch):
     problem = bench(5, 0.1)
-    seen = begins(monkeypatch, "_begun_at")
+    seen = begun(monkeypatch, "begun_at")
     diagnose(problem, budget(problem), CATALOGUE)
     assert not seen
 
@@ -82,9 +97,9 @@ def test_what_is_better_is_kept(found):
 
 def test_a_leading_fit_that_did_not_converge_begins_again(found):
     starts = {CUBIC: np.zeros(1)}
-    begun, _ = refitting._begun(found.problem, found.null, found.null, (), (), (CATALOGUE[CUBIC], starts[CUBIC]))
-    told = found.settled({CUBIC: refitting.Refitted(replace(begun, converged=False), None, "it stopped")})[CUBIC]
-    assert told.fit.converged and not told.failure and told.fit.objective <= begun.objective
+    first, _ = begins.begun_beside(found.problem, found.null, found.null, (), (), (CATALOGUE[CUBIC], starts[CUBIC]))
+    told = found.settled({CUBIC: refitting.Refitted(replace(first, converged=False), None, "it stopped")})[CUBIC]
+    assert told.fit.converged and not told.failure and told.fit.objective <= first.objective
 
 
 def test_a_leading_fit_that_ended_above_the_noise_goes_on(found):
@@ -108,9 +123,9 @@ def test_the_better_half_goes_on_until_few_are_left(found, monkeypatch):
     lapped, further = [], refitting._further
     monkeypatch.setattr(refitting, "_further",
                         lambda *given: lapped.append(given[-1].hypothesis.name) or further(*given))
-    begun = [refitting._begun(found.problem, found.null, found.null, (), (), (c, np.zeros(len(c.parameters))))[0]
+    first = [begins.begun_beside(found.problem, found.null, found.null, (), (), (c, np.zeros(len(c.parameters))))[0]
              for c in CATALOGUE]
-    fits = {i: fit for i, fit in enumerate(begun) if fit is not None and i != CUBIC}
+    fits = {i: fit for i, fit in enumerate(first) if fit is not None and i != CUBIC}
     left = found._raced(fits)
     assert len(left) == found.settings.kept < len(lapped) < 2 * len(fits)
     assert min(fits, key=lambda i: fits[i].objective) in left

@@ -1,5 +1,7 @@
 """The screen: exact scores, their family-wise null, signs, shapes, directions that parameters hide."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 from scipy import stats
@@ -61,10 +63,20 @@ def test_equal_directions_cost_nothing():
 
 
 def test_one_direction_counts_once_among_the_first_candidates():
-    score = np.array([9.0, 9.0, 9.0 + 1e-9, 7.0, 6.0, 5.0])
-    assert _each_once([0, 1, 2, 3, 4, 5], score, 3) == (0, 3, 4, 1, 2, 5)
-    assert _each_once([0, 1, 2], score, 3) == (0, 1, 2)
-    assert _each_once([], score, 3) == ()
+    found = scored([9.0, 9.0, 9.0 + 1e-9, 7.0, 6.0, 5.0], "aaabcd")
+    assert _each_once([0, 1, 2, 3, 4, 5], found, 3) == (0, 3, 4, 1, 2, 5)
+    assert _each_once([0, 1, 2], found, 3) == (0, 1, 2)
+    assert _each_once([], found, 3) == ()
+
+
+def test_the_same_direction_at_another_place_is_a_rival_and_counts():
+    assert _each_once([0, 1, 2, 3], scored([9.0, 9.0, 9.0, 7.0], "aabc"), 3) == (0, 2, 3, 1)
+
+
+def scored(score, places):
+    """What is known of a Screen: scores of candidates at places."""
+    return SimpleNamespace(score=np.array(score), candidates=[
+        Hypothesis(f"{k}", ((f"effect_{k}", place),)) for k, place in enumerate(places)])
 
 
 def test_a_faint_start_is_near_a_null_at_the_end_of_its_prior_alone():

@@ -22,6 +22,8 @@ _WIDER = 0.2
 _EVALUATIONS = 60
 #: standard deviations by which values may be off where a refit begins
 _ALONG = np.linspace(-2.5, 2.5, 51)
+#: motions that are remembered
+_KEPT = 200
 #: parts of an interval over which a blow is averaged
 _PARTS = 64
 
@@ -105,20 +107,30 @@ class Recalibration:
         self.names = [name for name in rig.names if name not in exact]
         self.unknown = [run.unknown() for run in runs]
         self.size = len(self.names) + len(sensors) + sum(map(len, self.unknown))
+        self.kept = {}
         self.at_rest = self.shown(np.zeros(self.size))
 
     def shown(self, u):
         """[(sensor, n)] at values off by u (size,) standard deviations."""
         values, gains, rest = np.split(u, [len(self.names), len(self.names) + len(self.sensors)])
-        rig = self.rig.with_values({name: self.rig.value(name) * np.exp(SPREAD * off)
-                                    for name, off in zip(self.names, values, strict=True)})
         shown = []
-        for run, sizes in zip(self.runs, self.unknown, strict=True):
-            off, rest = _FREE * sizes * rest[:len(sizes)], rest[len(sizes):]
-            motion = linear(rig, run, off)
-            shown.append(np.array([(1 + GAIN_SPREAD * g) * s.shown(motion, run.fine, run.time)
-                                   for s, g in zip(self.sensors, gains, strict=True)]))
+        for k, sizes in enumerate(self.unknown):
+            off, rest = rest[:len(sizes)], rest[len(sizes):]
+            shown.append((1 + GAIN_SPREAD * gains)[:, None] * self._without_gains(k, tuple(values), tuple(off)))
         return shown
+
+    def _without_gains(self, k, values, off):
+        """(sensor, n) of run ``k``; derivatives by values of other runs ask for the same again and again."""
+        key = k, values, off
+        if key not in self.kept:
+            if len(self.kept) >= _KEPT:
+                self.kept.clear()
+            rig = self.rig.with_values({name: self.rig.value(name) * np.exp(SPREAD * u)
+                                        for name, u in zip(self.names, values, strict=True)})
+            run = self.runs[k]
+            motion = linear(rig, run, _FREE * self.unknown[k] * np.array(off))
+            self.kept[key] = np.array([s.shown(motion, run.fine, run.time) for s in self.sensors])
+        return self.kept[key]
 
     def left(self, seen, noise):
         """d of what the sensors have ``seen`` [(sensor, n)] under ``noise`` (sensor,); infinite where not finite.

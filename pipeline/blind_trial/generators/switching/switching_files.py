@@ -53,14 +53,16 @@ def alike(case):
 
     Friction of two strengths, one each way, is that of their mean and a constant force, which moves the position of
     rest alone: velocities and accelerations do not show it, nor displacements where it is small. Of one body seen by
-    one sensor all changes of the linear rig but of its damping are a gain of that sensor, at other values.
+    one sensor all changes of the linear rig but of its damping are a gain of that sensor, at other values; an added
+    spring is a spring with a slider that never slips.
     """
     if case.name in _DRY and all(s.quantity != "displacement" for s in case.sensors):
         return [{"name": name, "place": place(case)} for name in _DRY if name != case.name]
     if case.form in MEANS and case.beyond < LEAST:
         return [{"name": MEANS[case.form], "place": place(case)}]
     if case.form in _RESCALED and len(case.truth.mass) == len(case.sensors) == 1:
-        return [{"name": "sensor_gain", "place": case.sensors[0].name}]
+        stuck = [{"name": "jenkins", "place": spring(0)}] if case.form == "added_stiffness" else []
+        return [{"name": "sensor_gain", "place": case.sensors[0].name}, *stuck]
     if case.form in _RATIOS and len(case.sensors) == 2 and all(run.free for run in case.runs):
         return [{"name": case.name, "place": s.name} for k, s in enumerate(case.sensors) if k != case.index]
     pushed = not any(run.free == "start" for run in case.runs) and case.way != "wall"

@@ -62,3 +62,23 @@ def test_it_is_a_system_of_the_trial_that_stands_apart_from_the_diagnosis():
     assert not [m for m in imported("pipeline.blind_trial.generators.switching.switching_files") if m.startswith((
         "pipeline.effects", "pipeline.case_models", "pipeline.diagnosis", "pipeline.inference", "pipeline.physics",
         "pipeline.systems", "stages"))]
+
+
+@pytest.mark.parametrize("form, found", [("added_stiffness", ["sensor_gain", "jenkins"]), ("joint_damping", []),
+                                         ("compliant_arm", ["sensor_gain"])])
+def test_a_change_of_one_body_seen_by_one_sensor_is_a_gain(form, found):
+    case = made(5, "control")
+    one = replace(case, form=form, name=form, index=0, sensors=case.sensors[:1],
+                  truth=drawn(np.random.default_rng(1), "single"))
+    assert [law["name"] for law in alike(one)] == found
+
+
+@pytest.mark.parametrize("beyond, told, alike_too", [(30.0, ["asymmetric_friction", "coulomb"], []),
+                                                     (3.0, ["asymmetric_friction"], ["coulomb"])])
+def test_two_strengths_of_friction_are_two_laws_of_the_catalogue_where_both_show(beyond, told, alike_too):
+    case = made(5, "control")
+    sensors = tuple(replace(s, quantity="displacement") for s in case.sensors)
+    case = replace(case, kind="effect", name="asymmetric_friction", form="asymmetric_friction", index=0,
+                   sensors=sensors, beyond=beyond)
+    effects = truth(case)["effects"]
+    assert [e["name"] for e in effects] == told and [a["name"] for a in effects[0]["alike"]] == alike_too

@@ -1,0 +1,71 @@
+"""Where fits of candidates begin: beside the null, at values of the screen, of tones, of choices, of a leader."""
+
+import numpy as np
+
+from pipeline.contract.errors import BrakechainError
+from pipeline.inference.fitting import tone_starts
+from pipeline.inference.fitting.calibration import begun
+from pipeline.inference.fitting.fit_state import whitened
+from pipeline.inference.fitting.run_parameters import with_own_parameters
+from pipeline.inference.search.score_screen import FINE_STEPS, alternatives, directions, faint, least, shapes_like
+
+#: discrete values of a candidate at which fits begin
+_ALTERNATIVES = 2
+
+
+def begun_beside(problem, null, anchor, ahead, offsets, item):
+    """(Fit of a candidate after a few iterations or None, why there is none), beside the nominal values of ``anchor``.
+
+    Where that is not the null, the candidate begins at the values of the null as well.
+    """
+    candidate, screened_start = item
+    offsets = () if candidate.elaborate else offsets    # the screen has tried many values of these
+    starts = _starts(anchor.latent, [
+        screened_start, least(candidate, screened_start),
+        *(np.full(len(candidate.parameters), offset) for offset in offsets)])
+    if not (anchor.far or null.unordered):      # else what is nearest changes nothing, and leads nowhere
+        starts.append(np.concatenate((anchor.latent, faint(candidate, screened_start))))
+    discrete = _alternative_starts(problem, null, candidate, anchor.latent)
+    at_null = [] if anchor is null or null.unordered else [screened_start]
+    at_null = _starts(null.latent, at_null + tone_starts.starts(problem, null, candidate))
+    return tried(problem, null, candidate, discrete + starts + at_null,
+                  [None] * len(discrete) + [anchor] * len(starts) + [null] * len(at_null), ahead)
+
+
+def _alternative_starts(problem, null, candidate, base):
+    """Starts at the discrete values of a candidate that err least beside the nominal latent values ``base``, once what
+    is of one run alone is fitted: a start that was read from a channel is as wrong as that."""
+    if not any(p.discrete for p in candidate.parameters):
+        return []
+    hypothesis, ranked = problem.nominal.joined(candidate), []
+    for start in _starts(base, alternatives(candidate)):
+        start = with_own_parameters(problem, null.noises, hypothesis, start, null.runs)
+        residuals, _ = whitened(problem, null.noises, hypothesis, start, null.runs)
+        if residuals is not None:
+            ranked.append((sum(r @ r for r in residuals), start))
+    return [start for _, start in sorted(ranked, key=lambda pair: pair[0])[:_ALTERNATIVES]]
+
+
+def directions_like(problem, anchor, values, item):
+    """Directions of a candidate at the Fit ``anchor``, shaped as at its start and by ``values``."""
+    candidate, start = item
+    return directions(problem, anchor, candidate, shapes_like(candidate, start, values), FINE_STEPS)
+
+
+def begun_at(problem, anchor, item):
+    """The same from the nominal values of the Fit ``anchor`` alone."""
+    candidate, start = item
+    starts = _starts(anchor.latent, [start, *tone_starts.starts(problem, anchor, candidate)])
+    return tried(problem, anchor, candidate, starts, [anchor] * len(starts))
+
+
+def _starts(base, begins):
+    """Latent values of a candidate beside nominal ones ``base``, from those of its own effect, none of them far out."""
+    return [np.concatenate((base, np.clip(begin, -2, 2))) for begin in begins]
+
+
+def tried(problem, null, candidate, starts, anchors, ahead=()):
+    try:
+        return begun(problem, null.noises, problem.nominal.joined(candidate), starts, null.runs, anchors, ahead), ""
+    except BrakechainError as error:
+        return None, str(error)

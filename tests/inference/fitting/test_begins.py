@@ -1,0 +1,36 @@
+"""Begins of candidates: beside the null they change next to nothing, or are as the screen found them."""
+
+import numpy as np
+import pytest
+
+from pipeline.inference.fitting.begins import begun_at, begun_beside, directions_like
+from pipeline.inference.fitting.calibration import calibrate
+from pipeline.inference.fitting.fit_state import linearised
+from pipeline.inference.fitting.noise import budget
+from pipeline.inference.search.score_screen import screen
+from tests.inference import resonance
+
+
+@pytest.fixture(scope="module")
+def null():
+    problem = resonance.problem(gain=0.9)
+    noises = tuple(budget(problem)[run.name] for run in problem.training)
+    return problem, calibrate(problem, noises, problem.nominal, [problem.nominal.nominal], problem.training,
+                              settled=False)
+
+
+def test_a_candidate_begins_below_the_null(null):
+    problem, fit = null
+    for begin in (begun_beside(problem, fit, fit, (), (), (resonance.CATALOGUE[0], np.zeros(1))),
+                  begun_at(problem, fit, (resonance.CATALOGUE[0], np.zeros(1)))):
+        assert begin[0].objective < fit.objective and not begin[1]
+
+
+@pytest.mark.exact
+def test_at_a_sharp_resonance_a_gain_and_a_stiffness_are_one_direction(null):
+    """Beside mass and damping that are not known; larger steps of the stiffness would move the resonance away."""
+    problem, fit = null
+    anchor = linearised(problem, fit.noises, problem.nominal, fit.latent, fit.runs)
+    scores = screen(anchor, [directions_like(problem, anchor, {}, (c, np.zeros(1))) for c in resonance.CATALOGUE],
+                    draws=0).score
+    assert scores[1] == pytest.approx(scores[0], rel=0.05)
