@@ -37,7 +37,7 @@ def test_effects_can_be_left_out():
 def test_stated_priors_of_effects_take_the_place_of_typical_ones():
     given = {"prior": "half_normal", "std": "3 mm/N"}
     found = asked(effects=["compliant_arm"], solver=False, priors={"compliant_arm.compliance": given})
-    parameter, = found.candidates[0].parameters
+    parameter, _ = found.candidates[0].parameters
     assert parameter.prior == HalfNormal(3e-3) and parameter.null == 0.0
 
 

@@ -22,8 +22,8 @@ from pipeline.inference.rules import DEFAULTS
 #: steps away from the null, in scales of the parameter's prior: its derivative, and a change one would notice
 STEPS = (0.02, 1.0)
 #: the same where candidates are told from what they imitate: at a sharp resonance two changes that the nominal values
-#: make one differ by the square of a step
-FINE_STEPS = (0.001, *STEPS)
+#: make one differ by the square of a step times the periods of a run
+FINE_STEPS = (1e-5, *STEPS)
 #: parameters that only shape an effect are tried at these shares of their priors
 SHAPES = (0.2, 0.8)
 #: and angles in every quarter of theirs: no wave is at right angles to all of them

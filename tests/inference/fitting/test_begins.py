@@ -27,8 +27,8 @@ def test_a_candidate_begins_below_the_null(null):
 
 
 @pytest.mark.exact
-def test_at_a_sharp_resonance_a_gain_and_a_stiffness_are_one_direction(null):
-    """Beside mass and damping that are not known; larger steps of the stiffness would move the resonance away."""
+def test_over_many_periods_a_gain_and_a_stiffness_are_one_direction(null):
+    """Beside mass and damping that are not known; larger steps of the stiffness would move it to other phases."""
     problem, fit = null
     anchor = linearised(problem, fit.noises, problem.nominal, fit.latent, fit.runs)
     scores = screen(anchor, [directions_like(problem, anchor, {}, (c, np.zeros(1))) for c in resonance.CATALOGUE],
