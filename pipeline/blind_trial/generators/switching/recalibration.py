@@ -22,6 +22,8 @@ _WIDER = 0.2
 _EVALUATIONS = 60
 #: standard deviations by which values may be off where a refit begins
 _ALONG = np.linspace(-2.5, 2.5, 51)
+#: standard deviations beyond which a refit does not try values: a factor of 50
+_FARTHEST = 20.0
 #: motions that are remembered
 _KEPT = 200
 #: parts of an interval over which a blow is averaged
@@ -125,7 +127,7 @@ class Recalibration:
         if key not in self.kept:
             if len(self.kept) >= _KEPT:
                 self.kept.clear()
-            rig = self.rig.with_values({name: self.rig.value(name) * np.exp(SPREAD * u)
+            rig = self.rig.with_values({name: self.rig.value(name) * np.exp(SPREAD * np.clip(u, -_FARTHEST, _FARTHEST))
                                         for name, u in zip(self.names, values, strict=True)})
             run = self.runs[k]
             motion = linear(rig, run, _FREE * self.unknown[k] * np.array(off))
@@ -147,7 +149,7 @@ class Recalibration:
 
         fits = [scipy.optimize.least_squares(residual, start, x_scale="jac", xtol=1e-4, ftol=1e-4,
                                              max_nfev=_EVALUATIONS)
-                for start in (np.zeros(self.size), self._nearest(residual))]
+                for start in (np.zeros(self.size), *self._nearest(residual))]
         ended = [fit.cost for fit in fits if fit.success]
         if not ended:
             raise ConvergenceError("recalibration of a switching rig", "a refit that ends",
@@ -155,12 +157,17 @@ class Recalibration:
         return float(np.sqrt(2 * min(ended)))
 
     def _nearest(self, residual):
-        """Start (size,) of a refit: what leaves least of a rig that is stiffer or softer throughout, or as it is.
+        """Starts [(size,)] of refits: what leaves least of a rig that is stiffer or softer throughout, and of one all
+        of whose values are larger or smaller, where that is not the rig as it is.
 
         Where what is hidden moves frequencies, the phase of a decay slips by turns, and a refit that begins there
-        without ends in a wrong optimum.
+        without ends in a wrong optimum. Decays and moved walls show the ratios of all values alone: beside more of the
+        one that is known the others are as much less.
         """
-        along = np.array([1.0 if name.startswith("stiffness") else -1.0 if name.startswith("mass") else 0.0
-                          for name in self.names])
-        starts = [np.append(k * along, np.zeros(self.size - len(along))) for k in _ALONG]
-        return min(starts, key=lambda u: float(np.sum(residual(u) ** 2)))
+        stiffer = [1.0 if name.startswith("stiffness") else -1.0 if name.startswith("mass") else 0.0
+                   for name in self.names]
+        rest, starts = np.zeros(self.size - len(self.names)), []
+        for along in (np.array(stiffer), 2 * np.ones(len(self.names))):
+            tried = [np.append(k * along, rest) for k in _ALONG]
+            starts.append(min(tried, key=lambda u: float(np.sum(residual(u) ** 2))))
+        return [start for start in starts if start.any()]

@@ -74,6 +74,17 @@ def test_a_mass_on_a_single_spring_is_not_visible_behind_a_blow():
     assert Recalibration(alone, (seen,), (run,), ("mass.0",), base).left(heavier, noise) == pytest.approx(off, abs=0.5)
 
 
+def test_of_a_decay_more_of_the_damper_that_is_known_is_less_of_all_the_others():
+    """Masses, springs and the other damper times 1 / 2.15: five values off, and nothing else."""
+    run = released()
+    damped = RIG.with_values({"damping.1": 2.15 * RIG.damping[1]})
+    base, seen = ([np.array([s.shown(linear(rig, run), FINE, TIME) for s in SENSORS])] for rig in (RIG, damped))
+    noise = 0.001 * np.sqrt(np.mean(base[0] ** 2, axis=1))
+    off = np.log(2.15) / 0.2 * np.sqrt(5)
+    left = Recalibration(RIG, SENSORS, (run,), ("damping.1",), base).left(seen, noise)
+    assert left == pytest.approx(off, rel=0.02)
+
+
 @pytest.mark.parametrize("begin", [shaken, released, struck])
 def test_other_values_leave_their_prior_alone_and_friction_more(begin):
     run = begin()
