@@ -16,9 +16,16 @@ _ALTERNATIVES = 2
 def begun_beside(problem, null, anchor, ahead, offsets, item):
     """(Fit of a candidate after a few iterations or None, why there is none), beside the nominal values of ``anchor``.
 
-    Where that is not the null, the candidate begins at the values of the null as well.
+    Where that is not the null, the candidate begins at the values of the null as well. One of few choices, as of a
+    sign, without which the null is far off, begins at the stated values alone: those of the null, and of all its fits
+    to less of the runs, answer to what the wrong choice asks for.
     """
     candidate, screened_start = item
+    if anchor.far and not null.unordered and any(p.discrete for p in candidate.parameters):
+        starts = _alternative_starts(problem, null, candidate, problem.nominal.nominal)
+        begin = tried(problem, null, candidate, starts, [None] * len(starts))
+        if begin[0] is not None and begin[0].objective < null.objective:
+            return begin
     offsets = () if candidate.elaborate else offsets    # the screen has tried many values of these
     starts = _starts(anchor.latent, [
         screened_start, least(candidate, screened_start),

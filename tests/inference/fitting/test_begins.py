@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from pipeline.inference.fitting.begins import begun_at, begun_beside, directions_like
-from pipeline.inference.fitting.calibration import calibrate
+from pipeline.inference.fitting.calibration import ahead_of, calibrate
 from pipeline.inference.fitting.fit_state import linearised
 from pipeline.inference.fitting.noise import budget
 from pipeline.inference.search.score_screen import screen
@@ -34,3 +34,13 @@ def test_over_many_periods_a_gain_and_a_stiffness_are_one_direction(null):
     scores = screen(anchor, [directions_like(problem, anchor, {}, (c, np.zeros(1))) for c in resonance.CATALOGUE],
                     draws=0).score
     assert scores[1] == pytest.approx(scores[0], rel=0.05)
+
+
+def test_a_sign_begins_at_the_stated_values_where_the_null_is_misled():
+    problem = resonance.problem(gain=-1.0, mass=1.15)
+    noises = tuple(budget(problem)[run.name] for run in problem.training)
+    fit = calibrate(problem, noises, problem.nominal, [problem.nominal.nominal], problem.training, settled=False)
+    assert fit.far
+    ahead = ahead_of(problem, fit)
+    begin, _ = begun_beside(problem, fit, fit, ahead, (), (resonance.SIGN, np.zeros(1)))
+    assert begin.chi_square.sum() < 1.2 * begin.counts.sum() and begin.values["mass"] == pytest.approx(1.15, rel=0.01)

@@ -12,7 +12,7 @@ from pipeline.blind_trial.generators.switching.switching_case import LEAST, LEVE
 _STEPS = 100
 #: laws of a wall spring -> those of an input that make the same force
 _OF_INPUT = {"base_shake": "pressure_ripple", "viscoelastic_pad": "hydraulic_compliance"}
-#: laws of friction that are one but for a constant force
+#: friction of both ways and of one, which are one law but for a constant force
 _DRY = ("coulomb", "asymmetric_friction")
 #: changes of a linear rig that are one of the scale of its motion, at other values
 _RESCALED = ("compliant_arm", "added_stiffness", "attached_mass")
@@ -52,14 +52,12 @@ def alike(case):
     what it pushes; of two channels that see a motion of unknown size the other one, as their ratio is all that shows.
 
     Friction of two strengths, one each way, is that of their mean and a constant force, which moves the position of
-    rest alone: velocities and accelerations do not show it, nor displacements where it is small. Of one body seen by
-    one sensor all changes of the linear rig but of its damping are a gain of that sensor, at other values; an added
-    spring is a spring with a slider that never slips.
+    rest alone: where the difference does not show, it is a name for the mean as well. Of one body seen by one sensor
+    all changes of the linear rig but of its damping are a gain of that sensor, at other values; an added spring is one
+    with a slider that never slips.
     """
-    if case.name in _DRY and all(s.quantity != "displacement" for s in case.sensors):
-        return [{"name": name, "place": place(case)} for name in _DRY if name != case.name]
-    if case.form in MEANS and case.beyond < LEAST:
-        return [{"name": MEANS[case.form], "place": place(case)}]
+    if case.name in _DRY and (case.beyond < LEAST or all(s.quantity != "displacement" for s in case.sensors)):
+        return [{"name": _DRY[1], "place": place(case)}]
     if case.form in _RESCALED and len(case.truth.mass) == len(case.sensors) == 1:
         stuck = [{"name": "jenkins", "place": spring(0)}] if case.form == "added_stiffness" else []
         return [{"name": "sensor_gain", "place": case.sensors[0].name}, *stuck]
@@ -73,14 +71,21 @@ def alike(case):
 
 def truth(case):
     """What is opened only for the score: see ``pipeline.blind_trial.generators.systems``."""
-    hidden = [{"name": case.name, "place": place(case), "parameters": case.told, "alike": alike(case)}]
-    if case.form in MEANS and case.beyond >= LEAST:       # in the words of the catalogue one comes on top of the other
-        hidden.append({"name": MEANS[case.form], "place": place(case), "parameters": {}, "alike": []})
     values = {_named(name): float(case.truth.value(name)) for name in case.truth.names}
-    return {"class": case.kind, "effects": hidden if case.form else [], "noise": case.level, "size": case.change,
+    return {"class": case.kind, "effects": _hidden(case) if case.form else [], "noise": case.level, "size": case.change,
             "parameters": values, "left": case.left, "seed": case.seed, "colour": case.colour, "wrong": case.far,
             "way": case.way, "form": case.form, "gaps": case.gap, "amount": case.size, "bodies": len(case.truth.mass),
             "a_period": case.rate / float(case.truth.frequencies[-1])}
+
+
+def _hidden(case):
+    """What a Case hides, in the words of the catalogue, where friction larger one way comes on top of that of both ways:
+    of two strengths the mean, and what differs where it shows."""
+    told = {"place": place(case), "parameters": case.told, "alike": alike(case)}
+    if case.form not in MEANS:
+        return [{"name": case.name, **told}]
+    mean = {"name": MEANS[case.form], **told}
+    return [mean] if told["alike"] else [mean, {**mean, "name": case.name}]
 
 
 def _named(name):
