@@ -79,7 +79,7 @@ def truth(case):
 
 
 def _hidden(case):
-    """What a Case hides, in the words of the catalogue, where friction larger one way comes on top of that of both ways:
+    """What a Case hides, in the words of the catalogue, where friction of one way comes on top of that of both ways:
     of two strengths the mean, and what differs where it shows."""
     told = {"place": place(case), "parameters": case.told, "alike": alike(case)}
     if case.form not in MEANS:
