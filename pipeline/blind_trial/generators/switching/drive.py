@@ -4,7 +4,7 @@ A Drive pushes with ``row`` times ``force(t)``; what was recorded of it are the 
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import scipy
@@ -19,12 +19,29 @@ _TONES = 14
 @dataclass(frozen=True)
 class Drive:
     """``row`` (n,), ``force(t)`` N along it for an instant or instants (n,), ``shown(t)`` as a channel records it, in
-    N or m; ``breaks`` s where it jumps."""
+    N or m; ``breaks`` s where it jumps.
+
+    ``behind``: number of the spring whose far wall is moved, by ``shown``, whose rate of change is ``rate(t)`` m/s.
+    """
 
     row: np.ndarray
     force: Callable
     shown: Callable
     breaks: tuple = ()
+    behind: int | None = None
+    rate: Callable | None = None
+
+    def of(self, rig):
+        """The Drive of a Rig of other values: a wall pulls by the spring and the damper that are there."""
+        if self.behind is None:
+            return self
+        stiffness, damping = rig.stiffness[self.behind], rig.damping[self.behind]
+        return replace(self, force=lambda t: stiffness * self.shown(t) + damping * self.rate(t))
+
+    def scaled(self, factor):
+        """The same ``factor`` times as strong."""
+        rate = self.rate and (lambda t: factor * self.rate(t))
+        return replace(self, force=lambda t: factor * self.force(t), shown=lambda t: factor * self.shown(t), rate=rate)
 
     def pushing(self, fine):
         """push(t) (n,) N of one instant within the even instants ``fine``, by a cubic spline between the breaks."""
@@ -95,11 +112,11 @@ def shaker(row, level, shape):
     return Drive(row, lambda t: level * signal(t), lambda t: level * signal(t), breaks)
 
 
-def wall(row, stiffness, damping, level, shape):
-    """The wall behind a spring along ``row`` is moved; the channel shows its displacement in m."""
+def wall(rig, spring, level, shape):
+    """The wall behind a ``spring`` of a Rig is moved; the channel shows its displacement in m."""
     signal, change, breaks = shape
-    return Drive(row, lambda t: level * (stiffness * signal(t) + damping * change(t)), lambda t: level * signal(t),
-                 breaks)
+    moved = Drive(rig.rows[spring], None, lambda t: level * signal(t), breaks, spring, lambda t: level * change(t))
+    return moved.of(rig)
 
 
 def blow(row, impulse, instant, width):

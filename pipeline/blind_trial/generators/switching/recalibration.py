@@ -58,7 +58,7 @@ def linear(rig, beginning, off=()):
     the logarithm of its width.
     """
     mass, damping, stiffness = rig.matrices()
-    n, drive, fine = len(mass), beginning.drive, beginning.fine
+    n, drive, fine = len(mass), beginning.drive.of(rig), beginning.fine
     if beginning.free == "blow":
         start, force = beginning.start, _struck(drive, fine, *(off if len(off) else np.zeros(3)))
     else:

@@ -181,15 +181,12 @@ def _begun(random, truth, way, at, fine, time, rate):
     kind = str(random.choice(("multisine", "sweep"))) if way == "wall" else way
     shape = drive.course(random, kind, _BAND[0] * slowest, _BAND[1] * fastest, time[-1], rate)
     if way == "wall":
-        return Beginning(fine, time, drive.wall(truth.rows[at], truth.stiffness[at], truth.damping[at], 1.0, shape),
-                         rest)
+        return Beginning(fine, time, drive.wall(truth, at, 1.0, shape), rest)
     return Beginning(fine, time, drive.shaker(row, 1.0, shape), rest)
 
 
 def _scaled(run, factor):
-    d = run.drive
-    return replace(run, start=factor * run.start, drive=replace(
-        d, force=lambda t: factor * d.force(t), shown=lambda t: factor * d.shown(t)))
+    return replace(run, start=factor * run.start, drive=run.drive.scaled(factor))
 
 
 def _sensors(random, bodies, way, rate):

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from pipeline.blind_trial.generators.switching import drive
+from pipeline.blind_trial.generators.switching.rig import LAYOUTS, Rig
 
 ROW = np.array([1.0])
 
@@ -37,7 +38,10 @@ def test_a_blow_has_its_impulse_and_a_wall_pushes_by_spring_and_damper():
     time = np.linspace(0, 1, 200_001)
     blow = drive.blow(ROW, 0.7, 0.31, 0.02)
     assert np.sum(blow.force(time)) * time[1] == pytest.approx(0.7, rel=1e-6) and blow.breaks == (0.31, 0.31 + 0.02)
-    wall = drive.wall(ROW, 100.0, 2.0, 0.01, (np.sin, np.cos, ()))
+    rig = Rig((1.0, 1.0), LAYOUTS["row"], (100.0, 50.0), (2.0, 1.0))
+    wall = drive.wall(rig, 0, 0.01, (np.sin, np.cos, ()))
     assert wall.force(0.4) == pytest.approx(np.sin(0.4) + 0.02 * np.cos(0.4))
+    stiffer = wall.scaled(3.0).of(rig.with_values({"stiffness.0": 200.0}))
+    assert stiffer.force(0.4) == pytest.approx(3 * (2 * np.sin(0.4) + 0.02 * np.cos(0.4)))
     assert wall.shown(0.4) == pytest.approx(0.01 * np.sin(0.4)) and not drive.still(ROW).force(time).any()
     assert set(drive.WAYS) >= {"release", "blow"}

@@ -85,6 +85,17 @@ def test_of_a_decay_more_of_the_damper_that_is_known_is_less_of_all_the_others()
     assert left == pytest.approx(off, rel=0.02)
 
 
+def test_so_it_is_where_a_wall_is_moved():
+    """Its displacement is what is known: it pulls by the spring that a refit tries."""
+    shape = drive.course(np.random.default_rng(1), "multisine", 4.0, 15.0, TIME[-1], RATE)
+    run = Beginning(FINE, TIME, drive.wall(RIG, 0, 1e-3, shape), np.zeros(4))
+    damped = RIG.with_values({"damping.1": 2.15 * RIG.damping[1]})
+    base, seen = ([np.array([s.shown(linear(rig, run), FINE, TIME) for s in SENSORS])] for rig in (RIG, damped))
+    noise = 0.001 * np.sqrt(np.mean(base[0] ** 2, axis=1))
+    left = Recalibration(RIG, SENSORS, (run,), ("damping.1",), base).left(seen, noise)
+    assert left == pytest.approx(np.log(2.15) / 0.2 * np.sqrt(5), rel=0.02)
+
+
 @pytest.mark.parametrize("begin", [shaken, released, struck])
 def test_other_values_leave_their_prior_alone_and_friction_more(begin):
     run = begin()
