@@ -3,7 +3,7 @@
 from pipeline.contract import Array, count, product, quantity, text
 
 
-@product(version=3)
+@product(version=4)
 class MicroFriction:
     """Friction, real contact area and wear of the rough pair over pressure, speed and sliding distance."""
 
@@ -13,7 +13,8 @@ class MicroFriction:
     disc_speed: Array = quantity("rad/s", "speed", "disc speed with this sliding speed at the effective radius")
     distance: Array = quantity("m", "distance", "sliding distance")
     friction: Array = quantity("1", "pressure speed distance", "coefficient of friction, shear over normal force")
-    friction_std: Array = quantity("1", "pressure speed distance", "standard error of the friction coefficient")
+    friction_std: Array = quantity("1", "pressure speed distance", "standard error of the friction coefficient: over pairs of surfaces, of one pair over its positions")
+    pair_friction: Array = quantity("1", "pair pressure speed distance", "coefficient of friction of each pair of surfaces")
     real_area: Array = quantity("1", "pressure speed distance", "real over nominal contact area, perimeter-corrected")
     wear_depth: Array = quantity("m", "pressure speed distance", "approach of both mean planes by wear, at equal load")
     largest_wear: Array = quantity("m", "pressure speed distance", "largest wear of one surface node")
