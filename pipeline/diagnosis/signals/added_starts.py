@@ -1,36 +1,31 @@
 """Start states of what effects add: where a free motion begins, a hidden mass on a spring moves as well.
 
-Candidates that add coordinates get two parameters of each for every run whose start is unknown, its displacement and
-velocity at the first sample. They begin from where the springs of the others hold it; the prior is as wide as the
-energy of the start would move it alone.
+Candidates that add coordinates get two parameters of each for every run whose start is unknown, of its displacement and
+velocity at the first sample: how far, or how fast, the others would have to be for their springs to move it as much
+beyond where they hold it. The prior is a few times as wide as the energy of the start would move these.
 """
 
 from dataclasses import replace
 
-import numpy as np
-
+from pipeline.case_models.force_balance import body_names
 from pipeline.diagnosis.signals.forward_model import completed
-from pipeline.diagnosis.signals.start_states import StartSpread, energy_reach, held, vibrations
+from pipeline.diagnosis.signals.start_states import StartSpread, own_start
+from pipeline.inference.priors import Normal, Parameter
+
+#: width of the prior over what the energy of the start would move the others by: near a resonance a small mass goes far
+_WIDE = 3.0
 
 
 def with_added_starts(bench, candidates, recorded):
     """The ``candidates`` (Hypothesis, ...) for a Bench, with starts of their own coordinates in {name: Recorded}."""
-    unknown = [record.run for record in recorded.values() if isinstance(record.unknown, StartSpread)]
+    unknown = [record for record in recorded.values() if isinstance(record.unknown, StartSpread)]
     return tuple(_with_own_starts(bench, candidate, unknown) for candidate in candidates) if unknown else candidates
 
 
-def _with_own_starts(bench, candidate, runs):
+def _with_own_starts(bench, candidate, records):
     changed = completed(bench, candidate, {p.name: p.nominal for p in candidate.parameters})
-    if changed.model.size <= bench.model.size:
-        return candidate
-    own = [p for run in runs for p in _own_starts(bench.model.size, changed, run)]
-    return replace(candidate, parameters=(*candidate.parameters, *own))
-
-
-def _own_starts(known, changed, run):
-    """Parameters of the coordinates of a ``changed`` bench beyond the ``known`` first ones, in one Run."""
-    start = held(changed.model, run.start)
-    spread = energy_reach(changed.model, np.append(start.displacement, start.velocity), *vibrations(changed, run))
-    every = StartSpread(*spread, spread[0]).parameters(changed, replace(run, start=start), False)
-    size = changed.model.size
-    return (*every[known:size], *every[size + known:])
+    own = [Parameter(own_start(record.run.name, field, name), unit, 0.0,
+                     Normal(0.0, _WIDE * float(getattr(record.unknown, field).max())), run=record.run.name)
+           for record in records for field, unit in (("displacement", "m"), ("velocity", "m/s"))
+           for name in body_names(changed)[bench.model.size:]]
+    return replace(candidate, parameters=(*candidate.parameters, *own)) if own else candidate

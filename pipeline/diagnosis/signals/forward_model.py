@@ -73,6 +73,9 @@ class Simulated:
         observed_run = observed_run.until(kept) if kept < observed_run.samples else observed_run
         change = self.altered.get(run.name, {})
         responder = self._responder(hypothesis, values, run.channels, change)
+        if observed_run.start is not None:
+            start = held(responder.bench.model, observed_run.start, self.bench.model.size)
+            observed_run = replace(observed_run, start=start)
         predicted = _answer(responder, observed_run, run.channels)
         refinement = values.get(parameter_name(STEP, SOLVER, REFINEMENT), 0.0)
         if not refinement:

@@ -126,7 +126,7 @@ def estimated(bench, recorded):
     recorded = without_past(bench, recorded)
     run, size = recorded.run, bench.model.size
     count = _first_samples(bench, run)
-    first, (least, vectors) = run.until(count), vibrations(bench, run)
+    first, (least, vectors) = run.until(count), _vibrations(bench, run)
     valid = recorded.valid[:, :count]
     samples = np.where(valid, recorded.samples[:, :count], 0.0)
     scale = np.sqrt(np.mean(samples**2, axis=1))
@@ -148,8 +148,8 @@ def estimated(bench, recorded):
         if not after @ after < rest @ rest:
             break
         state, rest = moved, after
-        change = _CHANGE * np.concatenate(energy_reach(bench.model, state, least, vectors))
-    spread = energy_reach(bench.model, state, least, vectors)
+        change = _CHANGE * np.concatenate(_reach(bench.model, state, least, vectors))
+    spread = _reach(bench.model, state, least, vectors)
     start = Start(state[:size], state[size:], relaxed=np.zeros(size))
     return replace(recorded, run=replace(run, start=start), unknown=StartSpread(*spread, spread[0]))
 
@@ -183,19 +183,31 @@ def begun_as(runs, hypothesis, values):
     return {name: begun(run, hypothesis, values) for name, run in runs.items()}
 
 
-def held(model, start):
-    """Start of a SlidingModel with coordinates that an effect added: where it says nothing of them, where the springs
-    of the others hold them. Of coordinates that a vanishing effect did not add, nothing is kept."""
+def held(model, start, known=None):
+    """Start of a SlidingModel with coordinates that an effect added: where the springs of the others hold them.
+
+    Where it says more than the ``known`` first ones, the rest is what the others would have to move by so that their
+    springs moved these as far beyond: what hardly takes part, as a base that hardly gives way, starts at rest. Of
+    coordinates that a vanishing effect did not add, nothing is kept.
+    """
     stiffness = model.supported()[2]
 
     def whole(value):
-        known = len(value)
-        if known >= model.size:
+        first = len(value) if known is None else min(known, len(value))
+        if first >= model.size:
             return value[:model.size]
-        return np.append(value, -np.linalg.pinv(stiffness[known:, known:]) @ stiffness[known:, :known] @ value)
+        follows = -np.linalg.pinv(stiffness[first:, first:]) @ stiffness[first:, :first]
+        beyond = np.zeros(model.size - first)
+        beyond[:len(value) - first] = value[first:]
+        return np.append(value[:first], follows @ value[:first] + abs(follows).sum(axis=1) * beyond)
 
     every = {field: getattr(start, field) for field, _ in _PARTS.values()}
     return replace(start, **{field: whole(value) for field, value in every.items() if value is not None})
+
+
+def own_start(run, field, coordinate):
+    """Name of the parameter of a run for a ``field`` of the start of a coordinate that an effect adds."""
+    return _name(run, next(part for part, (of, _) in _PARTS.items() if of == field), coordinate)
 
 
 def _name(run, part, coordinate):
@@ -217,7 +229,7 @@ def _at_rest(bench, run):
     return np.concatenate((displacement, np.zeros(size)))
 
 
-def vibrations(bench, run):
+def _vibrations(bench, run):
     """(Squares of angular frequencies (n,), shapes (n, n) of unit mass) of the undamped bench; 0: nothing holds it."""
     mass, _, stiffness = bench.model.supported(gyroscopic=False)
     with suppress(BrakechainError):         # contacts that do not yield, friction with states
@@ -227,7 +239,7 @@ def vibrations(bench, run):
 
 def _first_samples(bench, run):
     """Number of samples of the slowest period of a run. ConfigError where the run is shorter."""
-    square = vibrations(bench, run)[0]
+    square = _vibrations(bench, run)[0]
     held_by_springs = square[square > _FREE * abs(square).max()]
     if not len(held_by_springs):
         return run.samples
@@ -240,11 +252,11 @@ def _first_samples(bench, run):
 
 def _fastest(bench, run):
     """Highest natural frequency in Hz that the samples of a run resolve; half their rate where there is none."""
-    natural, limit = np.sqrt(np.maximum(vibrations(bench, run)[0], 0.0)) / (2 * np.pi), run.sample_rate / 2
+    natural, limit = np.sqrt(np.maximum(_vibrations(bench, run)[0], 0.0)) / (2 * np.pi), run.sample_rate / 2
     return float(natural[natural < limit].max(initial=0.0)) or limit
 
 
-def energy_reach(model, state, square, shapes):
+def _reach(model, state, square, shapes):
     """(Displacement (n,), velocity (n,)) of each coordinate alone with the energy of a state."""
     size = len(square)
     slowest = max(square[square > _FREE * abs(square).max()].min(initial=np.inf), 0.0) if len(square) else 0.0

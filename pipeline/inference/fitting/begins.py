@@ -27,7 +27,7 @@ def begun_beside(problem, null, anchor, ahead, offsets, item):
         starts.append(np.concatenate((anchor.latent, faint(candidate, screened_start))))
     discrete = _alternative_starts(problem, null, candidate, anchor.latent)
     at_null = [] if anchor is null or null.unordered else [screened_start]
-    at_null = _starts(null.latent, at_null + tone_starts.starts(problem, null, candidate))
+    at_null = _starts(null.latent, at_null) + tone_starts.starts(problem, null, candidate)
     return tried(problem, null, candidate, discrete + starts + at_null,
                   [None] * len(discrete) + [anchor] * len(starts) + [null] * len(at_null), ahead)
 
@@ -55,7 +55,7 @@ def directions_like(problem, anchor, values, item):
 def begun_at(problem, anchor, item):
     """The same from the nominal values of the Fit ``anchor`` alone."""
     candidate, start = item
-    starts = _starts(anchor.latent, [start, *tone_starts.starts(problem, anchor, candidate)])
+    starts = _starts(anchor.latent, [start]) + tone_starts.starts(problem, anchor, candidate)
     return tried(problem, anchor, candidate, starts, [anchor] * len(starts))
 
 

@@ -56,11 +56,14 @@ def _power(part, rate, grid):
 
 
 def starts(problem, fit, candidate):
-    """Latent values [(k,)] of a tonal candidate at the frequencies that explain most of what a Fit leaves."""
+    """Latent values [(n + k,)], nominal ones first, of a tonal candidate at the frequencies that explain most of what a
+    Fit leaves. The nominal values, and how runs begin, have made up for the tone as well as they can: they give way.
+    """
     tone = tone_of(candidate)
     if tone is None:
         return []
     hypothesis, jacobian = problem.nominal.joined(candidate), np.concatenate(fit.jacobians)
+    back = np.linalg.solve(jacobian.T @ jacobian + np.eye(len(fit.latent)), jacobian.T)
     base, start = np.concatenate(fit.residuals), np.concatenate(from_prior_mean(fit))
     ranked = []
     for frequency in standing_out(fit):
@@ -72,8 +75,8 @@ def starts(problem, fit, candidate):
         clean = orthogonal(change, jacobian)
         cosine, sine = np.linalg.lstsq(change.T @ clean, clean.T @ start)[0]
         gain = (cosine, sine) @ (clean.T @ start)
-        ranked.append((gain, _latent(candidate, tone, _SMALL * np.hypot(cosine, sine), frequency,
-                                    np.arctan2(sine, cosine))))
+        sounding = _latent(candidate, tone, _SMALL * np.hypot(cosine, sine), frequency, np.arctan2(sine, cosine))
+        ranked.append((gain, np.concatenate((back @ (start - change @ (cosine, sine)), np.clip(sounding, -2, 2)))))
     return [latent for _, latent in sorted(ranked, key=lambda f: -f[0])[:_BEGUN]]
 
 

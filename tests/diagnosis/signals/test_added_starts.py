@@ -63,3 +63,17 @@ def test_a_hidden_mass_that_moves_already_is_fitted_to_the_noise():
     assert fit.values["tuned_absorber@block.frequency"] == pytest.approx(FREQUENCY, rel=0.01)
     start = next(v for n, v in fit.values.items() if "velocity of absorber" in n and "@a." in n)
     assert start == pytest.approx(0.5, rel=0.2)
+
+
+@pytest.mark.exact
+def test_a_base_that_hardly_yields_hardly_moves_whatever_its_start():
+    motions = {"a": decay((0.02, 0.02, 0.0, 0.0)), "last": decay((-0.03, -0.03, 0.1, 0.1))}
+    whole = problem(motions, noise=1e-3, weighed=["moving_base"], step="0.5 ms")
+    candidate, = (c for c in whole.candidates if c.effects == (("moving_base", "mount"),))
+    hypothesis, run = whole.problem.nominal.joined(candidate), whole.problem.runs[0]
+    values = hypothesis.values(hypothesis.nominal) | {"moving_base@mount.compliance": 1e-9}
+    still = whole.problem.predict(hypothesis, values, run)
+    moved = values | {p.name: p.prior.std for p in candidate.parameters if p.run}
+    assert abs(whole.problem.predict(hypothesis, moved, run) - still).max() < 1e-4 * abs(still).max()
+    moved["moving_base@mount.compliance"] = 1e-3
+    assert abs(whole.problem.predict(hypothesis, moved, run) - still).max() > 0.1 * abs(still).max()

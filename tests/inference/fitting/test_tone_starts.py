@@ -51,7 +51,7 @@ def test_a_fit_begins_at_the_tone_that_is_there():
     problem, null = null_of(TRUE)
     assert standing_out(null)[0] == pytest.approx(TRUE["frequency"], abs=0.25 * RATE / SAMPLES)
     first = starts(problem, null, RIPPLE)[0]
-    found = RIPPLE.values(first)
+    found = problem.nominal.joined(RIPPLE).values(first)
     assert found["frequency"] == pytest.approx(TRUE["frequency"], abs=0.25 * RATE / SAMPLES)
     half = SAMPLES / RATE / 2       # about the middle of the run the phase is that of the frequency found
     turned = 2 * np.pi * (found["frequency"] - TRUE["frequency"]) * half - found["phase"] + TRUE["phase"]
@@ -61,7 +61,19 @@ def test_a_fit_begins_at_the_tone_that_is_there():
 
 def test_where_nothing_sounds_or_samples_have_no_order_nothing_is_promised():
     problem, null = null_of({})
-    assert max(RIPPLE.values(latent)["force"] for latent in starts(problem, null, RIPPLE)) < 0.05
+    whole = problem.nominal.joined(RIPPLE)
+    assert max(whole.values(latent)["force"] for latent in starts(problem, null, RIPPLE)) < 0.05
     assert starts(problem, null, DRAG) == []
     unordered = replace(null, noises=tuple(replace(n, ordered=False) for n in null.noises))
     assert starts(problem, unordered, RIPPLE) == []
+
+
+@pytest.mark.exact
+def test_nominal_values_give_way_to_the_tone():
+    """Beside a tone of less than two periods the constant was off; where the tone begins it is what it is."""
+    slow = TRUE | {"frequency": 0.33}
+    problem, null = null_of(slow)
+    assert abs(null.values["level"] - 1.2) > 0.05
+    whole = problem.nominal.joined(RIPPLE)
+    near = min(starts(problem, null, RIPPLE), key=lambda u: abs(whole.values(u)["frequency"] - 0.33))
+    assert abs(whole.values(near)["level"] - 1.2) < abs(null.values["level"] - 1.2)
