@@ -3,6 +3,7 @@
 import numpy as np
 
 from pipeline.contract import Context, ConvergenceError, Section, option, stage
+from pipeline.physics.friction import table_formats
 from pipeline.physics.friction.friction_table import refine
 from pipeline.physics.friction.pressure_law import levelling_axis, polynomial_fit, slope_error
 from pipeline.products import FrictionMap, MicroFriction
@@ -20,11 +21,12 @@ class Settings(Section):
 
 
 def companions(product, case=None):
-    """friction_map.csv: the long table, one line per point, SI units in the head."""
-    grids = np.meshgrid(product.pressure, product.speed, product.distance, indexing="ij")
-    rows = zip(*(a.ravel() for a in (*grids, product.friction, product.friction_std)), strict=True)
-    head = "pressure [Pa],speed [m/s],distance [m],friction [1],friction_std [1]"
-    return {"friction_map.csv": "\n".join([head, *(",".join(f"{v:.10g}" for v in row) for row in rows)]) + "\n"}
+    """The map at its refined points in SI units: as CSV, and as the tables that Abaqus, Adams and FMUs read."""
+    axes = product.pressure, product.speed, product.distance
+    return {"friction_map.csv": table_formats.as_csv(*axes, product.friction, product.friction_std),
+            "friction_map.inp": table_formats.as_abaqus(*axes, product.friction),
+            "friction_map.adm": table_formats.as_adams(*axes, product.friction),
+            "friction_map.txt": table_formats.as_modelica(*axes, product.friction)}
 
 
 @stage(companions=companions)
