@@ -7,6 +7,7 @@ import numpy as np
 from pipeline.case_models.effect_block import rubbing_with_effects
 from pipeline.case_models.rough_pair import Settings, cycle_distance, of_pair, offsets, rough_pair, rubbing, shifted
 from pipeline.contract import ConfigError, Context, stage, stored
+from pipeline.physics.numerics.grid_limit import grid_limit
 from pipeline.physics.rough.normal_contact import contact_area, solve_normal_contact
 from pipeline.physics.rough.sliding_pair import slide
 from pipeline.products import Effects, MicroFriction, Surface
@@ -27,7 +28,7 @@ def micro_friction(surface: Surface, effects: Effects | None, settings: Settings
     moduli, third-body factor and wear coefficients with origin "tuned" were fitted to the facts named in their source.
     Effects at the asperities modify wear and shear.
     """
-    for name in ("pressures", "disc_speeds"):
+    for name in ("pressures", "disc_speeds", "refinement"):
         _refuse_falling(getattr(settings, name), name)
     speeds = np.array(settings.disc_speeds) * settings.effective_radius
     recorded = _recorded_cycles(settings)
@@ -46,7 +47,10 @@ def micro_friction(surface: Surface, effects: Effects | None, settings: Settings
         distance=np.array(recorded) * cycle_distance(settings), **_table(records, len(settings.pressures), len(pairs)),
         block_compliance=rubbed.pair.compliance.normal[0, 0], shear_limit=rubbed.shearing.limit, x=surface.x,
         y=surface.y,
+        nodes_per_wavelength=surface.nodes_per_wavelength[0],
         refinement=np.array(settings.refinement) * surface.nodes_per_wavelength[0], refinement_area=areas,
+        **dict(zip(("area_limit", "area_limit_error", "area_order"), grid_limit(settings.refinement, areas),
+                   strict=True)),
         **{name: getattr(shown, name) for name in
            ("contact_pressure_new", "contact_pressure_worn", "pad_wear", "disc_wear")})
 

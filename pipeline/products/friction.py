@@ -31,8 +31,12 @@ class MicroFriction:
     contact_pressure_worn: Array = quantity("Pa", "y x", "contact pressure, last cycle, middle pressure and speed")
     pad_wear: Array = quantity("m", "y x", "wear of the pad nodes after the last cycle, middle pressure and speed")
     disc_wear: Array = quantity("m", "y x", "wear of the disc nodes after the last cycle, middle pressure and speed")
+    nodes_per_wavelength: Array = quantity("1", "", "nodes per shortest wavelength of the study itself")
     refinement: Array = quantity("1", "refinement", "nodes per shortest wavelength of the convergence study")
     refinement_area: Array = quantity("1", "refinement", "perimeter-corrected real over nominal area at middle pressure")
+    area_limit: Array = quantity("1", "", "the same on an infinitely fine grid, extrapolated from the last three")
+    area_limit_error: Array = quantity("1", "", "error of the extrapolation; of two grids what the last refinement changes")
+    area_order: Array = quantity("1", "", "order at which it approaches that; 0 where fewer than three grids tell none")
 
 
 @product(version=2)

@@ -22,7 +22,8 @@ def computed():
                          friction=friction, pair_friction=friction[None],
                          friction_std=friction / 20, normal_stiffness=1e12 * friction,
                          shear_limit=13.5e6, block_compliance=3.5e-12, x=np.arange(2.0), y=np.arange(2.0),
-                         refinement=[8.0], refinement_area=[0.03], **table, **maps)
+                         nodes_per_wavelength=8.0, refinement=[8.0], refinement_area=[0.03], area_limit=0.03,
+                         area_limit_error=0.003, area_order=0.0, **table, **maps)
 
 
 def test_computed_points_stay_and_nothing_overshoots(computed):

@@ -126,3 +126,9 @@ def test_the_first_of_several_pairs_is_that_of_one(result):
     found = micro_friction(rough(pairs=2), settings=Settings(**TINY))
     np.testing.assert_allclose(found.pair_friction[0], result.friction, rtol=1e-12)
     np.testing.assert_array_equal(found.contact_pressure_worn, result.contact_pressure_worn)
+
+
+def test_three_grids_tell_the_limit_of_the_area():
+    found = micro_friction(rough(), settings=Settings(**TINY | {"refinement": [1.0, 2.0, 4.0]}))
+    assert found.area_limit < found.refinement_area[-1] < found.refinement_area[0]
+    assert 0 < found.area_limit_error < found.refinement_area[0] - found.area_limit
