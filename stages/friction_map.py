@@ -3,6 +3,7 @@
 import numpy as np
 
 from pipeline.contract import Context, ConvergenceError, Section, option, stage
+from pipeline.physics.friction import table_formats
 from pipeline.physics.friction.friction_table import refine
 from pipeline.physics.friction.pressure_law import levelling_axis, polynomial_fit, slope_error
 from pipeline.products import FrictionMap, MicroFriction
@@ -20,11 +21,12 @@ class Settings(Section):
 
 
 def companions(product, case=None):
-    """friction_map.csv: the long table, one line per point, SI units in the head."""
-    grids = np.meshgrid(product.pressure, product.speed, product.distance, indexing="ij")
-    rows = zip(*(a.ravel() for a in (*grids, product.friction, product.friction_std)), strict=True)
-    head = "pressure [Pa],speed [m/s],distance [m],friction [1],friction_std [1]"
-    return {"friction_map.csv": "\n".join([head, *(",".join(f"{v:.10g}" for v in row) for row in rows)]) + "\n"}
+    """The map at its refined points in SI units: as CSV, and as the tables that Abaqus, Adams and FMUs read."""
+    axes = product.pressure, product.speed, product.distance
+    return {"friction_map.csv": table_formats.as_csv(*axes, product.friction, product.friction_std),
+            "friction_map.inp": table_formats.as_abaqus(*axes, product.friction),
+            "friction_map.adm": table_formats.as_adams(*axes, product.friction),
+            "friction_map.txt": table_formats.as_modelica(*axes, product.friction)}
 
 
 @stage(companions=companions)
@@ -77,10 +79,14 @@ def _fitted(computed, settings, fine, stiffness):
 def _slope_errors(computed, fine, scatter, slope):
     """Fields of the map: where its error is smallest, and the errors of its slopes there.
 
-    ``slope`` (F, P) is that of the fitted law per computed value; None: that of a straight line by weight.
+    ``slope`` (F, P) is that of the fitted law per computed value; None: that of a straight line by weight. With several
+    pairs of surfaces errors are those of what each pair gives, whose friction at all pressures and speeds rises and
+    falls together.
     """
     pressure, speed, distance = fine
     best = scatter.mean(axis=1).argmin(axis=0)
+    if len(computed.pair_friction) > 1:
+        return {"best_pressure": pressure[best], **_slopes_of_pairs(computed, fine, best, slope)}
     over_pressure, over_speed = [], []
     for s, at in enumerate(np.interp(computed.distance, distance, best).round().astype(int)):
         errors = computed.friction_std[:, :, s]
@@ -92,3 +98,26 @@ def _slope_errors(computed, fine, scatter, slope):
     return {"best_pressure": pressure[best],
             "pressure_slope_std": np.interp(distance, computed.distance, over_pressure),
             "speed_slope_std": np.interp(distance, computed.distance, over_speed)}
+
+
+def _slopes_of_pairs(computed, fine, best, slope):
+    """Standard errors of the slopes by what each pair of surfaces gives for them; see ``_slope_errors``."""
+    pressure, speed, distance = fine
+    errors = {"pressure_slope_std": [], "speed_slope_std": []}
+    for s, at in enumerate(np.interp(computed.distance, distance, best).round().astype(int)):
+        each = computed.pair_friction[..., s]
+        over = _line(np.log(computed.pressure)) if slope is None else slope[at]
+        errors["pressure_slope_std"].append(_standard_error(np.einsum("p,npv->n", over, each) / len(computed.speed)))
+        near = np.argmin(abs(np.log(computed.pressure / pressure[at])))
+        errors["speed_slope_std"].append(_standard_error(each[:, near] @ _line(np.log(computed.speed))))
+    return {name: np.interp(distance, computed.distance, values) for name, values in errors.items()}
+
+
+def _line(x):
+    """Weights (n,) that give the slope of a straight line through values at ``x`` (n,); zeros of a single one."""
+    off = x - x.mean()
+    return off / (off @ off) if len(x) > 1 else off
+
+
+def _standard_error(values):
+    return float(values.std(ddof=1) / np.sqrt(len(values)))

@@ -96,7 +96,7 @@ def _summits(surface, settings):
         return Summits(**settings.summits.model_dump(exclude={"kind"})), "given parameters"
     if surface is None:
         raise ConfigError("interface_law.summits", "kind: given, with parameters", "a chain without surfaces")
-    summits = summits_of(surface.disc_height + surface.pad_height, surface.x[1] - surface.x[0])
+    summits = summits_of(surface.disc_height[0] + surface.pad_height[0], surface.x[1] - surface.x[0])
     return summits, f"{' and '.join(map(str, surface.source))}, resolution {surface.x[1] - surface.x[0]:.3g} m"
 
 

@@ -5,8 +5,9 @@ from functools import partial
 import numpy as np
 
 from pipeline.case_models.effect_block import rubbing_with_effects
-from pipeline.case_models.rough_pair import Settings, cycle_distance, offsets, rough_pair, rubbing, shifted
+from pipeline.case_models.rough_pair import Settings, cycle_distance, of_pair, offsets, rough_pair, rubbing, shifted
 from pipeline.contract import ConfigError, Context, stage, stored
+from pipeline.physics.numerics.grid_limit import grid_limit
 from pipeline.physics.rough.normal_contact import contact_area, solve_normal_contact
 from pipeline.physics.rough.sliding_pair import slide
 from pipeline.products import Effects, MicroFriction, Surface
@@ -22,29 +23,34 @@ def micro_friction(surface: Surface, effects: Effects | None, settings: Settings
     (conjugate gradients of Polonsky and Keer) and sheared to full slip with the shear limit {third_body_factor} *
     {disc_strength} / sqrt(3); Archard wear was applied to both surfaces in {cycles} cycles. The friction coefficient is
     total shear force over total normal force, with the real area corrected for its perimeter (Yastrebov et al. 2017),
-    averaged over one pass of the slider and {realisations} relative positions of the patches. Speed enters through a
-    rate term ({rate_coefficient}) and thermal softening ({softening}) of the limit. Asperity moduli, third-body factor
-    and wear coefficients with origin "tuned" were fitted to the facts named in their source. Effects at the asperities
-    modify wear and shear.
+    averaged over one pass of the slider, {realisations} relative positions of the patches and all pairs of surfaces.
+    Speed enters through a rate term ({rate_coefficient}) and thermal softening ({softening}) of the limit. Asperity
+    moduli, third-body factor and wear coefficients with origin "tuned" were fitted to the facts named in their source.
+    Effects at the asperities modify wear and shear.
     """
-    for name in ("pressures", "disc_speeds"):
+    for name in ("pressures", "disc_speeds", "refinement"):
         _refuse_falling(getattr(settings, name), name)
     speeds = np.array(settings.disc_speeds) * settings.effective_radius
     recorded = _recorded_cycles(settings)
     rubbed = rubbing_with_effects(rubbing(surface, settings), effects)
-    tasks = [(pressure, offset) for pressure in settings.pressures for offset in offsets(surface, settings)]
-    run = partial(_slide, rubbed=rubbed, speeds=speeds, recorded=recorded)
+    pairs = [of_pair(rubbed, surface, number) for number in range(len(surface.pad_height))]
+    tasks = [(pressure, shifted(pair, offset)) for pressure in settings.pressures for pair in pairs
+             for offset in offsets(surface, settings)]
+    run = partial(_slide, speeds=speeds, recorded=recorded)
     records = context.map(run, tasks, "sliding of the rough pair")
     middle = settings.pressures[len(settings.pressures) // 2]
     areas = context.map(partial(_area_on_grid, surface=surface, settings=settings, pressure=middle),
                         settings.refinement, "convergence of the contact area")
-    shown = records[len(settings.pressures) // 2 * settings.realisations]
+    shown = records[len(settings.pressures) // 2 * len(pairs) * settings.realisations]
     return MicroFriction(
         settings=stored(settings), pressure=settings.pressures, speed=speeds, disc_speed=settings.disc_speeds,
-        distance=np.array(recorded) * cycle_distance(settings), **_table(records, settings),
+        distance=np.array(recorded) * cycle_distance(settings), **_table(records, len(settings.pressures), len(pairs)),
         block_compliance=rubbed.pair.compliance.normal[0, 0], shear_limit=rubbed.shearing.limit, x=surface.x,
         y=surface.y,
+        nodes_per_wavelength=surface.nodes_per_wavelength[0],
         refinement=np.array(settings.refinement) * surface.nodes_per_wavelength[0], refinement_area=areas,
+        **dict(zip(("area_limit", "area_limit_error", "area_order"), grid_limit(settings.refinement, areas),
+                   strict=True)),
         **{name: getattr(shown, name) for name in
            ("contact_pressure_new", "contact_pressure_worn", "pad_wear", "disc_wear")})
 
@@ -65,9 +71,9 @@ def _recorded_cycles(settings):
     return cycles
 
 
-def _slide(task, rubbed, speeds, recorded):
-    pressure, offset = task
-    return slide(shifted(rubbed, offset), pressure, speeds, recorded)
+def _slide(task, speeds, recorded):
+    pressure, rubbed = task
+    return slide(rubbed, pressure, speeds, recorded)
 
 
 def _area_on_grid(factor, surface, settings, pressure):
@@ -77,16 +83,20 @@ def _area_on_grid(factor, surface, settings, pressure):
     return contact_area(contact.pressure > 0.0)[1]
 
 
-def _table(records, settings):
-    """Mean over realisations (largest for the wear) of every figure, (pressure, speed, distance); of one no scatter."""
+def _table(records, pressures, pairs):
+    """Mean over pairs of surfaces and positions (largest for the wear) of every figure, (pressure, speed, distance).
+
+    Errors are those of the pairs, of one pair those of its positions, which tell less; of one position there are none.
+    """
     def every(name):
         values = np.array([getattr(record, name) for record in records])
-        return values.reshape(len(settings.pressures), settings.realisations, *values.shape[1:])
+        return values.reshape(pressures, pairs, -1, *values.shape[1:])
 
     same = ("real_area", "normal_stiffness", "flash_temperature", "full_slip_distance", "limit_at_speed", "friction")
-    approach = every("approach")
-    spread = every("friction").std(axis=1, ddof=min(1, settings.realisations - 1))
-    return {**{name: every(name).mean(axis=1) for name in same},
-            "friction_std": spread / np.sqrt(settings.realisations),
-            "wear_depth": (approach - approach[..., :1]).mean(axis=1),
-            "largest_wear": every("largest_wear").max(axis=1)}
+    approach, friction = every("approach"), every("friction")
+    drawn = friction.mean(axis=2) if pairs > 1 else friction[:, 0]
+    return {**{name: every(name).mean(axis=(1, 2)) for name in same},
+            "pair_friction": friction.mean(axis=2).swapaxes(0, 1),
+            "friction_std": drawn.std(axis=1, ddof=min(1, drawn.shape[1] - 1)) / np.sqrt(drawn.shape[1]),
+            "wear_depth": (approach - approach[..., :1]).mean(axis=(1, 2)),
+            "largest_wear": every("largest_wear").max(axis=(1, 2))}

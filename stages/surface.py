@@ -7,7 +7,15 @@ import numpy as np
 from pipeline.contract import ConfigError, Context, InputFile, Quantity, Section, option, stage
 from pipeline.physics.rough.generator import band_limit, plateau_pad, resample, turned_disc
 from pipeline.physics.rough.layered_solid import graded_depth
-from pipeline.physics.rough.topography import isotropic_spectrum, level, read_scan, remove_outliers, statistics, to_grid
+from pipeline.physics.rough.topography import (
+    crops,
+    isotropic_spectrum,
+    level,
+    read_scan,
+    remove_outliers,
+    statistics,
+    to_grid,
+)
 from pipeline.physics.rough.worn_depth import without_plane
 from pipeline.products import Surface
 from pipeline.recordings.neutral import read_neutral
@@ -76,6 +84,8 @@ class Settings(Section):
     disc_thickness: Quantity("m", gt=0) = option("1 mm", "depth of the disc block under its surface")
     pad_thickness: Quantity("m", gt=0) = option("1 mm", "depth of the pad block under its surface")
     layer_growth: float = option(1.5, "thickness ratio of neighbouring FE layers; the first is a grid cube", ge=1)
+    pairs: int = option(1, "pairs of surfaces: generated ones of further seeds, crops of a scan at other places; what"
+                           " differs between them is the error of every result for one of them", ge=1)
     bodies: tuple[str, str] = option(BODIES, "names of the bodies in the report, that of 'pad' last")
     disc: TurnedDisc | Scan | Recorded = option(TurnedDisc(), "surface of the disc", discriminator="kind")
     pad: PlateauPad | Scan | Recorded = option(PlateauPad(), "surface of the pad", discriminator="kind")
@@ -86,55 +96,66 @@ def surface(settings: Settings, context: Context) -> Surface:
     """Prepare the rough surfaces of disc and pad, from scans or seeded generators.
 
     Method:
-    Both surfaces are periodic patches with an edge of {patch_length}, {nodes} nodes per edge and no wavelength below
-    {shortest_wavelength}. In scans, outliers were removed by a local median test, holes were filled harmonically, the
-    quadratic form was removed, the margins were blended periodically, and heights were scaled to the stated rms height.
-    Generated surfaces are a turned disc (tool marks, roughness, grain outbreaks) and rough plateaus over a smoother
-    matrix. Recorded maps of the whole patch only lose their mean plane and wavelengths below the shortest one.
+    Pairs of surfaces: {pairs}. Both surfaces are periodic patches with an edge of {patch_length}, {nodes} nodes per
+    edge and no wavelength below {shortest_wavelength}. In scans, outliers were removed by a local median test, holes
+    were filled harmonically, the quadratic form was removed, the margins were blended periodically, and heights were
+    scaled to the stated rms height. Generated surfaces are a turned disc (tool marks, roughness, grain outbreaks) and
+    rough plateaus over a smoother matrix. Recorded maps of the whole patch only lose their mean plane and wavelengths
+    below the shortest one.
     """
     spacing = settings.patch_length / settings.nodes
     if settings.shortest_wavelength < 2.0 * spacing:
         raise ConfigError("surface.shortest_wavelength", f"at least two grid spacings ({2.0 * spacing:g} m)",
                           f"{settings.shortest_wavelength:g} m", "raise surface.nodes")
-    made = [_make(body, getattr(settings, body), settings) for body in BODIES]
-    heights = [m["height"] for m in made]
-    figures = [statistics(h, (spacing, spacing)) for h in heights]
-    spectra = [isotropic_spectrum(h, (spacing, spacing)) for h in heights]
+    made = [[_make(body, getattr(settings, body), settings, pair) for pair in range(settings.pairs)] for body in BODIES]
+    heights = [np.array([m["height"] for m in maps]) for maps in made]
+    figures = [[statistics(h, (spacing, spacing)) for h in maps] for maps in heights]
+    spectra = [[isotropic_spectrum(h, (spacing, spacing)) for h in maps] for maps in heights]
     position = np.arange(settings.nodes) * spacing
     return Surface(
         x=position, y=position, disc_height=heights[0], pad_height=heights[1],
         disc_depth=graded_depth(spacing, settings.disc_thickness, settings.layer_growth),
         pad_depth=graded_depth(spacing, settings.pad_thickness, settings.layer_growth),
-        body=settings.bodies, source=[m["source"] for m in made],
-        outlier_share=[m["outliers"] for m in made], filled_share=[m["filled"] for m in made],
+        body=settings.bodies, source=[maps[0]["source"] for maps in made],
+        **{f"{name}_share": [np.mean([m[name] for m in maps]) for maps in made] for name in ("outlier", "filled")},
         shortest_wavelength=[settings.shortest_wavelength] * 2,
         nodes_per_wavelength=[settings.shortest_wavelength / spacing] * 2,
-        wavenumber=spectra[0][0], power_spectrum=[power for _, power in spectra],
-        **{name: [getattr(f, name) for f in figures] for name in
+        wavenumber=spectra[0][0][0], power_spectrum=[np.mean([power for _, power in maps], axis=0) for maps in spectra],
+        **{name: [np.mean([getattr(f, name) for f in maps]) for maps in figures] for name in
            ("rms_height", "mean_height", "peak_to_valley", "skewness", "kurtosis", "rms_slope")})
 
 
-def _make(body, choice, settings):
-    """Height map of one body with its source and cleaning shares."""
+def _make(body, choice, settings, pair):
+    """Height map of one body in a pair of this number, with its source and cleaning shares."""
     if choice.kind == "scan":
-        return _measured(body, choice, settings)
+        return _measured(body, choice, settings, pair)
     if choice.kind == "recorded":
+        if settings.pairs > 1:
+            raise ConfigError("surface.pairs", "1, as a recorded map covers exactly the patch", str(settings.pairs))
         return _recorded(body, choice, settings)
     generate = turned_disc if body == "disc" else plateau_pad
     height = generate(settings.nodes, settings.patch_length, settings.shortest_wavelength,
-                      **choice.model_dump(exclude={"kind"}))
-    source = f"generated: {generate.__name__}, seed {choice.seed}"
-    return {"height": height, "source": source, "outliers": 0.0, "filled": 0.0}
+                      **choice.model_dump(exclude={"kind", "seed"}), seed=_seed(choice.seed, pair))
+    further = f" and {settings.pairs - 1} further" if settings.pairs > 1 else ""
+    source = f"generated: {generate.__name__}, seed {choice.seed}{further}"
+    return {"height": height, "source": source, "outlier": 0.0, "filled": 0.0}
 
 
-def _measured(body, choice, settings):
+def _seed(seed, pair):
+    """Seed of the pair of this number; the first has that of the case, others share none with any other case."""
+    return seed if pair == 0 else [seed, pair]
+
+
+def _measured(body, choice, settings, pair):
     scan = read_scan(choice.file)
     heights, spacing = (scan.heights.T, scan.spacing[::-1]) if choice.transposed else (scan.heights, scan.spacing)
     cleaned, outliers = remove_outliers(heights, choice.outlier_threshold)
     levelled, filled = level(cleaned, spacing)
+    where, place = f"surface.{body}: {choice.file}", crops(heights.shape, spacing, settings.patch_length,
+                                                           settings.pairs, f"surface.pairs: {choice.file}")[pair]
     height = to_grid(levelled, spacing, settings.patch_length, settings.nodes, settings.shortest_wavelength,
-                     choice.longest_wavelength, choice.rms_height, f"surface.{body}: {choice.file}")
-    return {"height": height, "source": choice.file.name, "outliers": outliers, "filled": filled}
+                     choice.longest_wavelength, choice.rms_height, where, place)
+    return {"height": height, "source": choice.file.name, "outlier": outliers, "filled": filled}
 
 
 def _recorded(body, choice, settings):
@@ -151,5 +172,5 @@ def _recorded(body, choice, settings):
     levelled = without_plane(scan.height)
     height = resample(band_limit(levelled, (settings.patch_length,) * 2, settings.shortest_wavelength),
                       (settings.nodes,) * 2)
-    return {"height": height, "source": f"{choice.file.name}: {choice.run}/{choice.map}", "outliers": 0.0,
+    return {"height": height, "source": f"{choice.file.name}: {choice.run}/{choice.map}", "outlier": 0.0,
             "filled": 0.0}

@@ -3,7 +3,7 @@
 from pipeline.contract import Array, count, product, quantity, text
 
 
-@product(version=3)
+@product(version=4)
 class MicroFriction:
     """Friction, real contact area and wear of the rough pair over pressure, speed and sliding distance."""
 
@@ -13,7 +13,8 @@ class MicroFriction:
     disc_speed: Array = quantity("rad/s", "speed", "disc speed with this sliding speed at the effective radius")
     distance: Array = quantity("m", "distance", "sliding distance")
     friction: Array = quantity("1", "pressure speed distance", "coefficient of friction, shear over normal force")
-    friction_std: Array = quantity("1", "pressure speed distance", "standard error of the friction coefficient")
+    friction_std: Array = quantity("1", "pressure speed distance", "standard error of the friction coefficient: over pairs of surfaces, of one pair over its positions")
+    pair_friction: Array = quantity("1", "pair pressure speed distance", "coefficient of friction of each pair of surfaces")
     real_area: Array = quantity("1", "pressure speed distance", "real over nominal contact area, perimeter-corrected")
     wear_depth: Array = quantity("m", "pressure speed distance", "approach of both mean planes by wear, at equal load")
     largest_wear: Array = quantity("m", "pressure speed distance", "largest wear of one surface node")
@@ -30,8 +31,12 @@ class MicroFriction:
     contact_pressure_worn: Array = quantity("Pa", "y x", "contact pressure, last cycle, middle pressure and speed")
     pad_wear: Array = quantity("m", "y x", "wear of the pad nodes after the last cycle, middle pressure and speed")
     disc_wear: Array = quantity("m", "y x", "wear of the disc nodes after the last cycle, middle pressure and speed")
+    nodes_per_wavelength: Array = quantity("1", "", "nodes per shortest wavelength of the study itself")
     refinement: Array = quantity("1", "refinement", "nodes per shortest wavelength of the convergence study")
     refinement_area: Array = quantity("1", "refinement", "perimeter-corrected real over nominal area at middle pressure")
+    area_limit: Array = quantity("1", "", "the same on an infinitely fine grid, extrapolated from the last three")
+    area_limit_error: Array = quantity("1", "", "error of the extrapolation; of two grids what the last refinement changes")
+    area_order: Array = quantity("1", "", "order at which it approaches that; 0 where fewer than three grids tell none")
 
 
 @product(version=2)

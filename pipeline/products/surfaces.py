@@ -3,14 +3,17 @@
 from pipeline.contract import Array, product, quantity, text
 
 
-@product(version=1)
+@product(version=2)
 class Surface:
-    """Two rough surfaces on one periodic lateral grid, with the depth grading of their solids."""
+    """Pairs of rough surfaces on one periodic lateral grid, with the depth grading of their solids.
+
+    Statistics and spectra are means over the pairs.
+    """
 
     y: Array = quantity("m", "y", "lateral position across sliding")
     x: Array = quantity("m", "x", "lateral position along sliding")
-    disc_height: Array = quantity("m", "y x", "disc surface height, positive out of the solid, zero mean")
-    pad_height: Array = quantity("m", "y x", "pad surface height, positive out of the solid, zero mean")
+    disc_height: Array = quantity("m", "pair y x", "disc surface height, positive out of the solid, zero mean")
+    pad_height: Array = quantity("m", "pair y x", "pad surface height, positive out of the solid, zero mean")
     disc_depth: Array = quantity("m", "disc_layer", "depth of the FE layer boundaries of the disc block, from 0")
     pad_depth: Array = quantity("m", "pad_layer", "depth of the FE layer boundaries of the pad block, from 0")
     body: Array = text("body", "body the statistics belong to")

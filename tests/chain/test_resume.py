@@ -6,11 +6,12 @@ from stages import CHAINS
 from tests.chain.conftest import QUICK, brakechain, contents
 
 NAMES = CHAINS["disc_brake"]
+TABLES = {f"friction_map.{kind}" for kind in ("csv", "inp", "adm", "txt")}
 
 
 def test_every_product_is_there(finished):
-    assert set(contents(finished)) == {*NAMES, "friction_map.csv", "report.html", "verdict.json"}
-    assert (finished / "report.html").stat().st_size > 50_000 and (finished / "friction_map.csv").exists()
+    assert set(contents(finished)) == {*NAMES, *TABLES, "report.html", "verdict.json"}
+    assert (finished / "report.html").stat().st_size > 50_000 and all((finished / name).exists() for name in TABLES)
     assert not [p.name for p in finished.glob(".*") if p.name != ".lock"]
 
 

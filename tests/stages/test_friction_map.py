@@ -19,9 +19,11 @@ def computed():
                            "limit_at_speed"), np.zeros_like(friction))
     maps = dict.fromkeys(("contact_pressure_new", "contact_pressure_worn", "pad_wear", "disc_wear"), np.zeros((2, 2)))
     return MicroFriction(settings="", pressure=pressure, speed=speed, disc_speed=speed / 0.128, distance=distance,
-                         friction=friction, friction_std=friction / 20, normal_stiffness=1e12 * friction,
+                         friction=friction, pair_friction=friction[None],
+                         friction_std=friction / 20, normal_stiffness=1e12 * friction,
                          shear_limit=13.5e6, block_compliance=3.5e-12, x=np.arange(2.0), y=np.arange(2.0),
-                         refinement=[8.0], refinement_area=[0.03], **table, **maps)
+                         nodes_per_wavelength=8.0, refinement=[8.0], refinement_area=[0.03], area_limit=0.03,
+                         area_limit_error=0.003, area_order=0.0, **table, **maps)
 
 
 def test_computed_points_stay_and_nothing_overshoots(computed):
@@ -72,3 +74,19 @@ def test_csv_holds_every_point_with_units(computed):
     assert len(table) == made.friction.size
     np.testing.assert_allclose(table[:, 3].reshape(made.friction.shape), made.friction, rtol=1e-9)
     np.testing.assert_allclose(table[-1, :3], [3e6, 1.5, 1e-2], rtol=1e-9)
+
+
+@pytest.mark.exact
+def test_errors_of_slopes_are_those_of_pairs_whose_friction_moves_together(computed):
+    """Pairs that differ by a level alone have no error of a slope, however large that of their friction."""
+    level = np.array([-0.05, 0.0, 0.05])[:, None, None, None]
+    alike = replace(computed, pair_friction=computed.friction + level,
+                    friction_std=np.full(computed.friction.shape, 0.03))
+    tilt = 0.02 * level / 0.05 * np.log(computed.pressure / 2e6)[:, None, None]
+    for order in (None, 1):
+        made = friction_map(alike, settings=Settings(order=order))
+        np.testing.assert_allclose(made.pressure_slope_std, 0, atol=1e-12)
+        np.testing.assert_allclose(made.speed_slope_std, 0, atol=1e-12)
+        tilted = replace(alike, pair_friction=computed.friction + level + tilt)
+        made = friction_map(tilted, settings=Settings(order=order))
+        np.testing.assert_allclose(made.pressure_slope_std, 0.02 / np.sqrt(3), rtol=1e-9)

@@ -112,3 +112,23 @@ def test_the_product_tells_its_section(result):
 def test_non_convergence_raises():
     with pytest.raises(ConvergenceError, match="normal contact"):
         micro_friction(rough(), settings=Settings(**TINY, max_iterations=2))
+
+
+def test_errors_are_those_of_pairs_of_surfaces_where_there_are_several():
+    settings = Settings(**TINY | {"refinement": [1.0]})
+    found = micro_friction(rough(pairs=3), settings=settings)
+    assert found.pair_friction.shape == (3, 2, 2, 3)
+    np.testing.assert_allclose(found.pair_friction.mean(axis=0), found.friction, rtol=1e-12)
+    np.testing.assert_allclose(found.friction_std, found.pair_friction.std(axis=0, ddof=1) / np.sqrt(3), rtol=1e-12)
+
+
+def test_the_first_of_several_pairs_is_that_of_one(result):
+    found = micro_friction(rough(pairs=2), settings=Settings(**TINY))
+    np.testing.assert_allclose(found.pair_friction[0], result.friction, rtol=1e-12)
+    np.testing.assert_array_equal(found.contact_pressure_worn, result.contact_pressure_worn)
+
+
+def test_three_grids_tell_the_limit_of_the_area():
+    found = micro_friction(rough(), settings=Settings(**TINY | {"refinement": [1.0, 2.0, 4.0]}))
+    assert found.area_limit < found.refinement_area[-1] < found.refinement_area[0]
+    assert 0 < found.area_limit_error < found.refinement_area[0] - found.area_limit

@@ -1,5 +1,7 @@
 """Stage surface: generated and scanned bodies, refusals."""
 
+from itertools import combinations
+
 import numpy as np
 import pytest
 
@@ -15,7 +17,7 @@ SMALL = {"nodes": 32, "shortest_wavelength": "125 um"}
 
 def test_generated_surfaces():
     made = surface(settings=Settings(**SMALL))
-    assert made.disc_height.shape == (32, 32) and list(made.body) == ["disc", "pad"]
+    assert made.disc_height.shape == (1, 32, 32) and list(made.body) == ["disc", "pad"]
     np.testing.assert_allclose(made.rms_height, [3.5e-6, 3.8e-6], rtol=1e-12)
     np.testing.assert_allclose(made.nodes_per_wavelength, 4.0)
     assert made.source[1] == "generated: plateau_pad, seed 2"
@@ -40,7 +42,7 @@ def test_a_scan_replaces_a_generator(tmp_path):
     assert made.rms_height[1] == pytest.approx(2e-6, rel=1e-12)
     assert made.outlier_share[1] >= 1 / 6400 and made.filled_share[1] >= 1 / 6400
     turned = surface(settings=fill(Settings, {**SMALL, "pad": {**scan, "transposed": True}}, "case: surface"))
-    np.testing.assert_allclose(turned.pad_height, made.pad_height.T, atol=1e-8)
+    np.testing.assert_allclose(turned.pad_height[0], made.pad_height[0].T, atol=1e-8)
 
 
 def recorded(path, nodes=40):
@@ -58,7 +60,7 @@ def test_a_recorded_map_of_the_whole_patch_is_taken_as_it_is(tmp_path):
     made = surface(settings=fill(Settings, {**SMALL, "pad": given}, "case: surface"))
     assert made.source[1] == "a.h5: new/pad_new" and made.outlier_share[1] == 0
     exact = resample(band_limit(without_plane(heights), (1e-3, 1e-3), 125e-6), (32, 32))
-    np.testing.assert_allclose(made.pad_height, exact, atol=1e-15)
+    np.testing.assert_allclose(made.pad_height[0], exact, atol=1e-15)
     with pytest.raises(ConfigError, match=r"surface.pad.map: expected one of pad_new in run new.*found disc"):
         surface(settings=fill(Settings, {**SMALL, "pad": {**given, "map": "disc"}}, "case: surface"))
     with pytest.raises(ConfigError, match="surface.pad.map: expected the whole patch, 0.002 m"):
@@ -81,3 +83,25 @@ def test_a_missing_scan_is_refused_before_anything_runs():
 def test_a_wavelength_below_two_nodes_is_refused():
     with pytest.raises(ConfigError, match="two grid spacings"):
         surface(settings=Settings(nodes=32, shortest_wavelength="40 um"))
+
+
+def test_further_pairs_are_other_surfaces_of_the_same_kind_and_the_first_stays():
+    one, four = surface(settings=Settings(**SMALL)), surface(settings=Settings(**SMALL, pairs=4))
+    for name in ("disc_height", "pad_height"):
+        each = getattr(four, name)
+        assert each.shape == (4, 32, 32) and np.array_equal(each[0], getattr(one, name)[0])
+        assert max(abs(np.corrcoef(a.ravel(), b.ravel())[0, 1]) for a, b in combinations(each, 2)) < 0.95
+        np.testing.assert_allclose(each.std(axis=(1, 2)), each[0].std(), rtol=1e-12)
+    assert four.source[1] == "generated: plateau_pad, seed 2 and 3 further"
+
+
+def test_pairs_of_a_scan_are_crops_side_by_side(tmp_path):
+    heights = 1e-7 * self_affine(np.random.default_rng(3), 160, 2.4e-3, 60e-6, 300e-6, 0.8)
+    head = "# Channel: Topography\n# Width: 2400 um\n# Height: 2400 um\n# Value units: m\n"
+    (tmp_path / "pad.txt").write_text(head + "\n".join(" ".join(f"{v:.6e}" for v in row) for row in heights))
+    pad = {"kind": "scan", "file": str(tmp_path / "pad.txt"), "rms_height": "2 um", "reason": "test"}
+    made = surface(settings=fill(Settings, {**SMALL, "pad": pad, "pairs": 4}, "case: surface"))
+    assert made.pad_height.shape == (4, 32, 32)
+    assert max(abs(np.corrcoef(a.ravel(), b.ravel())[0, 1]) for a, b in combinations(made.pad_height, 2)) < 0.5
+    with pytest.raises(ConfigError, match=r"surface.pairs: .*pad.txt: expected at most 4, as many patches of 0.001 m"):
+        surface(settings=fill(Settings, {**SMALL, "pad": pad, "pairs": 5}, "case: surface"))

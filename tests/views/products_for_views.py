@@ -59,7 +59,7 @@ def surface(nodes=48):
     rms = heights.std(axis=(1, 2))
     wavenumber = np.geomspace(6e3, 2e5, 30)
     return filled(
-        Surface, y=x, x=x, disc_height=heights[0], pad_height=heights[1], body=["disc", "pad"],
+        Surface, y=x, x=x, disc_height=heights[:1], pad_height=heights[1:2], body=["disc", "pad"],
         source=["generated: turned disc", "generated: plateau pad"], rms_height=rms, mean_height=0.8 * rms,
         peak_to_valley=np.ptp(heights, axis=(1, 2)), skewness=[0.1, -0.6], kurtosis=[2.1, 3.4],
         rms_slope=[0.12, 0.09], outlier_share=[0.0, 0.001], filled_share=[0.0, 0.002],

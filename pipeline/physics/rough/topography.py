@@ -8,6 +8,7 @@ import io
 import logging
 import warnings
 from dataclasses import dataclass
+from itertools import product
 
 import numpy as np
 import scipy
@@ -17,6 +18,8 @@ from pipeline.physics.rough.generator import band_limit, resample
 
 #: median absolute deviation to standard deviation of Gaussian scatter
 MAD_TO_RMS = 1.4826
+#: share of its length over which a patch of a scan fades into what follows beyond it
+OVERLAP = 0.1
 
 
 @dataclass(frozen=True)
@@ -84,11 +87,26 @@ def level(heights, spacing):
     return levelled, missing.mean()
 
 
-def periodic_patch(heights, spacing, length, overlap=0.1):
-    """Central square patch of ``length`` m made periodic: its margins fade into what follows beyond the patch.
+def crops(shape, spacing, length, count, where):
+    """Places [(y, x)] of ``count`` patches of ``length`` m side by side in a scan; of a single one, the middle.
 
-    ``overlap`` is the faded share of the length; weights keep the variance of uncorrelated margins. Returns a map on
-    the pixels of the scan. Raises ConfigError when the scan is smaller than length * (1 + overlap).
+    Each is where the patch begins over where it may begin, from 0 to 1. ConfigError at ``where`` for more patches than
+    there is room for.
+    """
+    rows, columns = (1, 1) if count == 1 else (
+        int(n * d / (length * (1 + OVERLAP))) for n, d in zip(shape, spacing, strict=True))
+    if count > max(rows * columns, 1):
+        raise ConfigError(where, f"at most {max(rows * columns, 1)}, as many patches of {length:.3g} m as lie side by"
+                          " side in the scan", str(count), "lower surface.pairs, or shorten patch_length")
+    return list(product(*([0.5] if n == 1 else np.arange(n) / (n - 1) for n in (rows, columns))))[:count]
+
+
+def periodic_patch(heights, spacing, length, overlap=OVERLAP, place=(0.5, 0.5)):
+    """Square patch of ``length`` m made periodic: its margins fade into what follows beyond the patch.
+
+    ``overlap`` is the faded share of the length; weights keep the variance of uncorrelated margins. ``place`` (y, x):
+    where it begins over where it may begin. Returns a map on the pixels of the scan. Raises ConfigError when the scan
+    is smaller than length * (1 + overlap).
     """
     for axis in (0, 1):
         kept = round(length / spacing[axis])
@@ -96,7 +114,7 @@ def periodic_patch(heights, spacing, length, overlap=0.1):
         if kept + margin > heights.shape[axis]:
             raise ConfigError("surface patch", f"at most {heights.shape[axis] * spacing[axis] / (1 + overlap):.4g} m",
                               f"{length:.4g} m", "shorten patch_length or take a larger scan")
-        start = (heights.shape[axis] - kept - margin) // 2
+        start = int(place[axis] * (heights.shape[axis] - kept - margin))
         body, beyond = np.split(np.moveaxis(heights, axis, 0)[start:start + kept + margin], [kept])
         angle = (np.pi / 2.0 * (np.arange(margin) + 0.5) / max(margin, 1))[:, None]
         faded = np.sin(angle) * body[:margin] + np.cos(angle) * beyond
@@ -104,15 +122,16 @@ def periodic_patch(heights, spacing, length, overlap=0.1):
     return heights
 
 
-def to_grid(heights, spacing, length, nodes, shortest, longest, rms_height, where):
-    """Periodic map (nodes, nodes) of a levelled scan in the band ``shortest`` to ``longest``, of rms ``rms_height``.
+def to_grid(heights, spacing, length, nodes, shortest, longest, rms_height, where, place=(0.5, 0.5)):
+    """Periodic map (nodes, nodes) of a levelled scan in the band ``shortest`` to ``longest``, of rms ``rms_height``, at
+    a ``place`` (see ``periodic_patch``).
 
     ConfigError at ``where`` for a scan whose pixels do not tell the shortest wavelength, or without height.
     """
     if 2 * max(spacing) > shortest * (1 + 1e-6):
         raise ConfigError(where, f"pixels of at most {shortest / 2:.3g} m, two a shortest wavelength",
                           f"{max(spacing):.3g} m", "raise surface.shortest_wavelength, or take a finer scan")
-    patch = periodic_patch(heights - heights.mean(), spacing, length)
+    patch = periodic_patch(heights - heights.mean(), spacing, length, place=place)
     filtered = resample(band_limit(patch, (length, length), shortest, longest), (nodes, nodes))
     _refuse_constant(filtered, where)
     return filtered * (rms_height / filtered.std())

@@ -1,5 +1,7 @@
 """Chapters: friction and wear of the rough pair, and the friction map."""
 
+import numpy as np
+
 from pipeline.views.chapters.chapter import Chapter, Figure
 from pipeline.views.figures import contact_spots, friction
 from pipeline.views.figures.number_format import number, percent, quantity, span
@@ -56,14 +58,24 @@ def _curves(product):
 
 
 def _convergence(product):
-    area = product.refinement_area
-    if len(area) < 2:
+    if len(product.refinement_area) < 2:
         return ()
-    change = abs(area[-1] / area[-2] - 1)
-    return (Figure(friction.convergence(product), "Real contact area at the middle pressure over grid refinement:"
-                   f" the last refinement changes it by {percent(change, 2)}. Friction is proportional to it: the"
-                   f" grid error adds up to {number(change * product.friction.max(), 2)} to the standard error of"
-                   " friction."),)
+    return (Figure(friction.convergence(product), f"Real contact area at the middle pressure over grid refinement."
+                   f" {grid_sentence(product)}"),)
+
+
+def grid_sentence(product):
+    """How far the real area, and with it friction, is from that of an infinitely fine grid; product MicroFriction."""
+    used = product.refinement_area[np.argmin(abs(product.refinement - product.nodes_per_wavelength))]
+    above = used / product.area_limit - 1
+    unsure = product.area_limit_error / product.area_limit
+    if product.area_order == 0:
+        return (f"The last refinement changes it by {percent(unsure, 2)}; two grids tell no limit. Friction is"
+                " proportional to it.")
+    return (f"On {number(product.nodes_per_wavelength, 2)} nodes a shortest wavelength it is {percent(abs(above), 2)}"
+            f" {'above' if above > 0 else 'below'} its limit, {percent(product.area_limit, 3)} ±"
+            f" {percent(product.area_limit_error, 1)}, extrapolated at the observed order"
+            f" {number(product.area_order, 2)}. Friction is proportional to it.")
 
 
 #: share of the contact force outside the computed pressures from which on it is told

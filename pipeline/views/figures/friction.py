@@ -46,6 +46,11 @@ def convergence(micro):
     with drawing(2.6, top=0.12) as figure:
         axes = figure.subplots()
         axes.plot(micro.refinement, 100 * micro.refinement_area, marker="o", color=COLOURS[0])
+        if micro.area_order:
+            low, high = (100 * (micro.area_limit + side * micro.area_limit_error) for side in (-1, 1))
+            axes.axhspan(low, high, color=COLOURS[1], alpha=0.3, lw=0)
+            axes.axhline(100 * micro.area_limit, color=COLOURS[1], ls=LINES[1], label="limit, extrapolated")
+            legend(axes)
         axes.set(xlabel="nodes per shortest wavelength", ylabel="real contact area / %",
                  ylim=(0, 115 * micro.refinement_area.max()))
         axes.set_xticks(micro.refinement, [f"{n:.3g}" for n in micro.refinement])

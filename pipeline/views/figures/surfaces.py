@@ -17,7 +17,7 @@ def height_map(surface, index, dpi):
 def profile(surface):
     """SVG of the middle section along sliding: second body above the first, both as measured from their mean planes."""
     row = len(surface.y) // 2
-    lower, upper = 1e6 * surface.disc_height[row], -1e6 * surface.pad_height[row]
+    lower, upper = 1e6 * surface.disc_height[0, row], -1e6 * surface.pad_height[0, row]
     upper = upper + np.max(lower - upper) * 1.05
     with drawing(2.6, top=0.12) as figure:
         axes = figure.subplots()
@@ -65,8 +65,8 @@ def power_spectrum(surface):
 
 
 def _heights(surface):
-    """Heights of both bodies in the order of their names."""
-    return surface.disc_height, surface.pad_height
+    """Heights of both bodies of the first pair in the order of their names."""
+    return surface.disc_height[0], surface.pad_height[0]
 
 
 def _decades(surface):
