@@ -72,6 +72,8 @@ def _starts(base, begins):
 
 
 def tried(problem, null, candidate, starts, anchors, ahead=()):
+    """(Fit of a candidate after a few iterations from the best of ``starts``, see ``calibration.begun``, "") or (None,
+    what went wrong)."""
     try:
         return begun(problem, null.noises, problem.nominal.joined(candidate), starts, null.runs, anchors, ahead), ""
     except BrakechainError as error:
