@@ -27,7 +27,7 @@ def brakechain(*args, code=0):
 def contents(folder):
     """File -> content hash of every product in a run folder, and SHA-256 of what stands beside them."""
     products = {name: store.identity(folder / f"{name}.h5")[2] for name in NAMES if (folder / f"{name}.h5").exists()}
-    beside = (p for p in folder.iterdir() if p.suffix in (".csv", ".html", ".json"))
+    beside = (p for p in folder.iterdir() if p.suffix in (".csv", ".html", ".json", ".inp", ".adm", ".txt"))
     return products | {p.name: hashlib.sha256(p.read_bytes()).hexdigest() for p in beside}
 
 

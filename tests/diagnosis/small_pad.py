@@ -53,7 +53,7 @@ def recording(hidden=None, section=None, faces=True, seed=0):
     """Product Recording of full runs, with noise: friction of every pressure, the faces before and after."""
     random = np.random.default_rng(seed)
     pair = rubbing_with_effects(rubbing(rough(), section or values()), hidden and effects(hidden))
-    new = {b: getattr(rough(), f"{b}_height") for b in ("pad", "disc")}
+    new = {b: getattr(rough(), f"{b}_height")[0] for b in ("pad", "disc")}
     runs = {"faces": _run({}, {f"{b}_new": _map(random, h, b, "new") for b, h in new.items()})} if faces else {}
     for number, pressure in enumerate(PRESSURES):
         *_, worn = states(pair, pressure)

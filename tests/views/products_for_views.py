@@ -84,7 +84,8 @@ def micro_friction(nodes=48):
         y=x, x=x, contact_pressure_new=np.clip(field - 1.8, 0, None) * 5e7,
         contact_pressure_worn=np.clip(field - 1.5, 0, None) * 4e7, pad_wear=np.clip(field - 1.4, 0, None) * 2e-6,
         disc_wear=np.clip(field - 1.4, 0, None) * 2e-7, refinement=[4.0, 8.0, 16.0],
-        refinement_area=[0.04, 0.031, 0.030])
+        refinement_area=[0.04, 0.031, 0.030], nodes_per_wavelength=8.0, area_limit=0.0295, area_limit_error=0.0005,
+        area_order=1.4)
 
 
 def friction_map():

@@ -45,7 +45,7 @@ _TOLD = {
     "viscoelastic_pad": lambda s, size: {"share": size, "time": s.between(0, 0.5, 2) / s.angular},
     "thermal_softening": lambda s, size: {"drop": min(size, 0.8), "time": s.time * s.between(0, 0.2, 0.8)},
     "base_shake": lambda s, size: {"amplitude": size * s.length, **_wave(s, 0.5, 0.9)},
-    "compliant_arm": lambda s, size: {"compliance": size / s.link.stiffness},
+    "compliant_arm": lambda s, size: {"compliance": size / s.link.stiffness, "behind": 0.0},
     "moving_base": lambda s, size: {"compliance": size / s.link.stiffness,
                                     "frequency": s.angular * s.between(0, 1.2, 2.0) / (2 * np.pi)},
     "attached_mass": lambda s, size: {"mass": size * s.rig.mass[s.index]},
