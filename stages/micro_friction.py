@@ -34,7 +34,7 @@ def micro_friction(surface: Surface, effects: Effects | None, settings: Settings
     recorded = _recorded_cycles(settings)
     rubbed = rubbing_with_effects(rubbing(surface, settings), effects)
     pairs = [of_pair(rubbed, surface, number) for number in range(len(surface.pad_height))]
-    tasks = [(pressure, shifted(pair, offset)) for pressure in settings.pressures for pair in pairs
+    tasks = [(pressure, pair, offset) for pressure in settings.pressures for pair in pairs
              for offset in offsets(surface, settings)]
     run = partial(_slide, speeds=speeds, recorded=recorded)
     records = context.map(run, tasks, "sliding of the rough pair")
@@ -72,8 +72,8 @@ def _recorded_cycles(settings):
 
 
 def _slide(task, speeds, recorded):
-    pressure, rubbed = task
-    return slide(rubbed, pressure, speeds, recorded)
+    pressure, rubbed, offset = task
+    return slide(shifted(rubbed, offset), pressure, speeds, recorded)
 
 
 def _area_on_grid(factor, surface, settings, pressure):

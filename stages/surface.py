@@ -107,8 +107,8 @@ def surface(settings: Settings, context: Context) -> Surface:
     if settings.shortest_wavelength < 2.0 * spacing:
         raise ConfigError("surface.shortest_wavelength", f"at least two grid spacings ({2.0 * spacing:g} m)",
                           f"{settings.shortest_wavelength:g} m", "raise surface.nodes")
-    made = [[_make(body, getattr(settings, body), settings, pair) for pair in range(settings.pairs)] for body in BODIES]
-    heights = [np.array([m["height"] for m in maps]) for maps in made]
+    made = [_make(body, getattr(settings, body), settings) for body in BODIES]
+    heights = [m["height"] for m in made]
     figures = [[statistics(h, (spacing, spacing)) for h in maps] for maps in heights]
     spectra = [[isotropic_spectrum(h, (spacing, spacing)) for h in maps] for maps in heights]
     position = np.arange(settings.nodes) * spacing
@@ -116,8 +116,8 @@ def surface(settings: Settings, context: Context) -> Surface:
         x=position, y=position, disc_height=heights[0], pad_height=heights[1],
         disc_depth=graded_depth(spacing, settings.disc_thickness, settings.layer_growth),
         pad_depth=graded_depth(spacing, settings.pad_thickness, settings.layer_growth),
-        body=settings.bodies, source=[maps[0]["source"] for maps in made],
-        **{f"{name}_share": [np.mean([m[name] for m in maps]) for maps in made] for name in ("outlier", "filled")},
+        body=settings.bodies, source=[m["source"] for m in made],
+        outlier_share=[m["outliers"] for m in made], filled_share=[m["filled"] for m in made],
         shortest_wavelength=[settings.shortest_wavelength] * 2,
         nodes_per_wavelength=[settings.shortest_wavelength / spacing] * 2,
         wavenumber=spectra[0][0][0], power_spectrum=[np.mean([power for _, power in maps], axis=0) for maps in spectra],
@@ -125,20 +125,21 @@ def surface(settings: Settings, context: Context) -> Surface:
            ("rms_height", "mean_height", "peak_to_valley", "skewness", "kurtosis", "rms_slope")})
 
 
-def _make(body, choice, settings, pair):
-    """Height map of one body in a pair of this number, with its source and cleaning shares."""
+def _make(body, choice, settings):
+    """Height maps (pair, y, x) of one body with their source and cleaning shares."""
     if choice.kind == "scan":
-        return _measured(body, choice, settings, pair)
+        return _measured(body, choice, settings)
     if choice.kind == "recorded":
         if settings.pairs > 1:
             raise ConfigError("surface.pairs", "1, as a recorded map covers exactly the patch", str(settings.pairs))
         return _recorded(body, choice, settings)
     generate = turned_disc if body == "disc" else plateau_pad
-    height = generate(settings.nodes, settings.patch_length, settings.shortest_wavelength,
-                      **choice.model_dump(exclude={"kind", "seed"}), seed=_seed(choice.seed, pair))
+    values = choice.model_dump(exclude={"kind", "seed"})
+    height = [generate(settings.nodes, settings.patch_length, settings.shortest_wavelength, **values,
+                       seed=_seed(choice.seed, pair)) for pair in range(settings.pairs)]
     further = f" and {settings.pairs - 1} further" if settings.pairs > 1 else ""
     source = f"generated: {generate.__name__}, seed {choice.seed}{further}"
-    return {"height": height, "source": source, "outlier": 0.0, "filled": 0.0}
+    return {"height": np.array(height), "source": source, "outliers": 0.0, "filled": 0.0}
 
 
 def _seed(seed, pair):
@@ -146,16 +147,16 @@ def _seed(seed, pair):
     return seed if pair == 0 else [seed, pair]
 
 
-def _measured(body, choice, settings, pair):
+def _measured(body, choice, settings):
     scan = read_scan(choice.file)
     heights, spacing = (scan.heights.T, scan.spacing[::-1]) if choice.transposed else (scan.heights, scan.spacing)
     cleaned, outliers = remove_outliers(heights, choice.outlier_threshold)
     levelled, filled = level(cleaned, spacing)
-    where, place = f"surface.{body}: {choice.file}", crops(heights.shape, spacing, settings.patch_length,
-                                                           settings.pairs, f"surface.pairs: {choice.file}")[pair]
-    height = to_grid(levelled, spacing, settings.patch_length, settings.nodes, settings.shortest_wavelength,
-                     choice.longest_wavelength, choice.rms_height, where, place)
-    return {"height": height, "source": choice.file.name, "outlier": outliers, "filled": filled}
+    places = crops(heights.shape, spacing, settings.patch_length, settings.pairs, f"surface.pairs: {choice.file}")
+    height = [to_grid(levelled, spacing, settings.patch_length, settings.nodes, settings.shortest_wavelength,
+                      choice.longest_wavelength, choice.rms_height, f"surface.{body}: {choice.file}", place)
+              for place in places]
+    return {"height": np.array(height), "source": choice.file.name, "outliers": outliers, "filled": filled}
 
 
 def _recorded(body, choice, settings):
@@ -172,5 +173,5 @@ def _recorded(body, choice, settings):
     levelled = without_plane(scan.height)
     height = resample(band_limit(levelled, (settings.patch_length,) * 2, settings.shortest_wavelength),
                       (settings.nodes,) * 2)
-    return {"height": height, "source": f"{choice.file.name}: {choice.run}/{choice.map}", "outlier": 0.0,
+    return {"height": height[None], "source": f"{choice.file.name}: {choice.run}/{choice.map}", "outliers": 0.0,
             "filled": 0.0}

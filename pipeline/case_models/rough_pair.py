@@ -69,16 +69,16 @@ def cycle_distance(settings):
     return settings.recorded_distances[-1] / settings.cycles
 
 
-def rough_pair(surface, settings, factor=1.0, number=0):
-    """RoughPair of this ``number`` on a grid ``factor`` times as fine as that of the product Surface; finer grids split
+def rough_pair(surface, settings, factor=1.0):
+    """RoughPair of the first pair on a grid ``factor`` times as fine as that of the product Surface; finer grids split
     the layers too."""
     nodes = round(surface.x.size * factor)
     spacing = (surface.x[1] - surface.x[0]) * surface.x.size / nodes
     pad, disc = (layered_compliance((nodes, nodes), (spacing, spacing), _split(depth, max(round(factor), 1)),
                                     solid.youngs_modulus, solid.poisson_ratio)
                  for depth, solid in ((surface.pad_depth, settings.pad), (surface.disc_depth, settings.disc)))
-    heights = [resample(h[number], (nodes, nodes)) if factor != 1.0 else h[number]
-               for h in (surface.pad_height, surface.disc_height)]
+    heights = [resample(h, (nodes, nodes)) if factor != 1.0 else h
+               for h in (surface.pad_height[0], surface.disc_height[0])]
     return RoughPair(*heights, (spacing, spacing), pad + disc)
 
 

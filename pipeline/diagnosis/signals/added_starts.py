@@ -22,8 +22,9 @@ def with_added_starts(bench, candidates, recorded):
 
 def _with_own_starts(bench, candidate, records):
     changed = completed(bench, candidate, {p.name: p.nominal for p in candidate.parameters})
+    added = body_names(changed)[bench.model.size:]
     own = [Parameter(own_start(record.run.name, field, name), unit, 0.0,
                      Normal(0.0, float(getattr(record.unknown, field).max())), run=record.run.name)
            for record in records for field, unit in (("displacement", "m"), ("velocity", "m/s"))
-           for name in body_names(changed)[bench.model.size:]]
+           for name in added]
     return replace(candidate, parameters=(*candidate.parameters, *own)) if own else candidate

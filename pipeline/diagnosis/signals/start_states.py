@@ -190,23 +190,20 @@ def held(model, start, known=None):
     springs moved these as far beyond: what hardly takes part, as a base that hardly gives way, starts at rest. Of
     coordinates that a vanishing effect did not add, nothing is kept.
     """
-    if min(len(start.displacement), known or model.size) == model.size:
-        return start if len(start.displacement) == model.size else replace(start, **{
-            field: value[:model.size] for field, value in _values(start) if value is not None})
+    size = len(start.displacement)
+    known = min(size if known is None else known, size, model.size)
+    if known == size == model.size:
+        return start
     stiffness = model.supported()[2]
+    follows = -np.linalg.pinv(stiffness[known:, known:]) @ stiffness[known:, :known]
 
     def whole(value):
-        first = len(value) if known is None else min(known, len(value))
-        follows = -np.linalg.pinv(stiffness[first:, first:]) @ stiffness[first:, :first]
-        beyond = np.zeros(model.size - first)
-        beyond[:len(value) - first] = value[first:]
-        return np.append(value[:first], follows @ value[:first] + abs(follows).sum(axis=1) * beyond)
+        own, beyond = value[known:model.size], np.zeros(model.size - known)
+        beyond[:len(own)] = own
+        return np.append(value[:known], follows @ value[:known] + abs(follows).sum(axis=1) * beyond)
 
-    return replace(start, **{field: whole(value) for field, value in _values(start) if value is not None})
-
-
-def _values(start):
-    return [(field, getattr(start, field)) for field, _ in _PARTS.values()]
+    every = {field: getattr(start, field) for field, _ in _PARTS.values()}
+    return replace(start, **{field: whole(value) for field, value in every.items() if value is not None})
 
 
 def own_start(run, field, coordinate):
