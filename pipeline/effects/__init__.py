@@ -12,6 +12,7 @@ _FILES = (
     "joint.quadratic_stiffness",
     "joint.quadratic_damping",
     "joint.hysteretic_joint",
+    "joint.bouc_wen",
     "joint.micro_slip",
     "contact.contact_stiffness_law",
     "joint.clearance",

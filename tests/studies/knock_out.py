@@ -22,7 +22,7 @@ from tests.studies.forced import COLOURS, LEVELS, ROOT, Plan, run, shared_out
 
 #: laws of joint friction that are dry friction as a limit of theirs
 _DRY = ("dahl", "lugre", "stribeck_joint", "position_friction", "jenkins", "series_stiffness", "logarithmic_friction",
-        "rate_state_ageing", "rate_state_slip")
+        "rate_state_ageing", "rate_state_slip", "bouc_wen")
 #: laws of the catalogue that have an effect as a limit of theirs, or make the same force on a rig of one shaker
 CONTAINING = {
     "coulomb": ("asymmetric_friction", "hysteretic_joint", *_DRY),
@@ -31,7 +31,7 @@ CONTAINING = {
     "viscoelastic_pad": ("shim_damping", "hydraulic_compliance"),
     "shim_damping": ("viscoelastic_pad", "hydraulic_compliance"),
     "hydraulic_compliance": ("viscoelastic_pad", "shim_damping"),
-    "hysteretic_joint": ("micro_slip", "jenkins", "series_stiffness", "dahl", "lugre"),
+    "hysteretic_joint": ("micro_slip", "jenkins", "series_stiffness", "dahl", "lugre", "bouc_wen"),
     "backlash": ("clearance",), "moving_base": ("base_shake", "second_mode"),
     "base_shake": ("pressure_ripple",), "pressure_ripple": ("base_shake",),
     "compliant_arm": ("series_stiffness", "second_mode"),

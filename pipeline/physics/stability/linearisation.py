@@ -15,7 +15,7 @@ from pipeline.physics.friction.state_kernels import MEMORY, PLATEAUS, SETTLING, 
 from pipeline.physics.friction.state_variables import factors, started, state_kernel
 from pipeline.physics.sliding.model import FrictionState
 from pipeline.physics.time_stepping.coupled_solver import no_memory
-from pipeline.physics.time_stepping.element_forces import FRICTION, element_force, update_turning_dampers
+from pipeline.physics.time_stepping.element_forces import BOUC_WEN, FRICTION, element_force, update_turning_dampers
 from pipeline.physics.time_stepping.elements import Maxwell, alone
 
 
@@ -116,14 +116,17 @@ def maxwell_branches(model):
 def element_slopes(model, start, slip):
     """(rows (e, n), stiffness (e,), damping (e,)) of the elements about a Start, contacts slipping at ``slip`` (c,).
 
-    Dry friction sticks or slides through zero, which no matrix says, and counts as nothing.
+    Dry friction sticks or slides through zero, which no matrix says, and counts as nothing. A law of Bouc and Wen is as
+    stiff as where it begins: small cycles about a load creep until they are centred.
     """
     kernel, rows = alone(model.elements), np.array([e.row for e in model.elements]).reshape(-1, model.size)
     memory = no_memory(kernel) if start.memory is None else start.memory
     update_turning_dampers(kernel, start.friction, slip, np.zeros(len(rows)))
     slopes = np.zeros((2, len(rows)))
     for k, row in enumerate(rows):
-        if kernel.kind[k] not in FRICTION:
+        if kernel.kind[k] == BOUC_WEN:
+            slopes[0, k] = kernel.parameter[k, :2].sum()
+        elif kernel.kind[k] not in FRICTION:
             place = float(row @ start.displacement)
             slopes[:, k] = element_force(kernel, k, place, 0.0, place, memory, memory.copy(),
                                          (0.0, 0.0, model.speed))[1:]

@@ -274,7 +274,8 @@ def _solve_element(laws, k, elongation_free, rate_free, begin, memory_begin, mem
     if laws.kind[k] == DRY and np.isinf(laws.parameter[k, 0]):
         return _solve_rigid(laws, k, rate_free, memory_begin, memory, guess)
     carried = laws.kind[k] in (SLIDERS, BOUC_WEN, MAXWELL)      # a linear part that may nearly cancel the others
-    cancels = 2 * abs(laws.parameter[k, 0]) if carried else 0.0
+    terms = max(1.0, (laws.first[k + 1] - laws.first[k]) / 4)   # ROUNDING is that of a sum of four
+    cancels = 2 * abs(laws.parameter[k, 0]) * terms if carried else 0.0
     for _ in range(ITERATIONS):
         elongation, rate = elongation_free + give * force, rate_free + mobile * force
         value, slope, drag = element_force(laws, k, elongation, rate, begin, memory_begin, memory, instant)

@@ -231,14 +231,14 @@ def iwan(stiffness, force, exponent=0.0, count=40, elastic=False):
 
     Their slip ways are spread as phi^exponent up to phi_max = (exponent + 2) / (exponent + 1) force / stiffness
     (Segalman, J. Appl. Mech. 72 (2005) 752, with beta = 0), so that the loss of a cycle grows as the power
-    exponent + 3 of its amplitude; -1 < exponent <= 0. The ways are cut into ``count`` bands, each of its exact
-    stiffness and force. ``elastic`` takes ``stiffness`` away again: what the slip of a joint changes.
+    exponent + 3 of its amplitude; exponent > -1. The ways are cut into ``count`` bands of one stiffness, each of its
+    exact force; of a ``count`` that is not whole the last band is narrower. ``elastic`` takes ``stiffness`` away again: what the slip of a joint changes.
     """
-    if not (-1 < exponent <= 0 and force > 0 and stiffness >= 0 and count >= 1):
-        raise ConfigError("iwan", "-1 < exponent <= 0, force > 0, stiffness >= 0, count >= 1",
+    if not (exponent > -1 and force > 0 and stiffness >= 0 and count >= 1):
+        raise ConfigError("iwan", "exponent > -1, force > 0, stiffness >= 0, count >= 1",
                           f"{exponent:g}, {force:g} N, {stiffness:g} N/m, {count}")
-    edge = np.linspace(0, 1, count + 1) ** 2
-    share, strength = np.diff(edge ** (exponent + 1)), np.diff(edge ** (exponent + 2))
+    within = np.minimum(np.arange(np.ceil(count) + 1) / count, 1)       # share of the stiffness up to each edge
+    share, strength = np.diff(within), np.diff(within ** ((exponent + 2) / (exponent + 1)))
     empty = 0.0 if stiffness == 0 else 1.0
     return Sliders(stiffness * share, empty * force * strength, -stiffness if elastic else 0.0)
 

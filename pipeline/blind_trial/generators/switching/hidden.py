@@ -58,7 +58,7 @@ _KNOWN = (
     _law("cubic_stiffness", joint_laws.cubic), _law("quadratic_stiffness", joint_laws.quadratic),
     _law("quadratic_damping", joint_laws.drag), _law("backlash", joint_laws.play),
     _law("jenkins_elements", joint_laws.slipping, "hysteretic_joint"),
-    _law("bouc_wen", joint_laws.bouc_wen, "hysteretic_joint"),
+    _law("bouc_wen", joint_laws.bouc_wen),
     _law("viscoelastic_pad", joint_laws.relaxing), _law("moving_base", joint_laws.moving_base, place="wall spring"),
     _law("base_shake", joint_laws.shaken_base, place="wall spring"),
     Piece("joint_damping", "joint_damping", change=_damped, exact="damping", largest=3.0),
