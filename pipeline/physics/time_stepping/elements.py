@@ -232,7 +232,8 @@ def iwan(stiffness, force, exponent=0.0, count=40, elastic=False):
     Their slip ways are spread as phi^exponent up to phi_max = (exponent + 2) / (exponent + 1) force / stiffness
     (Segalman, J. Appl. Mech. 72 (2005) 752, with beta = 0), so that the loss of a cycle grows as the power
     exponent + 3 of its amplitude; exponent > -1. The ways are cut into ``count`` bands of one stiffness, each of its
-    exact force; of a ``count`` that is not whole the last band is narrower. ``elastic`` takes ``stiffness`` away again: what the slip of a joint changes.
+    exact force; of a ``count`` that is not whole the last band is narrower. ``elastic`` takes ``stiffness`` away again:
+    what the slip of a joint changes.
     """
     if not (exponent > -1 and force > 0 and stiffness >= 0 and count >= 1):
         raise ConfigError("iwan", "exponent > -1, force > 0, stiffness >= 0, count >= 1",
