@@ -67,33 +67,33 @@ class Normal(_Prior):
 
 @dataclass(frozen=True)
 class LogNormal(_Prior):
-    """Positive; ``spread`` is the standard deviation of the logarithm (0.1: about 10 %)."""
+    """Of the sign of its ``median``; ``spread`` is the standard deviation of the logarithm (0.1: about 10 %)."""
 
     median: float
     spread: float
 
     def __post_init__(self):
-        self._check(self.median > 0 and self.spread > 0, "a positive median and spread")
+        self._check(self.median != 0 and self.spread > 0, "a median other than 0 and a positive spread")
 
     @property
     def scale(self):
-        return self.median * self.spread
+        return abs(self.median) * self.spread
 
     @property
     def support(self):
-        return 0.0, np.inf
+        return (0.0, np.inf) if self.median > 0 else (-np.inf, 0.0)
 
     def log_density(self, value):
         with np.errstate(divide="ignore"):
-            latent = np.log(np.maximum(value, 0.0) / self.median) / self.spread
-            return -0.5 * latent**2 - np.log(np.maximum(value, 0.0) * self.spread) - _LOG_ROOT
+            size = np.maximum(value / self.median, 0.0)
+            return -0.5 * (np.log(size) / self.spread) ** 2 - np.log(size * self.scale) - _LOG_ROOT
 
     def value(self, latent):
         return self.median * np.exp(self.spread * latent)
 
     def latent(self, value):
         with np.errstate(divide="ignore"):
-            return _limited(np.log(np.maximum(value, 0.0) / self.median) / self.spread)
+            return _limited(np.log(np.maximum(value / self.median, 0.0)) / self.spread)
 
 
 @dataclass(frozen=True)

@@ -53,7 +53,7 @@ def test_values_at_the_edge_of_a_prior_stay_finite():
     assert HalfNormal(1.0).log_density(-0.1) == -np.inf and Uniform(0.0, 1.0).log_density(1.1) == -np.inf
 
 
-@pytest.mark.parametrize("make", [lambda: Normal(0.0, 0.0), lambda: LogNormal(-1.0, 0.1), lambda: HalfNormal(0.0),
+@pytest.mark.parametrize("make", [lambda: Normal(0.0, 0.0), lambda: LogNormal(0.0, 0.1), lambda: HalfNormal(0.0),
                                   lambda: Uniform(1.0, 1.0)])
 def test_a_prior_without_width_is_refused(make):
     with pytest.raises(ConfigError, match="prior"):
@@ -70,6 +70,16 @@ def test_the_sign_of_an_effect_is_known_where_its_null_ends_the_support():
     assert Parameter("a", "1", 0.5, Uniform(0.0, 1.0), 1.0).sign == -1
     assert Parameter("a", "1", 0.5, Normal(0.0, 1.0), 0.0).sign == 0
     assert Parameter("a", "1", 0.5, HalfNormal(1.0)).sign == 0
+
+
+@pytest.mark.exact
+def test_a_negative_median_mirrors_the_prior():
+    prior, mirror = LogNormal(-3.0, 0.4), LogNormal(3.0, 0.4)
+    assert prior.support == (-np.inf, 0.0) and prior.scale == mirror.scale
+    for value in (0.7, 3.0, 11.0):
+        assert prior.latent(-value) == mirror.latent(value) and prior.value(prior.latent(-value)) == pytest.approx(-value)
+        assert prior.log_density(-value) == pytest.approx(mirror.log_density(value))
+    assert prior.latent(2.0) == -LATENT_LIMIT
 
 
 @pytest.mark.exact

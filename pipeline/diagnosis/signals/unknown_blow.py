@@ -58,9 +58,13 @@ class Blow:
         return abs(self.impulse)
 
     def parameters(self, bench, run, remembers):
-        """Parameters of a Run about the estimate: the impulse may have either sign and another size."""
+        """Parameters of a Run about the estimate.
+
+        The size of the impulse is logarithmic as those of masses and springs are: a motion does not tell a common
+        factor of all of them.
+        """
         return (Parameter(_name(run.name, _IMPULSE, self.input), "N s", self.impulse,
-                          Normal(self.impulse, abs(self.impulse)), run=run.name),
+                          LogNormal(self.impulse, 1.0), run=run.name),
                 Parameter(_name(run.name, _TIME, self.input), "s", self.time, Normal(self.time, self.unsure),
                           run=run.name),
                 Parameter(_name(run.name, _WIDTH, self.input), "s", self.width, LogNormal(self.width, _SPREAD),

@@ -6,7 +6,7 @@ from pipeline.inference.priors import HalfNormal, Parameter
 
 
 def parameters(typical):
-    return (Parameter("stiffness", "N/m", 0.1 * typical.holding, HalfNormal(0.2 * typical.holding), null=0.0),)
+    return (Parameter("stiffness", "N/m", 0.1 * typical.holding, HalfNormal(0.4 * typical.holding), null=0.0),)
 
 
 def apply(bench, location, values):

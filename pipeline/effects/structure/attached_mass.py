@@ -6,7 +6,7 @@ from pipeline.inference.priors import HalfNormal, Parameter
 
 
 def parameters(typical):
-    return (Parameter("mass", "kg", 0.05 * typical.mass, HalfNormal(0.1 * typical.mass), null=0.0),)
+    return (Parameter("mass", "kg", 0.05 * typical.mass, HalfNormal(0.3 * typical.mass), null=0.0),)
 
 
 def apply(bench, location, values):

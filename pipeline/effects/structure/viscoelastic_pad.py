@@ -14,7 +14,7 @@ from pipeline.physics.time_stepping.elements import Maxwell
 
 
 def parameters(typical):
-    return (Parameter("share", "1", 0.2, HalfNormal(0.3), null=0.0),
+    return (Parameter("share", "1", 0.2, HalfNormal(1.0), null=0.0),
             Parameter("time", "s", typical.period, LogNormal(typical.period, 1.0)))
 
 

@@ -130,7 +130,7 @@ class Fit:
         """{name: standard deviation} of the values whose latent coordinates have the standard deviations ``std`` (k,).
         """
         low, high = self.hypothesis.values(self.latent - std), self.hypothesis.values(self.latent + std)
-        return {name: 0.5 * (high[name] - low[name]) for name in low}
+        return {name: 0.5 * abs(high[name] - low[name]) for name in low}
 
 
 def whitened(problem, noises, hypothesis, latent, runs):

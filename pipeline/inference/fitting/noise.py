@@ -64,6 +64,12 @@ class Noise:
         """The channels (m_c,) of a whitened residual (m,)."""
         return np.split(white, np.cumsum(self.usable.sum(axis=1))[:-1])
 
+    def over_time(self, white):
+        """A whitened residual (m,) where it belongs, (c, n), 0 where samples are not usable."""
+        whole = np.zeros(self.usable.shape)
+        whole[self.usable] = white
+        return whole
+
 
 def autocovariance(signal, valid, order):
     """R_0 ... R_order (c, order + 1) of (c, n) signals about zero; missing samples are left out."""

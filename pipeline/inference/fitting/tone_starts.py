@@ -1,7 +1,8 @@
-"""Where effects that sound one tone begin their fits: at the frequencies that stand out of what the null leaves.
+"""Where effects that sound or resonate begin their fits: at the frequencies that stand out of what the null leaves.
 
-Over frequency the fit of a tone has one narrow valley among many, as wide as a run is short; amplitude and phase follow
-from two predictions a quarter of a turn apart, as the tone is linear in its cosine and sine.
+Over frequency the fit of a tone, or of a hidden resonance that hardly decays, has one narrow valley among many, as wide
+as a run is short; amplitude and phase follow from two predictions a quarter of a turn apart, as the tone is linear in
+its cosine and sine, those of a resonance from one.
 """
 
 from typing import NamedTuple
@@ -20,27 +21,26 @@ _SMALL = 0.02
 
 
 class Tone(NamedTuple):
-    """Indices of the amplitude, frequency and phase among the parameters of an effect."""
+    """Indices of the amplitude, frequency and phase among the parameters of an effect; no phase of a resonance."""
 
     amplitude: int
     frequency: int
-    phase: int
+    phase: int | None
 
 
 def tone_of(candidate):
-    """The Tone of a candidate's parameters, or None where it sounds none."""
-    parameters = candidate.parameters
-    shapes = {p.unit: k for k, p in enumerate(parameters) if p.null is None}
-    sizes = [k for k, p in enumerate(parameters) if p.null is not None]
-    if len(sizes) != 1 or set(shapes) != {"Hz", "rad"}:
+    """The Tone of a candidate's parameters, or None where it has none: one size, one frequency, one phase at most."""
+    shapes = {p.unit: k for k, p in enumerate(candidate.parameters) if p.null is None and not p.run}
+    sizes = [k for k, p in enumerate(candidate.parameters) if p.null is not None and not p.run]
+    if len(sizes) != 1 or "Hz" not in shapes:
         return None
-    return Tone(sizes[0], shapes["Hz"], shapes["rad"])
+    return Tone(sizes[0], shapes["Hz"], shapes.get("rad"))
 
 
 def standing_out(fit, count=_TRIED):
     """Frequencies (up to ``count``,) in Hz of the largest peaks in the spectrum of what a Fit leaves, over all runs."""
     ordered = [(run.rate, part) for run, noise, white in zip(fit.runs, fit.noises, fit.residuals, strict=True)
-               if noise.ordered and run.rate for part in noise.by_channel(white) if len(part)]
+               if noise.ordered and run.rate for part in noise.over_time(white)]
     if not ordered:
         return np.empty(0)
     length = max(len(part) / rate for rate, part in ordered)
@@ -67,16 +67,20 @@ def starts(problem, fit, candidate):
     base, start = np.concatenate(fit.residuals), np.concatenate(from_prior_mean(fit))
     ranked = []
     for frequency in standing_out(fit):
-        waves = [_latent(candidate, tone, _SMALL, frequency, phase) for phase in (0.0, np.pi / 2)]
+        phases = (0.0,) if tone.phase is None else (0.0, np.pi / 2)
+        waves = [_latent(candidate, tone, _SMALL, frequency, phase) for phase in phases]
         shown = [whitened(problem, fit.noises, hypothesis, np.concatenate((fit.latent, w)), fit.runs)[0] for w in waves]
-        if None in shown:
+        if any(seen is None for seen in shown):
             continue
         change = np.array([base - np.concatenate(seen) for seen in shown]).T
         clean = orthogonal(change, jacobian)
-        cosine, sine = np.linalg.lstsq(change.T @ clean, clean.T @ start)[0]
-        gain = (cosine, sine) @ (clean.T @ start)
-        sounding = _latent(candidate, tone, _SMALL * np.hypot(cosine, sine), frequency, np.arctan2(sine, cosine))
-        ranked.append((gain, np.concatenate((back @ (start - change @ (cosine, sine)), np.clip(sounding, -2, 2)))))
+        parts = np.linalg.lstsq(change.T @ clean, clean.T @ start)[0]
+        if tone.phase is None and parts[0] <= 0:        # no resonance of a negative size
+            continue
+        phase = np.arctan2(*parts[::-1]) if len(parts) > 1 else 0.0
+        sounding = _latent(candidate, tone, _SMALL * np.linalg.norm(parts), frequency, phase)
+        ranked.append((parts @ (clean.T @ start),
+                       np.concatenate((back @ (start - change @ parts), np.clip(sounding, -2, 2)))))
     return [latent for _, latent in sorted(ranked, key=lambda f: -f[0])[:_BEGUN]]
 
 
@@ -85,5 +89,6 @@ def _latent(candidate, tone, size, frequency, phase):
     parameters, latent = candidate.parameters, np.zeros(len(candidate.parameters))
     for k, value in zip(tone, (parameters[tone.amplitude].null + size * parameters[tone.amplitude].prior.scale,
                                frequency, phase), strict=True):
-        latent[k] = parameters[k].prior.latent(value)
+        if k is not None:
+            latent[k] = parameters[k].prior.latent(value)
     return latent

@@ -40,10 +40,28 @@ def null_of(true):
     return problem, calibrate(problem, noises, nominal, [nominal.nominal], problem.training)
 
 
-def test_a_tone_has_one_size_one_frequency_and_one_phase():
+def test_a_tone_has_one_size_one_frequency_and_one_phase_at_most():
     assert tone_of(RIPPLE) == Tone(0, 1, 2) and tone_of(DRAG) is None
-    without_phase = replace(RIPPLE, parameters=RIPPLE.parameters[:2])
-    assert tone_of(without_phase) is None
+    resonance = replace(RIPPLE, parameters=RIPPLE.parameters[:2])
+    assert tone_of(resonance) == Tone(0, 1, None)
+
+
+@pytest.mark.exact
+def test_a_resonance_begins_at_the_peak_that_is_there():
+    problem, null = null_of(TRUE | {"phase": 0.0})
+    resonance = replace(RIPPLE, parameters=RIPPLE.parameters[:2])
+    found = problem.nominal.joined(resonance).values(starts(problem, null, resonance)[0])
+    assert found["frequency"] == pytest.approx(TRUE["frequency"], abs=0.25 * RATE / SAMPLES)
+    assert 0.3 * TRUE["force"] < found["force"] < 1.2 * TRUE["force"]      # less where its phase runs away
+
+
+@pytest.mark.exact
+def test_peaks_stand_where_they_are_when_half_of_the_samples_are_missing():
+    problem, null = null_of(TRUE)
+    seen = np.random.default_rng(1).uniform(size=SAMPLES) < 0.5
+    noises = tuple(replace(n, usable=n.usable & seen) for n in null.noises)
+    lost = replace(null, noises=noises, residuals=tuple(r[seen] for r in null.residuals))
+    assert standing_out(lost)[0] == pytest.approx(TRUE["frequency"], abs=0.25 * RATE / SAMPLES)
 
 
 @pytest.mark.exact

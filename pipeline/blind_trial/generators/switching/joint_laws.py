@@ -16,13 +16,15 @@ _ELEMENTS, _SLIPPING = 6, 0.6
 @dataclass(frozen=True)
 class Spot:
     """Where physics is hidden: a ``row`` (n,) along which it acts; ``length`` m and ``speed`` m/s, root mean squares of
-    the elongation and its rate without it; ``stiffness`` N/m there; ``shape`` (3,), numbers drawn between 0 and 1."""
+    the elongation and its rate without it; ``stiffness`` N/m and ``damping`` N s/m there; ``shape`` (3,), numbers drawn
+    between 0 and 1."""
 
     row: np.ndarray
     length: float
     speed: float
     stiffness: float
     shape: tuple
+    damping: float = 0.0
 
     @property
     def force(self):
@@ -137,15 +139,17 @@ def relaxing(spot, size):
 
 
 def moving_base(spot, size):
-    """The wall behind the spring is a mass on a spring of its own; z: its displacement and velocity, in lengths."""
+    """The wall behind spring and damper is a mass on a spring of its own; z: its displacement and velocity, SI."""
     held = spot.stiffness / size
     angular = spot.angular * spot.between(0, 1.3, 2.2)
     mass = held / angular**2
 
     def rates(t, e, v, z, mode):
-        return np.array([z[1], (spot.stiffness * (e - z[0]) - held * z[0]) / mass])
+        pulled = spot.stiffness * (e - z[0]) + spot.damping * (v - z[1])
+        return np.array([z[1], (pulled - held * z[0]) / mass])
 
-    return (Law(spot.row, lambda t, e, v, z, mode: -spot.stiffness * z[0], 2, rates, spot.length),)
+    return (Law(spot.row, lambda t, e, v, z, mode: -spot.stiffness * z[0] - spot.damping * z[1], 2, rates,
+                spot.length),)
 
 
 def shaken_base(spot, size):

@@ -26,6 +26,8 @@ _ALONG = np.linspace(-2.5, 2.5, 51)
 _FARTHEST = 20.0
 #: motions that are remembered
 _KEPT = 200
+#: delays of a filter after which it shows a blow no longer
+_REMEMBERED = 3
 #: parts of an interval over which a blow is averaged
 _PARTS = 64
 
@@ -98,6 +100,16 @@ def _struck(drive, fine, size, late, wider):
     return force
 
 
+def _telling(run, sensors):
+    """(sensor, n), 1 of samples that tell something, 0 where an accelerometer shows a blow of unknown course itself."""
+    told = np.ones((len(sensors), len(run.time)))
+    for k, sensor in enumerate(sensors):
+        if run.free == "blow" and sensor.quantity == "acceleration":
+            first, last = run.drive.breaks
+            told[k, (run.time >= first) & (run.time < last + _REMEMBERED * sensor.tau)] = 0.0
+    return told
+
+
 class Recalibration:
     """Refits of a true ``rig`` with ``sensors`` to what other physics shows in ``runs`` [Beginning].
 
@@ -140,11 +152,12 @@ class Recalibration:
         Raises ConvergenceError: what an unfinished refit leaves would count as hidden physics.
         """
         wanted = [s - b + r for s, b, r in zip(seen, self.base, self.at_rest, strict=True)]
+        per = [_telling(run, self.sensors) / noise[:, None] for run in self.runs]
         if not all(np.isfinite(w).all() for w in wanted):
             return np.inf
 
         def residual(u):
-            parts = [((w - y) / noise[:, None]).ravel() for w, y in zip(wanted, self.shown(u), strict=True)]
+            parts = [((w - y) * p).ravel() for w, y, p in zip(wanted, self.shown(u), per, strict=True)]
             return np.concatenate((*parts, u))
 
         fits = [scipy.optimize.least_squares(residual, start, x_scale="jac", xtol=1e-4, ftol=1e-4,

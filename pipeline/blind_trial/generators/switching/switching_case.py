@@ -221,8 +221,9 @@ class _Hiding:
         row = row_of(self.piece, truth, self.index)
         length, speed = (float(np.sqrt(np.mean([(row @ getattr(m, what)) ** 2 for m in self.bare])))
                          for what in ("displacement", "velocity"))
-        stiff = max(truth.stiffness) if self.piece.place == "mass" else truth.stiffness[self.index]
-        return Spot(row, length, speed, stiff, self.shape)
+        if self.piece.place == "mass":
+            return Spot(row, length, speed, max(truth.stiffness), self.shape)
+        return Spot(row, length, speed, truth.stiffness[self.index], self.shape, truth.damping[self.index])
 
     def seen(self, size, runs=slice(None)):
         """[(sensor, n)] in SI of some ``runs`` with what is hidden at a size."""
