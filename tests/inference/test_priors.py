@@ -77,7 +77,8 @@ def test_a_negative_median_mirrors_the_prior():
     prior, mirror = LogNormal(-3.0, 0.4), LogNormal(3.0, 0.4)
     assert prior.support == (-np.inf, 0.0) and prior.scale == mirror.scale
     for value in (0.7, 3.0, 11.0):
-        assert prior.latent(-value) == mirror.latent(value) and prior.value(prior.latent(-value)) == pytest.approx(-value)
+        assert prior.latent(-value) == mirror.latent(value)
+        assert prior.value(prior.latent(-value)) == pytest.approx(-value)
         assert prior.log_density(-value) == pytest.approx(mirror.log_density(value))
     assert prior.latent(2.0) == -LATENT_LIMIT
 
