@@ -7,6 +7,7 @@ _FILES = (
     "joint.joint_damping",
     "joint.viscous",
     "friction.falling_friction",
+    "friction.velocity_strengthening",
     "friction.asymmetric_friction",
     "joint.cubic_stiffness",
     "joint.quadratic_stiffness",

@@ -68,7 +68,7 @@ def friction_law(block, form, speed, size):
               "falling_friction": lambda e, v, z: 1 + size * np.exp(-abs(v) / speed),
               "viscous": lambda e, v, z: 1 + size * abs(v) / speed,
               "contact_ageing": lambda e, v, z: 1 + size * np.log1p(max(z[0], 0.0) * speed / length),
-              "log_speed": lambda e, v, z: max(1 + size * np.log((abs(v) + 1e-3 * speed) / speed), 0.1),
+              "velocity_strengthening": lambda e, v, z: max(1 + size * np.log((abs(v) + 1e-3 * speed) / speed), 0.1),
               "rippled_track": lambda e, v, z: 1 + size * np.sin(2 * np.pi * e / (3 * length))}[form]
     ages = form == "contact_ageing"
     return Law(np.ones(1), lambda t, e, v, z, mode: mode * grip * factor(e, v, z), int(ages),
@@ -78,7 +78,8 @@ def friction_law(block, form, speed, size):
 
 
 #: form of friction -> whether a catalogue holds it
-FORMS = {"falling_friction": True, "viscous": True, "contact_ageing": True, "log_speed": False, "rippled_track": False}
+FORMS = {"falling_friction": True, "viscous": True, "contact_ageing": True, "velocity_strengthening": True,
+         "rippled_track": False}
 
 
 def pulled(block, course, law, fine):

@@ -38,7 +38,8 @@ def test_the_block_lets_go_when_the_spring_overcomes_friction_slides_steadily_an
 
 
 @pytest.mark.exact
-@pytest.mark.parametrize("form, factor", [("falling_friction", 1 + 0.1 / np.e), ("viscous", 1.1), ("log_speed", 1.0)])
+@pytest.mark.parametrize("form, factor", [("falling_friction", 1 + 0.1 / np.e), ("viscous", 1.1),
+                                          ("velocity_strengthening", 1.0)])
 def test_friction_at_the_typical_speed_has_its_closed_form(form, factor):
     law = friction_law(BLOCK, form, 0.01, 0.1)
     assert law.force(0, 0, 0.01, (), 1) == pytest.approx(2.0 * factor, rel=1e-3)
