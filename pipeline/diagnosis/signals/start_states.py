@@ -4,7 +4,8 @@
 
 The last only where the model or a candidate has such joints (``first_loading``). The estimate that fits begin from is
 the least-squares solution of the nominal model over its slowest period, from all channels of the run. The prior is as
-wide as the energy of the estimate would move each coordinate alone, so that it says next to nothing beside the data.
+wide as the energy of the estimate would move each coordinate alone, or as much more as the recording moves beyond what
+the estimate explains, so that it says next to nothing beside the data.
 """
 
 from contextlib import suppress
@@ -39,6 +40,8 @@ _ROUNDS = 3
 _CHANGE, _FIRST = 1e-4, 1e-9
 #: singular values of the effects of states, over the largest, below which a state leaves no trace in the recording
 _TRACELESS = 1e-6
+#: least share of the recorded power that an estimate counts as explaining
+_EXPLAINED = 1e-3
 #: stiffness of a coordinate over the largest below which nothing makes it vibrate
 _FREE = 1e-9
 
@@ -149,7 +152,8 @@ def estimated(bench, recorded):
             break
         state, rest = moved, after
         change = _CHANGE * np.concatenate(_reach(bench.model, state, least, vectors))
-    spread = _reach(bench.model, state, least, vectors)
+    explained = 1 - rest @ rest / np.sum((weight * samples) ** 2)
+    spread = [part / np.sqrt(max(explained, _EXPLAINED)) for part in _reach(bench.model, state, least, vectors)]
     start = Start(state[:size], state[size:], relaxed=np.zeros(size))
     return replace(recorded, run=replace(run, start=start), unknown=StartSpread(*spread, spread[0]))
 

@@ -7,10 +7,21 @@ from pipeline.inference.fitting import tone_starts
 from pipeline.inference.fitting.calibration import begun
 from pipeline.inference.fitting.fit_state import whitened
 from pipeline.inference.fitting.run_parameters import with_own_parameters
-from pipeline.inference.search.score_screen import FINE_STEPS, alternatives, directions, faint, least, shapes_like
+from pipeline.inference.search.score_screen import (
+    FINE_STEPS,
+    alternatives,
+    directions,
+    faint,
+    least,
+    reshaped,
+    shapes_like,
+    shaping,
+)
 
 #: discrete values of a candidate at which fits begin
 _ALTERNATIVES = 2
+#: shapes from which on a candidate begins in others than the screen has found
+_SEVERAL = 3
 
 
 def begun_beside(problem, null, anchor, ahead, offsets, item):
@@ -29,7 +40,7 @@ def begun_beside(problem, null, anchor, ahead, offsets, item):
     offsets = () if candidate.elaborate else offsets    # the screen has tried many values of these
     starts = _starts(anchor.latent, [
         screened_start, least(candidate, screened_start),
-        *(np.full(len(candidate.parameters), offset) for offset in offsets)])
+        *(np.full(len(candidate.parameters), offset) for offset in offsets), *_other_shapes(candidate, screened_start)])
     if not (anchor.far or null.unordered):      # else what is nearest changes nothing, and leads nowhere
         starts.append(np.concatenate((anchor.latent, faint(candidate, screened_start))))
     discrete = _alternative_starts(problem, null, candidate, anchor.latent)
@@ -37,6 +48,11 @@ def begun_beside(problem, null, anchor, ahead, offsets, item):
     at_null = _starts(null.latent, at_null) + tone_starts.starts(problem, null, candidate)
     return tried(problem, null, candidate, discrete + starts + at_null,
                   [None] * len(discrete) + [anchor] * len(starts) + [null] * len(at_null), ahead)
+
+
+def _other_shapes(candidate, start):
+    """[(k,)] about the ``start`` (k,) of a candidate of several shapes, of which the linear screen tells little."""
+    return [] if candidate.elaborate or len(shaping(candidate)) < _SEVERAL else reshaped(candidate, start)
 
 
 def _alternative_starts(problem, null, candidate, base):

@@ -180,6 +180,8 @@ def _beside(problem, ahead, hypothesis, starts, reasons):
         own = [start[len(short.latent):] for start in ends or starts]
         begins = [*ends, *(np.concatenate((short.latent, latent)) for latent in own)]
         known = [short.jacobians] * len(begins)
+        if not ends:        # what misleads the nominal hypothesis may have led it far off in few samples as well
+            begins, known = [*begins, *starts], known + [()] * len(starts)
         fits = _tried(problem, short.noises, hypothesis, begins, short.runs, reasons, known, rough=True)
         ends = [fits[0].latent] if fits else []
     return fits[:1]

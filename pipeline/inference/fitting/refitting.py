@@ -16,7 +16,7 @@ from pipeline.inference.fitting.least_squares import again, beside, continued, i
 from pipeline.inference.fitting.step_error import refined
 from pipeline.inference.problem import FanOut, Problem
 from pipeline.inference.rules import Rules
-from pipeline.inference.search.score_screen import directions, least, screen, short_name
+from pipeline.inference.search.score_screen import directions, least, reshaped, screen, short_name
 
 #: iterations of a nominal model from a candidate's optimum before it is given up where it is still worse than before
 _GIVEN_UP = 16
@@ -210,6 +210,8 @@ class Refitter:
             results = _lowest(results, {top: _finished(self.problem, self.null, np.inf, self.rules,
                                                        again(self.problem, before))})
             if results[top].fit is before:
+                results = self._reshaped(top, results)
+            if results[top].fit is before:
                 break
         enough = self._enough(results.values())
         leading = [i for i, r in results.items() if r.fit is not None and not r.fit.unordered
@@ -217,6 +219,16 @@ class Refitter:
         look = partial(refined, self.problem, self.rules.refit)
         finer = self.fan_out(look, [results[i].fit for i in leading])
         return results | {i: results[i]._replace(fit=fit) for i, fit in zip(leading, finer, strict=True)}
+
+    def _reshaped(self, top, results):
+        """Results with the candidate ``top`` begun in other shapes, as where few sliders slip one after the other."""
+        size, fit = len(self.null.latent), results[top].fit
+        starts = [np.concatenate((fit.latent[:size], own)) for own in reshaped(self.catalogue[top], fit.latent[size:])]
+        if not starts:
+            return results
+        begin, _ = tried(self.problem, self.null, self.catalogue[top], starts, ())
+        return results if begin is None else _lowest(
+            results, {top: _finished(self.problem, self.null, np.inf, self.rules, begin)})
 
     def _at_its_end(self, fit):
         return fit.converged and (fit.strict or fit.unordered

@@ -24,6 +24,8 @@ WANTED, LEAST = (25.0, 250.0), 12.0
 _TRIALS, _NEAR, _FAR, _SMALLEST = 8, 0.4, 1.2, 1e-4
 #: times as far as without what is hidden that a motion may go
 _REACH = 5.0
+#: strengths over the mean of two that are tried in their place
+_NEAR_MEAN = (0.8, 0.9, 1.0, 1.1, 1.25)
 _LAYOUTS = ("single", "single", "row", "row", "bridge", "long row", "star")
 _WAYS = ("multisine", "sweep", "steps", "wall", "release", "release", "blow")
 _GAPS, _COLOURS = ("", "", "bursts", "uneven"), (0.0, 0.0, 0.3)
@@ -279,7 +281,11 @@ class _Hiding:
         return best[1], [*best[2], *self.seen(best[1], slice(-1, None))]
 
     def beyond_mean(self, size, seen):
-        """What a recalibrated nominal model leaves where of what is ``seen`` the mean of two strengths is known."""
+        """What a recalibrated nominal model leaves where of what is ``seen`` one strength for both ways is known, that
+        near the mean of the two which leaves least."""
+        return min(self._beside_mean(factor * size, seen) for factor in _NEAR_MEAN)
+
+    def _beside_mean(self, size, seen):
         mean = self.bench.seen(self.bench.motions(PIECES[MEANS[self.form]].laws(self.spot, size)))
         beside = [b + s - m for b, s, m in zip(self.nominal.base, seen, mean, strict=False)]
         return self.nominal.left(beside, self.noise)
