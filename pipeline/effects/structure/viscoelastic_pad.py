@@ -27,4 +27,4 @@ EFFECT = Effect(
     name="viscoelastic_pad", summary="a pad that relaxes: stiffer and lossier for fast motion", location="joint",
     stage="structure", parameters=parameters, apply=apply, linear=("share",),
     source="C. Zener, Elasticity and Anelasticity of Metals (1948): standard linear solid",
-    valid="Valid while one relaxation matters, and every run starts relaxed.")
+    valid="Valid while one relaxation matters, and runs whose start is known begin relaxed.")

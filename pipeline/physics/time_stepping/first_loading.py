@@ -1,7 +1,8 @@
 """Memory of elements where a motion starts in the midst of another: as loaded from where they drew with no force.
 
 Whatever turns came before, sliders of little strength have forgotten them after the next large swing, and strong ones
-never slipped: what is left is the displacement about which a joint is relaxed.
+never slipped: what is left is the displacement about which a joint is relaxed. Relaxing branches are loaded from there
+at once, so that it may stand for any force of theirs.
 """
 
 import numpy as np
@@ -9,8 +10,8 @@ import numpy as np
 from pipeline.physics.time_stepping.coupled_solver import no_memory
 from pipeline.physics.time_stepping.element_forces import FRICTION, MAXWELL, element_force
 
-#: laws that start without a force: relaxing branches, and dry friction, whose elastic way is short
-_FORCELESS = (*FRICTION, MAXWELL)
+#: laws that start without a force: dry friction, whose elastic way is short
+_FORCELESS = FRICTION
 
 
 def loaded(elements, rows, relaxed, displacement, time=0.0, speed=0.0):
@@ -18,7 +19,10 @@ def loaded(elements, rows, relaxed, displacement, time=0.0, speed=0.0):
     to ``displacement`` (n,) m; ``time`` s and ``speed`` rad/s of the drive then."""
     memory, none = no_memory(elements, time), no_memory(elements, time)
     for k, row in enumerate(rows):
-        if elements.kind[k] not in _FORCELESS:
+        if elements.kind[k] == MAXWELL:
+            branches = slice(elements.first[k], elements.first[k + 1] - 1)
+            memory[branches] = elements.stiffness[branches] * (row @ (displacement - relaxed))
+        elif elements.kind[k] not in _FORCELESS:
             element_force(elements, k, float(row @ displacement), 0.0, float(row @ relaxed), none, memory,
                           (time, 0.0, speed))
     return memory

@@ -26,11 +26,20 @@ def test_sliders_hold_what_their_way_from_relaxed_gives_them(relaxed):
 
 
 def test_laws_without_such_a_memory_start_without_a_force():
-    kernel = alone(elements(Polynomial(cubic=1.0), Dry(1e3, 1.0, 1.0), Maxwell([5.0], [0.1])))
-    memory = loaded(kernel, np.ones((3, 1)), np.zeros(1), np.array([0.1]), time=2.0)
-    assert not memory[:-1].any() and memory[-1] == 2.0, "the clock of the branches is that of the start"
+    kernel = alone(elements(Polynomial(cubic=1.0), Dry(1e3, 1.0, 1.0)))
+    assert not loaded(kernel, np.ones((2, 1)), np.zeros(1), np.array([0.1]), time=2.0).any()
     assert not remembers_loading(kernel) and remembers_loading(alone(elements(Sliders(STIFFNESS, LIMIT))))
     assert not remembers_loading(alone(()))
+
+
+@pytest.mark.exact
+def test_relaxing_branches_are_loaded_at_once():
+    """What a way of 0.08 m gives to springs of 5 and 2 N/m before their dampers move."""
+    kernel = alone(elements(Maxwell([5.0, 2.0], [0.1, 3.0])))
+    memory = loaded(kernel, np.ones((1, 1)), np.array([0.02]), np.array([0.1]), time=2.0)
+    np.testing.assert_allclose(memory[:2], [0.4, 0.16], rtol=1e-12)
+    assert memory[2] == 2.0, "the clock of the branches is that of the start"
+    assert remembers_loading(kernel)
 
 
 @pytest.mark.exact
