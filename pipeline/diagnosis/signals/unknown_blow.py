@@ -32,6 +32,8 @@ from pipeline.physics.virtual_rig.half_sine import SPREAD, HalfSine, spectrum
 BLOW, _IMPULSE, _TIME, _WIDTH = "blow", "impulse on", "time of the blow on", "contact time on"
 #: part of a run before which the blow must have begun to ring: held-out runs tell it there
 _EARLY = 0.25
+#: what moves before a blow counts so many times what is explained behind it
+_REST = 10
 #: standard deviation of the time of a blow, over the slowest period
 _UNSURE = 0.1
 #: standard deviation of the logarithm of a contact time
@@ -134,11 +136,15 @@ def _hit(bench, run, blow):
 
 
 def _score(left, weight, answer, k, period):
-    """(What a pulse at sample ``k`` explains of the ``period`` behind it less what is before it, its impulse)."""
+    """(What a pulse at sample ``k`` explains of the ``period`` behind it less what is before it, its impulse).
+
+    At rest there is nothing before it, while behind it a nominal model of another frequency explains half a period
+    later as much, upside down.
+    """
     behind, expected = left[:, k:k + period], weight[:, k:k + period] * answer[:, :period]
     size = np.sum(expected**2)
     overlap = np.sum(behind * expected)
-    return (overlap**2 / size - np.sum(left[:, :k] ** 2), overlap / size) if size > 0 else (-np.inf, 0.0)
+    return (overlap**2 / size - _REST * np.sum(left[:, :k] ** 2), overlap / size) if size > 0 else (-np.inf, 0.0)
 
 
 def _name(run, part, name):

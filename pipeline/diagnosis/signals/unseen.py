@@ -1,7 +1,8 @@
 """Samples that show what nobody states, and that do not count: they are marked as not valid.
 
 - The filter and the delay of a channel carry over motion from before a record whose start is fitted.
-- While a hammer is in contact an accelerometer shows the course of its force, over a mass, which is unknown.
+- While a hammer is in contact an accelerometer shows the course of its force, over a mass, which is unknown, and a
+  velocity how far its impulse has got.
 - Behind a jump of an input that is held, and acts on a mass, an accelerometer shows how its filter answers to a step:
   its corner is stated, and its order is not. Where such jumps follow each other too fast, all samples count.
 """
@@ -10,7 +11,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from pipeline.physics.virtual_rig.sensor import ACCELERATION
+from pipeline.physics.virtual_rig.sensor import ACCELERATION, VELOCITY
 
 #: share of the samples of a run up to which those behind jumps are left out
 _FEW = 0.25
@@ -22,8 +23,8 @@ def without_past(bench, recorded):
 
 
 def without_course(bench, recorded, begin, width):
-    """The same without what accelerometers show of a blow from ``begin`` on, ``width`` s long."""
-    return _without(bench, recorded, lambda sensor, time: sensor.measurand is ACCELERATION
+    """The same without what accelerations and velocities show of a blow from ``begin`` on, ``width`` s long."""
+    return _without(bench, recorded, lambda sensor, time: sensor.measurand in (ACCELERATION, VELOCITY)
                     and (time >= begin) & (time <= begin + width + sensor.lag))
 
 

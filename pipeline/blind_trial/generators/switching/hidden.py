@@ -75,6 +75,8 @@ MEANS = {"asymmetric_friction": "coulomb"}
 #: faults of a sensor: form -> name of the catalogue
 FAULTS = {"gain": "sensor_gain", "reversed": "reversed_channel", "factor_1000": "unit_factor", "delay": "sensor_delay",
           "clipping": "clipping", "drift": "sensor_offset_drift"}
+#: those of them that multiply what a channel shows
+RATIOS = ("gain", "factor_1000", "reversed")
 
 
 def places(piece, rig):

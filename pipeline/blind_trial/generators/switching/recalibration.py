@@ -101,10 +101,11 @@ def _struck(drive, fine, size, late, wider):
 
 
 def _telling(run, sensors):
-    """(sensor, n), 1 of samples that tell something, 0 where an accelerometer shows a blow of unknown course itself."""
+    """(sensor, n), 1 of samples that tell something, 0 where a blow of unknown course itself shows in accelerations, or
+    how far it has got in velocities."""
     told = np.ones((len(sensors), len(run.time)))
     for k, sensor in enumerate(sensors):
-        if run.free == "blow" and sensor.quantity == "acceleration":
+        if run.free == "blow" and sensor.quantity != "displacement":
             first, last = run.drive.breaks
             told[k, (run.time >= first) & (run.time < last + _REMEMBERED * sensor.tau)] = 0.0
     return told

@@ -6,7 +6,15 @@ import numpy as np
 
 from pipeline.blind_trial.generators.switching import drive, reported_values, rig
 from pipeline.blind_trial.generators.switching.event_motion import Mechanism, moved
-from pipeline.blind_trial.generators.switching.hidden import FAULTS, MEANS, PIECES, known_exactly, places, row_of
+from pipeline.blind_trial.generators.switching.hidden import (
+    FAULTS,
+    MEANS,
+    PIECES,
+    RATIOS,
+    known_exactly,
+    places,
+    row_of,
+)
 from pipeline.blind_trial.generators.switching.instruments import PARTS, QUANTITIES, Sensor, gaps, noise, written
 from pipeline.blind_trial.generators.switching.joint_laws import Spot
 from pipeline.blind_trial.generators.switching.recalibration import GAIN_SPREAD, Beginning, Recalibration, linear
@@ -100,6 +108,9 @@ def made(seed, kind, form="", level=0.01):
     truth = rig.drawn(random, layout)
     rate, count = _sampling(random, truth)
     bench, at = _laid_out(random, truth, way, rate, count)
+    if form in RATIOS and len(bench.sensors) == 1 and all(run.free for run in bench.runs):
+        raise ConfigError(f"trial: {form}", "a second sensor, or a known drive", "one sensor of an unknown motion",
+                          "draw another seed")
     index = _index(random, piece, bench, at if way == "wall" else None)
     exact = known_exactly(piece, truth, index) if piece else ()
     if not exact and kind != "wrong_value" and random.uniform() < 1 / 3:

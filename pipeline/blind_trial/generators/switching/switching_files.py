@@ -3,7 +3,7 @@
 import numpy as np
 
 from pipeline.blind_trial.generators import case_files
-from pipeline.blind_trial.generators.switching.hidden import MEANS, PIECES
+from pipeline.blind_trial.generators.switching.hidden import MEANS, PIECES, RATIOS
 from pipeline.blind_trial.generators.switching.recalibration import GAIN_SPREAD, SPREAD
 from pipeline.blind_trial.generators.switching.rig import WALL
 from pipeline.blind_trial.generators.switching.switching_case import LEAST, LEVELS, made
@@ -16,8 +16,6 @@ _OF_INPUT = {"base_shake": "pressure_ripple", "viscoelastic_pad": "hydraulic_com
 _DRY = ("coulomb", "asymmetric_friction")
 #: changes of a linear rig that are one of the scale of its motion, at other values
 _RESCALED = ("compliant_arm", "added_stiffness", "attached_mass")
-#: faults that multiply what a channel shows
-_RATIOS = ("gain", "factor_1000", "reversed")
 #: kind of a value -> (name in the case, units that it is stated in with their size in SI)
 _UNITS = {"mass": {"kg": 1.0, "g": 1e-3}, "stiffness": {"N/m": 1.0, "N/mm": 1e3, "kN/m": 1e3},
           "damping": {"N s/m": 1.0, "kN s/m": 1e3}}
@@ -61,7 +59,7 @@ def alike(case):
     if case.form in _RESCALED and len(case.truth.mass) == len(case.sensors) == 1:
         stuck = [{"name": "jenkins", "place": spring(0)}] if case.form == "added_stiffness" else []
         return [{"name": "sensor_gain", "place": case.sensors[0].name}, *stuck]
-    if case.form in _RATIOS and len(case.sensors) == 2 and all(run.free for run in case.runs):
+    if case.form in RATIOS and len(case.sensors) == 2 and all(run.free for run in case.runs):
         return [{"name": case.name, "place": s.name} for k, s in enumerate(case.sensors) if k != case.index]
     pushed = not any(run.free == "start" for run in case.runs) and case.way != "wall"
     if case.name in _OF_INPUT and pushed and case.truth.ends[case.index] == (case.at, WALL):
