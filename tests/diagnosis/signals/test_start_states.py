@@ -71,6 +71,19 @@ def test_its_stated_deviations_hold_in_95_of_100_draws(quantity):
     assert 0.93 <= np.mean(within) <= 0.97, np.mean(within)
 
 
+def test_a_start_is_as_uncertain_as_the_recording_moves_beyond_its_estimate():
+    """The bench of the true values explains all of its own decay, and hardly any of one four times as stiff."""
+    bench, runs, section = rig({"a": exact(START)}, "velocity")
+    own = started(bench, runs, section)["a"]
+    stiff = replace(bench, model=replace(bench.model, joints=replace(
+        bench.model.joints, stiffness=bench.model.joints.stiffness / 4)))
+    other = estimated(stiff, runs["a"])
+    energy = abs(own.run.start.velocity[0]) ** 2 + STIFFNESS / MASS * own.run.start.displacement[0] ** 2
+    assert own.unknown.velocity[0] == pytest.approx(np.sqrt(energy), rel=0.02)
+    kinetic = abs(other.run.start.velocity[0]) ** 2 + STIFFNESS / 4 / MASS * other.run.start.displacement[0] ** 2
+    assert other.unknown.velocity[0] > 1.5 * np.sqrt(kinetic)
+
+
 def test_starts_are_fitted_where_a_run_moves_by_itself():
     bench, runs, section = rig({"a": exact(START)}, "velocity")
     assert moves_freely(bench, runs["a"]) and started(bench, runs, section)["a"].unknown is not None

@@ -4,7 +4,14 @@ import numpy as np
 import pytest
 
 from pipeline.inference.fitting.fit_state import linearised
-from pipeline.inference.fitting.least_squares import _crawls, beside, continued, fit, iterated
+from pipeline.inference.fitting.least_squares import (
+    _along_central_differences,
+    _crawls,
+    beside,
+    continued,
+    fit,
+    iterated,
+)
 from pipeline.inference.fitting.noise import budget
 from pipeline.inference.priors import HalfNormal, LogNormal, Normal, Parameter
 from tests.inference import linear, oscillator
@@ -48,6 +55,28 @@ def test_bounds_hold_and_the_posterior_covers_its_truth():
                                     lambda x: 1.0 - 0.5 * x, 0.01)
     found = fit(problem, noises, problem.nominal, np.zeros(2), problem.runs)
     assert found.converged and 0 <= found.values["slope"] < 0.05
+
+
+@pytest.mark.exact
+def test_a_factor_that_shows_nowhere_is_what_priors_alone_say():
+    """Of m x'' + k x = J only ratios show; begun 5 deviations off along their common factor, ln m / .2 + ... = 0."""
+    parameters = tuple(Parameter(name, "1", 1.0, LogNormal(1.0, spread)) for name, spread in
+                       (("mass", 0.2), ("stiffness", 0.2), ("impulse", 1.0)))
+    true = {"mass": 1.1, "stiffness": 0.9, "impulse": 1.3}
+
+    def ringing(v, x):
+        angular = np.sqrt(v["stiffness"] / v["mass"])
+        return v["impulse"] / (v["mass"] * angular) * np.sin(40 * angular * x)
+
+    problem, noises = curve_problem(ringing, parameters, lambda x: ringing(true, x), 1e-4)
+    start = np.array([np.log(true[p.name]) / p.prior.spread for p in parameters]) + np.array([5.0, 5.0, 1.0])
+    state = _along_central_differences(problem, linearised(problem, noises, problem.nominal, start, problem.runs))
+    assert state.converged
+    a, b = np.log(true["stiffness"] / true["mass"]), np.log(true["impulse"] / true["mass"])
+    mass = -(a / 0.2**2 + b) / (2 / 0.2**2 + 1)        # least of m^2 / .04 + (m + a)^2 / .04 + (m + b)^2
+    least = (mass**2 + (mass + a) ** 2) / 0.2**2 + (mass + b) ** 2
+    assert state.objective < least + 1, "within a posterior standard deviation, as fits count as converged"
+    assert linearised(problem, noises, problem.nominal, start, problem.runs).objective > least + 45
 
 
 def test_features_that_stay_far_off_crawl():

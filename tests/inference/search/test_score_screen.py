@@ -7,7 +7,7 @@ import pytest
 from scipy import stats
 
 from pipeline.inference.fitting.least_squares import fit
-from pipeline.inference.priors import Factors, HalfNormal, LogNormal, Parameter, Uniform
+from pipeline.inference.priors import Factors, HalfNormal, LogNormal, Normal, Parameter, Uniform
 from pipeline.inference.problem import Hypothesis
 from pipeline.inference.search.score_screen import (
     _each_once,
@@ -16,8 +16,10 @@ from pipeline.inference.search.score_screen import (
     faint,
     family_p,
     largest_scores,
+    reshaped,
     screen,
     shapes_like,
+    shaping,
 )
 from tests.inference import linear
 
@@ -141,6 +143,17 @@ def test_shapes_of_the_same_name_are_tried_as_another_candidate_has_them():
     tried = [latent[1] for latent, _, _ in _trials(wave, shapes_like(wave, here, {"speed": 1.7, "height": 3.0}))]
     assert sorted(set(np.round(tried, 12))) == sorted(np.round([0.7, speed.prior.latent(1.7)], 12))
     assert {latent[1] for latent, _, _ in _trials(wave, shapes_like(wave, here, {"height": 3.0}))} == {0.7}
+
+
+@pytest.mark.exact
+def test_other_shapes_keep_the_size_and_what_is_of_one_run():
+    own = Parameter("start", "m", 0.0, Normal(0.0, 1.0), run="a")
+    wave = Hypothesis("wave", (), (Parameter("height", "m", 0.0, HalfNormal(1.0), 0.0),
+                                   Parameter("speed", "m/s", 1.0, LogNormal(1.0, 0.5)), own))
+    assert shaping(wave) == [1]
+    found = reshaped(wave, np.array([0.4, 0.1, 0.9]))
+    np.testing.assert_allclose(found, [[0.4, -0.8416, 0.9], [0.4, 0.8416, 0.9]], atol=1e-4)
+    assert reshaped(Hypothesis("drag", (), (wave.parameters[0],)), np.array([0.4])) == []
 
 
 @pytest.mark.exact

@@ -50,6 +50,18 @@ def test_a_blow_of_another_width_is_not_told_from_what_is_unknown_of_it():
     assert Recalibration(RIG, SENSORS, (run,), (), base).left(seen, noise) < 2.0
 
 
+def test_what_accelerations_and_velocities_show_of_a_blow_itself_tells_nothing():
+    run = struck()
+    sensors = (replace(SENSORS[0], quantity="acceleration"), SENSORS[1], SENSORS[0])
+    base = [np.array([s.shown(linear(RIG, run), FINE, TIME) for s in sensors])]
+    noise = 0.01 * np.sqrt(np.mean(base[0] ** 2, axis=1))
+    fit, during = Recalibration(RIG, sensors, (run,), (), base), (TIME > 0.1) & (TIME < 0.106)
+    for k, told in ((0, False), (1, False), (2, True)):
+        seen = base[0].copy()
+        seen[k, during] *= 3
+        assert (fit.left([seen], noise) > 1) == told
+
+
 @pytest.mark.exact
 @pytest.mark.parametrize("width", [1e-4, 0.006])
 def test_a_sampled_blow_has_its_impulse_however_short_it_is(width):
