@@ -49,7 +49,8 @@ def candidate_statistics(null, null_evidence, candidate, fit, evidence, posterio
     """CandidateStatistics of a refitted candidate: its Fit, Evidence, posterior and held-out (Gain, decoy)."""
     size, std, gained = len(null.latent), fit.spread(weights), held_out[0]
     added = [(size + k, p) for k, p in enumerate(candidate.parameters) if p.null is not None]
-    moved = [abs(fit.values[p.name] - p.null) / max(std[p.name], 1e-300) for _, p in added]
+    moved = [*(abs(fit.values[p.name] - p.null) / max(std[p.name], 1e-300) for _, p in added),
+             *_shaped(fit, null, candidate)]
     differing = [agreement(fit, k, weights, _immaterial(fit, k, rules.decision))[0] for k, _ in added]
     left_out, uncertainty = evidence.left_out - null_evidence.left_out, rules.decision.noise_uncertainty
     unfitted = gained and (gained.errors_with(left_out) if len(left_out) > 1 else gained.errors)
@@ -65,6 +66,14 @@ def candidate_statistics(null, null_evidence, candidate, fit, evidence, posterio
         powered, float(max(judged.share, 0.0)), float(judged.left(uncertainty)),
         max(-gained.value, 0.0) / max(fit.explains(null), 1e-300) if gained else 0.0,
         tuple(_varying(fit, [k for k, _ in added], weights, rules.decision)), gained and gained.error)
+
+
+def _shaped(fit, null, candidate):
+    """[Distance from none in standard deviations] of a candidate of one size and shapes that may trade with it, by what
+    the size takes off the objective; [] of others."""
+    sizes, shapes = ([p for p in candidate.parameters if (p.null is None) == shape and not p.run]
+                     for shape in (False, True))
+    return [np.sqrt(fit.weights.max() * max(fit.betters(null), 0.0))] if len(sizes) == 1 and shapes else []
 
 
 def _varying(fit, indices, weights, rules):

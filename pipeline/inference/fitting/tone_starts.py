@@ -11,6 +11,7 @@ import numpy as np
 import scipy
 
 from pipeline.inference.fitting.fit_state import from_prior_mean, orthogonal, whitened
+from pipeline.inference.priors import LATENT_LIMIT
 
 #: frequencies that are tried, and how many of them a fit begins at
 _TRIED, _BEGUN = 4, 2
@@ -79,8 +80,8 @@ def starts(problem, fit, candidate):
             continue
         phase = np.arctan2(*parts[::-1]) if len(parts) > 1 else 0.0
         sounding = _latent(candidate, tone, _SMALL * np.linalg.norm(parts), frequency, phase)
-        ranked.append((parts @ (clean.T @ start),
-                       np.concatenate((back @ (start - change @ parts), np.clip(sounding, -2, 2)))))
+        given_way = np.clip(back @ (start - change @ parts), -LATENT_LIMIT, LATENT_LIMIT)
+        ranked.append((parts @ (clean.T @ start), np.concatenate((given_way, np.clip(sounding, -2, 2)))))
     return [latent for _, latent in sorted(ranked, key=lambda f: -f[0])[:_BEGUN]]
 
 
