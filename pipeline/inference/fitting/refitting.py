@@ -23,7 +23,7 @@ _GIVEN_UP = 16
 #: iterations after which the worse half of the candidates that have begun is given up
 _LAP = 4
 #: times that a better candidate found beside the best one is taken for the best
-_ROUNDS = 2
+_ROUNDS = 4
 #: candidates beside a first effect that begin, over the number of those that go on
 _LIKELY = 4
 
