@@ -1,7 +1,11 @@
 """Stage surface: the two rough surfaces, from scans or seeded generators."""
 
+from functools import partial
+
 import numpy as np
 
+from pipeline.case_models.rough.prescriptions import generated
+from pipeline.case_models.rough.scans import levelled
 from pipeline.case_models.rough.sections import BODIES, Settings
 from pipeline.contract import ConfigError, Context, stage
 from pipeline.physics.numerics.memory import refuse_beyond_memory
@@ -9,14 +13,7 @@ from pipeline.physics.rough.generator import band_limit, construction_size, plat
 from pipeline.physics.rough.layered_solid import graded_depth
 from pipeline.physics.rough.patch import crops, window
 from pipeline.physics.rough.plausible_scan import in_true_unit, refuse_holes
-from pipeline.physics.rough.topography import (
-    isotropic_spectrum,
-    level,
-    read_scan,
-    remove_outliers,
-    statistics,
-    to_grid,
-)
+from pipeline.physics.rough.topography import isotropic_spectrum, statistics, to_grid
 from pipeline.physics.rough.worn_depth import without_plane
 from pipeline.products import Surface
 from pipeline.recordings.neutral import read_neutral
@@ -34,7 +31,8 @@ def surface(settings: Settings, context: Context) -> Surface:
     edge and no wavelength below {shortest_wavelength}. In scans, outliers were removed by a local median test, holes
     were filled harmonically, the quadratic form was removed, the margins were blended periodically, and heights were
     scaled to the stated rms height. Generated surfaces are a turned disc (tool marks, roughness, grain outbreaks) and
-    rough plateaus over a smoother matrix. Recorded maps of the whole patch only lose their mean plane and wavelengths
+    rough plateaus over a smoother matrix; fitted ones have spectrum and height distribution of a scan, restored in
+    turns (Pérez-Ràfols and Almqvist 2019). Recorded maps of the whole patch only lose their mean plane and wavelengths
     below the shortest one.
     """
     spacing = settings.patch_length / settings.nodes
@@ -66,7 +64,7 @@ def _refuse_large(settings):
     refuse_beyond_memory(nodes * (NODE_BYTES + MAP_BYTES * settings.pairs), f"{settings.pairs} pairs of maps of"
                          f" {settings.nodes} x {settings.nodes} nodes", "surface.nodes", "lower it, or surface.pairs")
     size = construction_size(settings.patch_length, settings.shortest_wavelength)
-    if any(getattr(settings, body).kind == "generated" for body in BODIES):
+    if any(getattr(settings, body).kind in ("generated", "fitted") for body in BODIES):
         refuse_beyond_memory(NODE_BYTES * size ** 2, f"generating a surface on {size} x {size} nodes",
                              "surface.shortest_wavelength", "raise it, or shorten surface.patch_length")
 
@@ -79,13 +77,20 @@ def _make(body, choice, settings):
         if settings.pairs > 1:
             raise ConfigError("surface.pairs", "1, as a recorded map covers exactly the patch", str(settings.pairs))
         return _recorded(body, choice, settings)
+    if choice.kind == "fitted":
+        return _generated(choice, settings, "fitted", partial(generated, choice, where=f"surface.{body}"))
     generate = turned_disc if body == "disc" else plateau_pad
     values = choice.model_dump(exclude={"kind", "seed"})
-    height = [generate(settings.nodes, settings.patch_length, settings.shortest_wavelength, **values,
+    return _generated(choice, settings, generate.__name__, partial(generate, **values))
+
+
+def _generated(choice, settings, name, generate):
+    """Maps of a generator, one for each pair, which differ in their seeds."""
+    height = [generate(nodes=settings.nodes, length=settings.patch_length, shortest=settings.shortest_wavelength,
                        seed=_seed(choice.seed, pair)) for pair in range(settings.pairs)]
     further = f" and {settings.pairs - 1} further" if settings.pairs > 1 else ""
-    source = f"generated: {generate.__name__}, seed {choice.seed}{further}"
-    return {"height": np.array(height), "source": source, "outliers": 0.0, "filled": 0.0}
+    return {"height": np.array(height), "source": f"generated: {name}, seed {choice.seed}{further}", "outliers": 0.0,
+            "filled": 0.0}
 
 
 def _seed(seed, pair):
@@ -94,22 +99,18 @@ def _seed(seed, pair):
 
 
 def _measured(body, choice, settings):
-    scan = read_scan(choice.file)
-    heights, spacing = (scan.heights.T, scan.spacing[::-1]) if choice.transposed else (scan.heights, scan.spacing)
-    cleaned, outliers = remove_outliers(heights, choice.outlier_threshold)
     where = f"surface.{body}: {choice.file}"
-    refuse_holes(np.isnan(cleaned), where)
-    levelled, filled = level(cleaned, spacing)
-    levelled = in_true_unit(levelled, choice.height_unit, where)
-    places = crops(heights.shape, spacing, settings.patch_length, settings.pairs, f"surface.pairs: {choice.file}")
-    height = [to_grid(levelled, spacing, settings.patch_length, settings.nodes, settings.shortest_wavelength,
+    scan = levelled(choice, where)
+    shape, spacing = scan.heights.shape, scan.spacing
+    places = crops(shape, spacing, settings.patch_length, settings.pairs, f"surface.pairs: {choice.file}")
+    height = [to_grid(scan.heights, spacing, settings.patch_length, settings.nodes, settings.shortest_wavelength,
                       choice.longest_wavelength, choice.rms_height, where, place)
               for place in places]
     for place in places:
-        patch = window(heights.shape, spacing, settings.patch_length, place=place)
-        refuse_holes(np.isnan(cleaned)[tuple(slice(first, first + count) for first, count, _ in patch)],
-                     f"{where}: patch")
-    return {"height": np.array(height), "source": choice.file.name, "outliers": outliers, "filled": filled}
+        patch = window(shape, spacing, settings.patch_length, place=place)
+        refuse_holes(scan.missing[tuple(slice(first, first + count) for first, count, _ in patch)], f"{where}: patch")
+    return {"height": np.array(height), "source": choice.file.name, "outliers": scan.outliers,
+            "filled": scan.missing.mean()}
 
 
 def _recorded(body, choice, settings):
@@ -127,8 +128,8 @@ def _recorded(body, choice, settings):
     if 2 * pixel > settings.shortest_wavelength * (1 + 1e-6):
         raise ConfigError(f"{where}.map", f"pixels of at most {settings.shortest_wavelength / 2:.3g} m, two a shortest"
                           " wavelength", f"{pixel:.3g} m", "raise surface.shortest_wavelength, or take a finer map")
-    levelled = in_true_unit(without_plane(scan.height), choice.height_unit, f"{where}.map")
-    height = resample(band_limit(levelled, (settings.patch_length,) * 2, settings.shortest_wavelength),
+    heights = in_true_unit(without_plane(scan.height), choice.height_unit, f"{where}.map")
+    height = resample(band_limit(heights, (settings.patch_length,) * 2, settings.shortest_wavelength),
                       (settings.nodes,) * 2)
     return {"height": height[None], "source": f"{choice.file.name}: {choice.run}/{choice.map}", "outliers": 0.0,
             "filled": 0.0}

@@ -171,3 +171,13 @@ def test_grids_beyond_memory_are_refused_before_they_are_made(monkeypatch):
         surface(settings=Settings(nodes=2_000_000))
     with pytest.raises(ConfigError, match="surface.shortest_wavelength: expected 2.9 GB for generating"):
         surface(settings=Settings(nodes=2000, shortest_wavelength="1 um"))
+
+
+def test_fitted_surfaces_of_several_seeds():
+    pad = {"kind": "fitted", "rms_height": "2 um", "wavelengths": ["2 mm", "0.4 mm", "0.125 mm"],
+           "variance_shares": [0.6, 0.4], "skewness": -0.5, "kurtosis": 3.5}
+    made = of_pad(pad, pairs=3)
+    assert made.pad_height.shape == (3, 32, 32) and made.source[1] == "generated: fitted, seed 1 and 2 further"
+    assert (made.rms_height[1], made.skewness[1]) == pytest.approx((2e-6, -0.5), rel=0.02)
+    assert made.kurtosis[1] == pytest.approx(3.5, rel=0.02)
+    np.testing.assert_array_equal(made.pad_height[0], of_pad(pad).pad_height[0])

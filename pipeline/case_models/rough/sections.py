@@ -2,7 +2,8 @@
 
 from typing import Literal
 
-from pipeline.contract import InputFile, Quantity, Section, option
+from pipeline.contract import InputFile, Quantities, Quantity, Section, option
+from pipeline.physics.rough.prescribed.heights import SCORES
 
 #: the two surfaces by their sections of the settings
 BODIES = ("disc", "pad")
@@ -64,6 +65,25 @@ class PlateauPad(Section):
     hurst: float = option(0.8, "Hurst exponent of the roughness", ge=0, le=1)
 
 
+class Fitted(Section):
+    """A generated surface with the spectrum and the heights of a scan, as 'brakechain surface --fit SCAN' writes it."""
+
+    kind: Literal["fitted"] = "fitted"
+    seed: int = option(1, "seed of the generator", ge=0)
+    rms_height: Quantity("m", gt=0) = option(..., "Sq, rms height")
+    wavelengths: Quantities("m", gt=0) = option(..., "wavelengths that bound the bands of the spectrum, falling")
+    variance_shares: Quantities("1", ge=0) = option(..., "share of the height variance in each band")
+    direction_shares: tuple[Quantities("1", ge=0), ...] | None = option(
+        None, "of each band, shares of sectors of the direction of its waves over half a turn, the first about x"
+              " (sliding); none: the same in all directions")
+    skewness: float = option(0.0, "Ssk, skewness of the heights")
+    kurtosis: float = option(3.0, "Sku, kurtosis of the heights (3 = Gaussian)", gt=1)
+    height_quantiles: tuple[float, ...] | None = option(
+        None, f"heights over Sq at {len(SCORES)} standard normal quantiles evenly from {SCORES[0]:g} to {SCORES[-1]:g};"
+              " none: what Ssk and Sku make of a Gaussian surface")
+    tolerance: float = option(0.05, "deviation of Ssk and Sku beyond which a surface is refused", gt=0)
+
+
 class Settings(Section):
     """Rough surfaces and the depth grading of their solids."""
 
@@ -76,5 +96,20 @@ class Settings(Section):
     pairs: int = option(1, "pairs of surfaces: generated ones of further seeds, crops of a scan at other places; what"
                            " differs between them is the error of every result for one of them", ge=1)
     bodies: tuple[str, str] = option(BODIES, "names of the bodies in the report, that of 'pad' last")
-    disc: TurnedDisc | Scan | Recorded = option(TurnedDisc(), "surface of the disc", discriminator="kind")
-    pad: PlateauPad | Scan | Recorded = option(PlateauPad(), "surface of the pad", discriminator="kind")
+    disc: TurnedDisc | Fitted | Scan | Recorded = option(TurnedDisc(), "surface of the disc", discriminator="kind")
+    pad: PlateauPad | Fitted | Scan | Recorded = option(PlateauPad(), "surface of the pad", discriminator="kind")
+
+
+class FitSettings(Section):
+    """What a scan is fitted by with 'brakechain surface --fit SCAN', set with --set."""
+
+    file: InputFile = option(..., "scan in any format that SurfaceTopography reads")
+    body: Literal["disc", "pad"] = option("pad", "body whose section is written")
+    transposed: bool = option(False, "turn the scan by 90 degrees, so that turning marks run along sliding (x)")
+    outlier_threshold: float = option(8.0, "local median test: difference over robust scatter that is an outlier", gt=0)
+    height_unit: Quantity("m", gt=0) | None = option(None, _HEIGHT_UNIT)
+    patch_length: Quantity("m", gt=0) | None = option(None, "edge of the square patch; none: the largest of the scan")
+    shortest_wavelength: Quantity("m", gt=0) | None = option(None, "short cut-off; none: four pixels of the scan")
+    longest_wavelength: Quantity("m", gt=0) | None = option(None, "long cut-off: waviness above it is removed; none:"
+                                                                  " the patch")
+    seeds: int = option(5, "generated surfaces that are compared with the scan", ge=1)
