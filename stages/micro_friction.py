@@ -9,6 +9,7 @@ from pipeline.case_models.rough_pair import Settings, cycle_distance, of_pair, o
 from pipeline.contract import ConfigError, Context, stage, stored
 from pipeline.physics.numerics.grid_limit import grid_limit
 from pipeline.physics.rough.normal_contact import contact_area, solve_normal_contact
+from pipeline.physics.rough.pair_limits import refuse_beyond_limits, refuse_large_grid
 from pipeline.physics.rough.sliding_pair import slide
 from pipeline.products import Effects, MicroFriction, Surface
 
@@ -32,8 +33,12 @@ def micro_friction(surface: Surface, effects: Effects | None, settings: Settings
         _refuse_falling(getattr(settings, name), name)
     speeds = np.array(settings.disc_speeds) * settings.effective_radius
     recorded = _recorded_cycles(settings)
+    finest = round(surface.x.size * max(1.0, *settings.refinement))
+    refuse_large_grid(finest, "micro_friction.refinement, surface.nodes")
     rubbed = rubbing_with_effects(rubbing(surface, settings), effects)
     pairs = [of_pair(rubbed, surface, number) for number in range(len(surface.pad_height))]
+    for pair in pairs:
+        refuse_beyond_limits(pair, settings.pressures, speeds)
     tasks = [(pressure, pair, offset) for pressure in settings.pressures for pair in pairs
              for offset in offsets(surface, settings)]
     run = partial(_slide, speeds=speeds, recorded=recorded)

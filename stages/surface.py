@@ -1,94 +1,25 @@
 """Stage surface: the two rough surfaces, from scans or seeded generators."""
 
-from typing import Literal
+from functools import partial
 
 import numpy as np
 
-from pipeline.contract import ConfigError, Context, InputFile, Quantity, Section, option, stage
-from pipeline.physics.rough.generator import band_limit, plateau_pad, resample, turned_disc
+from pipeline.case_models.rough.prescriptions import generated
+from pipeline.case_models.rough.scans import levelled
+from pipeline.case_models.rough.sections import BODIES, Settings
+from pipeline.contract import ConfigError, Context, stage
+from pipeline.physics.numerics.memory import refuse_beyond_memory
+from pipeline.physics.rough.generator import band_limit, construction_size, plateau_pad, resample, turned_disc
 from pipeline.physics.rough.layered_solid import graded_depth
-from pipeline.physics.rough.topography import (
-    crops,
-    isotropic_spectrum,
-    level,
-    read_scan,
-    remove_outliers,
-    statistics,
-    to_grid,
-)
+from pipeline.physics.rough.patch import crops, window
+from pipeline.physics.rough.plausible_scan import in_true_unit, refuse_holes
+from pipeline.physics.rough.topography import isotropic_spectrum, statistics, to_grid
 from pipeline.physics.rough.worn_depth import without_plane
 from pipeline.products import Surface
 from pipeline.recordings.neutral import read_neutral
 
-#: the two surfaces by their sections of the settings
-BODIES = ("disc", "pad")
-
-
-class Scan(Section):
-    """A measured surface."""
-
-    kind: Literal["scan"] = "scan"
-    file: InputFile = option(..., "scan in any format that SurfaceTopography reads; measured:PATH for a registered one")
-    transposed: bool = option(False, "turn the scan by 90 degrees, so that turning marks run along sliding (x)")
-    outlier_threshold: float = option(8.0, "local median test: difference over robust scatter that is an outlier", gt=0)
-    longest_wavelength: Quantity("m", gt=0) = option("1 mm", "long cut-off: waviness above it is removed")
-    rms_height: Quantity("m", gt=0) = option(..., "Sq to which the heights are scaled")
-    reason: str = option(..., "why the heights are scaled", min_length=1)
-
-
-class Recorded(Section):
-    """A height map of a recording that covers exactly the patch."""
-
-    kind: Literal["recorded"] = "recorded"
-    file: InputFile = option(..., "plain HDF5 in the form that 'brakechain data format' prints")
-    run: str = option("new", "its run")
-    map: str = option(..., "its height map")
-
-
-class TurnedDisc(Section):
-    """A generated turned cast-iron disc."""
-
-    kind: Literal["generated"] = "generated"
-    seed: int = option(1, "seed of the generator", ge=0)
-    rms_height: Quantity("m", gt=0) = option("3.5 um", "Sq, rms height")
-    feed: Quantity("m", gt=0) = option("250 um", "feed of the turning tool; a whole number of feeds fits the patch")
-    marks_share: float = option(0.9, "share of the height variance in the turning marks", ge=0, le=1)
-    roughness_wavelength: Quantity("m", gt=0) = option("250 um", "roll-off wavelength of the roughness")
-    hurst: float = option(0.8, "Hurst exponent of the roughness", ge=0, le=1)
-    outbreak_share: float = option(0.03, "share of the area with grain outbreaks", ge=0, lt=1)
-    outbreak_size: Quantity("m", gt=0) = option("80 um", "diameter of a grain outbreak")
-    outbreak_depth: float = option(3.0, "depth of an outbreak over the rms of the rest", ge=0)
-
-
-class PlateauPad(Section):
-    """A generated brake pad."""
-
-    kind: Literal["generated"] = "generated"
-    seed: int = option(2, "seed of the generator", ge=0)
-    rms_height: Quantity("m", gt=0) = option("3.8 um", "Sq, rms height")
-    plateau_share: float = option(0.25, "share of the area in plateaus", gt=0, lt=1)
-    plateau_size: Quantity("m", gt=0) = option("250 um", "distance between plateaus")
-    plateau_height: float = option(1.0, "plateau above matrix over the rms of the matrix")
-    plateau_roughness: float = option(6.0, "rms of plateaus over rms of the matrix", ge=0)
-    edge_width: float = option(0.2, "width of the plateau edges in the generating field", gt=0)
-    roughness_wavelength: Quantity("m", gt=0) = option("250 um", "roll-off wavelength of the roughness")
-    hurst: float = option(0.8, "Hurst exponent of the roughness", ge=0, le=1)
-
-
-class Settings(Section):
-    """Rough surfaces and the depth grading of their solids."""
-
-    nodes: int = option(128, "grid nodes along each edge of the patch", ge=8)
-    patch_length: Quantity("m", gt=0) = option("1 mm", "edge of the square periodic patch")
-    shortest_wavelength: Quantity("m", gt=0) = option("62.5 um", "short cut-off; put 8 or more nodes on it")
-    disc_thickness: Quantity("m", gt=0) = option("1 mm", "depth of the disc block under its surface")
-    pad_thickness: Quantity("m", gt=0) = option("1 mm", "depth of the pad block under its surface")
-    layer_growth: float = option(1.5, "thickness ratio of neighbouring FE layers; the first is a grid cube", ge=1)
-    pairs: int = option(1, "pairs of surfaces: generated ones of further seeds, crops of a scan at other places; what"
-                           " differs between them is the error of every result for one of them", ge=1)
-    bodies: tuple[str, str] = option(BODIES, "names of the bodies in the report, that of 'pad' last")
-    disc: TurnedDisc | Scan | Recorded = option(TurnedDisc(), "surface of the disc", discriminator="kind")
-    pad: PlateauPad | Scan | Recorded = option(PlateauPad(), "surface of the pad", discriminator="kind")
+#: largest memory per grid node, measured from 128^2 to 512^2 nodes, and what a pair of maps keeps of it
+NODE_BYTES, MAP_BYTES = 180, 32
 
 
 @stage
@@ -100,13 +31,15 @@ def surface(settings: Settings, context: Context) -> Surface:
     edge and no wavelength below {shortest_wavelength}. In scans, outliers were removed by a local median test, holes
     were filled harmonically, the quadratic form was removed, the margins were blended periodically, and heights were
     scaled to the stated rms height. Generated surfaces are a turned disc (tool marks, roughness, grain outbreaks) and
-    rough plateaus over a smoother matrix. Recorded maps of the whole patch only lose their mean plane and wavelengths
+    rough plateaus over a smoother matrix; fitted ones have spectrum and height distribution of a scan, restored in
+    turns (Pérez-Ràfols and Almqvist 2019). Recorded maps of the whole patch only lose their mean plane and wavelengths
     below the shortest one.
     """
     spacing = settings.patch_length / settings.nodes
     if settings.shortest_wavelength < 2.0 * spacing:
         raise ConfigError("surface.shortest_wavelength", f"at least two grid spacings ({2.0 * spacing:g} m)",
                           f"{settings.shortest_wavelength:g} m", "raise surface.nodes")
+    _refuse_large(settings)
     made = [_make(body, getattr(settings, body), settings) for body in BODIES]
     heights = [m["height"] for m in made]
     figures = [[statistics(h, (spacing, spacing)) for h in maps] for maps in heights]
@@ -125,6 +58,17 @@ def surface(settings: Settings, context: Context) -> Surface:
            ("rms_height", "mean_height", "peak_to_valley", "skewness", "kurtosis", "rms_slope")})
 
 
+def _refuse_large(settings):
+    """ConfigError for grids that the memory cannot hold, before they are made."""
+    nodes = settings.nodes ** 2
+    refuse_beyond_memory(nodes * (NODE_BYTES + MAP_BYTES * settings.pairs), f"{settings.pairs} pairs of maps of"
+                         f" {settings.nodes} x {settings.nodes} nodes", "surface.nodes", "lower it, or surface.pairs")
+    size = construction_size(settings.patch_length, settings.shortest_wavelength)
+    if any(getattr(settings, body).kind in ("generated", "fitted") for body in BODIES):
+        refuse_beyond_memory(NODE_BYTES * size ** 2, f"generating a surface on {size} x {size} nodes",
+                             "surface.shortest_wavelength", "raise it, or shorten surface.patch_length")
+
+
 def _make(body, choice, settings):
     """Height maps (pair, y, x) of one body with their source and cleaning shares."""
     if choice.kind == "scan":
@@ -133,13 +77,20 @@ def _make(body, choice, settings):
         if settings.pairs > 1:
             raise ConfigError("surface.pairs", "1, as a recorded map covers exactly the patch", str(settings.pairs))
         return _recorded(body, choice, settings)
+    if choice.kind == "fitted":
+        return _generated(choice, settings, "fitted", partial(generated, choice, where=f"surface.{body}"))
     generate = turned_disc if body == "disc" else plateau_pad
     values = choice.model_dump(exclude={"kind", "seed"})
-    height = [generate(settings.nodes, settings.patch_length, settings.shortest_wavelength, **values,
+    return _generated(choice, settings, generate.__name__, partial(generate, **values))
+
+
+def _generated(choice, settings, name, generate):
+    """Maps of a generator, one for each pair, which differ in their seeds."""
+    height = [generate(nodes=settings.nodes, length=settings.patch_length, shortest=settings.shortest_wavelength,
                        seed=_seed(choice.seed, pair)) for pair in range(settings.pairs)]
     further = f" and {settings.pairs - 1} further" if settings.pairs > 1 else ""
-    source = f"generated: {generate.__name__}, seed {choice.seed}{further}"
-    return {"height": np.array(height), "source": source, "outliers": 0.0, "filled": 0.0}
+    return {"height": np.array(height), "source": f"generated: {name}, seed {choice.seed}{further}", "outliers": 0.0,
+            "filled": 0.0}
 
 
 def _seed(seed, pair):
@@ -148,15 +99,18 @@ def _seed(seed, pair):
 
 
 def _measured(body, choice, settings):
-    scan = read_scan(choice.file)
-    heights, spacing = (scan.heights.T, scan.spacing[::-1]) if choice.transposed else (scan.heights, scan.spacing)
-    cleaned, outliers = remove_outliers(heights, choice.outlier_threshold)
-    levelled, filled = level(cleaned, spacing)
-    places = crops(heights.shape, spacing, settings.patch_length, settings.pairs, f"surface.pairs: {choice.file}")
-    height = [to_grid(levelled, spacing, settings.patch_length, settings.nodes, settings.shortest_wavelength,
-                      choice.longest_wavelength, choice.rms_height, f"surface.{body}: {choice.file}", place)
+    where = f"surface.{body}: {choice.file}"
+    scan = levelled(choice, where)
+    shape, spacing = scan.heights.shape, scan.spacing
+    places = crops(shape, spacing, settings.patch_length, settings.pairs, f"surface.pairs: {choice.file}")
+    height = [to_grid(scan.heights, spacing, settings.patch_length, settings.nodes, settings.shortest_wavelength,
+                      choice.longest_wavelength, choice.rms_height, where, place)
               for place in places]
-    return {"height": np.array(height), "source": choice.file.name, "outliers": outliers, "filled": filled}
+    for place in places:
+        patch = window(shape, spacing, settings.patch_length, place=place)
+        refuse_holes(scan.missing[tuple(slice(first, first + count) for first, count, _ in patch)], f"{where}: patch")
+    return {"height": np.array(height), "source": choice.file.name, "outliers": scan.outliers,
+            "filled": scan.missing.mean()}
 
 
 def _recorded(body, choice, settings):
@@ -170,8 +124,12 @@ def _recorded(body, choice, settings):
     if not np.allclose(length, settings.patch_length, rtol=1e-6):
         raise ConfigError(f"{where}.map", f"the whole patch, {settings.patch_length:g} m",
                           f"{length[0]:g} by {length[1]:g} m", "set surface.patch_length, or use kind: scan")
-    levelled = without_plane(scan.height)
-    height = resample(band_limit(levelled, (settings.patch_length,) * 2, settings.shortest_wavelength),
+    pixel = max(scan.y[1], scan.x[1])
+    if 2 * pixel > settings.shortest_wavelength * (1 + 1e-6):
+        raise ConfigError(f"{where}.map", f"pixels of at most {settings.shortest_wavelength / 2:.3g} m, two a shortest"
+                          " wavelength", f"{pixel:.3g} m", "raise surface.shortest_wavelength, or take a finer map")
+    heights = in_true_unit(without_plane(scan.height), choice.height_unit, f"{where}.map")
+    height = resample(band_limit(heights, (settings.patch_length,) * 2, settings.shortest_wavelength),
                       (settings.nodes,) * 2)
     return {"height": height[None], "source": f"{choice.file.name}: {choice.run}/{choice.map}", "outliers": 0.0,
             "filled": 0.0}

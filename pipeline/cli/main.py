@@ -11,6 +11,7 @@ import stages
 from pipeline import __version__
 from pipeline.cli.facts import facts
 from pipeline.cli.options import options
+from pipeline.cli.surface_fit import with_fit
 from pipeline.cli.trial import trial
 from pipeline.contract.errors import BrakechainError
 
@@ -59,7 +60,7 @@ def _stage_command(name):
     def command(config, folder, overrides, again, dry_run, workers, scheduler):
         _run(config, folder, overrides, name, name, (name,) if again else (), dry_run, workers, scheduler)
 
-    return command
+    return with_fit(command) if name == "surface" else command
 
 
 def _run(config, folder, overrides, first, last, force, dry_run, workers, scheduler):

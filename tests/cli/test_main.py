@@ -5,6 +5,7 @@ import json
 import subprocess
 import sys
 
+import numpy as np
 import pytest
 
 import stages
@@ -66,6 +67,24 @@ def test_bad_cases_are_one_sentence_without_traceback(tmp_path, text, code, mess
     done = brakechain("run", tmp_path / "bad.yaml", "--run", tmp_path / "run")
     assert done.returncode == code and message in done.stderr and "Traceback" not in done.stderr
     assert not (tmp_path / "run").exists(), "nothing is made before the case is understood"
+
+
+def test_surface_fits_a_generator_to_a_scan(tmp_path):
+    """What it prints is a section that the stage reads; without a scan it needs a case."""
+    rows = np.random.default_rng(1).standard_normal((40, 40)) * 1e-6
+    head = "# Channel: Topography\n# Width: 40 um\n# Height: 40 um\n# Value units: m\n"
+    (tmp_path / "scan.txt").write_text(head + "\n".join(" ".join(f"{v:.6e}" for v in row) for row in rows))
+    done = brakechain("surface", "--fit", tmp_path / "scan.txt", "--set", "seeds=1", "--set", "body=disc")
+    assert done.returncode == 0, done.stderr
+    assert done.stdout.startswith("# scan.txt: patches of") and "Sdq" in done.stdout
+    (tmp_path / "case.yaml").write_text("chain: disc_brake\n" + done.stdout)
+    case = brakechain("surface", tmp_path / "case.yaml", "--run", tmp_path / "run", "--workers", "1")
+    assert case.returncode == 0, case.stderr
+    for wrong in ((), (tmp_path / "case.yaml", "--fit", tmp_path / "scan.txt")):
+        done = brakechain("surface", *wrong)
+        assert done.returncode == 2 and "expected either CONFIG or --fit SCAN" in done.stderr
+    done = brakechain("surface", "--fit", tmp_path / "scan.txt", "--set", "sedes=1")
+    assert done.returncode == 2 and "sedes: unknown key; did you mean 'seeds'?" in done.stderr
 
 
 def test_plan_prints_and_writes_the_table(tmp_path):

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from pipeline.case_models import effect_block
-from pipeline.contract import ConfigError, ConvergenceError
+from pipeline.contract import ConfigError, Context, ConvergenceError
 from pipeline.contract.settings import fill, restored
 from stages.micro_friction import Settings, micro_friction
 from stages.surface import Settings as SurfaceSettings
@@ -132,3 +132,21 @@ def test_three_grids_tell_the_limit_of_the_area():
     found = micro_friction(rough(), settings=Settings(**TINY | {"refinement": [1.0, 2.0, 4.0]}))
     assert found.area_limit < found.refinement_area[-1] < found.refinement_area[0]
     assert 0 < found.area_limit_error < found.refinement_area[0] - found.area_limit
+
+
+@pytest.mark.parametrize("wrong", [{"pressures": ["1 MPa", "1 GPa"]}, {"pressures": ["1 Pa", "1 MPa"]},
+                                   {"rate_coefficient": 6.0}, {"refinement": [1.0, 1e5]}])
+def test_what_the_pair_cannot_bear_is_refused_before_anything_slides(wrong):
+    class Still(Context):
+        def map(self, *_):
+            pytest.fail("it slides")
+
+    with pytest.raises(ConfigError, match=rf"^micro_friction\.{next(iter(wrong))}"):
+        micro_friction(rough(), settings=Settings(**{**TINY, **wrong}), context=Still())
+
+
+@pytest.mark.parametrize("wrong", [{"third_body_factor": 0}, {"disc_strength": "0 MPa"},
+                                   {"pad": {"wear_coefficient": "-1e-6 mm^2/N"}}])
+def test_no_shear_strength_and_negative_wear_are_refused(wrong):
+    with pytest.raises(ConfigError, match=rf"micro_friction\.{next(iter(wrong))}.*: input should be greater than"):
+        fill(Settings, {**TINY, **wrong}, "case: micro_friction")

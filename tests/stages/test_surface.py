@@ -2,11 +2,13 @@
 
 from itertools import combinations
 
+import h5py
 import numpy as np
 import pytest
 
 from pipeline.contract import ConfigError
 from pipeline.contract.settings import fill
+from pipeline.physics.numerics import memory
 from pipeline.physics.rough.generator import band_limit, resample, self_affine
 from pipeline.physics.rough.worn_depth import without_plane
 from pipeline.recordings.neutral import write_neutral
@@ -105,3 +107,77 @@ def test_pairs_of_a_scan_are_crops_side_by_side(tmp_path):
     assert max(abs(np.corrcoef(a.ravel(), b.ravel())[0, 1]) for a, b in combinations(made.pad_height, 2)) < 0.5
     with pytest.raises(ConfigError, match=r"surface.pairs: .*pad.txt: expected at most 4, as many patches of 0.001 m"):
         surface(settings=fill(Settings, {**SMALL, "pad": pad, "pairs": 5}, "case: surface"))
+
+
+def scanned(path, heights, size=(1200, 1200)):
+    """A pad of a scan (text matrix) of ``size`` (x, y) in um."""
+    head = f"# Channel: Topography\n# Width: {size[0]} um\n# Height: {size[1]} um\n# Value units: m\n"
+    path.write_text(head + "\n".join(" ".join(f"{v:.6e}" for v in row) for row in heights))
+    return {"kind": "scan", "file": str(path), "rms_height": "2 um", "reason": "test"}
+
+
+def of_pad(pad, **more):
+    return surface(settings=fill(Settings, {**SMALL, "pad": pad, **more}, "case: surface"))
+
+
+ROUGH = 1e-6 * self_affine(np.random.default_rng(3), 96, 1.2e-3, 60e-6, 300e-6, 0.8)
+
+
+def test_scans_in_a_wrong_unit_are_asked_back(tmp_path):
+    pad = scanned(tmp_path / "pad.txt", 1e3 * ROUGH)
+    with pytest.raises(ConfigError, match=r"surface.pad: .*pad.txt: expected an rms height .* height_unit: 0.001 m"):
+        of_pad(pad)
+    right = of_pad(scanned(tmp_path / "right.txt", ROUGH))
+    np.testing.assert_allclose(of_pad({**pad, "height_unit": "1 mm"}).pad_height, right.pad_height, atol=1e-9)
+
+
+def test_recorded_maps_in_a_wrong_unit_or_on_coarse_pixels_are_refused(tmp_path):
+    recorded(tmp_path / "a.h5")
+    given = {"kind": "recorded", "file": str(tmp_path / "a.h5"), "map": "pad_new"}
+    with pytest.raises(ConfigError, match="surface.pad.map: expected pixels of at most 2e-05 m"):
+        of_pad(given, nodes=64, shortest_wavelength="40 um")
+    truth = of_pad(given)
+    np.testing.assert_allclose(of_pad({**given, "height_unit": "0.5 m"}).pad_height, 0.5 * truth.pad_height)
+    with h5py.File(tmp_path / "a.h5", "r+") as file:
+        file["runs/new/topography/pad_new"].attrs["units"] = "mm"
+    assert of_pad(given).rms_height[1] == pytest.approx(1e-3 * truth.rms_height[1])
+    with h5py.File(tmp_path / "a.h5", "r+") as file:
+        file["runs/new/topography/pad_new"].attrs["units"] = "km"
+    with pytest.raises(ConfigError, match="surface.pad.map: expected an rms height Sq of 1 nm to 100 um"):
+        of_pad(given)
+
+
+def test_scans_of_holes_are_refused_as_a_whole_and_in_their_patch(tmp_path):
+    holed = ROUGH.copy()
+    holed[:50] = np.nan
+    with pytest.raises(ConfigError, match=r"surface.pad: .*holes.txt: expected measured heights"):
+        of_pad(scanned(tmp_path / "holes.txt", holed))
+    holed = ROUGH.copy()
+    holed[20:76, 20:76] = np.nan
+    with pytest.raises(ConfigError, match=r"surface.pad: .*holes.txt: patch: expected measured heights"):
+        of_pad(scanned(tmp_path / "holes.txt", holed), patch_length="0.75 mm")
+
+
+def test_pixels_need_not_be_square(tmp_path):
+    """The same band-limited surface on every second row is the same patch."""
+    fine = of_pad(scanned(tmp_path / "fine.txt", ROUGH)).pad_height
+    oblong = of_pad(scanned(tmp_path / "oblong.txt", ROUGH[::2])).pad_height
+    assert np.abs(fine - oblong).max() < 0.25 * fine.std() and np.corrcoef(fine.ravel(), oblong.ravel())[0, 1] > 0.995
+
+
+def test_grids_beyond_memory_are_refused_before_they_are_made(monkeypatch):
+    monkeypatch.setattr(memory, "available_memory", lambda: int(1e9))
+    with pytest.raises(ConfigError, match="surface.nodes: expected .* GB for 1 pairs of maps of 2000000 x 2000000"):
+        surface(settings=Settings(nodes=2_000_000))
+    with pytest.raises(ConfigError, match="surface.shortest_wavelength: expected 2.9 GB for generating"):
+        surface(settings=Settings(nodes=2000, shortest_wavelength="1 um"))
+
+
+def test_fitted_surfaces_of_several_seeds():
+    pad = {"kind": "fitted", "rms_height": "2 um", "wavelengths": ["2 mm", "0.4 mm", "0.125 mm"],
+           "variance_shares": [0.6, 0.4], "skewness": -0.5, "kurtosis": 3.5}
+    made = of_pad(pad, pairs=3)
+    assert made.pad_height.shape == (3, 32, 32) and made.source[1] == "generated: fitted, seed 1 and 2 further"
+    assert (made.rms_height[1], made.skewness[1]) == pytest.approx((2e-6, -0.5), rel=0.02)
+    assert made.kurtosis[1] == pytest.approx(3.5, rel=0.02)
+    np.testing.assert_array_equal(made.pad_height[0], of_pad(pad).pad_height[0])

@@ -96,11 +96,23 @@ def _worn(name, run, recording, stroke):
         if new is None:
             raise ConfigError(f"run {name}: topography", f"a new face of the {body} beside the worn one", "none",
                               "record it before the test, in this run or another")
-        if against is not None and against.height.shape != new.height.shape:
+        if not _same_pixels(worn, new):
+            raise ConfigError(f"run {name}: topography", f"the worn face of the {body} on the pixels of the new one,"
+                              f" {_pixels(new)}", _pixels(worn), "record both alike, or resample one")
+        if against is not None and not _same_pixels(against, new):
             against = None
         depths[channel] = worn_depth(new.height, worn.height, against and against.height,
                                     round(stroke / (new.x[1] - new.x[0])) + 1)
     return depths
+
+
+def _same_pixels(one, other):
+    return one.height.shape == other.height.shape and np.allclose([one.y[1], one.x[1]], [other.y[1], other.x[1]])
+
+
+def _pixels(face):
+    rows, columns = face.height.shape
+    return f"{rows} x {columns} of {face.y[1]:.4g} m by {face.x[1]:.4g} m"
 
 
 def _face(body, state, runs):

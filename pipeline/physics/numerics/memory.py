@@ -17,9 +17,8 @@ def available_memory():
     return None if stated is None else 1024 * int(stated)
 
 
-def refuse_beyond_memory(needed, what):
-    """ConfigError where ``what`` needs more than the bytes that are available."""
+def refuse_beyond_memory(needed, what, where="memory", remedy="use fewer workers or a coarser mesh"):
+    """ConfigError at ``where`` if ``what`` needs more than the bytes that are available."""
     available = available_memory()
     if available is not None and needed > available:
-        raise ConfigError("memory", f"{needed / 1e9:.2g} GB for {what}", f"{available / 1e9:.2g} GB available",
-                          "use fewer workers or a coarser mesh")
+        raise ConfigError(where, f"{needed / 1e9:.2g} GB for {what}", f"{available / 1e9:.2g} GB available", remedy)

@@ -22,7 +22,7 @@ def turned_disc(nodes, length, shortest, rms_height, *, seed, feed, marks_share,
     round pits of diameter ``outbreak_size`` (m) on ``outbreak_share`` of the area, ``outbreak_depth`` times the
     rms of the rest deep at their centre. Raises ConfigError for feeds below ``shortest``.
     """
-    size, random = _construction_size(length, shortest), np.random.default_rng(seed)
+    size, random = construction_size(length, shortest), np.random.default_rng(seed)
     fed = length / max(round(length / feed), 1)
     if fed < 0.99 * shortest:
         raise ConfigError("feed of the turned disc", f"at least {shortest:g} m, the shortest wavelength of the surface",
@@ -45,7 +45,7 @@ def plateau_pad(nodes, length, shortest, rms_height, *, seed, plateau_share, pla
     field's rms wide. Both textures are self-affine (``hurst``, roll-off ``roughness_wavelength`` in m).
     """
     random = np.random.default_rng(seed)
-    size = _construction_size(length, shortest)
+    size = construction_size(length, shortest)
     field = self_affine(random, size, length, shortest, plateau_size, 1.0)
     threshold = np.quantile(field, 1.0 - plateau_share)
     plateau = 0.5 + 0.5 * np.tanh((field - threshold) / edge_width)
@@ -81,7 +81,8 @@ def resample(heights, shape):
     return np.fft.ifft2(np.fft.ifftshift(result)).real * (np.prod(shape) / heights.size)
 
 
-def _construction_size(length, shortest):
+def construction_size(length, shortest):
+    """Nodes along the edge of the construction grid; ConfigError unless 0 < ``shortest`` <= ``length`` (m)."""
     if not 0.0 < shortest <= length:
         raise ConfigError("rough surface", "0 < shortest wavelength <= patch length", f"{shortest:g} m, {length:g} m")
     return int(np.ceil(CONSTRUCTION_NODES * length / shortest / 2.0)) * 2

@@ -56,11 +56,33 @@ def solve_normal_contact(gap, compliance, mean_pressure, start=None, tolerance=1
         direction = np.where(contact, residual + conjugate * square / previous * direction, 0.0)
         image = apply(compliance, direction)
         image -= image[contact].mean()
-        step = np.vdot(residual, direction) / np.vdot(image, direction)
+        curvature = np.vdot(image, direction)       # of a single touching node none: its own stiffness is the step
+        step = np.vdot(residual, direction) / curvature if curvature > 0.0 else 1.0 / _self_compliance(compliance, gap)
         pressure, conjugate = _advance(pressure, step, direction, distance, mean_pressure)
-        previous = square
+        previous = square if square > 0.0 else 1.0
     raise ConvergenceError("normal contact", f"a gap error of {tolerance:g} rms within {max_iterations} iterations",
                            f"{error:.2g}", "raise max_iterations or tolerance")
+
+
+def full_contact_pressure(gap, compliance):
+    """Mean pressure in Pa from which on every node touches: the one under which the deepest node just carries nothing.
+
+    Where all nodes touch, the pressure is the mean plus that which flattens the gap, -gap / compliance per wavenumber
+    (Johnson, Contact Mechanics, 1985, section 13.2: p* of a wavy surface). Arguments as of ``solve_normal_contact``.
+    """
+    flattening = scipy.fft.rfft2(gap)
+    flattening[0, 0] = 0.0
+    waves = compliance.copy()
+    waves[0, 0] = 1.0
+    return scipy.fft.irfft2(flattening / waves, s=gap.shape).max()
+
+
+def _self_compliance(compliance, gap):
+    """Displacement of a node by a traction on itself alone, over the mean displacement taken off, in m/Pa."""
+    unit = np.zeros(gap.shape)
+    unit[0, 0] = 1.0
+    image = apply(compliance, unit)
+    return image[0, 0] - image.mean()
 
 
 def _advance(pressure, step, direction, distance, mean_pressure):
@@ -87,9 +109,13 @@ def interface_stiffness(gap, compliance, contact, tolerance, max_iterations, ste
 
     The uniform compliance of the blocks (wavenumber 0) is removed: what remains belongs to the rough interface. A
     brake model fills the depth of the blocks with the bulk of pad and disc; the moduli of the blocks are effective
-    values of the asperities and say nothing about that bulk.
+    values of the asperities and say nothing about that bulk. Raises ConfigError where the load flattens the interface:
+    nothing is left that could be stiff.
     """
-    mean = contact.pressure.mean()
+    mean, flat = contact.pressure.mean(), full_contact_pressure(gap, compliance)
+    if flat <= mean:
+        raise ConfigError("normal contact", f"a load that leaves nodes open, below {flat:.3g} Pa", f"{mean:.3g} Pa",
+                          "lower the pressure or the wear, or raise the modulus of the asperities")
     low, high = (solve_normal_contact(gap, compliance, mean * factor, contact.pressure, tolerance, max_iterations)
                  for factor in (1.0 - step, 1.0 + step))
     return 1.0 / ((high.approach - low.approach) / (2.0 * step * mean) - compliance[0, 0])

@@ -49,7 +49,12 @@ def solve_shear_limit(limit, compliance, displacement, tolerance=1e-6, max_itera
 
 
 def full_slip_displacement(limit, compliance):
-    """Base displacement in m at which every contact node slips along x, the uniform shear of the blocks removed."""
+    """Base displacement in m at which every contact node slips along x, the uniform shear of the blocks removed.
+
+    0 where no node has a limit: all slip at once.
+    """
+    if not np.any(limit > 0.0):
+        return 0.0
     uniform = np.stack([limit, np.zeros_like(limit)])
     displaced = _apply(compliance, uniform)[0]
     return displaced[limit > 0.0].max() - compliance.along[0, 0] * limit.mean()

@@ -11,6 +11,9 @@ from pipeline.contract.errors import ConfigError
 
 #: share of the face, the deepest, that counts as untouched
 UNTOUCHED = 0.3
+#: rms change of untouched nodes over the rms height of the face from which on both maps show different areas; of
+#: unrelated maps of one roughness it is about 1.1, of a face worn flat 0.5
+UNRELATED = 0.75
 
 
 def worn_depth(new, worn, against=None, stroke=0):
@@ -18,7 +21,8 @@ def worn_depth(new, worn, against=None, stroke=0):
 
     ``against``: the new face that passes over it, as mounted (outwards of its own body), up to ``stroke`` nodes along x
     to either side; without it the deepest nodes of the face itself count as untouched, some of which may be worn. The
-    error is that of the pixels' noise, by what is left about the plane of the untouched nodes.
+    error is that of the pixels' noise, by what is left about the plane of the untouched nodes. Raises ConfigError for
+    maps of other shapes, and for maps that do not overlap: what was not touched must be the same in both.
     """
     if new.shape != worn.shape:
         raise ConfigError("worn topography", f"a map of {new.shape} nodes, as the new one", str(worn.shape),
@@ -28,6 +32,10 @@ def worn_depth(new, worn, against=None, stroke=0):
         height = height + scipy.ndimage.maximum_filter1d(without_plane(against), 2 * stroke + 1, axis=1, mode="wrap")
     deep = height < np.quantile(height, UNTOUCHED)
     left = without_plane(new - worn, deep)
+    if left[deep].std() > UNRELATED * without_plane(new).std():
+        raise ConfigError("worn topography", "untouched depths that both maps show alike",
+                          f"a difference of {left[deep].std():.3g} m rms, as of maps that do not overlap",
+                          "record the same area before and after, or align the maps")
     basis = _planes(new.shape)
     weight = np.full(new.shape, 1 / new.size)       # of every node in the mean, the plane through some of them included
     weight[deep] -= basis[deep] @ np.linalg.solve(basis[deep].T @ basis[deep], basis.mean(axis=(0, 1)))

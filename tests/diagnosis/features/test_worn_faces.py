@@ -67,3 +67,11 @@ def test_recordings_that_cannot_be_used_are_refused(wrong, said):
 def test_a_stated_scatter_stands_in():
     recorded = table(recording(faces=False), friction_std=np.zeros(12))
     np.testing.assert_array_equal(rubbed(recorded, 5e-5, 0.01)["drag_1"].std, 0.01)
+
+
+def test_worn_faces_of_other_pixels_are_refused():
+    recorded = recording()
+    faces = recorded.runs["drag_1"].topography
+    stretched = {name: replace(face, x=2 * face.x) if face.state == "worn" else face for name, face in faces.items()}
+    with pytest.raises(ConfigError, match=r"run drag_1: topography: expected the worn face .* on the pixels"):
+        rubbed(changed(recorded, topography=stretched), 5e-5)

@@ -22,3 +22,10 @@ def test_a_system_that_states_nothing_refuses_nothing(tmp_path, monkeypatch):
     memory.refuse_beyond_memory(1e30, "a factor")
     (tmp_path / "none").write_text("MemTotal:  2000 kB\n")
     assert memory.available_memory() is None
+
+
+def test_the_refusal_names_the_setting(tmp_path, monkeypatch):
+    (tmp_path / "meminfo").write_text("MemAvailable:     1500 kB\n")
+    monkeypatch.setattr(memory, "_MEMINFO", tmp_path / "meminfo")
+    with pytest.raises(ConfigError, match="^surface.nodes: expected 2 GB for maps, .*; lower it$"):
+        memory.refuse_beyond_memory(2e9, "maps", "surface.nodes", "lower it")

@@ -9,7 +9,13 @@ from pipeline.physics.closed_form import hertz, westergaard
 from pipeline.physics.rough.generator import resample, self_affine
 from pipeline.physics.rough.layer_element import brick_stiffness
 from pipeline.physics.rough.layered_solid import graded_depth, half_space_compliance, layered_compliance
-from pipeline.physics.rough.normal_contact import apply, contact_area, interface_stiffness, solve_normal_contact
+from pipeline.physics.rough.normal_contact import (
+    apply,
+    contact_area,
+    full_contact_pressure,
+    interface_stiffness,
+    solve_normal_contact,
+)
 
 YOUNG, POISSON = 1.0, 0.3
 MODULUS = YOUNG / (1.0 - POISSON ** 2)
@@ -171,3 +177,25 @@ def periodic_block(nodes, depth, young):
                 entries.append((pair.ravel(), np.repeat(rows, 3, axis=1).ravel(), np.tile(columns, (1, 3)).ravel()))
     values, rows, columns = (np.concatenate(part) for part in zip(*entries, strict=True))
     return sparse.csr_array((values, (rows, columns)), shape=(number.size,) * 2)
+
+
+@pytest.mark.exact
+def test_full_contact_of_a_wavy_surface():
+    """p* = pi E* amplitude / wavelength (Johnson 1985, 13.4): just below a node is open, just above none."""
+    nodes, amplitude = 64, 0.01
+    gap = np.tile(-amplitude * np.cos(2.0 * np.pi * np.arange(nodes) / nodes), (4, 1))
+    compliance = half_space_compliance((4, nodes), (1.0 / nodes,) * 2, YOUNG, POISSON).normal
+    flat = full_contact_pressure(gap, compliance)
+    assert flat == pytest.approx(westergaard.full_contact_pressure(amplitude, 1.0, MODULUS), rel=1e-12)
+    below, above = (solve_normal_contact(gap, compliance, share * flat).pressure for share in (0.98, 1.02))
+    assert below.min() == 0.0 and above.min() > 0.0
+    with pytest.raises(ConfigError, match="a load that leaves nodes open"):
+        interface_stiffness(gap, compliance, solve_normal_contact(gap, compliance, 1.1 * flat), 1e-6, 2000)
+
+
+@pytest.mark.exact
+def test_a_single_touching_node_bears_the_load(rough):
+    compliance = half_space_compliance(rough.shape, (1 / 64, 1 / 64), YOUNG, POISSON).normal
+    pressure = solve_normal_contact(-rough, compliance, 1e-9).pressure
+    assert np.count_nonzero(pressure) == 1 and np.argmax(pressure) == np.argmax(rough)
+    assert pressure.sum() == pytest.approx(1e-9 * rough.size, rel=1e-12)

@@ -69,3 +69,11 @@ def test_non_convergence_raises(hertzian):
     half = 0.5 * full_slip_displacement(FRICTION * pressure, compliance)
     with pytest.raises(ConvergenceError, match="within 2 iterations"):
         solve_shear_limit(FRICTION * pressure, compliance, half, max_iterations=2)
+
+
+@pytest.mark.exact
+def test_without_a_limit_there_is_no_shear_and_no_way_to_full_slip():
+    compliance = half_space_compliance((8, 8), (1.0, 1.0), 1.0, 0.3)
+    none = np.zeros((8, 8))
+    assert full_slip_displacement(none, compliance) == 0.0
+    assert not solve_shear_limit(none, compliance, 1.0).traction.any()

@@ -11,7 +11,6 @@ from pipeline.physics.rough.generator import self_affine
 from pipeline.physics.rough.topography import (
     isotropic_spectrum,
     level,
-    periodic_patch,
     read_scan,
     remove_outliers,
     statistics,
@@ -98,21 +97,6 @@ def test_holes_are_filled_between_their_rims(rough):
     assert filled == 16 / rough.size
     assert np.abs(whole - level(rough, SPACING)[0])[30:34, 30:34].max() < 3.0 * rough.std()
     assert np.isfinite(whole).all()
-
-
-def test_a_patch_is_periodic_and_keeps_its_variance():
-    long = self_affine(np.random.default_rng(6), 400, 400e-6, 10e-6, 40e-6, 0.8)
-    patch = periodic_patch(long, (1e-6, 1e-6), 200e-6)
-    assert patch.shape == (200, 200)
-    inner = np.abs(np.diff(patch, axis=1)).max()
-    assert np.abs(patch[:, 0] - patch[:, -1]).max() < 2.0 * inner
-    assert patch[:20].std() == pytest.approx(patch[20:].std(), rel=0.3)
-    np.testing.assert_array_equal(patch[60:, 60:], long[90 + 60:290, 90 + 60:290])
-
-
-def test_a_patch_larger_than_the_scan_is_refused(rough):
-    with pytest.raises(ConfigError, match="shorten patch_length"):
-        periodic_patch(rough, (1e-6, 1e-6), 95e-6)
 
 
 def test_the_grid_has_the_band_and_the_height_asked_for(rough):

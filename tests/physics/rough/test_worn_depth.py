@@ -55,3 +55,12 @@ def test_a_plane_is_nothing(faces):
 def test_maps_of_other_pixels_are_refused(faces):
     with pytest.raises(ConfigError, match="same pixels"):
         worn_depth(faces[0], faces[0][:32])
+
+
+def test_maps_of_different_areas_are_refused(faces):
+    with pytest.raises(ConfigError, match=r"untouched depths that both maps show alike, found .* do not overlap"):
+        worn_depth(faces[0], np.roll(faces[0], 20, axis=1), faces[1])
+
+
+def test_a_face_worn_flat_is_still_the_same_area(faces):
+    assert worn_depth(faces[0], np.minimum(faces[0], faces[0].min()))[0] > 0

@@ -1,0 +1,1 @@
+"""Rough surfaces of a case: the section ``surface`` of the YAML."""

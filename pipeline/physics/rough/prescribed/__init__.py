@@ -1,0 +1,1 @@
+"""Surfaces with a prescribed spectrum and height distribution, and what a scan prescribes."""
