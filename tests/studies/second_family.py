@@ -1,7 +1,7 @@
 """'make study_second_family SEED=1': rigs that truly switch, coarse samples, unknown starts, diagnosed and scored.
 
 A set has 30 effects, 15 controls, 10 laws that no catalogue holds and 5 faulty sensors. It is drawn from SEED alone;
-seeds from 102 on are for measures and are not solved before. One folder a case; what is there is not made or solved
+seeds from 103 on are for measures and are not solved before. One folder a case; what is there is not made or solved
 again.
 """
 
