@@ -16,7 +16,8 @@ from pipeline.inference.decision.candidate_statistics import (
 from pipeline.inference.decision.evidence import evidence
 from pipeline.inference.fitting.least_squares import fit
 from pipeline.inference.fitting.parameter_drift import drift
-from pipeline.inference.priors import LATENT_LIMIT, Uniform
+from pipeline.inference.priors import LATENT_LIMIT, HalfNormal, LogNormal, Parameter, Uniform
+from pipeline.inference.problem import Hypothesis
 from pipeline.inference.rules import DEFAULTS, DecisionRules
 from tests.inference import linear
 
@@ -42,6 +43,25 @@ def test_the_distance_from_null_is_the_value_over_its_posterior_deviation():
     assert told.from_null == pytest.approx(found[1].values["effect_1_0"] / found[1].spread()["effect_1_0"], rel=1e-6)
     assert told.evidence_gain > 20 and told.left_out_gain > 10 and told.unexplained == 0.0
     assert told.held_out_errors is None and told.beats_decoy is None and told.forbidden == ""
+
+
+def test_a_size_that_trades_with_a_shape_is_judged_by_what_it_takes_off_the_objective():
+    """Only size times shape shows: its value is uncertain by the prior of the shape, its presence is not."""
+    whole, _, catalogue, found = fits({"effect_1_0": 0.5})
+    size = Parameter("size", "1", 0.5, HalfNormal(1.0), 0.0)
+    shape = Parameter("shape", "1", 1.0, LogNormal(1.0, 1.0))
+    inner, known = whole.predict, [p.name for p in whole.nominal.parameters]
+
+    def predict(hypothesis, values, run):
+        grown = {"effect_1_0": values["size"] * values["shape"]} if "size" in values else {}
+        return inner(hypothesis, {**{k: values[k] for k in known}, **grown}, run)
+
+    whole = replace(whole, predict=predict)
+    traded = Hypothesis("traded", (("traded", "here"),), (size, shape))
+    end = fit(whole, found[0].noises, whole.nominal.joined(traded), np.zeros(len(known) + 2), whole.training)
+    told = seen(whole, (traded,), [found[0], end], 1)
+    assert end.values["size"] / end.spread()["size"] < 2
+    assert told.from_null == pytest.approx(np.sqrt(end.weights.max() * end.betters(found[0]))) and told.from_null > 5
 
 
 def test_values_that_cannot_be_are_told():
