@@ -12,7 +12,7 @@ from pipeline.physics.numerics.memory import refuse_beyond_memory
 from pipeline.physics.rough.generator import band_limit, construction_size, plateau_pad, resample, turned_disc
 from pipeline.physics.rough.layered_solid import graded_depth
 from pipeline.physics.rough.patch import crops, window
-from pipeline.physics.rough.plausible_scan import in_true_unit, refuse_holes
+from pipeline.physics.rough.plausible_scan import in_true_unit, refuse_coarse, refuse_holes
 from pipeline.physics.rough.topography import isotropic_spectrum, statistics, to_grid
 from pipeline.physics.rough.worn_depth import without_plane
 from pipeline.products import Surface
@@ -124,10 +124,8 @@ def _recorded(body, choice, settings):
     if not np.allclose(length, settings.patch_length, rtol=1e-6):
         raise ConfigError(f"{where}.map", f"the whole patch, {settings.patch_length:g} m",
                           f"{length[0]:g} by {length[1]:g} m", "set surface.patch_length, or use kind: scan")
-    pixel = max(scan.y[1], scan.x[1])
-    if 2 * pixel > settings.shortest_wavelength * (1 + 1e-6):
-        raise ConfigError(f"{where}.map", f"pixels of at most {settings.shortest_wavelength / 2:.3g} m, two a shortest"
-                          " wavelength", f"{pixel:.3g} m", "raise surface.shortest_wavelength, or take a finer map")
+    refuse_coarse((scan.y[1], scan.x[1]), settings.shortest_wavelength, f"{where}.map",
+                  "raise surface.shortest_wavelength, or take a finer map")
     heights = in_true_unit(without_plane(scan.height), choice.height_unit, f"{where}.map")
     height = resample(band_limit(heights, (settings.patch_length,) * 2, settings.shortest_wavelength),
                       (settings.nodes,) * 2)

@@ -101,6 +101,16 @@ class Hypothesis:
         """True (k,) for parameters that may change every run, False for those of one run alone."""
         return np.array([not p.run for p in self.parameters], dtype=bool)
 
+    @property
+    def sizes(self):
+        """Indices of the parameters, of all runs alike, at whose null an effect vanishes."""
+        return [k for k, p in enumerate(self.parameters) if p.null is not None and not p.run]
+
+    @property
+    def shaping(self):
+        """Indices of the parameters of a candidate, of all runs alike, that only shape it."""
+        return [k for k, p in enumerate(self.parameters) if p.null is None and not p.run]
+
     def moves(self, run):
         """True (k,) for parameters that may change the prediction of the run of this name."""
         return np.array([p.run in ("", run) for p in self.parameters], dtype=bool)

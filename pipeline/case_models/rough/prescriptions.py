@@ -9,6 +9,7 @@ from pipeline.case_models.rough.sections import FitSettings, Fitted
 from pipeline.contract import ConfigError
 from pipeline.contract.settings import fill
 from pipeline.physics.rough.generator import construction_size
+from pipeline.physics.rough.plausible_scan import refuse_coarse
 from pipeline.physics.rough.prescribed.bands import Bands
 from pipeline.physics.rough.prescribed.fit import PIXELS, fitted, largest_patch, mean_figures
 from pipeline.physics.rough.prescribed.generator import deviations, prescribed_surface
@@ -37,12 +38,9 @@ def fit(settings: FitSettings):
     """
     where = f"surface --fit {settings.file}"
     scan = levelled(settings, where)
-    pixel = max(scan.spacing)
     length = settings.patch_length or _rounded(largest_patch(scan.heights.shape, scan.spacing), np.floor)
-    shortest = settings.shortest_wavelength or _rounded(PIXELS * pixel, np.ceil)
-    if 2 * pixel > shortest * (1 + 1e-6):
-        raise ConfigError(where, f"pixels of at most {shortest / 2:.3g} m, two a shortest wavelength", f"{pixel:.3g} m",
-                          "raise shortest_wavelength, or take a finer scan")
+    shortest = settings.shortest_wavelength or _rounded(PIXELS * max(scan.spacing), np.ceil)
+    refuse_coarse(scan.spacing, shortest, where, "raise shortest_wavelength, or take a finer scan")
     result = fitted(scan.heights, scan.spacing, length, shortest, settings.longest_wavelength or np.inf)
     size = construction_size(length, shortest)
     tries = [_tried(shape, result, size, settings.seeds, where) for shape in _shapes(result)]

@@ -12,15 +12,20 @@ _HEIGHT_UNIT = ("what a metre of the file's heights truly is, where the file sta
                 " thousand times too large; 1 m where an Sq below 1 nm or above 100 um is right")
 
 
-class Scan(Section):
-    """A measured surface."""
+class ScanFile(Section):
+    """A scan and how it is read."""
 
-    kind: Literal["scan"] = "scan"
     file: InputFile = option(..., "scan in any format that SurfaceTopography reads; measured:PATH for a registered one")
     transposed: bool = option(False, "turn the scan by 90 degrees, so that turning marks run along sliding (x)")
     outlier_threshold: float = option(8.0, "local median test: difference over robust scatter that is an outlier", gt=0)
-    longest_wavelength: Quantity("m", gt=0) = option("1 mm", "long cut-off: waviness above it is removed")
     height_unit: Quantity("m", gt=0) | None = option(None, _HEIGHT_UNIT)
+
+
+class Scan(ScanFile):
+    """A measured surface."""
+
+    kind: Literal["scan"] = "scan"
+    longest_wavelength: Quantity("m", gt=0) = option("1 mm", "long cut-off: waviness above it is removed")
     rms_height: Quantity("m", gt=0) = option(..., "Sq to which the heights are scaled")
     reason: str = option(..., "why the heights are scaled", min_length=1)
 
@@ -100,14 +105,10 @@ class Settings(Section):
     pad: PlateauPad | Fitted | Scan | Recorded = option(PlateauPad(), "surface of the pad", discriminator="kind")
 
 
-class FitSettings(Section):
+class FitSettings(ScanFile):
     """What a scan is fitted by with 'brakechain surface --fit SCAN', set with --set."""
 
-    file: InputFile = option(..., "scan in any format that SurfaceTopography reads")
     body: Literal["disc", "pad"] = option("pad", "body whose section is written")
-    transposed: bool = option(False, "turn the scan by 90 degrees, so that turning marks run along sliding (x)")
-    outlier_threshold: float = option(8.0, "local median test: difference over robust scatter that is an outlier", gt=0)
-    height_unit: Quantity("m", gt=0) | None = option(None, _HEIGHT_UNIT)
     patch_length: Quantity("m", gt=0) | None = option(None, "edge of the square patch; none: the largest of the scan")
     shortest_wavelength: Quantity("m", gt=0) | None = option(None, "short cut-off; none: four pixels of the scan")
     longest_wavelength: Quantity("m", gt=0) | None = option(None, "long cut-off: waviness above it is removed; none:"

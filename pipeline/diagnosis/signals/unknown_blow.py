@@ -9,8 +9,8 @@ the highest of them (Avitabile, Modal Testing, 2018). Hence 95 of 100 contact ti
 of the pulse that excites the fastest mode below half the sample rate to a tenth, 1.3 of its periods. Tips from steel to
 soft rubber differ some fifty-fold, e^4, which holds 95 of 100 contact times about the median.
 
-The course of the force is a half sine by convention only: while the hammer is in contact accelerometers do not count
-(``unseen``).
+The course of the force is a half sine by convention only: while the hammer is in contact accelerations and velocities
+do not count (``unseen``).
 
 The estimate that fits begin from has the median contact time; it is the pulse that explains most of the period behind
 its begin and leaves least before it.

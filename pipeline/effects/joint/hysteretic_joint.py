@@ -7,11 +7,10 @@ elements in parallel) each slips at a way of its own. Their number n need not be
 carries what is left. Nothing changes for small motion.
 """
 
-import numpy as np
-
+from pipeline.effects.attached import beside_joint
 from pipeline.effects.effect import Effect
 from pipeline.inference.priors import LogNormal, Parameter, Uniform
-from pipeline.physics.time_stepping.elements import Element, iwan
+from pipeline.physics.time_stepping.elements import iwan
 
 #: number of sliders from which on they are a continuum
 _MOST = 40.0
@@ -25,10 +24,9 @@ def parameters(typical):
 
 
 def apply(bench, location, values):
-    row, stiffness, _ = bench.joint(location)
-    law = iwan(values["share"] * stiffness, values["slip_force"], values["exponent"],
-               float(np.clip(values["sliders"], 1, _MOST)), elastic=True)
-    return bench.with_elements(Element(f"hysteretic_joint {location}", row, law))
+    law = iwan(values["share"] * bench.joint(location)[1], values["slip_force"], values["exponent"],
+               min(max(values["sliders"], 1.0), _MOST), elastic=True)
+    return beside_joint(bench, "hysteretic_joint", location, law)
 
 
 EFFECT = Effect(

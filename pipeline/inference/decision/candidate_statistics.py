@@ -71,9 +71,9 @@ def candidate_statistics(null, null_evidence, candidate, fit, evidence, posterio
 def _shaped(fit, null, candidate):
     """[Distance from none in standard deviations] of a candidate of one size and shapes that may trade with it, by what
     the size takes off the objective; [] of others."""
-    sizes, shapes = ([p for p in candidate.parameters if (p.null is None) == shape and not p.run]
-                     for shape in (False, True))
-    return [np.sqrt(fit.weights.max() * max(fit.betters(null), 0.0))] if len(sizes) == 1 and shapes else []
+    if len(candidate.sizes) != 1 or not candidate.shaping:
+        return []
+    return [np.sqrt(fit.weights.max() * max(fit.betters(null), 0.0))]
 
 
 def _varying(fit, indices, weights, rules):

@@ -15,7 +15,6 @@ from pipeline.inference.search.score_screen import (
     least,
     reshaped,
     shapes_like,
-    shaping,
 )
 
 #: discrete values of a candidate at which fits begin
@@ -52,7 +51,7 @@ def begun_beside(problem, null, anchor, ahead, offsets, item):
 
 def _other_shapes(candidate, start):
     """[(k,)] about the ``start`` (k,) of a candidate of several shapes, of which the linear screen tells little."""
-    return [] if candidate.elaborate or len(shaping(candidate)) < _SEVERAL else reshaped(candidate, start)
+    return [] if candidate.elaborate or len(candidate.shaping) < _SEVERAL else reshaped(candidate, start)
 
 
 def _alternative_starts(problem, null, candidate, base):

@@ -51,8 +51,8 @@ def continued(problem, state, iterations=ITERATIONS, enough=np.inf, patient=True
 
     A fit is given up, as it is, where its slope promises nothing that would bring its objective down to ``enough``, and
     without ``patient`` where features stay far off. Where its iterations do not end by themselves, central differences
-    tell how far it is from its optimum: in a narrow valley the error of forward ones looks like a slope. From there a
-    fit goes on that is nearly at its end.
+    tell how far it is from its optimum: in a narrow valley the error of forward ones looks like a slope. Near the noise
+    it goes on along them, and from there on as before where it is nearly at its end.
     """
     state = iterated(problem, state, iterations, enough, patient)
     if state.converged or state.objective > enough:

@@ -191,9 +191,14 @@ class Refitter:
 
     def better(self, results, starts):
         """{index: Refitted} with fits begun at the latent values ``starts`` {index: (k,)}, where they are better."""
-        begins = [(i, *tried(self.problem, self.null, self.catalogue[i], [start], ())) for i, start in starts.items()]
+        return self._best_begun(results, {i: [start] for i, start in starts.items()})
+
+    def _best_begun(self, results, starts):
+        """The same from the best of several latent values each, ``starts`` {index: [(k,)]}."""
+        begins = {i: tried(self.problem, self.null, self.catalogue[i], each, ())[0]
+                  for i, each in starts.items() if each}
         return _lowest(results, {i: _finished(self.problem, self.null, np.inf, self.rules, begin)
-                                 for i, begin, _ in begins if begin is not None})
+                                 for i, begin in begins.items() if begin is not None})
 
     def settled(self, results):
         """{index: Refitted} once the best fit has come down to the noise or to a strict optimum, if it can, and the
@@ -223,12 +228,8 @@ class Refitter:
     def _reshaped(self, top, results):
         """Results with the candidate ``top`` begun in other shapes, as where few sliders slip one after the other."""
         size, fit = len(self.null.latent), results[top].fit
-        starts = [np.concatenate((fit.latent[:size], own)) for own in reshaped(self.catalogue[top], fit.latent[size:])]
-        if not starts:
-            return results
-        begin, _ = tried(self.problem, self.null, self.catalogue[top], starts, ())
-        return results if begin is None else _lowest(
-            results, {top: _finished(self.problem, self.null, np.inf, self.rules, begin)})
+        others = reshaped(self.catalogue[top], fit.latent[size:])
+        return self._best_begun(results, {top: [np.concatenate((fit.latent[:size], own)) for own in others]})
 
     def _at_its_end(self, fit):
         return fit.converged and (fit.strict or fit.unordered

@@ -31,11 +31,10 @@ class Tone(NamedTuple):
 
 def tone_of(candidate):
     """The Tone of a candidate's parameters, or None where it has none: one size, one frequency, one phase at most."""
-    shapes = {p.unit: k for k, p in enumerate(candidate.parameters) if p.null is None and not p.run}
-    sizes = [k for k, p in enumerate(candidate.parameters) if p.null is not None and not p.run]
-    if len(sizes) != 1 or "Hz" not in shapes:
+    shapes = {candidate.parameters[k].unit: k for k in candidate.shaping}
+    if len(candidate.sizes) != 1 or "Hz" not in shapes:
         return None
-    return Tone(sizes[0], shapes["Hz"], shapes.get("rad"))
+    return Tone(candidate.sizes[0], shapes["Hz"], shapes.get("rad"))
 
 
 def standing_out(fit, count=_TRIED):

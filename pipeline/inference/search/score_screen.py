@@ -205,8 +205,7 @@ def _trials(candidate, shapes, steps=STEPS):
         for latent in alternatives(candidate):
             yield latent, 1, 1.0
         return
-    shape_of = shaping(candidate)
-    shapes = _spread([parameters[k] for k in shape_of], candidate.elaborate) if shapes is None else shapes
+    shapes = _spread([parameters[k] for k in candidate.shaping], candidate.elaborate) if shapes is None else shapes
     for k, parameter in enumerate(parameters):
         if parameter.null is None:
             continue
@@ -214,7 +213,7 @@ def _trials(candidate, shapes, steps=STEPS):
             values = [p.nominal if p.null is None else p.null for p in parameters]
             values[k] = _away(parameter, step)
             latent = np.array([p.prior.latent(v) for p, v in zip(parameters, values, strict=True)])
-            latent[shape_of] = shape
+            latent[candidate.shaping] = shape
             yield latent, int(parameter.sign != 0), step
 
 
@@ -228,14 +227,9 @@ def _spread(shaping, half):
     return [[_latent_of(p, share) for p, share in zip(shaping, each, strict=True)] for each in every[:_COMBINATIONS]]
 
 
-def shaping(candidate):
-    """Indices of the parameters that only shape a candidate, of all runs alike."""
-    return [k for k, p in enumerate(candidate.parameters) if p.null is None and not p.run]
-
-
 def reshaped(candidate, latent):
     """[(k,)]: latent values (k,) of a candidate with the parameters that only shape it spread over their priors."""
-    shapes, starts = shaping(candidate), []
+    shapes, starts = candidate.shaping, []
     for each in _spread([candidate.parameters[k] for k in shapes], False) if shapes else []:
         starts.append(np.array(latent, float))
         starts[-1][shapes] = each
@@ -245,7 +239,7 @@ def reshaped(candidate, latent):
 def shapes_like(candidate, start, values):
     """Shapes [(s,)] of a candidate: as at its latent values ``start`` (k,), and those of ``values`` {name without
     place: value}, where these hold all of its shapes."""
-    own = [(k, candidate.parameters[k]) for k in shaping(candidate)]
+    own = [(k, candidate.parameters[k]) for k in candidate.shaping]
     shapes = [[start[k] for k, _ in own]]
     if own and all(short_name(p) in values for _, p in own):
         shapes.append([float(np.clip(p.prior.latent(values[short_name(p)]), -2, 2)) for _, p in own])

@@ -1,4 +1,4 @@
-"""What a scan must show before it is taken for a surface: heights of a plausible size, and not mostly holes."""
+"""What a scan must show before it is taken for a surface: plausible heights, fine pixels, and not mostly holes."""
 
 import numpy as np
 
@@ -26,6 +26,14 @@ def in_true_unit(heights, unit, where):
                           f"if the file states a wrong unit, say what a metre of its heights is, such as {guess};"
                           " if its heights are right, say height_unit: 1 m")
     return heights
+
+
+def refuse_coarse(spacing, shortest, where, remedy):
+    """ConfigError at ``where`` if pixels of ``spacing`` (dy, dx) in m do not tell the ``shortest`` wavelength (m)."""
+    pixel = max(spacing)
+    if 2 * pixel > shortest * (1 + 1e-6):
+        raise ConfigError(where, f"pixels of at most {shortest / 2:.3g} m, two a shortest wavelength", f"{pixel:.3g} m",
+                          remedy)
 
 
 def refuse_holes(missing, where):

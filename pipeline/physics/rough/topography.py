@@ -15,6 +15,8 @@ import scipy
 from pipeline.contract.errors import ConfigError
 from pipeline.physics.rough.generator import band_limit, resample
 from pipeline.physics.rough.patch import periodic_patch
+from pipeline.physics.rough.plausible_scan import refuse_coarse
+from pipeline.physics.rough.prescribed.heights import moments
 
 #: median absolute deviation to standard deviation of Gaussian scatter
 MAD_TO_RMS = 1.4826
@@ -91,9 +93,7 @@ def to_grid(heights, spacing, length, nodes, shortest, longest, rms_height, wher
 
     ConfigError at ``where`` for a scan whose pixels do not tell the shortest wavelength, or without height.
     """
-    if 2 * max(spacing) > shortest * (1 + 1e-6):
-        raise ConfigError(where, f"pixels of at most {shortest / 2:.3g} m, two a shortest wavelength",
-                          f"{max(spacing):.3g} m", "raise surface.shortest_wavelength, or take a finer scan")
+    refuse_coarse(spacing, shortest, where, "raise surface.shortest_wavelength, or take a finer scan")
     patch = periodic_patch(heights - heights.mean(), spacing, length, place=place)
     filtered = resample(band_limit(patch, (length, length), shortest, longest), (nodes, nodes))
     _refuse_constant(filtered, where)
@@ -106,8 +106,7 @@ def statistics(heights, spacing):
     with _quiet_readers():
         topography = _topography(centred, spacing, periodic=True)
         rms, slope = topography.rms_height_from_area(), topography.rms_gradient()
-    return Statistics(rms, np.abs(centred).mean(), np.ptp(centred), (centred ** 3).mean() / rms ** 3,
-                      (centred ** 4).mean() / rms ** 4, slope)
+    return Statistics(rms, np.abs(centred).mean(), np.ptp(centred), *moments(centred), slope)
 
 
 def isotropic_spectrum(heights, spacing):

@@ -19,7 +19,6 @@ from pipeline.inference.search.score_screen import (
     reshaped,
     screen,
     shapes_like,
-    shaping,
 )
 from tests.inference import linear
 
@@ -150,7 +149,7 @@ def test_other_shapes_keep_the_size_and_what_is_of_one_run():
     own = Parameter("start", "m", 0.0, Normal(0.0, 1.0), run="a")
     wave = Hypothesis("wave", (), (Parameter("height", "m", 0.0, HalfNormal(1.0), 0.0),
                                    Parameter("speed", "m/s", 1.0, LogNormal(1.0, 0.5)), own))
-    assert shaping(wave) == [1]
+    assert wave.shaping == [1]
     found = reshaped(wave, np.array([0.4, 0.1, 0.9]))
     np.testing.assert_allclose(found, [[0.4, -0.8416, 0.9], [0.4, 0.8416, 0.9]], atol=1e-4)
     assert reshaped(Hypothesis("drag", (), (wave.parameters[0],)), np.array([0.4])) == []

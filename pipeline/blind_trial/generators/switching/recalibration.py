@@ -120,7 +120,7 @@ class Recalibration:
     def __init__(self, rig, sensors, runs, exact, base):
         self.rig, self.sensors, self.runs, self.base = rig, sensors, runs, base
         self.names = [name for name in rig.names if name not in exact]
-        self.unknown = [run.unknown() for run in runs]
+        self.unknown, self.telling = [run.unknown() for run in runs], [_telling(run, sensors) for run in runs]
         self.size = len(self.names) + len(sensors) + sum(map(len, self.unknown))
         self.kept = {}
         self.at_rest = self.shown(np.zeros(self.size))
@@ -153,7 +153,7 @@ class Recalibration:
         Raises ConvergenceError: what an unfinished refit leaves would count as hidden physics.
         """
         wanted = [s - b + r for s, b, r in zip(seen, self.base, self.at_rest, strict=True)]
-        per = [_telling(run, self.sensors) / noise[:, None] for run in self.runs]
+        per = [told / noise[:, None] for told in self.telling]
         if not all(np.isfinite(w).all() for w in wanted):
             return np.inf
 

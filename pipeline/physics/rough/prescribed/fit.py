@@ -8,7 +8,7 @@ import numpy as np
 from pipeline.physics.rough.generator import band_limit, construction_size, resample
 from pipeline.physics.rough.patch import OVERLAP, periodic_patch
 from pipeline.physics.rough.prescribed.bands import Bands, band_edges, measured_bands
-from pipeline.physics.rough.prescribed.heights import Heights, mean_heights, moments
+from pipeline.physics.rough.prescribed.heights import Heights, mean_heights
 from pipeline.physics.rough.topography import statistics
 
 #: sectors of the directions of waves, of 15 degrees
@@ -87,8 +87,9 @@ def figures(heights, length, edges):
     """Figures of a periodic map (n, n) in m on a square of ``length`` m, in bands of bounds ``edges`` (m)."""
     gradients = [heights - np.roll(heights, 1, axis) for axis in (0, 1)]
     fourth = sum((g ** 4).mean() for g in gradients) / sum((g ** 2).mean() ** 2 for g in gradients)
-    return Figures(heights.std(), *moments(heights), statistics(heights, (length / len(heights),) * 2).rms_slope,
-                   measured_bands(heights, length, edges, 1).variance, np.ptp(heights), fourth)
+    told = statistics(heights, (length / len(heights),) * 2)
+    return Figures(told.rms_height, told.skewness, told.kurtosis, told.rms_slope,
+                   measured_bands(heights, length, edges, 1).variance, told.peak_to_valley, fourth)
 
 
 def _places(shape, spacing, length):
