@@ -175,6 +175,10 @@ class Asked:
         selection = several.along_motions(single.null, self.catalogue, motions, rules.decision, self.fan_out)
         if selection is None:
             return self.pairs(single, self.catalogue)
+        if selection.left > rules.decision.along_motions:
+            pair = self.pairs(single, self.catalogue)
+            if pair.base is not None and _reaches_noise(pair, rules):
+                return pair
         best = self.together(single, selection)
         unseen = tuple(c for i, c in enumerate(self.catalogue) if i not in selection.judged)
         return self.pairs(best, unseen) if best.base is None and unseen else best

@@ -40,8 +40,9 @@ class RefitRules:
     imitates: float = threshold(0.25, "fraction of the best candidate's squared score, at the nominal values that it"
                                       " asks for, at which another one is refitted there too")
     moves_alike: float = threshold(0.8, "the same, at which a candidate that comes nowhere near is led over")
-    step_error: float = threshold(1e-3, "fraction of the noise power that half the time step may change in what a"
-                                        " leading candidate predicts; beyond, its step is halved")
+    step_error: float = threshold(1e-3, "fraction of the noise power, or of what is left where that is more, that half"
+                                        " the time step may change in what a leading candidate predicts; beyond, its"
+                                        " step is halved")
     step_shift: float = threshold(0.5, "standard deviations that this change may shift one of its values")
     halvings: int = threshold(3, "times that the time step of a candidate may be halved")
     restarts: int = threshold(2, "times that the fit of the leading candidate begins again where it does not converge")
@@ -91,6 +92,9 @@ class DecisionRules:
                                           " the law of the first may be wrong by a tenth of its force")
     law_error: float = threshold(0.05, "relative standard deviation of the force of a law, by which a further law is"
                                        " not needed")
+    along_motions: float = threshold(30.0, "noise powers that the best set of laws may leave along measured motions;"
+                                           " beyond, pairs are tried before it: what switches shows badly along noisy"
+                                           " motions")
     second_at_noise: float = threshold(1e-4, "the same where both together reach the noise on all runs")
     misfit: float = threshold(3.0, "standard deviations of chi^2 beyond which the nominal model does not fit")
     noise_uncertainty: float = threshold(0.05, "relative uncertainty of the noise power")

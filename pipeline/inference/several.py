@@ -41,7 +41,8 @@ class Selection:
 
     ``wider``: the same of the best set whose members need not give a share that an error of the others cannot.
     ``nominal`` (k,): latent values of the nominal parameters beside them; ``values`` {index: (j,)}: those of members.
-    ``judged``: indices of the candidates whose part measured motions can show.
+    ``judged``: indices of the candidates whose part measured motions can show; ``left``: noise powers that the best
+    set leaves along them.
     """
 
     members: tuple
@@ -50,6 +51,7 @@ class Selection:
     nominal: np.ndarray
     values: dict
     judged: frozenset
+    left: float
 
     def start(self, members):
         """Latent values of the nominal parameters and of ``members``, in that order."""
@@ -109,7 +111,7 @@ def _selected(null, every, catalogue, rules, along=None):
     of = table(null, every)
     subsets, judged = best_subsets(of), frozenset(int(i) for i in of.owner)
     if not subsets:
-        return Selection((), (), (), null.latent, {}, judged)
+        return Selection((), (), (), null.latent, {}, judged, np.inf)
     best = subsets[0]
     values = {owner: scaled(catalogue[owner].parameters, of.tried[direction], coefficient)
               for owner, coefficient, direction in zip(best.owners, best.coefficients, best.directions, strict=True)}
@@ -119,7 +121,7 @@ def _selected(null, every, catalogue, rules, along=None):
     tried = [Combination(_names(catalogue, owners), gain) for owners, gain in gains.items() if owners]
     tried += [Combination(_names(catalogue, s.owners), s.gain) for s in subsets if s.owners not in gains]
     return Selection(members, wider, tuple(sorted(tried, key=lambda c: -c.gain)), columns.nominal(wider), values,
-                     judged)
+                     judged, _left(null, _directions(null, every, of, best)))
 
 
 def _names(catalogue, owners):
@@ -139,10 +141,22 @@ def _law_errors(along, null, catalogue, values, size):
     return errors
 
 
+def _directions(null, every, of, best):
+    """(m, k) columns of the nominal parameters and of the best Subset."""
+    vectors = np.concatenate([d.vectors for d in every])[of.index[list(best.directions)]]
+    return np.concatenate([np.concatenate(null.jacobians), vectors.T], axis=1)
+
+
+def _left(null, columns):
+    """Noise powers that ``columns`` (m, k) leave, each coefficient as uncertain as its prior."""
+    residual = np.concatenate(from_prior_mean(null))
+    u = np.linalg.solve(np.eye(columns.shape[1]) + columns.T @ columns, columns.T @ residual)
+    return float(((residual - columns @ u) ** 2).mean())
+
+
 def _columns(null, every, of, best, errors):
     """_Columns of the best Subset with the ``errors`` {index: (e, m)} of its laws."""
-    vectors = np.concatenate([d.vectors for d in every])[of.index[list(best.directions)]]
-    columns = np.concatenate([np.concatenate(null.jacobians), vectors.T, *(e.T for e in errors.values())], axis=1)
+    columns = np.concatenate([_directions(null, every, of, best), *(e.T for e in errors.values())], axis=1)
     owner = [-1] * len(null.latent) + list(best.owners) + [i for i, e in errors.items() for _ in e]
     residual = np.concatenate(from_prior_mean(null))
     ends = np.cumsum(null.counts)[:-1]

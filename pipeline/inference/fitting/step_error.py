@@ -42,7 +42,8 @@ def refined(problem, rules, fit):
             finer = halved(problem, fit)
             error, shift = changed(fit, finer)
             fit = replace(fit, step_error=error)
-            if error <= rules.step_error * fit.counts.sum() and shift <= rules.step_shift:
+            matters = rules.step_error * max(fit.counts.sum(), fit.chi_square.sum())
+            if error <= matters and shift <= rules.step_shift:
                 return fit
             fit = replace(continued(problem, finer, patient=False), step_error=error)
         except BrakechainError:
