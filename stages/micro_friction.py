@@ -5,7 +5,7 @@ from functools import partial
 import numpy as np
 
 from pipeline.case_models.effect_block import rubbing_with_effects
-from pipeline.case_models.rough_pair import Settings, cycle_distance, of_pair, offsets, rough_pair, rubbing, shifted
+from pipeline.case_models.rough.pair import Settings, cycle_distance, of_pair, offsets, rough_pair, rubbing, shifted
 from pipeline.contract import ConfigError, Context, stage, stored
 from pipeline.physics.numerics.grid_limit import grid_limit
 from pipeline.physics.rough.normal_contact import contact_area, solve_normal_contact

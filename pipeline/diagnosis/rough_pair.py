@@ -11,7 +11,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from pipeline.case_models.effect_block import at_asperities, parameters
-from pipeline.case_models.rough_pair import Settings, offsets, rubbing, shifted
+from pipeline.case_models.rough.pair import Settings, offsets, rubbing, shifted
 from pipeline.contract import ConfigError, restored
 from pipeline.contract.units import to_si
 from pipeline.diagnosis.features.worn_faces import FRICTION, UNITS, WEAR, observed, rubbed, shown

@@ -6,7 +6,7 @@ import numpy as np
 
 from pipeline.case_models.effect_block import Settings as EffectSettings
 from pipeline.case_models.effect_block import product, rubbing_with_effects
-from pipeline.case_models.rough_pair import Settings, rubbing
+from pipeline.case_models.rough.pair import Settings, rubbing
 from pipeline.contract.settings import fill
 from pipeline.physics.rough.sliding_pair import slide, states
 from pipeline.products import MeasuredFriction, Recording, Run, Topography

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 import yaml
 
-from pipeline.case_models.rough_pair import Settings as Section
+from pipeline.case_models.rough.pair import Settings as Section
 from pipeline.contract import ConfigError
 from pipeline.contract.case import CaseText
 from pipeline.contract.settings import fill, without_origins

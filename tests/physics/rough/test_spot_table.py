@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from pipeline.case_models.rough_pair import Settings, rubbing
+from pipeline.case_models.rough.pair import Settings, rubbing
 from pipeline.physics.friction.state_variables import Film
 from pipeline.physics.rough.layered_solid import graded_depth, layered_compliance
 from pipeline.physics.rough.sliding_pair import Drag, slide

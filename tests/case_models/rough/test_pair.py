@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from pipeline.case_models.rough_pair import Settings, cycle_distance, offsets, rough_pair, rubbing, shifted
+from pipeline.case_models.rough.pair import Settings, cycle_distance, offsets, rough_pair, rubbing, shifted
 from stages.surface import Settings as SurfaceSettings
 from stages.surface import surface
 
