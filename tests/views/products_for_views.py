@@ -93,7 +93,10 @@ def friction_map():
     micro = micro_friction(8)
     return filled(FrictionMap, pressure=PRESSURE, speed=SPEED, distance=micro.distance, friction=micro.friction,
                        friction_std=micro.friction_std, normal_stiffness=micro.normal_stiffness.mean(axis=1),
-                       computed_pressure=PRESSURE, computed_speed=SPEED)
+                       computed_pressure=PRESSURE, computed_speed=SPEED,
+                       best_pressure=np.full(len(micro.distance), PRESSURE[1]),
+                       pressure_slope_std=np.full(len(micro.distance), 0.005),
+                       speed_slope_std=np.full(len(micro.distance), 0.05))
 
 
 def structure():

@@ -96,8 +96,46 @@ def outside_computed(products):
             " friction was not computed: widen micro_friction.pressures.")
 
 
-def friction_map(product, look):
-    """Chapter of the product FrictionMap."""
+def slopes(product):
+    """The slopes of a FrictionMap over pressure and speed with their errors, first new, then worn; '' of one point."""
+    told = [words for of, axis, error in (("pressure, p dmu/dp", 0, product.pressure_slope_std),
+                                          ("speed, v dmu/dv", 1, product.speed_slope_std))
+            if (words := _slope(product, of, axis, error))]
+    return f"Its slope over {'; over '.join(told)}." if told else ""
+
+
+def _slope(product, of, axis, error):
+    """One of them in words: the slope over the logarithm of pressure (``axis`` 0) or speed (1), mean over the other, at
+    the pressure where its error is smallest; its sign counts as known from two standard errors on."""
+    computed = (product.computed_pressure, product.computed_speed)[axis]
+    if len(computed) < 2:
+        return ""
+    over = np.log((product.pressure, product.speed)[axis])
+    rises = np.gradient(product.friction, over, axis=axis)
+    ends = []
+    for when, k in (("new", 0), (f"after {quantity(product.distance[-1], 'm', 3)}", -1)):
+        at = int(np.argmin(abs(product.pressure - product.best_pressure[k])))
+        value = rises[at, :, k].mean()
+        doubt = "" if abs(value) > 2 * error[k] else " (sign unknown)"
+        ends.append(f"{number(value, 2)} ± {number(error[k], 1)} {when}{doubt}")
+    return f"{of}: {', '.join(ends)}"
+
+
+def what_slope_decides(probability):
+    """Share of the draws that squeal where friction rises less and more with pressure than usual; '' without draws."""
+    if probability is None or "friction_over_pressure" not in list(map(str, probability.source)):
+        return ""
+    slope = probability.value[:, list(map(str, probability.source)).index("friction_over_pressure")]
+    heard = (probability.root.real > probability.least_growth) & (
+        abs(probability.root.imag) >= 2 * np.pi * probability.squeal_from)
+    squeals = np.isin(np.arange(len(slope)), probability.root_draw[heard])
+    low, high = (percent(squeals[half].mean()) for half in (slope <= np.median(slope), slope > np.median(slope)))
+    return (f"Within this error the slope over pressure decides as follows: of the draws with the lower half of the"
+            f" slopes {low} squeal at some operating point, of those with the upper half {high}.")
+
+
+def friction_map(product, probability, look):
+    """Chapter of the product FrictionMap, with what its slope does to the Probability, where there is one."""
     last = product.friction[:, :, -1]
     return Chapter(
         "friction_map", "Friction map",
@@ -105,6 +143,7 @@ def friction_map(product, look):
         " sliding. Orange lines: computed. Hatched: outside the computed range, extrapolated as a constant.",
         f"The brake model evaluates this map patch by patch: {span(last, '1')} here, standard error up to"
         f" {number(product.friction_std.max(), 2)}. Interface stiffness {span(product.normal_stiffness, 'Pa/m')}."
+        f" {' '.join(filter(None, (slopes(product), what_slope_decides(probability))))}"
         " Results that rest on the hatched part are not reliable; the chapter on pad motion states the fraction of"
         " evaluations that fell there.",
         (Figure(friction.friction_map(product), f"Friction map: {span(last, '1')} over"

@@ -31,7 +31,7 @@ _PUBLISHED = "published squeal"
 CHAPTERS = {
     "surface": (surface.chapter, ()),
     "micro_friction": (friction.micro, ()),
-    "friction_map": (friction.friction_map, ()),
+    "friction_map": (friction.friction_map, ("probability",)),
     "interface_law": (lock_in.interface_law, ()),
     "friction_descriptions": (friction_descriptions.chapter, ()),
     "structure": (structure.chapter, ("complex_modes",)),

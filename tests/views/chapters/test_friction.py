@@ -1,0 +1,43 @@
+"""The slope of friction in words: with its error, its sign where it is known, and what it decides."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from pipeline.views.chapters.chapter import Look
+from pipeline.views.chapters.friction import friction_map, slopes, what_slope_decides
+from pipeline.views.figures.number_format import percent
+from tests.views import products_for_views as small
+
+LOOK = Look(dpi=50)
+SLOPED = ["joint_stiffness:finger", "damping_speed", "friction_over_pressure"]
+
+
+def test_slopes_are_those_of_the_map_with_their_errors():
+    law = small.friction_map()
+    rises = np.gradient(law.friction[:, :, -1], np.log(law.pressure), axis=0)[1].mean()
+    told = slopes(law)
+    assert f"p dmu/dp: {rises:.2g} ± 0.005 new, {rises:.2g} ± 0.005 after 10\N{NARROW NO-BREAK SPACE}mm;" in told
+    assert "v dmu/dv: 0.011 ± 0.05 new (sign unknown)" in told
+
+
+def test_one_pressure_and_one_speed_have_no_slopes():
+    law = small.friction_map()
+    one = replace(law, computed_pressure=law.computed_pressure[:1], computed_speed=law.computed_speed[:1])
+    assert slopes(one) == ""
+
+
+def test_draws_of_a_higher_slope_squeal_more_often():
+    drawn = replace(small.probability(), source=np.array(SLOPED))
+    squeals, slope = (drawn.growth > 0).any(axis=1), drawn.value[:, 2]
+    low, high = (squeals[half].mean() for half in (slope <= np.median(slope), slope > np.median(slope)))
+    assert high > low and f"lower half of the slopes {percent(low)} squeal" in what_slope_decides(drawn)
+    assert what_slope_decides(drawn).endswith(f"upper half {percent(high)}.")
+    assert what_slope_decides(replace(drawn, squeal_from=np.array(1e5))).endswith(f"upper half {percent(0.0)}.")
+
+
+@pytest.mark.parametrize("drawn", [None, small.probability()])
+def test_without_draws_of_the_slope_nothing_is_said_of_it(drawn):
+    assert what_slope_decides(drawn) == ""
+    assert "p dmu/dp" in friction_map(small.friction_map(), drawn, LOOK).conclude
