@@ -91,7 +91,7 @@ class DecisionRules:
     second_share: float = threshold(1e-2, "fraction of what a first effect explains that a second one must explain:"
                                           " the law of the first may be wrong by a tenth of its force")
     law_error: float = threshold(0.05, "relative standard deviation of the force of a law, by which a further law is"
-                                       " not needed")
+                                       " not needed; a law whose shape adapts may leave no more than its square")
     along_motions: float = threshold(30.0, "noise powers that the best set of laws may leave along measured motions;"
                                            " beyond, pairs are tried before it: what switches shows badly along noisy"
                                            " motions")

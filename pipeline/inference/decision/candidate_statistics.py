@@ -65,7 +65,8 @@ def candidate_statistics(null, null_evidence, candidate, fit, evidence, posterio
         unfinished(fit, null, rules.evidence) + fit.excluded(LATENT_LIMIT - 1e-6),
         powered, float(max(judged.share, 0.0)), float(judged.left(uncertainty)),
         max(-gained.value, 0.0) / max(fit.explains(null), 1e-300) if gained else 0.0,
-        tuple(_varying(fit, [k for k, _ in added], weights, rules.decision)), gained and gained.error)
+        tuple(_varying(fit, [k for k, _ in added], weights, rules.decision)), gained and gained.error,
+        candidate.kind == "physics" and bool(candidate.shaping) and not fit.unordered)
 
 
 def _shaped(fit, null, candidate):

@@ -17,7 +17,8 @@ class CandidateStatistics:
     empty; ``doubts``: why its fit cannot be relied on, in words. ``powered``: whether held-out runs can tell, as the
     nominal model errs on them; ``takes`` and ``stays``: shares of the excess error on them, else on all runs.
     ``loses``: its loss on held-out runs over what it explains of the fitted ones. ``varying``: what its values follow
-    along the runs, in words. ``held_out_error``: root mean square that it leaves there, in noise floors.
+    along the runs, in words. ``held_out_error``: root mean square that it leaves there, in noise floors. ``adapts``:
+    whether it is a law of samples in time whose shape adapts to them.
     """
 
     name: str
@@ -43,6 +44,7 @@ class CandidateStatistics:
     loses: float = 0.0
     varying: tuple = ()
     held_out_error: float | None = None
+    adapts: bool = False
 
 
 @dataclass(frozen=True)
@@ -114,6 +116,9 @@ def objections(candidate, runs, rules):
         reasons.append(candidate.forbidden)
     if candidate.from_null < rules.from_null:
         reasons.append(f"its value lies {candidate.from_null:.1f} standard deviations from none at all")
+    if candidate.adapts and candidate.unexplained > rules.law_error**2:
+        reasons.append(f"it leaves {candidate.unexplained:.2%} of the excess error, though its shape adapts: a law of"
+                       " another form")
     if runs.points >= rules.agreement_points and candidate.disagreement > rules.disagreement:
         reasons.append(f"its value differs between operating points ({candidate.disagreement:.1f} standard deviations)")
     if runs.points >= 2 and candidate.left_out_gain <= 0:

@@ -96,6 +96,14 @@ def test_what_leaves_more_than_a_twentieth_is_unknown():
     assert verdict(FOUR, replace(GOOD, unexplained=0.049)) == "missing"
 
 
+def test_a_law_whose_shape_adapts_may_leave_less():
+    """GOOD leaves 1 %: an error of a tenth of its force, which a law with a shape would take up were it the right one.
+    """
+    assert verdict(FOUR, GOOD) == "missing" and verdict(FOUR, replace(GOOD, adapts=True)) == "unknown"
+    assert verdict(FOUR, replace(GOOD, adapts=True, unexplained=0.0024)) == "missing"
+    assert "another form" in "".join(objections(replace(GOOD, adapts=True), FOUR, DecisionRules()))
+
+
 def test_one_run_names_nothing_and_says_so():
     alone = replace(GOOD, held_out_errors=None, beats_decoy=None)
     told = decide(replace(FOUR, runs=1, points=1), [alone], DecisionRules())
