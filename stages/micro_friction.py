@@ -8,7 +8,8 @@ from pipeline.case_models.effect_block import rubbing_with_effects
 from pipeline.case_models.rough.pair import Settings, cycle_distance, of_pair, offsets, rough_pair, rubbing, shifted
 from pipeline.contract import ConfigError, Context, stage, stored
 from pipeline.physics.numerics.grid_limit import grid_limit
-from pipeline.physics.rough.normal_contact import contact_area, solve_normal_contact
+from pipeline.physics.rough.contact.normal_contact import contact_area
+from pipeline.physics.rough.contact.yielding_contact import solve_yielding_contact
 from pipeline.physics.rough.pair_limits import refuse_beyond_limits, refuse_large_grid
 from pipeline.physics.rough.sliding_pair import slide
 from pipeline.products import Effects, MicroFriction, Surface
@@ -21,12 +22,13 @@ def micro_friction(surface: Surface, effects: Effects | None, settings: Settings
 
     Method:
     Two rough elastic blocks of hex8 finite elements, condensed exactly to their surfaces by DFT, were pressed together
-    (conjugate gradients of Polonsky and Keer) and sheared to full slip with the shear limit {third_body_factor} *
-    {disc_strength} / sqrt(3); Archard wear was applied to both surfaces in {cycles} cycles. The friction coefficient is
-    total shear force over total normal force, with the real area corrected for its perimeter (Yastrebov et al. 2017),
-    averaged over one pass of the slider, {realisations} relative positions of the patches and all pairs of surfaces.
-    Speed enters through a rate term ({rate_coefficient}) and thermal softening ({softening}) of the limit. Asperity
-    moduli, third-body factor and wear coefficients with origin "tuned" were fitted to the facts named in their source.
+    (conjugate gradients of Polonsky and Keer; with a stated hardness no spot is pressed harder, and what yields stays
+    flattened) and sheared to full slip with the shear limit {third_body_factor} * {disc_strength} / sqrt(3); Archard
+    wear was applied to both surfaces in {cycles} cycles. The friction coefficient is total shear force over total
+    normal force, with the real area corrected for its perimeter (Yastrebov et al. 2017), averaged over one pass of the
+    slider, {realisations} relative positions of the patches and all pairs of surfaces. Speed enters through a rate
+    term ({rate_coefficient}) and thermal softening ({softening}) of the limit. Asperity moduli, third-body factor and
+    wear coefficients with origin "tuned" were fitted to the facts named in their source.
     Effects at the asperities modify wear and shear.
     """
     for name in ("pressures", "disc_speeds", "refinement"):
@@ -83,8 +85,9 @@ def _slide(task, speeds, recorded):
 
 def _area_on_grid(factor, surface, settings, pressure):
     pair = rough_pair(surface, settings, factor)
-    contact = solve_normal_contact(-pair.pad_height - pair.disc_height, pair.compliance.normal, pressure,
-                                   tolerance=settings.tolerance, max_iterations=settings.max_iterations)
+    contact = solve_yielding_contact(-pair.pad_height - pair.disc_height, pair.compliance.normal, pressure,
+                                     tolerance=settings.tolerance, max_iterations=settings.max_iterations,
+                                     hardness=pair.hardness)
     return contact_area(contact.pressure > 0.0)[1]
 
 
@@ -97,7 +100,8 @@ def _table(records, pressures, pairs):
         values = np.array([getattr(record, name) for record in records])
         return values.reshape(pressures, pairs, -1, *values.shape[1:])
 
-    same = ("real_area", "normal_stiffness", "flash_temperature", "full_slip_distance", "limit_at_speed", "friction")
+    same = ("real_area", "normal_stiffness", "flash_temperature", "full_slip_distance", "limit_at_speed", "friction",
+            "yielding_area")
     approach, friction = every("approach"), every("friction")
     drawn = friction.mean(axis=2) if pairs > 1 else friction[:, 0]
     return {**{name: every(name).mean(axis=(1, 2)) for name in same},

@@ -3,7 +3,7 @@
 from pipeline.contract import Array, count, product, quantity, text
 
 
-@product(version=4)
+@product(version=5)
 class MicroFriction:
     """Friction, real contact area and wear of the rough pair over pressure, speed and sliding distance."""
 
@@ -16,6 +16,7 @@ class MicroFriction:
     friction_std: Array = quantity("1", "pressure speed distance", "standard error of the friction coefficient: over pairs of surfaces, of one pair over its positions")
     pair_friction: Array = quantity("1", "pair pressure speed distance", "coefficient of friction of each pair of surfaces")
     real_area: Array = quantity("1", "pressure speed distance", "real over nominal contact area, perimeter-corrected")
+    yielding_area: Array = quantity("1", "pressure speed distance", "share of the nominal area that yields, at the hardness of the softer body")
     wear_depth: Array = quantity("m", "pressure speed distance", "approach of both mean planes by wear, at equal load")
     largest_wear: Array = quantity("m", "pressure speed distance", "largest wear of one surface node")
     normal_stiffness: Array = quantity("Pa/m", "pressure speed distance", "interface stiffness dp/d(approach) without the"

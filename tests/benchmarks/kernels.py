@@ -22,9 +22,9 @@ from pipeline.physics.numerics.sparse_solver import available
 from pipeline.physics.pads import exudyn_model, newmark
 from pipeline.physics.pads.preloaded_modes import preloaded_modes
 from pipeline.physics.pads.sliding_pads import static_start
+from pipeline.physics.rough.contact.normal_contact import solve_normal_contact
 from pipeline.physics.rough.generator import plateau_pad, self_affine, turned_disc
 from pipeline.physics.rough.layered_solid import graded_depth, half_space_compliance, layered_compliance
-from pipeline.physics.rough.normal_contact import solve_normal_contact
 from pipeline.physics.rupture.history import run
 from pipeline.physics.rupture.plate_grid import largest_step, plate
 from pipeline.physics.rupture.plate_step import plain_step, rims, step_plate

@@ -16,7 +16,7 @@ def computed():
     pressure, speed, distance = np.array([1e6, 2e6, 3e6]), np.array([1.1, 1.5]), np.array([0.0, 1e-3, 1e-2])
     friction = 0.4 + 0.03e-6 * pressure[:, None, None] + 0.01 * speed[:, None] + 8.0 * distance
     table = dict.fromkeys(("real_area", "wear_depth", "largest_wear", "flash_temperature", "full_slip_distance",
-                           "limit_at_speed"), np.zeros_like(friction))
+                           "limit_at_speed", "yielding_area"), np.zeros_like(friction))
     maps = dict.fromkeys(("contact_pressure_new", "contact_pressure_worn", "pad_wear", "disc_wear"), np.zeros((2, 2)))
     return MicroFriction(settings="", pressure=pressure, speed=speed, disc_speed=speed / 0.128, distance=distance,
                          friction=friction, pair_friction=friction[None],

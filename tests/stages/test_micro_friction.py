@@ -150,3 +150,16 @@ def test_what_the_pair_cannot_bear_is_refused_before_anything_slides(wrong):
 def test_no_shear_strength_and_negative_wear_are_refused(wrong):
     with pytest.raises(ConfigError, match=rf"micro_friction\.{next(iter(wrong))}.*: input should be greater than"):
         fill(Settings, {**TINY, **wrong}, "case: micro_friction")
+
+
+def test_a_hard_body_changes_nothing_and_a_soft_one_yields(result):
+    """Beyond the largest pressure the numbers are the same to the last bit; below, more area carries the load."""
+    def with_hardness(value):
+        return micro_friction(rough(), settings=fill(Settings, {**TINY, "pad": {"hardness": f"{value!r} Pa"}}, "m"))
+
+    hard, soft = with_hardness(1e12), with_hardness(0.3 * float(result.contact_pressure_new.max()))
+    np.testing.assert_array_equal(hard.friction, result.friction)
+    assert not hard.yielding_area.any() and not result.yielding_area.any()
+    assert np.all(soft.yielding_area > 0.0) and np.all(soft.yielding_area < soft.real_area)
+    assert np.all(soft.real_area > result.real_area) and np.all(soft.friction > result.friction)
+    assert soft.contact_pressure_new.max() <= 0.3 * result.contact_pressure_new.max() * (1 + 1e-12)

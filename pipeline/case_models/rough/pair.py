@@ -20,6 +20,8 @@ class Iron(Section):
     density: Quantity("kg/m^3", gt=0) = option("7200 kg/m^3", "density")
     heat_capacity: Quantity("J/K/kg", gt=0) = option("500 J/K/kg", "heat capacity")
     wear_coefficient: Quantity("m^2/N", ge=0) = option("4e-7 mm^2/N", "Archard wear depth per pressure and distance")
+    hardness: Quantity("Pa", gt=0) | None = option(None, "indentation hardness, the largest pressure of a contact spot;"
+                                                   " the softer body yields; none = elastic")
 
 
 class Lining(Section):
@@ -33,6 +35,8 @@ class Lining(Section):
     density: Quantity("kg/m^3", gt=0) = option("2200 kg/m^3", "density")
     heat_capacity: Quantity("J/K/kg", gt=0) = option("1000 J/K/kg", "heat capacity")
     wear_coefficient: Quantity("m^2/N", ge=0) = option("4e-6 mm^2/N", "Archard wear depth per pressure and distance")
+    hardness: Quantity("Pa", gt=0) | None = option(None, "indentation hardness, the largest pressure of a contact spot;"
+                                                   " the softer body yields; none = elastic")
 
 
 class Settings(Section):
@@ -79,7 +83,14 @@ def rough_pair(surface, settings, factor=1.0):
                  for depth, solid in ((surface.pad_depth, settings.pad), (surface.disc_depth, settings.disc)))
     heights = [resample(h, (nodes, nodes)) if factor != 1.0 else h
                for h in (surface.pad_height[0], surface.disc_height[0])]
-    return RoughPair(*heights, (spacing, spacing), pad + disc)
+    return RoughPair(*heights, (spacing, spacing), pad + disc, *_softer(settings))
+
+
+def _softer(settings):
+    """(hardness in Pa, name) of the softer body; infinite where neither has one."""
+    hardness = {name: getattr(settings, name).hardness or np.inf for name in ("pad", "disc")}
+    softer = min(hardness, key=hardness.get)
+    return hardness[softer], softer
 
 
 def rubbing(surface, settings):

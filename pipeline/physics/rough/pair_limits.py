@@ -4,7 +4,7 @@ import numpy as np
 
 from pipeline.contract.errors import ConfigError
 from pipeline.physics.numerics.memory import refuse_beyond_memory
-from pipeline.physics.rough.normal_contact import full_contact_pressure, solve_normal_contact
+from pipeline.physics.rough.contact.normal_contact import full_contact_pressure, solve_normal_contact
 
 #: bytes per surface node that the condensation of a block takes at its peak, measured from 64^2 to 256^2 nodes
 NODE_BYTES = 850
@@ -20,11 +20,14 @@ def refuse_large_grid(nodes, where):
 def refuse_beyond_limits(rubbing, pressures, speeds):
     """ConfigError where a Rubbing cannot be computed at rising ``pressures`` (Pa) and ``speeds`` (m/s).
 
-    The rate term must leave a positive shear limit at every speed, the highest pressure must leave nodes of the new
-    surfaces open, and the lowest must press more than one node.
+    The rate term must leave a positive shear limit at every speed, the highest pressure must lie below the hardness and
+    leave nodes of the new surfaces open, and the lowest must press more than one node.
     """
     _refuse_vanishing_limit(rubbing.shearing, speeds)
     pair, lowest, highest = rubbing.pair, pressures[0], pressures[-1]
+    if highest >= pair.hardness:
+        raise ConfigError(f"rough pair: {pair.yielding}.hardness", f"above the highest pressure, {highest:.3g} Pa",
+                          f"{pair.hardness:.3g} Pa", "state that of its surface, or lower the pressures")
     gap, compliance = -pair.pad_height - pair.disc_height, pair.compliance.normal
     flat = full_contact_pressure(gap, compliance)
     if highest >= flat:

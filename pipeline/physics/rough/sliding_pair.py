@@ -10,20 +10,31 @@ import numpy as np
 
 from pipeline.physics.friction.state_variables import Film
 from pipeline.physics.rough.archard_wear import run_in
+from pipeline.physics.rough.contact.normal_contact import contact_area, interface_stiffness
+from pipeline.physics.rough.contact.shear_limit import (
+    film_factor,
+    full_slip_displacement,
+    limit_at_speed,
+    solve_shear_limit,
+)
+from pipeline.physics.rough.contact.yielding_contact import solve_yielding_contact
 from pipeline.physics.rough.flash_temperature import ThermalSolid, spot_heating
 from pipeline.physics.rough.layered_solid import SurfaceCompliance
-from pipeline.physics.rough.normal_contact import contact_area, interface_stiffness, solve_normal_contact
-from pipeline.physics.rough.shear_limit import film_factor, full_slip_displacement, limit_at_speed, solve_shear_limit
 
 
 @dataclass(frozen=True)
 class RoughPair:
-    """Two rough solids: heights (ny, nx) in m outwards, ``spacing`` (dy, dx) in m, ``compliance`` of both together."""
+    """Two rough solids: heights (ny, nx) in m outwards, ``spacing`` (dy, dx) in m, ``compliance`` of both together.
+
+    ``hardness`` in Pa of the softer one, the body ``yielding`` (pad or disc); infinite where both stay elastic.
+    """
 
     pad_height: np.ndarray
     disc_height: np.ndarray
     spacing: tuple
     compliance: SurfaceCompliance
+    hardness: float = np.inf
+    yielding: str = "pad"
 
 
 @dataclass(frozen=True)
@@ -111,6 +122,7 @@ class SlidingRecord:
     flash_temperature: np.ndarray
     full_slip_distance: np.ndarray
     limit_at_speed: np.ndarray
+    yielding_area: np.ndarray
     contact_pressure_new: np.ndarray
     contact_pressure_worn: np.ndarray
     pad_wear: np.ndarray
@@ -119,7 +131,7 @@ class SlidingRecord:
 
 #: fields of a SlidingRecord that vary over the recorded distances
 RECORDED = ("friction", "real_area", "approach", "largest_wear", "normal_stiffness", "flash_temperature",
-            "full_slip_distance", "limit_at_speed")
+            "full_slip_distance", "limit_at_speed", "yielding_area")
 
 #: imposed displacement of steady sliding over that of full slip
 FAR = 100.0
@@ -143,15 +155,16 @@ def states(rubbing, mean_pressure):
     """WornPairs of a Rubbing under ``mean_pressure`` (Pa): at the start and after each cycle."""
     pair = rubbing.pair
     return run_in(pair.pad_height, pair.disc_height, pair.compliance.normal, mean_pressure,
-                  **rubbing.wearing.under(mean_pressure), **vars(rubbing.solving))
+                  **rubbing.wearing.under(mean_pressure), **vars(rubbing.solving), hardness=pair.hardness,
+                  yielding=pair.yielding)
 
 
 def passed(rubbing, worn, mean_pressure):
-    """NormalContacts of a WornPair at every position of one pass of the slider."""
-    contacts, pressure = [], None
+    """YieldingContacts of a WornPair at every position of one pass of the slider."""
+    contacts, pressure, pair = [], None, rubbing.pair
     for position in range(rubbing.wearing.stroke + 1):
-        contact = solve_normal_contact(worn.gap(position), rubbing.pair.compliance.normal, mean_pressure, pressure,
-                                       **vars(rubbing.solving))
+        contact = solve_yielding_contact(worn.gap(position), pair.compliance.normal, mean_pressure, pressure,
+                                         **vars(rubbing.solving), hardness=pair.hardness)
         contacts.append(contact)
         pressure = contact.pressure
     return contacts
@@ -174,15 +187,17 @@ def spot_limit(shearing, mean_pressure, area, speed, heating):
 def _measure(worn, rubbing, mean_pressure, speeds):
     """Figures per speed of one state, mean over the slider's positions, and the contact pressure at the first.
 
-    The interface stiffness is the mean over the first, the middle and the last position.
+    The interface stiffness is the mean over the first, the middle and the last position, elastic where nodes yielded.
     """
     contacts, stroke = passed(rubbing, worn, mean_pressure), rubbing.wearing.stroke
-    stiffness = np.mean([interface_stiffness(worn.gap(position), rubbing.pair.compliance.normal, contacts[position],
-                                             **vars(rubbing.solving)) for position in {0, stroke // 2, stroke}])
+    stiffness = np.mean([interface_stiffness(
+        worn.gap(position) + contacts[position].flattened, rubbing.pair.compliance.normal, contacts[position],
+        **vars(rubbing.solving)) for position in {0, stroke // 2, stroke}])
     sheared = [_sheared(c.pressure, speeds, rubbing) for c in contacts]
     figures = {name: np.mean([[f[name] for f in row] for row in sheared], axis=0) for name in sheared[0][0]}
     same = {"approach": np.mean([c.approach for c in contacts]), "normal_stiffness": stiffness,
-            "largest_wear": max(worn.pad_wear.max(), worn.disc_wear.max())}
+            "largest_wear": max(worn.pad_wear.max(), worn.disc_wear.max()),
+            "yielding_area": np.mean([np.mean(c.pressure >= rubbing.pair.hardness) for c in contacts])}
     figures |= {name: np.full(len(speeds), value) for name, value in same.items()}
     return figures, contacts[0].pressure
 

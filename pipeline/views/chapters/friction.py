@@ -21,8 +21,14 @@ def micro(product, look):
         f"The coefficient of friction is {span(product.friction, '1')}; wear flattens the peaks, the real contact area"
         f" grows, and friction {'rises' if gain > 0 else 'falls'} by {number(abs(gain), 2)} on average. In full slip"
         " friction is shear limit times real contact area over pressure: the shear limit sets its level and should be"
-        " measured first.",
+        f" measured first.{_yielded(product)}",
         (*_spots(product, look, point, new, worn), *_curves(product)))
+
+
+def _yielded(product):
+    """What of the real contact area yields, in a sentence; '' where nothing does."""
+    share = (product.yielding_area / product.real_area).max()
+    return f" Up to {percent(share)} of the real contact area is at the hardness of the softer body." if share else ""
 
 
 def _spots(product, look, point, new, worn):

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from pipeline.case_models.rough.pair import Settings, cycle_distance, offsets, rough_pair, rubbing, shifted
+from pipeline.contract.settings import fill
 from stages.surface import Settings as SurfaceSettings
 from stages.surface import surface
 
@@ -37,3 +38,13 @@ def test_a_finer_grid_holds_the_same_surface(rough):
     fine = rough_pair(rough, Settings(), 2.0)
     assert fine.pad_height.shape == (64, 64) and fine.spacing[0] == pytest.approx(1e-3 / 64)
     np.testing.assert_allclose(fine.pad_height[::2, ::2], rough.pad_height[0], atol=1e-12)
+
+
+def test_the_softer_body_yields(rough):
+    hard = {name: {"hardness": value} for name, value in (("pad", "400 MPa"), ("disc", "2 GPa"))}
+
+    def found(given):
+        return rough_pair(rough, fill(Settings, given, "micro_friction"))
+
+    assert (found({}).hardness, found(hard).hardness, found(hard).yielding) == (np.inf, 4e8, "pad")
+    assert found({"disc": hard["disc"]}).yielding == "disc"

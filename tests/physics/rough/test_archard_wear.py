@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from pipeline.physics.rough.archard_wear import archard, run_in
+from pipeline.physics.rough.contact.normal_contact import solve_normal_contact
 from pipeline.physics.rough.generator import self_affine
 from pipeline.physics.rough.layered_solid import half_space_compliance
 
@@ -47,3 +48,27 @@ def test_the_disc_wears_where_it_touched():
 def test_wear_flattens_what_touches():
     pairs = states(cycles=40)
     assert np.std(pairs[-1].gap(0)) < np.std(pairs[0].gap(0))
+
+
+@pytest.mark.parametrize("yielding, other", [("pad", "disc"), ("disc", "pad")])
+def test_the_softer_body_stays_flattened(yielding, other):
+    """Without wear a second pass over what has yielded flattens next to nothing more."""
+    hard = solve_normal_contact(-PAD - DISC, COMPLIANCE, 1e6).pressure.max()
+    new, *passed = run_in(PAD, DISC, COMPLIANCE, 1e6, cycles=3, distance=1e-4, stroke=0, pad_coefficient=0.0,
+                          disc_coefficient=0.0, tolerance=1e-7, max_iterations=2000, hardness=hard / 4,
+                          yielding=yielding)
+    sunk = [getattr(state, f"{yielding}_height") - getattr(new, f"{yielding}_height") for state in passed]
+    assert sunk[0].max() == 0.0 and -sunk[0].min() > 0.1 * PAD.std()
+    np.testing.assert_allclose(sunk[2], sunk[0], atol=1e-3 * abs(sunk[0]).max())
+    np.testing.assert_array_equal(getattr(passed[2], f"{other}_height"), getattr(new, f"{other}_height"))
+
+
+def test_what_the_disc_yields_moves_with_it():
+    hard = solve_normal_contact(-PAD - DISC, COMPLIANCE, 1e6).pressure.max()
+    new, first, second = run_in(PAD, DISC, COMPLIANCE, 1e6, cycles=2, distance=1e-4, stroke=1, pad_coefficient=0.0,
+                                disc_coefficient=0.0, tolerance=1e-6, max_iterations=2000, hardness=hard / 4,
+                                yielding="disc")
+    mark = np.roll(first.disc_height - second.disc_height, 1, axis=1) > 0
+    gap = -PAD - np.roll(first.disc_height, 1, axis=1)
+    assert mark.any() and gap[mark].mean() < gap[~mark].mean() - gap.std()
+    assert new.disc_height is DISC

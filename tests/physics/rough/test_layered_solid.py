@@ -6,9 +6,9 @@ from scipy import sparse
 from scipy.sparse.linalg import spsolve
 
 from pipeline.contract.errors import ConfigError
+from pipeline.physics.rough.contact.normal_contact import apply
 from pipeline.physics.rough.layer_element import brick_stiffness
 from pipeline.physics.rough.layered_solid import graded_depth, half_space_compliance, layered_compliance
-from pipeline.physics.rough.normal_contact import apply
 
 SHAPE, SPACING, DEPTH = (6, 8), (0.7, 1.0), np.array([0.0, 0.5, 1.5, 3.5])
 

@@ -1,13 +1,15 @@
 """Operating points beyond a rough pair end in one error before anything is computed."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from pipeline.contract.errors import ConfigError
+from pipeline.physics.rough.contact.normal_contact import full_contact_pressure
 from pipeline.physics.rough.flash_temperature import ThermalSolid
 from pipeline.physics.rough.generator import self_affine
 from pipeline.physics.rough.layered_solid import graded_depth, layered_compliance
-from pipeline.physics.rough.normal_contact import full_contact_pressure
 from pipeline.physics.rough.pair_limits import refuse_beyond_limits, refuse_large_grid
 from pipeline.physics.rough.sliding_pair import RoughPair, Rubbing, Shearing, Solving, Wearing
 
@@ -49,3 +51,11 @@ def test_grids_beyond_memory_are_refused():
     refuse_large_grid(64, "test")
     with pytest.raises(ConfigError, match="test: expected .* GB for a block of 3200000 x 3200000 surface nodes"):
         refuse_large_grid(3_200_000, "test")
+
+
+def test_a_body_softer_than_the_highest_pressure_is_refused():
+    soft = rubbing()
+    soft = replace(soft, pair=replace(soft.pair, hardness=2e6, yielding="disc"))
+    refuse_beyond_limits(soft, [1e6, 1.9e6], [1.0])
+    with pytest.raises(ConfigError, match=r"rough pair: disc.hardness: expected above the highest pressure, 3e\+06 Pa"):
+        refuse_beyond_limits(soft, [1e6, 3e6], [1.0])

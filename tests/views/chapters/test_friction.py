@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from pipeline.views.chapters.chapter import Look
-from pipeline.views.chapters.friction import friction_map, slopes, what_slope_decides
+from pipeline.views.chapters.friction import friction_map, micro, slopes, what_slope_decides
 from pipeline.views.figures.number_format import percent
 from tests.views import products_for_views as small
 
@@ -41,3 +41,10 @@ def test_draws_of_a_higher_slope_squeal_more_often():
 def test_without_draws_of_the_slope_nothing_is_said_of_it(drawn):
     assert what_slope_decides(drawn) == ""
     assert "p dmu/dp" in friction_map(small.friction_map(), drawn, LOOK).conclude
+
+
+def test_area_that_yields_is_told():
+    rubbed = small.micro_friction()
+    soft = replace(rubbed, yielding_area=0.25 * rubbed.real_area)
+    assert "hardness" not in micro(rubbed, LOOK).conclude
+    assert f"Up to {percent(0.25)} of the real contact area is at the hardness" in micro(soft, LOOK).conclude

@@ -5,8 +5,8 @@ import pytest
 
 from pipeline.contract.errors import ConvergenceError
 from pipeline.physics.closed_form import cattaneo_mindlin, hertz
+from pipeline.physics.rough.contact.shear_limit import full_slip_displacement, limit_at_speed, solve_shear_limit
 from pipeline.physics.rough.layered_solid import half_space_compliance
-from pipeline.physics.rough.shear_limit import full_slip_displacement, limit_at_speed, solve_shear_limit
 
 NODES, RADIUS, FRICTION = 128, 26.0, 0.4
 

@@ -6,16 +6,16 @@ from scipy import sparse
 
 from pipeline.contract.errors import ConfigError, ConvergenceError
 from pipeline.physics.closed_form import hertz, westergaard
-from pipeline.physics.rough.generator import resample, self_affine
-from pipeline.physics.rough.layer_element import brick_stiffness
-from pipeline.physics.rough.layered_solid import graded_depth, half_space_compliance, layered_compliance
-from pipeline.physics.rough.normal_contact import (
+from pipeline.physics.rough.contact.normal_contact import (
     apply,
     contact_area,
     full_contact_pressure,
     interface_stiffness,
     solve_normal_contact,
 )
+from pipeline.physics.rough.generator import resample, self_affine
+from pipeline.physics.rough.layer_element import brick_stiffness
+from pipeline.physics.rough.layered_solid import graded_depth, half_space_compliance, layered_compliance
 
 YOUNG, POISSON = 1.0, 0.3
 MODULUS = YOUNG / (1.0 - POISSON ** 2)
