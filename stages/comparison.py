@@ -16,8 +16,8 @@ SYSTEMS = {"structure": (disc_brake.disc_brake_rows, disc_brake.FIELDS),
            "lumped": (lumped.lumped_rows, lumped.FIELDS), "rupture": (rupture.rupture_rows, rupture.FIELDS)}
 
 #: size in SI of the printed units that the chains compute
-_SIZE = {"1": 1.0, "%": 0.01, "um": 1e-6, "mm": 1e-3, "m": 1.0, "us": 1e-6, "ms": 1e-3, "s": 1.0, "1/s": 1.0, "Hz": 1.0,
-         "rad/s": 1.0, "mm/s": 1e-3, "m/s": 1.0, "N": 1.0, "kg": 1.0, "MPa": 1e6, "GPa": 1e9,
+SIZE = {"1": 1.0, "%": 0.01, "um": 1e-6, "mm": 1e-3, "m": 1.0, "us": 1e-6, "ms": 1e-3, "s": 1.0, "1/s": 1.0, "Hz": 1.0,
+        "rad/s": 1.0, "mm/s": 1e-3, "m/s": 1.0, "N": 1.0, "kg": 1.0, "MPa": 1e6, "GPa": 1e9,
          "deg": 0.017453292519943295}
 _REASON = {"condition": "a condition of the authors' work, not a result", "derived": "follows from other rows",
            "input": "an input of the authors, not a result"}
@@ -52,12 +52,12 @@ def comparison(products: Products, settings: Settings, context: Context) -> Comp
     """
     facts = load(settings.reference) if settings.reference else ()
     tuned = _tuned(settings.tuned or {}, facts)
-    known = {fact.key: fact.value * _SIZE[fact.unit] for fact in facts if fact.value is not None and fact.unit in _SIZE}
+    known = {fact.key: fact.value * SIZE[fact.unit] for fact in facts if fact.value is not None and fact.unit in SIZE}
     rows_of, fields_by_key = _system_of(products)
     ours = rows_of(products, facts, known)
     for fact in facts:
-        if fact.key in ours and fact.unit not in _SIZE:
-            raise ConfigError(f"{settings.reference}: {fact.key}.unit", f"one of {', '.join(_SIZE)}", repr(fact.unit))
+        if fact.key in ours and fact.unit not in SIZE:
+            raise ConfigError(f"{settings.reference}: {fact.key}.unit", f"one of {', '.join(SIZE)}", repr(fact.unit))
     rows = [_row(fact, ours.get(fact.key), fields_by_key, tuned.get(fact.key, "")) for fact in facts]
     return Comparison(**{field.name: [row[field.name] for row in rows] for field in fields(Comparison)})
 
@@ -78,7 +78,7 @@ def _tuned(patterns, facts):
 
 def _row(fact, ours, fields_by_key, tuned):
     """The fields of one row."""
-    value = None if ours is None or ours.value is None else ours.value / _SIZE[fact.unit]
+    value = None if ours is None or ours.value is None else ours.value / SIZE[fact.unit]
     verdict, counted = _verdict(fact, value)
     statement = f"the paper says: {fact.statement}" if fact.statement else ""
     origin = _REASON.get(fact.role, _UNCOMPUTED) if ours is None else ours.note
