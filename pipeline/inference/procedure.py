@@ -276,14 +276,15 @@ class Asked:
             return None, False
         asked = replace(self, catalogue=seconds).given([first.refined])
         try:
-            refits, pair = asked.steps(first.fit, single)
+            _, pair = asked.steps(first.fit, single)
         except ConvergenceError:
             return None, False
         if not second_effect.matters(pair, explained, rules):
             return pair, False
-        starts = second_effect.starts_without(first, pair, refits.refitter.catalogue)
-        alone = _decided(refits.begun_anew(starts), self.settings, single)
-        return (alone if second_effect.better_alone(alone, pair) else pair), True
+        starts = second_effect.starts_without(first, pair, single)
+        alone = _decided(single.refits.begun_anew(starts), self.settings, single.base)
+        dispensable = alone.decision.verdict in second_effect.NAMING and not second_effect.remains(first, pair, rules)
+        return (alone if dispensable or second_effect.better_alone(alone, pair) else pair), True
 
 
 def _reaches_noise(diagnosis, rules):

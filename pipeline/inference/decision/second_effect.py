@@ -53,14 +53,26 @@ def matters(pair, explained, rules):
     return pair.decision.verdict in NAMING and any(is_more(second) for second in pair.named)
 
 
-def starts_without(first, pair, catalogue):
-    """{index in ``catalogue``: latent values} of what ``pair`` names, at its values, but without the ``first`` effect.
+def starts_without(first, pair, single):
+    """{index among the candidates of the Diagnosis ``single``: latent values} of what ``pair`` names, at its values,
+    but without the ``first`` effect.
 
     Greedy addition may begin with an effect that is not needed once the other one is there.
     """
-    names, size, skip = [c.name for c in catalogue], len(pair.null.latent), len(first.fit.latent)
+    names = [c.name for c in single.refits.refitter.catalogue]
+    size, skip = len(single.null.latent), len(first.fit.latent)
     return {names.index(w.candidate.name): np.concatenate((w.fit.latent[:size], w.fit.latent[skip:]))
-            for w in pair.named}
+            for w in pair.named if w.candidate.name in names}
+
+
+def remains(first, pair, rules):
+    """Whether the ``first`` effect is still one beside what a ``pair`` names: one of its sizes is as far from none at
+    all as that of any effect must be."""
+    candidate, fit = first.candidate, pair.completed
+    std = fit.spread(pair.weights)
+    sizes = [candidate.parameters[k] for k in candidate.sizes]
+    away = [abs(fit.values[p.name] - p.null) / max(std[p.name], 1e-300) for p in sizes if p.name in fit.values]
+    return not away or max(away) >= rules.decision.from_null
 
 
 def better_alone(alone, pair):

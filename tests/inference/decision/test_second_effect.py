@@ -39,11 +39,25 @@ def test_a_second_effect_must_explain_a_fraction_of_what_the_first_does(solved, 
 
 def test_the_second_begins_without_the_first(solved):
     single, catalogue = solved
-    pair = SimpleNamespace(null=SimpleNamespace(latent=np.zeros(2)), named=(SimpleNamespace(
-        candidate=catalogue[1], fit=SimpleNamespace(latent=np.array([1.0, 2.0, 3.0, 4.0]))),))
-    first = SimpleNamespace(fit=SimpleNamespace(latent=np.zeros(3)))
-    (index, start), = second_effect.starts_without(first, pair, catalogue[1:]).items()
-    assert index == 0 and start.tolist() == [1.0, 2.0, 4.0]
+    first = next(c for c in catalogue if c.name == "effect_1")
+    second = next(c for c in catalogue if c.name != "effect_1")
+    nominal = len(single.null.latent)
+    latent = np.arange(1.0, nominal + 1 + len(first.parameters) + len(second.parameters))
+    pair = SimpleNamespace(named=(SimpleNamespace(candidate=second, fit=SimpleNamespace(latent=latent)),))
+    known = SimpleNamespace(fit=SimpleNamespace(latent=latent[:nominal + len(first.parameters)]))
+    (index, start), = second_effect.starts_without(known, pair, single).items()
+    assert single.refits.refitter.catalogue[index].name == second.name
+    assert start.tolist() == [*latent[:nominal], *latent[nominal + len(first.parameters):]]
+
+
+@pytest.mark.parametrize("away, remains", [(1.9, False), (2.1, True)])
+def test_the_first_remains_where_its_size_is_far_from_none(solved, away, remains):
+    _, catalogue = solved
+    first = next(c for c in catalogue if c.name == "effect_1")
+    size = first.parameters[first.sizes[0]]
+    fit = SimpleNamespace(values={size.name: size.null + 0.1 * away}, spread=lambda weights: {size.name: 0.1})
+    pair = SimpleNamespace(completed=fit, weights=None)
+    assert second_effect.remains(SimpleNamespace(candidate=first), pair, DEFAULTS) is remains
 
 
 def test_a_name_of_less_evidence_alone_does_not_take_the_place_of_the_pair(solved):
