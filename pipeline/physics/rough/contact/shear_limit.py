@@ -10,6 +10,7 @@ import numpy as np
 import scipy
 
 from pipeline.contract.errors import ConvergenceError
+from pipeline.physics.numerics.accelerated_gradients import ahead_of
 
 
 @dataclass(frozen=True)
@@ -25,9 +26,9 @@ def solve_shear_limit(limit, compliance, displacement, tolerance=1e-6, max_itera
     """Shear traction when the bases of the solids are displaced by ``displacement`` (m) along x.
 
     ``limit`` (ny, nx) in Pa: largest shear traction of each node, 0 where open; ``compliance``: SurfaceCompliance of
-    both solids. Minimises t C t / 2 - t d subject to |t| <= limit: accelerated projected gradients with restart (FISTA,
-    Beck & Teboulle 2009), the projection exact. The last step is below ``tolerance`` times the largest
-    limit, measured over the whole map; otherwise ConvergenceError.
+    both solids. Minimises t C t / 2 - t d subject to |t| <= limit: accelerated projected gradients, the projection
+    exact. The last step is below ``tolerance`` times the largest limit, measured over the whole map; otherwise
+    ConvergenceError.
     """
     lipschitz = _largest_eigenvalue(compliance)
     imposed = np.array([displacement, 0.0])[:, None, None]
@@ -40,10 +41,8 @@ def solve_shear_limit(limit, compliance, displacement, tolerance=1e-6, max_itera
         if np.abs(new - ahead).max() <= tolerance * limit.max():
             sticking = (limit > 0.0) & (np.hypot(*new) < limit * (1.0 - 1e-9))
             return ShearContact(new, sticking, iteration)
-        restart = np.vdot(ahead - new, step) > 0.0
-        following = 1.0 if restart else (1.0 + np.sqrt(1.0 + 4.0 * momentum ** 2)) / 2.0
-        ahead = new if restart else new + (momentum - 1.0) / following * step
-        traction, momentum = new, following
+        ahead, momentum = ahead_of(new, traction, ahead, momentum)
+        traction = new
     raise ConvergenceError("shear limit", f"steps below {tolerance:g} of the limit within {max_iterations} iterations",
                            f"{np.abs(step).max() / limit.max():.2g}", "raise max_iterations or tolerance")
 

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from pipeline.contract.errors import ConfigError, ConvergenceError
+from pipeline.physics.numerics.accelerated_gradients import ahead_of
 from pipeline.physics.rough.contact.normal_contact import NormalContact, apply, solve_normal_contact
 
 #: most steps to the level of the pressures, and the error of their mean at which they end
@@ -26,8 +27,8 @@ def solve_yielding_contact(gap, compliance, mean_pressure, start=None, tolerance
                            hardness=np.inf):
     """YieldingContact under ``mean_pressure`` with no pressure above ``hardness``, both in Pa.
 
-    Minimises p C p / 2 + g p over maps 0 <= p <= hardness of this mean: accelerated projected gradients with restart
-    (FISTA, Beck & Teboulle 2009) from the elastic solution, which ends it where that nowhere yields. The remaining gap
+    Minimises p C p / 2 + g p over maps 0 <= p <= hardness of this mean: accelerated projected gradients from the
+    elastic solution, which ends it where that nowhere yields. The remaining gap
     of bearing nodes, overlap of open ones and gap of yielding ones are below ``tolerance`` times the rms of ``gap``;
     otherwise ConvergenceError. Other arguments and errors as of ``solve_normal_contact``.
     """
@@ -48,11 +49,8 @@ def solve_yielding_contact(gap, compliance, mean_pressure, start=None, tolerance
             overlap = np.maximum(approach - gap - apply(compliance, new), 0.0)
             return YieldingContact(new, approach, elastic.iterations + iteration,
                                    np.where(new >= hardness, overlap, 0.0))
-        step = new - pressure
-        restart = np.vdot(ahead - new, step) > 0.0
-        following = 1.0 if restart else (1.0 + np.sqrt(1.0 + 4.0 * momentum ** 2)) / 2.0
-        ahead = new if restart else new + (momentum - 1.0) / following * step
-        pressure, momentum = new, following
+        ahead, momentum = ahead_of(new, pressure, ahead, momentum)
+        pressure = new
     raise ConvergenceError("normal contact", f"a gap error of {tolerance:g} rms within {max_iterations} iterations",
                            f"{error / scale:.2g}", "raise max_iterations or tolerance")
 
