@@ -6,6 +6,8 @@ from pipeline.views.chapters.chapter import Chapter, Figure
 from pipeline.views.figures import contact_spots, friction
 from pipeline.views.figures.number_format import number, percent, quantity, span
 
+PLUS_MINUS = "\N{PLUS-MINUS SIGN}"
+
 
 def micro(product, look):
     """Chapter of the product MicroFriction."""
@@ -104,27 +106,40 @@ def outside_computed(products):
 
 def slopes(product):
     """The slopes of a FrictionMap over pressure and speed with their errors, first new, then worn; '' of one point."""
-    told = [words for of, axis, error in (("pressure, p dmu/dp", 0, product.pressure_slope_std),
-                                          ("speed, v dmu/dv", 1, product.speed_slope_std))
-            if (words := _slope(product, of, axis, error))]
-    return f"Its slope over {'; over '.join(told)}." if told else ""
+    told = filter(None, (_over_pressure(product), _over_speed(product)))
+    return " ".join(told)
 
 
-def _slope(product, of, axis, error):
-    """One of them in words: the slope over the logarithm of pressure (``axis`` 0) or speed (1), mean over the other, at
-    the pressure where its error is smallest; its sign counts as known from two standard errors on."""
-    computed = (product.computed_pressure, product.computed_speed)[axis]
+def _over_pressure(product):
+    """The slope over pressure at the lowest, middle and highest computed one, mean over speed, and its error."""
+    computed = product.computed_pressure
     if len(computed) < 2:
         return ""
-    over = np.log((product.pressure, product.speed)[axis])
-    rises = np.gradient(product.friction, over, axis=axis)
-    ends = []
-    for when, k in (("new", 0), (f"after {quantity(product.distance[-1], 'm', 3)}", -1)):
-        at = int(np.argmin(abs(product.pressure - product.best_pressure[k])))
-        value = rises[at, :, k].mean()
-        doubt = "" if abs(value) > 2 * error[k] else " (sign unknown)"
-        ends.append(f"{number(value, 2)} ± {number(error[k], 1)} {when}{doubt}")
-    return f"{of}: {', '.join(ends)}"
+    rises, ends = np.gradient(product.friction, np.log(product.pressure), axis=0).mean(axis=1), []
+    shown = dict.fromkeys((computed[0], computed[len(computed) // 2], computed[-1]))
+    for when, k in _ends(product):
+        values = [f"{number(np.interp(p, product.pressure, rises[:, k]), 2)} at {quantity(p, 'Pa', 3)}" for p in shown]
+        ends.append(f"{', '.join(values)} {when} ({PLUS_MINUS} {number(product.pressure_slope_std[k], 1)} where it is"
+                    f" known best, at {quantity(product.best_pressure[k], 'Pa', 2)})")
+    return f"Slope over pressure, p dmu/dp: {'; '.join(ends)}."
+
+
+def _over_speed(product):
+    """The slope over speed at the pressure where its error is known, mean over speed; its sign counts as known from two
+    standard errors on."""
+    if len(product.computed_speed) < 2:
+        return ""
+    rises, ends = np.gradient(product.friction, np.log(product.speed), axis=1).mean(axis=1), []
+    for when, k in _ends(product):
+        value = np.interp(product.best_pressure[k], product.pressure, rises[:, k])
+        doubt = "" if abs(value) > 2 * product.speed_slope_std[k] else " (sign unknown)"
+        ends.append(f"{number(value, 2)} {PLUS_MINUS} {number(product.speed_slope_std[k], 1)} {when}{doubt}")
+    return f"Over speed, v dmu/dv: {', '.join(ends)}."
+
+
+def _ends(product):
+    """((in words, index)) of the first and the last distance of a FrictionMap."""
+    return ("new", 0), (f"after {quantity(product.distance[-1], 'm', 3)}", -1)
 
 
 def what_slope_decides(probability):

@@ -16,10 +16,12 @@ SLOPED = ["joint_stiffness:finger", "damping_speed", "friction_over_pressure"]
 
 def test_slopes_are_those_of_the_map_with_their_errors():
     law = small.friction_map()
-    rises = np.gradient(law.friction[:, :, -1], np.log(law.pressure), axis=0)[1].mean()
-    told = slopes(law)
-    assert f"p dmu/dp: {rises:.2g} ± 0.005 new, {rises:.2g} ± 0.005 after 10\N{NARROW NO-BREAK SPACE}mm;" in told
-    assert "v dmu/dv: 0.011 ± 0.05 new (sign unknown)" in told
+    rises = np.gradient(law.friction[:, :, -1], np.log(law.pressure), axis=0).mean(axis=1)
+    told = slopes(law).replace("\N{NARROW NO-BREAK SPACE}", " ")
+    values = ", ".join(f"{slope:.2g} at {p} MPa" for slope, p in zip(rises, (1, 2, 3), strict=True))
+    assert told.startswith(f"Slope over pressure, p dmu/dp: {values} new (± 0.005 where it is known best, at 2 MPa);")
+    assert f"{values} after 10 mm (± 0.005" in told
+    assert "Over speed, v dmu/dv: 0.011 ± 0.05 new (sign unknown)" in told
 
 
 def test_one_pressure_and_one_speed_have_no_slopes():
