@@ -25,6 +25,6 @@ def apply(bench, location, values):
 
 EFFECT = Effect(
     name="thermal_coning", summary="contacts that open or close as the disc warms up", location="pressed contact",
-    stage="excitation", parameters=parameters, apply=apply, small=False,
+    stage="excitation", parameters=parameters, apply=apply, small=False, extends=("clearance",),
     source="R. Limpert, Brake Design and Safety, 2nd ed. (1999), chapter 3: coning of rotors",
     valid="Valid while heating is steady from the begin of each run, which starts cold; a belt shifts evenly.")

@@ -7,6 +7,7 @@ from pipeline.inference.fitting import tone_starts
 from pipeline.inference.fitting.calibration import begun
 from pipeline.inference.fitting.fit_state import whitened
 from pipeline.inference.fitting.run_parameters import with_own_parameters
+from pipeline.inference.priors import LATENT_LIMIT
 from pipeline.inference.search.score_screen import (
     FINE_STEPS,
     alternatives,
@@ -79,6 +80,15 @@ def begun_at(problem, anchor, item):
     candidate, start = item
     starts = _starts(anchor.latent, [start]) + tone_starts.starts(problem, anchor, candidate)
     return tried(problem, anchor, candidate, starts, [anchor] * len(starts))
+
+
+def as_limit(limit, whole, latent):
+    """Latent values (j,) of a candidate that is a ``limit`` of another, the ``whole`` at ``latent`` (k,): its sizes
+    those of the same unit, the rest as nominal."""
+    sizes = {whole.parameters[k].unit: whole.parameters[k].prior.value(latent[k]) for k in whole.sizes}
+    alike = [p.prior.latent(sizes.get(p.unit, p.nominal) if p.null is not None else p.nominal)
+             for p in limit.parameters]
+    return np.clip(np.array(alike, float), -LATENT_LIMIT, LATENT_LIMIT)
 
 
 def _starts(base, begins):

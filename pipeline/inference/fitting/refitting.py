@@ -9,7 +9,7 @@ import numpy as np
 from pipeline.contract.errors import BrakechainError
 from pipeline.inference.decision.candidate_statistics import unexplained
 from pipeline.inference.decision.weighing import evidence_of_all
-from pipeline.inference.fitting.begins import begun_at, begun_beside, directions_like, tried
+from pipeline.inference.fitting.begins import as_limit, begun_at, begun_beside, directions_like, tried
 from pipeline.inference.fitting.calibration import Calibration, ahead_of, paired_anew
 from pipeline.inference.fitting.fit_state import Fit, linearised
 from pipeline.inference.fitting.least_squares import again, beside, continued, iterated
@@ -184,10 +184,18 @@ class Refitter:
             top = _best(results)
             if top is None or not self._explains(results[top].fit):
                 break
-            results = self._beside(top, starts, results)
+            results = self._with_limits(top, self._beside(top, starts, results))
             if _best(results) == top:
                 break
         return results
+
+    def _with_limits(self, top, results):
+        """Results with the limits of candidate ``top`` that come nowhere near it begun at its values: it may be one."""
+        size, fit, whole = len(self.null.latent), results[top].fit, self.catalogue[top]
+        far = [i for i, c in enumerate(self.catalogue) if c.name in whole.extends and not (
+            i in results and results[i].fit is not None and results[i].fit.objective <= self._near(fit))]
+        return self.better(results, {i: np.concatenate((
+            fit.latent[:size], as_limit(self.catalogue[i], whole, fit.latent[size:]))) for i in far})
 
     def better(self, results, starts):
         """{index: Refitted} with fits begun at the latent values ``starts`` {index: (k,)}, where they are better."""

@@ -3,10 +3,12 @@
 import numpy as np
 import pytest
 
-from pipeline.inference.fitting.begins import begun_at, begun_beside, directions_like
+from pipeline.inference.fitting.begins import as_limit, begun_at, begun_beside, directions_like
 from pipeline.inference.fitting.calibration import ahead_of, calibrate
 from pipeline.inference.fitting.fit_state import linearised
 from pipeline.inference.fitting.noise import budget
+from pipeline.inference.priors import LATENT_LIMIT, LogNormal, Parameter
+from pipeline.inference.problem import Hypothesis
 from pipeline.inference.search.score_screen import screen
 from tests.inference import resonance
 
@@ -34,6 +36,18 @@ def test_over_many_periods_a_gain_and_a_stiffness_are_one_direction(null):
     scores = screen(anchor, [directions_like(problem, anchor, {}, (c, np.zeros(1))) for c in resonance.CATALOGUE],
                     draws=0).score
     assert scores[1] == pytest.approx(scores[0], rel=0.05)
+
+
+def test_a_limit_begins_at_the_size_of_what_extends_it():
+    force = Parameter("dahl@m.force", "N", 2.0, LogNormal(2.0, 0.5), null=0.0)
+    shape = Parameter("dahl@m.stiffness", "N/m", 1e4, LogNormal(1e4, 1.0))
+    limit = Hypothesis("coulomb", (("coulomb", "m"),), (
+        Parameter("coulomb@m.force", "N", 1.0, LogNormal(1.0, 0.4), null=0.0),
+        Parameter("coulomb@m.speed", "m/s", 0.1, LogNormal(0.1, 0.4), null=0.0)))
+    whole = Hypothesis("dahl", (("dahl", "m"),), (force, shape), extends=("coulomb",))
+    start = as_limit(limit, whole, np.array([force.prior.latent(3.0), 1.0]))
+    assert limit.values(start) == pytest.approx({"coulomb@m.force": 3.0, "coulomb@m.speed": 0.1})
+    assert abs(as_limit(limit, whole, np.array([1e3, 0.0]))).max() == LATENT_LIMIT
 
 
 def test_a_sign_begins_at_the_stated_values_where_the_null_is_misled():
