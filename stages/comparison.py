@@ -18,7 +18,7 @@ SYSTEMS = {"structure": (disc_brake.disc_brake_rows, disc_brake.FIELDS),
 #: size in SI of the printed units that the chains compute
 SIZE = {"1": 1.0, "%": 0.01, "um": 1e-6, "mm": 1e-3, "m": 1.0, "us": 1e-6, "ms": 1e-3, "s": 1.0, "1/s": 1.0, "Hz": 1.0,
         "rad/s": 1.0, "mm/s": 1e-3, "m/s": 1.0, "N": 1.0, "kg": 1.0, "MPa": 1e6, "GPa": 1e9,
-         "deg": 0.017453292519943295}
+        "deg": 0.017453292519943295}
 _REASON = {"condition": "a condition of the authors' work, not a result", "derived": "follows from other rows",
            "input": "an input of the authors, not a result"}
 _UNCOMPUTED = "not computed by this chain"
@@ -52,7 +52,7 @@ def comparison(products: Products, settings: Settings, context: Context) -> Comp
     """
     facts = load(settings.reference) if settings.reference else ()
     tuned = _tuned(settings.tuned or {}, facts)
-    known = {fact.key: fact.value * SIZE[fact.unit] for fact in facts if fact.value is not None and fact.unit in SIZE}
+    known = known_values(facts)
     rows_of, fields_by_key = _system_of(products)
     ours = rows_of(products, facts, known)
     for fact in facts:
@@ -60,6 +60,11 @@ def comparison(products: Products, settings: Settings, context: Context) -> Comp
             raise ConfigError(f"{settings.reference}: {fact.key}.unit", f"one of {', '.join(SIZE)}", repr(fact.unit))
     rows = [_row(fact, ours.get(fact.key), fields_by_key, tuned.get(fact.key, "")) for fact in facts]
     return Comparison(**{field.name: [row[field.name] for row in rows] for field in fields(Comparison)})
+
+
+def known_values(facts):
+    """{key: value in SI} of the facts with a value in a unit that the chains compute."""
+    return {fact.key: fact.value * SIZE[fact.unit] for fact in facts if fact.value is not None and fact.unit in SIZE}
 
 
 def _system_of(products):
@@ -86,7 +91,7 @@ def _row(fact, ours, fields_by_key, tuned):
     return {"row": fact.quantity, "key": fact.key, "field": field, "section": fact.part, "unit": fact.unit,
             "published": fact.value or 0.0, "published_known": int(fact.value is not None), "ours": value or 0.0,
             "ours_known": int(value is not None), "tolerance": (fact.tolerance or 0.0) * counted,
-            "bounds": _bounds(fact), "verdict": verdict, "tuned": tuned, "source": fact.source, "doubt": fact.doubt,
+            "bounds": bounds(fact), "verdict": verdict, "tuned": tuned, "source": fact.source, "doubt": fact.doubt,
             "note": "; ".join(filter(None, (statement, origin, _reading(fact, value))))}
 
 
@@ -97,7 +102,7 @@ def _verdict(fact, value):
     return ("within" if fact.met_by(value) else "outside"), True
 
 
-def _bounds(fact):
+def bounds(fact):
     """'at least 1', 'at most 0.2', '-0.005 to 0.005' or 'exactly 4'; '' for a fact without bounds."""
     if not fact.bounded:
         return ""

@@ -17,7 +17,7 @@ from pipeline.inference.fitting.fit_state import from_prior_mean
 from pipeline.inference.fitting.least_squares import fit
 from pipeline.inference.problem import Motions
 from pipeline.inference.search.score_screen import directions, scaled
-from pipeline.inference.search.subset_selection import best_subsets, multiplicity, table
+from pipeline.inference.search.subset_selection import best_subsets, left_by, multiplicity, table
 
 
 @dataclass(frozen=True)
@@ -115,13 +115,15 @@ def _selected(null, every, catalogue, rules, along=None):
     best = subsets[0]
     values = {owner: scaled(catalogue[owner].parameters, of.tried[direction], coefficient)
               for owner, coefficient, direction in zip(best.owners, best.coefficients, best.directions, strict=True)}
-    columns = _columns(null, every, of, best, _law_errors(along, null, catalogue, values, rules.law_error))
+    residual, directions_of_best = np.concatenate(from_prior_mean(null)), _directions(null, every, of, best)
+    columns = _columns(null, of, best, residual, directions_of_best,
+                       _law_errors(along, null, catalogue, values, rules.law_error))
     gains = _gains(columns, best.owners, of.count)
     members, wider = (_necessary(columns, gains, rules.evidence_gain, share) for share in (rules.second_share, 0.0))
     tried = [Combination(_names(catalogue, owners), gain) for owners, gain in gains.items() if owners]
     tried += [Combination(_names(catalogue, s.owners), s.gain) for s in subsets if s.owners not in gains]
     return Selection(members, wider, tuple(sorted(tried, key=lambda c: -c.gain)), columns.nominal(wider), values,
-                     judged, _left(null, _directions(null, every, of, best)))
+                     judged, float((left_by(directions_of_best, residual) ** 2).mean()))
 
 
 def _names(catalogue, owners):
@@ -147,18 +149,10 @@ def _directions(null, every, of, best):
     return np.concatenate([np.concatenate(null.jacobians), vectors.T], axis=1)
 
 
-def _left(null, columns):
-    """Noise powers that ``columns`` (m, k) leave, each coefficient as uncertain as its prior."""
-    residual = np.concatenate(from_prior_mean(null))
-    u = np.linalg.solve(np.eye(columns.shape[1]) + columns.T @ columns, columns.T @ residual)
-    return float(((residual - columns @ u) ** 2).mean())
-
-
-def _columns(null, every, of, best, errors):
-    """_Columns of the best Subset with the ``errors`` {index: (e, m)} of its laws."""
-    columns = np.concatenate([_directions(null, every, of, best), *(e.T for e in errors.values())], axis=1)
+def _columns(null, of, best, residual, directions_of_best, errors):
+    """_Columns of the best Subset, its _directions beside the ``errors`` {index: (e, m)} of its laws."""
+    columns = np.concatenate([directions_of_best, *(e.T for e in errors.values())], axis=1)
     owner = [-1] * len(null.latent) + list(best.owners) + [i for i, e in errors.items() for _ in e]
-    residual = np.concatenate(from_prior_mean(null))
     ends = np.cumsum(null.counts)[:-1]
     parts = list(zip(of.weights, np.split(columns, ends), np.split(residual, ends), strict=True))
     return _Columns(np.array([w * c.T @ c for w, c, _ in parts]), np.array([w * c.T @ r for w, c, r in parts]),

@@ -9,7 +9,6 @@ may be given, so that a search over them shows what the paper's numbers decide.
 import argparse
 from dataclasses import fields, replace
 from functools import partial
-from pathlib import Path
 
 import numpy as np
 import yaml
@@ -17,7 +16,7 @@ import yaml
 from pipeline.contract.settings import fill, without_origins
 from pipeline.validation.friction import friction_rows
 from pipeline.validation.published_facts import load
-from stages.comparison import SIZE
+from stages.comparison import SIZE, bounds, known_values
 from stages.micro_friction import Settings as MicroSettings
 from stages.micro_friction import micro_friction
 from stages.surface import Settings as SurfaceSettings
@@ -60,8 +59,8 @@ def averaged(products):
 
 def rows(products, facts):
     """[(Published, ours, standard error)] in the units printed, of the facts that the pairs give."""
-    known = {fact.key: fact.value * SIZE[fact.unit] for fact in facts if fact.value is not None and fact.unit in SIZE}
-    mean, each = (friction_rows(averaged(products), known), [friction_rows(p, known) for p in products])
+    known = known_values(facts)
+    mean, each = friction_rows(averaged(products), known), [friction_rows(p, known) for p in products]
     told = []
     for fact in facts:
         if fact.key not in mean or mean[fact.key].value is None or not fact.comparable or fact.role == "input":
@@ -76,8 +75,7 @@ def table(told):
     lines = [f"{'':<72} {'paper':>8} {'ours':>18} {'tolerance':>12}"]
     for fact, value, error in told:
         paper = "" if fact.value is None else f"{fact.value:g}"
-        allowed = (f"{fact.tolerance:g}" if fact.tolerance is not None else
-                   f">= {fact.lower:g}" if fact.lower is not None else f"<= {fact.upper:g}")
+        allowed = bounds(fact) if fact.tolerance is None else f"{fact.tolerance:g}"
         lines.append(f"{fact.quantity[:66]:<66} {'' if fact.unit == '1' else fact.unit:<5} {paper:>8}"
                      f" {value:>8.3g} +- {error:<6.2g} {allowed:>12} {'met' if fact.met_by(value) else 'missed'}")
     return lines
@@ -105,7 +103,7 @@ def main():
     if chosen.third_body:
         asked["third_body_factor"] = chosen.third_body
     products = shared_out(partial(computed, asked), list(range(chosen.pairs)), chosen.workers)
-    print("\n".join(table(rows(products, load(Path(FACTS))))))
+    print("\n".join(table(rows(products, load(FACTS)))))
     ratio, cycles = largest_wear_bound(products)
     print(f"largest wear of a node at the end over that at the first recorded distance: {ratio:.3g}, of at most"
           f" {cycles:g} times the largest pressure then over the largest new one")

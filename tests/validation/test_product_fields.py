@@ -11,7 +11,7 @@ from pipeline.contract.product import is_product
 from pipeline.products import ComplexModes, Lumped, Transient
 from pipeline.validation import field_of
 from pipeline.validation.published_facts import load
-from stages.comparison import SIZE, SYSTEMS
+from stages.comparison import SYSTEMS, known_values
 from tests.validation import test_beam_on_beam as beams
 from tests.validation import test_friction as friction
 from tests.validation import test_motion as motion
@@ -51,9 +51,8 @@ SAMPLES = {
 
 
 def rows_of(sample, facts):
-    known = {fact.key: fact.value * SIZE[fact.unit] for fact in facts if fact.value is not None and fact.unit in SIZE}
     rows, by_key = next(system for name, system in SYSTEMS.items() if name in sample)
-    return rows(sample, facts, known), by_key
+    return rows(sample, facts, known_values(facts)), by_key
 
 
 def changed(product, name, seed):

@@ -11,7 +11,14 @@ from pipeline.physics.rough.layered_solid import layered_compliance
 from pipeline.physics.rough.sliding_pair import RoughPair, Rubbing, Shearing, Solving, Wearing
 
 
-class Iron(Section):
+class Solid(Section):
+    """What either body may state."""
+
+    hardness: Quantity("Pa", gt=0) | None = option(None, "indentation hardness, the largest pressure of a contact spot;"
+                                                   " the softer body yields; none = elastic")
+
+
+class Iron(Solid):
     """Cast iron of the disc."""
 
     youngs_modulus: Quantity("Pa", gt=0) = option("110 GPa", "Young's modulus")
@@ -20,11 +27,9 @@ class Iron(Section):
     density: Quantity("kg/m^3", gt=0) = option("7200 kg/m^3", "density")
     heat_capacity: Quantity("J/K/kg", gt=0) = option("500 J/K/kg", "heat capacity")
     wear_coefficient: Quantity("m^2/N", ge=0) = option("4e-7 mm^2/N", "Archard wear depth per pressure and distance")
-    hardness: Quantity("Pa", gt=0) | None = option(None, "indentation hardness, the largest pressure of a contact spot;"
-                                                   " the softer body yields; none = elastic")
 
 
-class Lining(Section):
+class Lining(Solid):
     """Pad at the scale of its roughness; modulus and wear are tuned to the published contact area and approach."""
 
     youngs_modulus: Quantity("Pa", gt=0) = option("0.235 GPa", "Young's modulus of the pad asperities (micrometre"
@@ -35,8 +40,6 @@ class Lining(Section):
     density: Quantity("kg/m^3", gt=0) = option("2200 kg/m^3", "density")
     heat_capacity: Quantity("J/K/kg", gt=0) = option("1000 J/K/kg", "heat capacity")
     wear_coefficient: Quantity("m^2/N", ge=0) = option("4e-6 mm^2/N", "Archard wear depth per pressure and distance")
-    hardness: Quantity("Pa", gt=0) | None = option(None, "indentation hardness, the largest pressure of a contact spot;"
-                                                   " the softer body yields; none = elastic")
 
 
 class Settings(Section):

@@ -47,10 +47,9 @@ def _beats_decoy(index, null, fits, gains, posterior, rules):
 
 def candidate_statistics(null, null_evidence, candidate, fit, evidence, posterior, p_value, held_out, weights, rules):
     """CandidateStatistics of a refitted candidate: its Fit, Evidence, posterior and held-out (Gain, decoy)."""
-    size, std, gained = len(null.latent), fit.spread(weights), held_out[0]
+    size, gained = len(null.latent), held_out[0]
     added = [(size + k, p) for k, p in enumerate(candidate.parameters) if p.null is not None]
-    moved = [*(abs(fit.values[p.name] - p.null) / max(std[p.name], 1e-300) for _, p in added),
-             *_shaped(fit, null, candidate)]
+    moved = [*fit.from_none([p for _, p in added], weights), *_shaped(fit, null, candidate)]
     differing = [agreement(fit, k, weights, _immaterial(fit, k, rules.decision))[0] for k, _ in added]
     left_out, uncertainty = evidence.left_out - null_evidence.left_out, rules.decision.noise_uncertainty
     unfitted = gained and (gained.errors_with(left_out) if len(left_out) > 1 else gained.errors)

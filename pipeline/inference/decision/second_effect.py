@@ -68,11 +68,8 @@ def starts_without(first, pair, single):
 def remains(first, pair, rules):
     """Whether the ``first`` effect is still one beside what a ``pair`` names: one of its sizes is as far from none at
     all as that of any effect must be."""
-    candidate, fit = first.candidate, pair.completed
-    std = fit.spread(pair.weights)
-    sizes = [candidate.parameters[k] for k in candidate.sizes]
-    away = [abs(fit.values[p.name] - p.null) / max(std[p.name], 1e-300) for p in sizes if p.name in fit.values]
-    return not away or max(away) >= rules.decision.from_null
+    sizes = [first.candidate.parameters[k] for k in first.candidate.sizes]
+    return max(pair.completed.from_none(sizes, pair.weights), default=np.inf) >= rules.decision.from_null
 
 
 def better_alone(alone, pair):

@@ -7,7 +7,7 @@ from pipeline.inference.fitting import tone_starts
 from pipeline.inference.fitting.calibration import begun
 from pipeline.inference.fitting.fit_state import whitened
 from pipeline.inference.fitting.run_parameters import with_own_parameters
-from pipeline.inference.priors import LATENT_LIMIT
+from pipeline.inference.fitting.steps import within
 from pipeline.inference.search.score_screen import (
     FINE_STEPS,
     alternatives,
@@ -88,7 +88,7 @@ def as_limit(limit, whole, latent):
     sizes = {whole.parameters[k].unit: whole.parameters[k].prior.value(latent[k]) for k in whole.sizes}
     alike = [p.prior.latent(sizes.get(p.unit, p.nominal) if p.null is not None else p.nominal)
              for p in limit.parameters]
-    return np.clip(np.array(alike, float), -LATENT_LIMIT, LATENT_LIMIT)
+    return within(np.array(alike, float))
 
 
 def _starts(base, begins):

@@ -126,6 +126,11 @@ class Fit:
         """{name: standard deviation} of the values, by the slope of each prior's transform."""
         return self.of_latent(np.sqrt(np.diag(self.covariance(weights))))
 
+    def from_none(self, parameters, weights=None):
+        """[Distance of each of the ``parameters`` of effects from its null, in standard deviations]."""
+        std = self.spread(weights)
+        return [abs(self.values[p.name] - p.null) / max(std[p.name], 1e-300) for p in parameters]
+
     def of_latent(self, std):
         """{name: standard deviation} of the values whose latent coordinates have the standard deviations ``std`` (k,).
         """

@@ -192,8 +192,8 @@ class Refitter:
     def _with_limits(self, top, results):
         """Results with the limits of candidate ``top`` that come nowhere near it begun at its values: it may be one."""
         size, fit, whole = len(self.null.latent), results[top].fit, self.catalogue[top]
-        far = [i for i, c in enumerate(self.catalogue) if c.name in whole.extends and not (
-            i in results and results[i].fit is not None and results[i].fit.objective <= self._near(fit))]
+        far = [i for i, c in enumerate(self.catalogue)
+               if c.name in whole.extends and self._short_of(fit, results.get(i, NOT_BEGUN))]
         return self.better(results, {i: np.concatenate((
             fit.latent[:size], as_limit(self.catalogue[i], whole, fit.latent[size:]))) for i in far})
 
@@ -270,12 +270,11 @@ class Refitter:
         What is one change at other nominal values, as a gain and a stiffer spring of an oscillator whose mass and
         damping are not known, lies at the far end of a bent valley: its slope leads there from this end alone.
         """
-        fit, place, enough = results[top].fit, self.catalogue[top].effects[0][1:], self._near(results[top].fit)
+        fit, place = results[top].fit, self.catalogue[top].effects[0][1:]
         nominal = fit.latent[:len(self.null.latent)]
         return self.better(results, {
             i: np.concatenate((nominal, least(self.catalogue[i], starts[i]))) for i in alike
-            if self.catalogue[i].effects[0][1:] != place
-            and (results[i].fit is None or results[i].fit.objective > enough)})
+            if self.catalogue[i].effects[0][1:] != place and self._short_of(fit, results[i])})
 
     def _ended(self, chosen, begins, results):
         """{index: Refitted} of ``results`` and of candidates with their [(Fit or None, what went wrong)] of a begin."""
@@ -306,6 +305,10 @@ class Refitter:
         """The objective to which candidates must be able to come down: near the best, as evidence is tempered."""
         best = min((r.fit for r in results if r.fit is not None), key=lambda fit: fit.objective, default=None)
         return np.inf if best is None else self._near(best)
+
+    def _short_of(self, best, refitted):
+        """Whether a Refitted has no fit that comes near the Fit ``best``."""
+        return refitted.fit is None or refitted.fit.objective > self._near(best)
 
     def _near(self, best):
         """The objective to which others must come beside the Fit ``best``."""

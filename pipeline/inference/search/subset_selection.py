@@ -144,6 +144,10 @@ def _distinct(vectors, cleaned, owner):
 
 def _weights(null, residual, columns):
     """Weights (runs,) by what all ``columns`` (m, k) leave, each coefficient as uncertain as its prior."""
+    return tempering(null.noises, np.split(left_by(columns, residual), np.cumsum(null.counts)[:-1]))
+
+
+def left_by(columns, residual):
+    """(m,) of a ``residual`` (m,) that ``columns`` (m, k) leave, each coefficient as uncertain as its prior."""
     u = np.linalg.solve(np.eye(columns.shape[1]) + columns.T @ columns, columns.T @ residual)
-    left = np.split(residual - columns @ u, np.cumsum(null.counts)[:-1])
-    return tempering(null.noises, left)
+    return residual - columns @ u

@@ -28,7 +28,6 @@ class WornPair:
         """Distance (ny, nx) in m of the undeformed surfaces when the slider has moved by ``position`` nodes along x."""
         return -(self.pad_height - self.pad_wear) - np.roll(self.disc_height - self.disc_wear, position, axis=1)
 
-
     def after(self, contact, position, yielding):
         """The WornPair in which the body ``yielding`` (pad or disc) is flattened as by a YieldingContact there."""
         if not contact.flattened.any():

@@ -6,8 +6,6 @@ from pipeline.views.chapters.chapter import Chapter, Figure
 from pipeline.views.figures import contact_spots, friction
 from pipeline.views.figures.number_format import number, percent, quantity, span
 
-PLUS_MINUS = "\N{PLUS-MINUS SIGN}"
-
 
 def micro(product, look):
     """Chapter of the product MicroFriction."""
@@ -106,8 +104,7 @@ def outside_computed(products):
 
 def slopes(product):
     """The slopes of a FrictionMap over pressure and speed with their errors, first new, then worn; '' of one point."""
-    told = filter(None, (_over_pressure(product), _over_speed(product)))
-    return " ".join(told)
+    return " ".join(filter(None, (_over_pressure(product), _over_speed(product))))
 
 
 def _over_pressure(product):
@@ -119,7 +116,7 @@ def _over_pressure(product):
     shown = dict.fromkeys((computed[0], computed[len(computed) // 2], computed[-1]))
     for when, k in _ends(product):
         values = [f"{number(np.interp(p, product.pressure, rises[:, k]), 2)} at {quantity(p, 'Pa', 3)}" for p in shown]
-        ends.append(f"{', '.join(values)} {when} ({PLUS_MINUS} {number(product.pressure_slope_std[k], 1)} where it is"
+        ends.append(f"{', '.join(values)} {when} (± {number(product.pressure_slope_std[k], 1)} where it is"
                     f" known best, at {quantity(product.best_pressure[k], 'Pa', 2)})")
     return f"Slope over pressure, p dmu/dp: {'; '.join(ends)}."
 
@@ -133,7 +130,7 @@ def _over_speed(product):
     for when, k in _ends(product):
         value = np.interp(product.best_pressure[k], product.pressure, rises[:, k])
         doubt = "" if abs(value) > 2 * product.speed_slope_std[k] else " (sign unknown)"
-        ends.append(f"{number(value, 2)} {PLUS_MINUS} {number(product.speed_slope_std[k], 1)} {when}{doubt}")
+        ends.append(f"{number(value, 2)} ± {number(product.speed_slope_std[k], 1)} {when}{doubt}")
     return f"Over speed, v dmu/dv: {', '.join(ends)}."
 
 
@@ -144,11 +141,11 @@ def _ends(product):
 
 def what_slope_decides(probability):
     """Share of the draws that squeal where friction rises less and more with pressure than usual; '' without draws."""
-    if probability is None or "friction_over_pressure" not in list(map(str, probability.source)):
+    sources = [] if probability is None else list(map(str, probability.source))
+    if "friction_over_pressure" not in sources:
         return ""
-    slope = probability.value[:, list(map(str, probability.source)).index("friction_over_pressure")]
-    heard = (probability.root.real > probability.least_growth) & (
-        abs(probability.root.imag) >= 2 * np.pi * probability.squeal_from)
+    slope = probability.value[:, sources.index("friction_over_pressure")]
+    heard = abs(probability.root) >= 2 * np.pi * probability.squeal_from       # as the stage counts them
     squeals = np.isin(np.arange(len(slope)), probability.root_draw[heard])
     low, high = (percent(squeals[half].mean()) for half in (slope <= np.median(slope), slope > np.median(slope)))
     return (f"Within this error the slope over pressure decides as follows: of the draws with the lower half of the"

@@ -55,8 +55,11 @@ def test_the_first_remains_where_its_size_is_far_from_none(solved, away, remains
     _, catalogue = solved
     first = next(c for c in catalogue if c.name == "effect_1")
     size = first.parameters[first.sizes[0]]
-    fit = SimpleNamespace(values={size.name: size.null + 0.1 * away}, spread=lambda weights: {size.name: 0.1})
-    pair = SimpleNamespace(completed=fit, weights=None)
+    whole = solved[0].completed
+    moved = replace(whole, latent=np.where([p.name == size.name for p in whole.hypothesis.parameters], [
+        p.prior.latent(size.null + away * whole.spread()[size.name]) for p in whole.hypothesis.parameters],
+        whole.latent))
+    pair = SimpleNamespace(completed=moved, weights=None)
     assert second_effect.remains(SimpleNamespace(candidate=first), pair, DEFAULTS) is remains
 
 

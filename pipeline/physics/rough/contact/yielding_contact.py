@@ -28,9 +28,9 @@ def solve_yielding_contact(gap, compliance, mean_pressure, start=None, tolerance
     """YieldingContact under ``mean_pressure`` with no pressure above ``hardness``, both in Pa.
 
     Minimises p C p / 2 + g p over maps 0 <= p <= hardness of this mean: accelerated projected gradients from the
-    elastic solution, which ends it where that nowhere yields. The remaining gap
-    of bearing nodes, overlap of open ones and gap of yielding ones are below ``tolerance`` times the rms of ``gap``;
-    otherwise ConvergenceError. Other arguments and errors as of ``solve_normal_contact``.
+    elastic solution, which ends it where that nowhere yields. The remaining gap of bearing nodes, overlap of open ones
+    and gap of yielding ones are below ``tolerance`` times the rms of ``gap``; otherwise ConvergenceError. Other
+    arguments and errors as of ``solve_normal_contact``.
     """
     if mean_pressure >= hardness:
         raise ConfigError("normal contact: hardness", f"more than the pressure, {mean_pressure:g} Pa",
@@ -42,13 +42,12 @@ def solve_yielding_contact(gap, compliance, mean_pressure, start=None, tolerance
     pressure = _projected(elastic.pressure, mean_pressure, hardness)
     ahead, momentum = pressure, 1.0
     for iteration in range(max_iterations):
-        distance = gap + apply(compliance, ahead)
-        new = _projected(ahead - bend * distance, mean_pressure, hardness)
-        approach, error = _judged(gap + apply(compliance, new), new, hardness)
+        new = _projected(ahead - bend * (gap + apply(compliance, ahead)), mean_pressure, hardness)
+        distance = gap + apply(compliance, new)
+        approach, error = _judged(distance, new, hardness)
         if error < tolerance * scale:
-            overlap = np.maximum(approach - gap - apply(compliance, new), 0.0)
             return YieldingContact(new, approach, elastic.iterations + iteration,
-                                   np.where(new >= hardness, overlap, 0.0))
+                                   np.where(new >= hardness, np.maximum(approach - distance, 0.0), 0.0))
         ahead, momentum = ahead_of(new, pressure, ahead, momentum)
         pressure = new
     raise ConvergenceError("normal contact", f"a gap error of {tolerance:g} rms within {max_iterations} iterations",
