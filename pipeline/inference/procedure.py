@@ -38,7 +38,7 @@ class Settings:
     """
 
     kept: int = 8
-    starts: tuple = (-1.0, 1.0)
+    starts: tuple = (-1.0, 0.0, 1.0)
     draws: int = 20000
     seed: int = 0
     rules: Rules = DEFAULTS

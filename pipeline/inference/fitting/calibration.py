@@ -14,6 +14,8 @@ from pipeline.inference.rules import DEFAULTS
 _TRIAL = 3
 #: how many starts near enough are tried, those that leave least
 _NEAREST = 3
+#: share of the mean square of a start by which its prediction differs from another that counts as the same start
+_ALIKE = 0.05
 #: iterations of an easier problem on the way
 _EASIER = 8
 #: fractions of the runs that are fitted first where the residual is beyond FAR noise powers: over a short horizon the
@@ -134,15 +136,16 @@ def ahead_of(problem, anchor):
 
 def _begun(problem, noises, hypothesis, starts, runs, reasons, anchors=(), ahead=()):
     """[Fit] after a few iterations from each start, best first; ``reasons`` gets what stopped the others."""
-    sizes = [_mean_square(problem, noises, hypothesis, start, runs) for start in starts]
+    residuals = [_residuals(problem, noises, hypothesis, start, runs) for start in starts]
+    sizes, nearest = [_mean_square(r) for r in residuals], _distinct(residuals)
     known = [anchor.jacobians if anchor else () for anchor in anchors or [None] * len(starts)]
-    if min(sizes) < FAR or not all(anchor is None or anchor.far for anchor in anchors):
-        near = [k for k in np.argsort(sizes) if sizes[k] < max(FAR, 2 * min(sizes))][:_NEAREST]
+    if not ahead and (min(sizes) < FAR or not all(anchor is None or anchor.far for anchor in anchors)):
+        near = [k for k in nearest if sizes[k] < max(FAR, 2 * min(sizes))][:_NEAREST]
         fits = _tried(problem, noises, hypothesis, [starts[k] for k in near], runs, reasons, [known[k] for k in near])
         return [iterated(problem, fits[0], _TRIAL), *fits[1:]] if fits and anchors else fits
     if not all(noise.ordered for noise in noises):
         return _tightened(problem, noises, hypothesis, starts, runs, reasons, _LOOSE)
-    nearest = [int(k) for k in np.argsort(sizes)[:_NEAREST - 1]]
+    nearest = nearest[:_NEAREST - 1]
     ends = (_beside(problem, ahead, hypothesis, starts, reasons) if ahead else
             _over_horizons(problem, noises, hypothesis, starts, runs, reasons))
     near = [*(fit.latent for fit in ends[-1:]), *(starts[k] for k in nearest)]
@@ -226,7 +229,22 @@ def _under(fit, noises, factor):
                    jacobians=tuple(k * j for k, j in zip(scale, fit.jacobians, strict=True)), converged=False)
 
 
-def _mean_square(problem, noises, hypothesis, start, runs):
-    """Mean square of whitened residuals, infinite where the forward model cannot."""
+def _residuals(problem, noises, hypothesis, start, runs):
+    """Whitened residuals (m,) of all runs, or None where the forward model cannot."""
     residuals = whitened(problem, noises, hypothesis, start, runs)[0]
-    return np.inf if residuals is None else float(np.mean(np.concatenate(residuals) ** 2))
+    return None if residuals is None else np.concatenate(residuals)
+
+
+def _mean_square(residuals):
+    return np.inf if residuals is None else float(np.mean(residuals ** 2))
+
+
+def _distinct(residuals):
+    """Indices of starts, least mean square first, without those that predict what an earlier one does."""
+    found = []
+    for k in np.argsort([_mean_square(r) for r in residuals]):
+        own = residuals[k]
+        if not found or own is not None and all(
+                _mean_square(own - residuals[i]) > _ALIKE * _mean_square(own) for i in found):
+            found.append(int(k))
+    return found

@@ -163,8 +163,10 @@ class Refitter:
 
     @cached_property
     def ahead(self):
-        """Fits of the nominal hypothesis over rising horizons beside which candidates begin where the anchor is far."""
-        return ahead_of(self.problem, self.anchor) if self.anchor.far and not self.null.unordered else ()
+        """Fits of the nominal hypothesis over rising horizons beside which candidates begin where the null is far off,
+        or where its priors exclude it: motions that slipped past each other hold it there."""
+        far = self.anchor.far or self.anchor is not self.null
+        return ahead_of(self.problem, self.anchor) if far and not self.null.unordered else ()
 
     def with_overlooked(self, screening, results):
         """{index: Refitted} once those have begun that a Screening promised little of, and evidence may favour."""
@@ -195,17 +197,18 @@ class Refitter:
         far = [i for i, c in enumerate(self.catalogue)
                if c.name in whole.extends and self._short_of(fit, results.get(i, NOT_BEGUN))]
         return self.better(results, {i: np.concatenate((
-            fit.latent[:size], as_limit(self.catalogue[i], whole, fit.latent[size:]))) for i in far})
+            fit.latent[:size], as_limit(self.catalogue[i], whole, fit.latent[size:]))) for i in far}, self._near(fit))
 
-    def better(self, results, starts):
-        """{index: Refitted} with fits begun at the latent values ``starts`` {index: (k,)}, where they are better."""
-        return self._best_begun(results, {i: [start] for i, start in starts.items()})
+    def better(self, results, starts, enough=np.inf):
+        """{index: Refitted} with fits begun at the latent values ``starts`` {index: (k,)}, where they are better; those
+        are given up that do not come down to ``enough``."""
+        return self._best_begun(results, {i: [start] for i, start in starts.items()}, enough)
 
-    def _best_begun(self, results, starts):
+    def _best_begun(self, results, starts, enough=np.inf):
         """The same from the best of several latent values each, ``starts`` {index: [(k,)]}."""
         begins = {i: tried(self.problem, self.null, self.catalogue[i], each, ())[0]
                   for i, each in starts.items() if each}
-        return _lowest(results, {i: _finished(self.problem, self.null, np.inf, self.rules, begin)
+        return _lowest(results, {i: _finished(self.problem, self.null, enough, self.rules, begin)
                                  for i, begin in begins.items() if begin is not None})
 
     def settled(self, results):
@@ -274,7 +277,7 @@ class Refitter:
         nominal = fit.latent[:len(self.null.latent)]
         return self.better(results, {
             i: np.concatenate((nominal, least(self.catalogue[i], starts[i]))) for i in alike
-            if self.catalogue[i].effects[0][1:] != place and self._short_of(fit, results[i])})
+            if self.catalogue[i].effects[0][1:] != place and self._short_of(fit, results[i])}, self._near(fit))
 
     def _ended(self, chosen, begins, results):
         """{index: Refitted} of ``results`` and of candidates with their [(Fit or None, what went wrong)] of a begin."""
