@@ -121,8 +121,11 @@ class Refitter:
         results = self._rivalled(self.of(promising[:kept], starts, results), starts, beside_a_first)
         if self.explained(results) or self.null.reaches_noise(rules.noise_uncertainty) or self.null.unordered:
             return results
-        further = promising[kept:_LIKELY * kept] if beside_a_first else promising[kept:]
-        return self._rivalled(self.of(further, starts, results), starts, beside_a_first)
+        further, best = promising[kept:_LIKELY * kept] if beside_a_first else promising[kept:], _best(results)
+        found = self.of(further, starts, results)
+        if best is not None and _best(found) == best and found[best].fit is results[best].fit:
+            return found        # its imitators have begun
+        return self._rivalled(found, starts, beside_a_first)
 
     def _rivalled(self, results, starts, beside_a_first):
         """{index: Refitted} with imitators; beside a first effect only where one may be named."""

@@ -133,9 +133,12 @@ def directions(problem, null, candidate, shapes=None, steps=STEPS):
     """
     hypothesis, vectors, signs, tried = problem.nominal.joined(candidate), [], [], []
     base, failure = np.concatenate(null.residuals), ""
-    for latent, sign, step in _trials(candidate, shapes, steps):
-        full = np.concatenate((null.latent, latent))
-        moved, error = whitened(problem, null.noises, hypothesis, full, null.runs)
+    for sides, sign, step in _trials(candidate, shapes, steps):
+        for latent in sides:        # a gap that opens changes nothing where it is out of reach
+            full = np.concatenate((null.latent, latent))
+            moved, error = whitened(problem, null.noises, hypothesis, full, null.runs)
+            if moved is None or np.any(base - np.concatenate(moved)):
+                break
         if moved is None:
             failure = str(error)
             continue
@@ -199,22 +202,25 @@ def short_name(parameter):
 
 
 def _trials(candidate, shapes, steps=STEPS):
-    """(latent values, sign, step in prior scales) of every direction: one effect parameter moved, shapes varied."""
+    """([latent values on either side of the null], sign, step in prior scales) of every direction: one effect parameter
+    moved, shapes varied."""
     parameters = candidate.parameters
     if any(p.discrete for p in parameters):
         for latent in alternatives(candidate):
-            yield latent, 1, 1.0
+            yield [latent], 1, 1.0
         return
     shapes = _spread([parameters[k] for k in candidate.shaping], candidate.elaborate) if shapes is None else shapes
     for k, parameter in enumerate(parameters):
         if parameter.null is None:
             continue
         for step, shape in product(steps[-1:] if candidate.elaborate else steps, shapes):
-            values = [p.nominal if p.null is None else p.null for p in parameters]
-            values[k] = _away(parameter, step)
-            latent = np.array([p.prior.latent(v) for p, v in zip(parameters, values, strict=True)])
-            latent[candidate.shaping] = shape
-            yield latent, int(parameter.sign != 0), step
+            sides = []
+            for away in (step, -step)[:1 if parameter.sign else 2]:
+                values = [p.nominal if p.null is None else p.null for p in parameters]
+                values[k] = _away(parameter, away)
+                sides.append(np.array([p.prior.latent(v) for p, v in zip(parameters, values, strict=True)]))
+                sides[-1][candidate.shaping] = shape
+            yield sides, int(parameter.sign != 0), step
 
 
 def _spread(shaping, half):

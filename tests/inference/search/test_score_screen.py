@@ -116,6 +116,26 @@ def test_signs_are_kept_and_shapes_are_tried():
     assert screen(null, [found]).score[0] < 0 < 0.5 < screen(null, [found]).p_value[0]
 
 
+@pytest.mark.exact
+def test_a_gap_out_of_reach_is_tried_as_one_that_closes():
+    """What stays within a gap feels nothing of a wider one: only a narrower one has a direction."""
+    whole, noise, _, tables = linear.problem((1, 1), truth={"effect_1_0": 3.0})
+    gap = Parameter("gap", "m", 0.5, Normal(0.0, 1.0), 0.0)
+
+    def predict(hypothesis, values, run):
+        felt = max(-values.get("gap", 0.0) - 0.1, 0.0) * tables[run.name]["effect_1_0"]
+        return (values["nominal_0"] * tables[run.name]["nominal_0"] + felt)[None]
+
+    whole = type(whole)(whole.runs, predict, whole.nominal)
+    null = fit(whole, tuple(noise[r.name] for r in whole.training), whole.nominal, np.zeros(1), whole.training)
+    found = directions(whole, null, Hypothesis("stop", (("stop", "here"),), (gap,)))
+    felt = np.linalg.norm(found.vectors, axis=1)
+    assert sorted(gap.prior.value(latent[0]) for latent in found.tried) == pytest.approx([-1.0, -0.02])
+    assert sorted(felt > 0) == [False, True]
+    result = screen(null, [found])
+    assert result.score[0] > 5 and gap.prior.value(result.start[0][0]) < -0.5
+
+
 def test_an_empty_catalogue_names_nothing():
     assert len(screen(screened()[3], []).score) == 0
 
@@ -139,9 +159,9 @@ def test_shapes_of_the_same_name_are_tried_as_another_candidate_has_them():
     speed = Parameter("wave@pad.speed", "m/s", 1.0, LogNormal(1.0, 0.5))
     wave = Hypothesis("wave", (), (Parameter("wave@pad.height", "m", 0.0, HalfNormal(1.0), 0.0), speed))
     here = np.array([0.3, 0.7])
-    tried = [latent[1] for latent, _, _ in _trials(wave, shapes_like(wave, here, {"speed": 1.7, "height": 3.0}))]
+    tried = [sides[0][1] for sides, _, _ in _trials(wave, shapes_like(wave, here, {"speed": 1.7, "height": 3.0}))]
     assert sorted(set(np.round(tried, 12))) == sorted(np.round([0.7, speed.prior.latent(1.7)], 12))
-    assert {latent[1] for latent, _, _ in _trials(wave, shapes_like(wave, here, {"height": 3.0}))} == {0.7}
+    assert {sides[0][1] for sides, _, _ in _trials(wave, shapes_like(wave, here, {"height": 3.0}))} == {0.7}
 
 
 @pytest.mark.exact
@@ -160,7 +180,7 @@ def test_angles_are_tried_in_every_quarter():
     """No phase is farther than pi / 4 from one that is tried."""
     phase = Parameter("phase", "rad", 0.0, Uniform(-np.pi, np.pi))
     wave = Hypothesis("wave", (), (Parameter("height", "m", 0.0, HalfNormal(1.0), 0.0), phase))
-    tried = np.array([phase.prior.value(latent[1]) for latent, _, _ in _trials(wave, None)])
+    tried = np.array([phase.prior.value(sides[0][1]) for sides, _, _ in _trials(wave, None)])
     away = np.subtract.outer(np.linspace(-np.pi, np.pi, 50), tried)
     assert np.cos(away).max(axis=1).min() >= np.cos(np.pi / 4) - 1e-6
 
