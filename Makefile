@@ -16,7 +16,7 @@ READY  := .venv/.ready
 BIN    := .venv/bin
 
 .DEFAULT_GOAL := help
-.PHONY: help setup run test coverage test-kernels test-slow test-study bench trial trial_sealed trial_again study_diagnosis study_squeal study_lines study_knock_out study_sharp paper_micro study_several study_second_family pin_bench worn_bench lint clean $(STAGES)
+.PHONY: help setup run test coverage test-kernels test-slow test-study bench trial trial_sealed trial_again study_diagnosis study_squeal study_lines study_knock_out study_sharp paper_micro study_several study_disturbed study_second_family pin_bench worn_bench lint clean $(STAGES)
 
 help:            ## show this list
 	@echo "usage: make TARGET [CASE=disc_brake] [ARGS=...]      cases: $(basename $(notdir $(wildcard configs/*.yaml)))"
@@ -96,6 +96,9 @@ paper_micro: $(READY)  ## friction, real area and wear of the 2021 paper beside 
 
 study_several: $(READY)  ## joints with one to three laws at once, by simulation or (--equation) the equation of motion
 	$(BIN)/python -m tests.studies.several $(ARGS)
+
+study_disturbed: $(READY)  ## false alarms where noise, clocks, samples and joints are not as assumed; resumes case by case
+	$(BIN)/python -m tests.studies.disturbed $(ARGS)
 
 study_second_family: $(READY)  ## identification rates on rigs that truly switch, the set of SEED; resumes case by case
 	$(BIN)/python -m tests.studies.second_family --seed $(SEED) $(ARGS)

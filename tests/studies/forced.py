@@ -63,7 +63,12 @@ def plans(controls=CONTROLS, first=1000):
 
 def solved(folder, **asked):
     """diagnosis.json of a case's folder; sees nominal.yaml and recordings.h5 alone."""
-    return by_stages(documents.read_yaml(folder / "nominal.yaml"), folder / "recordings.h5", **asked)
+    return by_stages(documents.read_yaml(folder / "nominal.yaml"), recorded(folder / "recordings.h5"), **asked)
+
+
+def recorded(path):
+    """Recording of a file in the neutral layout."""
+    return Recording(source=[path.name], runs=read_neutral(path))
 
 
 def filled(document, stage, **more):
@@ -71,11 +76,10 @@ def filled(document, stage, **more):
     return fill(stage.settings, {**document.get(stage.name, {}), **more}, stage.name)
 
 
-def by_stages(document, path, **asked):
-    """diagnosis.json of a case's ``document`` with the recordings at ``path``, by the stages themselves."""
+def by_stages(document, recording, **asked):
+    """diagnosis.json of a case's ``document`` with its Recording, by the stages themselves."""
     section = partial(filled, document)
     model = reduced_model(lumped(settings=section(lumped)), settings=section(reduced_model))
-    recording = Recording(source=[path.name], runs=read_neutral(path))
     shown = bench(model, None, recording, settings=section(bench))
     return as_json(diagnosis(model, None, recording, shown, settings=section(diagnosis, **asked)))
 

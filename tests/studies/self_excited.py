@@ -17,7 +17,7 @@ from pipeline.blind_trial.metrics.criteria import judged
 from pipeline.blind_trial.metrics.rates import line, rate
 from pipeline.contract import documents
 from pipeline.recordings.neutral import write_neutral
-from tests.studies.forced import answered, by_stages, shared_out
+from tests.studies.forced import answered, by_stages, recorded, shared_out
 
 ROOT = Path(__file__).parents[2]
 CONFIG = ROOT / "configs" / "pin_on_disc_bench.yaml"
@@ -55,7 +55,7 @@ def _made(plan):
 
 def solved(path, **asked):
     """diagnosis.json of a file of recordings under the case pin_on_disc_bench."""
-    return by_stages(documents.read_yaml(CONFIG), path, **asked)
+    return by_stages(documents.read_yaml(CONFIG), recorded(path), **asked)
 
 
 def scored(hidden, answer):

@@ -12,7 +12,7 @@ from pipeline.blind_trial.metrics.criteria import judged
 from pipeline.effects import CATALOGUE
 from pipeline.effects.typical import Typical
 from pipeline.recordings.neutral import read_neutral
-from tests.studies.forced import by_stages
+from tests.studies.forced import by_stages, recorded
 
 SHAPE = brake_parts.SHAPES[0]
 
@@ -93,5 +93,5 @@ def test_it_hides_by_class_and_lacks_at_least_two_of_the_catalogue():
 def test_a_case_is_solved(tmp_path, monkeypatch, kind, hidden, seed):
     truth = brake_files.write(Draw(seed, "disc_brake", kind, hidden, 0.0, 0.0), tmp_path)
     monkeypatch.chdir(tmp_path)
-    answer = by_stages(yaml.safe_load(Path("nominal.yaml").read_text()), Path("recordings.h5"))
+    answer = by_stages(yaml.safe_load(Path("nominal.yaml").read_text()), recorded(Path("recordings.h5")))
     assert judged(truth, answer)["right"], answer["reasons"]
