@@ -146,17 +146,24 @@ class Asked:
     def steps(self, start=None, base=None):
         """(Refits, Diagnosis) of the five steps; the nominal model is fitted from the Fit ``start``, if there is one.
         """
+        return self._from(recalibrate(self.problem, self.budget, self.settings.rules.calibration, start), base)
+
+    def _from(self, calibration, base):
+        """The same from a Calibration; all anew from a far better one that the refits come upon."""
         settings, fan_out, second = self.settings, self.fan_out, base is not None
-        calibration = recalibrate(self.problem, self.budget, settings.rules.calibration, start)
         simple = self.catalogue[:sum(not c.elaborate for c in self.catalogue)]
         screening = screen_catalogue(calibration, simple, settings, fan_out, second)
         refits = refit_catalogue(screening, simple, settings, fan_out, beside_a_first=second)
+        if refits.overtake(calibration):
+            return self._from(refits.calibration, base)
         decided = _decided(refits, settings, base)
         if len(simple) == len(self.catalogue) or _reaches_noise(decided, settings.rules):
             return refits, decided
         catalogue = (*simple, *_where_felt(self.catalogue[len(simple):], simple, screening.screen, refits))
         screening = screen_catalogue(refits.calibration, catalogue, settings, fan_out, second, refits.directions)
         refits = refit_catalogue(screening, catalogue, settings, fan_out, refits.results, second)
+        if refits.overtake(calibration):
+            return self._from(refits.calibration, base)
         return refits, _decided(refits, settings, base)
 
     def given(self, known):

@@ -13,7 +13,8 @@ The course of the force is a half sine by convention only: while the hammer is i
 do not count (``unseen``).
 
 The estimate that fits begin from has the median contact time; it is the pulse that explains most of the period behind
-its begin and leaves least before it.
+its begin and leaves least before it. Where channels explain each other badly that way, as where one is reversed or in
+other units, each counts by itself, and the hammer pushes as the input says.
 """
 
 from dataclasses import dataclass, replace
@@ -34,6 +35,8 @@ BLOW, _IMPULSE, _TIME, _WIDTH = "blow", "impulse on", "time of the blow on", "co
 _EARLY = 0.25
 #: what moves before a blow counts so many times what is explained behind it
 _REST = 10
+#: share of what channels by themselves explain that they must explain together to belong to one blow as they are
+_TOGETHER = 0.5
 #: standard deviation of the time of a blow, over the slowest period
 _UNSURE = 0.1
 #: standard deviation of the logarithm of a contact time
@@ -120,13 +123,15 @@ def with_blow(bench, recorded, name, period, fastest, shown):
     blow = Blow(name, 1.0, first, width, _UNSURE * period / run.sample_rate)
     answer = shown(_hit(bench, run, blow)) - still
     last = int(_EARLY * run.samples - first * run.sample_rate) - period // 2
-    scores = [_score(left, weight, answer, k, period) for k in range(max(last, 0))]
-    if not scores or not max(scores)[0] > 0:
+    scores = np.array([_scores(left, weight, answer, k, period) for k in range(max(last, 0))]).reshape(-1, 4)
+    best = scores[:, :2].max(axis=0, initial=0.0)
+    if not best[1] > 0:
         latest = max(last / run.sample_rate + first, 0)
         raise ConfigError(where, f"a blow within the first {latest:.3g} s, at rest before it", "none",
                           "let the run begin shortly before the blow, and end several periods after it")
-    k = int(np.argmax([score for score, _ in scores]))
-    blow = replace(blow, impulse=scores[k][1], time=k / run.sample_rate + first)
+    alone = int(best[0] < _TOGETHER * best[1])
+    k = int(np.argmax(scores[:, alone]))
+    blow = replace(blow, impulse=scores[k, 2 + alone], time=k / run.sample_rate + first)
     seen = without_course(bench, recorded, blow.time - blow.width / 2, blow.width)
     return replace(seen, run=_hit(bench, run, blow), unknown=blow)
 
@@ -135,16 +140,21 @@ def _hit(bench, run, blow):
     return struck(run, {p.name: p.nominal for p in blow.parameters(bench, run, False)})
 
 
-def _score(left, weight, answer, k, period):
-    """(What a pulse at sample ``k`` explains of the ``period`` behind it less what is before it, its impulse).
+def _scores(left, weight, answer, k, period):
+    """What a pulse at sample ``k`` explains of the ``period`` behind it, less what is before it, by all channels
+    together and by each by itself; its impulse by both.
 
     At rest there is nothing before it, while behind it a nominal model of another frequency explains half a period
     later as much, upside down.
     """
     behind, expected = left[:, k:k + period], weight[:, k:k + period] * answer[:, :period]
-    size = np.sum(expected**2)
-    overlap = np.sum(behind * expected)
-    return (overlap**2 / size - _REST * np.sum(left[:, :k] ** 2), overlap / size) if size > 0 else (-np.inf, 0.0)
+    size, overlap = np.sum(expected**2, axis=1), np.sum(behind * expected, axis=1)
+    if not size.sum() > 0:
+        return -np.inf, -np.inf, 0.0, 0.0
+    alone = np.sum(overlap**2 / np.where(size > 0, size, np.inf))
+    before = _REST * np.sum(left[:, :k]**2)
+    return (overlap.sum()**2 / size.sum() - before, alone - before, overlap.sum() / size.sum(),
+            abs(overlap).sum() / size.sum())
 
 
 def _name(run, part, name):

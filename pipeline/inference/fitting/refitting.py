@@ -24,6 +24,8 @@ _GIVEN_UP = 16
 _LAP = 4
 #: times that a better candidate found beside the best one is taken for the best
 _ROUNDS = 4
+#: share of its objective to which a nominal model comes down from the optimum of a candidate, so that all begins anew
+_OVERTAKEN = 0.5
 #: candidates beside a first effect that begin, over the number of those that go on
 _LIKELY = 4
 
@@ -60,6 +62,10 @@ class Refits:
         return replace(self, calibration=replace(calibration, budget=budget, null=calibration.null.at_noise(factor)),
                        directions=tuple(d.at_noise(factor) for d in self.directions), results=results)
 
+    def overtake(self, calibration):
+        """Whether the null of a Calibration, from which they began, was far from the best."""
+        return self.calibration.null.objective < _OVERTAKEN * calibration.null.objective
+
     def begun_anew(self, starts):
         """These Refits with fits begun at the latent values ``starts`` {index: (k,)}, where they are better."""
         return replace(self, results=self.refitter.better(self.results, starts))
@@ -74,7 +80,8 @@ def refit_catalogue(screening, catalogue, settings, fan_out, results=None, besid
         results = refitter.with_imitators(results, starts)
     else:
         results = refitter.best_of(screening.promising, starts, results or {}, beside_a_first)
-    results = refitter.settled(refitter.with_overlooked(screening, results))
+    if not refitter.overtaken(results):
+        results = refitter.settled(refitter.with_overlooked(screening, results))
     better = calibration.improved([r.null for r in results.values()], settings.rules.calibration)
     if better is calibration:
         return Refits(calibration, screening.directions, results, refitter)
@@ -118,7 +125,10 @@ class Refitter:
         ``beside_a_first`` effect, which has taken up what is far from linear, the likely ones.
         """
         kept, rules = self.settings.kept, self.rules.decision
-        results = self._rivalled(self.of(promising[:kept], starts, results), starts, beside_a_first)
+        results = self.of(promising[:kept], starts, results)
+        if self.overtaken(results):
+            return results
+        results = self._rivalled(results, starts, beside_a_first)
         if self.explained(results) or self.null.reaches_noise(rules.noise_uncertainty) or self.null.unordered:
             return results
         further, best = promising[kept:_LIKELY * kept] if beside_a_first else promising[kept:], _best(results)
@@ -126,6 +136,11 @@ class Refitter:
         if best is not None and _best(found) == best and found[best].fit is results[best].fit:
             return found        # its imitators have begun
         return self._rivalled(found, starts, beside_a_first)
+
+    def overtaken(self, results):
+        """Whether the null was at a wrong optimum: from that of a candidate in ``results`` it comes down far below."""
+        return any(r.null is not None and r.null.objective < _OVERTAKEN * self.null.objective
+                   for r in results.values())
 
     def _rivalled(self, results, starts, beside_a_first):
         """{index: Refitted} with imitators; beside a first effect only where one may be named."""
@@ -291,6 +306,8 @@ class Refitter:
         for group in (best[:1], best[1:]):
             finish = partial(_finished, self.problem, self.null, self._enough(ended.values()), self.rules)
             ended |= dict(zip(group, self.fan_out(finish, [begun_fits[i] for i in group]), strict=True))
+            if self.overtaken(ended):
+                break
         return ended
 
     def _raced(self, fits):

@@ -82,6 +82,20 @@ def test_a_blow_keeps_its_sign_where_the_nominal_frequency_is_far_off():
     assert given.impulse > 0 and given.time == pytest.approx(TIME, abs=0.1)
 
 
+@pytest.mark.parametrize("first, second", [(-1.0, 1.0), (1.0, -1.0), (1e3, 1.0), (-1.0, -1.0)])
+def test_a_channel_that_is_reversed_or_in_other_units_does_not_move_the_blow(first, second):
+    """Where channels disagree, the hammer pushes as the input says; where they agree it may come from behind."""
+    motion = ringing()[0]
+    shown, moving = (recording({"a": (first * motion, second * np.gradient(motion, 1 / RATE))}, quantity, 0.0)[0]
+                     for quantity in ("displacement", "velocity"))
+    shown.runs["a"].channels["v"] = moving.runs["a"].channels["x"]
+    section = small_rig.laid_out(channels={"x": {"quantity": "displacement", "source": "block"},
+                                           "v": {"quantity": "velocity", "source": "block"}}, inputs={}, blow="shaker")
+    given = started(benches.built(small_rig.model(), section), recorded(shown, section), section)["a"].unknown
+    assert (given.impulse > 0) == (max(first, second) > 0)
+    assert given.time == pytest.approx(TIME, abs=2.5 / RATE)
+
+
 def test_blows_of_a_linear_rig_leave_nothing_missing():
     """Contact times of 1 to 6 samples and a third of a period; the held-out run is fitted to its first quarter."""
     strokes = {"a": (0.9, 0.2031, 0.015), "b": (-1.6, 0.15, 0.06), "c": (0.4, 0.31, 0.1), "last": (1.2, 0.171, 0.08)}

@@ -5,7 +5,7 @@ import pytest
 
 from pipeline.contract.errors import ConvergenceError
 from pipeline.inference.fitting import calibration
-from pipeline.inference.fitting.calibration import _under, begun, calibrate, paired_anew
+from pipeline.inference.fitting.calibration import _distinct, _under, begun, calibrate, paired_anew
 from pipeline.inference.fitting.fit_state import linearised
 from pipeline.inference.fitting.least_squares import fit
 from pipeline.inference.priors import Normal, Parameter
@@ -19,6 +19,13 @@ def test_several_starts_find_the_better_of_two_minima():
     alone = fit(problem, noises, problem.nominal, np.array([-0.5]), problem.runs)
     best = calibrate(problem, noises, problem.nominal, [np.array([-0.5]), np.array([1.0])], problem.runs)
     assert best.values["pace"] == pytest.approx(32.0, abs=0.05) and best.objective < 0.1 * alone.objective
+
+
+@pytest.mark.exact
+def test_starts_that_predict_the_same_are_one():
+    near, same, far, broken = np.full(4, 1.0), np.full(4, 1.1), np.full(4, 3.0), None
+    assert _distinct([far, broken, same, near]) == [3, 0]
+    assert _distinct([broken, broken]) == [0], "why none can be predicted is told by trying one"
 
 
 @pytest.mark.exact

@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from pipeline.inference import procedure
 from pipeline.inference.fitting import begins, refitting
 from pipeline.inference.fitting.calibration import calibrate
 from pipeline.inference.fitting.fit_state import linearised
@@ -79,6 +80,23 @@ def test_what_is_one_change_at_other_nominal_values_is_led_over():
     assert told.converged and told.chi_square.sum() < 1.1 * told.counts.sum()
     assert told.values["added_stiffness"] / resonance.STIFFNESS == pytest.approx(1 / 0.69 - 1, rel=0.02)
     assert told.values["mass"] == pytest.approx(1 / 0.69, rel=0.02)
+
+
+def test_all_begins_anew_where_the_null_was_at_a_wrong_optimum(monkeypatch):
+    """A recalibration that ended far off, of a rig that lacks nothing: a candidate's optimum leads to the right one."""
+    problem, begin, seen = bench(5, 0.01, stiffness=380.0), procedure.recalibrate, []
+
+    def stopped_early(problem, *rest):
+        right = begin(problem, *rest)
+        wrong = linearised(problem, right.null.noises, problem.nominal, right.null.latent + 2.0, problem.training)
+        return replace(right, null=wrong)
+
+    monkeypatch.setattr(procedure, "recalibrate", stopped_early)
+    screened = procedure.screen_catalogue
+    monkeypatch.setattr(procedure, "screen_catalogue", lambda *given: seen.append(given[0].null) or screened(*given))
+    told = diagnose(problem, budget(problem), CATALOGUE)
+    assert told.decision.verdict == "parameters" and not told.decision.named
+    assert len(seen) == 2 and seen[1].objective < 0.1 * seen[0].objective
 
 
 def test_where_nothing_explains_more_than_chance_nothing_is_looked_for(monkeypatch):
