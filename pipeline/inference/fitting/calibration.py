@@ -14,13 +14,15 @@ from pipeline.inference.rules import DEFAULTS
 _TRIAL = 3
 #: how many starts near enough are tried, those that leave least
 _NEAREST = 3
-#: share of the mean square of a start by which its prediction differs from another that counts as the same start
+#: share of a mean square by which predictions of two starts differ that count as one, and the ends of two fits
 _ALIKE = 0.05
 #: iterations of an easier problem on the way
 _EASIER = 8
 #: fractions of the runs that are fitted first where the residual is beyond FAR noise powers: over a short horizon the
 #: phase of a nonlinear motion cannot slip, so that the optimum is reached from far away
 _HORIZONS, _FEWEST = (0.08, 0.3), 32
+#: the same, where the fit ends far off all the same: how much a short part of a run tells is a matter of its course
+_OTHER_HORIZONS = ((0.025, 0.05, 0.1, 0.2, 0.4, 0.7), (0.15, 0.5))
 #: standard deviations, as multiples of the true ones, with which features are fitted first where they are that far off:
 #: then priors hold what few features tell, and each is paired with what it belongs to before it counts in full. Under
 #: the first, features known to a few parts in ten thousand weigh no more than values known to a few per cent
@@ -68,9 +70,27 @@ def calibrate(problem, noises, hypothesis, starts, runs, settled=True, rules=DEF
     for begin in _begun(problem, noises, hypothesis, starts, runs, reasons):
         fit = begin if begin.converged else continued(problem, begin, patient=settled)
         if fit.converged or not settled:
-            return _by_other_deviations(problem, paired_anew(problem, fit, rules), starts, rules)
+            fit = _by_other_deviations(problem, paired_anew(problem, fit, rules), starts, rules)
+            return _by_other_horizons(problem, fit, starts)
         reasons.append(f"not converged after {fit.evaluations} predictions")
     raise _stopped(hypothesis, reasons)
+
+
+def _by_other_horizons(problem, fit, starts):
+    """The Fit, or where it is far off a lower one that comes from ``starts`` over other horizons, until two agree."""
+    for fractions in _OTHER_HORIZONS:
+        if fit.unordered or not fit.far:
+            break
+        ends = _over_horizons(problem, fit.noises, fit.hypothesis, starts, fit.runs, [], fractions)
+        near = [end.latent for end in ends[-1:]]
+        other = _ended(problem, _tried(problem, fit.noises, fit.hypothesis, near, fit.runs, []))
+        if other is None:
+            continue
+        alike = fit.converged and len(_distinct([np.concatenate(f.residuals) for f in (fit, other)])) == 1
+        fit = min(fit, other, key=lambda f: f.objective)
+        if alike:
+            break
+    return fit
 
 
 def _by_other_deviations(problem, fit, starts, rules):
@@ -164,10 +184,10 @@ def _tried(problem, noises, hypothesis, starts, runs, reasons, known=(), rough=F
     return sorted(fits, key=lambda fit: fit.objective)
 
 
-def _over_horizons(problem, noises, hypothesis, starts, runs, reasons):
+def _over_horizons(problem, noises, hypothesis, starts, runs, reasons, fractions=_HORIZONS):
     """[Fit] over rising horizons, the best start of each the begin of the next; [] where none can."""
     ends = []
-    for fewer, shorter in _horizons(noises, runs):
+    for fewer, shorter in _horizons(noises, runs, fractions):
         begins = [ends[-1].latent] if ends else starts
         fits = _tried(problem, fewer, hypothesis, begins, shorter, reasons, rough=True)
         if not fits:
@@ -190,9 +210,9 @@ def _beside(problem, ahead, hypothesis, starts, reasons):
     return fits[:1]
 
 
-def _horizons(noises, runs):
-    """[(noises, runs)] cut to each of the fractions of the runs."""
-    for fraction in _HORIZONS:
+def _horizons(noises, runs, fractions):
+    """[(noises, runs)] cut to each of the ``fractions`` of the runs."""
+    for fraction in fractions:
         ends = [noise.horizon(fraction, _FEWEST) for noise in noises]
         yield (tuple(noise.until(n) for noise, n in zip(noises, ends, strict=True)),
                tuple(run.until(n) for run, n in zip(runs, ends, strict=True)))

@@ -8,8 +8,10 @@ from pipeline.inference.fitting import calibration
 from pipeline.inference.fitting.calibration import _distinct, _under, begun, calibrate, paired_anew
 from pipeline.inference.fitting.fit_state import linearised
 from pipeline.inference.fitting.least_squares import fit
+from pipeline.inference.fitting.noise import budget
 from pipeline.inference.priors import Normal, Parameter
 from pipeline.inference.rules import DEFAULTS
+from tests.inference import resonance
 from tests.inference.curves import curve_problem, either_of_two, features
 
 
@@ -19,6 +21,21 @@ def test_several_starts_find_the_better_of_two_minima():
     alone = fit(problem, noises, problem.nominal, np.array([-0.5]), problem.runs)
     best = calibrate(problem, noises, problem.nominal, [np.array([-0.5]), np.array([1.0])], problem.runs)
     assert best.values["pace"] == pytest.approx(32.0, abs=0.05) and best.objective < 0.1 * alone.objective
+
+
+@pytest.mark.parametrize("mass", [0.8, 2.2])
+def test_a_fit_that_ends_far_off_is_tried_over_other_horizons(monkeypatch, mass):
+    """Over 64 periods of a mass that is thought to be 1.2 kg many others explain next to nothing, each at its own."""
+    problem = resonance.problem(mass=mass)
+    noises = tuple(budget(problem)[run.name] for run in problem.training)
+
+    def found():
+        return calibrate(problem, noises, problem.nominal, [problem.nominal.nominal], problem.training, settled=False)
+
+    told = found()
+    assert told.converged and told.values["mass"] == pytest.approx(mass, rel=1e-3)
+    monkeypatch.setattr(calibration, "_OTHER_HORIZONS", ())
+    assert found().objective > 1000 * told.objective
 
 
 @pytest.mark.exact
