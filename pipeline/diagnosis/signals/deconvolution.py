@@ -4,7 +4,9 @@ With H_c(w) the receptance of channel c from the row (small motions of the model
 
     F = (sum_c |H_c|^2 / s_c^2)^-1 sum_c H_c* r_c / s_c^2
 
-up to the highest frequency w whose residual rises above the noise s. The motion along the row is that of the model plus
+up to the highest frequency w whose residual rises above the noise s. Where channels hardly show a force, as
+accelerations do not a slow one, that would be noise divided by next to nothing: what a force of the mean power of those
+that are seen would show there counts against the noise (Wiener's filter). The motion along the row is that of the model plus
 its answer to F.
 """
 
@@ -52,11 +54,12 @@ def deconvolved(bench, row, run, observed, noise, above_noise=DEFAULTS.latent_fo
     fade = scipy.signal.windows.tukey(count, 2 * FADE)
     spectrum, precision = np.fft.rfft(residual * fade, axis=1), 1 / noise.std[:, None] ** 2
     gain = np.sum(np.abs(transfer) ** 2 * precision, axis=0)
-    force = np.sum(transfer.conj() * spectrum * precision, axis=0) / np.maximum(gain, 1e-300)
-    power = np.abs(force) ** 2 * gain / np.sum(fade**2)
+    seen, noise_power = np.sum(transfer.conj() * spectrum * precision, axis=0), np.sum(fade**2)
+    power = np.abs(seen) ** 2 / np.maximum(gain, 1e-300) / noise_power
     loud = np.flatnonzero(np.convolve(power, np.ones(NEIGHBOURS) / NEIGHBOURS, "same") > above_noise)
     if not len(loud):
         return None
+    force = seen / (gain + np.sum(gain[loud]) / np.sum(power[loud]))
     force[loud[-1] + 1:] = 0.0
     x, v = moved(bench, run, row)
     moves = direct * force

@@ -4,12 +4,15 @@ import numpy as np
 import pytest
 
 from pipeline.case_models import virtual_rig as benches
+from pipeline.case_models.effect_block import with_effects
 from pipeline.case_models.runs import recorded
 from pipeline.diagnosis.signals.deconvolution import FADE, deconvolved, motion, moved, receptances
 from pipeline.diagnosis.signals.forward_model import observed
 from pipeline.inference.fitting.noise import whitening
+from pipeline.inference.problem import Observed
+from pipeline.physics.virtual_rig.response import respond
 from tests.diagnosis import pin_rig
-from tests.diagnosis.small_rig import HIDDEN, NOISE, laid_out, model, recording
+from tests.diagnosis.small_rig import FINE, HIDDEN, NOISE, effects, laid_out, model, recording
 
 
 def test_the_receptance_of_one_mass():
@@ -32,6 +35,22 @@ def test_the_motion_of_the_truth_comes_back():
     error = np.std((found.displacement - truth)[kept]) / np.std(truth)
     assert error < 0.02 < 0.5 < np.std(moved(bench, one.run, np.ones(1))[0] - truth) / np.std(truth)
     assert found.velocity[kept] == pytest.approx(np.gradient(found.displacement, one.run.time)[kept], abs=0.05)
+
+
+def test_what_an_accelerometer_hardly_shows_is_no_giant_force():
+    """Constant and slow forces: noise over next to nothing was 1e14 times the force that is hidden."""
+    channels = {"x": {"quantity": "acceleration", "source": "block"}}
+    bench, finely = (benches.built(model(), laid_out(channels=channels, step=step)) for step in ("2.5 ms", FINE))
+    run = recorded(recording(HIDDEN, levels=(5.0,)), laid_out())["level_1"].run
+    shown = {name: respond(with_effects(finely, effects(hidden)), run)["x"]
+             for name, hidden in (("truth", HIDDEN), ("nominal", {}))}
+    noise = 0.05 * shown["truth"].std()
+    samples = shown["truth"] + noise * np.random.default_rng(3).standard_normal(run.samples)
+    seen = Observed("level_1", {}, ("x",), samples[None], run.sample_rate, noise_std=np.array([noise]))
+    found = deconvolved(bench, np.ones(1), run, seen, whitening(seen, np.full((1, 1), noise**2)))
+    force = -1.5e4 * respond(with_effects(benches.built(model(), laid_out(step=FINE)), effects(HIDDEN)), run)["x"]**3
+    kept = slice(int(FADE * run.samples), -int(FADE * run.samples))
+    assert np.std((found.force - force)[kept]) < 0.4 * np.std(force[kept])
 
 
 def test_noise_alone_is_no_force():
