@@ -37,6 +37,8 @@ HARD, PENALTY, TABLE, LAGRANGE = 0, 1, 2, 3
 OPEN, STICK, SLIP = 0, 1, 2
 SOLVED, UNCONVERGED, JAMMED, TOO_LONG = 0, 1, 2, 3
 SWEEPS, ITERATIONS, TOLERANCE, LOCAL_TOLERANCE = 2000, 100, 1e-9, 1e-13
+#: share of a reading's change from one to the next above which a coefficient over speed is bracketed
+STEEP = 0.75
 #: largest product of a contact stiffness and its flexibility over one step: 8 steps in a period of the contact
 LARGEST_STIFFNESS = 0.1
 
@@ -147,7 +149,6 @@ def _solve_contact(law, friction, i, y, r, past, held, drive, way, guess, before
 def _rigid(law, friction, i, y, r, past, held, drive, way, guess, before):
     """Sticks if the force that ends the slip (forward increments: allows none) stays below the limit, else slides."""
     share, kept = _mean_load(law, friction, i, held)
-    slip_begin = drive[0] - past[3]
     missing, per_force = drive[1] - y[3], r[3]
     if law.kind == LAGRANGE and not law.newmark:
         missing, per_force = way + past[2] - y[2], r[2]
@@ -166,19 +167,56 @@ def _rigid(law, friction, i, y, r, past, held, drive, way, guess, before):
             sign = np.sign(tangent)
         elif code != JAMMED:
             return 0.0, 0.0, OPEN, code
-    normal, speed, mu = guess[0], abs(slip_begin), -1.0
+    return _sliding(law, friction, i, y, r, past, drive, (share, kept), sign, guess[0])
+
+
+@njit
+def _sliding(law, friction, i, y, r, past, drive, loads, sign, normal):
+    """(N, T, status, code) of a contact that slides against the ``sign`` of its friction.
+
+    The coefficient is read at the mean speed of the step, which depends on it. Where it rises so steeply that this runs
+    away, as a logarithm does near rest, it is that at the end of the step (implicit Euler: the mean would let the slip
+    ring about zero), and bracketed: at 0 the slip is largest, and what is read above it; what turns the slip round is
+    more than enough.
+    """
+    share, kept = loads
+    mu = coefficient(friction, i, (kept + share * normal) / law.area[i], abs(drive[0] - past[3]), sign)
+    highest, change = mu, np.inf
     for _ in range(ITERATIONS):
-        read = coefficient(friction, i, (kept + share * normal) / law.area[i], speed, sign)
-        if abs(read - mu) <= LOCAL_TOLERANCE:
-            return normal, sign * mu * (kept + share * normal), SLIP if normal > 0.0 else OPEN, SOLVED
-        mu = read
-        fixed, slope = sign * mu * kept, sign * mu * share
-        normal, code = _normal(law, i, y, r, past, fixed, slope, normal)
+        normal, read, slip, code = _read(law, friction, i, y, r, past, drive, loads, sign, (mu, normal), 0.5)
         if code != SOLVED:
             return 0.0, 0.0, OPEN, code
-        slip_end = drive[1] - (y[3] + (r[3][0] + r[3][1] * slope) * normal + r[3][1] * fixed)
-        speed = 0.5 * abs(slip_begin + slip_end)
+        if abs(read - mu) <= LOCAL_TOLERANCE and slip * sign >= 0.0:
+            return normal, sign * mu * (kept + share * normal), SLIP if normal > 0.0 else OPEN, SOLVED
+        steep, change = abs(read - mu) > STEEP * change, abs(read - mu)
+        mu, highest = read, max(highest, read)
+        if steep:
+            break
+    low, high = 0.0, 2.0 * highest
+    for _ in range(ITERATIONS):
+        mu = 0.5 * (low + high)
+        normal, read, slip, code = _read(law, friction, i, y, r, past, drive, loads, sign, (mu, normal), 1.0)
+        if code != SOLVED:
+            return 0.0, 0.0, OPEN, code
+        if (abs(read - mu) <= TOLERANCE and slip * sign >= 0.0) or high - low <= LOCAL_TOLERANCE * high:
+            return normal, sign * mu * (kept + share * normal), SLIP if normal > 0.0 else OPEN, SOLVED
+        if read > mu and slip * sign >= 0.0:
+            low = mu
+        else:
+            high = mu
     return 0.0, 0.0, OPEN, UNCONVERGED
+
+
+@njit(inline="always")
+def _read(law, friction, i, y, r, past, drive, loads, sign, tried, end):
+    """(N, coefficient at the slip to which the ``end`` of the step counts so much, that slip, code) of a step under the
+    coefficient and about the N ``tried``."""
+    share, kept = loads
+    fixed, slope = sign * tried[0] * kept, sign * tried[0] * share
+    normal, code = _normal(law, i, y, r, past, fixed, slope, tried[1])
+    slip_end = drive[1] - (y[3] + (r[3][0] + r[3][1] * slope) * normal + r[3][1] * fixed)
+    slip = (1.0 - end) * (drive[0] - past[3]) + end * slip_end
+    return normal, coefficient(friction, i, (kept + share * normal) / law.area[i], abs(slip), sign), slip, code
 
 
 @njit(inline="always")

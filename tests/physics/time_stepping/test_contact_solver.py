@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from pipeline.physics.friction.dry_friction import constant, kernel
+from pipeline.physics.friction.dry_friction import constant, kernel, tabulated
 from pipeline.physics.time_stepping.contact_solver import (
     HARD,
     JAMMED,
@@ -30,7 +30,7 @@ def normal(kind, contacts, stiffness=1e6, restitution=0.0):
                         kind == LAGRANGE)
 
 
-def solve(law, mobility, free, mu=0.3, past=None, status=None, **friction):
+def solve(law, mobility, free, mu=0.3, past=None, status=None, dry=None, **friction):
     """(code, forces, status) of one step; ``mobility`` (2 c, 2 c) gives velocities, displacements are its 1e-6."""
     contacts = law.gap.size
     blocks = np.asarray(mobility, float).reshape(2, contacts, 2, contacts).transpose(0, 2, 1, 3)
@@ -39,7 +39,7 @@ def solve(law, mobility, free, mu=0.3, past=None, status=None, **friction):
     status = np.full(contacts, OPEN) if status is None else np.array(status)
     step = ContactStep(np.array(free, float), none if past is None else np.array(past, float), np.zeros((2, contacts)),
                        np.zeros((2, contacts)), np.zeros(contacts), force, status, status.copy())
-    code, _ = solve_contacts(law, kernel(constant(mu, **friction), contacts), response, step)
+    code, _ = solve_contacts(law, kernel(dry or constant(mu, **friction), contacts), response, step)
     return code, force, status
 
 
@@ -76,6 +76,21 @@ def test_restitution_and_static_friction():
     for before, found, friction in ((STICK, STICK, -0.35), (SLIP, SLIP, -0.3)):
         _, force, status = solve(normal(HARD, 1), np.eye(2), pushed, status=[before], static_factor=1.5)
         assert status[0] == found and force[1, 0] == pytest.approx(friction)
+
+
+@pytest.mark.exact
+@pytest.mark.parametrize("slope, end", [(0.5, 0.5), (1.4, 0.5), (1.6, 1.0), (5.0, 1.0), (5e5, 1.0), (1e12, 1.0)])
+def test_a_coefficient_that_rises_over_speed_is_read_in_the_middle_and_where_it_rises_steeply_at_the_end(slope, end):
+    """Pressed by N = 1, mobility 1, sliding at v0: mu = .1 + a v at v = v0 - e mu, so that mu (1 + a e) = .1 + a v0.
+
+    From a = 2 on reading mu anew at the mean speed (e = 1 / 2) that it leads to runs away, and from 1.5 on slowly.
+    """
+    fast, begin = 0.9, [[0.0], [0.0], [0.0], [0.9]]
+    dry = tabulated(np.array([0.0, 1.0]), np.array([0.1, 0.1 + slope]))
+    code, force, status = solve(normal(HARD, 1), np.eye(2), [[-1e-9], [-1.0], [0.0], [fast]], past=begin, dry=dry)
+    assert code == SOLVED and status[0] == SLIP
+    assert -force[1, 0] == pytest.approx((0.1 + slope * fast) / (1 + slope * end), rel=1e-8)
+    assert abs(force[1, 0]) < fast, "it goes on sliding"
 
 
 @pytest.mark.exact
