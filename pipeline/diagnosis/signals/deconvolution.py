@@ -6,8 +6,8 @@ With H_c(w) the receptance of channel c from the row (small motions of the model
 
 up to the highest frequency w whose residual rises above the noise s. Where channels hardly show a force, as
 accelerations do not a slow one, that would be noise divided by next to nothing: what a force of the mean power of those
-that are seen would show there counts against the noise (Wiener's filter). The motion along the row is that of the model plus
-its answer to F.
+that are seen would show there counts against the noise (Wiener's filter). The motion along the row is that of the model
+plus its answer to F.
 """
 
 from dataclasses import dataclass, replace

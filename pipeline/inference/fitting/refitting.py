@@ -215,7 +215,7 @@ class Refitter:
         far = [i for i, c in enumerate(self.catalogue)
                if c.name in whole.extends and self._short_of(fit, results.get(i, NOT_BEGUN))]
         return self.better(results, {i: np.concatenate((
-            fit.latent[:size], as_limit(self.catalogue[i], whole, fit.latent[size:]))) for i in far}, self._near(fit))
+            fit.latent[:size], as_limit(self.catalogue[i], whole, fit.latent[size:]))) for i in far})
 
     def better(self, results, starts, enough=np.inf):
         """{index: Refitted} with fits begun at the latent values ``starts`` {index: (k,)}, where they are better; those
@@ -247,12 +247,25 @@ class Refitter:
                 results = self._reshaped(top, results)
             if results[top].fit is before:
                 break
+        return self._refined(results)
+
+    def _refined(self, results):
+        """Results with the leading ones at steps that are fine enough: first the best; then those within reach of it,
+        or that what its step was wrong by keeps from there."""
+        look, top = partial(refined, self.problem, self.rules.refit), _best(results)
         enough = self._enough(results.values())
-        leading = [i for i, r in results.items() if r.fit is not None and not r.fit.unordered
-                   and r.fit.objective <= enough and r.fit.hypothesis.kind != "numerics" and self._explains(r.fit)]
-        look = partial(refined, self.problem, self.rules.refit)
+        leading = [i for i, r in results.items() if self._may_lead(r.fit, enough)]
+        if top in leading:
+            finer = look(results[top].fit)
+            enough += max(results[top].fit.objective - finer.objective, 0.0)
+            results = results | {top: results[top]._replace(fit=finer)}
+            leading = [i for i, r in results.items() if i != top and self._may_lead(r.fit, enough)]
         finer = self.fan_out(look, [results[i].fit for i in leading])
         return results | {i: results[i]._replace(fit=fit) for i, fit in zip(leading, finer, strict=True)}
+
+    def _may_lead(self, fit, enough):
+        return (fit is not None and not fit.unordered and fit.objective <= enough
+                and fit.hypothesis.kind != "numerics" and self._explains(fit))
 
     def _reshaped(self, top, results):
         """Results with the candidate ``top`` begun in other shapes, as where few sliders slip one after the other."""

@@ -37,7 +37,7 @@ HARD, PENALTY, TABLE, LAGRANGE = 0, 1, 2, 3
 OPEN, STICK, SLIP = 0, 1, 2
 SOLVED, UNCONVERGED, JAMMED, TOO_LONG = 0, 1, 2, 3
 SWEEPS, ITERATIONS, TOLERANCE, LOCAL_TOLERANCE = 2000, 100, 1e-9, 1e-13
-#: share of a reading's change from one to the next above which a coefficient over speed is bracketed
+#: share of the change of a reading, back and forth, above which a coefficient that rises over speed is bracketed
 STEEP = 0.75
 #: largest product of a contact stiffness and its flexibility over one step: 8 steps in a period of the contact
 LARGEST_STIFFNESS = 0.1
@@ -181,16 +181,18 @@ def _sliding(law, friction, i, y, r, past, drive, loads, sign, normal):
     """
     share, kept = loads
     mu = coefficient(friction, i, (kept + share * normal) / law.area[i], abs(drive[0] - past[3]), sign)
-    highest, change = mu, np.inf
+    rest = coefficient(friction, i, (kept + share * normal) / law.area[i], 0.0, sign)
+    highest, change = mu, 0.0
     for _ in range(ITERATIONS):
         normal, read, slip, code = _read(law, friction, i, y, r, past, drive, loads, sign, (mu, normal), 0.5)
         if code != SOLVED:
             return 0.0, 0.0, OPEN, code
-        if abs(read - mu) <= LOCAL_TOLERANCE and slip * sign >= 0.0:
+        turned = slip * sign < 0.0 and read > rest
+        if abs(read - mu) <= LOCAL_TOLERANCE and not turned:
             return normal, sign * mu * (kept + share * normal), SLIP if normal > 0.0 else OPEN, SOLVED
-        steep, change = abs(read - mu) > STEEP * change, abs(read - mu)
-        mu, highest = read, max(highest, read)
-        if steep:
+        steep = (read - mu) * change < 0.0 and abs(read - mu) > max(STEEP * abs(change), TOLERANCE)
+        change, mu, highest = read - mu, read, max(highest, read)
+        if steep or (turned and abs(change) <= LOCAL_TOLERANCE):
             break
     low, high = 0.0, 2.0 * highest
     for _ in range(ITERATIONS):
@@ -198,7 +200,7 @@ def _sliding(law, friction, i, y, r, past, drive, loads, sign, normal):
         normal, read, slip, code = _read(law, friction, i, y, r, past, drive, loads, sign, (mu, normal), 1.0)
         if code != SOLVED:
             return 0.0, 0.0, OPEN, code
-        if (abs(read - mu) <= TOLERANCE and slip * sign >= 0.0) or high - low <= LOCAL_TOLERANCE * high:
+        if (abs(read - mu) <= LOCAL_TOLERANCE and slip * sign >= 0.0) or high - low <= LOCAL_TOLERANCE * high:
             return normal, sign * mu * (kept + share * normal), SLIP if normal > 0.0 else OPEN, SOLVED
         if read > mu and slip * sign >= 0.0:
             low = mu
