@@ -21,7 +21,8 @@ from pipeline.inference.decision.weighing import Weighing, weigh
 from pipeline.inference.fitting.calibration import Calibration, recalibrate
 from pipeline.inference.fitting.fit_state import linearised
 from pipeline.inference.fitting.least_squares import continued
-from pipeline.inference.fitting.refitting import NOT_BEGUN, Refits, Refitter, refit_catalogue, refit_from
+from pipeline.inference.fitting.refitted import NOT_BEGUN
+from pipeline.inference.fitting.refitting import Refits, Refitter, refit_catalogue, refit_from
 from pipeline.inference.problem import FanOut, Problem
 from pipeline.inference.rules import DEFAULTS, Rules
 from pipeline.inference.search.score_screen import screen_catalogue

@@ -10,8 +10,6 @@ import numpy as np
 import pytest
 
 from pipeline.contract.errors import ConvergenceError
-from pipeline.inference.fitting import refitting
-from pipeline.inference.fitting.fit_state import linearised
 from pipeline.inference.fitting.noise import budget
 from pipeline.inference.priors import Normal, Parameter
 from pipeline.inference.problem import Hypothesis
@@ -130,18 +128,6 @@ def test_values_within_their_priors_ask_for_no_second_effect():
     told = diagnose(*odd_values(0.4), asked)
     assert told.decision.verdict == "missing" and told.base is None
     assert [c.name for c in told.decision.named] == ["effect_1"]
-
-
-def test_a_candidate_whose_forward_model_fails_on_its_way_is_told_and_not_judged(monkeypatch):
-    def failing(*_, **__):
-        raise ConvergenceError("time stepping at t = 0.4 s", "a force that settles", "none", "take a shorter step")
-
-    problem = bench(5, 0.1, stiffness=430.0, extra=coulomb)
-    noises = tuple(budget(problem)[run.name] for run in problem.training)
-    begin = linearised(problem, noises, problem.nominal, np.zeros(len(problem.nominal.parameters)), problem.training)
-    monkeypatch.setattr(refitting, "continued", failing)
-    refitted = refitting._finished(problem, begin, np.inf, DEFAULTS, begin)
-    assert refitted.fit is begin and refitted.null is None and "a force that settles" in refitted.failure
 
 
 def test_a_solver_that_lags_is_told_from_missing_physics():

@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass, replace
 from functools import cached_property, partial
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
@@ -10,36 +10,21 @@ from pipeline.contract.errors import BrakechainError
 from pipeline.inference.decision.candidate_statistics import unexplained
 from pipeline.inference.decision.weighing import evidence_of_all
 from pipeline.inference.fitting.begins import as_limit, begun_at, begun_beside, directions_like, tried
-from pipeline.inference.fitting.calibration import Calibration, ahead_of, paired_anew
+from pipeline.inference.fitting.calibration import Calibration, ahead_of
 from pipeline.inference.fitting.fit_state import Fit, linearised
-from pipeline.inference.fitting.least_squares import again, beside, continued, iterated
+from pipeline.inference.fitting.least_squares import again, beside
+from pipeline.inference.fitting.refitted import NOT_BEGUN, Refitted, advanced, finished, leader, lowest
 from pipeline.inference.fitting.step_error import refined
 from pipeline.inference.problem import FanOut, Problem
 from pipeline.inference.rules import Rules
 from pipeline.inference.search.score_screen import directions, least, reshaped, screen, short_name
 
-#: iterations of a nominal model from a candidate's optimum before it is given up where it is still worse than before
-_GIVEN_UP = 16
-#: iterations after which the worse half of the candidates that have begun is given up
-_LAP = 4
 #: times that a better candidate found beside the best one is taken for the best
 _ROUNDS = 4
 #: share of its objective to which a nominal model comes down from the optimum of a candidate, so that all begins anew
 _OVERTAKEN = 0.5
 #: candidates beside a first effect that begin, over the number of those that go on
 _LIKELY = 4
-
-
-class Refitted(NamedTuple):
-    """``fit`` of a candidate or None, a better Fit of the ``null`` from its optimum or None, what went wrong."""
-
-    fit: Fit | None
-    null: Fit | None
-    failure: str
-
-
-#: of a candidate that could not even begin
-NOT_BEGUN = Refitted(None, None, "its fit could not begin")
 
 
 @dataclass(frozen=True)
@@ -131,9 +116,9 @@ class Refitter:
         results = self._rivalled(results, starts, beside_a_first)
         if self.explained(results) or self.null.reaches_noise(rules.noise_uncertainty) or self.null.unordered:
             return results
-        further, best = promising[kept:_LIKELY * kept] if beside_a_first else promising[kept:], _best(results)
+        further, best = promising[kept:_LIKELY * kept] if beside_a_first else promising[kept:], leader(results)
         found = self.of(further, starts, results)
-        if best is not None and _best(found) == best and found[best].fit is results[best].fit:
+        if best is not None and leader(found) == best and found[best].fit is results[best].fit:
             return found        # its imitators have begun
         return self._rivalled(found, starts, beside_a_first)
 
@@ -201,11 +186,11 @@ class Refitter:
         candidate does may score little beside it.
         """
         for _ in range(_ROUNDS):
-            top = _best(results)
+            top = leader(results)
             if top is None or not self._explains(results[top].fit):
                 break
             results = self._with_limits(top, self._beside(top, starts, results))
-            if _best(results) == top:
+            if leader(results) == top:
                 break
         return results
 
@@ -226,7 +211,7 @@ class Refitter:
         """The same from the best of several latent values each, ``starts`` {index: [(k,)]}."""
         begins = {i: tried(self.problem, self.null, self.catalogue[i], each, ())[0]
                   for i, each in starts.items() if each}
-        return _lowest(results, {i: _finished(self.problem, self.null, enough, self.rules, begin)
+        return lowest(results, {i: finished(self.problem, self.null, enough, self.rules, begin)
                                  for i, begin in begins.items() if begin is not None})
 
     def settled(self, results):
@@ -237,11 +222,11 @@ class Refitter:
         count for little evidence, and fits end early: nothing may be named beside the best one for that.
         """
         for _ in range(self.rules.refit.restarts):
-            top = _best(results)
+            top = leader(results)
             if top is None or not self._explains(results[top].fit) or self._at_its_end(results[top].fit):
                 break
             before = results[top].fit
-            results = _lowest(results, {top: _finished(self.problem, self.null, np.inf, self.rules,
+            results = lowest(results, {top: finished(self.problem, self.null, np.inf, self.rules,
                                                        again(self.problem, before))})
             if results[top].fit is before:
                 results = self._reshaped(top, results)
@@ -252,7 +237,7 @@ class Refitter:
     def _refined(self, results):
         """Results with the leading ones at steps that are fine enough: first the best; then those within reach of it,
         or that what its step was wrong by keeps from there."""
-        look, top = partial(refined, self.problem, self.rules.refit), _best(results)
+        look, top = partial(refined, self.problem, self.rules.refit), leader(results)
         enough = self._enough(results.values())
         leading = [i for i, r in results.items() if self._may_lead(r.fit, enough)]
         if top in leading:
@@ -295,7 +280,7 @@ class Refitter:
         refitted = self._ended(imitators, self.fan_out(begin, [(self.catalogue[i], scores.start[i])
                                                                for i in imitators]), {top: results[top]})
         alike = [i for i in imitators if scores.score[i]**2 >= self.rules.refit.moves_alike * scores.score[top]**2]
-        return self._led_over(top, scores.start, alike, _lowest(results, refitted))
+        return self._led_over(top, scores.start, alike, lowest(results, refitted))
 
     def _led_over(self, top, starts, alike, results):
         """Results with those of candidates that move ``alike``, at other places, begun where they change next to
@@ -317,7 +302,7 @@ class Refitter:
         begun_fits = self._raced({i: begin for i, (begin, _) in first.items() if begin is not None})
         best = list(begun_fits)
         for group in (best[:1], best[1:]):
-            finish = partial(_finished, self.problem, self.null, self._enough(ended.values()), self.rules)
+            finish = partial(finished, self.problem, self.null, self._enough(ended.values()), self.rules)
             ended |= dict(zip(group, self.fan_out(finish, [begun_fits[i] for i in group]), strict=True))
             if self.overtaken(ended):
                 break
@@ -334,7 +319,7 @@ class Refitter:
             order = sorted(fits, key=lambda i: fits[i].objective)[:max(kept, (len(fits) + 1) // 2)]
             if len(order) <= kept or fits[order[0]].unordered or fits[order[0]].reaches_noise(uncertainty):
                 return {i: fits[i] for i in order[:kept]}
-            go_on = partial(_further, self.problem, self._near(fits[order[0]]))
+            go_on = partial(advanced, self.problem, self._near(fits[order[0]]))
             fits = dict(zip(order, self.fan_out(go_on, [fits[i] for i in order]), strict=True))
 
     def _enough(self, results):
@@ -354,55 +339,3 @@ class Refitter:
 def _misled(null, rules):
     """Whether nothing near the null's optimum helps: values at odds with their priors, features paired wrongly."""
     return bool(null.excluded(rules.excluded)) or (null.unordered and null.far)
-
-
-def _best(results):
-    """Index of the lowest objective, or None."""
-    objectives = {i: r.fit.objective for i, r in results.items() if r.fit is not None}
-    return min(objectives, key=objectives.get, default=None)
-
-
-def _lowest(results, others):
-    """{index: Refitted} of both, each of the lower objective."""
-    def lower(fit, other):
-        return fit is not None and (other is None or fit.objective < other.objective)
-
-    return {**results, **{i: r for i, r in others.items() if i not in results or lower(r.fit, results[i].fit)}}
-
-
-def _further(problem, enough, fit):
-    """A Fit after a few more iterations, as far as its forward model goes; as it is where it cannot come to ``enough``.
-    """
-    try:
-        return fit if fit.converged else iterated(problem, fit, _LAP, enough, patient=False)
-    except BrakechainError:
-        return fit
-
-
-def _finished(problem, null, enough, rules, begin):
-    """Refitted of a candidate that has begun; where its forward model fails on the way, of its begin."""
-    try:
-        fit = begin if begin.converged else continued(problem, begin, enough=enough, patient=False)
-        fit = paired_anew(problem, fit, rules.calibration)
-    except BrakechainError as error:
-        return Refitted(begin, None, str(error))
-    if not fit.converged and fit.objective > enough:
-        return Refitted(fit, None, "its fit was given up, far from what others reach")
-    failure = "" if fit.converged else f"its fit had not converged after {fit.evaluations} predictions"
-    return Refitted(fit, _null_again(problem, null, fit, rules.refit), failure)
-
-
-def _null_again(problem, null, fit, rules):
-    """A better Fit of the nominal model, reached from the optimum of a candidate that fits better than it, or None."""
-    if fit.objective > null.objective - rules.better_by:
-        return None
-    size = len(null.latent)
-    try:
-        again = linearised(problem, null.noises, problem.nominal, fit.latent[:size], null.runs,
-                           [j[:, :size] for j in fit.jacobians])
-        again = continued(problem, again, _GIVEN_UP, null.objective, patient=False)
-    except BrakechainError:
-        return None
-    if again.objective >= null.objective:
-        return None
-    return again if again.converged else continued(problem, again, patient=False)

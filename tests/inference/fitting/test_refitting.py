@@ -10,6 +10,7 @@ from pipeline.inference.fitting import begins, refitting
 from pipeline.inference.fitting.calibration import calibrate
 from pipeline.inference.fitting.fit_state import linearised
 from pipeline.inference.fitting.noise import budget
+from pipeline.inference.fitting.refitted import NOT_BEGUN, Refitted
 from pipeline.inference.fitting.refitting import Refitter
 from pipeline.inference.procedure import Settings, diagnose
 from pipeline.inference.rules import DEFAULTS
@@ -76,7 +77,7 @@ def test_what_is_one_change_at_other_nominal_values_is_led_over():
     seeking = Refitter(problem, null, resonance.CATALOGUE, Settings(), map)
     best = seeking.of([0], {0: np.zeros(1)})
     assert 1 in seeking.with_imitators(best, [np.zeros(1)] * 2)
-    told = seeking._led_over(0, [np.zeros(1)] * 2, [1], {**best, 1: refitting.NOT_BEGUN})[1].fit
+    told = seeking._led_over(0, [np.zeros(1)] * 2, [1], {**best, 1: NOT_BEGUN})[1].fit
     assert told.converged and told.chi_square.sum() < 1.1 * told.counts.sum()
     assert told.values["added_stiffness"] / resonance.STIFFNESS == pytest.approx(1 / 0.69 - 1, rel=0.02)
     assert told.values["mass"] == pytest.approx(1 / 0.69, rel=0.02)
@@ -117,7 +118,7 @@ def test_what_is_better_is_kept(found):
 def test_a_leading_fit_that_did_not_converge_begins_again(found):
     starts = {CUBIC: np.zeros(1)}
     first, _ = begins.begun_beside(found.problem, found.null, found.null, (), (), (CATALOGUE[CUBIC], starts[CUBIC]))
-    told = found.settled({CUBIC: refitting.Refitted(replace(first, converged=False), None, "it stopped")})[CUBIC]
+    told = found.settled({CUBIC: Refitted(replace(first, converged=False), None, "it stopped")})[CUBIC]
     assert told.fit.converged and not told.failure and told.fit.objective <= first.objective
 
 
@@ -127,7 +128,7 @@ def test_a_leading_fit_that_ended_above_the_noise_goes_on(found):
     off = np.concatenate((best.latent[:-1], [best.latent[-1] + 0.02]))
     early = replace(linearised(found.problem, best.noises, best.hypothesis, off, best.runs), converged=True)
     assert not early.reaches_noise(DEFAULTS.decision.noise_uncertainty)
-    told = found.settled({CUBIC: refitting.Refitted(early, None, "")})[CUBIC].fit
+    told = found.settled({CUBIC: Refitted(early, None, "")})[CUBIC].fit
     assert told.strict and told.converged and told.objective == pytest.approx(best.objective, rel=1e-4)
 
 
@@ -139,9 +140,9 @@ def test_step_errors_of_leading_candidates_alone_are_looked_for(found, monkeypat
 
 
 def test_the_better_half_goes_on_until_few_are_left(found, monkeypatch):
-    lapped, further = [], refitting._further
-    monkeypatch.setattr(refitting, "_further",
-                        lambda *given: lapped.append(given[-1].hypothesis.name) or further(*given))
+    lapped, advanced = [], refitting.advanced
+    monkeypatch.setattr(refitting, "advanced",
+                        lambda *given: lapped.append(given[-1].hypothesis.name) or advanced(*given))
     first = [begins.begun_beside(found.problem, found.null, found.null, (), (), (c, np.zeros(len(c.parameters))))[0]
              for c in CATALOGUE]
     fits = {i: fit for i, fit in enumerate(first) if fit is not None and i != CUBIC}
