@@ -39,6 +39,8 @@ SOLVED, UNCONVERGED, JAMMED, TOO_LONG = 0, 1, 2, 3
 SWEEPS, ITERATIONS, TOLERANCE, LOCAL_TOLERANCE = 2000, 100, 1e-9, 1e-13
 #: share of the change of a reading, back and forth, above which a coefficient that rises over speed is bracketed
 STEEP = 0.75
+#: coefficient at the speed to which it turns a slip round, over that at rest, above which it cannot have done so
+RISES = 1.1
 #: largest product of a contact stiffness and its flexibility over one step: 8 steps in a period of the contact
 LARGEST_STIFFNESS = 0.1
 
@@ -187,7 +189,7 @@ def _sliding(law, friction, i, y, r, past, drive, loads, sign, normal):
         normal, read, slip, code = _read(law, friction, i, y, r, past, drive, loads, sign, (mu, normal), 0.5)
         if code != SOLVED:
             return 0.0, 0.0, OPEN, code
-        turned = slip * sign < 0.0 and read > rest
+        turned = slip * sign < 0.0 and read > RISES * rest
         if abs(read - mu) <= LOCAL_TOLERANCE and not turned:
             return normal, sign * mu * (kept + share * normal), SLIP if normal > 0.0 else OPEN, SOLVED
         steep = (read - mu) * change < 0.0 and abs(read - mu) > max(STEEP * abs(change), TOLERANCE)
