@@ -7,8 +7,6 @@ case, then the table of rates.
 """
 
 import argparse
-import json
-import time
 from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
@@ -16,42 +14,28 @@ from pathlib import Path
 import numpy as np
 from scipy.integrate import solve_ivp
 from scipy.linalg import eigh
+from scipy.signal import lfilter
 
 from pipeline.blind_trial.metrics.criteria import NAMING, NOTHING
 from pipeline.blind_trial.metrics.rates import line, rate
-from pipeline.contract.errors import BrakechainError
 from pipeline.products import Recording
 from pipeline.products import Run as RunProduct
 from pipeline.recordings.samples import channel
-from tests.studies.forced import ROOT, by_stages, shared_out
+from tests.diagnosis.decays import UNITS
+from tests.studies.forced import ROOT, by_stages, kept_answer, shared_out
+from tests.studies.sharp import NOISES, Plan
 
 #: disturbance -> effects that state it, so that they are no false alarm: a softening joint softens
 DISTURBANCES = {"white": (), "coloured": (), "flicker": (), "hum": (), "swelling": (), "bursts": (), "rounded": (),
                 "lost": (), "clock": ("sensor_delay",), "reassembled": (), "warming": ("thermal_softening",),
                 "beyond": ()}
-DRAWS, NOISES, LEVELS = 33, (0.01, 0.05), (1.0, 2.0, 3.0, 1.6)
-#: quantity -> (unit that it is recorded in, of its values in SI)
-QUANTITIES = {"displacement": "um", "velocity": "mm/s", "acceleration": "m/s^2"}
+DRAWS, LEVELS = 33, (1.0, 2.0, 3.0, 1.6)
 #: samples of a run; share of it over which the force rises and falls
 _SAMPLES, _RAMP = (900, 2000), 0.1
 #: steps of the model in a period of the highest mode, at least
 _STEPS = 100
 #: by how much joints differ from run to run, a clock runs fast, a joint softens over a run, a level is beyond others
 _STIFFNESS, _DAMPING, _FAST, _SOFTER, _BEYOND = 0.002, 0.03, 1e-4, 0.005, 10.0
-
-
-@dataclass(frozen=True)
-class Plan:
-    """What to make: the ``disturbance``, its ``draw`` and the ``noise`` as a share of each channel."""
-
-    disturbance: str
-    draw: int
-    noise: float
-
-    @property
-    def name(self):
-        """Name of the case."""
-        return f"{self.disturbance}_{self.draw}_{self.noise:g}"
 
 
 @dataclass(frozen=True)
@@ -107,24 +91,24 @@ def plans(disturbances=tuple(DISTURBANCES)):
 
 def made(plan):
     """Case of a Plan."""
-    random = np.random.default_rng([plan.draw, list(DISTURBANCES).index(plan.disturbance), 71])
+    random = np.random.default_rng([plan.draw, list(DISTURBANCES).index(plan.kind), 71])
     nominal, count = _drawn(random), int(random.integers(*_SAMPLES))
     true = Row(nominal.mass, *(values * random.lognormal(0, spread, len(values))
                                for values, spread in ((nominal.stiffness, 0.07), (nominal.damping, 0.2))))
     sampled = random.uniform(15, 120) * nominal.frequencies[-1]
-    instants, quantity = np.arange(count) / sampled, list(QUANTITIES)[int(random.integers(len(QUANTITIES)))]
+    instants, quantity = np.arange(count) / sampled, list(UNITS)[int(random.integers(len(UNITS)))]
     seen, forces = [], []
     for k, level in enumerate(LEVELS):
-        beyond = plan.disturbance == "beyond" and k == len(LEVELS) - 1
+        beyond = plan.kind == "beyond" and k == len(LEVELS) - 1
         force = shaking(random, instants[-1], nominal.frequencies, (0.9, 2.5) if beyond else (0.2, 1.5))
         strength = level * (_BEYOND if beyond else 1.0)
         forces.append(strength * np.array([force(t) for t in instants]))
-        softer = _SOFTER if plan.disturbance == "warming" else 0.0
-        late = instants * (1 + _FAST * (plan.disturbance == "clock"))
-        row = _reassembled(true, random) if plan.disturbance == "reassembled" else true
+        softer = _SOFTER if plan.kind == "warming" else 0.0
+        late = instants * (1 + _FAST * (plan.kind == "clock"))
+        row = _reassembled(true, random) if plan.kind == "reassembled" else true
         seen.append(strength * row.motion(force, late, softer)[quantity])
     std = plan.noise * np.array(seen[:3]).std(axis=(0, 2))
-    shown = [disturbed(plan.disturbance, x, std, random) for x in seen]
+    shown = [disturbed(plan.kind, x, std, random) for x in seen]
     recording = Recording(source=["SciPy"], runs={f"run_{k + 1}": _run(x, force, quantity, sampled)
                                                   for k, (x, force) in enumerate(zip(shown, forces, strict=True))})
     halvings = int(np.ceil(np.log2(max(_STEPS * nominal.frequencies[-1] / sampled, 1.0))))
@@ -165,8 +149,8 @@ def disturbed(kind, values, std, random):
     """``values`` (c, n) with the noise of a disturbance, of the root mean square ``std`` (c,); NaN where lost."""
     count, white = values.shape[1], random.standard_normal(values.shape)
     time = np.arange(count) / count
-    noise = {"coloured": lambda: _filtered(white, random.uniform(0.5, 0.97)), "flicker": lambda: _flicker(white),
-             "hum": lambda: 0.5 * white + _hum(random, time, count),
+    noise = {"coloured": lambda: lfilter([1.0], [1.0, -random.uniform(0.5, 0.97)], white),
+             "flicker": lambda: _flicker(white), "hum": lambda: 0.5 * white + _hum(random, time, count),
              "swelling": lambda: white * (0.2 + 2 * time), "bursts": lambda: white * _bursts(random, count)}
     shape = noise.get(kind, lambda: white)()
     seen = values + std[:, None] * shape / np.sqrt(np.mean(shape**2))
@@ -177,14 +161,6 @@ def disturbed(kind, values, std, random):
         for begin in random.integers(0, count, 12):
             seen[:, begin:begin + int(random.integers(1, 30))] = np.nan
     return seen
-
-
-def _filtered(white, correlation):
-    """Noise (c, n) of the given correlation from one sample to the next."""
-    noise = white.copy()
-    for k in range(1, noise.shape[1]):
-        noise[:, k] += correlation * noise[:, k - 1]
-    return noise
 
 
 def _flicker(white):
@@ -210,9 +186,8 @@ def _bursts(random, count):
 
 
 def _run(values, force, quantity, sampled):
-    unit = QUANTITIES[quantity]
-    size = {"um": 1e-6, "mm/s": 1e-3, "m/s^2": 1.0}[unit]
-    channels = {f"body_{k + 1}": channel(x / size, unit, quantity, sampled, 0.0, "case") for k, x in enumerate(values)}
+    channels = {f"body_{k + 1}": channel(x, UNITS[quantity], quantity, sampled, 0.0, "case")
+                for k, x in enumerate(values)}
     channels["force"] = channel(force, "N", "force", sampled, 0.0, "case", role="excitation")
     return RunProduct(description="", repeat_of="", channels=channels, conditions={}, frf={}, modes={}, lines={},
                       topography={}, friction={})
@@ -222,7 +197,7 @@ def document(row, quantity, std, step):
     """{section: settings} of the nominal case of a Row whose channels have the noise ``std`` (n,) in SI."""
     names = [f"body_{k + 1}" for k in range(len(row.mass))]
     joints = [f"joint_{k + 1}" for k in range(len(row.mass))]
-    unit = {"displacement": "m", "velocity": "m/s", "acceleration": "m/s^2"}[quantity]
+    unit = UNITS[quantity]
     return {
         "lumped": {
             "masses": {n: {"mass": f"{float(m)!r} kg", "moves": ["x"]} for n, m in zip(names, row.mass, strict=True)},
@@ -246,22 +221,13 @@ def solved(case, kept=4, **asked):
 
 def scored(plan, answer):
     """(whether told as it is, whether a false alarm) of an answer."""
-    foreign = [e["name"] for e in answer["effects"] if e["name"] not in DISTURBANCES[plan.disturbance]]
+    foreign = [e["name"] for e in answer["effects"] if e["name"] not in DISTURBANCES[plan.kind]]
     return answer["verdict"] in NOTHING, answer["verdict"] in NAMING and bool(foreign)
 
 
 def solve(folder, kept, plan):
     """(plan, whether told as it is, whether a false alarm) of a Plan; prints its line."""
-    kept_file = folder / f"{plan.name}.json"
-    if not kept_file.exists():
-        case, begun = made(plan), time.process_time()
-        try:
-            answer = solved(case, kept)
-        except BrakechainError as error:
-            answer = {"verdict": "refused", "effects": [], "reasons": [str(error)]}
-        folder.mkdir(parents=True, exist_ok=True)
-        kept_file.write_text(json.dumps({**answer, "cpu_seconds": time.process_time() - begun}, indent=1) + "\n")
-    answer = json.loads(kept_file.read_text())
+    answer = kept_answer(folder / f"{plan.name}.json", partial(made, plan), partial(solved, kept=kept))
     right, alarm = scored(plan, answer)
     named = ", ".join(f"{e['name']} at {e['place']}" for e in answer["effects"])
     print(f"{plan.name:<22} -> {'FALSE ALARM ' if alarm else ''}{answer['verdict']:<10} {named:<40}"
@@ -273,7 +239,7 @@ def table(results):
     """Lines of rates from [(Plan, whether told as it is, whether a false alarm)]."""
     rows = [("false alarms", [alarm for _, _, alarm in results]), ("told as it is", [right for _, right, _ in results])]
     for kind in DISTURBANCES:
-        own = [(right, alarm) for plan, right, alarm in results if plan.disturbance == kind]
+        own = [(right, alarm) for plan, right, alarm in results if plan.kind == kind]
         if own:
             rows += [(f"{kind}: false alarms", [a for _, a in own]), (f"{kind}: told as it is", [r for r, _ in own])]
     return [line(name, rate(hits)) for name, hits in rows]

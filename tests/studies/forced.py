@@ -123,14 +123,21 @@ def run(plan, folder, **asked):
 
 def answered(folder, solve):
     """The answer kept in a case's folder, else that of ``solve()``, with its CPU seconds; a refusal is one, too."""
-    kept = folder / "answer.json"
+    return kept_answer(folder / "answer.json", lambda: None, lambda case: solve())
+
+
+def kept_answer(kept, make, solve, told=lambda case, answer: {}):
+    """The answer in the file ``kept``, else that of ``solve(make())``, with the CPU seconds of solving and what
+    ``told(case, answer)`` adds; a refusal is one, too."""
     if not kept.exists():
-        begun = time.process_time()
+        case, begun = make(), time.process_time()
         try:
-            answer = solve()
+            answer = solve(case)
         except BrakechainError as error:
             answer = {"verdict": "refused", "effects": [], "reasons": [str(error)]}
-        kept.write_text(json.dumps({**answer, "cpu_seconds": time.process_time() - begun}, indent=1) + "\n")
+        answer = {**answer, "cpu_seconds": time.process_time() - begun}
+        kept.parent.mkdir(parents=True, exist_ok=True)
+        kept.write_text(json.dumps({**answer, **told(case, answer)}, indent=1) + "\n")
     return json.loads(kept.read_text())
 
 

@@ -7,8 +7,6 @@ answer is not solved again. Prints one line a case, then the table of rates.
 """
 
 import argparse
-import json
-import time
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
@@ -16,17 +14,10 @@ from pathlib import Path
 import numpy as np
 
 from pipeline.blind_trial.metrics.rates import line, rate
-from pipeline.contract.errors import BrakechainError
-from pipeline.contract.settings import fill
-from pipeline.diagnosis.output.files import as_json
 from pipeline.products import Channel, Recording
 from pipeline.products import Run as RunProduct
-from stages.bench import bench
-from stages.diagnosis import diagnosis
-from stages.lumped import lumped
-from stages.reduced_model import reduced_model
 from tests.physics.time_stepping.event_driven import Masses
-from tests.studies.forced import ROOT, shared_out
+from tests.studies.forced import ROOT, by_stages, kept_answer, shared_out
 
 JOINTS, ROWS = ("mount", "coupling"), np.array([[1.0, 0.0], [-1.0, 1.0]])
 MASS, STIFFNESS, DAMPING = np.array([1.0, 0.6]), np.array([900.0, 500.0]), np.array([2.0, 1.0])
@@ -158,15 +149,7 @@ def document(truth, stop=False):
 
 def solved(truth, kept=4, stop=False, **asked):
     """diagnosis.json of a Truth, without what it hides."""
-    case = document(truth, stop)
-    case["diagnosis"] |= {"kept": kept, **asked}
-
-    def section(stage):
-        return fill(stage.settings, case.get(stage.name, {}), stage.name)
-
-    model = reduced_model(lumped(settings=section(lumped)), settings=section(reduced_model))
-    shown = bench(model, None, truth.recording, settings=section(bench))
-    return as_json(diagnosis(model, None, truth.recording, shown, settings=section(diagnosis)))
+    return by_stages(document(truth, stop), truth.recording, kept=kept, **asked)
 
 
 def right(plan, truth, answer):
@@ -178,18 +161,9 @@ def right(plan, truth, answer):
 
 def solve(folder, kept, plan):
     """(plan, whether right, CPU seconds) of a Plan; prints its line."""
-    kept_file, truth = folder / f"{plan.name}.json", None
-    if not kept_file.exists():
-        truth, begun = made(plan), time.process_time()
-        try:
-            answer = solved(truth, kept, plan.kind == "stop")
-        except BrakechainError as error:
-            answer = {"verdict": "refused", "effects": [], "reasons": [str(error)]}
-        answer = {**answer, "cpu_seconds": time.process_time() - begun, "hidden": truth.effects,
-                  "right": right(plan, truth, answer)}
-        folder.mkdir(parents=True, exist_ok=True)
-        kept_file.write_text(json.dumps(answer, indent=1) + "\n")
-    answer = json.loads(kept_file.read_text())
+    answer = kept_answer(folder / f"{plan.name}.json", partial(made, plan),
+                         partial(solved, kept=kept, stop=plan.kind == "stop"),
+                         lambda truth, answer: {"hidden": truth.effects, "right": right(plan, truth, answer)})
     named = ", ".join(f"{e['name']} at {e['place']}" for e in answer["effects"])
     known = ", ".join(f"{name} at {place}" for name, place in answer["hidden"])
     print(f"{plan.name:<24} {known:<44} -> {answer['verdict']:<10} {named:<46} {answer['cpu_seconds']:.0f} s",

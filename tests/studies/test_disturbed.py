@@ -4,7 +4,9 @@ import numpy as np
 import pytest
 
 from pipeline.effects import CATALOGUE
-from tests.studies.disturbed import DISTURBANCES, QUANTITIES, Plan, Row, disturbed, made, plans, scored, solved, table
+from tests.diagnosis.decays import UNITS
+from tests.studies.disturbed import DISTURBANCES, Row, disturbed, made, plans, scored, solved, table
+from tests.studies.sharp import Plan
 
 
 def test_a_rate_of_one_in_a_hundred_can_be_told():
@@ -51,7 +53,7 @@ def test_a_joint_that_softens_moves_otherwise():
 def test_a_case_has_four_runs_of_one_quantity(kind):
     case = made(Plan(kind, 1, 0.01))
     quantities = {sensor["quantity"] for sensor in case.document["lumped"]["sensors"].values()}
-    assert len(quantities) == 1 and quantities <= set(QUANTITIES) and len(case.recording.runs) == 4
+    assert len(quantities) == 1 and quantities <= set(UNITS) and len(case.recording.runs) == 4
 
 
 def test_a_run_lies_beyond_the_others():

@@ -116,8 +116,8 @@ class Refitter:
         results = self._rivalled(results, starts, beside_a_first)
         if self.explained(results) or self.null.reaches_noise(rules.noise_uncertainty) or self.null.unordered:
             return results
-        further, best = promising[kept:_LIKELY * kept] if beside_a_first else promising[kept:], leader(results)
-        found = self.of(further, starts, results)
+        further = promising[kept:_LIKELY * kept] if beside_a_first else promising[kept:]
+        best, found = leader(results), self.of(further, starts, results)
         if best is not None and leader(found) == best and found[best].fit is results[best].fit:
             return found        # its imitators have begun
         return self._rivalled(found, starts, beside_a_first)
@@ -239,12 +239,11 @@ class Refitter:
         or that what its step was wrong by keeps from there."""
         look, top = partial(refined, self.problem, self.rules.refit), leader(results)
         enough = self._enough(results.values())
-        leading = [i for i, r in results.items() if self._may_lead(r.fit, enough)]
-        if top in leading:
+        if top is not None and self._may_lead(results[top].fit, enough):
             finer = look(results[top].fit)
             enough += max(results[top].fit.objective - finer.objective, 0.0)
             results = results | {top: results[top]._replace(fit=finer)}
-            leading = [i for i, r in results.items() if i != top and self._may_lead(r.fit, enough)]
+        leading = [i for i, r in results.items() if i != top and self._may_lead(r.fit, enough)]
         finer = self.fan_out(look, [results[i].fit for i in leading])
         return results | {i: results[i]._replace(fit=fit) for i, fit in zip(leading, finer, strict=True)}
 

@@ -137,12 +137,13 @@ def directions(problem, null, candidate, shapes=None, steps=STEPS):
         for latent in sides:        # a gap that opens changes nothing where it is out of reach
             full = np.concatenate((null.latent, latent))
             moved, error = whitened(problem, null.noises, hypothesis, full, null.runs)
-            if moved is None or np.any(base - np.concatenate(moved)):
+            change = None if moved is None else base - np.concatenate(moved)
+            if change is None or change.any():
                 break
-        if moved is None:
+        if change is None:
             failure = str(error)
             continue
-        vectors.append((base - np.concatenate(moved)) / step)
+        vectors.append(change / step)
         signs.append(sign)
         tried.append(latent)
     vectors = np.array(vectors).reshape(len(vectors), len(base))

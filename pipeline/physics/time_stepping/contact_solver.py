@@ -182,14 +182,14 @@ def _sliding(law, friction, i, y, r, past, drive, loads, sign, normal):
     more than enough.
     """
     share, kept = loads
-    mu = coefficient(friction, i, (kept + share * normal) / law.area[i], abs(drive[0] - past[3]), sign)
-    rest = coefficient(friction, i, (kept + share * normal) / law.area[i], 0.0, sign)
+    pressure = (kept + share * normal) / law.area[i]
+    mu = coefficient(friction, i, pressure, abs(drive[0] - past[3]), sign)
     highest, change = mu, 0.0
     for _ in range(ITERATIONS):
         normal, read, slip, code = _read(law, friction, i, y, r, past, drive, loads, sign, (mu, normal), 0.5)
         if code != SOLVED:
             return 0.0, 0.0, OPEN, code
-        turned = slip * sign < 0.0 and read > RISES * rest
+        turned = slip * sign < 0.0 and read > RISES * coefficient(friction, i, pressure, 0.0, sign)
         if abs(read - mu) <= LOCAL_TOLERANCE and not turned:
             return normal, sign * mu * (kept + share * normal), SLIP if normal > 0.0 else OPEN, SOLVED
         steep = (read - mu) * change < 0.0 and abs(read - mu) > max(STEEP * abs(change), TOLERANCE)
