@@ -8,14 +8,14 @@ A null hypothesis that has not converged lets every candidate win: it is refitte
 that lacks physics may have no smooth optimum at all: then a candidate counts only where it goes far below the null.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import Optional
 
 import numpy as np
 
 from pipeline.contract.errors import BrakechainError, ConvergenceError
 from pipeline.inference import several
-from pipeline.inference.decision import second_effect, several_laws
+from pipeline.inference.decision import other_form, second_effect, several_laws
 from pipeline.inference.decision.decision_rules import Decision, decide
 from pipeline.inference.decision.weighing import Weighing, weigh
 from pipeline.inference.fitting.calibration import Calibration, recalibrate
@@ -53,7 +53,7 @@ class Diagnosis:
     ``base``: the Diagnosis that came before a pair, whose nominal hypothesis takes the first effect as known, or before
     a set of several, which takes all but one as known; ``refits``: what was weighed. ``further``: what was tried beside
     the leading effect and did not matter, if anything. ``combinations``: the several Combinations that were tried;
-    ``laws``: how many were fitted as one set.
+    ``laws``: how many were fitted as one set; ``objected`` {law: why it is of another form}.
     """
 
     calibration: Calibration
@@ -64,6 +64,7 @@ class Diagnosis:
     further: Optional["Diagnosis"] = None
     combinations: tuple = ()
     laws: int = 1
+    objected: dict = field(default_factory=dict)
 
     @property
     def nominal(self):
@@ -121,8 +122,9 @@ def diagnose(problem, budget, catalogue, settings=None, fan_out=map, motions=Non
     ``fan_out(function, items)`` maps as the builtin does. Where one effect is not enough, the set of laws that the
     equation of motion asks for along ``motions`` (Motions, where all are measured) is fitted together; what these do
     not show is tried in pairs with each of the leading effects by the same rules, the first taken as known. A further
-    effect has to explain more than the laws of the others can be wrong by (``several``, ``second_effect``). Raises
-    ConvergenceError where the nominal model has no fit.
+    effect has to explain more than the laws of the others can be wrong by (``several``, ``second_effect``). What a named
+    law leaves must not move as other laws at its place do (``other_form``). Raises ConvergenceError where the nominal
+    model has no fit.
     """
     settings = settings or Settings()
     asked = Asked(problem, budget, tuple(sorted(catalogue, key=lambda c: c.elaborate)), settings, fan_out)
@@ -131,7 +133,7 @@ def diagnose(problem, budget, catalogue, settings=None, fan_out=map, motions=Non
         single = asked.along(single, motions) if motions else asked.by_the_screen(asked.pairs(single, asked.catalogue))
     if settings.tied_seconds and single.decision.verdict == "unknown":
         return _tied_pair(problem, budget, catalogue, settings, fan_out, single)
-    return single
+    return asked.of_its_form(single)
 
 
 @dataclass(frozen=True)
@@ -176,9 +178,9 @@ class Asked:
 
     def along(self, single, motions):
         """The Diagnosis of several laws, selected along Motions, or ``single``; what motions do not show in pairs."""
-        rules = self.settings.rules
-        if single.named and (_reaches_noise(single, rules)
-                             or not second_effect.has_room(single.named[0].fit, _explained(single), rules)):
+        rules, best = self.settings.rules, next((w.fit for w in single.named), None)
+        if best is not None and (_reaches_noise(single, rules)
+                                 or not second_effect.has_room(best, best.betters(single.null), rules)):
             return single
         selection = several.along_motions(single.null, self.catalogue, motions, rules.decision, self.fan_out)
         if selection is None:
@@ -207,7 +209,7 @@ class Asked:
         """
         tried, wider = selection.tried, (selection.wider,) if single.decision.verdict == "unknown" else ()
         lacking = []        # sets that leave too much: so do those that are parts of them
-        for members in _sets(selection.members, *wider):
+        for members in several.sets_and_parts(selection.members, *wider):
             if any(set(members) < larger for larger in lacking):
                 continue
             whole, combination, enough = self._set(single, selection, members)
@@ -294,6 +296,19 @@ class Asked:
         dispensable = alone.decision.verdict in second_effect.NAMING and not second_effect.remains(first, pair, rules)
         return (alone if dispensable or second_effect.better_alone(alone, pair) else pair), True
 
+    def of_its_form(self, told):
+        """A Diagnosis ``told``, decided anew without laws that it names and that are of another form."""
+        settings = self.settings
+        while told.decision.verdict == "missing":
+            first = told.named[0]
+            why = other_form.objection(told, first, self.catalogue, settings.rules.decision, self.fan_out, settings.seed)
+            if not why:
+                break
+            objected = told.objected | {first.candidate.name: why}
+            weighing, decision = _weighed(told.refits, settings, told.base and told.recalibrated, told.laws, objected)
+            told = replace(told, weighing=weighing, decision=decision, objected=objected)
+        return told
+
 
 def _reaches_noise(diagnosis, rules):
     """Whether a Diagnosis leaves nothing to explain: the nominal model, or a candidate, reaches the noise on all runs.
@@ -322,17 +337,6 @@ def _where_felt(elaborate, simple, screen, refits):
     return tuple(c for c in elaborate if places(c) & felt)
 
 
-def _sets(*members):
-    """[(index, ...)]: each of the sets ``members``, followed by what is left without its last ones, none twice."""
-    smaller = [each[:count] for each in members for count in range(len(each), 1, -1)]
-    return list({frozenset(each): each for each in smaller}.values())
-
-
-def _explained(single):
-    """Decrease of the objective that what a Diagnosis names explains."""
-    return single.named[0].fit.betters(single.null)
-
-
 def _decided(refits, settings, base, laws=1):
     """Diagnosis of Refits, the last of so many ``laws``. ConvergenceError where nothing is missing but nothing
     converged."""
@@ -344,13 +348,15 @@ def _decided(refits, settings, base, laws=1):
     return Diagnosis(refits.calibration, weighing, decision, base, refits, laws=laws)
 
 
-def _weighed(refits, settings, null, laws):
-    """(Weighing, Decision) of Refits; of a set of ``laws`` together, as it stands beside the Fit ``null``."""
+def _weighed(refits, settings, null, laws, objected=None):
+    """(Weighing, Decision) of Refits, laws ``objected`` to {name: why}; of a set of ``laws`` together, as it stands
+    beside the Fit ``null``."""
     if laws > 1:
         settings = several_laws.allowing(settings, laws)
     weighing, calibration = weigh(refits, settings), refits.calibration
     if laws > 1:
         weighing = several_laws.against(null, calibration.problem, calibration.budget, weighing, settings.rules)
+    weighing = weighing.objected(objected or {})
     return weighing, decide(weighing.runs, [w.statistics for w in weighing.weighed], settings.rules.decision)
 
 
@@ -370,7 +376,7 @@ def over_noise(diagnosis, settings, factors):
     told = []
     for factor in factors:
         _, decision = _weighed(diagnosis.refits.at_noise(factor), settings, diagnosis.recalibrated.at_noise(factor),
-                               diagnosis.laws)
+                               diagnosis.laws, diagnosis.objected)
         told.append(VerdictAtNoise(float(factor), decision.verdict, tuple(c.name for c in decision.named)))
     return told
 

@@ -92,6 +92,7 @@ class DecisionRules:
                                           " the law of the first may be wrong by a tenth of its force")
     law_error: float = threshold(0.05, "relative standard deviation of the force of a law, by which a further law is"
                                        " not needed; a law whose shape adapts may leave no more than its square")
+    form_p: float = threshold(1e-3, "p-value at which what a named law leaves moves as other laws at its place do")
     along_motions: float = threshold(30.0, "noise powers that the best set of laws may leave along measured motions;"
                                            " beyond, pairs are tried before it: what switches shows badly along noisy"
                                            " motions")

@@ -180,3 +180,9 @@ def _necessary(columns, gains, evidence_gain, share):
         if needed:
             return tuple(sorted(members, key=lambda m: -lost[m]))
     return ()
+
+
+def sets_and_parts(*members):
+    """[(index, ...)]: each of the sets ``members``, followed by what is left without its last ones, none twice."""
+    smaller = [each[:count] for each in members for count in range(len(each), 1, -1)]
+    return list({frozenset(each): each for each in smaller}.values())

@@ -87,6 +87,12 @@ class Weighing:
     drift: Drift
     failures: dict
 
+    def objected(self, reasons):
+        """The same with ``reasons`` {name of a candidate: why its law is of another form} among what it breaks."""
+        return replace(self, weighed=tuple(
+            w if w.candidate.name not in reasons else replace(w, statistics=replace(
+                w.statistics, varying=(*w.statistics.varying, reasons[w.candidate.name]))) for w in self.weighed))
+
 
 def weigh(refits, settings):
     """Weighing of the Refits of a screened catalogue."""
