@@ -9,6 +9,7 @@ that lacks physics may have no smooth optimum at all: then a candidate counts on
 """
 
 from dataclasses import dataclass, field, replace
+from functools import partial
 from typing import Optional
 
 import numpy as np
@@ -122,9 +123,9 @@ def diagnose(problem, budget, catalogue, settings=None, fan_out=map, motions=Non
     ``fan_out(function, items)`` maps as the builtin does. Where one effect is not enough, the set of laws that the
     equation of motion asks for along ``motions`` (Motions, where all are measured) is fitted together; what these do
     not show is tried in pairs with each of the leading effects by the same rules, the first taken as known. A further
-    effect has to explain more than the laws of the others can be wrong by (``several``, ``second_effect``). What a named
-    law leaves must not move as other laws at its place do (``other_form``). Raises ConvergenceError where the nominal
-    model has no fit.
+    effect has to explain more than the laws of the others can be wrong by (``several``, ``second_effect``). What a
+    named law leaves must not move as other laws at its place do (``other_form``). Raises ConvergenceError where the
+    nominal model has no fit.
     """
     settings = settings or Settings()
     asked = Asked(problem, budget, tuple(sorted(catalogue, key=lambda c: c.elaborate)), settings, fan_out)
@@ -299,9 +300,11 @@ class Asked:
     def of_its_form(self, told):
         """A Diagnosis ``told``, decided anew without laws that it names and that are of another form."""
         settings = self.settings
+        asked = partial(other_form.objection, catalogue=self.catalogue, rules=settings.rules.decision,
+                        fan_out=self.fan_out, seed=settings.seed)
         while told.decision.verdict == "missing":
             first = told.named[0]
-            why = other_form.objection(told, first, self.catalogue, settings.rules.decision, self.fan_out, settings.seed)
+            why = asked(told, first)
             if not why:
                 break
             objected = told.objected | {first.candidate.name: why}

@@ -1,10 +1,10 @@
 """Whether what a named law leaves moves as other laws at its place would: then it is of another form.
 
 What is left is read along the directions g in which other laws at the place would change the prediction beside the
-named one, cleaned of what any values explain: the largest |g'r| / |g|. How large that is by chance the
-residual itself tells, each channel of each run shifted round by a random number of samples: so it keeps the level and
-the colour of its noise, whatever was stated of them, and is parted from the motions. A sum of squares cannot see what is
-less than the noise power is uncertain by; along a few directions it is plain.
+named one, cleaned of what any values explain: the largest |g'r| / |g|. How large that is by chance the residual itself
+tells, each channel of each run shifted round by a random number of samples: so it keeps the level and the colour of
+its noise, whatever was stated of them, and is parted from the motions. A sum of squares cannot see what is less than
+the noise power is uncertain by; along a few directions it is plain.
 """
 
 from dataclasses import dataclass

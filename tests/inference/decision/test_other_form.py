@@ -21,8 +21,8 @@ RULES = DEFAULTS.decision
 
 
 def named(seed, colour=0.0, scale=1.0, rest=0.0, samples=300):
-    """(Problem that takes effect_1 as known, its Fit, [effect_2]) with the amount ``rest`` of effect_2 in the truth, all
-    columns smooth, in noise whose neighbours have this correlation and which is ``scale`` times what is stated."""
+    """(Problem that takes effect_1 as known, its Fit, [effect_2]) with the amount ``rest`` of effect_2 in the truth,
+    all columns smooth, in noise whose neighbours have this correlation and which is ``scale`` times what is stated."""
     whole, _, catalogue, tables = linear.problem((2, 1, 1), 3, samples, seed=seed)
     random, runs = np.random.default_rng([seed, 1]), []
     for run in whole.runs:
@@ -112,7 +112,7 @@ def test_the_right_law_is_named_all_the_same(seed):
 
 
 def test_a_law_of_another_form_is_not_named_but_leads(monkeypatch):
-    monkeypatch.setattr(other_form, "objection", lambda _, law, *rest: f"{law.candidate.name} is of another form")
+    monkeypatch.setattr(other_form, "objection", lambda _, law, **rest: f"{law.candidate.name} is of another form")
     problem, settings = bench(5, 0.03, stiffness=430.0, extra=dry), Settings()
     told = diagnose(problem, budget(problem), CATALOGUE, settings)
     assert (told.decision.verdict, told.decision.leading.name) == ("unknown", "coulomb")
