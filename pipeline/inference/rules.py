@@ -96,7 +96,8 @@ class DecisionRules:
     along_motions: float = threshold(30.0, "noise powers that the best set of laws may leave along measured motions;"
                                            " beyond, pairs are tried before it: what switches shows badly along noisy"
                                            " motions")
-    second_at_noise: float = threshold(1e-4, "the same where both together reach the noise on all runs")
+    second_at_noise: float = threshold(1e-4, "the same where both together reach the noise on all runs, at another"
+                                             " place than the first; at its place the square of `law_error`")
     misfit: float = threshold(3.0, "standard deviations of chi^2 beyond which the nominal model does not fit")
     noise_uncertainty: float = threshold(0.05, "relative uncertainty of the noise power")
     moved: float = threshold(0.01, "p-value below which nominal values count as wrong")

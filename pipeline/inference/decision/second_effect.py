@@ -39,15 +39,18 @@ def matters(pair, explained, rules):
     """Whether a ``pair`` names a second effect that is more than an error of the first, which ``explained`` so much.
 
     A wrong law of the first is seldom made good down to the noise, on runs that were not fitted too: what does that may
-    be smaller, or give nominal values back to their priors.
+    be smaller, or give nominal values back to their priors; at the place of the first it must still exceed the error
+    that any law has.
     """
     decision, excluded = rules.decision, rules.calibration.excluded
-    odd = len(pair.null.excluded(excluded))
+    odd, places = len(pair.null.excluded(excluded)), {place for _, place in pair.null.hypothesis.effects}
 
     def is_more(second):
         gained = second.fit.betters(pair.null)
         if second.fit.reaches_noise(decision.noise_uncertainty) and not second.statistics.held_out_left:
-            return gained >= decision.second_at_noise * explained or len(second.fit.excluded(excluded)) < odd
+            beside = places & {place for _, place in second.candidate.effects}
+            least = decision.law_error**2 if beside else decision.second_at_noise
+            return gained >= least * explained or len(second.fit.excluded(excluded)) < odd
         return gained >= decision.second_share * explained
 
     return pair.decision.verdict in NAMING and any(is_more(second) for second in pair.named)

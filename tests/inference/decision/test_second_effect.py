@@ -37,6 +37,16 @@ def test_a_second_effect_must_explain_a_fraction_of_what_the_first_does(solved, 
     assert not second_effect.matters(tie, explained, DEFAULTS), "only what is named matters"
 
 
+@pytest.mark.parametrize("place, share, matters", [("there", 1e-3, True), ("here", 1e-3, False), ("here", 5e-3, True)])
+def test_at_the_place_of_the_first_a_faint_one_may_be_an_error_of_its_law(solved, place, share, matters):
+    pair, (second,) = solved[0], solved[0].named
+    known = replace(pair.null.hypothesis, effects=(("first", place),))
+    null = replace(pair.null, hypothesis=known)
+    beside = replace(pair, calibration=replace(pair.calibration, null=null))
+    assert second.candidate.effects == (("effect_1", "here"),)
+    assert second_effect.matters(beside, second.fit.betters(null) / share, DEFAULTS) is matters
+
+
 def test_the_second_begins_without_the_first(solved):
     single, catalogue = solved
     first = next(c for c in catalogue if c.name == "effect_1")
