@@ -25,6 +25,8 @@ CHAINS = {
     "lumped_modes": ("lumped", "reduced_model", "complex_modes", "report"),
     "lumped_squeal": ("lumped", "reduced_model", "complex_modes", "recording", "line_evidence", "report"),
     "worn_pad": ("surface", "effects", "micro_friction", "friction_map", "recording", "diagnosis", "report"),
+    "measured_friction": ("surface", "effects", "micro_friction", "friction_map", "recording", "friction_update",
+                          "report"),
     "pin_squeal": ("surface", "interface_law", "pin_on_disc", "reduced_model", "complex_modes", "recording",
                    "diagnosis", "report"),
 }

@@ -3,10 +3,13 @@
 import hashlib
 from typing import Literal
 
+import numpy as np
+
 from pipeline.contract import ConfigError, Context, InputFile, OneOf, Quantity, Section, option, stage
 from pipeline.contract.units import in_si
 from pipeline.products import Condition, Recording, Run
 from pipeline.recordings.columns import read_matlab, read_table
+from pipeline.recordings.friction import measured_friction
 from pipeline.recordings.lines import line_list
 from pipeline.recordings.neutral import read_neutral
 from pipeline.recordings.samples import channel, even_rate, on_grid, stretch
@@ -84,6 +87,28 @@ class Neutral(Section):
     file: InputFile = option(..., "the file; measured:NAME for a public one")
 
 
+class FrictionColumn(Section):
+    """One column of a table of measured friction."""
+
+    column: str = option(..., "its name in the file")
+    unit: str = option("1", "unit of its numbers, such as %, MPa, m/s, km or degC")
+
+
+class FrictionTable(Section):
+    """A text table of measured coefficients of friction: one run."""
+
+    kind: Literal["friction"] = "friction"
+    file: InputFile = option(..., "the file; measured:NAME for a public one")
+    delimiter: str | None = option(None, "what separates columns; none = tab, semicolon or comma, as the head shows")
+    skip: int = option(0, "lines before the head", ge=0)
+    run: str = option(..., "name of the run")
+    description: str = option("", "what was done")
+    columns: dict[str, FrictionColumn] = option(
+        ..., "friction, and of friction_std, pressure, speed, distance and temperature what differs from row to row",
+        min_length=1)
+    values: dict[str, Given] = option({}, "the same where one value holds for all rows")
+
+
 class LineList(Section):
     """Lines of one spectrum, or modes of one table."""
 
@@ -111,7 +136,7 @@ class PublishedLines(Section):
 class Settings(Section):
     """Files of the bench, each with the meaning of its columns."""
 
-    files: tuple[OneOf(Matlab, Table, Uff, Neutral, PublishedLines), ...] = option(
+    files: tuple[OneOf(Matlab, Table, Uff, Neutral, FrictionTable, PublishedLines), ...] = option(
         (), "files in any order; at least one")
 
 
@@ -175,6 +200,19 @@ def _from_uff(file):
     return {file.run: _run(channels, file, f"{file.file}", frf=frf, modes=modes)}
 
 
+def _from_friction(file):
+    """The run of a table of measured friction."""
+    where, columns = f"{file.file}", read_table(file.file, file.delimiter, file.skip)
+    given = {name: (np.full(len(next(iter(columns.values()))), stated.value), stated.unit, f"{where}: values.{name}")
+             for name, stated in file.values.items()}
+    for name, wanted in file.columns.items():
+        if wanted.column not in columns:
+            raise ConfigError(f"{where}: columns.{name}.column", f"one of {', '.join(columns)}", repr(wanted.column))
+        given[name] = columns[wanted.column], wanted.unit, f"{where}: columns.{name}"
+    return {file.run: Run(description=file.description, repeat_of="",
+                          friction={"table": measured_friction(given, where)})}
+
+
 def _from_facts(file):
     facts = load(file.file)
     return {name: _run({}, run, f"{file.file}: runs.{name}", lines={
@@ -185,7 +223,8 @@ def _from_facts(file):
 #: kind of file -> its runs by name
 READ = {"matlab": lambda file: _from_columns(file, read_matlab(file.file)),
         "table": lambda file: _from_columns(file, read_table(file.file, file.delimiter, file.skip)),
-        "uff": _from_uff, "lines": _from_facts, "hdf5": lambda file: read_neutral(file.file)}
+        "uff": _from_uff, "friction": _from_friction, "lines": _from_facts,
+        "hdf5": lambda file: read_neutral(file.file)}
 
 
 def _run(channels, stated, where, **more):
@@ -193,10 +232,8 @@ def _run(channels, stated, where, **more):
     for name, given in stated.conditions.items():
         value, unit = in_si(given.value, given.unit, f"{where}: conditions.{name}.unit")
         conditions[name] = Condition(value=[value], time=[0.0], unit=unit)
-    empty = {kind: {} for kind in ("frf", "modes", "lines", "topography", "friction")}
     return Run(description=stated.description, repeat_of=getattr(stated, "repeat_of", ""), conditions=conditions,
-               channels=channels,
-               **{**empty, **more})
+               channels=channels, **more)
 
 
 def _check_repeats(runs):

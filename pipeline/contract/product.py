@@ -37,9 +37,12 @@ def part(meaning):
     return field(metadata={"meaning": meaning})
 
 
-def parts(meaning):
-    """Declare nested products by name; the annotation of the field is ``dict[str, Product]``."""
-    return part(meaning)
+def parts(meaning, empty=False):
+    """Declare nested products by name; the annotation of the field is ``dict[str, Product]``.
+
+    ``empty``: there are none where none are given; else a product without them is refused.
+    """
+    return field(default_factory=dict, metadata={"meaning": meaning}) if empty else part(meaning)
 
 
 def held_by(hint):

@@ -21,7 +21,7 @@ from pipeline.products.diagnosis import (
     Located,
     SquealCheck,
 )
-from pipeline.products.friction import FrictionDescriptions, FrictionMap, InterfaceLaw, MicroFriction
+from pipeline.products.friction import FrictionDescriptions, FrictionMap, FrictionUpdate, InterfaceLaw, MicroFriction
 from pipeline.products.limit_cycle import LimitCycle
 from pipeline.products.lumped import Lumped
 from pipeline.products.motion import ComplexModes, Convergence, Multibody, Probability, Transient
@@ -46,7 +46,7 @@ from pipeline.products.surfaces import Surface
 
 __all__ = ["BeamGeometry", "BeamOnBeam", "Bench", "BenchRun", "Body", "Channel", "Comparison", "ComplexModes",
            "Condition", "Convergence", "DiagnosedRun", "Diagnosis", "Effects", "Follows", "FrequencyResponse", "FrictionDescriptions",
-           "FrictionMap", "Incidence", "InterfaceLaw", "LatentForce", "LatentPrediction", "LimitCycle", "LineEvidence", "Lines", "Located", "LockIn",
+           "FrictionMap", "FrictionUpdate", "Incidence", "InterfaceLaw", "LatentForce", "LatentPrediction", "LimitCycle", "LineEvidence", "Lines", "Located", "LockIn",
            "Lumped", "MeasuredFriction", "MeasuredModes", "MicroFriction", "MotionScatter", "Multibody", "PinOnDisc", "Probability",
            "Recording", "ReducedModel", "Report", "Response", "Run", "Rupture", "Squeal", "SquealCheck", "Structure", "Surface", "Topography",
            "Transient"]

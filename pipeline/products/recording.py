@@ -94,13 +94,14 @@ class Run:
 
     description: Array = text("", "what was done")
     repeat_of: Array = text("", "name of the run that this one repeats; empty for none")
-    conditions: dict[str, Condition] = parts("conditions by name: pressure, speed, normal_load, temperature, ...")
-    channels: dict[str, Channel] = parts("sampled signals by name")
-    frf: dict[str, FrequencyResponse] = parts("frequency response functions by name")
-    modes: dict[str, MeasuredModes] = parts("identified modes by name")
-    lines: dict[str, Lines] = parts("published peak lists by name")
-    topography: dict[str, Topography] = parts("height maps by name")
-    friction: dict[str, MeasuredFriction] = parts("measured friction by name")
+    conditions: dict[str, Condition] = parts("conditions by name: pressure, speed, normal_load, temperature, ...",
+                                             empty=True)
+    channels: dict[str, Channel] = parts("sampled signals by name", empty=True)
+    frf: dict[str, FrequencyResponse] = parts("frequency response functions by name", empty=True)
+    modes: dict[str, MeasuredModes] = parts("identified modes by name", empty=True)
+    lines: dict[str, Lines] = parts("published peak lists by name", empty=True)
+    topography: dict[str, Topography] = parts("height maps by name", empty=True)
+    friction: dict[str, MeasuredFriction] = parts("measured friction by name", empty=True)
 
 
 @product(version=2)

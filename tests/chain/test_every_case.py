@@ -18,7 +18,7 @@ SLOW = {**dict.fromkeys(("disc_brake", "disc_brake_paper_joints", "bimaterial_ru
                         [pytest.mark.slow, pytest.mark.study]),
         **dict.fromkeys(("emps", "silverbox", "tribometer"),
                         [pytest.mark.slow, pytest.mark.study, pytest.mark.measured]),
-        "disc_brake_scanned": [pytest.mark.slow, pytest.mark.measured],
+        **dict.fromkeys(("disc_brake_scanned", "tribometer_map"), [pytest.mark.slow, pytest.mark.measured]),
         "emps_recording": [pytest.mark.measured]}
 CASES = [pytest.param(path, marks=SLOW.get(path.stem, ()), id=path.stem)
          for path in sorted((ROOT / "configs").glob("*.yaml")) if not path.stem.endswith("_quick")]

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from pipeline.contract import Array, ProductError, product, quantity
+from pipeline.contract import Array, ProductError, parts, product, quantity
 from tests.contract.toy.products import Inner, Shelf, Source
 
 GOOD = {"time": [0.0, 1.0], "label": ["a"], "signal": np.zeros((1, 2)), "root": [1j], "flag": [1], "scale": 1.0,
@@ -53,3 +53,16 @@ def test_unknown_unit_is_refused():
 def test_refuses_parts(points, message):
     with pytest.raises(ProductError, match=message):
         Shelf(points=points)
+
+
+def test_parts_are_asked_for_but_where_there_may_be_none():
+    with pytest.raises(TypeError, match="points"):
+        Shelf()
+
+    @product(version=1)
+    class Bare:
+        points: dict[str, Inner] = parts("none needed", empty=True)
+
+    one, other = Bare(), Bare()
+    one.points["a"] = GOOD["inner"]
+    assert not other.points

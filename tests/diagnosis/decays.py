@@ -60,8 +60,7 @@ def recording(motions, quantity="displacement", noise=0.01, seed=1, rate=RATE):
         samples = motion[kind] + std * random.standard_normal(len(motion[kind]))
         channel = Channel(samples=samples, missing=np.empty((0, 2), int), unit=UNITS[quantity], measures=quantity,
                           rate=rate, begin=0.0, place="", position=[], direction=[], role="response")
-        runs[name] = RunProduct(description="", repeat_of="", conditions={}, channels={"x": channel}, frf={}, modes={},
-                                lines={}, topography={}, friction={})
+        runs[name] = RunProduct(description="", repeat_of="", channels={"x": channel})
     return Recording(source=["made for a test"], runs=runs), std
 
 

@@ -52,8 +52,7 @@ def recording(loads, strokes, hidden=None, noise=NOISE, seed=1):
         shown = respond(whole, run)["friction"] + noise * random.standard_normal(SAMPLES)
         runs[run.name] = RunProduct(
             description="", repeat_of="", conditions={"normal_load": Condition(value=[load], time=[0.0], unit="N")},
-            channels={"friction": _channel(shown, "N", "force"), "position": _channel(moved, "m", "displacement")},
-            frf={}, modes={}, lines={}, topography={}, friction={})
+            channels={"friction": _channel(shown, "N", "force"), "position": _channel(moved, "m", "displacement")})
     return Recording(source=["made for a test"], runs=runs)
 
 

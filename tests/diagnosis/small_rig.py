@@ -61,8 +61,7 @@ def recording(hidden=None, levels=(2.0, 5.0, 9.0, 7.0), noise=NOISE, seed=1, cor
         shown = respond(whole, run)["x"] + noise * random.standard_normal(SAMPLES)
         runs[run.name] = RunProduct(
             description="", repeat_of="", conditions={"level": Condition(value=[level], time=[0.0], unit="N")},
-            channels={"x": _channel(shown, "m", "response"), "force": _channel(shaken, "N", "excitation")},
-            frf={}, modes={}, lines={}, topography={}, friction={})
+            channels={"x": _channel(shown, "m", "response"), "force": _channel(shaken, "N", "excitation")})
     return Recording(source=["made for a test"], runs=runs)
 
 

@@ -50,8 +50,7 @@ def recording(hidden, noise=NOISE, levels=(1.0, 2.0)):
         shown = respond(whole, Run("run", (SAMPLES - 1) / RATE, RATE, {"shaker": force}))
         channels = {"force": _channel(force, "N")} | {
             name: _channel(values + noise * random.standard_normal(SAMPLES), "m") for name, values in shown.items()}
-        runs[f"level_{level:g}"] = RunProduct(description="", repeat_of="", channels=channels, conditions={}, frf={},
-                                              modes={}, lines={}, topography={}, friction={})
+        runs[f"level_{level:g}"] = RunProduct(description="", repeat_of="", channels=channels)
     return Recording(source=["made for a test"], runs=runs)
 
 

@@ -70,8 +70,8 @@ def recording(force=30.0, direct=0.012, evolution=0.018, length=2e-5, law="agein
         shown = dict(zip(("slip", "load"), dragged(point, force, direct, evolution, length, law), strict=True))
         channels = {n: _channel(v + NOISE[n] * random.standard_normal(len(v)), "N" if n == "load" else "m", "response")
                     for n, v in shown.items()}
-        runs[name] = RunProduct(description="", repeat_of="", conditions={}, frf={}, modes={}, lines={}, topography={},
-                                friction={}, channels={**channels, "point": _channel(point, "m", "excitation")})
+        channels["point"] = _channel(point, "m", "excitation")
+        runs[name] = RunProduct(description="", repeat_of="", channels=channels)
     return Recording(source=["made for a test"], runs=runs)
 
 

@@ -189,8 +189,7 @@ def _run(values, force, quantity, sampled):
     channels = {f"body_{k + 1}": channel(x, UNITS[quantity], quantity, sampled, 0.0, "case")
                 for k, x in enumerate(values)}
     channels["force"] = channel(force, "N", "force", sampled, 0.0, "case", role="excitation")
-    return RunProduct(description="", repeat_of="", channels=channels, conditions={}, frf={}, modes={}, lines={},
-                      topography={}, friction={})
+    return RunProduct(description="", repeat_of="", channels=channels)
 
 
 def document(row, quantity, std, step):

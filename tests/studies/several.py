@@ -83,7 +83,7 @@ def recording(given, seed):
             description="", repeat_of="", conditions={"level": Condition(value=[LEVELS[k]], time=[0.0], unit="N")},
             channels={name: Channel(samples=s, missing=np.empty((0, 2), int), unit=unit, measures="", rate=RATE,
                                     begin=0.0, place="", position=[], direction=[], role="")
-                      for name, (s, unit) in shown.items()}, frf={}, modes={}, lines={}, topography={}, friction={})
+                      for name, (s, unit) in shown.items()})
     return Recording(source=["made for a study"], runs=runs), std
 
 

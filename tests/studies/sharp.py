@@ -85,8 +85,7 @@ def made(plan, levels=LEVELS):
         seen = x + std[:, None] * random.standard_normal(x.shape)
         channels = {"left": _channel(seen[0], "m"), "right": _channel(seen[1], "m"),
                     "force": _channel(np.array([level * force(t) for t in instants]), "N")}
-        runs[f"run_{k + 1}"] = RunProduct(description="", repeat_of="", channels=channels, conditions={}, frf={},
-                                          modes={}, lines={}, topography={}, friction={})
+        runs[f"run_{k + 1}"] = RunProduct(description="", repeat_of="", channels=channels)
     return Truth(effects, dict(zip(("left", "right"), std, strict=True)), Recording(source=["events"], runs=runs),
                  float(THOUGHT * elongation[0]))
 

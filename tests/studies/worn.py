@@ -1,7 +1,6 @@
 """'make worn_bench': practice recordings of configs/worn_pad.yaml, each with its truth; and how they are diagnosed."""
 
 import json
-from functools import partial
 from pathlib import Path
 
 from pipeline.blind_trial.generators.benches.worn_pad import make, record
@@ -37,18 +36,27 @@ def practice(folder):
         (folder / f"worn_{number}_truth.json").write_text(json.dumps(told, indent=1) + "\n")
 
 
-def solved(path, context=None, **micro):
-    """diagnosis.json of a file of recordings under the case worn_pad, with other values of micro_friction."""
-    document = without_origins(documents.read_yaml(CONFIG), CONFIG.stem)
-
-    section, more = partial(filled, document), {} if context is None else {"context": context}
+def rubbed(path, context=None, **micro):
+    """(Surface, MicroFriction, FrictionMap, Recording) of a file of recordings under the case worn_pad, with other
+    values of micro_friction."""
+    more = {} if context is None else {"context": context}
     faces = {body: {"kind": "recorded", "file": str(path), "map": f"{body}_new"} for body in ("disc", "pad")}
-    rough = surface(settings=section(surface, **faces))
-    rubbed = micro_friction(rough, settings=section(micro_friction, **micro), **more)
+    rough = surface(settings=_section(surface, **faces))
+    pair = micro_friction(rough, settings=_section(micro_friction, **micro), **more)
     told = Recording(source=[path.name], runs=read_neutral(path))
-    return as_json(diagnosis(recording=told, surface=rough, micro=rubbed,
-                             friction_map=friction_map(rubbed, settings=section(friction_map)),
-                             settings=section(diagnosis), **more))
+    return rough, pair, friction_map(pair, settings=_section(friction_map)), told
+
+
+def solved(path, context=None, **micro):
+    """diagnosis.json of the same."""
+    rough, pair, mapped, told = rubbed(path, context, **micro)
+    return as_json(diagnosis(recording=told, surface=rough, micro=pair, friction_map=mapped,
+                             settings=_section(diagnosis), **({} if context is None else {"context": context})))
+
+
+def _section(stage, **changes):
+    """Settings of a stage in the case worn_pad, with ``changes``."""
+    return filled(without_origins(documents.read_yaml(CONFIG), CONFIG.stem), stage, **changes)
 
 
 if __name__ == "__main__":

@@ -12,6 +12,7 @@ from pipeline.products import (
     ComplexModes,
     Convergence,
     FrictionMap,
+    FrictionUpdate,
     Incidence,
     InterfaceLaw,
     LimitCycle,
@@ -97,6 +98,23 @@ def friction_map():
                        best_pressure=np.full(len(micro.distance), PRESSURE[1]),
                        pressure_slope_std=np.full(len(micro.distance), 0.005),
                        speed_slope_std=np.full(len(micro.distance), 0.05))
+
+
+def friction_update():
+    """A level a fifth too high, and a scatter of 2 %; pressure and speed vary, distance and temperature do not."""
+    random = np.random.default_rng(4)
+    mapped = 0.45 + 0.05 * random.uniform(size=12)
+    measured = 0.8 * mapped * (1 + 0.02 * random.standard_normal(12))
+    return filled(
+        FrictionUpdate, run=["stop"] * 6 + ["drag"] * 6, friction=measured, friction_std=0.01 * measured, mapped=mapped,
+        updated=0.8 * mapped, unseen=0.81 * mapped, pressure=random.uniform(1e6, 3e6, 12),
+        speed=random.uniform(0.9, 1.3, 12), distance=np.full(12, 5e-3), temperature=np.full(12, 300.0),
+        outside=[1] + [0] * 11, term=["level", "pressure", "speed", "distance", "temperature"],
+        tested=[1, 1, 1, 0, 0], fitted=[1, 0, 0, 0, 0],
+        needed=[1, 0, 0, 0, 0], value=[-0.22, 0.01, 0.0, 0.0, 0.0], value_std=[0.01, 0.02, 0.02, 0.0, 0.0],
+        map_std=[0.03, 0.01, 0.01, 0.0, 0.0], p_value=[1e-9, 0.6, 0.9, 1.0, 1.0], scatter=0.02, scatter_before=0.2,
+        model=["level", "the map as it is"], bic=[-40.0, 0.0], setting=["third_body_factor"], setting_before=[0.1],
+        setting_after=[0.08], setting_std=[0.003], verdict="values", alike=[])
 
 
 def structure():

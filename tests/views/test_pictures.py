@@ -17,7 +17,7 @@ from pipeline.views.figures import (
     surfaces,
     vibration,
 )
-from pipeline.views.figures.bench import line_evidence, line_fit
+from pipeline.views.figures.bench import line_evidence, line_fit, measured_friction
 from pipeline.views.figures.models import limit_cycle, lock_in, rupture, transient
 from tests.views import products_for_views as small
 
@@ -48,6 +48,8 @@ PICTURES = {
     "predicted tones": (lambda p: line_evidence.tones(p, list(p.hypothesis)), small.line_evidence, "tone"),
     "fit of lines": (lambda p: line_fit.before_after(p, list(p.hypothesis)), small.line_evidence, "tone"),
     "pressure cycle": (lambda p: line_fit.cycle(p, ["nominal", "best"]), small.line_evidence, "cycle_root"),
+    "measured friction": (measured_friction.over_conditions, small.friction_update, "friction"),
+    "measured over predicted": (measured_friction.measured_over_predicted, small.friction_update, "unseen"),
     "simulated lists": (line_evidence.simulated, small.line_evidence, "simulated"),
     "map": (friction.friction_map, small.friction_map, "friction"),
     "preload": (lambda p: preload.contact_pressure(p, preload.loads(p), 60), small.structure, "preload"),

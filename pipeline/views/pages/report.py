@@ -15,7 +15,7 @@ from pipeline.views.chapters import (
     surface,
     vibration,
 )
-from pipeline.views.chapters.bench import bench, diagnosis, line_evidence, recording
+from pipeline.views.chapters.bench import bench, diagnosis, line_evidence, measured_friction, recording
 from pipeline.views.chapters.chapter import Figure
 from pipeline.views.chapters.models import beam_on_beam, lock_in, lumped, rupture, transient
 from pipeline.views.figures import complex_modes as stability_pictures
@@ -52,6 +52,7 @@ CHAPTERS = {
     "rupture": (rupture.chapter, ()),
     "recording": (recording.chapter, ()),
     "line_evidence": (line_evidence.chapter, ()),
+    "friction_update": (measured_friction.chapter, ()),
     "bench": (bench.chapter, ()),
     "diagnosis": (diagnosis.chapter, ()),
     "comparison": (comparison.chapter, ()),
@@ -84,6 +85,8 @@ def _key_figures(products, look):
     """Figures of the first screen: the answer, and what a simulated brake sounds like."""
     if products.get("diagnosis") is not None and products.get("line_evidence") is None:
         return diagnosis.key_figures(products["diagnosis"])
+    if products.get("friction_update") is not None:
+        return (measured_friction.key_figure(products["friction_update"]),)
     answer, cycle = _key_figure(products, look), products.get("limit_cycle")
     return tuple(f for f in (answer, cycle and limit_cycle.key_figure(cycle)) if f)
 
