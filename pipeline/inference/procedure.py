@@ -9,7 +9,6 @@ that lacks physics may have no smooth optimum at all: then a candidate counts on
 """
 
 from dataclasses import dataclass, field, replace
-from functools import partial
 from typing import Optional
 
 import numpy as np
@@ -298,19 +297,21 @@ class Asked:
         return (alone if dispensable or second_effect.better_alone(alone, pair) else pair), True
 
     def of_its_form(self, told):
-        """A Diagnosis ``told``, decided anew without laws that it names and that are of another form."""
-        settings = self.settings
-        asked = partial(other_form.objection, catalogue=self.catalogue, rules=settings.rules.decision,
-                        fan_out=self.fan_out, seed=settings.seed)
+        """A Diagnosis ``told``, decided anew without laws that it names and that are of another form; where nothing can
+        be said, whether noise may be what is left."""
+        settings, rules = self.settings, self.settings.rules.decision
         while told.decision.verdict == "missing":
             first = told.named[0]
-            why = asked(told, first)
+            why = other_form.objection(told, first, self.catalogue, rules, self.fan_out, settings.seed)
             if not why:
                 break
             objected = told.objected | {first.candidate.name: why}
             weighing, decision = _weighed(told.refits, settings, told.base and told.recalibrated, told.laws, objected)
             told = replace(told, weighing=weighing, decision=decision, objected=objected)
-        return told
+        if told.decision.verdict != "unknown" or told.decision.leading:
+            return told
+        why = other_form.of_noise(told, settings.seed)
+        return replace(told, decision=replace(told.decision, reasons=(*told.decision.reasons, why))) if why else told
 
 
 def _reaches_noise(diagnosis, rules):

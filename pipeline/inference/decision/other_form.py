@@ -19,6 +19,8 @@ from pipeline.inference.search.score_screen import directions
 DRAWS = 1999
 #: share of its length that a direction keeps beside those of the values, below which it is one of them
 _OWN = 1e-3
+#: p-value above which what is left moves along a law by chance
+_CHANCE = 0.05
 
 
 @dataclass(frozen=True)
@@ -37,7 +39,11 @@ def left_along(problem, fit, candidates, fan_out=map, seed=0):
 
     ``problem``: a Problem whose nominal hypothesis is that of the fit.
     """
-    every = list(fan_out(partial(directions, problem, fit), candidates))
+    return along(fit, list(fan_out(partial(directions, problem, fit), candidates)), seed)
+
+
+def along(fit, every, seed=0):
+    """The same along ``every`` Directions at the Fit."""
     owner = [d.candidate.name for d in every for _ in d.sign]
     vectors = np.concatenate([np.empty((0, fit.counts.sum())), *(d.vectors for d in every)])
     values = scipy.linalg.orth(np.concatenate(fit.jacobians))
@@ -63,6 +69,18 @@ def largest_shifted(unit, fit, seed=0, draws=DRAWS):
                 every = np.fft.irfft(np.fft.rfft(own).conj() * np.fft.rfft(part), len(part))
                 sums += every[:, generator.integers(len(part), size=draws)].T
     return np.abs(sums).max(axis=1)
+
+
+def of_noise(diagnosis, seed=0):
+    """That what the nominal model of a Diagnosis leaves may be noise of another colour than is stated, in words; empty
+    where a law of the catalogue moves along it, and of features."""
+    null = diagnosis.null
+    left = None if null.unordered else along(null, diagnosis.refits.directions, seed)
+    if left is None or left.p_value <= _CHANCE:
+        return ""
+    return ("what the recalibrated nominal model leaves moves along no law of the catalogue by more than chance (p"
+            f" {left.p_value:.2g}): noise of another colour or size than stated would leave as much, or physics unlike"
+            " any of these; repeat a run, which measures the noise")
 
 
 def objection(diagnosis, weighed, catalogue, rules, fan_out=map, seed=0):

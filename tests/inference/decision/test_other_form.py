@@ -112,9 +112,26 @@ def test_the_right_law_is_named_all_the_same(seed):
 
 
 def test_a_law_of_another_form_is_not_named_but_leads(monkeypatch):
-    monkeypatch.setattr(other_form, "objection", lambda _, law, **rest: f"{law.candidate.name} is of another form")
+    monkeypatch.setattr(other_form, "objection", lambda _, law, *rest: f"{law.candidate.name} is of another form")
     problem, settings = bench(5, 0.03, stiffness=430.0, extra=dry), Settings()
     told = diagnose(problem, budget(problem), CATALOGUE, settings)
     assert (told.decision.verdict, told.decision.leading.name) == ("unknown", "coulomb")
     assert "coulomb: coulomb is of another form" in told.decision.reasons and not told.named
     assert over_noise(told, settings, (1.0,))[0].verdict == "unknown"
+
+
+def test_noise_of_another_colour_is_told_from_a_force_that_no_law_has():
+    """Samples correlated by .9 where white noise is stated; a spring that pulsates."""
+    problem = bench(5, 0.02, stiffness=430.0)
+    random, runs = np.random.default_rng(7), []
+    for run in problem.runs:
+        noise = random.standard_normal(run.samples.shape)
+        for k in range(1, noise.shape[1]):
+            noise[:, k] = 0.9 * noise[:, k - 1] + np.sqrt(1 - 0.9**2) * noise[:, k]
+        runs.append(replace(run, samples=run.samples + run.noise_std[:, None] * noise))
+    coloured = replace(problem, runs=tuple(runs))
+    told = diagnose(coloured, budget(coloured), CATALOGUE)
+    assert told.decision.verdict == "unknown" and "noise of another colour" in told.decision.reasons[-1]
+    missing = bench(5, 0.02, stiffness=430.0, extra=lambda t, x, v: 25.0 * np.sin(9.0 * t) * x)
+    told = diagnose(missing, budget(missing), CATALOGUE)
+    assert told.decision.verdict == "unknown" and not any("colour" in r for r in told.decision.reasons)
