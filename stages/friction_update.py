@@ -19,8 +19,6 @@ _LISTED = 10
 #: term -> settings of micro_friction that it changes
 SETTINGS = {LEVEL: ("third_body_factor",), SPEED: ("rate_coefficient",), TEMPERATURE: ("softening",),
             DISTANCE: ("disc.wear_coefficient", "pad.wear_coefficient"), PRESSURE: ()}
-
-
 #: units of these
 UNITS = {"wear_coefficient": "m^2/N", "softening": "1/K"}
 

@@ -36,6 +36,7 @@ def test_settings_are_told_with_their_error_and_what_none_can_say():
     assert "No single setting changes friction over pressure" in measured_friction.asked(steeper)
     falling = replace(TOLD, setting=np.array(["rate_coefficient"]), setting_after=np.array([-0.01]))
     assert "another physics makes friction fall" in measured_friction.asked(falling)
+    assert "state a higher disc_strength" in measured_friction.asked(replace(TOLD, setting_after=np.array([1.2])))
 
 
 def test_what_is_beyond_the_map_and_what_does_not_vary_is_told():

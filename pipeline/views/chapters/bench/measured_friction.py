@@ -79,6 +79,8 @@ def asked(product):
     wrong = [str(s) for s, a in zip(product.setting, product.setting_after, strict=True) if a < 0]
     if wrong:
         said += f" {', '.join(wrong)} cannot be negative: another physics makes friction fall there."
+    if any(s == "third_body_factor" and a > 1 for s, a in zip(product.setting, product.setting_after, strict=True)):
+        said += " A film is no stronger than the disc (third_body_factor of 1): state a higher disc_strength."
     return said.strip()
 
 
