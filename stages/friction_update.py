@@ -1,18 +1,19 @@
 """Stage friction_update: measured friction beside the friction map, and what of the micro scale it asks to change."""
 
 import copy
-from dataclasses import replace
 
 import numpy as np
 
 from pipeline.case_models.rough.pair import Settings as MicroSettings
+from pipeline.case_models.runs import valid
 from pipeline.contract import ConfigError, Context, Quantity, Section, option, restored, stage
 from pipeline.contract import documents as yaml
 from pipeline.diagnosis.measured_friction import update as updating
-from pipeline.diagnosis.measured_friction.samples import ROOM, joined, of_slides, tabulated
+from pipeline.diagnosis.measured_friction.samples import joined, of_slides, tabulated
 from pipeline.diagnosis.measured_friction.update import DISTANCE, LEVEL, PRESSURE, SPEED, TEMPERATURE, TERMS
 from pipeline.physics.friction.friction_table import FrictionLaw
 from pipeline.products import FrictionMap, FrictionUpdate, MicroFriction, Recording
+from pipeline.recordings.friction import SILENT
 
 #: sets of terms that the product lists
 _LISTED = 10
@@ -77,7 +78,7 @@ def friction_update(micro_friction: MicroFriction, friction_map: FrictionMap, re
     the stated errors, and compared by BIC; a term counts where its p-value over all terms tried is below 0.01.
     """
     samples = joined([_samples(name, run, settings) for name, run in _chosen(recording, settings).items()])
-    law = FrictionLaw(friction_map.pressure, friction_map.speed, friction_map.distance, friction_map.friction)
+    law = FrictionLaw.of(friction_map)
     found = updating.update(law, samples, _map_errors(friction_map, samples, grid_error(micro_friction), law))
     nothing = found.every[[f.terms for f in found.every].index(())]
     settled = _settings(restored(MicroSettings, micro_friction.settings.item()), found)
@@ -128,22 +129,10 @@ def _samples(name, run, settings):
     channels = [run.channels[c] for c in (slides.load, slides.friction, slides.position)]
     if len({(float(c.rate), len(c.samples)) for c in channels}) > 1:
         raise ConfigError("friction_update.slides", f"channels of run {name} of one rate and length", "several")
-    made = of_slides(name, *(_with_gaps(c) for c in channels), float(channels[0].rate), slides.area, slides.settle)
-    return replace(made, distance=made.distance + _condition(run, "distance", 0.0),
-                   temperature=np.full(len(made), _condition(run, "temperature", ROOM)))
-
-
-def _condition(run, name, silent):
-    """Mean of a condition of a Run: the distance slid before it, its temperature."""
-    return float(np.mean(run.conditions[name].value)) if name in run.conditions else silent
-
-
-def _with_gaps(channel):
-    """Samples (n,) of a channel, NaN where they are missing."""
-    samples = np.array(channel.samples, float)
-    for first, last in channel.missing:
-        samples[int(first):int(last)] = np.nan
-    return samples
+    stated = {name: float(np.mean(condition.value)) for name, condition in run.conditions.items()}
+    return of_slides(name, *(np.where(valid(c), c.samples, np.nan) for c in channels), float(channels[0].rate),
+                     slides.area, stated.get("temperature", SILENT["temperature"]), slides.settle,
+                     stated.get("distance", SILENT["distance"]))
 
 
 def grid_error(micro):

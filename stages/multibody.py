@@ -105,7 +105,7 @@ def multibody(model: ReducedModel, friction_map: FrictionMap, effects: Effects |
     if DISC not in model.body_name:
         raise ConfigError("multibody: reduced model", f"a body called '{DISC}'", ", ".join(model.body_name))
     points = list(product(settings.pressures, settings.speeds))
-    law = FrictionLaw(friction_map.pressure, friction_map.speed, friction_map.distance, friction_map.friction)
+    law = FrictionLaw.of(friction_map)
     terms = kept(physics_terms(effects), settings.without)
     posed = partial(_posed, model=model, law=law, run_conditions=conditions(effects), settings=settings)
     refuse_idle(terms, lambda those: posed(points[0], terms=those)(1.0, 1.0))

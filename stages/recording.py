@@ -170,15 +170,20 @@ def recording(settings: Settings, context: Context) -> Recording:
 def _from_columns(file, columns):
     """Runs of a file of columns."""
     where = f"{file.file}"
-    for name, wanted in file.columns.items():
-        if wanted.column not in columns:
-            raise ConfigError(f"{where}: {name}.column", f"one of {', '.join(columns)}", repr(wanted.column))
+    _refuse_unknown(file, columns, f"{where}: ")
     values = {name: w.factor * columns[w.column] for name, w in file.columns.items()}
     values, rate, begin = _sampled(file, values, columns, f"{where}: time")
     whole = {name: channel(values[name], w.unit, w.measures, rate, begin, f"{where}: {name}",
                            role=w.role, place=w.place, direction=w.direction) for name, w in file.columns.items()}
     return {name: _run({k: stretch(c, run.begin, run.end, f"{where}: runs.{name}") for k, c in whole.items()}, run,
                        f"{where}: runs.{name}") for name, run in file.runs.items()}
+
+
+def _refuse_unknown(file, columns, where):
+    """Refuse columns of the case that a file of these ``columns`` does not hold."""
+    for name, wanted in file.columns.items():
+        if wanted.column not in columns:
+            raise ConfigError(f"{where}{name}.column", f"one of {', '.join(columns)}", repr(wanted.column))
 
 
 def _sampled(file, values, columns, where):
@@ -205,10 +210,9 @@ def _from_friction(file):
     where, columns = f"{file.file}", read_table(file.file, file.delimiter, file.skip)
     given = {name: (np.full(len(next(iter(columns.values()))), stated.value), stated.unit, f"{where}: values.{name}")
              for name, stated in file.values.items()}
-    for name, wanted in file.columns.items():
-        if wanted.column not in columns:
-            raise ConfigError(f"{where}: columns.{name}.column", f"one of {', '.join(columns)}", repr(wanted.column))
-        given[name] = columns[wanted.column], wanted.unit, f"{where}: columns.{name}"
+    _refuse_unknown(file, columns, f"{where}: columns.")
+    given |= {name: (columns[wanted.column], wanted.unit, f"{where}: columns.{name}")
+              for name, wanted in file.columns.items()}
     return {file.run: Run(description=file.description, repeat_of="",
                           friction={"table": measured_friction(given, where)})}
 

@@ -203,5 +203,5 @@ def stated_friction(settings):
 def mapped_friction(friction_map, distance):
     """(Friction, function of pressure and speed, each (c,), giving a FrictionState) of a product FrictionMap, read at
     the sliding ``distance`` in m."""
-    law = FrictionLaw(friction_map.pressure, friction_map.speed, friction_map.distance, friction_map.friction)
+    law = FrictionLaw.of(friction_map)
     return Friction(law, distance=distance), partial(from_map, law, distance)

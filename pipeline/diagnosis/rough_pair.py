@@ -142,7 +142,7 @@ def _read_off(problem, friction_map):
     """{run: (n,)} what the map of the chain says less what is computed at the points, both as given."""
     if friction_map is None:
         return {}
-    law = FrictionLaw(friction_map.pressure, friction_map.speed, friction_map.distance, friction_map.friction)
+    law = FrictionLaw.of(friction_map)
     values = problem.nominal.values(problem.nominal.nominal)
     return {run.name: law.evaluate(drag.pressure, drag.speed, drag.distance)[0]
             - problem.predict(problem.nominal, values, run)[0]

@@ -16,7 +16,7 @@ import numpy as np
 from pipeline.contract.errors import BrakechainError, ConvergenceError
 from pipeline.inference import several
 from pipeline.inference.decision import other_form, second_effect, several_laws
-from pipeline.inference.decision.decision_rules import Decision, decide
+from pipeline.inference.decision.decision_rules import Decision
 from pipeline.inference.decision.weighing import Weighing, weigh
 from pipeline.inference.fitting.calibration import Calibration, recalibrate
 from pipeline.inference.fitting.fit_state import linearised
@@ -305,9 +305,10 @@ class Asked:
             why = other_form.objection(told, first, self.catalogue, rules, self.fan_out, settings.seed)
             if not why:
                 break
-            objected = told.objected | {first.candidate.name: why}
-            weighing, decision = _weighed(told.refits, settings, told.base and told.recalibrated, told.laws, objected)
-            told = replace(told, weighing=weighing, decision=decision, objected=objected)
+            objected = {first.candidate.name: why}
+            weighing = told.weighing.objected(objected)
+            decision = weighing.decided(several_laws.allowing(settings, told.laws).rules)
+            told = replace(told, weighing=weighing, decision=decision, objected=told.objected | objected)
         if told.decision.verdict != "unknown" or told.decision.leading:
             return told
         why = other_form.of_noise(told, settings.seed)
@@ -355,13 +356,12 @@ def _decided(refits, settings, base, laws=1):
 def _weighed(refits, settings, null, laws, objected=None):
     """(Weighing, Decision) of Refits, laws ``objected`` to {name: why}; of a set of ``laws`` together, as it stands
     beside the Fit ``null``."""
-    if laws > 1:
-        settings = several_laws.allowing(settings, laws)
+    settings = several_laws.allowing(settings, laws)
     weighing, calibration = weigh(refits, settings), refits.calibration
     if laws > 1:
         weighing = several_laws.against(null, calibration.problem, calibration.budget, weighing, settings.rules)
     weighing = weighing.objected(objected or {})
-    return weighing, decide(weighing.runs, [w.statistics for w in weighing.weighed], settings.rules.decision)
+    return weighing, weighing.decided(settings.rules)
 
 
 @dataclass(frozen=True)

@@ -11,7 +11,7 @@ from pipeline.products import MeasuredFriction
 #: what a table must say, the unit of each column, and what holds where a table says nothing
 NEEDED = ("friction", "pressure", "speed")
 UNITS = {"friction": "1", "friction_std": "1", "pressure": "Pa", "speed": "m/s", "distance": "m", "temperature": "K"}
-_SILENT = {"friction_std": 0.0, "distance": 0.0, "temperature": 293.15}
+SILENT = {"friction_std": 0.0, "distance": 0.0, "temperature": 293.15}
 
 
 def measured_friction(given, where):
@@ -26,7 +26,7 @@ def measured_friction(given, where):
                           "name them under columns or values")
     filled = {name: _converted(*given[name], UNITS[name]) for name in UNITS if name in given}
     count = len(filled["friction"])
-    filled |= {name: np.full(count, value) for name, value in _SILENT.items() if name not in given}
+    filled |= {name: np.full(count, value) for name, value in SILENT.items() if name not in given}
     whole = np.isfinite([filled[f.name] for f in fields(MeasuredFriction)]).all(axis=0)
     if not whole.any():
         raise ConfigError(where, "a row without missing numbers", "none", "leave out columns that are empty")

@@ -16,6 +16,7 @@ from pipeline.products import (
     Run,
     Topography,
 )
+from pipeline.recordings.friction import SILENT
 from pipeline.recordings.samples import channel
 
 
@@ -159,8 +160,7 @@ def _topography(node, where):
 
 def _friction(node, where):
     friction = np.atleast_1d(_array(node, "friction", where))
-    filled = {"friction_std": np.zeros(len(friction)), "distance": np.zeros(len(friction)),
-              "temperature": np.full(len(friction), 293.15)}
+    filled = {name: np.full(len(friction), value) for name, value in SILENT.items()}
     names = [f.name for f in fields(MeasuredFriction) if f.name != "friction"]
     for name in names:
         if name in node or name not in filled:

@@ -3,8 +3,6 @@
 The same beside a friction map: seconds."""
 
 import json
-import os
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -13,20 +11,11 @@ from pipeline.contract import store
 from pipeline.products import Diagnosis, FrictionUpdate
 from tests.chain.conftest import ROOT, brakechain
 
-DATA = Path(os.environ.get("BRAKECHAIN_DATA", ROOT.parent / "shared" / "data"))
 RIVALS = {"compliant_arm": "arm", "micro_slip": "contact"}
 
 
-def recordings(monkeypatch):
-    """Make the case find the public recordings, or skip."""
-    if not (DATA / "recordings" / "friction_tribometer").is_dir():
-        pytest.skip(f"no public recordings at {DATA}; set BRAKECHAIN_DATA")
-    monkeypatch.setenv("BRAKECHAIN_DATA", str(DATA.resolve()))
-
-
 @pytest.mark.measured
-def test_the_map_beside_the_tribometer_is_updated_and_predicts_strokes_that_it_did_not_see(tmp_path, monkeypatch):
-    recordings(monkeypatch)
+def test_the_map_beside_the_tribometer_is_updated_and_predicts_strokes_that_it_did_not_see(tmp_path):
     brakechain("run", ROOT / "configs" / "tribometer_map.yaml", "--run", tmp_path / "run")
     told = store.read(FrictionUpdate, tmp_path / "run" / "friction_update.h5")
     assert str(told.verdict) == "values" and "level" in told.term[told.needed > 0]
@@ -40,8 +29,7 @@ def test_the_map_beside_the_tribometer_is_updated_and_predicts_strokes_that_it_d
 @pytest.mark.slow
 @pytest.mark.study
 @pytest.mark.measured
-def test_micro_slip_and_the_arm_tie_until_another_load_or_arm_is_taken(tmp_path, monkeypatch):
-    recordings(monkeypatch)
+def test_micro_slip_and_the_arm_tie_until_another_load_or_arm_is_taken(tmp_path):
     brakechain("diagnosis", ROOT / "configs" / "tribometer.yaml", "--run", tmp_path / "run")
     told = json.loads((tmp_path / "run" / "diagnosis.json").read_text())
     assert told["verdict"] == "tie" and {e["name"]: e["place"] for e in told["effects"]} == RIVALS

@@ -40,7 +40,7 @@ def believed():
 def bench(true, seed=0, noise=0.01, count=40):
     """Recording of coefficients of the map ``true`` at conditions within it, in three runs."""
     random, runs = np.random.default_rng(seed), {}
-    law = FrictionLaw(true.pressure, true.speed, true.distance, true.friction)
+    law = FrictionLaw.of(true)
     for name in ("first", "second", "third"):
         p, v = random.uniform(0.7e6, 2.5e6, count // 3), random.uniform(0.6, 2.0, count // 3)
         s = random.uniform(0.0, 4e-3, count // 3)

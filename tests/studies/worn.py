@@ -1,6 +1,7 @@
 """'make worn_bench': practice recordings of configs/worn_pad.yaml, each with its truth; and how they are diagnosed."""
 
 import json
+from functools import cache
 from pathlib import Path
 
 from pipeline.blind_trial.generators.benches.worn_pad import make, record
@@ -40,23 +41,26 @@ def rubbed(path, context=None, **micro):
     """(Surface, MicroFriction, FrictionMap, Recording) of a file of recordings under the case worn_pad, with other
     values of micro_friction."""
     more = {} if context is None else {"context": context}
+    document = _document()
     faces = {body: {"kind": "recorded", "file": str(path), "map": f"{body}_new"} for body in ("disc", "pad")}
-    rough = surface(settings=_section(surface, **faces))
-    pair = micro_friction(rough, settings=_section(micro_friction, **micro), **more)
+    rough = surface(settings=filled(document, surface, **faces))
+    pair = micro_friction(rough, settings=filled(document, micro_friction, **micro), **more)
     told = Recording(source=[path.name], runs=read_neutral(path))
-    return rough, pair, friction_map(pair, settings=_section(friction_map)), told
+    return rough, pair, friction_map(pair, settings=filled(document, friction_map)), told
 
 
 def solved(path, context=None, **micro):
     """diagnosis.json of the same."""
     rough, pair, mapped, told = rubbed(path, context, **micro)
+    more = {} if context is None else {"context": context}
     return as_json(diagnosis(recording=told, surface=rough, micro=pair, friction_map=mapped,
-                             settings=_section(diagnosis), **({} if context is None else {"context": context})))
+                             settings=filled(_document(), diagnosis), **more))
 
 
-def _section(stage, **changes):
-    """Settings of a stage in the case worn_pad, with ``changes``."""
-    return filled(without_origins(documents.read_yaml(CONFIG), CONFIG.stem), stage, **changes)
+@cache
+def _document():
+    """The case worn_pad."""
+    return without_origins(documents.read_yaml(CONFIG), CONFIG.stem)
 
 
 if __name__ == "__main__":

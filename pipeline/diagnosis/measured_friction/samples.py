@@ -11,8 +11,6 @@ from pipeline.contract.errors import ConfigError
 _PARTS = 4
 #: samples of a slide, at least
 _FEWEST = 4 * _PARTS
-#: K where nobody states a temperature
-ROOM = 293.15
 #: share of the largest speed below which a tribometer turns round
 _SLOW = 0.1
 
@@ -54,12 +52,13 @@ def tabulated(name, table):
     return made
 
 
-def of_slides(name, load, friction, position, rate, area, settle=0.5):
+def of_slides(name, load, friction, position, rate, area, temperature, settle=0.5, before=0.0):
     """Samples of the slides of a reciprocating tribometer, two neighbours each way make one.
 
     ``load``, ``friction`` N and ``position`` m (n,) at ``rate`` Hz, NaN where a sample is missing; ``area`` m^2 is
-    nominal; the first ``settle`` of the way of a slide is left out, over which friction builds up. Half the difference
-    of two neighbours leaves out what does not turn round with the motion (offsets, a tilted load).
+    nominal; ``temperature`` K; ``before`` m were slid before the first sample; the first ``settle`` of the way of a
+    slide is left out, over which friction builds up. Half the difference of two neighbours leaves out what does not
+    turn round with the motion (offsets, a tilted load).
     """
     every = (_slide(part, load, friction, position, rate, settle) for part in _one_way(position, rate))
     slides = [slide for slide in every if slide]
@@ -77,9 +76,9 @@ def of_slides(name, load, friction, position, rate, area, settle=0.5):
         raise ConfigError(f"run {name}: load", "a load above 0", f"{pressed.min():g} N", "turn its sign by factor: -1")
     turning = np.array([abs(a["friction"] - b["friction"]) / 2 for a, b in pairs])
     error = np.array([np.hypot(a["error"], b["error"]) / 2 for a, b in pairs])
-    return Samples(turning / pressed, error / pressed, pressed / area, mean("speed"),
-                   np.array([travelled[b["middle"]] for _, b in pairs]), np.full(len(pairs), ROOM),
-                   np.full(len(pairs), name))
+    distance = np.array([before + travelled[b["middle"]] for _, b in pairs])
+    return Samples(turning / pressed, error / pressed, pressed / area, mean("speed"), distance,
+                   np.full(len(pairs), float(temperature)), np.full(len(pairs), name))
 
 
 def _one_way(position, rate):

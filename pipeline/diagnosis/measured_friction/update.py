@@ -149,12 +149,12 @@ def _fit(law, samples, terms, chosen=None):
         return np.sum((weight * (measured - solved(stretch, weight)[1])[chosen]) ** 2)
 
     for _ in range(3):
-        weight = 1 / np.sqrt(np.maximum(error**2 + scatter**2, _least(error)))[chosen]
+        weight = 1 / np.sqrt(_variance(error, scatter**2))[chosen]
         if place is not None:
             farther = _lowest(partial(square, weight=weight))
         values, predicted = solved(farther, weight)
         scatter = _scatter((measured - predicted)[chosen], error[chosen], len(terms))
-    spread, left = np.maximum(error**2 + scatter**2, _least(error))[chosen], (measured - predicted)[chosen]
+    spread, left = _variance(error, scatter**2)[chosen], (measured - predicted)[chosen]
     if place is not None:
         values = np.insert(values, place, farther)
         columns = np.insert(columns, place, (mapped(farther + _STEP) - mapped(farther - _STEP)) / (2 * _STEP), axis=1)
@@ -166,8 +166,8 @@ def _fit(law, samples, terms, chosen=None):
 
 def _columns(samples, terms):
     """Change of ln mu (n, k) by linear ``terms`` of one, about the means of the samples."""
-    every = {LEVEL: np.ones(len(samples)), PRESSURE: np.log(samples.pressure / _mean(samples.pressure)),
-             SPEED: np.log(samples.speed / _mean(samples.speed)),
+    every = {LEVEL: np.ones(len(samples)), PRESSURE: np.log(samples.pressure / scipy.stats.gmean(samples.pressure)),
+             SPEED: np.log(samples.speed / scipy.stats.gmean(samples.speed)),
              TEMPERATURE: samples.temperature.mean() - samples.temperature}
     return np.array([every[t] for t in terms]).reshape(-1, len(samples)).T
 
@@ -180,9 +180,10 @@ def _lowest(square):
     return float(scipy.optimize.minimize_scalar(square, bounds=(best - width, best + width), method="bounded").x)
 
 
-def _least(error):
-    """Variance below which none is taken: of samples that state no error and scatter not at all."""
-    return max(1e-12, float(np.median(error)) ** 2 * 1e-6)
+def _variance(error, square):
+    """Of samples (n,) with a standard ``error`` each, and this ``square`` of a scatter; above that of samples that
+    state no error and scatter not at all."""
+    return np.maximum(error**2 + square, max(1e-12, float(np.median(error)) ** 2 * 1e-6))
 
 
 def _scatter(left, error, terms):
@@ -193,7 +194,7 @@ def _scatter(left, error, terms):
     freedom = max(len(left) - terms, 1)
 
     def excess(square):
-        return np.sum(left**2 / np.maximum(error**2 + square, _least(error))) - freedom
+        return np.sum(left**2 / _variance(error, square)) - freedom
 
     high = 4 * np.sum(left**2) / freedom + 1e-12
     if excess(0.0) <= 0:
@@ -226,7 +227,3 @@ def groups(samples):
         if labels.max() >= 2:
             return [labels == k for k in range(labels.max() + 1)]
     return [np.arange(len(samples)) == k for k in range(len(samples))]
-
-
-def _mean(values):
-    return float(np.exp(np.mean(np.log(values))))

@@ -40,6 +40,8 @@ def allowing(settings, laws):
     It may follow the motion along the runs by as much, and between runs, where one law fades before the others, by
     more: whether coefficients hold for other runs is asked by leaving runs out (``several``).
     """
+    if laws == 1:
+        return settings
     decision = settings.rules.decision
     varies = max(decision.varies_by, laws * decision.law_error)
     return replace(settings, rules=replace(settings.rules, decision=replace(

@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from pipeline.inference.decision.candidate_statistics import candidate_statistics, held_out_gains, run_statistics
-from pipeline.inference.decision.decision_rules import CandidateStatistics, RunStatistics
+from pipeline.inference.decision.decision_rules import CandidateStatistics, RunStatistics, decide
 from pipeline.inference.decision.evidence import (
     Evidence,
     cautious_prior,
@@ -92,6 +92,10 @@ class Weighing:
         return replace(self, weighed=tuple(
             w if w.candidate.name not in reasons else replace(w, statistics=replace(
                 w.statistics, varying=(*w.statistics.varying, reasons[w.candidate.name]))) for w in self.weighed))
+
+    def decided(self, rules):
+        """The Decision over these candidates by Rules."""
+        return decide(self.runs, [w.statistics for w in self.weighed], rules.decision)
 
 
 def weigh(refits, settings):

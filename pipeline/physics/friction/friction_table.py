@@ -41,6 +41,11 @@ class FrictionLaw:
             if np.any(np.diff(getattr(self, name)) <= 0):
                 raise ConfigError(f"friction law: {name}", "strictly rising values", str(getattr(self, name)))
 
+    @classmethod
+    def of(cls, table):
+        """The law of a table with these axes and values, as the product FrictionMap is one."""
+        return cls(table.pressure, table.speed, table.distance, table.friction)
+
     @property
     def table(self):
         """Arguments that ``friction_at`` takes after the state: the three axes and the table."""

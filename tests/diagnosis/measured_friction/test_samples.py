@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from pipeline.contract import ConfigError
-from pipeline.diagnosis.measured_friction.samples import ROOM, joined, of_slides, tabulated
+from pipeline.diagnosis.measured_friction.samples import joined, of_slides, tabulated
 from pipeline.products import MeasuredFriction
 
 RATE, STROKE, PERIOD, LOAD = 200.0, 2e-3, 4.0, 5.0
@@ -45,9 +45,9 @@ def test_what_cannot_be_friction_is_refused(given, message):
 
 def test_strokes_give_the_coefficient_whatever_the_offset():
     load, friction, position = strokes()
-    made = of_slides("s", load, friction, position, RATE, 1e-6)
+    made = of_slides("s", load, friction, position, RATE, 1e-6, 293.15)
     assert len(made) == 6 and made.friction == pytest.approx(0.3, rel=2e-3)
-    assert made.speed == pytest.approx(2 * STROKE / PERIOD, rel=1e-2) and (made.temperature == ROOM).all()
+    assert made.speed == pytest.approx(2 * STROKE / PERIOD, rel=1e-2) and (made.temperature == 293.15).all()
     assert made.pressure == pytest.approx(LOAD / 1e-6, rel=0.02)
     assert np.diff(made.distance) == pytest.approx(2 * STROKE, rel=0.02)
     assert (made.friction_std < 3e-3).all()
@@ -60,16 +60,16 @@ def test_missing_samples_and_noise_do_not_matter():
     position = position + 2e-6 * random.standard_normal(len(position))
     for each in (load, friction, position):
         each[500:520] = np.nan
-    made = of_slides("s", load, friction, position, RATE, 1e-6)
+    made = of_slides("s", load, friction, position, RATE, 1e-6, 293.15)
     assert len(made) >= 5 and made.friction == pytest.approx(0.3, rel=0.01)
 
 
 def test_a_motion_one_way_and_a_load_of_the_wrong_sign_are_refused():
     load, friction, position = strokes()
     with pytest.raises(ConfigError, match="slides both ways"):
-        of_slides("s", load[:300], friction[:300], position[:300], RATE, 1e-6)
+        of_slides("s", load[:300], friction[:300], position[:300], RATE, 1e-6, 293.15)
     with pytest.raises(ConfigError, match="a load above 0"):
-        of_slides("s", -load, friction, position, RATE, 1e-6)
+        of_slides("s", -load, friction, position, RATE, 1e-6, 293.15)
 
 
 def test_replaced_fields_keep_their_length():
