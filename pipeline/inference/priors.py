@@ -204,7 +204,8 @@ class Parameter:
 
     ``nominal`` is its value before the data; ``null`` the value at which the effect that owns it vanishes exactly,
     None for a nominal parameter or one that only shapes an effect. Both in ``unit``, SI. ``run``: name of the run whose
-    prediction alone it changes, as its start state does; empty: it may change all.
+    prediction alone it changes, as its start state does; empty: it may change all. ``threshold``: whether it says from
+    where on an effect acts, as a gap does, so that slopes at one value say little of others.
     """
 
     name: str
@@ -213,6 +214,7 @@ class Parameter:
     prior: object
     null: float | None = None
     run: str = ""
+    threshold: bool = False
 
     def __post_init__(self):
         low, high = self.prior.support

@@ -30,7 +30,7 @@ def test_the_map_beside_the_tribometer_is_updated_and_predicts_strokes_that_it_d
 @pytest.mark.study
 @pytest.mark.measured
 def test_micro_slip_and_the_arm_tie_until_another_load_or_arm_is_taken(tmp_path):
-    brakechain("diagnosis", ROOT / "configs" / "tribometer.yaml", "--run", tmp_path / "run")
+    brakechain("run", ROOT / "configs" / "tribometer.yaml", "--run", tmp_path / "run")
     told = json.loads((tmp_path / "run" / "diagnosis.json").read_text())
     assert told["verdict"] == "tie" and {e["name"]: e["place"] for e in told["effects"]} == RIVALS
     held_out = told["fit"]["held_out"]

@@ -193,7 +193,7 @@ def _named(parameter, effect, location, priors):
     prior = prior_of(parameter.unit, parameter.nominal, priors[key], f"diagnosis.priors.{key}")
     low, high = prior.support
     size = parameter.nominal if low <= parameter.nominal <= high else prior.quantile(0.5)
-    return Parameter(name, parameter.unit, size, prior, parameter.null)
+    return replace(parameter, name=name, nominal=size, prior=prior)
 
 
 def solver_candidate():

@@ -7,7 +7,7 @@ from pipeline.physics.time_stepping.elements import Element, Gap
 
 def parameters(typical):
     size = 0.2 * typical.length
-    return (Parameter("gap", "m", size, HalfNormal(2 * size), null=0.0),)
+    return (Parameter("gap", "m", size, HalfNormal(2 * size), null=0.0, threshold=True),)
 
 
 def apply(bench, location, values):

@@ -12,7 +12,7 @@ from pipeline.physics.contact.groups import read, with_field
 
 def parameters(typical):
     size = 0.3 * typical.length
-    return (Parameter("gap", "m", size, Normal(0.0, 2 * size), null=0.0),)
+    return (Parameter("gap", "m", size, Normal(0.0, 2 * size), null=0.0, threshold=True),)
 
 
 def apply(bench, location, values):

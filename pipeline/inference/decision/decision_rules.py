@@ -89,7 +89,7 @@ def decide(runs, candidates, rules):
     reasons = [f"{c.name}: {why}" for c, objected in judged for why in objected]
     survivors, refused = ([c for c, objected in judged if bool(objected) is broken] for broken in (False, True))
     if survivors and _posterior(survivors) >= rules.outweighed * _posterior(refused):
-        decision = _among(survivors, runs, rules)
+        decision = _among(survivors, [c for c, objected in judged if _rival(c, objected, rules)], runs, rules)
     else:
         reasons += [f"{c.name}: candidates that break a rule are more likely" for c in survivors]
         decision = _nothing_named(runs, rules, bool(significant))
@@ -116,9 +116,7 @@ def objections(candidate, runs, rules):
         reasons.append(candidate.forbidden)
     if candidate.from_null < rules.from_null:
         reasons.append(f"its value lies {candidate.from_null:.1f} standard deviations from none at all")
-    if candidate.adapts and candidate.unexplained > rules.law_error**2:
-        reasons.append(f"it leaves {candidate.unexplained:.2%} of the excess error, though its shape adapts: a law of"
-                       " another form")
+    reasons += _form(candidate, rules)
     if runs.points >= rules.agreement_points and candidate.disagreement > rules.disagreement:
         reasons.append(f"its value differs between operating points ({candidate.disagreement:.1f} standard deviations)")
     if runs.points >= 2 and candidate.left_out_gain <= 0:
@@ -147,14 +145,27 @@ def objections(candidate, runs, rules):
     return reasons
 
 
+def _form(candidate, rules):
+    """The objection to a law whose shape adapts and which leaves more than a right one would, in a list."""
+    if not candidate.adapts or candidate.unexplained <= rules.law_error**2:
+        return []
+    return [f"it leaves {candidate.unexplained:.2%} of the excess error, though its shape adapts: a law of another form"]
+
+
+def _rival(candidate, objected, rules):
+    """Whether nothing but its form is ``objected``: not to be named for itself, but not excluded as the truth either."""
+    return bool(objected) and objected == _form(candidate, rules)
+
+
 def _posterior(candidates):
     """Posterior of several candidates together."""
     return sum(c.posterior for c in candidates)
 
 
-def _among(survivors, runs, rules):
-    total = _posterior(survivors)
-    ordered = sorted((replace(c, posterior=c.posterior / max(total, 1e-300)) for c in survivors),
+def _among(survivors, rivals, runs, rules):
+    """Decision among ``survivors`` of every rule; ``rivals``, refused for their form alone, can only tie with them."""
+    total = _posterior(survivors) + _posterior(rivals)
+    ordered = sorted((replace(c, posterior=c.posterior / max(total, 1e-300)) for c in survivors + rivals),
                      key=lambda c: -c.posterior)
     named, posterior = [], 0.0
     for candidate in ordered:

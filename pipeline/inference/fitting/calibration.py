@@ -23,6 +23,8 @@ _EASIER = 8
 _HORIZONS, _FEWEST = (0.08, 0.3), 32
 #: the same, where the fit ends far off all the same: how much a short part of a run tells is a matter of its course
 _OTHER_HORIZONS = ((0.025, 0.05, 0.1, 0.2, 0.4, 0.7), (0.15, 0.5))
+#: latent values at which thresholds are tried beside fits to short parts of the runs
+_THRESHOLDS = np.linspace(-2.0, 2.0, 33)
 #: standard deviations, as multiples of the true ones, with which features are fitted first where they are that far off:
 #: then priors hold what few features tell, and each is paired with what it belongs to before it counts in full. Under
 #: the first, features known to a few parts in ten thousand weigh no more than values known to a few per cent
@@ -169,6 +171,7 @@ def _begun(problem, noises, hypothesis, starts, runs, reasons, anchors=(), ahead
     ends = (_beside(problem, ahead, hypothesis, starts, reasons) if ahead else
             _over_horizons(problem, noises, hypothesis, starts, runs, reasons))
     near = [*(fit.latent for fit in ends[-1:]), *(starts[k] for k in nearest)]
+    near += _other_thresholds(problem, noises, hypothesis, runs, near[:1], ahead)
     return _tried(problem, noises, hypothesis, near, runs, reasons, [known[nearest[0]]] * len(near))
 
 
@@ -202,12 +205,26 @@ def _beside(problem, ahead, hypothesis, starts, reasons):
     for short in ahead:
         own = [start[len(short.latent):] for start in ends or starts]
         begins = [*ends, *(np.concatenate((short.latent, latent)) for latent in own)]
+        begins += _other_thresholds(problem, short.noises, hypothesis, short.runs, [*ends, begins[-1]], ahead)
         known = [short.jacobians] * len(begins)
         if not ends:        # what misleads the nominal hypothesis may have led it far off in few samples as well
             begins, known = [*begins, *starts], known + [()] * len(starts)
         fits = _tried(problem, short.noises, hypothesis, begins, short.runs, reasons, known, rough=True)
         ends = [fits[0].latent] if fits else []
     return fits[:1]
+
+
+def _other_thresholds(problem, noises, hypothesis, runs, begins, ahead):
+    """Latent values (k,) of the best few of ``begins`` with thresholds moved over their priors, beside the nominal ones
+    ``ahead``; [] without any.
+
+    As long as no motion reaches a gap, nothing tells how wide it is; once one does, it tells that at once.
+    """
+    own = range(len(ahead[0].latent) if ahead else len(hypothesis.parameters), len(hypothesis.parameters))
+    moved = [np.where(np.arange(len(begin)) == k, value, begin) for k in own if hypothesis.parameters[k].threshold
+             for begin in begins for value in _THRESHOLDS]
+    residuals = [_residuals(problem, noises, hypothesis, latent, runs) for latent in moved]
+    return [moved[k] for k in _distinct(residuals)[:_NEAREST - 1]]
 
 
 def _horizons(noises, runs, fractions):

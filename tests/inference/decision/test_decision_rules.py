@@ -104,6 +104,16 @@ def test_a_law_whose_shape_adapts_may_leave_less():
     assert "another form" in "".join(objections(replace(GOOD, adapts=True), FOUR, DecisionRules()))
 
 
+def test_a_law_refused_for_its_form_alone_still_ties_with_another_as_likely():
+    other = replace(GOOD, posterior=0.85)
+    shaped = replace(GOOD, name="arm", posterior=0.15, adapts=True)
+    told = decide(FOUR, [other, shaped], DecisionRules())
+    assert told.verdict == "tie" and [c.name for c in told.named] == ["friction", "arm"]
+    assert verdict(FOUR, replace(other, posterior=0.95), replace(shaped, posterior=0.05)) == "missing"
+    assert verdict(FOUR, other, replace(shaped, doubts=("its fit did not converge",))) == "missing"
+    assert verdict(FOUR, replace(other, posterior=0.4), replace(shaped, posterior=0.6)) == "unknown"
+
+
 def test_one_run_names_nothing_and_says_so():
     alone = replace(GOOD, held_out_errors=None, beats_decoy=None)
     told = decide(replace(FOUR, runs=1, points=1), [alone], DecisionRules())

@@ -5,11 +5,12 @@ import pytest
 
 from pipeline.contract.errors import ConvergenceError
 from pipeline.inference.fitting import calibration
-from pipeline.inference.fitting.calibration import _distinct, _under, begun, calibrate, paired_anew
+from pipeline.inference.fitting.calibration import _distinct, _under, ahead_of, begun, calibrate, paired_anew
 from pipeline.inference.fitting.fit_state import linearised
 from pipeline.inference.fitting.least_squares import fit
 from pipeline.inference.fitting.noise import budget
 from pipeline.inference.priors import Normal, Parameter
+from pipeline.inference.problem import Hypothesis, Observed, Problem
 from pipeline.inference.rules import DEFAULTS
 from tests.inference import resonance
 from tests.inference.curves import curve_problem, either_of_two, features
@@ -36,6 +37,27 @@ def test_a_fit_that_ends_far_off_is_tried_over_other_horizons(monkeypatch, mass)
     assert told.converged and told.values["mass"] == pytest.approx(mass, rel=1e-3)
     monkeypatch.setattr(calibration, "_OTHER_HORIZONS", ())
     assert found().objective > 1000 * told.objective
+
+
+@pytest.mark.parametrize("threshold", [True, False])
+def test_a_threshold_far_from_its_start_is_found_from_part_to_part(threshold):
+    """From a moment on a tone is thrice as fast: 19 cycles slip by the end of the run, none before that moment."""
+    def tone(values, grid):
+        return np.sin(values["pace"] * grid + 60 * np.maximum(grid - values.get("from", np.inf), 0))[None]
+
+    grid = np.arange(2500) / 1000
+    seen = tone({"pace": 30.4, "from": 0.55}, grid) + 0.01 * np.random.default_rng(1).standard_normal(len(grid))
+    pace = Parameter("pace", "rad/s", 30.0, Normal(30.0, 1.0))
+    late = Parameter("from", "s", 1.1, Normal(1.1, 0.3), null=10.0, threshold=threshold)
+    problem = Problem((Observed("a", {}, ("y",), seen, 1000.0, noise_std=np.array([0.01])),),
+                      lambda hypothesis, values, run: tone(values, grid[:run.samples.shape[1]]),
+                      Hypothesis("nominal", (), (pace,)))
+    noises = (budget(problem)["a"],)
+    null = fit(problem, noises, problem.nominal, np.zeros(1), problem.runs)
+    found = begun(problem, noises, problem.nominal.joined(Hypothesis("faster", (("faster", "here"),), (late,))),
+                  [np.append(null.latent, 0.0)], problem.runs, [null], ahead_of(problem, null))
+    assert (found.objective < 1.2 * len(grid)) is threshold
+    assert not threshold or found.values["from"] == pytest.approx(0.55, abs=1e-3)
 
 
 @pytest.mark.exact
