@@ -119,29 +119,16 @@ class Record(NamedTuple):
 
 
 @njit
-def _record_row(record, row, sensors, gap, stored, contact, summed, steps, work):
-    """Fill ``row`` of the record; ``summed`` (2, c) are the forces of the last ``steps``."""
-    for s in range(sensors.size // 2):
-        record.displacement[s, row], record.velocity[s, row] = sensors[s], sensors[sensors.size // 2 + s]
-    for i in range(gap.size):
-        record.gap[i, row] = gap[i] + contact.begin[0, i]
-        record.normal[i, row], record.friction[i, row] = summed[0, i] / steps, summed[1, i] / steps
-        record.slip[i, row] = contact.drive[1, i] - contact.begin[3, i]
-        record.status[i, row] = contact.status[i]
-    record.stored[row] = stored
-    for k in range(work.size):
-        record.work[k, row] = work[k]
-
-
-@njit
 def integrate(system, schedule, state, record):
     """(code, step number, contact or element) of the first step that fails, after filling ``record`` and ``state``."""
     linear, law, friction, elements, states, lever, turning, rigid, part = system
+    (seen_displacement, seen_velocity, seen_gap, seen_normal, seen_friction, seen_slip, seen_status, seen_stored,
+     seen_work, seen_elongation, seen_force, share) = record
     drive, inputs, age, step, steps, every, book = schedule
     pairs, force, status, memory, value = state.pairs, state.force, state.status, state.memory, state.friction
     contacts, count, count_e = law.gap.size, linear.input_rows.shape[0], elements.kind.size
     # functions of the loop take the arrays that they need: a whole tuple of arrays costs more than their work
-    one_step, rows, response, gap, share = linear.step, linear.rows, linear.response, law.gap, record.share
+    one_step, rows, response, gap = linear.step, linear.rows, linear.response, law.gap
     input_rows, power, damping, impulse = linear.input_rows, linear.power, linear.damping, linear.impulse_response
     sensor_rows, energy, omega_squared = linear.sensors, linear.energy, linear.omega_squared
     element_rows = elements.rows
@@ -177,7 +164,9 @@ def integrate(system, schedule, state, record):
     middle, dampers_turn = friction.description == RIGID and not law.newmark, False
     for k in range(count_e):
         dampers_turn = dampers_turn or elements.kind[k] == TURNING
-    special = count_e > 0 or elements.waviness.shape[0] > 0 or wear.size > 0 or recalls
+    waviness = elements.waviness
+    moves = waviness.shape[0] > 0 or wear.size > 0
+    special = count_e > 0 or moves or recalls
     interpolate(inputs, 0.0, input_end)
     interpolate(drive, 0.0, speed)
     copy(input_end, input_begin)
@@ -252,8 +241,9 @@ def integrate(system, schedule, state, record):
                     add_forces(contact_first, held_flat, after)
                 project_rows(rows, after, free_flat)
             if special:
-                surface_shift(elements.waviness, instant, shift)
-                recede(worn, pace, step, shift)
+                if moves:
+                    surface_shift(waviness, instant, shift)
+                    recede(worn, pace, step, shift)
                 for i in range(contacts):
                     free[0, i] += shift[0, i]
                     free[1, i] += shift[1, i]
@@ -329,12 +319,19 @@ def integrate(system, schedule, state, record):
                 return DIVERGED, number, 0
             project_rows(sensor_rows, pairs, sensors)
             stored = stored_energy(energy, omega_squared, pairs) if book else 0.0
-            _record_row(record, number // every, sensors, gap, stored, contact, summed, recorded, work)
-            for k in range(count_e):
-                record.elongation[k, number // every] = elongation[0, k]
-                record.element_force[k, number // every] = element_force[k]
+            row = number // every
+            for s in range(sensors.size // 2):
+                seen_displacement[s, row], seen_velocity[s, row] = sensors[s], sensors[sensors.size // 2 + s]
             for i in range(contacts):
+                seen_gap[i, row] = gap[i] + observed[0, i]
+                seen_normal[i, row], seen_friction[i, row] = summed[0, i] / recorded, summed[1, i] / recorded
+                seen_slip[i, row], seen_status[i, row] = sliding[1, i] - observed[3, i], status[i]
                 summed[0, i] = summed[1, i] = 0.0
+            seen_stored[row] = stored
+            for k in range(6):
+                seen_work[k, row] = work[k]
+            for k in range(count_e):
+                seen_elongation[k, row], seen_force[k, row] = elongation[0, k], element_force[k]
             recorded = every
     state.angle[0] = angle
     return SOLVED, 0, 0
