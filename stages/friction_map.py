@@ -48,16 +48,16 @@ def friction_map(micro_friction: MicroFriction, settings: Settings, context: Con
     fine, friction = refine(axes, micro_friction.friction, parts)
     _, scatter = refine(axes, micro_friction.friction_std, parts)
     _, stiffness = refine(axes[::2], micro_friction.normal_stiffness.mean(axis=1), parts[::2])
-    slope = None
+    fit = slope = None
     if settings.order is not None:
-        fine, friction, scatter, stiffness, slope = _fitted(micro_friction, settings, fine, stiffness)
+        fine, friction, scatter, stiffness, fit, slope = _fitted(micro_friction, settings, fine, stiffness)
     return FrictionMap(pressure=fine[0], speed=fine[1], distance=fine[2], friction=friction, friction_std=scatter,
                        normal_stiffness=stiffness, computed_pressure=micro_friction.pressure,
-                       computed_speed=micro_friction.speed, **_slope_errors(micro_friction, fine, scatter, slope))
+                       computed_speed=micro_friction.speed, **_slope_errors(micro_friction, fine, scatter, fit, slope))
 
 
 def _fitted(computed, settings, fine, stiffness):
-    """(axes, friction, its standard error, stiffness, slope over ln p per computed value) with the fitted law.
+    """(axes, friction, its standard error, stiffness, value and slope over ln p per computed value) of the fitted law.
 
     The stiffness beyond the computed pressures is proportional to pressure below them, and constant above.
     """
@@ -67,26 +67,36 @@ def _fitted(computed, settings, fine, stiffness):
     parts = (1, settings.speed_subdivisions, settings.distance_subdivisions)
     axes = pressure, computed.speed, computed.distance
     friction = refine(axes, np.einsum("fp,pvs->fvs", fit, computed.friction), parts)[1]
-    scatter = refine(axes, np.sqrt(np.einsum("fp,pvs->fvs", fit**2, computed.friction_std**2)), parts)[1]
+    scatter = refine(axes, _scatter_of_fit(computed, fit), parts)[1]
     if friction.min() <= 0:
         raise ConvergenceError("friction_map.order", "a law of friction above 0", f"{friction.min():.3g}",
                                "lower the order, or interpolate")
     inside = np.array([np.interp(pressure, fine[0], column) for column in stiffness.T]).T
     below = np.minimum(pressure / computed.pressure[0], 1.0)[:, None]
-    return (pressure, *fine[1:]), friction, scatter, below * inside, np.gradient(fit, np.log(pressure), axis=0)
+    return (pressure, *fine[1:]), friction, scatter, below * inside, fit, np.gradient(fit, np.log(pressure), axis=0)
 
 
-def _slope_errors(computed, fine, scatter, slope):
-    """Fields of the map: where its error is smallest, and the errors of its slopes there.
+def _scatter_of_fit(computed, fit):
+    """Standard error (F, V, S) of the fitted law (F, P): that of what the pairs of surfaces give, whose friction at all
+    pressures rises and falls together; of one pair that of independent points."""
+    each = computed.pair_friction
+    if len(each) == 1:
+        return np.sqrt(np.einsum("fp,pvs->fvs", fit**2, computed.friction_std**2))
+    return np.einsum("fp,npvs->nfvs", fit, each).std(axis=0, ddof=1) / np.sqrt(len(each))
 
-    ``slope`` (F, P) is that of the fitted law per computed value; None: that of a straight line by weight. With several
+
+def _slope_errors(computed, fine, scatter, fit, slope):
+    """Fields of the map: where its error is smallest, the errors of its slopes there, and how errors go together.
+
+    ``fit`` and ``slope`` (F, P) are those of the fitted law per computed value; None: a straight line by weight. With several
     pairs of surfaces errors are those of what each pair gives, whose friction at all pressures and speeds rises and
     falls together.
     """
     pressure, speed, distance = fine
-    best = scatter.mean(axis=1).argmin(axis=0)
-    if len(computed.pair_friction) > 1:
-        return {"best_pressure": pressure[best], **_slopes_of_pairs(computed, fine, best, slope)}
+    several = len(computed.pair_friction) > 1
+    best = np.where(_inside(computed.pressure, pressure, several)[:, None], scatter.mean(axis=1), np.inf).argmin(axis=0)
+    if several:
+        return {"best_pressure": pressure[best], **_errors_of_pairs(computed, fine, best, fit, slope)}
     over_pressure, over_speed = [], []
     for s, at in enumerate(np.interp(computed.distance, distance, best).round().astype(int)):
         errors = computed.friction_std[:, :, s]
@@ -97,20 +107,43 @@ def _slope_errors(computed, fine, scatter, slope):
         over_speed.append(slope_error(np.log(computed.speed), there))
     return {"best_pressure": pressure[best],
             "pressure_slope_std": np.interp(distance, computed.distance, over_pressure),
-            "speed_slope_std": np.interp(distance, computed.distance, over_speed)}
+            "speed_slope_std": np.interp(distance, computed.distance, over_speed),
+            "error_correlation": np.tile(np.eye(3), (len(distance), 1, 1))}
 
 
-def _slopes_of_pairs(computed, fine, best, slope):
-    """Standard errors of the slopes by what each pair of surfaces gives for them; see ``_slope_errors``."""
+def _inside(computed, pressure, several):
+    """Whether each ``pressure`` is one at which errors may be stated: of several pairs, whose errors may be smallest at
+    an end, one between the outermost ``computed`` ones, where the law has a slope of its own."""
+    inner = computed[1:-1] if several and len(computed) > 2 else pressure
+    return (pressure >= inner[0]) & (pressure <= inner[-1])
+
+
+def _errors_of_pairs(computed, fine, best, fit, slope):
+    """Standard errors of the slopes and correlations, by what each pair of surfaces gives; see ``_slope_errors``."""
     pressure, speed, distance = fine
-    errors = {"pressure_slope_std": [], "speed_slope_std": []}
+    errors, correlations = [], []
     for s, at in enumerate(np.interp(computed.distance, distance, best).round().astype(int)):
         each = computed.pair_friction[..., s]
-        over = _line(np.log(computed.pressure)) if slope is None else slope[at]
-        errors["pressure_slope_std"].append(_standard_error(np.einsum("p,npv->n", over, each) / len(computed.speed)))
         near = np.argmin(abs(np.log(computed.pressure / pressure[at])))
-        errors["speed_slope_std"].append(_standard_error(each[:, near] @ _line(np.log(computed.speed))))
-    return {name: np.interp(distance, computed.distance, values) for name, values in errors.items()}
+        one = np.eye(len(computed.pressure))[near]
+        level, over = (one, _line(np.log(computed.pressure))) if fit is None else (fit[at], slope[at])
+        terms = np.array([np.einsum("p,npv->n", level, each) / len(computed.speed),
+                          np.einsum("p,npv->n", over, each) / len(computed.speed),
+                          each[:, near] @ _line(np.log(computed.speed))])
+        errors.append([_standard_error(term) for term in terms[1:]])
+        correlations.append(_correlation(terms))
+    at = [int(np.argmin(abs(computed.distance - d))) for d in distance]
+    over_distance = [np.interp(distance, computed.distance, values) for values in np.transpose(errors)]
+    return {"pressure_slope_std": over_distance[0], "speed_slope_std": over_distance[1],
+            "error_correlation": np.array(correlations)[at]}
+
+
+def _correlation(terms):
+    """Correlation (k, k) of ``terms`` (k, n); none with a term that does not vary."""
+    off = terms - terms.mean(axis=1, keepdims=True)
+    size = np.sqrt(np.einsum("kn,kn->k", off, off))
+    scaled = off / np.where(size > 0.0, size, 1.0)[:, None]
+    return np.where(np.eye(len(terms), dtype=bool), 1.0, scaled @ scaled.T)
 
 
 def _line(x):

@@ -8,7 +8,7 @@ from functools import partial
 
 import numpy as np
 
-from pipeline.case_models.scatter import DEFAULT, Source, family, friction_deviations, stability_settings
+from pipeline.case_models.scatter import DEFAULT, Source, family, friction_errors, stability_settings
 from pipeline.contract import ConfigError, Context, ConvergenceError, Quantity, Section, option, stage
 from pipeline.diagnosis.published.completed_case import chosen, companions
 from pipeline.diagnosis.published.line_hypotheses import (
@@ -111,10 +111,10 @@ def line_evidence(model: ReducedModel, friction_map: FrictionMap | None, modes: 
         raise ConfigError("line_evidence.high", f"at most {points.frequency_max:g} Hz, where the complex modes end",
                           f"{settings.high:g} Hz", "raise complex_modes.frequency_max")
     tests = (run_tests if settings.runs else cycle_tests)(recording, settings, model.pressure)
-    deviations = friction_deviations(friction_map, points.sliding_distance)
+    errors = friction_errors(friction_map, points.sliding_distance)
 
     def draws(hypothesis, count, seed):
-        return drawn(hypothesis, settings.sources, deviations, model, count, seed)
+        return drawn(hypothesis, settings.sources, errors, model, count, seed)
 
     made = {name: draws(h, settings.draws, settings.seed) for name, h in settings.hypotheses.items()}
     keys = {name: same_solution(h) for name, h in settings.hypotheses.items()}

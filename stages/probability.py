@@ -17,7 +17,7 @@ from pipeline.case_models.scatter import (
     draw_values,
     factors_of,
     family,
-    friction_deviations,
+    friction_errors,
     law_in_words,
     stability_settings,
 )
@@ -77,16 +77,16 @@ def probability(model: ReducedModel, friction_map: FrictionMap, modes: ComplexMo
     _refuse_effects(effects, settings)
     points = stability_settings(modes)
     points.speeds = selected_speeds(settings.speeds, points.speeds)
-    deviations = friction_deviations(friction_map, points.sliding_distance)
-    values = draw_values(settings.sources, deviations, settings.draws, np.random.default_rng(settings.seed))
+    errors = friction_errors(friction_map, points.sliding_distance)
+    values = draw_values(settings.sources, errors, settings.draws, np.random.default_rng(settings.seed))
     drawn = [factors_of(settings.sources, row, model) for row in values]
-    others = draw_values(settings.sources, deviations, settings.training, np.random.default_rng([settings.seed, 1]))
+    others = draw_values(settings.sources, errors, settings.training, np.random.default_rng([settings.seed, 1]))
     training = [NOMINAL, *(factors_of(settings.sources, row, model) for row in others)]
     families = [family(model, state, friction_map, points) for state in range(len(model.pressure))]
     cases, roots = _solved(families, drawn, training, points, settings, context) if drawn else ([], [])
     checked = context.map(partial(_checked, points), _checks(cases, drawn, points, settings), "whole model")
     return Probability(
-        source=[s.name for s in settings.sources], origin=[law_in_words(s, deviations) for s in settings.sources],
+        source=[s.name for s in settings.sources], origin=[law_in_words(s, errors) for s in settings.sources],
         value=values, pressure=np.repeat(model.pressure, len(points.speeds)),
         speed=np.tile(points.speeds, len(model.pressure)),
         **_results(roots, values, points, len(model.pressure) * len(points.speeds), settings),

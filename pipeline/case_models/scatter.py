@@ -8,7 +8,7 @@
 """
 
 import json
-from dataclasses import replace
+from dataclasses import dataclass, field, replace
 from types import SimpleNamespace
 from typing import Literal
 
@@ -78,25 +78,47 @@ def check_sources(sources, where):
             raise ConfigError(f"{here}.range", "the ends of a uniform distribution", "none")
 
 
-def draw_values(sources, deviations, count, rng):
-    """(count, s): factors of the Sources, or additions to friction with ``deviations`` {kind: standard deviation}."""
+@dataclass(frozen=True)
+class FrictionErrors:
+    """What a friction map says of its own errors: ``std`` {kind: standard error} of level and slopes, empty without a
+    map, and their ``correlation`` (3, 3) in the order of ADDITIONS."""
+
+    std: dict = field(default_factory=dict)
+    correlation: np.ndarray = field(default_factory=lambda: np.eye(len(ADDITIONS)))
+
+    def root(self, kinds):
+        """Symmetric root (k, k) of the correlation of these ``kinds``."""
+        of = [list(ADDITIONS).index(kind) for kind in kinds]
+        size, basis = np.linalg.eigh(self.correlation[np.ix_(of, of)])
+        return (basis * np.sqrt(np.maximum(size, 0.0))) @ basis.T
+
+
+def draw_values(sources, errors, count, rng):
+    """(count, s): factors of the Sources, or additions to friction; those of the map go together as its FrictionErrors
+    say."""
     columns = []
     for source in sources:
         if source.kind in ADDITIONS:
-            columns.append(_deviation(source, deviations) * rng.standard_normal(count))
+            columns.append(rng.standard_normal(count))
         elif source.distribution == "uniform":
             columns.append(rng.uniform(*source.range, count))
         else:
             middle, width = _lognormal(source)
             columns.append(np.exp(middle + width * rng.standard_normal(count)))
-    return np.reshape(columns, (len(sources), count)).T
+    values = np.reshape(columns, (len(sources), count))
+    mapped = [k for k, source in enumerate(sources) if source.kind in ADDITIONS and source.variation is None]
+    values[mapped] = errors.root([sources[k].kind for k in mapped]) @ values[mapped]
+    for k, source in enumerate(sources):
+        if source.kind in ADDITIONS:
+            values[k] *= _deviation(source, errors.std)
+    return values.T
 
 
-def law_in_words(source, deviations):
+def law_in_words(source, errors):
     """Distribution and width of a Source."""
     if source.kind in ADDITIONS:
         given = "standard error of the friction map" if source.variation is None else "stated"
-        return f"normal, standard deviation {_deviation(source, deviations):.2g} ({given})"
+        return f"normal, standard deviation {_deviation(source, errors.std):.2g} ({given})"
     if source.range is not None:
         share = "" if source.distribution == "uniform" else ", 95 % of the draws"
         return f"{source.distribution}, {source.range[0]:.3g} to {source.range[1]:.3g} times{share}"
@@ -140,17 +162,16 @@ def _members(source, names):
     return chosen
 
 
-def friction_deviations(friction_map, distance):
-    """{kind: standard error} of a product FrictionMap at a sliding ``distance`` m: level and slopes at the pivot.
-
-    Nothing without a map.
-    """
+def friction_errors(friction_map, distance):
+    """FrictionErrors of a product FrictionMap, or None, at a sliding ``distance`` m: level and slopes at the pivot."""
     if friction_map is None:
-        return {}
+        return FrictionErrors()
     at = int(np.argmin(abs(friction_map.distance - distance)))
-    level = friction_map.friction_std[:, :, at].mean(axis=1).min()
-    return {"friction": float(level), "friction_over_pressure": float(friction_map.pressure_slope_std[at]),
-            "friction_over_speed": float(friction_map.speed_slope_std[at])}
+    level = np.interp(friction_map.best_pressure[at], friction_map.pressure,
+                      friction_map.friction_std[:, :, at].mean(axis=1))
+    return FrictionErrors({"friction": float(level), "friction_over_pressure": float(friction_map.pressure_slope_std[at]),
+                           "friction_over_speed": float(friction_map.speed_slope_std[at])},
+                          friction_map.error_correlation[at])
 
 
 def stability_settings(modes):

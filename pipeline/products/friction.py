@@ -40,7 +40,7 @@ class MicroFriction:
     area_order: Array = quantity("1", "", "order at which it approaches that; 0 where fewer than three grids tell none")
 
 
-@product(version=2)
+@product(version=3)
 class FrictionMap:
     """mu(pressure, speed, distance) of the interface and its normal stiffness."""
 
@@ -49,9 +49,10 @@ class FrictionMap:
     distance: Array = quantity("m", "distance", "sliding distance")
     friction: Array = quantity("1", "pressure speed distance", "coefficient of friction")
     friction_std: Array = quantity("1", "pressure speed distance", "standard error of the coefficient of friction")
-    best_pressure: Array = quantity("Pa", "distance", "pressure of the smallest standard error, where errors of level and slope are uncorrelated")
+    best_pressure: Array = quantity("Pa", "distance", "pressure of the smallest standard error; of one pair of surfaces errors of level and slope are uncorrelated there")
     pressure_slope_std: Array = quantity("1", "distance", "standard error of dmu / d ln(pressure) there")
     speed_slope_std: Array = quantity("1", "distance", "standard error of dmu / d ln(speed) there, errors at the computed speeds being independent")
+    error_correlation: Array = quantity("1", "distance term other", "correlation of the errors of level, slope over pressure and slope over speed there, by the pairs of surfaces; of one pair none")
     normal_stiffness: Array = quantity("Pa/m", "pressure distance", "interface stiffness, mean over speed")
     computed_pressure: Array = quantity("Pa", "computed_pressure", "pressures at which micro_friction ran")
     computed_speed: Array = quantity("m/s", "computed_speed", "speeds at which micro_friction ran")

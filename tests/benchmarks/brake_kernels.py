@@ -15,7 +15,7 @@ from pipeline.case_models.scatter import (
     draw_values,
     factors_of,
     family,
-    friction_deviations,
+    friction_errors,
     stability_settings,
 )
 from pipeline.case_models.steady_sliding import mapped_friction, posed
@@ -120,8 +120,8 @@ def draws_of_probability(draws=4, small=False):
     model, law, modes = brake(small)
     points, random = stability_settings(modes), np.random.default_rng(11)
     sources = [s for s in (fill(Source, given, "source") for given in DEFAULT) if _there(s, model)]
-    deviations = friction_deviations(law, points.sliding_distance)
-    drawn = [factors_of(sources, row, model) for row in draw_values(sources, deviations, draws + 2, random)]
+    errors = friction_errors(law, points.sliding_distance)
+    drawn = [factors_of(sources, row, model) for row in draw_values(sources, errors, draws + 2, random)]
     speed = middle_speed(points.speeds)
     case = sampled(family(model, int(np.argmax(model.pressure)), law, points), [speed], points.frequency_max, drawn[:2])
     return (lambda: np.concatenate([case.roots(factors, speed) for factors in drawn[2:]]), draws,

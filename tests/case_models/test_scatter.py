@@ -8,12 +8,13 @@ import scipy
 
 from pipeline.case_models.scatter import (
     DEFAULT,
+    FrictionErrors,
     Source,
     check_sources,
     draw_values,
     factors_of,
     family,
-    friction_deviations,
+    friction_errors,
 )
 from pipeline.contract import ConfigError
 from tests.stages.small_brake import small_brake, small_map
@@ -64,7 +65,7 @@ def test_draws_have_the_stated_distributions():
     given = sources({"kind": "lining_stiffness", "variation": 0.3}, {"kind": "damping_speed", "range": (0.25, 4)},
                     {"kind": "contact_stiffness", "range": (0.5, 2), "distribution": "uniform"},
                     {"kind": "friction"}, {"kind": "friction_over_speed", "variation": 0.2})
-    values = draw_values(given, {"friction": 0.03}, 4000, np.random.default_rng(1))
+    values = draw_values(given, FrictionErrors({"friction": 0.03}), 4000, np.random.default_rng(1))
     width = np.sqrt(np.log(1 + 0.3**2))
     laws = [scipy.stats.lognorm(width), scipy.stats.lognorm(np.log(4) / 1.96), scipy.stats.uniform(0.5, 1.5),
             scipy.stats.norm(0, 0.03), scipy.stats.norm(0, 0.2)]
@@ -74,14 +75,32 @@ def test_draws_have_the_stated_distributions():
 
 
 def test_friction_scatters_by_the_standard_errors_of_the_map():
-    found = friction_deviations(small_map(), 5e-3)
-    assert found == {"friction": 0.0, "friction_over_pressure": 0.01, "friction_over_speed": 0.01}
+    found = friction_errors(small_map(), 5e-3)
+    assert found.std == {"friction": 0.0, "friction_over_pressure": 0.01, "friction_over_speed": 0.01}
+    np.testing.assert_array_equal(found.correlation, np.eye(3))
+
+
+@pytest.mark.exact
+def test_errors_of_the_map_go_together_as_it_says_and_stated_ones_alone():
+    """Of two pairs level and slope differ by one pattern alone: a correlation of rank one."""
+    together = FrictionErrors({"friction": 0.03, "friction_over_pressure": 0.01, "friction_over_speed": 0.002},
+                              np.array([[1.0, -1.0, 0.6], [-1.0, 1.0, -0.6], [0.6, -0.6, 1.0]]))
+    given = sources({"kind": "friction"}, {"kind": "lining_stiffness", "variation": 0.3},
+                    {"kind": "friction_over_pressure"}, {"kind": "friction_over_speed"})
+    values = draw_values(given, together, 4000, np.random.default_rng(1))
+    np.testing.assert_allclose(values[:, 2], -values[:, 0] / 3, atol=1e-9)
+    assert np.corrcoef(values[:, 0], values[:, 3])[0, 1] == pytest.approx(0.6, abs=0.04)
+    assert abs(np.corrcoef(values[:, 0], values[:, 1])[0, 1]) < 0.05
+    np.testing.assert_allclose(values[:, [0, 2, 3]].std(axis=0), list(together.std.values()), rtol=0.05)
+    stated = sources({"kind": "friction", "variation": 0.2}, {"kind": "friction_over_pressure"})
+    values = draw_values(stated, together, 4000, np.random.default_rng(1))
+    assert abs(np.corrcoef(values.T)[0, 1]) < 0.05
 
 
 def test_without_a_friction_map_friction_is_that_of_the_settings_and_its_scatter_must_be_stated():
-    assert friction_deviations(None, 0.01) == {}
+    assert friction_errors(None, 0.01).std == {}
     with pytest.raises(ConfigError, match="friction.variation"):
-        draw_values(sources({"kind": "friction"}), {}, 3, np.random.default_rng(1))
+        draw_values(sources({"kind": "friction"}), FrictionErrors(), 3, np.random.default_rng(1))
     settings = SimpleNamespace(
         speeds=[8.0], sliding_distance=0.01, damping_speed=1.0, friction=0.4, friction_at_rest=0.6, decay_speed=0.5,
         friction_slopes=True, friction_damping=True, gyroscopic=True, centrifugal=True)

@@ -90,3 +90,15 @@ def test_errors_of_slopes_are_those_of_pairs_whose_friction_moves_together(compu
         tilted = replace(alike, pair_friction=computed.friction + level + tilt)
         made = friction_map(tilted, settings=Settings(order=order))
         np.testing.assert_allclose(made.pressure_slope_std, 0.02 / np.sqrt(3), rtol=1e-9)
+        np.testing.assert_allclose(made.error_correlation[:, 0, 1], 1, atol=1e-9)
+
+
+@pytest.mark.exact
+def test_the_error_of_a_fitted_law_is_that_of_what_pairs_give(computed):
+    """Pairs that differ by a level alone: the law differs by that level, however many points it is fitted to."""
+    level = np.array([-0.05, 0.0, 0.05])[:, None, None, None]
+    alike = replace(computed, pair_friction=computed.friction + level,
+                    friction_std=np.full(computed.friction.shape, 0.05 / np.sqrt(3)))
+    made = friction_map(alike, settings=Settings(order=1))
+    inside = np.isin(made.pressure, computed.pressure)
+    np.testing.assert_allclose(made.friction_std[inside], 0.05 / np.sqrt(3), rtol=1e-9)

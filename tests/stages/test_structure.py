@@ -19,7 +19,8 @@ def friction_map(stiffness=(5e11, 1e12, 1.4e12)):
     return FrictionMap(pressure=[1e6, 2e6, 3e6], speed=[1.0], distance=[0.0, 0.02],
                        friction=np.full((3, 1, 2), 0.5), friction_std=np.zeros((3, 1, 2)), normal_stiffness=table,
                        computed_pressure=[1e6, 2e6, 3e6], computed_speed=[1.0], best_pressure=[2e6, 2e6],
-                       pressure_slope_std=[0.0, 0.0], speed_slope_std=[0.0, 0.0])
+                       pressure_slope_std=[0.0, 0.0], speed_slope_std=[0.0, 0.0],
+                       error_correlation=np.tile(np.eye(3), (2, 1, 1)))
 
 
 def run(stiffness=(5e11, 1e12, 1.4e12), **changes):

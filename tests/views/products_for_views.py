@@ -97,7 +97,8 @@ def friction_map():
                        computed_pressure=PRESSURE, computed_speed=SPEED,
                        best_pressure=np.full(len(micro.distance), PRESSURE[1]),
                        pressure_slope_std=np.full(len(micro.distance), 0.005),
-                       speed_slope_std=np.full(len(micro.distance), 0.05))
+                       speed_slope_std=np.full(len(micro.distance), 0.05),
+                       error_correlation=np.tile(np.eye(3), (len(micro.distance), 1, 1)))
 
 
 def friction_update():

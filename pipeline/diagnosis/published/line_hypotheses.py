@@ -65,7 +65,7 @@ def check_hypotheses(hypotheses, sources, where):
             raise ConfigError(f"{here}.joint_factors", "factors above 0", str(hypothesis.joint_factors))
 
 
-def drawn(hypothesis, sources, deviations, model, count, seed):
+def drawn(hypothesis, sources, errors, model, count, seed):
     """Drawn of a Hypothesis on the ``sources`` of the case, in a product ReducedModel.
 
     The same ``seed`` gives sources that two hypotheses share the same values. ConfigError for joints that the model
@@ -73,7 +73,7 @@ def drawn(hypothesis, sources, deviations, model, count, seed):
     """
     replaced = {s.name: s for s in (*sources, *hypothesis.sources)}
     rng = np.random.default_rng(seed)
-    values = draw_values(replaced.values(), deviations, count, rng)
+    values = draw_values(replaced.values(), errors, count, rng)
     unit = rng.uniform(size=(2, count))
     low, high = hypothesis.falling or (0.0, 0.0)
     falling, loading = low + (high - low) * unit[0], _TWO_PI * hypothesis.load_rate * unit[1]
