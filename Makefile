@@ -16,7 +16,7 @@ READY  := .venv/.ready
 BIN    := .venv/bin
 
 .DEFAULT_GOAL := help
-.PHONY: help setup run test coverage test-kernels test-slow test-study bench trial trial_sealed trial_again study_diagnosis study_squeal study_lines study_knock_out study_sharp paper_micro study_several study_disturbed study_second_family pin_bench worn_bench lint clean $(STAGES)
+.PHONY: help setup run test coverage test-kernels test-slow test-study bench trial trial_sealed trial_again study_diagnosis study_squeal study_lines study_knock_out study_sharp paper_micro study_micro study_several study_disturbed study_second_family pin_bench worn_bench lint clean $(STAGES)
 
 help:            ## show this list
 	@echo "usage: make TARGET [CASE=disc_brake] [ARGS=...]      cases: $(basename $(notdir $(wildcard configs/*.yaml)))"
@@ -90,6 +90,9 @@ study_knock_out: $(READY)  ## whether physics that the catalogue lacks is taken 
 
 study_sharp: $(READY)  ## whether friction that sticks, play and stops are named from event-driven recordings; resumes case by case
 	$(BIN)/python -m tests.studies.sharp $(ARGS)
+
+study_micro: $(READY)  ## how far friction, real area and wear hang on grid, patch, layers, cycles and stroke
+	$(BIN)/python -m tests.studies.micro_convergence $(ARGS)
 
 paper_micro: $(READY)  ## friction, real area and wear of the 2021 paper beside ours, over several pairs of surfaces
 	$(BIN)/python -m tests.studies.paper_micro $(ARGS)

@@ -8,7 +8,7 @@ from pipeline.case_models.effect_block import rubbing_with_effects
 from pipeline.case_models.rough.pair import Settings, cycle_distance, of_pair, offsets, rough_pair, rubbing, shifted
 from pipeline.contract import ConfigError, Context, stage, stored
 from pipeline.physics.numerics.grid_limit import grid_limit
-from pipeline.physics.rough.contact.normal_contact import contact_area
+from pipeline.physics.rough.contact.normal_contact import contact_area, uniform
 from pipeline.physics.rough.contact.yielding_contact import solve_yielding_contact
 from pipeline.physics.rough.pair_limits import refuse_beyond_limits, refuse_large_grid
 from pipeline.physics.rough.sliding_pair import slide
@@ -52,7 +52,7 @@ def micro_friction(surface: Surface, effects: Effects | None, settings: Settings
     return MicroFriction(
         settings=stored(settings), pressure=settings.pressures, speed=speeds, disc_speed=settings.disc_speeds,
         distance=np.array(recorded) * cycle_distance(settings), **_table(records, len(settings.pressures), len(pairs)),
-        block_compliance=rubbed.pair.compliance.normal[0, 0], shear_limit=rubbed.shearing.limit, x=surface.x,
+        block_compliance=uniform(rubbed.pair.compliance.normal), shear_limit=rubbed.shearing.limit, x=surface.x,
         y=surface.y,
         nodes_per_wavelength=surface.nodes_per_wavelength[0],
         refinement=np.array(settings.refinement) * surface.nodes_per_wavelength[0], refinement_area=areas,

@@ -163,3 +163,19 @@ def test_a_hard_body_changes_nothing_and_a_soft_one_yields(result):
     assert np.all(soft.yielding_area > 0.0) and np.all(soft.yielding_area < soft.real_area)
     assert np.all(soft.real_area > result.real_area) and np.all(soft.friction > result.friction)
     assert soft.contact_pressure_new.max() <= 0.3 * result.contact_pressure_new.max() * (1 + 1e-12)
+
+
+def test_particles_of_the_resin_are_the_resin_and_stiffer_ones_change_it(result):
+    """One modulus, one shear limit: the numbers of one material; particles that hardly wear keep the surfaces apart."""
+    def of(**inclusions):
+        asked = TINY | {"disc_speeds": ["8.5 rad/s"], "realisations": 1, "refinement": [1.0],
+                        "pad": {"inclusions": {"size": "200 um", **inclusions}}}
+        return micro_friction(rough(), settings=fill(Settings, asked, "micro_friction"))
+
+    one = micro_friction(rough(), settings=Settings(**TINY | {"realisations": 1}))
+    same = of(modulus_factor=1.0)
+    np.testing.assert_allclose(same.friction[:, 0], one.friction[:, 0], rtol=2e-3)
+    np.testing.assert_allclose(same.wear_depth[:, 0, 1:], one.wear_depth[:, 0, 1:], rtol=5e-3)
+    assert (of(modulus_factor=1.0, wear_factor=0.1).wear_depth[:, 0, -1] < 0.95 * same.wear_depth[:, 0, -1]).all()
+    assert of(modulus_factor=1.0, shear_factor=1e-9, share=0.5).friction[0, 0, 0] < 0.9 * same.friction[0, 0, 0]
+    assert of(modulus_factor=5.0).real_area[0, 0, 0] < 0.97 * same.real_area[0, 0, 0]

@@ -8,6 +8,7 @@ draws them into the folder. Then the CPU time of one normal contact from 64^2 to
 
 import argparse
 import time
+from functools import partial
 from pathlib import Path
 from typing import NamedTuple
 
@@ -64,7 +65,7 @@ def numbers(task):
     """(6,) NUMBERS of one pair: ``task`` is (Sweep's name, value, seed)."""
     name, value, seed = task
     patch, rough_changes, micro_changes = SWEEPS[name].changed(value)
-    rough, micro = sections(patch, **POINTS, **micro_changes)
+    rough, micro = sections(patch, **(POINTS | micro_changes))
     rough = rough | {"nodes": round(DENSITY * patch)} | rough_changes
     for body in ("disc", "pad"):
         rough[body] = rough[body] | {"seed": rough[body]["seed"] + 2 * seed}
@@ -75,11 +76,11 @@ def numbers(task):
                      found.wear_depth[0, 0, -1]])
 
 
-def gathered(workers, names=tuple(SWEEPS)):
-    """{name of a Sweep: [numbers (pairs, 6) of every value]}."""
+def gathered(fan_out, names=tuple(SWEEPS)):
+    """{name of a Sweep: [numbers (pairs, 6) of every value]}; ``fan_out`` maps as the builtin does."""
     tasks = [(name, value, seed) for name in names for value, pairs in zip(SWEEPS[name].values, SWEEPS[name].pairs,
                                                                            strict=True) for seed in range(pairs)]
-    found = dict(zip(tasks, shared_out(numbers, tasks, workers), strict=True))
+    found = dict(zip(tasks, fan_out(numbers, tasks), strict=True))
     return {name: [np.array([found[name, value, seed] for seed in range(pairs)])
                    for value, pairs in zip(SWEEPS[name].values, SWEEPS[name].pairs, strict=True)] for name in names}
 
@@ -148,7 +149,7 @@ def main():
     parser.add_argument("--workers", type=int, default=2, help="processes")
     chosen = parser.parse_args()
     chosen.folder.mkdir(parents=True, exist_ok=True)
-    found = gathered(chosen.workers, tuple(chosen.only))
+    found = gathered(partial(shared_out, workers=chosen.workers), tuple(chosen.only))
     for name, each in found.items():
         print("\n".join(table(name, each)), end="\n\n")
     print("\n".join(cost((64, 128, 256, 512, 1024))))

@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from pipeline.contract import ConfigError
 from pipeline.physics.rough.plausible_scan import in_true_unit, refuse_holes
 from pipeline.physics.rough.topography import level, read_scan, remove_outliers
 
@@ -29,3 +30,14 @@ def levelled(choice, where):
     missing = np.isnan(cleaned)
     refuse_holes(missing, where)
     return Levelled(in_true_unit(level(cleaned, spacing)[0], choice.height_unit, where), spacing, missing, outliers)
+
+
+def grey_image(file, where):
+    """Grey values (ny, nx) of a picture in any common format. ConfigError at ``where`` for what is no picture."""
+    from PIL import Image
+
+    try:
+        with Image.open(file) as picture:
+            return np.asarray(picture.convert("L"), float)
+    except (OSError, ValueError, SyntaxError) as error:
+        raise ConfigError(where, "a picture, as PNG or TIFF", f"{file}: {error}", "save it in such a format") from error

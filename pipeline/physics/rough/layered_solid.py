@@ -53,17 +53,22 @@ def layered_compliance(shape, spacing, depth, youngs_modulus, poisson_ratio):
     ``shape`` (ny, nx) surface nodes, ``spacing`` (dy, dx) in m, ``depth`` (layers + 1,) layer boundaries in m from 0
     at the surface to the clamped base, ``youngs_modulus`` in Pa.
     """
-    phases = _phases(shape)
     below = None
-    for thickness in np.diff(depth)[::-1]:
-        element = brick_stiffness((spacing[1], spacing[0], thickness), youngs_modulus, poisson_ratio)
-        layer = _symbol(element, phases)
+    for layer in layer_symbols(shape, spacing, depth[::-1], youngs_modulus, poisson_ratio):
         top, coupling, bottom = layer[..., :3, :3], layer[..., :3, 3:], layer[..., 3:, 3:]
         clamped = below is None
         below = top if clamped else top - coupling @ np.linalg.solve(bottom + below, layer[..., 3:, :3])
     compliance = np.linalg.inv(below).real * (spacing[0] * spacing[1])
     return SurfaceCompliance(compliance[..., 2, 2].copy(), compliance[..., 0, 0].copy(),
                              compliance[..., 1, 1].copy(), compliance[..., 0, 1].copy())
+
+
+def layer_symbols(shape, spacing, depth, youngs_modulus, poisson_ratio):
+    """Yield the stiffness (ny, nx // 2 + 1, 6, 6) in N/m of each layer between boundaries ``depth``, in their order, per
+    wavenumber: upper face x y z, lower face x y z; arguments as of ``layered_compliance``."""
+    phases = _phases(shape)
+    for thickness in abs(np.diff(depth)):
+        yield _symbol(brick_stiffness((spacing[1], spacing[0], thickness), youngs_modulus, poisson_ratio), phases)
 
 
 def half_space_compliance(shape, spacing, youngs_modulus, poisson_ratio):

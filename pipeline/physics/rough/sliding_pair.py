@@ -26,7 +26,9 @@ from pipeline.physics.rough.layered_solid import SurfaceCompliance
 class RoughPair:
     """Two rough solids: heights (ny, nx) in m outwards, ``spacing`` (dy, dx) in m, ``compliance`` of both together.
 
-    ``hardness`` in Pa of the softer one, the body ``yielding`` (pad or disc); infinite where both stay elastic.
+    ``hardness`` in Pa of the softer one, the body ``yielding`` (pad or disc); infinite where both stay elastic. Of a pad
+    of several materials ``shear_factor`` and ``wear_factor`` (ny, nx) multiply shear limit and wear of its nodes, and
+    the normal compliance is a CompositeCompliance.
     """
 
     pad_height: np.ndarray
@@ -35,6 +37,17 @@ class RoughPair:
     compliance: SurfaceCompliance
     hardness: float = np.inf
     yielding: str = "pad"
+    shear_factor: np.ndarray | float = 1.0
+    wear_factor: np.ndarray | float = 1.0
+
+    def with_pad_at(self, offset):
+        """The pair with its pad shifted by ``offset`` (y, x) in nodes."""
+        compliance, normal = self.compliance, self.compliance.normal
+        if not isinstance(normal, np.ndarray):
+            compliance = replace(compliance, normal=normal.shifted(offset))
+        moved = {name: np.roll(getattr(self, name), offset, (0, 1)) for name in ("shear_factor", "wear_factor")
+                 if isinstance(getattr(self, name), np.ndarray)}
+        return replace(self, pad_height=np.roll(self.pad_height, offset, (0, 1)), compliance=compliance, **moved)
 
 
 @dataclass(frozen=True)
@@ -153,10 +166,10 @@ def slide(rubbing, mean_pressure, speeds, recorded):
 
 def states(rubbing, mean_pressure):
     """WornPairs of a Rubbing under ``mean_pressure`` (Pa): at the start and after each cycle."""
-    pair = rubbing.pair
-    return run_in(pair.pad_height, pair.disc_height, pair.compliance.normal, mean_pressure,
-                  **rubbing.wearing.under(mean_pressure), **vars(rubbing.solving), hardness=pair.hardness,
-                  yielding=pair.yielding)
+    pair, wearing = rubbing.pair, rubbing.wearing.under(mean_pressure)
+    wearing["pad_coefficient"] = wearing["pad_coefficient"] * pair.wear_factor
+    return run_in(pair.pad_height, pair.disc_height, pair.compliance.normal, mean_pressure, **wearing,
+                  **vars(rubbing.solving), hardness=pair.hardness, yielding=pair.yielding)
 
 
 def passed(rubbing, worn, mean_pressure):
@@ -215,6 +228,7 @@ def _sheared(pressure, speeds, rubbing):
     for speed, heat in zip(speeds, heating, strict=True):
         limit = spot_limit(shearing, pressure.mean(), area, speed, heat)
         nodal = np.where(pressure > 0.0, _nodal_share(pressure, shearing, area) * limit * area / counted, 0.0)
+        nodal = nodal * rubbing.pair.shear_factor
         slip = full_slip_displacement(nodal, compliance)
         imposed = FAR * (slip + compliance.along[0, 0] * nodal.mean())
         shear = solve_shear_limit(nodal, compliance, imposed, **vars(rubbing.solving))

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from PIL import Image
 
 from pipeline.case_models.rough.pair import Settings, cycle_distance, offsets, rough_pair, rubbing, shifted
 from pipeline.contract.settings import fill
@@ -48,3 +49,25 @@ def test_the_softer_body_yields(rough):
 
     assert (found({}).hardness, found(hard).hardness, found(hard).yielding) == (np.inf, 4e8, "pad")
     assert found({"disc": hard["disc"]}).yielding == "disc"
+
+
+def test_particles_go_with_the_pad(rough):
+    """Stiffer ones that wear and shear less: their nodes are those of the block, also where the pad is shifted."""
+    given = {"pad": {"inclusions": {"modulus_factor": 8, "size": "150 um", "wear_factor": 0.2, "shear_factor": 0.6}}}
+    pair = rubbing(rough, fill(Settings, given, "micro_friction")).pair
+    particles = pair.compliance.normal.block.factor[0] == 8
+    assert 0.05 < particles.mean() < 0.4
+    np.testing.assert_array_equal(pair.wear_factor, np.where(particles, 0.2, 1.0))
+    np.testing.assert_array_equal(pair.shear_factor, np.where(particles, 0.6, 1.0))
+    moved = pair.with_pad_at((3, 5))
+    for of, was in ((moved.compliance.normal.block.factor[0] == 8, particles), (moved.wear_factor, pair.wear_factor)):
+        np.testing.assert_array_equal(of, np.roll(was, (3, 5), (0, 1)))
+
+
+def test_particles_of_a_picture(rough, tmp_path):
+    picture = np.zeros((2, 2), np.uint8)
+    picture[0, 1] = 255
+    Image.fromarray(picture).save(tmp_path / "lining.png")
+    asked = {"pad": {"inclusions": {"modulus_factor": 4, "image": str(tmp_path / "lining.png"), "size": "90 um"}}}
+    factor = rubbing(rough, fill(Settings, asked, "micro_friction")).pair.compliance.normal.block.factor
+    assert (factor[0, :16, 16:] == 4).all() and (factor[0, 16:] == 1).all() and (factor[-1] == 1).all()

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from pipeline.case_models.rough.scans import levelled
+from pipeline.case_models.rough.scans import grey_image, levelled
 from pipeline.case_models.rough.sections import Scan
 from pipeline.contract import ConfigError
 from pipeline.physics.rough.generator import self_affine
@@ -33,3 +33,9 @@ def test_units_and_holes_are_refused_at_the_section(tmp_path):
     holed = np.where(np.arange(64)[:, None] < 40, np.nan, ROUGH)
     with pytest.raises(ConfigError, match="^here: expected measured heights"):
         levelled(scan(tmp_path / "holes.txt", holed), "here")
+
+
+def test_what_is_no_picture_is_told(tmp_path):
+    (tmp_path / "lining.png").write_text("no picture")
+    with pytest.raises(ConfigError, match="a picture, as PNG or TIFF"):
+        grey_image(tmp_path / "lining.png", "micro_friction.pad.inclusions.image")

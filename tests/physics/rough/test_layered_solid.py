@@ -13,8 +13,11 @@ from pipeline.physics.rough.layered_solid import graded_depth, half_space_compli
 SHAPE, SPACING, DEPTH = (6, 8), (0.7, 1.0), np.array([0.0, 0.5, 1.5, 3.5])
 
 
-def assembled(youngs_modulus, poisson_ratio):
-    """Stiffness of the same block as one sparse matrix; degrees of freedom (plane, y, x, direction), base clamped."""
+def assembled(youngs_modulus, poisson_ratio, factor=None):
+    """Stiffness of the same block as one sparse matrix; degrees of freedom (plane, y, x, direction), base clamped.
+
+    ``factor`` (layers, ny, nx): of the modulus of each element.
+    """
     planes = DEPTH.size - 1
     number = np.arange(planes * SHAPE[0] * SHAPE[1] * 3).reshape(planes, *SHAPE, 3)
     rows, columns, values = [], [], []
@@ -26,7 +29,7 @@ def assembled(youngs_modulus, poisson_ratio):
                                 for a in (0, 1) for b in (0, 1) for c in (0, 1) for i in range(3)])[kept]
             rows.append(np.repeat(degrees, degrees.size))
             columns.append(np.tile(degrees, degrees.size))
-            values.append(element[np.ix_(kept, kept)].ravel())
+            values.append((1.0 if factor is None else factor[layer, y, x]) * element[np.ix_(kept, kept)].ravel())
     entries = np.concatenate(values), (np.concatenate(rows), np.concatenate(columns))
     return sparse.csc_matrix(entries, shape=(number.size,) * 2)
 

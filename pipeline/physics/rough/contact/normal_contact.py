@@ -33,9 +33,13 @@ def solve_normal_contact(gap, compliance, mean_pressure, start=None, tolerance=1
     """Contact pressure under ``mean_pressure`` (Pa) by the conjugate gradients of Polonsky & Keer (1999).
 
     ``gap`` (ny, nx) in m: distance of the undeformed surfaces, any reference; ``compliance`` (ny, nx // 2 + 1) in m/Pa:
-    normal compliance of both solids; ``start``: a pressure map to start from. The remaining gap of contact nodes and
-    the remaining overlap of others are below ``tolerance`` times the rms of ``gap``; otherwise ConvergenceError.
+    normal compliance of both solids, or a CompositeCompliance; ``start``: a pressure map to start from. The remaining
+    gap of contact nodes and the remaining overlap of others are below ``tolerance`` times the rms of ``gap``; otherwise
+    ConvergenceError.
     """
+    if not isinstance(compliance, np.ndarray):
+        return compliance.settled(lambda gap, alike, start: solve_normal_contact(
+            gap, alike, mean_pressure, start, tolerance, max_iterations), gap, start, tolerance)
     scale = gap.std()
     if mean_pressure <= 0.0 or scale == 0.0:
         raise ConfigError("normal contact", "a positive pressure and a gap that varies",
@@ -68,8 +72,10 @@ def full_contact_pressure(gap, compliance):
     """Mean pressure in Pa from which on every node touches: the one under which the deepest node just carries nothing.
 
     Where all nodes touch, the pressure is the mean plus that which flattens the gap, -gap / compliance per wavenumber
-    (Johnson, Contact Mechanics, 1985, section 13.2: p* of a wavy surface). Arguments as of ``solve_normal_contact``.
+    (Johnson, Contact Mechanics, 1985, section 13.2: p* of a wavy surface). Arguments as of ``solve_normal_contact``; of a
+    composite it is that of its one modulus.
     """
+    compliance = compliance if isinstance(compliance, np.ndarray) else compliance.whole
     flattening = scipy.fft.rfft2(gap)
     flattening[0, 0] = 0.0
     waves = compliance.copy()
@@ -118,4 +124,9 @@ def interface_stiffness(gap, compliance, contact, tolerance, max_iterations, ste
                           "lower the pressure or the wear, or raise the modulus of the asperities")
     low, high = (solve_normal_contact(gap, compliance, mean * factor, contact.pressure, tolerance, max_iterations)
                  for factor in (1.0 - step, 1.0 + step))
-    return 1.0 / ((high.approach - low.approach) / (2.0 * step * mean) - compliance[0, 0])
+    return 1.0 / ((high.approach - low.approach) / (2.0 * step * mean) - uniform(compliance))
+
+
+def uniform(compliance):
+    """Mean displacement in m by a pressure of 1 Pa all over; ``compliance`` as of ``solve_normal_contact``."""
+    return float(compliance[0, 0]) if isinstance(compliance, np.ndarray) else compliance.uniform

@@ -35,6 +35,9 @@ def solve_yielding_contact(gap, compliance, mean_pressure, start=None, tolerance
     if mean_pressure >= hardness:
         raise ConfigError("normal contact: hardness", f"more than the pressure, {mean_pressure:g} Pa",
                           f"{hardness:g} Pa", "lower the pressure; a softer body is pressed flat")
+    if not isinstance(compliance, np.ndarray):
+        return compliance.settled(lambda gap, alike, start: solve_yielding_contact(
+            gap, alike, mean_pressure, start, tolerance, max_iterations, hardness), gap, start, tolerance)
     elastic = solve_normal_contact(gap, compliance, mean_pressure, start, tolerance, max_iterations)
     if elastic.pressure.max() <= hardness:
         return YieldingContact(**vars(elastic), flattened=np.zeros_like(gap))
