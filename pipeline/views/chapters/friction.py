@@ -55,12 +55,18 @@ def _curves(product):
         Figure(friction.over_distance(product, "wear_depth"),
                f"Approach of the two bodies by wear: {span(product.wear_depth[:, :, -1], 'm')} at the end."),
         Figure(friction.over_distance(product, "friction"),
-               "Coefficient of friction over sliding distance; band: standard error over positions of the patches, up"
+               f"Coefficient of friction over sliding distance; band: standard error over {_drawn(product)}, up"
                f" to {number(scatter.max(), 2)}, at {quantity(product.pressure[scatter.argmax()], 'Pa', 3)}."),
         Figure(friction.over_pressure(product),
                "Coefficient of friction over pressure at three sliding distances. Over the computed speeds it varies"
                f" by at most {number(speed, 2)}."),
         *_convergence(product))
+
+
+def _drawn(product):
+    """What the standard errors of a MicroFriction are taken over."""
+    pairs = len(product.pair_friction)
+    return f"{pairs} pairs of surfaces" if pairs > 1 else "positions of the patches"
 
 
 def _convergence(product):
@@ -165,4 +171,5 @@ def friction_map(product, probability, look):
         " Results that rest on the hatched part are not reliable; the chapter on pad motion states the fraction of"
         " evaluations that fell there.",
         (Figure(friction.friction_map(product), f"Friction map: {span(last, '1')} over"
-                f" {span(product.computed_pressure, 'Pa')} and {span(product.computed_speed, 'm/s')}."),))
+                f" {span(product.computed_pressure, 'Pa')} and {span(product.computed_speed, 'm/s')}."),
+         Figure(friction.map_error(product), f"Its standard error: {span(product.friction_std[:, :, -1], '1')}.")))

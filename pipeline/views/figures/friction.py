@@ -59,18 +59,27 @@ def convergence(micro):
 
 def friction_map(product):
     """SVG of mu over speed and pressure at the largest distance: orange lines computed, hatched extrapolated."""
+    return _over_points(product, product.friction[:, :, -1], "coefficient of friction", "%.3f")
+
+
+def map_error(product):
+    """SVG of the standard error of mu in the same way."""
+    return _over_points(product, product.friction_std[:, :, -1], "its standard error", "%.4f")
+
+
+def _over_points(product, values, label, layout):
     pressure, speed = _widened(product.pressure, product.computed_pressure), _widened(
         product.speed, product.computed_speed)
     rows = np.searchsorted(product.pressure, np.clip(pressure, product.pressure[0], product.pressure[-1]))
     columns = np.searchsorted(product.speed, np.clip(speed, product.speed[0], product.speed[-1]))
-    values = product.friction[:, :, -1][np.ix_(rows, columns)]
+    values = values[np.ix_(rows, columns)]
     with drawing(3.5, bar=True) as figure:
         axes = figure.subplots()
         shown = axes.contourf(speed, pressure / 1e6, values, levels=_levels(values), cmap=SEQUENTIAL)
         _mark_computed(axes, product, speed, pressure)
         axes.set(xlabel="sliding speed / m/s", ylabel="pressure / MPa")
         axes.grid(False)
-        colour_bar(axes, shown, "coefficient of friction", format="%.3f")
+        colour_bar(axes, shown, label, format=layout)
         return svg(figure)
 
 
