@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from pipeline.case_models.scatter import Source, family, stability_settings
+from pipeline.case_models.scatter import FrictionErrors, Source, family, stability_settings
 from pipeline.contract import ConfigError
 from pipeline.diagnosis.published.line_hypotheses import (
     FALLING,
@@ -36,7 +36,7 @@ def model():
 
 
 def draws(model, count=400, seed=3, **given):
-    return drawn(Hypothesis(**{"disc": "flexible", **given}), SOURCES, {}, model, count, seed)
+    return drawn(Hypothesis(**{"disc": "flexible", **given}), SOURCES, FrictionErrors(), model, count, seed)
 
 
 def test_equal_seeds_give_shared_sources_the_same_values(model):
