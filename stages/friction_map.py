@@ -88,9 +88,9 @@ def _scatter_of_fit(computed, fit):
 def _slope_errors(computed, fine, scatter, fit, slope):
     """Fields of the map: where its error is smallest, the errors of its slopes there, and how errors go together.
 
-    ``fit`` and ``slope`` (F, P) are those of the fitted law per computed value; None: a straight line by weight. With several
-    pairs of surfaces errors are those of what each pair gives, whose friction at all pressures and speeds rises and
-    falls together.
+    ``fit`` and ``slope`` (F, P) are those of the fitted law per computed value; None: a straight line by weight. With
+    several pairs of surfaces errors are those of what each pair gives, whose friction at all pressures and speeds rises
+    and falls together.
     """
     pressure, speed, distance = fine
     several = len(computed.pair_friction) > 1

@@ -169,9 +169,9 @@ def friction_errors(friction_map, distance):
     at = int(np.argmin(abs(friction_map.distance - distance)))
     level = np.interp(friction_map.best_pressure[at], friction_map.pressure,
                       friction_map.friction_std[:, :, at].mean(axis=1))
-    return FrictionErrors({"friction": float(level), "friction_over_pressure": float(friction_map.pressure_slope_std[at]),
-                           "friction_over_speed": float(friction_map.speed_slope_std[at])},
-                          friction_map.error_correlation[at])
+    std = {"friction": float(level), "friction_over_pressure": float(friction_map.pressure_slope_std[at]),
+           "friction_over_speed": float(friction_map.speed_slope_std[at])}
+    return FrictionErrors(std, friction_map.error_correlation[at])
 
 
 def stability_settings(modes):

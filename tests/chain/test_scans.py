@@ -31,8 +31,8 @@ def test_a_scan_goes_through_the_study(name):
         pytest.skip(f"no public scans at {SURFACES}; set BRAKECHAIN_DATA")
     scan = read_scan(path)
     patch = 0.85 * min(n * d for n, d in zip(scan.heights.shape, scan.spacing, strict=True))
-    body = {"kind": "scan", "file": str(path), "rms_height": f"{5e-3 * patch} m", "longest_wavelength": f"{patch / 2} m",
-            "reason": "heights are scaled to one slope for all scans"}
+    body = {"kind": "scan", "file": str(path), "rms_height": f"{5e-3 * patch} m",
+            "longest_wavelength": f"{patch / 2} m", "reason": "heights are scaled to one slope for all scans"}
     made = surface(settings=fill(SurfaceSettings, {
         "nodes": NODES, "patch_length": f"{patch} m", "shortest_wavelength": f"{8 * patch / NODES} m",
         "disc_thickness": f"{patch} m", "pad_thickness": f"{patch} m", "disc": body,

@@ -1,9 +1,9 @@
 """'make study_micro': how far friction, real area and wear of the default pair hang on grid, patch, layers and cycles.
 
 The rough pair of configs/disc_brake.yaml is taken through 10 mm of sliding at 1 and 3 MPa, each time with one choice
-made finer or larger, over the same pairs of surfaces (a larger patch is of other surfaces: there scatter is told). Prints
-one table for each choice, in Markdown, with the limit that the last three values tell (``grid_limit``) and its error;
-draws them into the folder. Then the CPU time of one normal contact from 64^2 to 1024^2 nodes beside N log N.
+made finer or larger, over the same pairs of surfaces (a larger patch is of other surfaces: there scatter is told).
+Prints one table for each choice, in Markdown, with the limit that the last three values tell (``grid_limit``) and its
+error; draws them into the folder. Then the CPU time of one normal contact from 64^2 to 1024^2 nodes beside N log N.
 """
 
 import argparse
@@ -27,8 +27,8 @@ from tests.studies.forced import ROOT, shared_out
 from tests.studies.paper_micro import DENSITY, sections
 
 NUMBERS = {"real area at 1 MPa, new (%)": (100.0, "{:.2f}"), "friction at 1 MPa, new": (1.0, "{:.3f}"),
-           "p dmu/dp, new": (1.0, "{:.3f}"), "friction at 1 MPa, worn": (1.0, "{:.3f}"), "p dmu/dp, worn": (1.0, "{:.3f}"),
-           "wear depth at 1 MPa (um)": (1e6, "{:.3f}")}
+           "p dmu/dp, new": (1.0, "{:.3f}"), "friction at 1 MPa, worn": (1.0, "{:.3f}"),
+           "p dmu/dp, worn": (1.0, "{:.3f}"), "wear depth at 1 MPa (um)": (1e6, "{:.3f}")}
 POINTS = {"pressures": ["1 MPa", "3 MPa"], "disc_speeds": ["10.25 rad/s"], "recorded_distances": ["0 mm", "10 mm"]}
 
 
@@ -126,8 +126,8 @@ def solve_seconds(nodes):
     made = surface(settings=fill(SurfaceSettings, rough | {"nodes": nodes}, "surface"))
     spacing = made.x[1] - made.x[0]
     layers = graded_depth(spacing, 1e-3, 1.5)
-    compliance = sum((layered_compliance((nodes, nodes), (spacing, spacing), layers, modulus, 0.25).normal
-                      for modulus in (0.28e9, 110e9)))
+    compliance = sum(layered_compliance((nodes, nodes), (spacing, spacing), layers, modulus, 0.25).normal
+                      for modulus in (0.28e9, 110e9))
     begin = time.process_time()
     solve_normal_contact(-made.pad_height[0] - made.disc_height[0], compliance, 2e6, tolerance=1e-4)
     return time.process_time() - begin

@@ -4,8 +4,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from pipeline.contract import InputFile, Quantities, Quantity, Section, option
 from pipeline.case_models.rough.scans import grey_image
+from pipeline.contract import InputFile, Quantities, Quantity, Section, option
 from pipeline.physics.rough.composite.composite_block import composite_block
 from pipeline.physics.rough.composite.composite_compliance import CompositeCompliance
 from pipeline.physics.rough.composite.inclusions import of_image, spheres
@@ -37,10 +37,11 @@ class Inclusions(Section):
     """Particles or fibres in the resin of a lining, each of them of another modulus, shear limit and wear than this."""
 
     share: float = option(0.2, "of the volume that particles fill, where they are drawn at random", gt=0, lt=0.9)
-    size: Quantity("m", gt=0) = option("100 um", "diameter of the particles; of an image the depth to which it goes on")
+    size: Quantity("m", gt=0) = option("100 um", "their diameter; of an image the depth to which it goes on")
     seed: int = option(11, "of the places of the particles", ge=0)
-    image: InputFile | None = option(None, "a grey picture of the surface instead, stretched over the patch: particles bright")
-    modulus_factor: float = option(..., "Young's modulus of a particle over that of the resin, which is the pad's", gt=0)
+    image: InputFile | None = option(None, "instead a grey picture of the surface, stretched over the"
+                                    " patch: particles bright")
+    modulus_factor: float = option(..., "Young's modulus of a particle over that of resin, the pad's", gt=0)
     shear_factor: float = option(1.0, "shear limit on a particle over that on resin", gt=0)
     wear_factor: float = option(1.0, "wear coefficient of a particle over that of resin", ge=0)
 

@@ -149,11 +149,12 @@ def _form(candidate, rules):
     """The objection to a law whose shape adapts and which leaves more than a right one would, in a list."""
     if not candidate.adapts or candidate.unexplained <= rules.law_error**2:
         return []
-    return [f"it leaves {candidate.unexplained:.2%} of the excess error, though its shape adapts: a law of another form"]
+    return [f"it leaves {candidate.unexplained:.2%} of the excess error, though its shape adapts: a law of another"
+            " form"]
 
 
 def _rival(candidate, objected, rules):
-    """Whether nothing but its form is ``objected``: not to be named for itself, but not excluded as the truth either."""
+    """Whether nothing but its form is ``objected``: not to be named for itself, but not excluded either."""
     return bool(objected) and objected == _form(candidate, rules)
 
 

@@ -64,8 +64,8 @@ def layered_compliance(shape, spacing, depth, youngs_modulus, poisson_ratio):
 
 
 def layer_symbols(shape, spacing, depth, youngs_modulus, poisson_ratio):
-    """Yield the stiffness (ny, nx // 2 + 1, 6, 6) in N/m of each layer between boundaries ``depth``, in their order, per
-    wavenumber: upper face x y z, lower face x y z; arguments as of ``layered_compliance``."""
+    """Yield the stiffness (ny, nx // 2 + 1, 6, 6) in N/m of each layer between boundaries ``depth``, in their order, at
+    every wavenumber: upper face x y z, lower face x y z; arguments as of ``layered_compliance``."""
     phases = _phases(shape)
     for thickness in abs(np.diff(depth)):
         yield _symbol(brick_stiffness((spacing[1], spacing[0], thickness), youngs_modulus, poisson_ratio), phases)

@@ -26,9 +26,9 @@ from pipeline.physics.rough.layered_solid import SurfaceCompliance
 class RoughPair:
     """Two rough solids: heights (ny, nx) in m outwards, ``spacing`` (dy, dx) in m, ``compliance`` of both together.
 
-    ``hardness`` in Pa of the softer one, the body ``yielding`` (pad or disc); infinite where both stay elastic. Of a pad
-    of several materials ``shear_factor`` and ``wear_factor`` (ny, nx) multiply shear limit and wear of its nodes, and
-    the normal compliance is a CompositeCompliance.
+    ``hardness`` in Pa of the softer one, the body ``yielding`` (pad or disc); infinite where both stay elastic. Of a
+    pad of several materials ``shear_factor`` and ``wear_factor`` (ny, nx) multiply shear limit and wear of its nodes,
+    and the normal compliance is a CompositeCompliance.
     """
 
     pad_height: np.ndarray

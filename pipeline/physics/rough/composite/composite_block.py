@@ -1,7 +1,7 @@
 """Elastic block of elements that differ in modulus: the finite elements of ``layered_solid``, a factor on each.
 
-K u = f is solved by conjugate gradients, preconditioned by the block of one modulus: the DFT splits that into a chain of
-layers for every wavenumber, whose elimination is kept. How many iterations that takes depends on the contrast of the
+K u = f is solved by conjugate gradients, preconditioned by the block of one modulus: the DFT splits that into a chain
+of layers for every wavenumber, whose elimination is kept. How many iterations that takes depends on the contrast of the
 moduli, not on the grid.
 
 Planes of nodes are counted from the surface (0) to the one above the clamped base; displacements and forces are
@@ -27,8 +27,8 @@ class CompositeBlock:
 
     factor: np.ndarray      # (layers, ny, nx) of the modulus of each element
     stiffness: tuple        # (24, 24) N/m of an element of each layer at factor 1
-    inverse: np.ndarray     # (layers, ny, nx // 2 + 1, 3, 3) m/N of the chain of one modulus, what lies deeper eliminated
-    carried: np.ndarray     # (layers - 1, ny, nx // 2 + 1, 3, 3) share of the forces of a plane that goes to the one above
+    inverse: np.ndarray     # (layers, ny, nx // 2 + 1, 3, 3) m/N of the chain of one modulus, deeper planes eliminated
+    carried: np.ndarray     # (layers - 1, ny, nx // 2 + 1, 3, 3) share of a plane's forces that goes to the one above
     area: float             # m^2 of a node
 
     def solved(self, force, start=None, tolerance=1e-6, max_iterations=500):
@@ -119,8 +119,9 @@ def composite_block(factor, spacing, depth, youngs_modulus, poisson_ratio):
             whole = top - carried[-1] @ symbol[..., 3:, :3]
         below = whole
     inverse.append(np.linalg.inv(below))
-    stiffness = tuple(brick_stiffness((spacing[1], spacing[0], thickness), youngs_modulus, poisson_ratio).reshape(24, 24)
-                      for thickness in np.diff(depth))
+    bricks = (brick_stiffness((*spacing[::-1], thickness), youngs_modulus, poisson_ratio)
+              for thickness in np.diff(depth))
+    stiffness = tuple(brick.reshape(24, 24) for brick in bricks)
     return CompositeBlock(factor, stiffness, np.array(inverse[::-1]), np.array(carried[::-1]).reshape(
         len(factor) - 1, *inverse[0].shape), spacing[0] * spacing[1])
 

@@ -1,7 +1,7 @@
 """Normal compliance of a pair of which one body is a composite block: contact solved by correction of one modulus.
 
-What the composite gives more than a block of one modulus under the same pressure, w = (S - S_1) p, is added to the gap;
-the contact of bodies of one modulus on that gap gives the pressure again, until w stays. The steps are those of Anderson
+What the composite gives more than a block of one modulus under the same pressure, w = (S - S_1) p, is added to the
+gap; the contact of bodies of one modulus there gives the pressure again, until w stays. The steps are those of Anderson
 (D. G. Anderson, J. ACM 12 (1965) 547).
 """
 
@@ -62,8 +62,9 @@ class CompositeCompliance:
                 begin = scipy.optimize.anderson(change, begin, M=_MEMORY, maxiter=_STEPS, alpha=1.0,
                                                 f_tol=tolerance * scale, line_search=None)
             except scipy.optimize.NoConvergence as error:
-                raise ConvergenceError("normal contact of a composite", f"a correction that settles within {_STEPS} steps",
-                                       "none", "lower the contrast of the moduli, or raise tolerance") from error
+                raise ConvergenceError("normal contact of a composite",
+                                       f"a correction that settles within {_STEPS} steps", "none",
+                                       "lower the contrast of the moduli, or raise tolerance") from error
         self.last.update(correction=begin, moved=found["moved"])
         return found["contact"]
 

@@ -72,8 +72,8 @@ def full_contact_pressure(gap, compliance):
     """Mean pressure in Pa from which on every node touches: the one under which the deepest node just carries nothing.
 
     Where all nodes touch, the pressure is the mean plus that which flattens the gap, -gap / compliance per wavenumber
-    (Johnson, Contact Mechanics, 1985, section 13.2: p* of a wavy surface). Arguments as of ``solve_normal_contact``; of a
-    composite it is that of its one modulus.
+    (Johnson, Contact Mechanics, 1985, section 13.2: p* of a wavy surface). Arguments as of ``solve_normal_contact``; of
+    a composite it is that of its one modulus.
     """
     compliance = compliance if isinstance(compliance, np.ndarray) else compliance.whole
     flattening = scipy.fft.rfft2(gap)

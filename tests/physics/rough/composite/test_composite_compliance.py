@@ -63,7 +63,7 @@ def test_stiffness_of_the_interface_and_stiffer_particles(mixed):
     stiffness = [interface_stiffness(GAP, c, solve_normal_contact(GAP, c, MEAN, tolerance=TOLERANCE), TOLERANCE, 2000)
                  for c in (soft, stiff)]
     areas = [(solve_normal_contact(GAP, c, MEAN, tolerance=TOLERANCE).pressure > 0).mean() for c in (soft, stiff)]
-    assert 0 < stiffness[0] and 0 < stiffness[1] and areas[1] < areas[0]
+    assert stiffness[0] > 0 and stiffness[1] > 0 and areas[1] < areas[0]
 
 
 def test_a_correction_that_does_not_settle_raises(mixed, monkeypatch):
