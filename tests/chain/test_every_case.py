@@ -12,10 +12,10 @@ from tests.chain.conftest import ROOT, brakechain
 from tests.studies import self_excited, worn
 
 #: cases in full resolution; disc_brake_scanned needs recordings as well
-SLOW = {**dict.fromkeys(("disc_brake", "disc_brake_paper_joints", "bimaterial_rupture", "bimaterial_rupture_fine",
-                         "pin_on_disc", "pin_on_disc_paper_step", "beam_geometry"), [pytest.mark.slow]),
-        **dict.fromkeys(("pin_on_disc_bench", "worn_pad", "disc_table1", "disc_brake_lines", "pin_on_disc_lines"),
-                        [pytest.mark.slow, pytest.mark.study]),
+SLOW = {**dict.fromkeys(("disc_brake", "disc_brake_paper_joints", "bimaterial_rupture", "pin_on_disc",
+                         "pin_on_disc_paper_step", "beam_geometry"), [pytest.mark.slow]),
+        **dict.fromkeys(("pin_on_disc_bench", "worn_pad", "disc_table1", "disc_brake_lines", "pin_on_disc_lines",
+                         "bimaterial_rupture_fine"), [pytest.mark.slow, pytest.mark.study]),
         **dict.fromkeys(("emps", "silverbox", "tribometer"),
                         [pytest.mark.slow, pytest.mark.study, pytest.mark.measured]),
         **dict.fromkeys(("disc_brake_scanned", "tribometer_map"), [pytest.mark.slow, pytest.mark.measured]),
