@@ -14,6 +14,9 @@ from pipeline.physics.rough.generator import resample
 from pipeline.physics.rough.layered_solid import layered_compliance
 from pipeline.physics.rough.sliding_pair import RoughPair, Rubbing, Shearing, Solving, Wearing
 
+#: shares of the patch by which the particles of one pair lie off those of the pair before: never the same place again
+_ELSEWHERE = (0.618, 0.382)
+
 
 class Solid(Section):
     """What either body may state."""
@@ -155,8 +158,10 @@ def offsets(surface, settings):
 
 
 def of_pair(rubbing, surface, number):
-    """The Rubbing with the surfaces of the pair of this ``number`` of a product Surface."""
-    return replace(rubbing, pair=replace(rubbing.pair, pad_height=surface.pad_height[number],
+    """The Rubbing with the surfaces of the pair of this ``number`` of a product Surface; particles of a lining lie
+    elsewhere in each."""
+    moved = rubbing.pair.with_pad_at(tuple(round(number * share * surface.x.size) for share in _ELSEWHERE))
+    return replace(rubbing, pair=replace(moved, pad_height=surface.pad_height[number],
                                          disc_height=surface.disc_height[number]))
 
 

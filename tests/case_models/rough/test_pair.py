@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from pipeline.case_models.rough.pair import Settings, cycle_distance, offsets, rough_pair, rubbing, shifted
+from pipeline.case_models.rough.pair import Settings, cycle_distance, of_pair, offsets, rough_pair, rubbing, shifted
 from pipeline.contract.settings import fill
 from stages.surface import Settings as SurfaceSettings
 from stages.surface import surface
@@ -62,6 +62,16 @@ def test_particles_go_with_the_pad(rough):
     moved = pair.with_pad_at((3, 5))
     for of, was in ((moved.compliance.normal.block.factor[0] == 8, particles), (moved.wear_factor, pair.wear_factor)):
         np.testing.assert_array_equal(of, np.roll(was, (3, 5), (0, 1)))
+
+
+def test_particles_of_each_pair_lie_elsewhere():
+    several = surface(settings=SurfaceSettings(nodes=32, shortest_wavelength="125 um", pairs=3))
+    given = {"pad": {"inclusions": {"modulus_factor": 8, "size": "150 um"}}}
+    rubbed = rubbing(several, fill(Settings, given, "micro_friction"))
+    blocks = [of_pair(rubbed, several, number).pair.compliance.normal.block.factor for number in range(3)]
+    assert blocks[0].mean() == pytest.approx(blocks[1].mean()) == pytest.approx(blocks[2].mean())
+    assert not any((blocks[a] == blocks[b]).all() for a, b in ((0, 1), (1, 2), (0, 2)))
+    np.testing.assert_array_equal(blocks[0], rubbed.pair.compliance.normal.block.factor)
 
 
 def test_particles_of_a_picture(rough, tmp_path):
