@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from pipeline.contract import Context, ConvergenceError, Section, option, stage
+from pipeline.contract import ConfigError, Context, ConvergenceError, Section, option, stage
 from pipeline.physics.friction import table_formats
 from pipeline.physics.friction.friction_table import refine
 from pipeline.physics.friction.pressure_law import levelling_axis, polynomial_fit, slope_error
@@ -29,7 +29,15 @@ def companions(product, case=None):
             "friction_map.txt": table_formats.as_modelica(*axes, product.friction)}
 
 
-@stage(companions=companions)
+def _check(sections):
+    """A law is fitted by weight of errors, which nothing tells of one pair of surfaces at one position."""
+    surface, micro, order = sections.get("surface"), sections.get("micro_friction"), sections["friction_map"].order
+    if None not in (surface, micro, order) and surface.pairs * micro.realisations < 2:
+        raise ConfigError("friction_map.order", "none, or two or more surface.pairs or micro_friction.realisations",
+                          f"order {order} of one pair at one position", "its standard errors weigh the points")
+
+
+@stage(companions=companions, check=_check)
 def friction_map(micro_friction: MicroFriction, settings: Settings, context: Context) -> FrictionMap:
     """Map the friction coefficient over pressure, speed and sliding distance.
 

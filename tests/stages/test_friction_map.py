@@ -3,10 +3,12 @@
 import csv
 import io
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
+from pipeline.contract import ConfigError
 from pipeline.products import MicroFriction
 from stages.friction_map import Settings, friction_map
 
@@ -102,3 +104,15 @@ def test_the_error_of_a_fitted_law_is_that_of_what_pairs_give(computed):
     made = friction_map(alike, settings=Settings(order=1))
     inside = np.isin(made.pressure, computed.pressure)
     np.testing.assert_allclose(made.friction_std[inside], 0.05 / np.sqrt(3), rtol=1e-9)
+
+
+def test_a_law_without_errors_is_refused_before_anything_is_computed():
+    for pairs, realisations in ((1, 2), (2, 1), (1, 1)):
+        sections = {"surface": SimpleNamespace(pairs=pairs), "friction_map": Settings(order=2),
+                    "micro_friction": SimpleNamespace(realisations=realisations)}
+        if pairs * realisations > 1:
+            friction_map.check(sections)
+            continue
+        with pytest.raises(ConfigError, match="friction_map.order: expected none, or two or more surface.pairs"):
+            friction_map.check(sections)
+        friction_map.check(sections | {"friction_map": Settings()})
