@@ -15,16 +15,15 @@ from typing import NamedTuple
 import matplotlib.pyplot as plt
 import numpy as np
 
+from pipeline.case_models.rough.pair import rough_pair
 from pipeline.contract.settings import fill
 from pipeline.physics.numerics.grid_limit import grid_limit
 from pipeline.physics.rough.contact.normal_contact import solve_normal_contact
-from pipeline.physics.rough.layered_solid import graded_depth, layered_compliance
 from stages.micro_friction import Settings as MicroSettings
-from stages.micro_friction import micro_friction
 from stages.surface import Settings as SurfaceSettings
 from stages.surface import surface
 from tests.studies.forced import ROOT, shared_out
-from tests.studies.paper_micro import DENSITY, sections
+from tests.studies.paper_micro import DENSITY, sections, slid
 
 NUMBERS = {"real area at 1 MPa, new (%)": (100.0, "{:.2f}"), "friction at 1 MPa, new": (1.0, "{:.3f}"),
            "p dmu/dp, new": (1.0, "{:.3f}"), "friction at 1 MPa, worn": (1.0, "{:.3f}"),
@@ -66,11 +65,7 @@ def numbers(task):
     name, value, seed = task
     patch, rough_changes, micro_changes = SWEEPS[name].changed(value)
     rough, micro = sections(patch, **(POINTS | micro_changes))
-    rough = rough | {"nodes": round(DENSITY * patch)} | rough_changes
-    for body in ("disc", "pad"):
-        rough[body] = rough[body] | {"seed": rough[body]["seed"] + 2 * seed}
-    found = micro_friction(surface(settings=fill(SurfaceSettings, rough, "surface")),
-                           settings=fill(MicroSettings, micro, "micro_friction"))
+    found = slid(rough | rough_changes, micro, seed)
     friction, slopes = found.friction[:, 0], np.diff(found.friction[:, 0], axis=0)[0] / np.log(3.0)
     return np.array([found.real_area[0, 0, 0], friction[0, 0], slopes[0], friction[0, -1], slopes[-1],
                      found.wear_depth[0, 0, -1]])
@@ -123,13 +118,10 @@ def drawn(found, path):
 def solve_seconds(nodes):
     """CPU seconds of one normal contact at 2 MPa on ``nodes``^2 nodes of the default spacing."""
     rough, micro = sections(nodes / DENSITY)
-    made = surface(settings=fill(SurfaceSettings, rough | {"nodes": nodes}, "surface"))
-    spacing = made.x[1] - made.x[0]
-    layers = graded_depth(spacing, 1e-3, 1.5)
-    compliance = sum(layered_compliance((nodes, nodes), (spacing, spacing), layers, modulus, 0.25).normal
-                      for modulus in (0.28e9, 110e9))
+    settings = fill(MicroSettings, micro, "micro_friction")
+    pair = rough_pair(surface(settings=fill(SurfaceSettings, rough, "surface")), settings)
     begin = time.process_time()
-    solve_normal_contact(-made.pad_height[0] - made.disc_height[0], compliance, 2e6, tolerance=1e-4)
+    solve_normal_contact(-pair.pad_height - pair.disc_height, pair.compliance.normal, 2e6, tolerance=settings.tolerance)
     return time.process_time() - begin
 
 

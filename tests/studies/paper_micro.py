@@ -43,7 +43,11 @@ def sections(patch, **changes):
 
 def computed(asked, seed):
     """MicroFriction of the pair of this ``seed``; 0 is that of the case. ``asked`` as of ``sections``."""
-    rough, micro = sections(**asked)
+    return slid(*sections(**asked), seed)
+
+
+def slid(rough, micro, seed):
+    """The same of a section surface and a section micro_friction."""
     for body in ("disc", "pad"):
         rough[body] = rough[body] | {"seed": rough[body]["seed"] + 2 * seed}
     made = surface(settings=fill(SurfaceSettings, rough, "surface"))

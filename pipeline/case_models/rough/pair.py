@@ -160,7 +160,7 @@ def offsets(surface, settings):
 def of_pair(rubbing, surface, number):
     """The Rubbing with the surfaces of the pair of this ``number`` of a product Surface; particles of a lining lie
     elsewhere in each."""
-    moved = rubbing.pair.with_pad_at(tuple(round(number * share * surface.x.size) for share in _ELSEWHERE))
+    moved = rubbing.pair.with_particles_at(tuple(round(number * share * surface.x.size) for share in _ELSEWHERE))
     return replace(rubbing, pair=replace(moved, pad_height=surface.pad_height[number],
                                          disc_height=surface.disc_height[number]))
 

@@ -42,12 +42,16 @@ class RoughPair:
 
     def with_pad_at(self, offset):
         """The pair with its pad shifted by ``offset`` (y, x) in nodes."""
+        return replace(self.with_particles_at(offset), pad_height=np.roll(self.pad_height, offset, (0, 1)))
+
+    def with_particles_at(self, offset):
+        """The pair with the particles of its pad alone shifted by ``offset`` (y, x) in nodes."""
         compliance, normal = self.compliance, self.compliance.normal
         if not isinstance(normal, np.ndarray):
             compliance = replace(compliance, normal=normal.shifted(offset))
         moved = {name: np.roll(getattr(self, name), offset, (0, 1)) for name in ("shear_factor", "wear_factor")
                  if isinstance(getattr(self, name), np.ndarray)}
-        return replace(self, pad_height=np.roll(self.pad_height, offset, (0, 1)), compliance=compliance, **moved)
+        return replace(self, compliance=compliance, **moved)
 
 
 @dataclass(frozen=True)
