@@ -1,5 +1,6 @@
 """Stage micro_friction: friction, real contact area and wear of the rough surface pair."""
 
+from dataclasses import replace
 from functools import partial
 
 import numpy as np
@@ -11,8 +12,12 @@ from pipeline.physics.numerics.grid_limit import grid_limit
 from pipeline.physics.rough.contact.normal_contact import contact_area, uniform
 from pipeline.physics.rough.contact.yielding_contact import solve_yielding_contact
 from pipeline.physics.rough.pair_limits import refuse_beyond_limits, refuse_large_grid
-from pipeline.physics.rough.sliding_pair import slide
+from pipeline.physics.rough.sliding_pair import from_rest, nodal_limit, slide
+from pipeline.physics.rough.subsurface_stress import stress_at, von_mises
 from pipeline.products import Effects, MicroFriction, Surface
+
+#: depth to which stress is told, in shortest wavelengths, and the number of depths
+_DEEP, _DEPTHS = 1.0, 41
 
 
 @stage
@@ -43,12 +48,15 @@ def micro_friction(surface: Surface, effects: Effects | None, settings: Settings
         refuse_beyond_limits(pair, settings.pressures, speeds)
     tasks = [(pressure, pair, offset) for pressure in settings.pressures for pair in pairs
              for offset in offsets(surface, settings)]
+    shown = len(settings.pressures) // 2 * len(pairs) * settings.realisations
     run = partial(_slide, speeds=speeds, recorded=recorded)
-    records = context.map(run, tasks, "sliding of the rough pair")
+    records = context.map(run, [(*task, k == shown) for k, task in enumerate(tasks)], "sliding of the rough pair")
     middle = settings.pressures[len(settings.pressures) // 2]
+    begins = context.map(partial(_from_rest, rubbed=pairs[0], speed=speeds[len(speeds) // 2],
+                                 shares=settings.presliding), settings.pressures if settings.presliding else (),
+                         "friction from rest")
     areas = context.map(partial(_area_on_grid, surface=surface, settings=settings, pressure=middle),
                         settings.refinement, "convergence of the contact area")
-    shown = records[len(settings.pressures) // 2 * len(pairs) * settings.realisations]
     return MicroFriction(
         settings=stored(settings), pressure=settings.pressures, speed=speeds, disc_speed=settings.disc_speeds,
         distance=np.array(recorded) * cycle_distance(settings), **_table(records, len(settings.pressures), len(pairs)),
@@ -58,8 +66,8 @@ def micro_friction(surface: Surface, effects: Effects | None, settings: Settings
         refinement=np.array(settings.refinement) * surface.nodes_per_wavelength[0], refinement_area=areas,
         **dict(zip(("area_limit", "area_limit_error", "area_order"), grid_limit(settings.refinement, areas),
                    strict=True)),
-        **{name: getattr(shown, name) for name in
-           ("contact_pressure_new", "contact_pressure_worn", "pad_wear", "disc_wear")})
+        **_presliding(begins, settings.pressures), **_seen(records[shown].maps),
+        **_stressed(records[shown], pairs[0], surface, settings.pad.poisson_ratio))
 
 
 def _refuse_falling(values, name):
@@ -79,8 +87,46 @@ def _recorded_cycles(settings):
 
 
 def _slide(task, speeds, recorded):
-    pressure, rubbed, offset = task
-    return slide(shifted(rubbed, offset), pressure, speeds, recorded)
+    """The SlidingRecord of a task; its maps are kept of the one that is shown."""
+    pressure, rubbed, offset, kept = task
+    record = slide(shifted(rubbed, offset), pressure, speeds, recorded)
+    return record if kept else replace(record, maps=None)
+
+
+def _from_rest(pressure, rubbed, speed, shares):
+    return from_rest(rubbed, pressure, speed, shares)
+
+
+def _presliding(found, pressures):
+    """Fields of the product from [Presliding] of each of the ``pressures``, or of none."""
+    if not found:
+        none = np.empty((len(pressures), 0))
+        return {"presliding_displacement": none, "presliding_friction": none,
+                "tangential_stiffness": np.zeros(len(pressures))}
+    return {"presliding_displacement": [f.displacement for f in found],
+            "presliding_friction": [f.shear / pressure for f, pressure in zip(found, pressures, strict=True)],
+            "tangential_stiffness": [f.stiffness for f in found]}
+
+
+def _seen(maps):
+    """Fields of the product from the Maps of the run that is shown."""
+    share = np.linspace(0.0, 1.0, 101)
+    heights = {f"{body}_bearing": [np.quantile(each, 1.0 - share) for each in getattr(maps, f"{body}_height")]
+               for body in ("pad", "disc")}
+    return {"bearing_share": share, **heights, "contact_pressure": maps.contact_pressure, "pad_wear": maps.pad_wear,
+            "disc_wear": maps.disc_wear}
+
+
+def _stressed(record, rubbed, surface, poisson_ratio):
+    """Fields of the product: stress under the new surfaces of the run that is shown, at its middle speed."""
+    pressure, middle = record.maps.contact_pressure[0], len(record.limit_at_speed) // 2
+    shear = nodal_limit(pressure, rubbed, record.limit_at_speed[middle, 0])
+    depths = np.linspace(0.0, _DEEP * surface.shortest_wavelength[1], _DEPTHS)
+    equivalent = np.array([von_mises(stress_at(depth, pressure, shear, rubbed.pair.spacing, poisson_ratio))
+                           for depth in depths])
+    row = np.unravel_index(equivalent.argmax(), equivalent.shape)[1]
+    return {"stress_depth": depths, "stress": equivalent[:, row], "stress_largest": equivalent.max(axis=(1, 2)),
+            "stress_row": surface.y[row]}
 
 
 def _area_on_grid(factor, surface, settings, pressure):

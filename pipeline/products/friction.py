@@ -3,7 +3,7 @@
 from pipeline.contract import Array, count, product, quantity, text
 
 
-@product(version=5)
+@product(version=6)
 class MicroFriction:
     """Friction, real contact area and wear of the rough pair over pressure, speed and sliding distance."""
 
@@ -28,10 +28,19 @@ class MicroFriction:
     limit_at_speed: Array = quantity("Pa", "pressure speed distance", "shear limit at speed and flash temperature")
     y: Array = quantity("m", "y", "lateral position across sliding")
     x: Array = quantity("m", "x", "lateral position along sliding")
-    contact_pressure_new: Array = quantity("Pa", "y x", "contact pressure, first cycle, middle pressure and speed")
-    contact_pressure_worn: Array = quantity("Pa", "y x", "contact pressure, last cycle, middle pressure and speed")
-    pad_wear: Array = quantity("m", "y x", "wear of the pad nodes after the last cycle, middle pressure and speed")
-    disc_wear: Array = quantity("m", "y x", "wear of the disc nodes after the last cycle, middle pressure and speed")
+    contact_pressure: Array = quantity("Pa", "distance y x", "contact pressure of the first pair, middle pressure")
+    pad_wear: Array = quantity("m", "distance y x", "wear of its pad nodes, middle pressure")
+    disc_wear: Array = quantity("m", "distance y x", "wear of its disc nodes, middle pressure")
+    bearing_share: Array = quantity("1", "bearing_share", "share of the area above a height")
+    pad_bearing: Array = quantity("m", "distance bearing_share", "that height of the pad, from the mean plane when new")
+    disc_bearing: Array = quantity("m", "distance bearing_share", "that height of the disc, from the mean plane when new")
+    stress_depth: Array = quantity("m", "stress_depth", "depth under the mean plane of the pad")
+    stress: Array = quantity("Pa", "stress_depth x", "von Mises stress in the pad under pressure and shear of the new surfaces, middle pressure and speed, section along sliding through the largest, by the half-space")
+    stress_largest: Array = quantity("Pa", "stress_depth", "its largest value at each depth")
+    stress_row: Array = quantity("m", "", "y of the section")
+    presliding_displacement: Array = quantity("m", "pressure presliding", "displacement from rest, without the uniform shear of the blocks")
+    presliding_friction: Array = quantity("1", "pressure presliding", "shear over normal force there; new surfaces of the first pair, middle speed")
+    tangential_stiffness: Array = quantity("Pa/m", "pressure", "interface stiffness along sliding at rest, all spots sticking; 0 where friction from rest is not asked for")
     nodes_per_wavelength: Array = quantity("1", "", "nodes per shortest wavelength of the study itself")
     refinement: Array = quantity("1", "refinement", "nodes per shortest wavelength of the convergence study")
     refinement_area: Array = quantity("1", "refinement", "perimeter-corrected real over nominal area at middle pressure")

@@ -19,13 +19,17 @@ def computed():
     friction = 0.4 + 0.03e-6 * pressure[:, None, None] + 0.01 * speed[:, None] + 8.0 * distance
     table = dict.fromkeys(("real_area", "wear_depth", "largest_wear", "flash_temperature", "full_slip_distance",
                            "limit_at_speed", "yielding_area"), np.zeros_like(friction))
-    maps = dict.fromkeys(("contact_pressure_new", "contact_pressure_worn", "pad_wear", "disc_wear"), np.zeros((2, 2)))
+    maps = dict.fromkeys(("contact_pressure", "pad_wear", "disc_wear"), np.zeros((3, 2, 2)))
     return MicroFriction(settings="", pressure=pressure, speed=speed, disc_speed=speed / 0.128, distance=distance,
                          friction=friction, pair_friction=friction[None],
                          friction_std=friction / 20, normal_stiffness=1e12 * friction,
                          shear_limit=13.5e6, block_compliance=3.5e-12, x=np.arange(2.0), y=np.arange(2.0),
                          nodes_per_wavelength=8.0, refinement=[8.0], refinement_area=[0.03], area_limit=0.03,
-                         area_limit_error=0.003, area_order=0.0, **table, **maps)
+                         area_limit_error=0.003, area_order=0.0, bearing_share=[0.0, 1.0], stress_depth=[0.0, 1e-5],
+                         **dict.fromkeys(("pad_bearing", "disc_bearing"), np.zeros((3, 2))), stress=np.zeros((2, 2)),
+                         stress_largest=np.zeros(2), stress_row=0.0, tangential_stiffness=np.zeros(3),
+                         **dict.fromkeys(("presliding_displacement", "presliding_friction"), np.empty((3, 0))),
+                         **table, **maps)
 
 
 def test_computed_points_stay_and_nothing_overshoots(computed):

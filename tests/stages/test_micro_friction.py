@@ -57,8 +57,8 @@ def test_running_in(result):
 @pytest.mark.exact
 def test_worn_volume(result):
     solids = Settings(**TINY)
-    assert result.pad_wear.mean() == pytest.approx(solids.pad.wear_coefficient * 3e6 * 10e-3, rel=1e-12)
-    assert result.disc_wear.mean() == pytest.approx(solids.disc.wear_coefficient * 3e6 * 10e-3, rel=1e-12)
+    assert result.pad_wear[-1].mean() == pytest.approx(solids.pad.wear_coefficient * 3e6 * 10e-3, rel=1e-12)
+    assert result.disc_wear[-1].mean() == pytest.approx(solids.disc.wear_coefficient * 3e6 * 10e-3, rel=1e-12)
 
 
 def test_another_surface_gives_another_friction(result):
@@ -69,7 +69,7 @@ def test_another_surface_gives_another_friction(result):
 def test_same_seed_same_bits(result):
     again = micro_friction(rough(), settings=Settings(**TINY))
     np.testing.assert_array_equal(again.friction, result.friction)
-    np.testing.assert_array_equal(again.contact_pressure_worn, result.contact_pressure_worn)
+    np.testing.assert_array_equal(again.contact_pressure, result.contact_pressure)
 
 
 @pytest.mark.parametrize("wrong", [{"recorded_distances": ["0 mm", "1 mm", "10 mm"]},
@@ -97,7 +97,7 @@ def test_effects_of_the_block_act_at_the_asperities(result):
     np.testing.assert_allclose(found.friction[:, :, 0], 0.5 * plain.friction[:, :, 0],
                                rtol=1e-4)
     lost = settings.disc.wear_coefficient - 0.5 * settings.pad.wear_coefficient
-    assert found.disc_wear.mean() == pytest.approx(lost * 3e6 * 10e-3, rel=1e-9)
+    assert found.disc_wear[-1].mean() == pytest.approx(lost * 3e6 * 10e-3, rel=1e-9)
 
 
 def test_an_empty_block_changes_no_bit(result):
@@ -125,7 +125,7 @@ def test_errors_are_those_of_pairs_of_surfaces_where_there_are_several():
 def test_the_first_of_several_pairs_is_that_of_one(result):
     found = micro_friction(rough(pairs=2), settings=Settings(**TINY))
     np.testing.assert_allclose(found.pair_friction[0], result.friction, rtol=1e-12)
-    np.testing.assert_array_equal(found.contact_pressure_worn, result.contact_pressure_worn)
+    np.testing.assert_array_equal(found.contact_pressure, result.contact_pressure)
 
 
 def test_three_grids_tell_the_limit_of_the_area():
@@ -157,12 +157,12 @@ def test_a_hard_body_changes_nothing_and_a_soft_one_yields(result):
     def with_hardness(value):
         return micro_friction(rough(), settings=fill(Settings, {**TINY, "pad": {"hardness": f"{value!r} Pa"}}, "m"))
 
-    hard, soft = with_hardness(1e12), with_hardness(0.3 * float(result.contact_pressure_new.max()))
+    hard, soft = with_hardness(1e12), with_hardness(0.3 * float(result.contact_pressure[0].max()))
     np.testing.assert_array_equal(hard.friction, result.friction)
     assert not hard.yielding_area.any() and not result.yielding_area.any()
     assert np.all(soft.yielding_area > 0.0) and np.all(soft.yielding_area < soft.real_area)
     assert np.all(soft.real_area > result.real_area) and np.all(soft.friction > result.friction)
-    assert soft.contact_pressure_new.max() <= 0.3 * result.contact_pressure_new.max() * (1 + 1e-12)
+    assert soft.contact_pressure[0].max() <= 0.3 * result.contact_pressure[0].max() * (1 + 1e-12)
 
 
 def test_particles_of_the_resin_are_the_resin_and_stiffer_ones_change_it(result):
@@ -179,3 +179,50 @@ def test_particles_of_the_resin_are_the_resin_and_stiffer_ones_change_it(result)
     assert (of(modulus_factor=1.0, wear_factor=0.1).wear_depth[:, 0, -1] < 0.95 * same.wear_depth[:, 0, -1]).all()
     assert of(modulus_factor=1.0, shear_factor=1e-9, share=0.5).friction[0, 0, 0] < 0.9 * same.friction[0, 0, 0]
     assert of(modulus_factor=5.0).real_area[0, 0, 0] < 0.97 * same.real_area[0, 0, 0]
+
+
+def test_shear_that_lifts_changes_friction_a_little_and_between_like_bodies_nothing(result):
+    def of(**more):
+        asked = TINY | {"realisations": 1, "coupling": True} | more
+        return micro_friction(rough(), settings=fill(Settings, asked, "micro_friction"))
+
+    one = micro_friction(rough(), settings=Settings(**TINY | {"realisations": 1}))
+    lifted = of()
+    assert np.abs(lifted.contact_pressure[0] - one.contact_pressure[0]).max() > 0.02 * one.contact_pressure[0].max()
+    np.testing.assert_allclose(lifted.friction, one.friction, rtol=0.05)
+    assert not np.array_equal(lifted.friction, one.friction)
+    alike = {"disc": {"youngs_modulus": "1 GPa", "poisson_ratio": 0.25}, "pad": {"youngs_modulus": "1 GPa"}}
+    np.testing.assert_allclose(of(**alike).friction, of(**alike, coupling=False).friction, rtol=1e-12)
+
+
+@pytest.mark.exact
+def test_spots_that_are_also_sheared_yield_as_tabor_says(result):
+    """p^2 + alpha tau^2 = H^2; where all spots yield, the area is that of the load over this pressure."""
+    shear, hardness = float(result.shear_limit), 0.3 * float(result.contact_pressure[0].max())
+    alpha = 0.5 * (hardness / shear) ** 2
+    asked = TINY | {"realisations": 1, "pad": {"hardness": f"{hardness!r} Pa", "junction_growth": alpha}}
+    found = micro_friction(rough(), settings=fill(Settings, asked, "micro_friction"))
+    assert found.contact_pressure[0].max() == pytest.approx(hardness / np.sqrt(2), rel=1e-9)
+    with pytest.raises(ConfigError, match=r"micro_friction\.pad\.junction_growth: expected less than"):
+        micro_friction(rough(), settings=fill(Settings, TINY | {"pad": {
+            "hardness": f"{hardness!r} Pa", "junction_growth": 2.1 * alpha}}, "micro_friction"))
+
+
+def test_friction_from_rest_reaches_that_of_sliding(result):
+    asked = TINY | {"realisations": 1, "presliding": [0.1, 0.5, 1.0]}
+    found = micro_friction(rough(), settings=Settings(**asked))
+    assert found.presliding_friction.shape == (2, 3) and np.all(np.diff(found.presliding_friction, axis=1) > 0)
+    np.testing.assert_allclose(found.presliding_friction[:, -1], found.friction[:, 1, 0], rtol=0.05)
+    ratio = found.tangential_stiffness / found.normal_stiffness[:, 0, 0]
+    np.testing.assert_allclose(ratio, 0.75 / 0.875, rtol=0.15)        # Mindlin, Poisson ratio .25
+    assert result.presliding_friction.shape == (2, 0) and not result.tangential_stiffness.any()
+
+
+def test_bearing_curves_lose_what_wears_and_stress_is_largest_below_the_spots(result):
+    new, worn = result.pad_bearing[[0, -1]]
+    assert np.all(np.diff(new) <= 0) and (new - worn)[:10].mean() > 2 * result.pad_wear[-1].mean()
+    assert new.mean() - worn.mean() == pytest.approx(result.pad_wear[-1].mean(), rel=0.05)
+    assert result.stress.shape == (result.stress_depth.size, result.x.size)
+    np.testing.assert_allclose(result.stress.max(), result.stress_largest.max())
+    assert result.stress_largest[-1] < 0.6 * result.stress_largest.max()
+    assert 0.5 < result.stress_largest.max() / result.contact_pressure[0].max() < 2.0

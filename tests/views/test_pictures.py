@@ -31,8 +31,13 @@ PICTURES = {
     "profile": (surfaces.profile, small.surface, "pad_height"),
     "heights": (surfaces.height_distribution, small.surface, "pad_height"),
     "spectrum": (surfaces.power_spectrum, small.surface, "power_spectrum"),
-    "spots new": (lambda p: contact_spots.contact_spots(p, "new", 60), small.micro_friction, "contact_pressure_new"),
-    "spots worn": (lambda p: contact_spots.contact_spots(p, "worn", 60), small.micro_friction, "contact_pressure_worn"),
+    "spots new": (lambda p: contact_spots.contact_spots(p, 0, 60), small.micro_friction, "contact_pressure"),
+    "spots worn": (lambda p: contact_spots.contact_spots(p, -1, 60), small.micro_friction, "contact_pressure"),
+    "spots in motion": (lambda p: contact_spots.over_cycles(p, "spots", 40), small.micro_friction, "contact_pressure"),
+    "wear in motion": (lambda p: contact_spots.over_cycles(p, "disc", 40), small.micro_friction, "disc_wear"),
+    "stress": (lambda p: contact_spots.stress(p, 60), small.micro_friction, "stress"),
+    "from rest": (friction.from_rest, small.micro_friction, "presliding_friction"),
+    "bearing": (friction.bearing, small.micro_friction, "pad_bearing"),
     "wear": (lambda p: contact_spots.wear_map(p, "pad", 60), small.micro_friction, "pad_wear"),
     "area": (lambda p: friction.over_distance(p, "real_area"), small.micro_friction, "real_area"),
     "wear depth": (lambda p: friction.over_distance(p, "wear_depth"), small.micro_friction, "wear_depth"),
@@ -115,8 +120,8 @@ def test_harmonics_look_different_from_own_tones():
 
 def test_fields_of_nothing_are_drawn():
     worn = small.micro_friction()
-    empty = replace(worn, contact_pressure_new=0 * worn.contact_pressure_new, pad_wear=0 * worn.pad_wear)
-    assert contact_spots.contact_spots(empty, "new", 40)
+    empty = replace(worn, contact_pressure=0 * worn.contact_pressure, pad_wear=0 * worn.pad_wear)
+    assert contact_spots.contact_spots(empty, 0, 40)
     assert contact_spots.wear_map(empty, "pad", 40)
     assert vibration.level_frequency(small.squeal(quiet=True), ())
     assert complex_modes.growth_over_friction(small.complex_modes(stable=True))

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 
 from pipeline.case_models.rough.scans import grey_image
-from pipeline.contract import InputFile, Quantities, Quantity, Section, option
+from pipeline.contract import ConfigError, InputFile, Quantities, Quantity, Section, option
 from pipeline.physics.rough.composite.composite_block import composite_block
 from pipeline.physics.rough.composite.composite_compliance import CompositeCompliance
 from pipeline.physics.rough.composite.inclusions import of_image, spheres
@@ -23,6 +23,8 @@ class Solid(Section):
 
     hardness: Quantity("Pa", gt=0) | None = option(None, "indentation hardness, the largest pressure of a contact spot;"
                                                    " the softer body yields; none = elastic")
+    junction_growth: float = option(0.0, "Tabor's alpha, by which shear lets spots yield sooner: their pressure and"
+                                    " shear limit fulfil p^2 + alpha tau^2 = hardness^2; 0 = without shear", ge=0)
 
 
 class Iron(Solid):
@@ -88,6 +90,10 @@ class Settings(Section):
     realisations: int = option(3, "relative positions of the two patches, averaged; the first is that of the maps,"
                               " 1 where these lie as they were mounted", ge=1)
     seed: int = option(7, "seed of the relative positions", ge=0)
+    coupling: bool = option(False, "shear of the spots lifts the surfaces in front of them and lowers them behind,"
+                            " where the bodies differ")
+    presliding: Quantities("1", gt=0, le=1) | None = option(
+        None, "shares of the displacement of full slip at which friction from rest is told, on new surfaces")
     refinement: Quantities("1", gt=0) = option((0.5, 1.0, 2.0), "grid factors of the convergence study of the area")
     tolerance: float = option(1e-4, "gap error over rms gap, shear error over shear limit", gt=0, lt=0.1)
     max_iterations: int = option(2000, "iterations after which a solve is refused", ge=1)
@@ -108,7 +114,7 @@ def rough_pair(surface, settings, factor=1.0):
                  for depth, solid in ((surface.pad_depth, settings.pad), (surface.disc_depth, settings.disc)))
     heights = [resample(h, (nodes, nodes)) if factor != 1.0 else h
                for h in (surface.pad_height[0], surface.disc_height[0])]
-    pair = RoughPair(*heights, (spacing, spacing), pad + disc, *_softer(settings))
+    pair = RoughPair(*heights, (spacing, spacing), pad + disc, *_softer(settings), coupled=settings.coupling)
     depth = _split(surface.pad_depth, max(round(factor), 1))
     return pair if settings.pad.inclusions is None else _with_inclusions(pair, pad, depth, settings.pad)
 
@@ -132,10 +138,28 @@ def _with_inclusions(pair, alike, depth, pad):
 
 
 def _softer(settings):
-    """(hardness in Pa, name) of the softer body; infinite where neither has one."""
-    hardness = {name: getattr(settings, name).hardness or np.inf for name in ("pad", "disc")}
+    """(hardness in Pa, name) of the softer body, sheared at its limit; infinite where neither has one."""
+    hardness = {name: _pressed_and_slid(settings, name) for name in ("pad", "disc")}
     softer = min(hardness, key=hardness.get)
     return hardness[softer], softer
+
+
+def _pressed_and_slid(settings, name):
+    """Largest pressure in Pa of a spot of the body of this ``name`` that also bears the shear limit (Tabor 1959)."""
+    solid, shear = getattr(settings, name), _shear_limit(settings)
+    if solid.hardness is None:
+        return np.inf
+    left = solid.hardness**2 - solid.junction_growth * shear**2
+    if left <= 0.0:
+        raise ConfigError(f"micro_friction.{name}.junction_growth", "less than (hardness / shear limit)^2,"
+                          f" {(solid.hardness / shear)**2:.3g}", f"{solid.junction_growth:g}",
+                          "such spots yield by shear alone: lower third_body_factor")
+    return np.sqrt(left)
+
+
+def _shear_limit(settings):
+    """tau_max in Pa at the reference speed."""
+    return settings.third_body_factor * settings.disc_strength / np.sqrt(3.0)
 
 
 def rubbing(surface, settings):
@@ -144,8 +168,7 @@ def rubbing(surface, settings):
     wearing = Wearing(settings.cycles, cycle_distance(settings), round(settings.stroke / pair.spacing[1]),
                       settings.pad.wear_coefficient, settings.disc.wear_coefficient)
     pad, disc = (ThermalSolid(s.conductivity, s.density, s.heat_capacity) for s in (settings.pad, settings.disc))
-    limit = settings.third_body_factor * settings.disc_strength / np.sqrt(3.0)
-    shearing = Shearing(limit, settings.reference_speed * settings.effective_radius,
+    shearing = Shearing(_shear_limit(settings), settings.reference_speed * settings.effective_radius,
                         settings.rate_coefficient, settings.softening, pad, disc)
     return Rubbing(pair, wearing, shearing, Solving(settings.tolerance, settings.max_iterations))
 

@@ -51,13 +51,14 @@ def run_in(pad_height, disc_height, compliance, mean_pressure, *, cycles, distan
     converge.
     """
     pair = WornPair(pad_height, disc_height, np.zeros_like(pad_height), np.zeros_like(disc_height))
-    pressure = None
+    pressure, met = None, {}
     yield pair
     for cycle in range(cycles):
         position = cycle % (stroke + 1)
-        contact = solve_yielding_contact(pair.gap(position), compliance, mean_pressure, pressure, tolerance,
-                                         max_iterations, hardness)
+        contact = solve_yielding_contact(pair.gap(position), compliance, mean_pressure, met.get(position, pressure),
+                                         tolerance, max_iterations, hardness)
         pressure, pair = contact.pressure, pair.after(contact, position, yielding)
+        met[position] = pressure
         pad_wear = pair.pad_wear + archard(pressure, distance, pad_coefficient)
         disc_wear = pair.disc_wear + archard(np.roll(pressure, -position, axis=1), distance, disc_coefficient)
         pair = replace(pair, pad_wear=pad_wear, disc_wear=disc_wear)

@@ -20,18 +20,20 @@ from pipeline.physics.rough.layer_element import brick_stiffness
 class SurfaceCompliance:
     """Surface displacement per traction in m/Pa, each (ny, nx // 2 + 1); compliances of two bodies add up.
 
-    ``normal`` serves the normal contact; ``along`` (xx), ``across`` (yy) and ``cross`` (xy) the shear. The coupling of
-    normal and tangential directions is left out.
+    ``normal`` serves the normal contact; ``along`` (xx), ``across`` (yy) and ``cross`` (xy) the shear; ``lift`` (zx,
+    imaginary) is how far the surface moves outwards by shear along x. The body added to one faces it: it is sheared the
+    other way, so that ``lift`` of both is their difference, none where they are alike.
     """
 
     normal: np.ndarray
     along: np.ndarray
     across: np.ndarray
     cross: np.ndarray
+    lift: np.ndarray
 
     def __add__(self, other):
         return SurfaceCompliance(self.normal + other.normal, self.along + other.along,
-                                 self.across + other.across, self.cross + other.cross)
+                                 self.across + other.across, self.cross + other.cross, self.lift - other.lift)
 
 
 def graded_depth(first, thickness, growth):
@@ -58,9 +60,9 @@ def layered_compliance(shape, spacing, depth, youngs_modulus, poisson_ratio):
         top, coupling, bottom = layer[..., :3, :3], layer[..., :3, 3:], layer[..., 3:, 3:]
         clamped = below is None
         below = top if clamped else top - coupling @ np.linalg.solve(bottom + below, layer[..., 3:, :3])
-    compliance = np.linalg.inv(below).real * (spacing[0] * spacing[1])
-    return SurfaceCompliance(compliance[..., 2, 2].copy(), compliance[..., 0, 0].copy(),
-                             compliance[..., 1, 1].copy(), compliance[..., 0, 1].copy())
+    compliance = np.linalg.inv(below) * (spacing[0] * spacing[1])
+    normal, along, across, cross = (compliance[..., i, j].real.copy() for i, j in ((2, 2), (0, 0), (1, 1), (0, 1)))
+    return SurfaceCompliance(normal, along, across, cross, 1j * compliance[..., 2, 0].imag)
 
 
 def layer_symbols(shape, spacing, depth, youngs_modulus, poisson_ratio):
@@ -75,7 +77,7 @@ def half_space_compliance(shape, spacing, youngs_modulus, poisson_ratio):
     """SurfaceCompliance of a homogeneous half-space; its uniform part (wavenumber 0) is left out, i.e. zero.
 
     Source: Johnson, Contact Mechanics (1985), section 2 and 3; in Fourier space normal (1 - nu) / (G k), tangential
-    (1 - nu kx^2 / k^2) / (G k).
+    (1 - nu kx^2 / k^2) / (G k), outwards by shear i (1 - 2 nu) kx / (2 G k^2).
     """
     wave_y = 2 * np.pi * np.fft.fftfreq(shape[0], spacing[0])[:, None]
     wave_x = 2 * np.pi * np.fft.rfftfreq(shape[1], spacing[1])[None, :]
@@ -84,7 +86,8 @@ def half_space_compliance(shape, spacing, youngs_modulus, poisson_ratio):
     base = 2.0 * (1.0 + poisson_ratio) / (youngs_modulus * wave)
     return SurfaceCompliance((1.0 - poisson_ratio) * base, base * (1.0 - poisson_ratio * (wave_x / wave) ** 2),
                              base * (1.0 - poisson_ratio * (wave_y / wave) ** 2),
-                             -base * poisson_ratio * wave_x * wave_y / wave ** 2)
+                             -base * poisson_ratio * wave_x * wave_y / wave ** 2,
+                             0.5j * (1.0 - 2.0 * poisson_ratio) * base * wave_x / wave)
 
 
 def _phases(shape):

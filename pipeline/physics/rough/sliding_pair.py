@@ -10,7 +10,9 @@ import numpy as np
 
 from pipeline.physics.friction.state_variables import Film
 from pipeline.physics.rough.archard_wear import run_in
+from pipeline.physics.rough.contact.coupled_compliance import CoupledCompliance
 from pipeline.physics.rough.contact.normal_contact import contact_area, interface_stiffness
+from pipeline.physics.rough.contact.partial_slip import presliding
 from pipeline.physics.rough.contact.shear_limit import (
     film_factor,
     full_slip_displacement,
@@ -28,7 +30,7 @@ class RoughPair:
 
     ``hardness`` in Pa of the softer one, the body ``yielding`` (pad or disc); infinite where both stay elastic. Of a
     pad of several materials ``shear_factor`` and ``wear_factor`` (ny, nx) multiply shear limit and wear of its nodes,
-    and the normal compliance is a CompositeCompliance.
+    and the normal compliance is a CompositeCompliance. ``coupled``: the shear of the spots lifts the surfaces.
     """
 
     pad_height: np.ndarray
@@ -39,6 +41,7 @@ class RoughPair:
     yielding: str = "pad"
     shear_factor: np.ndarray | float = 1.0
     wear_factor: np.ndarray | float = 1.0
+    coupled: bool = False
 
     def with_pad_at(self, offset):
         """The pair with its pad shifted by ``offset`` (y, x) in nodes."""
@@ -128,8 +131,20 @@ class Drag:
 
 
 @dataclass(frozen=True)
+class Maps:
+    """Maps (records, ny, nx) of one run: ``contact_pressure`` in Pa where the slider starts, heights in m outwards of
+    the worn surfaces, and their wear in m."""
+
+    contact_pressure: np.ndarray
+    pad_height: np.ndarray
+    disc_height: np.ndarray
+    pad_wear: np.ndarray
+    disc_wear: np.ndarray
+
+
+@dataclass(frozen=True)
 class SlidingRecord:
-    """What one run tells at each speed and recorded distance, arrays (speeds, records); maps (ny, nx) new and worn."""
+    """What one run tells at each speed and recorded distance, arrays (speeds, records); ``maps`` of each record."""
 
     friction: np.ndarray
     real_area: np.ndarray
@@ -140,10 +155,7 @@ class SlidingRecord:
     full_slip_distance: np.ndarray
     limit_at_speed: np.ndarray
     yielding_area: np.ndarray
-    contact_pressure_new: np.ndarray
-    contact_pressure_worn: np.ndarray
-    pad_wear: np.ndarray
-    disc_wear: np.ndarray
+    maps: Maps | None
 
 
 #: fields of a SlidingRecord that vary over the recorded distances
@@ -156,32 +168,56 @@ FAR = 100.0
 
 def slide(rubbing, mean_pressure, speeds, recorded):
     """SlidingRecord of a Rubbing under ``mean_pressure`` (Pa) at ``speeds`` (m/s) after the ``recorded`` cycles."""
-    figures, pressures = [], []
+    figures, maps = [], []
     for cycle, worn in enumerate(states(rubbing, mean_pressure)):
         if cycle in recorded:
             shearing = rubbing.shearing.after(mean_pressure, cycle * rubbing.wearing.distance)
             record, pressure = _measure(worn, replace(rubbing, shearing=shearing), mean_pressure, speeds)
             figures.append(record)
-            pressures.append(pressure)
+            maps.append((pressure, worn.pad_height - worn.pad_wear, worn.disc_height - worn.disc_wear, worn.pad_wear,
+                         worn.disc_wear))
     table = {name: np.stack([record[name] for record in figures], axis=-1) for name in RECORDED}
-    return SlidingRecord(**table, contact_pressure_new=pressures[0], contact_pressure_worn=pressures[-1],
-                         pad_wear=worn.pad_wear, disc_wear=worn.disc_wear)
+    return SlidingRecord(**table, maps=Maps(*map(np.array, zip(*maps, strict=True))))
 
 
 def states(rubbing, mean_pressure):
     """WornPairs of a Rubbing under ``mean_pressure`` (Pa): at the start and after each cycle."""
     pair, wearing = rubbing.pair, rubbing.wearing.under(mean_pressure)
     wearing["pad_coefficient"] = wearing["pad_coefficient"] * pair.wear_factor
-    return run_in(pair.pad_height, pair.disc_height, pair.compliance.normal, mean_pressure, **wearing,
+    return run_in(pair.pad_height, pair.disc_height, _normal(rubbing), mean_pressure, **wearing,
                   **vars(rubbing.solving), hardness=pair.hardness, yielding=pair.yielding)
+
+
+def from_rest(rubbing, mean_pressure, speed, shares):
+    """Presliding of new surfaces at ``shares`` of the displacement of full slip, the limit as at a ``speed`` (m/s)."""
+    pair, shearing = rubbing.pair, rubbing.shearing
+    gap = -pair.pad_height - pair.disc_height
+    pressure = solve_yielding_contact(gap, _normal(rubbing), mean_pressure, **vars(rubbing.solving),
+                                      hardness=pair.hardness).pressure
+    area, _, heating = spots(pressure, pair, shearing, [speed])
+    limit = nodal_limit(pressure, rubbing, spot_limit(shearing, mean_pressure, area, speed, heating[0]))
+    return presliding(limit, pair.compliance, shares, **vars(rubbing.solving))
+
+
+def _normal(rubbing):
+    """Normal compliance of a Rubbing; of a coupled pair under the shear of its spots at the reference speed."""
+    compliance, shearing = rubbing.pair.compliance, rubbing.shearing
+    if not rubbing.pair.coupled:
+        return compliance.normal
+
+    def sheared(pressure):
+        area = contact_area(pressure > 0.0)[1]
+        return nodal_limit(pressure, rubbing, shearing.limit + shearing.pressure_coefficient * pressure.mean() / area)
+
+    return CoupledCompliance(compliance.normal, compliance.lift, sheared)
 
 
 def passed(rubbing, worn, mean_pressure):
     """YieldingContacts of a WornPair at every position of one pass of the slider."""
-    contacts, pressure, pair = [], None, rubbing.pair
+    contacts, pressure, normal = [], None, _normal(rubbing)
     for position in range(rubbing.wearing.stroke + 1):
-        contact = solve_yielding_contact(worn.gap(position), pair.compliance.normal, mean_pressure, pressure,
-                                         **vars(rubbing.solving), hardness=pair.hardness)
+        contact = solve_yielding_contact(worn.gap(position), normal, mean_pressure, pressure, **vars(rubbing.solving),
+                                         hardness=rubbing.pair.hardness)
         contacts.append(contact)
         pressure = contact.pressure
     return contacts
@@ -208,7 +244,7 @@ def _measure(worn, rubbing, mean_pressure, speeds):
     """
     contacts, stroke = passed(rubbing, worn, mean_pressure), rubbing.wearing.stroke
     stiffness = np.mean([interface_stiffness(
-        worn.gap(position) + contacts[position].flattened, rubbing.pair.compliance.normal, contacts[position],
+        worn.gap(position) + contacts[position].flattened, _normal(rubbing), contacts[position],
         **vars(rubbing.solving)) for position in {0, stroke // 2, stroke}])
     sheared = [_sheared(c.pressure, speeds, rubbing) for c in contacts]
     figures = {name: np.mean([[f[name] for f in row] for row in sheared], axis=0) for name in sheared[0][0]}
@@ -222,17 +258,15 @@ def _measure(worn, rubbing, mean_pressure, speeds):
 def _sheared(pressure, speeds, rubbing):
     """Friction, real area and heat of one contact at every speed.
 
-    The limit of the spots carries the perimeter correction: limit * corrected area / counted area; what the pressure
-    adds needs none, because its sum is that of the pressures. The bases are displaced by ``FAR`` times what full slip
-    takes, so that all slip is along x; that no node sticks is the solution's finding.
+    The bases are displaced by ``FAR`` times what full slip takes, so that all slip is along x; that no node sticks is
+    the solution's finding.
     """
     shearing, compliance = rubbing.shearing, rubbing.pair.compliance
-    area, counted, heating = spots(pressure, rubbing.pair, shearing, speeds)
+    area, _, heating = spots(pressure, rubbing.pair, shearing, speeds)
     figures = []
     for speed, heat in zip(speeds, heating, strict=True):
         limit = spot_limit(shearing, pressure.mean(), area, speed, heat)
-        nodal = np.where(pressure > 0.0, _nodal_share(pressure, shearing, area) * limit * area / counted, 0.0)
-        nodal = nodal * rubbing.pair.shear_factor
+        nodal = nodal_limit(pressure, rubbing, limit)
         slip = full_slip_displacement(nodal, compliance)
         imposed = FAR * (slip + compliance.along[0, 0] * nodal.mean())
         shear = solve_shear_limit(nodal, compliance, imposed, **vars(rubbing.solving))
@@ -241,10 +275,15 @@ def _sheared(pressure, speeds, rubbing):
     return figures
 
 
-def _nodal_share(pressure, shearing, area):
-    """Limit of each node over the mean of the spots: pressed harder, it bears more (``pressure_coefficient``)."""
-    if shearing.pressure_coefficient == 0.0:
-        return 1.0
-    limit = shearing.pressure_coefficient * pressure
-    counted = np.count_nonzero(pressure) / pressure.size
-    return (shearing.limit + limit * counted / area) / (shearing.limit + limit.mean() / area)
+def nodal_limit(pressure, rubbing, limit):
+    """Shear limit (ny, nx) in Pa of the nodes under a contact ``pressure`` whose spots have the mean ``limit``.
+
+    It carries the perimeter correction: limit * corrected area / counted area. A node that is pressed harder bears more
+    (``pressure_coefficient``); that needs no correction, because its sum is that of the pressures.
+    """
+    counted, area = contact_area(pressure > 0.0)
+    shearing, share = rubbing.shearing, 1.0
+    if shearing.pressure_coefficient != 0.0:
+        rise = shearing.pressure_coefficient * pressure
+        share = (shearing.limit + rise * counted / area) / (shearing.limit + rise.mean() / area)
+    return np.where(pressure > 0.0, share * limit * area / counted, 0.0) * rubbing.pair.shear_factor

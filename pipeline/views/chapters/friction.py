@@ -34,14 +34,44 @@ def _yielded(product):
 def _spots(product, look, point, new, worn):
     wear = product.largest_wear.max()
     return (
-        Figure(contact_spots.contact_spots(product, "new", look.dpi),
+        Figure(contact_spots.contact_spots(product, 0, look.dpi),
                f"Contact spots, new surfaces, {point}: {percent(new)} of the area carries the whole load."),
-        Figure(contact_spots.contact_spots(product, "worn", look.dpi),
+        Figure(contact_spots.contact_spots(product, -1, look.dpi),
                f"The same after {quantity(product.distance[-1], 'm', 3)} of sliding: {percent(worn)}."),
         Figure(contact_spots.wear_map(product, "pad", look.dpi),
                f"Wear of the pad, {point}; largest wear of one node in the whole study {quantity(wear, 'm', 3)}."),
         Figure(contact_spots.wear_map(product, "disc", look.dpi),
-               f"Wear of the disc, {point}: largest {quantity(product.disc_wear.max(), 'm', 3)}."))
+               f"Wear of the disc, {point}: largest {quantity(product.disc_wear.max(), 'm', 3)}."),
+        *_moving(product, look),
+        Figure(contact_spots.stress(product, look.dpi),
+               f"Von Mises stress in the pad, new, section along sliding at y = {quantity(product.stress_row, 'm', 3)}:"
+               f" largest {quantity(product.stress_largest.max(), 'Pa', 3)}, {_depth_of_largest(product)}."),
+        Figure(friction.bearing(product), f"Bearing curves, {point}; dashed: new. The highest {percent(_UPPER)} of the"
+               f" pad wear down by {quantity(_worn_off(product), 'm', 2)} on average."))
+
+
+#: dots per inch of the animations, at most, and the share of the area whose wear the bearing curves tell
+_MOVING, _UPPER = 80, 0.1
+
+
+def _moving(product, look):
+    """Contact spots and wear of the pad over the recorded distances, in motion."""
+    return tuple(Figure(contact_spots.over_cycles(product, what, min(look.dpi, _MOVING)),
+                        f"{title} over {len(product.distance)} recorded distances to"
+                        f" {quantity(product.distance[-1], 'm', 3)}, animated; the distance is written above.")
+                 for what, title in (("spots", "Contact spots"), ("pad", "Wear of the pad")))
+
+
+def _depth_of_largest(product):
+    """Where the von Mises stress is largest, in words."""
+    depth = product.stress_depth[product.stress_largest.argmax()]
+    return f"{quantity(depth, 'm', 2)} deep" if depth > 0.0 else "on the surface"
+
+
+def _worn_off(product):
+    """Mean loss of height in m of the upper part of the pad."""
+    upper = product.bearing_share <= _UPPER
+    return (product.pad_bearing[0] - product.pad_bearing[-1])[upper].mean()
 
 
 def _curves(product):
@@ -60,7 +90,17 @@ def _curves(product):
         Figure(friction.over_pressure(product),
                "Coefficient of friction over pressure at three sliding distances. Over the computed speeds it varies"
                f" by at most {number(speed, 2)}."),
-        *_convergence(product))
+        *_from_rest(product), *_convergence(product))
+
+
+def _from_rest(product):
+    if not product.presliding_displacement.size:
+        return ()
+    return (Figure(friction.from_rest(product), "Friction from rest, new surfaces: all spots slip after"
+                   f" {span(product.full_slip_distance[:, :, 0], 'm')}. At rest the interface is"
+                   f" {span(product.tangential_stiffness, 'Pa/m')} stiff along sliding,"
+                   f" {span(product.tangential_stiffness / product.normal_stiffness[:, 0, 0], '1')} of its normal"
+                   " stiffness."),)
 
 
 def _drawn(product):
@@ -92,6 +132,8 @@ def grid_sentence(product):
 
 #: share of the contact force outside the computed pressures from which on it is told
 _TOLD = 0.01
+#: pressures below this share of the largest bear too little to be asked for
+_LEAST = 0.02
 
 
 def outside_computed(products):
@@ -105,7 +147,22 @@ def outside_computed(products):
     if share < _TOLD:
         return ""
     return (f"Up to {percent(share, 2)} of the contact force acts at pressures outside {span(computed, 'Pa')}, where"
-            " friction was not computed: widen micro_friction.pressures.")
+            f" friction was not computed. {_wider(computed, pressure[modes.operating_force > 0])}")
+
+
+def _wider(computed, needed):
+    """The pressures in Pa that also reach the ``needed`` ones, as a setting; from the outermost on in steps of two."""
+    low, high, asked = max(needed.min(), _LEAST * needed.max()), needed.max(), [*computed]
+    while asked[0] > low:
+        asked.insert(0, _two_digits(max(low, asked[0] / 2.0), np.floor))
+    while asked[-1] < high:
+        asked.append(_two_digits(min(high, 2.0 * asked[-1]), np.ceil))
+    return f"To widen it: --set micro_friction.pressures='[{', '.join(f'{1e-6 * p:g} MPa' for p in asked)}]'."
+
+
+def _two_digits(value, rounding):
+    scale = 10.0 ** (np.floor(np.log10(value)) - 1.0)
+    return rounding(value / scale) * scale
 
 
 def slopes(product):

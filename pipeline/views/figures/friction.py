@@ -41,6 +41,33 @@ def over_pressure(micro):
         return svg(figure)
 
 
+def from_rest(micro):
+    """SVG of shear over normal force against the displacement from rest, one line per pressure."""
+    with drawing() as figure:
+        axes = figure.subplots()
+        for p, pressure in enumerate(micro.pressure):
+            order = np.argsort(micro.presliding_displacement[p])
+            axes.plot(np.r_[0.0, 1e6 * micro.presliding_displacement[p][order]],
+                      np.r_[0.0, micro.presliding_friction[p][order]], color=COLOURS[p % 6], ls=LINES[p % 6],
+                      marker=MARKERS[p % 6], label=f"{pressure / 1e6:.3g} MPa")
+        axes.set(xlabel="displacement from rest / µm", ylabel="shear over normal force", xlim=(0, None), ylim=(0, None))
+        legend(axes)
+        return svg(figure)
+
+
+def bearing(micro):
+    """SVG of the height that a share of the area exceeds (Abbott & Firestone), pad and disc; dashed: new."""
+    with drawing() as figure:
+        axes = figure.subplots()
+        for body, colour in (("disc", COLOURS[0]), ("pad", COLOURS[1])):
+            heights = {"disc": micro.disc_bearing, "pad": micro.pad_bearing}[body]
+            for record, line, label in ((0, "--", None), (-1, "-", body)):
+                axes.plot(100 * micro.bearing_share, 1e6 * heights[record], color=colour, ls=line, label=label)
+        axes.set(xlabel="share of the area above / %", ylabel="height / µm", xlim=(0, 100))
+        legend(axes)
+        return svg(figure)
+
+
 def convergence(micro):
     """SVG of the real contact area over nodes per shortest wavelength."""
     with drawing(2.6, top=0.12) as figure:

@@ -57,6 +57,24 @@ def png(figure, dpi):
     return stream.getvalue()
 
 
+def animated(draw, count, duration, most=3_000_000):
+    """Animated PNG, in few colours, of the ``count`` PNG bytes that ``draw(k)`` gives, each for ``duration`` ms; frames
+    are left out evenly until it holds ``most`` bytes."""
+    from PIL import Image
+
+    step, drawn = 1, {}
+    while True:
+        for k in range(0, count, step):
+            if k not in drawn:
+                drawn[k] = Image.open(BytesIO(draw(k))).convert("RGB").quantize(64, dither=Image.Dither.NONE)
+        first, *others = (drawn[k] for k in range(0, count, step))
+        stream = BytesIO()
+        first.save(stream, format="PNG", save_all=True, append_images=others, duration=duration, loop=0)
+        if stream.tell() <= most or step >= count:
+            return stream.getvalue()
+        step += 1
+
+
 def image(axes, x, y, values, label, **look):
     """Map ``values`` over the lateral positions ``x``, ``y`` (m), axes in mm, with a colour bar."""
     extent = 1e3 * np.array([x[0], x[-1], y[0], y[-1]])

@@ -49,6 +49,18 @@ def test_condensation_equals_the_sparse_finite_elements():
 
 
 @pytest.mark.exact
+def test_lift_by_shear_equals_the_sparse_finite_elements_and_nears_the_half_space():
+    traction = np.random.default_rng(2).standard_normal(SHAPE)
+    load = np.zeros((DEPTH.size - 1, *SHAPE, 3))
+    load[0, :, :, 0] = traction * SPACING[0] * SPACING[1]
+    reference = spsolve(assembled(2.0, 0.3), load.ravel()).reshape(load.shape)[0, :, :, 2]
+    ours = apply(layered_compliance(SHAPE, SPACING, DEPTH, 2.0, 0.3).lift, traction)
+    np.testing.assert_allclose(ours, reference, atol=1e-12 * np.abs(reference).max())
+    fine = layered_compliance((4, 32), (1 / 32,) * 2, np.linspace(0.0, 2.0, 65), 2.0, 0.3).lift[0, 1]
+    assert fine == pytest.approx(half_space_compliance((4, 32), (1 / 32,) * 2, 2.0, 0.3).lift[0, 1], rel=0.02)
+
+
+@pytest.mark.exact
 def test_uniform_pressure_meets_the_oedometer():
     compliance = layered_compliance((4, 4), (1.0, 1.0), DEPTH, 2.0, 0.3)
     oedometer = 2.0 * 0.7 / (1.3 * 0.4)

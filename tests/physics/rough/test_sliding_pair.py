@@ -63,7 +63,10 @@ def test_rougher_surfaces_touch_less(record):
     assert np.all(rougher.friction[:, 0] < 0.9 * record.friction[:, 0])
 
 
-def test_maps_belong_to_the_first_and_last_record(record):
-    assert record.contact_pressure_new.mean() == pytest.approx(1e6, rel=1e-12)
-    assert np.count_nonzero(record.contact_pressure_worn) > np.count_nonzero(record.contact_pressure_new)
-    assert record.pad_wear.mean() == pytest.approx(4e-12 * 1e6 * 4e-3, rel=1e-12)
+def test_maps_belong_to_the_records(record):
+    new, worn = record.maps.contact_pressure[[0, -1]]
+    assert new.mean() == pytest.approx(1e6, rel=1e-12)
+    assert np.count_nonzero(worn) > np.count_nonzero(new)
+    lost = record.maps.pad_height[0] - record.maps.pad_height[-1]
+    np.testing.assert_allclose(lost, record.maps.pad_wear[-1], atol=1e-15)
+    assert record.maps.pad_wear[-1].mean() == pytest.approx(4e-12 * 1e6 * 4e-3, rel=1e-12)

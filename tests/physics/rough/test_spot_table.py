@@ -65,8 +65,8 @@ def test_a_softer_pair_is_one_under_more_pressure():
 def test_mean_wear_is_that_of_the_run():
     record = slide(disc(small(), -0.6 * PAD), 2e6, SPEEDS, [0, CYCLES])
     pad, gained = mean_wear(disc(small(), -0.6 * PAD), drag(2e6))
-    assert record.pad_wear.mean() == pytest.approx(pad, rel=1e-12)
-    assert record.disc_wear.mean() == pytest.approx(gained, rel=1e-9)
+    assert record.maps.pad_wear[-1].mean() == pytest.approx(pad, rel=1e-12)
+    assert record.maps.disc_wear[-1].mean() == pytest.approx(gained, rel=1e-9)
 
 
 def test_laws_of_the_limit_need_no_new_contact(table):

@@ -1,12 +1,13 @@
 """The slope of friction in words: with its error, its sign where it is known, and what it decides."""
 
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 from pipeline.views.chapters.chapter import Look
-from pipeline.views.chapters.friction import friction_map, micro, slopes, what_slope_decides
+from pipeline.views.chapters.friction import friction_map, micro, outside_computed, slopes, what_slope_decides
 from pipeline.views.figures.number_format import percent
 from tests.views import products_for_views as small
 
@@ -50,3 +51,19 @@ def test_area_that_yields_is_told():
     soft = replace(rubbed, yielding_area=0.25 * rubbed.real_area)
     assert "hardness" not in micro(rubbed, LOOK).conclude
     assert f"Up to {percent(0.25)} of the real contact area is at the hardness" in micro(soft, LOOK).conclude
+
+
+def test_pressures_that_were_not_computed_are_asked_for():
+    """The setting that is told reaches what the contact bears, in steps of two, and is not told twice."""
+    area = np.array([1e-4, 1e-4, 1e-4])
+    force = np.array([[40.0, 200.0, 1290.0]])
+    modes = SimpleNamespace(operating_force=force)
+    law = replace(small.friction_map(), computed_pressure=np.array([1e6, 3e6]))
+
+    def told(computed):
+        return outside_computed({"friction_map": replace(law, computed_pressure=computed),
+                                 "complex_modes": modes, "reduced_model": SimpleNamespace(contact_area=area)})
+
+    assert told(law.computed_pressure).endswith("micro_friction.pressures='[0.4 MPa, 0.5 MPa, 1 MPa, 3 MPa, 6 MPa,"
+                                                " 12 MPa, 13 MPa]'.")
+    assert told(np.array([0.4, 0.5, 1, 3, 6, 12, 13]) * 1e6) == ""

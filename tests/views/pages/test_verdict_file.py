@@ -90,7 +90,7 @@ def test_contact_force_outside_the_computed_pressures_is_a_warning():
                 "reduced_model": SimpleNamespace(contact_area=np.full(12, 1e-4))}
     share = pressure[0, 0] / pressure[0].sum()
     said = written(products)["warnings"][-1]
-    assert said.startswith(f"Up to {100 * share:.2g}") and "widen micro_friction.pressures" in said
+    assert said.startswith(f"Up to {100 * share:.2g}") and "--set micro_friction.pressures=" in said
     inside = replace(modes, operating_force=np.full((9, 12), 2e6 * 1e-4))
     assert written({**products, "complex_modes": inside})["warnings"] == ["convergence was not examined"]
 

@@ -49,17 +49,18 @@ def solve_normal_contact(gap, compliance, mean_pressure, start=None, tolerance=1
     direction, conjugate, previous = np.zeros_like(gap), 0.0, 1.0
     for iteration in range(max_iterations):
         distance = gap + apply(compliance, pressure)
-        contact = pressure > 0.0
-        approach = distance[contact].mean()
+        bearing = (pressure > 0.0).astype(float)
+        count = bearing.sum()
+        approach = np.vdot(distance, bearing) / count
         distance -= approach
-        error = max(np.abs(distance[contact]).max(), -distance.min()) / scale
+        residual = distance * bearing
+        error = max(residual.max(), -distance.min()) / scale
         if error < tolerance:
             return NormalContact(pressure, approach, iteration)
-        residual = np.where(contact, distance, 0.0)
         square = np.vdot(residual, residual)
-        direction = np.where(contact, residual + conjugate * square / previous * direction, 0.0)
+        direction = residual + conjugate * square / previous * (direction * bearing)
         image = apply(compliance, direction)
-        image -= image[contact].mean()
+        image -= np.vdot(image, bearing) / count
         curvature = np.vdot(image, direction)       # of a single touching node none: its own stiffness is the step
         step = np.vdot(residual, direction) / curvature if curvature > 0.0 else 1.0 / _self_compliance(compliance, gap)
         pressure, conjugate = _advance(pressure, step, direction, distance, mean_pressure)
@@ -95,8 +96,11 @@ def _advance(pressure, step, direction, distance, mean_pressure):
     """One projected step; overlapping open nodes join the contact, which restarts the conjugate directions."""
     pressure = np.maximum(pressure - step * direction, 0.0)
     overlap = (pressure == 0.0) & (distance < 0.0)
-    pressure[overlap] -= step * distance[overlap]
-    return pressure * (mean_pressure / pressure.mean()), 0.0 if overlap.any() else 1.0
+    joined = overlap.any()
+    if joined:
+        pressure[overlap] -= step * distance[overlap]
+    pressure *= mean_pressure / pressure.mean()
+    return pressure, 0.0 if joined else 1.0
 
 
 def contact_area(contact):

@@ -1,7 +1,5 @@
 """Pictures of a rupture: velocity field with interface state, slip profiles, front speed, studies."""
 
-from io import BytesIO
-
 import numpy as np
 
 from pipeline.views.figures.style import (
@@ -14,6 +12,7 @@ from pipeline.views.figures.style import (
     RED,
     SEQUENTIAL,
     WIDTH,
+    animated,
     drawing,
     legend,
     png,
@@ -73,18 +72,7 @@ def _interface(axes, rupture, frame):
 
 def animation(rupture, dpi, most=3_000_000):
     """Animated PNG of all frames, in few colours; frames are left out evenly until it holds ``most`` bytes."""
-    from PIL import Image
-
-    step = 1
-    while True:
-        frames = range(0, len(rupture.frame_time), step)
-        pictures = [Image.open(BytesIO(field(rupture, f, dpi))).convert("RGB").quantize(64, dither=Image.Dither.NONE)
-                    for f in frames]
-        stream = BytesIO()
-        pictures[0].save(stream, format="PNG", save_all=True, append_images=pictures[1:], duration=150, loop=0)
-        if stream.tell() <= most or step >= len(rupture.frame_time):
-            return stream.getvalue()
-        step += 1
+    return animated(lambda frame: field(rupture, frame, dpi), len(rupture.frame_time), 150, most)
 
 
 def _reach(rupture):
