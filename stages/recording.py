@@ -1,20 +1,26 @@
 """Stage recording: test bench recordings, read from any supported file format into one product."""
 
 import hashlib
+import re
+from dataclasses import dataclass
+from functools import partial
 from typing import Literal
 
 import numpy as np
 
 from pipeline.contract import ConfigError, Context, InputFile, OneOf, Quantity, Section, option, stage
-from pipeline.contract.units import in_si
+from pipeline.contract.units import in_si, measured_in
 from pipeline.products import Condition, Recording, Run
-from pipeline.recordings.columns import read_matlab, read_table
+from pipeline.recordings.apart import runs, waveforms
+from pipeline.recordings.columns import read_table
 from pipeline.recordings.friction import measured_friction
 from pipeline.recordings.lines import line_list
-from pipeline.recordings.neutral import read_neutral
 from pipeline.recordings.samples import channel, even_rate, on_grid, stretch
-from pipeline.recordings.uff import read_uff
+from pipeline.recordings.waveform import SPELT
 from pipeline.validation.published_facts import load
+
+#: sound pressure of 0 dB, Pa (ISO 1683)
+HEARING = 20e-6
 
 
 class Column(Section):
@@ -52,6 +58,33 @@ class _Columns(Section):
     sample_rate: Quantity("Hz", gt=0) | None = option(None, "sampling rate; none = from the column of times")
     time: str | None = option(None, "column with the time in seconds; with a sampling rate it tells lost samples")
     runs: dict[str, Stretch] = option(..., "runs by name: declared stretches of the record", min_length=1)
+
+
+class Calibrator(Section):
+    """A record of a sound calibrator by the same microphone at the same gain."""
+
+    file: InputFile = option(..., "the file")
+    column: str = option("1", "channel in it")
+    level: float = option(94.0, "sound pressure level of the calibrator, dB re 20 uPa", gt=20, lt=180)
+
+
+class Track(Column):
+    """One channel of a file that may itself say what it holds."""
+
+    unit: str | None = option(None, "unit of its numbers, times the factor; none = as the file says")
+    measures: str | None = option(None, "what it measures: acceleration, sound_pressure, pressure, ...; none = by its"
+                                  " unit")
+    calibrator: Calibrator | None = option(None, "of a microphone: gives the factor, to Pa")
+
+
+class Waveforms(Section):
+    """A file of channels, each with its rate: sound (WAV, FLAC, ...), TDMS or MDF."""
+
+    kind: Literal["audio", "tdms", "mdf"]
+    file: InputFile = option(..., "the file; measured:NAME for a public one")
+    columns: dict[str, Track] = option({}, "channels by name; none = all of the file, under their own names")
+    sample_rate: Quantity("Hz", gt=0) | None = option(None, "sampling rate where the file tells none")
+    runs: dict[str, Stretch] = option({}, "runs by name: stretches of the record; none = one run, named as the file")
 
 
 class Matlab(_Columns):
@@ -136,8 +169,9 @@ class PublishedLines(Section):
 class Settings(Section):
     """Files of the bench, each with the meaning of its columns."""
 
-    files: tuple[OneOf(Matlab, Table, Uff, Neutral, FrictionTable, PublishedLines), ...] = option(
+    files: tuple[OneOf(Matlab, Table, Waveforms, Uff, Neutral, FrictionTable, PublishedLines), ...] = option(
         (), "files in any order; at least one")
+    keep_going: bool = option(False, "leave out channels that cannot be used, and say so, instead of ending there")
 
 
 def _check(sections):
@@ -154,29 +188,97 @@ def recording(settings: Settings, context: Context) -> Recording:
     Recordings were converted to SI units and cut into runs as stated in the case. Missing samples are marked; nothing
     was filtered or resampled.
     """
-    runs, source = {}, []
+    collected, source = {}, []
     for number, file in enumerate(settings.files):
-        new_runs = READ[file.kind](file)
-        twice = set(new_runs) & set(runs)
+        new_runs = READ[file.kind](file, _Refused(settings.keep_going, context.log))
+        twice = set(new_runs) & set(collected)
         if twice:
             raise ConfigError(f"recording.files.{number}", "run names that are not taken", ", ".join(sorted(twice)))
-        runs |= new_runs
+        collected |= new_runs
         source.append(f"{file.file.name} {hashlib.sha256(file.file.read_bytes()).hexdigest()}")
-    _check_repeats(runs)
-    context.log(f"{len(runs)} runs: {', '.join(runs)}")
-    return Recording(source=source, runs=runs)
+    _check_repeats(collected)
+    context.log(f"{len(collected)} runs: {', '.join(collected)}")
+    return Recording(source=source, runs=collected)
 
 
-def _from_columns(file, columns):
+@dataclass(frozen=True)
+class _Refused:
+    """What becomes of a channel that cannot be used: the error ends the import, or is told and the channel left out."""
+
+    keep_going: bool
+    tell: object
+
+    def channels(self, makers):
+        """{name: Channel} of ``makers`` {name: () -> Channel}."""
+        made = {}
+        for name, make in makers.items():
+            try:
+                made[name] = make()
+            except ConfigError as error:
+                if not self.keep_going:
+                    raise
+                self.tell(f"left out: {error}")
+        return made
+
+
+def _from_columns(file, columns, refused):
     """Runs of a file of columns."""
     where = f"{file.file}"
     _refuse_unknown(file, columns, f"{where}: ")
     values = {name: w.factor * columns[w.column] for name, w in file.columns.items()}
     values, rate, begin = _sampled(file, values, columns, f"{where}: time")
-    whole = {name: channel(values[name], w.unit, w.measures, rate, begin, f"{where}: {name}",
-                           role=w.role, place=w.place, direction=w.direction) for name, w in file.columns.items()}
+    return _cut(file.runs, refused.channels({
+        name: partial(channel, values[name], w.unit, w.measures, rate, begin, f"{where}: {name}", role=w.role,
+                      place=w.place, direction=w.direction) for name, w in file.columns.items()}), where)
+
+
+def _cut(runs, whole, where):
+    """The ``runs`` of a case, stretches of the channels ``whole``."""
     return {name: _run({k: stretch(c, run.begin, run.end, f"{where}: runs.{name}") for k, c in whole.items()}, run,
-                       f"{where}: runs.{name}") for name, run in file.runs.items()}
+                       f"{where}: runs.{name}") for name, run in runs.items()}
+
+
+def _from_waveforms(file, refused):
+    """Runs of a file whose channels have their own rates, and maybe units."""
+    where, found = f"{file.file}", waveforms(file.kind, file.file)
+    _refuse_unknown(file, found, f"{where}: ")
+    tracks = file.columns or {_plain(name): Track(column=name) for name in found}
+    whole = refused.channels({name: partial(_track, track, found[track.column], file.sample_rate, f"{where}: {name}")
+                              for name, track in tracks.items()})
+    if not whole:
+        raise ConfigError(where, "a channel that can be used", f"none of {', '.join(found)}",
+                          "name channels under 'columns', with unit and what they measure")
+    return _cut(file.runs or {_plain(file.file.stem): Stretch()}, whole, where)
+
+
+def _plain(name):
+    """A name as runs and channels have them."""
+    return re.sub(r"\W+", "_", name).strip("_") or "channel"
+
+
+def _track(track, waveform, rate, where):
+    """The Channel of a Track of a file."""
+    written = waveform.unit if track.unit is None else track.unit
+    unit, factor = SPELT.get(written, written) or None, track.factor
+    if track.calibrator is not None:
+        unit, factor = "Pa", _pascal(track.calibrator, where)
+    if unit is None:
+        raise ConfigError(f"{where}: unit", "a unit in the file or in the case", "none", "add unit and measures, of a"
+                          " sound file also factor (value of full scale) or calibrator")
+    measures = track.measures or ("sound_pressure" if track.calibrator else measured_in(unit, f"{where}: unit"))
+    return channel(factor * waveform.values, unit, measures, waveform.rate or rate or np.nan, waveform.begin, where,
+                   role=track.role, place=track.place, direction=track.direction)
+
+
+def _pascal(calibrator, where):
+    """Pa per unit of a channel by a record of its calibrator: the tone of a calibrator rules its level."""
+    found = waveforms("audio", calibrator.file)
+    if calibrator.column not in found:
+        raise ConfigError(f"{where}: calibrator.column", f"one of {', '.join(found)}", repr(calibrator.column))
+    effective = found[calibrator.column].values.std()
+    if effective == 0.0:
+        raise ConfigError(f"{where}: calibrator", "the tone of a calibrator", "silence")
+    return HEARING * 10.0 ** (calibrator.level / 20.0) / effective
 
 
 def _refuse_unknown(file, columns, where):
@@ -201,8 +303,8 @@ def _sampled(file, values, columns, where):
 
 
 def _from_uff(file):
-    channels, frf, modes = read_uff(file.file, file.units)
-    return {file.run: _run(channels, file, f"{file.file}", frf=frf, modes=modes)}
+    found = runs("uff", file.file, units=file.units)["file"]
+    return {file.run: _run(found.channels, file, f"{file.file}", frf=found.frf, modes=found.modes)}
 
 
 def _from_friction(file):
@@ -225,10 +327,12 @@ def _from_facts(file):
 
 
 #: kind of file -> its runs by name
-READ = {"matlab": lambda file: _from_columns(file, read_matlab(file.file)),
-        "table": lambda file: _from_columns(file, read_table(file.file, file.delimiter, file.skip)),
-        "uff": _from_uff, "friction": _from_friction, "lines": _from_facts,
-        "hdf5": lambda file: read_neutral(file.file)}
+READ = {"matlab": lambda file, refused: _from_columns(file, {
+            name: waveform.values for name, waveform in waveforms("matlab", file.file).items()}, refused),
+        "table": lambda file, refused: _from_columns(file, read_table(file.file, file.delimiter, file.skip), refused),
+        "audio": _from_waveforms, "tdms": _from_waveforms, "mdf": _from_waveforms,
+        "uff": lambda file, _: _from_uff(file), "friction": lambda file, _: _from_friction(file),
+        "lines": lambda file, _: _from_facts(file), "hdf5": lambda file, _: runs("hdf5", file.file)}
 
 
 def _run(channels, stated, where, **more):

@@ -9,6 +9,7 @@ import click
 
 import stages
 from pipeline import __version__
+from pipeline.cli.export import export
 from pipeline.cli.facts import facts
 from pipeline.cli.options import options
 from pipeline.cli.surface_fit import with_fit
@@ -240,6 +241,7 @@ def data_format():
     click.echo(source.cleandoc(read_neutral.__doc__))
 
 
+data.add_command(export)
 cli.add_command(facts)
 cli.add_command(trial)
 

@@ -7,6 +7,8 @@ import tokenize
 from collections import Counter
 from functools import cache
 
+import numpy as np
+
 from pipeline.contract.errors import ConfigError
 
 #: every unit a product or a setting may carry (each is coherent SI; a test asks pint)
@@ -24,9 +26,15 @@ MEASURED = ("1", "m", "m/s", "m/s^2", "N", "N m", "Pa", "V", "A", "K", "s", "Hz"
 QUANTITIES = {"displacement": ("m", "rad"), "position": ("m", "rad"), "velocity": ("m/s", "rad/s"),
               "speed": ("m/s", "rad/s"), "acceleration": ("m/s^2", "rad/s^2"), "angle": ("rad",),
               "angular_velocity": ("rad/s",), "angular_acceleration": ("rad/s^2",), "force": ("N",), "torque": ("N m",),
-              "moment": ("N m",), "pressure": ("Pa",), "voltage": ("V",), "current": ("A",), "temperature": ("K",)}
+              "moment": ("N m",), "pressure": ("Pa",), "sound_pressure": ("Pa",), "voltage": ("V",),
+              "current": ("A",), "temperature": ("K",)}
 #: accelerations as accelerometers state them, in m/s^2: g is standard gravity there, and no gram
 GRAVITIES = {"g": 9.80665, "mg": 9.80665e-3, "ug": 9.80665e-6}
+
+#: units as people and programs write them, which pint reads as something else, or not at all
+AS_WRITTEN = {"Nm": "N m", "kNm": "kN m", "Nmm": "N mm", "m/s2": "m/s^2", "mm/s2": "mm/s^2", "U/min": "rpm",
+              "°": "deg"}
+_LEVEL = re.compile(r"dB\s+re\s+(?P<value>[\d.]+(e[-+]?\d+)?)\s*(?P<unit>.+)", re.IGNORECASE)
 
 #: unit of a linear quantity -> that of its counterpart about an axis, at a radius of 1 m of one size
 TURNED = {"m": "rad", "m/s": "rad/s", "m/s^2": "rad/s^2", "N": "N m", "N/m": "N m/rad", "N s/m": "N m s/rad",
@@ -107,12 +115,14 @@ def in_si(values, unit, where, measures=""):
     """(values in coherent SI, name of the SI unit) of ``values`` in any ``unit`` that pint reads.
 
     The unit is one of MEASURED where its dimension is among them, else a product of base units. ``measures``: name of
-    what is measured; "g" of an acceleration is standard gravity. Raises ConfigError, also for a unit that one of
-    QUANTITIES cannot have.
+    what is measured; "g" of an acceleration is standard gravity. Levels have a reference, as "dB re 20 uPa", and become
+    effective values. Raises ConfigError, also for a unit that one of QUANTITIES cannot have.
     """
     import pint
 
-    wanted = QUANTITIES.get(measures, ())
+    wanted, unit = QUANTITIES.get(measures, ()), AS_WRITTEN.get(unit, unit)
+    if unit.startswith("dB"):
+        return _from_level(np.asarray(values, float), unit, where, measures)
     if "m/s^2" in wanted and unit in GRAVITIES:
         return values * GRAVITIES[unit], "m/s^2"
     try:
@@ -129,6 +139,21 @@ def in_si(values, unit, where, measures=""):
         raise ConfigError(where, f"a unit of {measures}, such as {' or '.join(wanted)}", repr(unit),
                           "correct the unit, or what the channel measures")
     return converted.magnitude, name
+
+
+def measured_in(unit, where):
+    """Name of what is usually measured in a ``unit`` as files write it; 'value' of any other. Errors as ``in_si``."""
+    si = "m/s^2" if unit in GRAVITIES else in_si(1.0, unit, where)[1]
+    return next((name for name, (first, *_) in QUANTITIES.items() if first == si), "value")
+
+
+def _from_level(values, unit, where, measures):
+    """(values, SI unit) of levels in a unit such as 'dB re 20 uPa'."""
+    stated = _LEVEL.fullmatch(unit)
+    if not stated:
+        raise ConfigError(where, "a level with its reference, such as dB re 20 uPa", repr(unit))
+    reference, name = in_si(float(stated["value"]), stated["unit"], where, measures)
+    return reference * 10.0 ** (values / 20.0), name
 
 
 def _convert(text, unit, refusal):

@@ -1,6 +1,7 @@
 """Files of named columns: MATLAB, plain HDF5 and text tables."""
 
 import csv
+import re
 import struct
 from io import BytesIO
 from pathlib import Path
@@ -10,6 +11,7 @@ import numpy as np
 from pipeline.contract.errors import ConfigError
 
 #: text in a table that stands for a missing sample
+_NUMBER = re.compile(r"\s*[-+]?((\d+\.?\d*|\.\d+)([eE][-+]?\d+)?|inf|Inf|INF)\s*")
 MISSING = frozenset({"", "nan", "na", "n/a", "none", "null", "-"})
 
 
@@ -119,9 +121,13 @@ def read_table(path, delimiter=None, skip=0):
     """
     path = Path(path)
     try:
-        lines = path.read_text(encoding="utf-8-sig").splitlines()[skip:]
+        content = path.read_text(encoding="utf-8-sig")
     except (OSError, UnicodeDecodeError) as error:
         raise ConfigError(path, "a readable text table", str(error)) from None
+    lines = content.splitlines()[skip:]
+    if len(lines) > 2 and not content.endswith(("\n", "\r")) and _shorter(lines):
+        raise ConfigError(f"{path}:{skip + len(lines)}", "a last number as long as those above it, or a line break"
+                          " behind it", repr(lines[-1][-20:]), "the file is cut off: copy it again")
     if len(lines) < 2:
         raise ConfigError(path, "a header and at least one line of numbers", f"{len(lines)} lines")
     mark = delimiter or next((d for d in "\t;," if d in lines[0]), ",")
@@ -140,10 +146,34 @@ def read_table(path, delimiter=None, skip=0):
     return dict(zip(names, values.T, strict=True))
 
 
+def _shorter(lines):
+    """Whether a file that ends within a line ends with a number shorter than all others of its column."""
+    last = len(re.split(r"[\t;, ]+", lines[-1].strip())[-1])
+    return last < min(len(re.split(r"[\t;, ]+", line.strip())[-1]) for line in lines[1:-1])
+
+
+def write_table(path, channels):
+    """Write {name: Channel} of one rate, length and begin as a text table with a column ``time`` in s; missing samples
+    stay empty. Raises ConfigError for unlike ones."""
+    rates = {(float(c.rate), float(c.begin), len(c.samples)) for c in channels.values()}
+    if len(rates) != 1:
+        raise ConfigError(path, "channels of one rate, begin and length", f"{len(rates)}", "choose some of them")
+    (rate, begin, count), = rates
+    table = np.column_stack([c.samples for c in channels.values()])
+    gap = np.zeros(table.shape, bool)
+    for k, one in enumerate(channels.values()):
+        for first, last in one.missing:
+            gap[first:last, k] = True
+    with open(path, "w", newline="", encoding="utf-8") as file:
+        writer = csv.writer(file)
+        writer.writerow(["time", *channels])
+        writer.writerows([repr(begin + k / rate), *("" if lost else repr(float(value)) for value, lost in
+                                                    zip(table[k], gap[k], strict=True))] for k in range(count))
+
+
 def _number(text, path, line):
     if text.strip().lower() in MISSING:
         return np.nan
-    try:
-        return float(text)
-    except ValueError:
-        raise ConfigError(f"{path}:{line}", "a number", repr(text)) from None
+    if not _NUMBER.fullmatch(text):
+        raise ConfigError(f"{path}:{line}", "a number", repr(text))
+    return float(text)

@@ -1,61 +1,112 @@
 """Universal files: time signals and frequency responses (data set 58), modes (data set 55). The door of pyuff."""
 
-import re
 import warnings
+from collections import Counter
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
 import numpy as np
 
 from pipeline.contract.errors import ConfigError
 from pipeline.contract.units import in_si
 from pipeline.products import FrequencyResponse, MeasuredModes
+from pipeline.recordings import waveform
 from pipeline.recordings.samples import channel, even_rate
+from pipeline.recordings.universal_sets import universal_sets
 
 #: function types of data set 58
 TIME, RESPONSE = 1, 4
 #: ordinate codes of data set 58
 QUANTITY = {8: "displacement", 9: "force", 11: "velocity", 12: "acceleration", 13: "force", 15: "pressure",
             21: "pressure", 5: "temperature"}
-#: units as measurement systems write them, and as pint reads them
-SPELT = {"m/s2": "m/s^2", "g": "g_0", "NONE": "", "-": ""}
-#: the line that begins a data set, and the one that ends it
-_DELIMITER = re.compile(rb"^ {4}-1\s*$", re.MULTILINE)
+#: units as this kind of file writes them, and as they are read: g there is no gram
+SPELT = waveform.SPELT | {"g": "g_0", "m/s2": "m/s^2"}
+#: what is read: modes, functions, and the system of units of the file
+READ = (55, 58, 164)
+#: SI units of quantities, and the powers of length and force in them, for files whose units are a system (data set 164)
+IN_SYSTEM = {8: ("m", 1, 0), 11: ("m/s", 1, 0), 12: ("m/s^2", 1, 0), 9: ("N", 0, 1), 13: ("N", 0, 1),
+             15: ("Pa", -2, 1)}
+#: functions of data set 58 that are not read, in words
+FUNCTIONS = {0: "general function", 2: "auto spectrum", 3: "cross spectrum", 5: "transmissibility", 6: "coherence",
+             9: "power spectral density", 10: "energy spectral density", 12: "spectrum", 13: "cumulative distribution"}
+
+#: characters of the name of a response; a longer one stands in the first title as well
+_NAME = 10
+#: how far beyond the median of a signal no sample of it lies
+_FAR = 1e12
 
 
 def read_uff(path, units=None):
     """(channels, frf, modes), each a dict by name, of the universal file at ``path``.
 
-    ``units``: response name -> unit, for files without units. Data sets of other kinds are ignored. Raises
-    ConfigError for a file that is not a universal file, is truncated or holds no data set of these kinds, and for
-    ``units`` of responses that it does not contain.
+    ``units``: response name -> unit, for files that state none, neither of the data set nor of the file (data set
+    164). Data sets of other kinds are ignored. Raises ConfigError for a file that is not a universal file, is
+    truncated, holds other bytes than it declares or no data set of these kinds, and for ``units`` of responses that
+    it does not contain.
     """
-    import pyuff
-
-    if Path(path).is_file() and len(_DELIMITER.findall(Path(path).read_bytes())) % 2:
-        raise ConfigError(path, "a whole universal file", "one whose last data set does not end", "copy it again")
-    units, channels, frf, modes = units or {}, {}, {}, {}
     try:
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")
-            file = pyuff.UFF(str(path))
-            sets = [file.read_sets(k) for k, kind in enumerate(file.get_set_types()) if kind in (55, 58)]
-    except Exception as error:  # pyuff passes on whatever its parser stumbles over
-        raise ConfigError(path, "a universal file", str(error) or type(error).__name__) from None
-    for number, data_set in enumerate(sets, 1):
+        content = Path(path).read_bytes()
+    except OSError as error:
+        raise ConfigError(path, "a readable universal file", str(error)) from None
+    units, channels, frf, modes = units or {}, {}, {}, {}
+    found = universal_sets(content, path)
+    sets = [(number, _read(one, f"{path}: data set {number}")) for number, one in enumerate(found, 1)
+            if one.kind in READ]
+    system = next((data_set for _, data_set in sets if data_set["type"] == 164), None)
+    for number, data_set in sets:
         where = f"{path}: data set {number}"
         if data_set["type"] == 58 and data_set["func_type"] == TIME:
-            _put(channels, _name(data_set), _signal(data_set, units, where))
+            _put(channels, _name(data_set), _signal(data_set, units, system, where))
         elif data_set["type"] == 58 and data_set["func_type"] == RESPONSE:
-            _put(frf, _name(data_set), _response(data_set, units, where))
+            _put(frf, _name(data_set), _response(data_set, units, system, where))
         elif data_set["type"] == 55 and "freq" in data_set:
             _put(modes, f"mode_{len(modes) + 1}", _mode(data_set))
-    strange = sorted(set(units) - {_name(data_set) for data_set in sets if data_set["type"] == 58})
+    strange = sorted(set(units) - {_name(data_set) for _, data_set in sets if data_set["type"] == 58})
     if strange:
         raise ConfigError(f"{path}: units", f"responses among {', '.join((*channels, *frf)) or 'none'}",
                           ", ".join(strange))
     if not channels and not frf and not modes:
-        raise ConfigError(path, "time signals, frequency responses or modes", f"{len(sets)} data sets of other kinds")
+        raise ConfigError(path, "time signals, frequency responses or modes", _others(found, sets))
     return channels, frf, modes
+
+
+def _read(one, where):
+    """A UniversalSet as pyuff reads it from a file of its own; points are those that it declares."""
+    import pyuff
+
+    with TemporaryDirectory() as folder:
+        alone = Path(folder) / "one.uff"
+        alone.write_bytes(one.file)
+        try:
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore")
+                data_set = pyuff.UFF(str(alone)).read_sets(0)
+        except Exception as error:  # pyuff passes on whatever its parser stumbles over
+            raise ConfigError(where, f"a data set {one.kind}", str(error) or type(error).__name__) from None
+    if one.kind == 58:
+        count, found = int(data_set["num_pts"]), len(data_set["data"])
+        if found != count or len(data_set["x"]) != count:
+            raise ConfigError(where, f"{count} points, as its head says", f"{found}", "copy it again")
+        if not np.isfinite(data_set["data"]).all() or not np.isfinite(data_set["x"]).all():
+            raise ConfigError(where, "finite numbers", "others", "the data set is damaged: copy it again")
+        if one.doubtful and _torn(np.abs(data_set["data"])):
+            raise ConfigError(where, "numbers of one size", "others towards its end", "a byte is lost: copy it again")
+    return data_set
+
+
+def _torn(size):
+    """Whether absolute values (n,) differ as those do whose bytes are out of step."""
+    some = size[size > 0.0]
+    typical = np.median(some) if some.size else 1.0
+    return bool(np.any(some > _FAR * typical) or np.any(some < typical / _FAR**2))
+
+
+def _others(found, sets):
+    """What a file holds beside what is read, in words."""
+    kinds = Counter(f"data set {one.kind}" for one in found if one.kind not in READ)
+    kinds.update(FUNCTIONS.get(data_set["func_type"], f"function of type {data_set['func_type']}")
+                 for _, data_set in sets if data_set["type"] == 58)
+    return ", ".join(f"{count} x {kind}" for kind, count in kinds.items()) or "none"
 
 
 def _put(table, name, item):
@@ -66,19 +117,24 @@ def _put(table, name, item):
 
 def _name(data_set):
     """'mic_01' of a response entity 'Mic 01'; node and direction where the file names none."""
-    named = data_set.get("rsp_ent_name", "NONE").strip()
+    named, title = data_set.get("rsp_ent_name", "NONE").strip(), data_set.get("id1", "").strip()
+    named = title if len(named) == _NAME and title.startswith(named) else named
     spelt = "".join(c if c.isalnum() else "_" for c in named.lower().replace("+", "p").replace("-", "m")).strip("_")
     return spelt if spelt and spelt != "none" else f"node_{data_set['rsp_node']}_{data_set['rsp_dir']}"
 
 
-def _unit(data_set, units, where):
+def _unit(data_set, units, where, system=None):
+    """(unit, factor on the numbers) of the ordinate: of the set, of the case, or of the file (``system``)."""
     name = _name(data_set)
     written = data_set.get("ordinate_axis_units_lab", "NONE").strip()
-    unit = SPELT.get(written, written) or units.get(name, "")
+    unit, factor = SPELT.get(written, written) or units.get(name, ""), 1.0
+    if not unit and system and data_set["ordinate_spec_data_type"] in IN_SYSTEM:
+        unit, length, force = IN_SYSTEM[data_set["ordinate_spec_data_type"]]
+        factor = system["length"] ** -length * system["force"] ** -force
     if not unit:
         raise ConfigError(f"{where} ({name})", "a unit in the file or in 'units'", "none",
                           f"add units: {{{name}: ...}}")
-    return unit
+    return unit, factor
 
 
 def _direction(code):
@@ -88,19 +144,33 @@ def _direction(code):
     return tuple(np.sign(code) * np.eye(3)[abs(code) - 1])
 
 
-def _signal(data_set, units, where):
+def _signal(data_set, units, system, where):
     rate, begin = even_rate(np.asarray(data_set["x"], float), where)
+    rate = _meant(rate)
     measures = QUANTITY.get(data_set["ordinate_spec_data_type"], data_set["ordinate_axis_lab"].strip().lower())
     role = "excitation" if measures == "force" else "response"
-    return channel(data_set["data"], _unit(data_set, units, where), measures, rate, begin, where, role=role,
+    unit, factor = _unit(data_set, units, where, system)
+    return channel(factor * np.asarray(data_set["data"]), unit, measures, rate, begin, where, role=role,
                    place=f"node {data_set['rsp_node']}" if data_set["rsp_node"] else "",
                    direction=_direction(data_set["rsp_dir"]))
 
 
-def _response(data_set, units, where):
-    upper, lower = _unit(data_set, units, where), data_set.get("orddenom_axis_units_lab", "NONE").strip()
+def _meant(rate):
+    """The sampling rate in Hz of a file that states its inverse to six digits: a whole one, where that is as good."""
+    step = 1.0 / rate
+    rounding = 0.501 * 10.0 ** (np.floor(np.log10(step)) - 5)
+    return float(round(rate)) if abs(1.0 / max(round(rate), 1) - step) <= rounding else rate
+
+
+def _response(data_set, units, system, where):
+    upper, factor = _unit(data_set, units, where, system)
+    lower = data_set.get("orddenom_axis_units_lab", "NONE").strip()
     below = SPELT.get(lower, lower)
-    values, unit = in_si(np.asarray(data_set["data"], complex), f"({upper}) / ({below})" if below else upper, where)
+    if not below and system and data_set["orddenom_spec_data_type"] in IN_SYSTEM:
+        below, length, force = IN_SYSTEM[data_set["orddenom_spec_data_type"]]
+        factor *= system["length"] ** length * system["force"] ** force
+    spelt = f"({upper}) / ({below})" if below else upper
+    values, unit = in_si(factor * np.asarray(data_set["data"], complex), spelt, where)
     return FrequencyResponse(frequency=data_set["x"], response=values, unit=unit,
                              place=f"node {data_set['rsp_node']} direction {data_set['rsp_dir']}",
                              reference=f"node {data_set['ref_node']} direction {data_set['ref_dir']}")

@@ -6,7 +6,8 @@ import pytest
 from scipy.io import savemat
 
 from pipeline.contract import ConfigError
-from pipeline.recordings.columns import read_columns, read_matlab, read_table
+from pipeline.recordings.columns import read_columns, read_matlab, read_table, write_table
+from pipeline.recordings.samples import channel
 
 
 def test_matlab_vectors_come_back_flat_and_text_is_left_out(tmp_path):
@@ -116,3 +117,30 @@ def test_the_suffix_tells_the_kind_of_file(tmp_path):
     (tmp_path / "b.h5").write_bytes(b"no HDF5 file")
     with pytest.raises(ConfigError, match=r"b\.h5: expected an HDF5 file"):
         read_columns(tmp_path / "b.h5")
+
+
+@pytest.mark.parametrize("text, told", [
+    ("t,x\n0,1_5\n", "2: expected a number, found '1_5'"), ("t,x\n0,0x1A\n", "a number"),
+    ("t,x\n0.0,1.2345\n0.1,1.2346\n0.2,1.2", "4: expected a last number as long as those above it"),
+    ("t,x\n0,infinity\n", "a number")])
+def test_numbers_that_are_none_and_a_last_one_that_is_cut_are_refused(tmp_path, text, told):
+    (tmp_path / "a.csv").write_text(text)
+    with pytest.raises(ConfigError, match=told):
+        read_table(tmp_path / "a.csv")
+
+
+def test_a_table_that_ends_without_a_line_break_is_read_where_its_last_number_is_whole(tmp_path):
+    (tmp_path / "a.csv").write_text("t,x\n0,10\n1,9\n2,8")
+    assert read_table(tmp_path / "a.csv")["x"].tolist() == [10, 9, 8]
+
+
+def test_a_table_that_is_written_is_read(tmp_path):
+    values = np.array([1.0, np.nan, 1 / 3])
+    made = {"a b": channel(values, "m", "displacement", 10.0, 0.5, "a"), "c": channel([1, 2, 3.5], "N", "force", 10.0,
+                                                                                        0.5, "c")}
+    write_table(tmp_path / "a.csv", made)
+    found = read_table(tmp_path / "a.csv")
+    np.testing.assert_array_equal(found["a b"], values)
+    np.testing.assert_allclose(found["time"], [0.5, 0.6, 0.7])
+    with pytest.raises(ConfigError, match="one rate, begin and length"):
+        write_table(tmp_path / "b.csv", made | {"d": channel([1.0], "N", "force", 1.0, 0.0, "d")})

@@ -1,5 +1,7 @@
 """Stage recording: runs from every kind of file, and what it refuses."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 from scipy.io import savemat
@@ -9,6 +11,7 @@ from pipeline.contract import ConfigError, case
 from pipeline.contract.settings import fill
 from stages.recording import Settings, recording
 from tests.recordings import test_neutral, test_uff
+from tests.recordings.files_of_others import RATE, SINE, mdf, sound, tdms
 
 COLUMNS = {"x": {"column": "pos", "unit": "mm", "measures": "displacement", "place": "carriage"},
            "force": {"column": "u", "unit": "N", "measures": "force", "factor": -2, "role": "excitation"}}
@@ -89,3 +92,62 @@ recording:
 def test_a_run_name_is_taken_once(files):
     with pytest.raises(ConfigError, match="expected run names that are not taken, found early, late"):
         read(files, MATLAB, MATLAB)
+
+
+def test_sound_and_measurement_files_need_no_columns(tmp_path):
+    """Channels, units, rates and begins as the files have them; a run named as the file."""
+    tdms(tmp_path / "stop 3.tdms")
+    mdf(tmp_path / "drag.mf4")
+    found = read(tmp_path, {"kind": "tdms", "file": "stop 3.tdms"},
+                 {"kind": "mdf", "file": "drag.mf4", "sample_rate": "10 Hz"})
+    assert list(found.runs) == ["stop_3", "drag"]
+    pad = found.runs["stop_3"].channels["bench_pad"]
+    assert str(pad.unit) == "m/s^2" and str(pad.measures) == "acceleration" and float(pad.begin) == 0.5
+    np.testing.assert_allclose(pad.samples, 9.80665 * SINE)
+    drag = found.runs["drag"].channels
+    assert {name: (str(c.measures), str(c.unit), float(c.rate)) for name, c in drag.items()} == {
+        "pad": ("acceleration", "m/s^2", pytest.approx(RATE)), "line": ("pressure", "Pa", pytest.approx(RATE)),
+        "disc": ("temperature", "K", pytest.approx(10)), "disc_speed": ("angular_velocity", "rad/s", 10)}
+    assert drag["line"].samples[-1] == 999e5
+
+
+@pytest.mark.exact
+def test_a_microphone_has_a_calibrator_or_a_factor(tmp_path):
+    """A tone of 94 dB is 1 Pa effective (ISO 1683), whatever the gain."""
+    sound(tmp_path / "cal.wav", 0.2 * np.sin(2 * np.pi * np.arange(48000) / 48))
+    sound(tmp_path / "stop.wav", 0.05 * SINE, 0.1 * SINE)
+    found = read(tmp_path, {"kind": "audio", "file": "stop.wav", "columns": {
+        "left": {"column": "1", "calibrator": {"file": "cal.wav"}},
+        "right": {"column": "2", "unit": "Pa", "factor": 10, "measures": "sound_pressure"}},
+        "runs": {"early": {"end": "10 ms"}, "late": {"begin": "10 ms"}}})
+    left, right = found.runs["early"].channels.values()
+    assert str(left.measures) == str(right.measures) == "sound_pressure" and len(left.samples) == 480
+    effective = 20e-6 * 10 ** (94 / 20)
+    np.testing.assert_allclose(left.samples, 0.05 * SINE[:480] * effective / (0.2 / np.sqrt(2)), atol=1e-5)
+    np.testing.assert_allclose(right.samples, SINE[:480], atol=1e-5)
+    assert len(found.runs["late"].channels["left"].samples) == 520
+
+
+@pytest.mark.parametrize("file, told", [
+    ({"kind": "audio", "file": "a.wav"}, "1: unit: expected a unit in the file or in the case, found none"),
+    ({"kind": "audio", "file": "a.wav", "columns": {"m": {"column": "3", "unit": "Pa"}}}, "one of 1, 2, found '3'"),
+    ({"kind": "tdms", "file": "b.tdms", "columns": {"p": {"column": "bench/pad", "measures": "force"}}},
+     "a unit of force, such as N, found 'g'"),
+    ({"kind": "tdms", "file": "c.tdms"}, "sample_rate: expected a rate above 0 Hz, found nan"),
+    ({"kind": "mdf", "file": "b.tdms"}, "an undamaged MDF file")])
+def test_what_files_of_channels_lack_is_asked_for(tmp_path, file, told):
+    sound(tmp_path / "a.wav")
+    tdms(tmp_path / "b.tdms")
+    tdms(tmp_path / "c.tdms", wf_increment=0.0)
+    with pytest.raises(ConfigError, match=told):
+        read(tmp_path, file)
+
+
+def test_good_channels_stay_usable(tmp_path):
+    mdf(tmp_path / "drag.mf4")
+    told = []
+    settings = fill(Settings, {"keep_going": True, "files": [{"kind": "mdf", "file": "drag.mf4"}]}, "case",
+                    {"folders": (tmp_path,)})
+    found = recording(settings=settings, context=SimpleNamespace(log=told.append))
+    assert list(found.runs["drag"].channels) == ["pad", "line", "disc"]
+    assert any("left out" in line and "disc_speed" in line for line in told)

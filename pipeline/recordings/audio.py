@@ -1,0 +1,70 @@
+"""Sound files: WAV, RF64, FLAC, AIFF and what else libsndfile reads. The door of soundfile."""
+
+import struct
+from pathlib import Path
+
+import numpy as np
+
+from pipeline.contract.errors import ConfigError
+from pipeline.recordings.waveform import Waveform, library
+
+#: begins of RIFF files, little and big endian; RF64 and BW64 state their sizes in a chunk of their own
+_RIFF = {b"RIFF": "<", b"RIFX": ">"}
+#: size of a data chunk that a program left open: it is not known
+_OPEN = (0, 0xFFFFFFFF)
+
+
+def read_audio(path):
+    """{'1': Waveform, '2': ...} of the channels of a sound file, in shares of full scale (float files: as they are).
+
+    Raises ConfigError for a file that is no sound file, holds fewer samples than it declares or none.
+    """
+    sound = library("soundfile", "soundfile", path)
+    _refuse_cut(path)
+    try:
+        with sound.SoundFile(str(path)) as file:
+            declared, rate = file.frames, float(file.samplerate)
+            values = file.read(dtype="float64", always_2d=True)
+    except (sound.SoundFileError, RuntimeError, OSError, TypeError, ValueError) as error:
+        raise ConfigError(path, "a sound file", str(error)) from None
+    if len(values) < max(declared, 1):
+        raise ConfigError(path, f"{max(declared, 1)} samples", f"{len(values)}", "the file is cut off: copy it again")
+    return {str(k + 1): Waveform(np.ascontiguousarray(column), "", rate) for k, column in enumerate(values.T)}
+
+
+def write_audio(path, channels, full_scale):
+    """Write {name: (samples (n,), rate in Hz)} of one rate as a WAV file of 24 bits.
+
+    ``full_scale``: value of the samples at full scale. Raises ConfigError where one lies beyond it, and for channels of
+    unlike rates or lengths.
+    """
+    sound = library("soundfile", "soundfile", path)
+    samples, rates = zip(*channels.values(), strict=True)
+    if len(set(rates)) > 1 or len({len(s) for s in samples}) > 1 or rates[0] != round(rates[0]):
+        raise ConfigError(path, "channels of one whole sampling rate and length",
+                          f"{', '.join(f'{len(s)} at {r:g} Hz' for s, r in zip(samples, rates, strict=True))}",
+                          "choose some of the channels")
+    table = np.column_stack(samples) / full_scale
+    if np.abs(table).max() > 1.0:
+        raise ConfigError(path, f"samples up to {full_scale:g}", f"{np.abs(table).max() * full_scale:g}",
+                          "raise the full scale")
+    sound.write(str(path), table, int(rates[0]), subtype="PCM_24", format="WAV")
+
+
+def _refuse_cut(path):
+    """Refuse a RIFF file whose data chunk declares more bytes than there are: libsndfile reads what it finds."""
+    path = Path(path)
+    try:
+        size = path.stat().st_size
+        with path.open("rb") as file:
+            order = _RIFF.get(file.read(12)[:4])
+            while order and len(head := file.read(8)) == 8:
+                length = struct.unpack(f"{order}I", head[4:])[0]
+                if head[:4] == b"data":
+                    if length not in _OPEN and file.tell() + length > size:
+                        raise ConfigError(path, f"{length} bytes of samples", f"{size - file.tell()}",
+                                          "the file is cut off: copy it again")
+                    return
+                file.seek(length + length % 2, 1)
+    except OSError as error:
+        raise ConfigError(path, "a readable sound file", str(error)) from None

@@ -1,0 +1,61 @@
+"""The open convention SEP 005 of SDyPy for time signals: a list of dictionaries, as its readers return.
+
+    from sep005_io_fast import read_fast                     # any reader of the convention
+    from pipeline.recordings.sep005 import save
+
+    save(read_fast("stop_3.outb"), "stop_3.h5")              # a recording that a case reads as kind: hdf5
+"""
+
+import numpy as np
+
+from pipeline.contract.errors import ConfigError
+from pipeline.contract.units import measured_in
+from pipeline.products import Run
+from pipeline.recordings.neutral import write_neutral
+from pipeline.recordings.samples import channel, even_rate
+
+
+def run_of(signals, description="", where="signals"):
+    """The product Run of ``signals``, dictionaries with data, name, unit_str, and fs in Hz or time in s.
+
+    Raises ConfigError with the name of a signal that lacks one of these, has a name twice or times that are not even.
+    """
+    channels = {}
+    for k, signal in enumerate(signals):
+        at = f"{where}: {signal.get('name', k)}"
+        missing = [name for name in ("data", "name", "unit_str") if name not in signal]
+        if missing or ("fs" not in signal and "time" not in signal):
+            raise ConfigError(at, "data, name, unit_str, and fs or time", f"no {', '.join(missing) or 'fs or time'}")
+        if signal["name"] in channels:
+            raise ConfigError(at, "each name once", "it twice")
+        rate, begin = ((float(signal["fs"]), 0.0) if signal.get("time") is None
+                       else even_rate(np.asarray(signal["time"], float), at))
+        unit = signal["unit_str"] or "1"
+        channels[signal["name"]] = channel(np.asarray(signal["data"], float), unit,
+                                           signal.get("quantity") or measured_in(unit, at), rate, begin, at)
+    if not channels:
+        raise ConfigError(where, "at least one signal", "none")
+    return Run(description=description, repeat_of="", channels=channels)
+
+
+def signals_of(run):
+    """The channels of a product Run as dictionaries of the convention; samples that are missing are NaN."""
+    found = []
+    for name, one in run.channels.items():
+        samples, rate, begin = np.array(one.samples, float), float(one.rate), float(one.begin)
+        for first, last in one.missing:
+            samples[first:last] = np.nan
+        signal = {"name": name, "data": samples, "unit_str": str(one.unit), "fs": rate, "quantity": str(one.measures)}
+        if begin:
+            signal["time"] = begin + np.arange(len(samples)) / rate
+        found.append(signal)
+    return found
+
+
+def save(signals, path, run="run", description=""):
+    """Write ``signals`` of the convention as a recording of one ``run`` in plain HDF5."""
+    made = run_of(signals, description, str(path))
+    write_neutral(path, {run: {
+        "description": description, "repeat_of": "", "conditions": {},
+        "channels": {name: (one.samples, str(one.unit), str(one.measures), float(one.rate))
+                     for name, one in made.channels.items()}}})

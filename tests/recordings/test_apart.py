@@ -1,0 +1,78 @@
+"""Readers in a process of their own: the same contents, and one sentence for what stops them."""
+
+import os
+from pathlib import Path
+
+import numpy as np
+import pytest
+from scipy.io import savemat
+
+from pipeline.contract import ConfigError
+from pipeline.recordings import apart
+from tests.recordings import test_neutral, test_uff
+from tests.recordings.files_of_others import SINE, mdf, sound, tdms
+
+HOSTILE = Path(os.environ.get("BRAKECHAIN_DATA", "../shared/data")) / "hostile"
+
+
+def test_the_contents_are_those_of_the_reader(tmp_path):
+    savemat(tmp_path / "a.mat", {"x": SINE})
+    for kind, path, name in (("matlab", tmp_path / "a.mat", "x"), ("audio", sound(tmp_path / "a.wav"), "1"),
+                             ("tdms", tdms(tmp_path / "a.tdms"), "bench/pad"), ("mdf", mdf(tmp_path / "a.mf4"), "pad")):
+        np.testing.assert_allclose(apart.waveforms(kind, path)[name].values, SINE, atol=2**-22)
+    assert apart.waveforms("mdf", tmp_path / "a.mf4")["line"].unit == "bar"
+    found = apart.runs("uff", test_uff.write(tmp_path / "a.uff", ordinate_axis_units_lab="NONE"), units={"acc_1": "g"})
+    assert found["file"].channels["acc_1"].samples[1] == pytest.approx(9.80665)
+    test_neutral.write(tmp_path / "c.h5")
+    assert list(apart.runs("hdf5", tmp_path / "c.h5")) == ["first"]
+
+
+def test_errors_of_readers_come_through(tmp_path):
+    (tmp_path / "a.wav").write_text("hello")
+    with pytest.raises(ConfigError, match="expected a sound file, found Error opening") as error:
+        apart.waveforms("audio", tmp_path / "a.wav")
+    assert error.value.where == str(tmp_path / "a.wav")
+
+
+@pytest.mark.parametrize("code, told", [
+    ("import os; os.kill(os.getpid(), 11)", r"one that stops its reader \(exit code -11\)"),
+    ("while True: pass", "expected a file that is read within 1 s, found a reader that is not done"),
+    ("bytearray(10**12)", "expected a file that is read within .* GB, found one that needs more"),
+    ("raise KeyError('x')", "expected an undamaged file, found KeyError: 'x'")])
+def test_what_a_reader_does_not_survive_is_one_sentence(tmp_path, monkeypatch, code, told):
+    """A reader that crashes, never ends, asks for all memory or stumbles: put in place of that of sound files."""
+    (tmp_path / "sitecustomize.py").write_text(f"import pipeline.recordings.audio as a\ndef read(path):\n    {code}\n"
+                                               "a.read_audio = read\n")
+    monkeypatch.setenv("PYTHONPATH", str(tmp_path))
+    monkeypatch.setattr(apart, "_SECONDS", 1)
+    with pytest.raises(ConfigError, match=told):
+        apart.waveforms("audio", sound(tmp_path / "a.wav"))
+
+
+def test_a_file_in_the_folder_of_the_data_is_not_run(tmp_path, monkeypatch):
+    """Nor one of the current folder: a received folder holds data, no code."""
+    monkeypatch.chdir(tmp_path)
+    for name in ("numpy.py", "json.py", "pickle.py"):
+        (tmp_path / name).write_text("open('harm', 'w')\nraise SystemExit(7)\n")
+    assert apart.waveforms("audio", sound(tmp_path / "a.wav"))["1"].rate == 48000.0
+    assert not (tmp_path / "harm").exists()
+
+
+def test_only_regular_files_are_opened(tmp_path):
+    os.mkfifo(tmp_path / "pipe.wav")
+    for path in (tmp_path / "pipe.wav", tmp_path, tmp_path / "none.wav"):
+        with pytest.raises(ConfigError, match="expected a regular file, found"):
+            apart.waveforms("audio", path)
+
+
+@pytest.mark.measured
+@pytest.mark.parametrize("name", ["crash_v5_a.mat", "crash_v5_b.mat", "internal_v73.mat", "internal_21.h5",
+                                  "internal_28.h5", "internal_30.h5", "internal_39.h5", "internal_4.h5",
+                                  "byte_lost_58b.uff"])
+def test_damaged_files_give_one_sentence(name):
+    if not HOSTILE.is_dir():
+        pytest.skip("set BRAKECHAIN_DATA to the folder of the public recordings")
+    kind = {"mat": "matlab", "h5": "hdf5", "uff": "uff"}[name.rpartition(".")[2]]
+    with pytest.raises(ConfigError) as error:
+        (apart.waveforms if kind == "matlab" else apart.runs)(kind, HOSTILE / name)
+    assert len(str(error.value)) < 600 and "expected" in str(error.value)

@@ -1,0 +1,40 @@
+"""MDF files of asammdf."""
+
+import gc
+
+import numpy as np
+import pytest
+
+from pipeline.contract import ConfigError
+from pipeline.recordings.mdf import read_mdf
+from tests.recordings.files_of_others import RATE, SINE, mdf
+
+pytestmark = pytest.mark.filterwarnings("ignore::pytest.PytestUnraisableExceptionWarning")
+
+
+@pytest.fixture(autouse=True)
+def gone():
+    """What asammdf leaves of a file that it cannot read complains when it is deleted: here, not in another test."""
+    yield
+    gc.collect()
+
+
+def test_channels_with_their_own_rates(tmp_path):
+    found = read_mdf(mdf(tmp_path / "a.mf4"))
+    assert list(found) == ["pad", "line", "disc", "disc speed"]
+    assert [w.unit for w in found.values()] == ["m/s2", "bar", "degC", "rad/s"]
+    assert found["pad"].rate == pytest.approx(RATE) and found["disc"].rate == pytest.approx(10)
+    np.testing.assert_array_equal(found["pad"].values, SINE)
+    assert found["line"].values[-1] == 999
+
+
+def test_uneven_time_stamps_tell_no_rate(tmp_path):
+    assert read_mdf(mdf(tmp_path / "a.mf4"))["disc speed"].rate is None
+
+
+@pytest.mark.parametrize("share", [0.0, 0.2, 0.5, 0.9])
+def test_a_file_that_is_cut_off_is_refused(tmp_path, share):
+    path = mdf(tmp_path / "a.mf4")
+    path.write_bytes(path.read_bytes()[:int(share * path.stat().st_size)])
+    with pytest.raises(ConfigError, match="undamaged MDF file"):
+        read_mdf(path)

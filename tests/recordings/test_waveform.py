@@ -1,0 +1,16 @@
+"""What a channel of a file is, and libraries that are not there."""
+
+import pytest
+
+from pipeline.contract import ConfigError
+from pipeline.recordings.waveform import Waveform, library
+
+
+def test_a_file_need_not_tell_unit_nor_rate():
+    assert Waveform([1.0]).unit == "" and Waveform([1.0]).rate is None
+
+
+def test_a_library_that_is_not_installed_is_asked_for():
+    assert library("json", "json", "a.wav").loads("1") == 1
+    with pytest.raises(ConfigError, match=r"a.xyz: expected the package nolib, .* pip install 'brakechain\[bench\]'"):
+        library("no_such_module", "nolib", "a.xyz")
