@@ -40,13 +40,13 @@ from pipeline.products.recording import (
 )
 from pipeline.products.rupture import Rupture
 from pipeline.products.sliding import ReducedModel
-from pipeline.products.sound import Response, Squeal
+from pipeline.products.sound import NoiseEvents, Response, Spectrogram, Squeal
 from pipeline.products.structure import Structure
 from pipeline.products.surfaces import Surface
 
 __all__ = ["BeamGeometry", "BeamOnBeam", "Bench", "BenchRun", "Body", "Channel", "Comparison", "ComplexModes",
            "Condition", "Convergence", "DiagnosedRun", "Diagnosis", "Effects", "Follows", "FrequencyResponse", "FrictionDescriptions",
            "FrictionMap", "FrictionUpdate", "Incidence", "InterfaceLaw", "LatentForce", "LatentPrediction", "LimitCycle", "LineEvidence", "Lines", "Located", "LockIn",
-           "Lumped", "MeasuredFriction", "MeasuredModes", "MicroFriction", "MotionScatter", "Multibody", "PinOnDisc", "Probability",
-           "Recording", "ReducedModel", "Report", "Response", "Run", "Rupture", "Squeal", "SquealCheck", "Structure", "Surface", "Topography",
+           "Lumped", "MeasuredFriction", "MeasuredModes", "MicroFriction", "MotionScatter", "Multibody", "NoiseEvents", "PinOnDisc", "Probability",
+           "Recording", "ReducedModel", "Report", "Response", "Run", "Rupture", "Spectrogram", "Squeal", "SquealCheck", "Structure", "Surface", "Topography",
            "Transient"]

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from pipeline.contract import Array, count, product, quantity, text
+from pipeline.contract import Array, count, parts, product, quantity, text
 
 
 @product(version=1)
@@ -45,3 +45,41 @@ class Squeal:
     event_duration: Array = quantity("s", "event", "duration")
     event_fundamental: Array = quantity("Hz", "event", "fundamental of which the event is an integer multiple; its own frequency if there is none")
     event_order: Array = count("event", "order: 1 = fundamental, 2 and more = harmonic")
+
+
+@product(version=1)
+class Spectrogram:
+    """Largest levels over time and frequency of one channel."""
+
+    time: Array = quantity("s", "time", "middle of each block of frames")
+    frequency: Array = quantity("Hz", "frequency", "middle of each block of lines")
+    level: Array = quantity("1", "time frequency", "largest level in it, dB; of sound A-weighted", np.float32)
+
+
+@product(version=1)
+class NoiseEvents:
+    """Squeal and other noise events in recordings. A record is a channel of a run."""
+
+    threshold: Array = quantity("1", "", "level that is squeal, dB(A) re 20 uPa")
+    band: Array = quantity("Hz", "end", "ends of the squeal band")
+    record_run: Array = text("record", "run")
+    record_channel: Array = text("record", "channel")
+    record_kind: Array = text("record", "sound, or vibration")
+    record_duration: Array = quantity("s", "record", "length")
+    record_peak: Array = quantity("1", "record", "level of the loudest tone in the band, dB(A) re 20 uPa; of vibration dB re 1e-6 m/s^2")
+    record_peak_frequency: Array = quantity("Hz", "record", "its frequency")
+    record_background: Array = quantity("1", "record", "median level of the band, in the same way")
+    condition: Array = text("condition", "conditions of events: pressure (Pa), speed (rad/s), temperature (K)")
+    event_record: Array = count("event", "record of the event")
+    event_kind: Array = text("event", "squeal, harmonic, sweep, series, broadband; below the band judder, groan, moan or series")
+    event_frequency: Array = quantity("Hz", "event", "mean frequency by power")
+    event_lowest: Array = quantity("Hz", "event", "lowest frequency of its course")
+    event_highest: Array = quantity("Hz", "event", "highest frequency of its course")
+    event_level: Array = quantity("1", "event", "largest level, dB as of the record; below the band not weighted")
+    event_start: Array = quantity("s", "event", "begin, in the time of the record")
+    event_duration: Array = quantity("s", "event", "duration")
+    event_fundamental: Array = quantity("Hz", "event", "tone of which it is a multiple; its own frequency if of none")
+    event_order: Array = count("event", "the multiple; 1: a tone of its own")
+    event_condition: Array = quantity("1", "event condition", "mean of each condition over the event, SI; 0 where not known")
+    event_condition_known: Array = count("event condition", "1 where it is known")
+    spectrogram: dict[str, Spectrogram] = parts("of each record, named run.channel", empty=True)

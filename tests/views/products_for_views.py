@@ -21,11 +21,13 @@ from pipeline.products import (
     Lumped,
     MicroFriction,
     Multibody,
+    NoiseEvents,
     PinOnDisc,
     Probability,
     ReducedModel,
     Response,
     Rupture,
+    Spectrogram,
     Squeal,
     Structure,
     Surface,
@@ -106,6 +108,27 @@ def friction_map():
                        pressure_slope_std=np.full(len(micro.distance), 0.005),
                        speed_slope_std=np.full(len(micro.distance), 0.05),
                        error_correlation=np.tile(np.eye(3), (len(micro.distance), 1, 1)))
+
+
+def noise_events(quiet=False):
+    """Two runs of a microphone and an accelerometer: squeal with a harmonic at two pressures, a groan; or nothing."""
+    kept = slice(0, 0) if quiet else slice(None)
+    spectrogram = Spectrogram(time=np.linspace(0, 10, 40), frequency=np.linspace(0, 16e3, 30),
+                              level=40 + 20 * np.random.default_rng(6).random((40, 30)))
+    rows = {"record": [0, 0, 2, 2, 1], "kind": ["squeal", "harmonic", "squeal", "groan", "squeal"],
+            "frequency": [2780.0, 5560.0, 7340.0, 240.0, 2780.0], "level": [89.0, 74.0, 78.0, 91.0, 149.0],
+            "start": [2.0, 2.0, 6.0, 8.0, 2.0], "duration": [2.4, 2.4, 1.1, 1.5, 2.4], "order": [1, 2, 1, 1, 1],
+            "fundamental": [2780.0, 2780.0, 7340.0, 240.0, 2780.0],
+            "condition": [[1.7e6, 20.0, 0.0]] * 2 + [[1.2e6, 10.0, 0.0], [1e6, 3.0, 0.0], [1.7e6, 20.0, 0.0]],
+            "condition_known": [[1, 1, 0]] * 5}
+    events = {f"event_{name}": np.array(values)[kept] for name, values in rows.items()}
+    return filled(
+        NoiseEvents, threshold=70.0, band=[2e3, 16e3], record_run=["stop_1", "stop_1", "stop_2"],
+        record_channel=["mic", "pad", "mic"], record_kind=["sound", "vibration", "sound"], record_duration=[10.0] * 3,
+        record_peak=[89.0, 149.0, 78.0], record_peak_frequency=[2780.0, 2780.0, 7340.0], record_background=[62.0] * 3,
+        condition=["pressure", "speed", "temperature"], event_lowest=0.999 * events["event_frequency"],
+        event_highest=1.001 * events["event_frequency"], **events,
+        spectrogram={"stop_1.mic": spectrogram, "stop_1.pad": spectrogram, "stop_2.mic": spectrogram})
 
 
 def friction_update():

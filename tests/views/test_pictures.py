@@ -17,7 +17,7 @@ from pipeline.views.figures import (
     surfaces,
     vibration,
 )
-from pipeline.views.figures.bench import line_evidence, line_fit, measured_friction
+from pipeline.views.figures.bench import line_evidence, line_fit, measured_friction, noise_events
 from pipeline.views.figures.models import limit_cycle, lock_in, rupture, transient
 from tests.views import products_for_views as small
 
@@ -56,6 +56,10 @@ PICTURES = {
     "measured friction": (measured_friction.over_conditions, small.friction_update, "friction"),
     "measured over predicted": (measured_friction.measured_over_predicted, small.friction_update, "unseen"),
     "simulated lists": (line_evidence.simulated, small.line_evidence, "simulated"),
+    "spectrogram": (lambda p: noise_events.spectrogram(p, 0, 60), small.noise_events, "event_start"),
+    "level of events": (noise_events.level_frequency, small.noise_events, "event_level"),
+    "squeal over conditions": (lambda p: noise_events.over_conditions(p, "pressure", "speed"), small.noise_events,
+                               "event_level"),
     "map": (friction.friction_map, small.friction_map, "friction"),
     "preload": (lambda p: preload.contact_pressure(p, preload.loads(p), 60), small.structure, "preload"),
     "sliding load": (lambda p: preload.contact_pressure(small.structure(), preload.loads(small.structure(), p), 60),

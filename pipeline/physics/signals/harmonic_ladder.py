@@ -45,6 +45,28 @@ def ladders(frequency, accuracy, chance):
     return order, fundamental
 
 
+def comb(frequency, order, fundamental, accuracy, least):
+    """(order, fundamental) of the tones of one instant where ``least`` or more of them are equidistant multiples of
+    their distance: a series whose fundamental need not be heard, as that of a creak. Others keep what ``ladders`` told.
+
+    ``frequency`` (tone,) [Hz], ``order`` and ``fundamental`` as of ``ladders``, ``accuracy`` of a frequency [Hz].
+    """
+    rising = np.sort(frequency)
+    if len(rising) < least:
+        return order, fundamental
+    distance = np.median(np.diff(rising))
+    for _ in range(2):          # of the highest order found the distance is known best
+        steps = np.maximum(np.round(frequency / distance), 1.0)
+        fits = np.abs(frequency - steps * distance) <= 2.0 * accuracy + 0.02 * distance
+        if np.count_nonzero(fits) < least:
+            return order, fundamental
+        distance = np.sum(steps[fits] * frequency[fits]) / np.sum(steps[fits] ** 2)
+    if 4.0 * accuracy > 0.3 * distance:
+        return order, fundamental
+    own = order > 1
+    return (np.where(fits & ~own, steps.astype(int), order), np.where(fits & ~own & (steps > 1), distance, fundamental))
+
+
 def _match(frequency, step_order, step_frequency, accuracy):
     """(share of unrelated tones that match too, order); the share is infinite without a match above the last step."""
     fundamental = step_frequency / step_order

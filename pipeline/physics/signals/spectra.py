@@ -5,6 +5,8 @@ import scipy
 
 #: base-ten octave ratio of IEC 61260-1
 _OCTAVE = 10**0.3
+#: pole frequencies of the A-weighting [Hz]
+_A_POLES = (20.598997, 107.65265, 737.86223, 12194.217)
 #: level of silence: a mean square of zero has no logarithm
 LOWEST_LEVEL = -200.0
 
@@ -37,6 +39,20 @@ def band_power(frequency, density, middle):
     rows = power.reshape(-1, power.shape[-1])
     bands = np.array([np.interp(high, edge, row) - np.interp(low, edge, row) for row in rows])
     return bands.reshape(*density.shape[:-1], len(middle))
+
+
+def a_weighting(frequency):
+    """Factor (...) of the A-weighting on amplitudes at ``frequency`` (...) [Hz]; 1 at 1 kHz.
+
+    Source: IEC 61672-1, annex E, with its exact pole frequencies.
+    """
+    squared = np.square(np.asarray(frequency, float))
+
+    def response(f):
+        low, first, second, high = (pole**2 for pole in _A_POLES)
+        return high * f**2 / ((f + low) * np.sqrt((f + first) * (f + second)) * (f + high))
+
+    return response(squared) / response(1e6)
 
 
 def level(mean_square, reference):

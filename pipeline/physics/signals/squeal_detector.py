@@ -5,18 +5,22 @@ frame to frame are one event. A signal may hold many events, one after the other
 Events that are whole multiples of a lower tone, in the band or below it, say so (``harmonics``).
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 import scipy
 from numpy.lib.stride_tricks import sliding_window_view
 
 from pipeline.contract.errors import ConfigError
-from pipeline.physics.signals.harmonic_ladder import ladders
-from pipeline.physics.signals.spectra import level
+from pipeline.physics.signals.harmonic_ladder import comb, ladders
+from pipeline.physics.signals.spectra import a_weighting, level
 
 #: how much lower a tone midway between two lines of a Hann spectrum looks [dB], rounded up
 _BETWEEN_LINES = 1.5
+#: frames that are transformed at once
+_AT_ONCE = 2048
+#: lines on either side of a tone, and those next to it that are its own, of which the median is the noise about it
+_ABOUT, _OWN = 20, 3
 
 
 @dataclass(frozen=True)
@@ -41,6 +45,10 @@ class Detector:
     chance : largest share of unrelated tones that may pass as harmonics of one fundamental (see ``harmonics``)
     told : share of the frames of a harmonic that must tell its order. A modulated one is missed in many; a tone of no
         relation that wanders matches in about ``chance`` of them, a steady one in all or in none
+    weighted : A-weighting of all levels (IEC 61672-1)
+    above : height of a tone above the median of the lines about it [dB]; 0 asks for none. Of noise alone a line is
+        rarely that high, where ``prominence`` over its valleys is met by chance
+    comb : so many equidistant tones are one series, even if its fundamental is not heard; 0 asks for none
     """
 
     band: tuple
@@ -57,6 +65,9 @@ class Detector:
     accuracy: float
     chance: float
     told: float
+    weighted: bool = False
+    above: float = 0.0
+    comb: int = 0
 
 
 @dataclass(frozen=True)
@@ -86,6 +97,7 @@ class Event:
     start, duration : [s]
     fundamental : mean frequency of the tone of which it is a multiple [Hz]; of an own tone, its own
     order : the multiple, in more than the share ``told`` of its frames; 1 = a tone of its own
+    course : (3, frame) time [s], frequency [Hz] and level [dB] from frame to frame
     """
 
     frequency: float
@@ -94,6 +106,7 @@ class Event:
     duration: float
     fundamental: float
     order: int
+    course: np.ndarray = field(compare=False, repr=False)
 
 
 @dataclass(eq=False)
@@ -107,8 +120,8 @@ class _Track:
     fundamental: list
 
 
-def frames(signal, rate, detector):
-    """Frames of a signal (sample,) taken at ``rate`` [Hz].
+def frames(signal, rate, detector, kept=float):
+    """Frames of a signal (sample,) taken at ``rate`` [Hz]; ``kept``: type of the spectrum, float32 for long signals.
 
     Raises ConfigError for a signal shorter than a frame or a band beyond half the rate.
     """
@@ -121,10 +134,14 @@ def frames(signal, rate, detector):
                           f"{detector.band[1]:g} Hz", "lower the band or sample faster")
     hop = max(1, round(size * (1 - detector.overlap)))
     hann = 0.5 - 0.5 * np.cos(2 * np.pi * np.arange(size) / size)
-    piece = sliding_window_view(signal, size)[::hop] * hann
-    spectrum = np.abs(np.fft.rfft(piece)) * (np.sqrt(2) / hann.sum())
-    middle = (np.arange(len(piece)) * hop + size / 2) / rate
-    return Frames(middle, hop / rate, len(signal) / rate, np.fft.rfftfreq(size, 1 / rate), spectrum)
+    pieces, frequency = sliding_window_view(signal, size)[::hop], np.fft.rfftfreq(size, 1 / rate)
+    scale = np.sqrt(2) / hann.sum() * (a_weighting(frequency) if detector.weighted else 1.0)
+    spectrum = np.empty((len(pieces), len(frequency)), kept)
+    for first in range(0, len(pieces), _AT_ONCE):
+        part = slice(first, first + _AT_ONCE)
+        spectrum[part] = np.abs(scipy.fft.rfft(pieces[part] * hann)) * scale
+    middle = (np.arange(len(pieces)) * hop + size / 2) / rate
+    return Frames(middle, hop / rate, len(signal) / rate, frequency, spectrum)
 
 
 def loudest(spectrum, detector):
@@ -144,7 +161,9 @@ def detect(found, detector):
     than 6 dB above the threshold, and after it if less.
     """
     growing, ended = [], []
-    for frame in range(len(found.time)):
+    least = detector.reference * 10.0 ** ((detector.threshold - _BETWEEN_LINES) / 20.0)
+    searched = _inside(found, (min(detector.lowest_fundamental, detector.band[0]), detector.band[1]))
+    for frame in np.flatnonzero(found.spectrum[:, searched].max(axis=1, initial=0.0) >= least):
         late = [t for t in growing if found.time[frame] - found.time[t.frame[-1]] > detector.gap + found.hop * 1.5]
         ended += late
         growing = [t for t in growing if t not in late]
@@ -162,8 +181,10 @@ def _related_tones(found, frame, detector):
     frequency, levels = _tones(found, frame, detector, detector.band)
     below, _ = _tones(found, frame, detector, (detector.lowest_fundamental, detector.band[0]))
     below = below[below >= detector.lowest_fundamental]
-    order, fundamental = ladders(np.concatenate([frequency, below]), detector.accuracy * found.frequency[1],
-                                 detector.chance)
+    accuracy = detector.accuracy * found.frequency[1]
+    order, fundamental = ladders(np.concatenate([frequency, below]), accuracy, detector.chance)
+    if detector.comb:
+        order, fundamental = comb(np.concatenate([frequency, below]), order, fundamental, accuracy, detector.comb)
     return frequency, levels, order[:len(frequency)], fundamental[:len(frequency)]
 
 
@@ -172,11 +193,19 @@ def _tones(spectrum, frame, detector, band):
     levels = level(spectrum.spectrum[frame]**2, detector.reference)
     lines = scipy.signal.find_peaks(levels, detector.threshold - _BETWEEN_LINES, prominence=detector.prominence)[0]
     lines = lines[_inside(spectrum, band)[lines]]
+    if detector.above:
+        lines = lines[levels[lines] >= _about(levels, lines) + detector.above]
     frequency, root_mean_square = _refine(spectrum, frame, lines)
     levels = level(root_mean_square**2, detector.reference)
     lowest = max(detector.threshold, levels.max(initial=-np.inf) - detector.range)
     order = [i for i in np.argsort(-levels, kind="stable") if levels[i] >= lowest]
     return frequency[order], levels[order]
+
+
+def _about(levels, lines):
+    """Median level (n,) in dB of the lines about each of ``lines`` (n,), without those that are its own."""
+    away = np.r_[-_ABOUT:-_OWN, _OWN + 1:_ABOUT + 1]
+    return np.median(levels[np.clip(lines[:, None] + away, 0, len(levels) - 1)], axis=1)
 
 
 def _refine(spectra, frame, lines):
@@ -214,7 +243,8 @@ def _event(track, spectrum, detector):
     end = spectrum.duration if last == len(spectrum.time) - 1 else spectrum.time[last] + spectrum.hop / 2
     power = 10**(np.array(track.level) / 10)
     frequency = float(np.average(track.frequency, weights=power))
-    return Event(frequency, max(track.level), start, end - start, *_origin(track, frequency, power, detector))
+    course = np.array([spectrum.time[track.frame], track.frequency, track.level])
+    return Event(frequency, max(track.level), start, end - start, *_origin(track, frequency, power, detector), course)
 
 
 def _origin(track, frequency, power, detector):

@@ -15,7 +15,7 @@ from pipeline.views.chapters import (
     surface,
     vibration,
 )
-from pipeline.views.chapters.bench import bench, diagnosis, line_evidence, measured_friction, recording
+from pipeline.views.chapters.bench import bench, diagnosis, line_evidence, measured_friction, noise_events, recording
 from pipeline.views.chapters.chapter import Figure
 from pipeline.views.chapters.models import beam_on_beam, lock_in, lumped, rupture, transient
 from pipeline.views.figures import complex_modes as stability_pictures
@@ -51,6 +51,7 @@ CHAPTERS = {
     "squeal": (vibration.squeal, (_PUBLISHED,)),
     "rupture": (rupture.chapter, ()),
     "recording": (recording.chapter, ()),
+    "noise_events": (noise_events.chapter, ()),
     "line_evidence": (line_evidence.chapter, ()),
     "friction_update": (measured_friction.chapter, ()),
     "bench": (bench.chapter, ()),
@@ -87,6 +88,8 @@ def _key_figures(products, look):
         return diagnosis.key_figures(products["diagnosis"])
     if products.get("friction_update") is not None:
         return (measured_friction.key_figure(products["friction_update"]),)
+    if products.get("noise_events") is not None and products.get("complex_modes") is None:
+        return tuple(filter(None, [noise_events.key_figure(products["noise_events"], look)]))
     answer, cycle = _key_figure(products, look), products.get("limit_cycle")
     return tuple(f for f in (answer, cycle and limit_cycle.key_figure(cycle)) if f)
 

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from pipeline.views.chapters import convergence, limit_cycle, probability
-from pipeline.views.chapters.bench import diagnosis, line_evidence, measured_friction
+from pipeline.views.chapters.bench import diagnosis, line_evidence, measured_friction, noise_events
 from pipeline.views.chapters.friction import outside_computed
 from pipeline.views.chapters.models.rupture import headline as rupture_headline
 from pipeline.views.chapters.pad_motion import extremes, open_balance, point, rate_in_words
@@ -89,6 +89,9 @@ def _headline(products):
         start = "No peak exceeds the squeal threshold, but " if squeal is not None else ""
         text = f"{start}{plural(unstable, 'mode')} {'is' if unstable == 1 else 'are'} unstable"
         return text[0].upper() + text[1:], "warning"
+    heard = products.get("noise_events")
+    if heard is not None and modes is None and (told := noise_events.headline(heard)):
+        return told
     if products.get("recording") is not None and squeal is None and modes is None:
         return f"{plural(len(products['recording'].runs), 'run')} from a bench, not yet compared with a model", "quiet"
     if squeal is None and modes is None:
@@ -129,6 +132,8 @@ def _settled_cycle(transient):
 
 def _where(products):
     squeal, cycle = products.get("squeal"), products.get("limit_cycle")
+    if squeal is None and cycle is None and products.get("noise_events") is not None:
+        return noise_events.conclusion(products["noise_events"])
     if squeal is None:
         return "" if cycle is None else limit_cycle.statement(cycle)
     operating, sensor = np.unravel_index(np.argmax(squeal.peak_level), squeal.peak_level.shape)

@@ -3,7 +3,14 @@
 import numpy as np
 import pytest
 
-from pipeline.physics.signals.spectra import LOWEST_LEVEL, band_power, level, power_spectrum, third_octave_bands
+from pipeline.physics.signals.spectra import (
+    LOWEST_LEVEL,
+    a_weighting,
+    band_power,
+    level,
+    power_spectrum,
+    third_octave_bands,
+)
 
 RATE = 50e3
 TIME = np.arange(50000) / RATE
@@ -44,3 +51,13 @@ def test_short_signal_gives_one_segment():
 
 def test_levels():
     np.testing.assert_allclose(level(np.array([1e-18, 1e-6, 0]), 1e-9), [0, 120, LOWEST_LEVEL], atol=1e-12)
+
+
+@pytest.mark.exact
+@pytest.mark.parametrize("frequency, decibel", [(31.5, -39.4), (63, -26.2), (125, -16.1), (250, -8.6),
+                                                (500, -3.2), (1000, 0.0), (2000, 1.2), (4000, 1.0),
+                                                (8000, -1.1), (16000, -6.6)])
+def test_a_weighting_is_that_of_the_standard(frequency, decibel):
+    """Table 3 of IEC 61672-1 for the exact base-ten frequencies, rounded to .1 dB."""
+    exact = 1000 * 10 ** (round(10 * np.log10(frequency / 1000)) / 10)
+    assert 20 * np.log10(a_weighting(exact)) == pytest.approx(decibel, abs=0.05001)

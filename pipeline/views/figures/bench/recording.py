@@ -6,7 +6,7 @@ from pipeline.views.figures.number_format import scale
 from pipeline.views.figures.style import COLOURS, FAINT, MARKERS, drawing, envelope, legend, png, svg
 
 #: channels that one picture shows
-MOST = 4
+MOST = 8
 
 
 def channels(run, dpi):

@@ -1,0 +1,150 @@
+"""Chapter: squeal and other noise in the recordings."""
+
+import numpy as np
+
+from pipeline.views.chapters.chapter import Chapter, Figure, Table
+from pipeline.views.figures.bench import noise_events as pictures
+from pipeline.views.figures.number_format import number, percent, plural, quantity
+
+#: spectrograms and rows that are shown
+_SHOWN, _ROWS = 6, 60
+_PAIRS = (("pressure", "speed"), ("pressure", "temperature"), ("speed", "temperature"))
+
+
+def chapter(product, look):
+    """Chapter of the product NoiseEvents."""
+    return Chapter("noise_events", "Squeal and other noise in the recordings", _searched(product), conclusion(product),
+                   tuple(_figures(product, look)), tuple(_tables(product)))
+
+
+def squeals(product):
+    """Indices of the squeal events, the loudest first; of microphones, or of accelerometers where there are none."""
+    rows = np.flatnonzero(pictures.heard(product))
+    return rows[np.argsort(-product.event_level[rows], kind="stable")]
+
+
+def runs(product):
+    """(runs that squeal, all runs that were searched), in their order."""
+    noisy = set(product.record_run[product.event_record[squeals(product)]])
+    every = list(dict.fromkeys(map(str, product.record_run)))
+    return [name for name in every if name in noisy], every
+
+
+def headline(product):
+    """(text, tone) of the first screen; None where nothing was searched."""
+    if not len(product.record_run):
+        return None
+    noisy, every = runs(product)
+    if not noisy:
+        return f"No squeal in {plural(len(every), 'run')}", "quiet"
+    loudest = squeals(product)[0]
+    return (f"Squeal in {len(noisy)} of {plural(len(every), 'run')}, loudest at"
+            f" {quantity(product.event_frequency[loudest], 'Hz', 3)}", "squeal")
+
+
+def conclusion(product):
+    """What was found, in sentences."""
+    if not len(product.record_run):
+        return "No channel of the recordings measures sound or acceleration at a rate that reaches the squeal band."
+    rows = squeals(product)
+    noisy, every = runs(product)
+    others = {kind: np.count_nonzero(product.event_kind == kind) for kind in pictures.KINDS if kind != "squeal"}
+    beside = ", ".join(f"{count} of {kind}" if kind in ("broadband", "series") else plural(count, kind)
+                       for kind, count in others.items() if count)
+    if not len(rows):
+        peak = int(np.argmax(product.record_peak))
+        return (f"No steady tone reaches the threshold. The loudest tone in the band has"
+                f" {number(product.record_peak[peak], 3)} {_unit(product, peak)} at"
+                f" {quantity(product.record_peak_frequency[peak], 'Hz', 3)}, run {product.record_run[peak]}."
+                + (f" Told beside: {beside}." if beside else ""))
+    first = rows[0]
+    return (f"{plural(len(rows), 'squeal event')} in {len(noisy)} of {plural(len(every), 'run')}"
+            f" ({percent(len(noisy) / len(every), 2)}). The loudest: {number(product.event_level[first], 3)}"
+            f" {_unit(product, product.event_record[first])} at {quantity(product.event_frequency[first], 'Hz', 4)} for"
+            f" {quantity(product.event_duration[first], 's', 2)}, run {product.record_run[product.event_record[first]]}"
+            f"{_at(product, first)}.{_bands(product, rows)}" + (f" Told beside: {beside}." if beside else ""))
+
+
+def _searched(product):
+    low, high = product.band
+    names = ", ".join(dict.fromkeys(f"{c} ({k})" for c, k in zip(product.record_channel, product.record_kind,
+                                                                 strict=True)))
+    return (f"Squeal is a steady tone of at least {number(product.threshold, 3)} dB(A) between {quantity(low, 'Hz', 3)}"
+            f" and {quantity(high, 'Hz', 3)} (SAE J2521). Channels searched: {names or 'none'}.")
+
+
+def _unit(product, record):
+    return "dB(A)" if product.record_kind[record] == "sound" else "dB re 1 µm/s²"
+
+
+def _at(product, event):
+    """Conditions of an event, in brackets."""
+    units = {"pressure": "Pa", "speed": "rad/s", "temperature": "K"}
+    known = [f"{name} {quantity(value, units[str(name)], 3)}" for name, value, is_known in zip(
+        product.condition, product.event_condition[event], product.event_condition_known[event], strict=True)
+        if is_known]
+    return f" ({', '.join(known)})" if known else ""
+
+
+def _bands(product, rows):
+    """The frequencies at which it squeals, by third octaves, and how many events each has."""
+    octave = np.round(10 * np.log10(product.event_frequency[rows])).astype(int)
+    bands = [(b, np.count_nonzero(octave == b)) for b in np.unique(octave)]
+    if len(bands) < 2:
+        return ""
+    told = ", ".join(f"{quantity(product.event_frequency[rows][octave == b].mean(), 'Hz', 3)} ({count})"
+                     for b, count in bands)
+    return f" Frequencies, with the number of events: {told}."
+
+
+def _figures(product, look):
+    squeal = set(product.event_record[squeals(product)])
+    order = sorted(range(len(product.record_run)), key=lambda k: (k not in squeal, product.record_kind[k] != "sound",
+                                                       -product.record_peak[k]))
+    for record in order[:_SHOWN]:
+        yield Figure(pictures.spectrogram(product, record, look.dpi),
+                     f"Run {product.record_run[record]}, {product.record_channel[record]}: level over time and"
+                     " frequency; lines are events, red squeal.")
+    if np.any(product.record_kind[product.event_record] == "sound"):
+        yield Figure(pictures.level_frequency(product), "Events of the microphones: level over frequency; dashed: the"
+                     " threshold. Those below the band are not A-weighted.")
+    pair = next((pair for pair in _PAIRS if np.count_nonzero(pictures.told(product, *pair)) > 1), None)
+    if pair is not None:
+        yield Figure(pictures.over_conditions(product, *pair), f"Squeal over {pair[0]} and {pair[1]}: one marker an"
+                     " event, the larger the louder.")
+
+
+def _tables(product):
+    rows = tuple((str(product.record_run[r]), str(product.record_channel[r]), str(product.event_kind[k]),
+                  quantity(product.event_frequency[k], "Hz", 4), number(product.event_level[k], 3),
+                  quantity(product.event_start[k], "s", 3), quantity(product.event_duration[k], "s", 2),
+                  _at(product, k).strip(" ()"))
+                 for k in _in_order(product)[:_ROWS] for r in [product.event_record[k]])
+    if rows:
+        more = len(product.event_record) - len(rows)
+        title = "Events" + (f", the loudest; {more} more in noise_events.csv" if more else "")
+        yield Table(("run", "channel", "kind", "frequency", "level / dB", "begin", "length", "conditions"), rows, title,
+                    numeric=(3, 4, 5, 6), wide=(7,), folded=len(rows) > 12)
+    peaks = tuple((str(product.record_run[k]), str(product.record_channel[k]),
+                   number(product.record_peak[k], 3), quantity(product.record_peak_frequency[k], "Hz", 4),
+                   number(product.record_background[k], 3), quantity(product.record_duration[k], "s", 3))
+                  for k in range(len(product.record_run)))
+    if peaks:
+        yield Table(("run", "channel", "loudest tone / dB", "at", "background / dB", "length"), peaks, "Records",
+                    numeric=(2, 3, 4, 5), folded=len(peaks) > 12)
+
+
+def _in_order(product):
+    """Indices of all events: squeal first, then by level."""
+    return sorted(range(len(product.event_record)), key=lambda k: (product.event_kind[k] != "squeal",
+                                                                   -product.event_level[k]))
+
+
+def key_figure(product, look):
+    """Figure of the first screen: the spectrogram of the loudest squeal."""
+    rows = squeals(product)
+    if not len(rows):
+        return None
+    record = product.event_record[rows[0]]
+    return Figure(pictures.spectrogram(product, record, look.dpi),
+                  f"The loudest squeal: run {product.record_run[record]}, {product.record_channel[record]}.")

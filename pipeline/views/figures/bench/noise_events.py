@@ -1,0 +1,89 @@
+"""Pictures of noise events: spectrogram with the events on it, levels over frequency, occurrence over conditions."""
+
+import numpy as np
+
+from pipeline.views.figures.style import (
+    COLOURS,
+    FAINT,
+    INK,
+    MARKERS,
+    RED,
+    SEQUENTIAL,
+    colour_bar,
+    drawing,
+    legend,
+    png,
+    svg,
+)
+
+#: colours of the kinds that are drawn, in the order of their importance
+KINDS = {"squeal": RED, "harmonic": COLOURS[4], "sweep": COLOURS[5], "series": COLOURS[5], "broadband": FAINT,
+         "moan": COLOURS[2], "groan": COLOURS[2], "judder": COLOURS[2]}
+#: dB that a spectrogram shows
+_RANGE = 60.0
+
+
+def spectrogram(product, record, dpi):
+    """PNG of the level over time and frequency of one record; lines: its events, red is squeal."""
+    shown = product.spectrogram[f"{product.record_run[record]}.{product.record_channel[record]}"]
+    top = shown.level.max()
+    with drawing(3.4, bar=True) as figure:
+        axes = figure.subplots()
+        image = axes.pcolormesh(shown.time, shown.frequency / 1e3, shown.level.T, cmap=SEQUENTIAL, vmin=top - _RANGE,
+                                vmax=top, shading="nearest", rasterized=True)
+        for k in np.flatnonzero(product.event_record == record):
+            if str(product.event_kind[k]) == "broadband":
+                continue
+            begin, height = product.event_start[k], product.event_frequency[k] / 1e3
+            axes.plot([begin, begin + product.event_duration[k]], [height, height], lw=4.5, color="white", alpha=0.55,
+                      solid_capstyle="butt")
+            axes.plot([begin, begin + product.event_duration[k]], [height, height], lw=1.4,
+                      color=KINDS[str(product.event_kind[k])], solid_capstyle="butt")
+        axes.set(xlabel="time / s", ylabel="frequency / kHz", ylim=(0, shown.frequency[-1] / 1e3))
+        axes.grid(False)
+        unit = "dB(A)" if product.record_kind[record] == "sound" else "dB re 1 µm/s²"
+        colour_bar(axes, image, f"level / {unit}")
+        return png(figure, dpi)
+
+
+def level_frequency(product):
+    """SVG of the level of every event of a microphone over its frequency, by kind; dashed: the threshold."""
+    sound = product.record_kind[product.event_record] == "sound"
+    with drawing(top=0.5) as figure:
+        axes = figure.subplots()
+        for marker, (kind, colour) in zip(MARKERS * 2, KINDS.items(), strict=False):
+            rows = sound & (product.event_kind == kind)
+            if rows.any() and kind != "broadband":
+                axes.plot(product.event_frequency[rows] / 1e3, product.event_level[rows], marker, color=colour,
+                          label=f"{kind} ({np.count_nonzero(rows)})", ls="none")
+        axes.axhline(float(product.threshold), color=INK, lw=1.1, ls="--")
+        axes.set(xlabel="frequency / kHz", ylabel="level / dB(A)", xlim=(0, 1.05 * product.band[1] / 1e3))
+        legend(axes)
+        return svg(figure)
+
+
+def heard(product):
+    """(event,) whether an event is squeal: of microphones, or of accelerometers where there are none."""
+    sound = product.record_kind == "sound"
+    squeal = product.event_kind == "squeal"
+    return squeal & sound[product.event_record] if sound.any() else squeal
+
+
+def told(product, *conditions):
+    """(event,) whether an event is squeal of which these conditions are known."""
+    columns = [list(map(str, product.condition)).index(name) for name in conditions]
+    return heard(product) & product.event_condition_known[:, columns].all(axis=1)
+
+
+def over_conditions(product, first, second):
+    """SVG of squeal over two conditions, such as 'pressure' and 'speed': one marker an event, larger if louder."""
+    column = {str(name): k for k, name in enumerate(product.condition)}
+    size = {"pressure": (1e5, "bar"), "speed": (1.0, "rad/s"), "temperature": (1.0, "K")}
+    squeal = told(product, first, second)
+    with drawing() as figure:
+        axes = figure.subplots()
+        x, y = (product.event_condition[squeal, column[name]] / size[name][0] for name in (first, second))
+        over = product.event_level[squeal] - product.threshold
+        axes.scatter(x, y, s=12 + 6 * np.clip(over, 0, 40), color=RED, alpha=0.6, lw=0)
+        axes.set(xlabel=f"{first} / {size[first][1]}", ylabel=f"{second} / {size[second][1]}")
+        return svg(figure)

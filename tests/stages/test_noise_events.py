@@ -1,0 +1,102 @@
+"""Stage noise_events on runs of microphones, accelerometers and slow channels."""
+
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from pipeline.contract import ConfigError
+from pipeline.products import Condition, Recording, Run
+from pipeline.recordings.samples import channel
+from stages.noise_events import Settings, companions, noise_events
+
+RATE = 48000.0
+T = np.arange(round(4 * RATE)) / RATE
+TONE = np.sqrt(2) * 20e-6 * 10 ** (85 / 20) * np.sin(2 * np.pi * 3150 * T) * ((T > 1) & (T < 2.5))
+NOISE = 1e-3 * np.random.default_rng(1).standard_normal(len(T))
+
+
+def run(channels, **conditions):
+    return Run(description="", repeat_of="", channels=channels,
+               conditions={k: Condition(value=[v], time=[0.0], unit=u) for k, (v, u) in conditions.items()})
+
+
+def recorded(**more):
+    channels = {"mic": channel(TONE + NOISE, "Pa", "sound_pressure", RATE, 0.5, "mic"),
+                "pad": channel(2e5 * TONE + NOISE, "m/s^2", "acceleration", RATE, 0.5, "pad"),
+                "line": channel(1e6 * T[::100], "Pa", "pressure", RATE / 100, 0.5, "line"),
+                "shaft": channel(30 - 5 * T[::100], "rad/s", "angular_velocity", RATE / 100, 0.5, "shaft")}
+    return Recording(source=[], runs={"loud": run(channels, temperature=(400.0, "K")), "quiet": run(
+        {"mic": channel(NOISE, "Pa", "sound_pressure", RATE, 0.0, "mic")}), **more})
+
+
+@pytest.fixture(scope="module")
+def result():
+    return noise_events(recorded(), settings=Settings())
+
+
+def test_events_have_frequency_level_begin_and_conditions(result):
+    assert list(result.record_run) == ["loud", "loud", "quiet"] and list(result.record_kind) == ["sound", "vibration",
+                                                                                                 "sound"]
+    assert list(result.event_kind) == ["squeal", "squeal"] and result.event_record.tolist() == [0, 1]
+    weighted = 85 + 1.2
+    assert result.event_frequency == pytest.approx([3150, 3150], abs=1)
+    assert result.event_level[0] == pytest.approx(weighted, abs=0.2)
+    assert result.event_level[1] == pytest.approx(85 + 20 * np.log10(2e5 * 20e-6 / 1e-6), abs=0.2)
+    assert result.event_start == pytest.approx([1.5, 1.5], abs=0.01)
+    assert result.event_duration == pytest.approx([1.5, 1.5], abs=0.01)
+    assert list(result.condition) == ["pressure", "speed", "temperature"] and result.event_condition_known.all()
+    np.testing.assert_allclose(result.event_condition[0], [1.75e6, 30 - 5 * 1.75, 400], rtol=0.01)
+
+
+def test_records_tell_peak_background_and_a_spectrogram(result):
+    assert result.record_peak[0] == pytest.approx(86.2, abs=0.3) and result.record_peak[2] < 40
+    assert result.record_peak_frequency[0] == pytest.approx(3150, abs=1)
+    whole = 20 * np.log10(1e-3 / 20e-6) + 10 * np.log10(14 / 24)
+    assert result.record_background[2] == pytest.approx(whole, abs=1.5)
+    shown = result.spectrogram["loud.mic"]
+    time, line = np.unravel_index(shown.level.argmax(), shown.level.shape)
+    assert 1.5 < shown.time[time] < 3 and shown.frequency[line] == pytest.approx(3150, abs=60)
+    assert max(shown.level.shape) <= 600
+
+
+def test_channels_may_be_chosen_and_must_exist():
+    found = noise_events(recorded(), settings=Settings(channels=["pad"]))
+    assert list(found.record_channel) == ["pad"]
+    with pytest.raises(ConfigError, match="noise_events.channels: expected channels of the recording, found mike"):
+        noise_events(recorded(), settings=Settings(channels=["mike"]))
+
+
+def test_a_quiet_pressure_is_a_microphone_and_a_line_pressure_is_none():
+    quiet = run({"p": channel(TONE + NOISE, "Pa", "pressure", RATE, 0.0, "p")})
+    line = run({"p": channel(1e6 + TONE, "Pa", "pressure", RATE, 0.0, "p")})
+    found = noise_events(Recording(source=[], runs={"a": quiet, "b": line}), settings=Settings())
+    assert list(found.record_run) == ["a"] and list(found.event_kind) == ["squeal"]
+
+
+def test_what_is_too_slow_or_too_short_is_told():
+    told = []
+    slow = run({"mic": channel(NOISE, "Pa", "sound_pressure", 3000.0, 0.0, "mic")})
+    brief = run({"mic": channel(NOISE[:4000], "Pa", "sound_pressure", RATE, 0.0, "mic")})
+    context = SimpleNamespace(log=told.append, map=lambda f, items, _: [f(item) for item in items])
+    found = noise_events(Recording(source=[], runs={"slow": slow, "brief": brief}), settings=Settings(),
+                         context=context)
+    assert not len(found.record_run) and not len(found.event_kind)
+    assert "does not reach the squeal band" in told[0] and "shorter than three frames" in told[1]
+
+
+def test_without_channels_of_sound_nothing_is_found():
+    drive = run({"x": channel(T, "m", "displacement", RATE, 0.0, "x")})
+    found = noise_events(Recording(source=[], runs={"a": drive}), settings=Settings())
+    assert not len(found.record_run) and found.band.tolist() == [2000, 16000]
+
+
+def test_a_band_that_ends_before_it_begins_is_refused():
+    with pytest.raises(ConfigError, match="lowest_frequency: expected less than highest_frequency, 1000 Hz"):
+        noise_events(recorded(), settings=Settings(highest_frequency="1 kHz"))
+
+
+def test_the_table_of_events(result):
+    head, first, *_ = companions(result)["noise_events.csv"].splitlines()
+    assert head.startswith("run,channel,kind,frequency / Hz") and head.endswith("temperature / K")
+    assert first.startswith("loud,mic,squeal,31") and first.split(",")[6].startswith("86.") and first.endswith(",400")

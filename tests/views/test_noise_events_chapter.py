@@ -1,0 +1,63 @@
+"""Chapter of noise events: how many, where, how loud, under which conditions; and what is said where there are none."""
+
+from dataclasses import replace
+
+import numpy as np
+
+from pipeline.products import Recording, Run
+from pipeline.views.chapters.bench.noise_events import chapter, conclusion, headline, key_figure, runs
+from pipeline.views.chapters.chapter import Look
+from pipeline.views.pages.summary import verdict
+from tests.views import products_for_views as small
+
+LOOK = Look(dpi=50)
+RECORDING = Recording(source=["stop.wav 0"], runs={"stop_1": Run(description="", repeat_of="")})
+
+
+def plain(text):
+    return text.replace("\N{NARROW NO-BREAK SPACE}", " ")
+
+
+def test_squeal_counts_runs_of_microphones():
+    product = small.noise_events()
+    assert runs(product) == (["stop_1", "stop_2"], ["stop_1", "stop_2"])
+    told = plain(conclusion(product))
+    assert told.startswith("2 squeal events in 2 of 2 runs (100 %). The loudest: 89 dB(A) at 2.78 kHz for 2.4 s,"
+                           " run stop_1 (pressure 1.7 MPa, speed 20 rad/s).")
+    assert "2.78 kHz (1), 7.34 kHz (1)" in told and told.endswith("Told beside: 1 harmonic, 1 groan.")
+    assert plain(headline(product)[0]) == "Squeal in 2 of 2 runs, loudest at 2.78 kHz"
+
+
+def test_accelerometers_count_where_nothing_listens():
+    product = small.noise_events()
+    deaf = replace(product, record_kind=np.array(["vibration"] * 3, dtype=object))
+    told = plain(conclusion(deaf))
+    assert told.startswith("3 squeal events in 2 of 2 runs") and "149 dB re 1 µm/s²" in told
+
+
+def test_no_squeal_and_no_channel_are_told():
+    quiet = small.noise_events(quiet=True)
+    assert headline(quiet) == ("No squeal in 2 runs", "quiet") and key_figure(quiet, LOOK) is None
+    assert plain(conclusion(quiet)).startswith("No steady tone reaches the threshold. The loudest tone in the band has")
+    none = replace(quiet, spectrogram={}, **{name: getattr(quiet, name)[:0] for name in vars(quiet)
+                                             if name.startswith("record_")})
+    assert headline(none) is None and "No channel of the recordings" in conclusion(none)
+    assert not chapter(none, LOOK).figures and not chapter(none, LOOK).tables
+
+
+def test_the_page_has_spectrograms_levels_and_tables():
+    product = small.noise_events()
+    made = chapter(product, LOOK)
+    assert [t.title for t in made.tables] == ["Events", "Records"] and len(made.tables[0].rows) == 5
+    assert [row[2] for row in made.tables[0].rows][:3] == ["squeal"] * 3
+    captions = [figure.caption for figure in made.figures]
+    assert len(captions) == 5 and "Run stop_1, mic" in captions[0] and "pressure and speed" in captions[-1]
+    assert "loudest squeal: run stop_1, mic" in key_figure(product, LOOK).caption
+
+
+def test_the_first_screen_answers():
+    told = verdict({"recording": RECORDING, "noise_events": small.noise_events()}, ())
+    assert told.tone == "squeal" and plain(told.headline).startswith("Squeal in 2 of 2 runs")
+    assert plain(dict(told.answers)["Where"]).startswith("2 squeal events")
+    quiet = verdict({"recording": RECORDING, "noise_events": small.noise_events(quiet=True)}, ())
+    assert quiet.headline == "No squeal in 2 runs"
