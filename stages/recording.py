@@ -2,6 +2,7 @@
 
 import hashlib
 import re
+from collections import Counter
 from dataclasses import dataclass
 from functools import partial
 from typing import Literal
@@ -243,10 +244,16 @@ def _from_waveforms(file, refused):
     where, found = f"{file.file}", waveforms(file.kind, file.file)
     _refuse_unknown(file, found, f"{where}: ")
     tracks = file.columns or {_plain(name): Track(column=name) for name in found}
-    whole = refused.channels({name: partial(_track, track, found[track.column], file.sample_rate, f"{where}: {name}")
-                              for name, track in tracks.items()})
+    names, uses = list(found), Counter(track.column for track in tracks.values())
+
+    def made(name, track):
+        uses[track.column] -= 1     # long records: a column is let go once all channels of it are made
+        waveform = found[track.column] if uses[track.column] else found.pop(track.column)
+        return _track(track, waveform, file.sample_rate, f"{where}: {name}")
+
+    whole = refused.channels({name: partial(made, name, track) for name, track in tracks.items()})
     if not whole:
-        raise ConfigError(where, "a channel that can be used", f"none of {', '.join(found)}",
+        raise ConfigError(where, "a channel that can be used", f"none of {', '.join(names)}",
                           "name channels under 'columns', with unit and what they measure")
     return _cut(file.runs or {_plain(file.file.stem): Stretch()}, whole, where)
 

@@ -134,9 +134,20 @@ def _as_array(value, dtype, where):
             array = array.astype(dtype)
         if not np.can_cast(array.dtype, dtype, "same_kind"):
             raise ProductError(where, str(dtype), str(array.dtype))
+        if array.dtype == dtype and array.flags.c_contiguous and _fixed(array):
+            return array
         array = np.array(array, dtype=dtype, order="C")
     array.setflags(write=False)
     return array
+
+
+def _fixed(array):
+    """Whether nothing can write to an array: neither to itself nor to what it is a view of, as that of a product."""
+    while isinstance(array, np.ndarray):
+        if array.flags.writeable:
+            return False
+        array = array.base
+    return array is None
 
 
 def _check_dimensions(array, dims, sizes, where):

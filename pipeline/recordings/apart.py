@@ -93,8 +93,9 @@ _OUT_OF_TIME = 24
 
 
 def _columns_of(folder):
+    """Waveforms whose values are maps of files that are gone from the folder, but last as long as these."""
     table = json.loads((folder / _COLUMNS).read_text())
-    return {name: Waveform(np.load(folder / f"{k}.npy"), *rest) for k, (name, *rest) in enumerate(table)}
+    return {name: Waveform(np.load(folder / f"{k}.npy", mmap_mode="r"), *rest) for k, (name, *rest) in enumerate(table)}
 
 
 def _leave_columns(found, folder):

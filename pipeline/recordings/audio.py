@@ -10,6 +10,8 @@ from pipeline.recordings.waveform import Waveform, library
 
 #: begins of RIFF files, little and big endian; RF64 and BW64 state their sizes in a chunk of their own
 _RIFF = {b"RIFF": "<", b"RIFX": ">"}
+#: kinds of samples that float32 does not hold exactly
+_WIDE = ("PCM_32", "DOUBLE")
 #: size of a data chunk that a program left open: it is not known
 _OPEN = (0, 0xFFFFFFFF)
 
@@ -24,7 +26,8 @@ def read_audio(path):
     try:
         with sound.SoundFile(str(path)) as file:
             declared, rate = file.frames, float(file.samplerate)
-            values = file.read(dtype="float64", always_2d=True)
+            exact = "float64" if file.subtype in _WIDE else "float32"
+            values = file.read(dtype=exact, always_2d=True)
     except (sound.SoundFileError, RuntimeError, OSError, TypeError, ValueError) as error:
         raise ConfigError(path, "a sound file", str(error)) from None
     if len(values) < max(declared, 1):

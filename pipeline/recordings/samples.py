@@ -31,9 +31,9 @@ def channel(values, unit, measures, rate, begin, where, *, role="response", plac
     good = np.isfinite(converted)
     if not good.any():
         raise ConfigError(where, "samples", "none that are finite")
-    return Channel(samples=np.where(good, converted, 0.0), missing=stretches(~good), unit=name, measures=measures,
-                   rate=rate, begin=begin, place=place, position=position, direction=_unit_vector(direction, where),
-                   role=role)
+    return Channel(samples=converted if good.all() else np.where(good, converted, 0.0), missing=stretches(~good),
+                   unit=name, measures=measures, rate=rate, begin=begin, place=place, position=position,
+                   direction=_unit_vector(direction, where), role=role)
 
 
 def stretches(flag):

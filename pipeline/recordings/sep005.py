@@ -1,9 +1,7 @@
 """The open convention SEP 005 of SDyPy for time signals: a list of dictionaries, as its readers return.
 
-    from sep005_io_fast import read_fast                     # any reader of the convention
-    from pipeline.recordings.sep005 import save
-
-    save(read_fast("stop_3.outb"), "stop_3.h5")              # a recording that a case reads as kind: hdf5
+``save(read(path), "stop_3.h5")`` with the ``read`` of any package of the convention makes a recording of what it reads,
+which a case then takes as ``kind: hdf5``.
 """
 
 import numpy as np

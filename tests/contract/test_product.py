@@ -66,3 +66,19 @@ def test_parts_are_asked_for_but_where_there_may_be_none():
     one, other = Bare(), Bare()
     one.points["a"] = GOOD["inner"]
     assert not other.points
+
+
+def test_arrays_of_products_are_shared_and_those_of_others_copied():
+    """A stretch of a long record is a view of it; what somebody may still write to is copied, through views too."""
+    @product(version=1)
+    class Sample:
+        value: Array = quantity("m", "point", "any")
+
+    own = np.arange(4.0)
+    first = Sample(value=own)
+    own[0] = 9.0
+    assert first.value[0] == 0.0
+    assert np.shares_memory(Sample(value=first.value[1:3]).value, first.value)
+    view = own[:2]
+    view.setflags(write=False)
+    assert not np.shares_memory(Sample(value=view).value, own)
