@@ -34,8 +34,10 @@ from pipeline.products.recording import (
     Lines,
     MeasuredFriction,
     MeasuredModes,
+    ModalTest,
     Recording,
     Run,
+    TestModes,
     Topography,
 )
 from pipeline.products.rupture import Rupture
@@ -47,6 +49,6 @@ from pipeline.products.surfaces import Surface
 __all__ = ["BeamGeometry", "BeamOnBeam", "Bench", "BenchRun", "Body", "Channel", "Comparison", "ComplexModes",
            "Condition", "Convergence", "DiagnosedRun", "Diagnosis", "Effects", "Follows", "FrequencyResponse", "FrictionDescriptions",
            "FrictionMap", "FrictionUpdate", "Incidence", "InterfaceLaw", "LatentForce", "LatentPrediction", "LimitCycle", "LineEvidence", "Lines", "Located", "LockIn",
-           "Lumped", "MeasuredFriction", "MeasuredModes", "MicroFriction", "MotionScatter", "Multibody", "NoiseEvents", "PinOnDisc", "Probability",
-           "Recording", "ReducedModel", "Report", "Response", "Run", "Rupture", "Spectrogram", "Squeal", "SquealCheck", "Structure", "Surface", "Topography",
+           "Lumped", "MeasuredFriction", "MeasuredModes", "MicroFriction", "ModalTest", "MotionScatter", "Multibody", "NoiseEvents", "PinOnDisc", "Probability",
+           "Recording", "ReducedModel", "Report", "Response", "Run", "Rupture", "Spectrogram", "Squeal", "SquealCheck", "Structure", "Surface", "TestModes", "Topography",
            "Transient"]

@@ -1,4 +1,4 @@
-"""Recordings: measured data, run by run."""
+"""Recordings: measured data, run by run, and the modes of a measured structure."""
 
 from pipeline.contract import Array, count, parts, product, quantity, text
 
@@ -110,3 +110,35 @@ class Recording:
 
     source: Array = text("source", "files that it was read from, with SHA-256")
     runs: dict[str, Run] = parts("runs by name")
+
+
+@product(version=1)
+class TestModes:
+    """Modes that the frequency responses of one run hold."""
+
+    frequency: Array = quantity("Hz", "mode", "natural frequencies, absolute values of the poles")
+    frequency_std: Array = quantity("Hz", "mode", "their standard deviations")
+    damping_ratio: Array = quantity("1", "mode", "damping ratios")
+    damping_ratio_std: Array = quantity("1", "mode", "their standard deviations")
+    partner: Array = count("mode", "mode that makes a pair with it, close in frequency and of another shape; itself without one")
+    place: Array = text("response", "location and direction of each response")
+    reference: Array = text("response", "location and direction of its reference")
+    shape: Array = quantity("1", "mode response", "residue of each response, in its unit times rad/s", complex)
+    shape_std: Array = quantity("1", "mode response", "standard deviation of its size")
+    likeness: Array = quantity("1", "mode other", "modal assurance criterion of the shapes among themselves")
+    noise: Array = quantity("1", "response", "effective value of what the modes leave, over that of the response")
+    line: Array = quantity("Hz", "line", "frequency axis")
+    measured: Array = quantity("1", "line", "root mean square over the responses, each over its own effective value")
+    fitted: Array = quantity("1", "line", "the same of the modes")
+    order: Array = count("pole", "order of the denominator that a pole belongs to")
+    pole_frequency: Array = quantity("Hz", "pole", "its frequency")
+    pole_damping: Array = quantity("1", "pole", "its damping ratio")
+    stable: Array = count("pole", "1 where it came back from the order before")
+    chosen: Array = count("pole", "mode that it became, -1 for none")
+
+
+@product(version=1)
+class ModalTest:
+    """Modal test: poles and shapes of the runs with frequency responses."""
+
+    runs: dict[str, TestModes] = parts("by run", empty=True)

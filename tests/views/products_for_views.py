@@ -20,6 +20,7 @@ from pipeline.products import (
     LockIn,
     Lumped,
     MicroFriction,
+    ModalTest,
     Multibody,
     NoiseEvents,
     PinOnDisc,
@@ -31,6 +32,7 @@ from pipeline.products import (
     Squeal,
     Structure,
     Surface,
+    TestModes,
     Transient,
 )
 
@@ -108,6 +110,24 @@ def friction_map():
                        pressure_slope_std=np.full(len(micro.distance), 0.005),
                        speed_slope_std=np.full(len(micro.distance), 0.05),
                        error_correlation=np.tile(np.eye(3), (len(micro.distance), 1, 1)))
+
+
+def modal_test(empty=False):
+    """A run with a pair of modes and a single one, or none."""
+    count, line = 0 if empty else 3, np.linspace(0, 2000, 200)
+    frequency = np.array([800.0, 802.0, 1500.0])[:count]
+    peaks = 1e-3 + sum((1 / (1 + ((line - f) / 5) ** 2) for f in frequency), 0 * line)
+    order = np.repeat(np.arange(2, 12), max(count, 1))
+    shape = np.array([[1, 0, -1, 0], [0, 1, 0, -1], [1, 1, 1, 1]], complex)[:count]
+    modes = TestModes(
+        frequency=frequency, frequency_std=1e-5 * frequency, damping_ratio=np.full(count, 2e-3),
+        damping_ratio_std=np.full(count, 1e-5), partner=[1, 0, 2][:count],
+        place=[f"node {k} direction 3" for k in range(4)], reference=["node 0 direction 3"] * 4, shape=shape, shape_std=np.full((count, 4), 0.01),
+        likeness=np.eye(3)[:count, :count], noise=np.full(4, 0.012), line=line, measured=1.01 * peaks, fitted=peaks,
+        order=order, pole_frequency=np.resize(frequency if count else [500.0], len(order)),
+        pole_damping=np.full(len(order), 2e-3), stable=np.full(len(order), int(not empty)),
+        chosen=np.resize(np.arange(count) if count else [-1], len(order)))
+    return ModalTest(runs={"hammer": modes})
 
 
 def noise_events(quiet=False):

@@ -15,7 +15,15 @@ from pipeline.views.chapters import (
     surface,
     vibration,
 )
-from pipeline.views.chapters.bench import bench, diagnosis, line_evidence, measured_friction, noise_events, recording
+from pipeline.views.chapters.bench import (
+    bench,
+    diagnosis,
+    line_evidence,
+    measured_friction,
+    modal_test,
+    noise_events,
+    recording,
+)
 from pipeline.views.chapters.chapter import Figure
 from pipeline.views.chapters.models import beam_on_beam, lock_in, lumped, rupture, transient
 from pipeline.views.figures import complex_modes as stability_pictures
@@ -52,6 +60,7 @@ CHAPTERS = {
     "rupture": (rupture.chapter, ()),
     "recording": (recording.chapter, ()),
     "noise_events": (noise_events.chapter, ()),
+    "modal_test": (modal_test.chapter, ()),
     "line_evidence": (line_evidence.chapter, ()),
     "friction_update": (measured_friction.chapter, ()),
     "bench": (bench.chapter, ()),
@@ -88,6 +97,8 @@ def _key_figures(products, look):
         return diagnosis.key_figures(products["diagnosis"])
     if products.get("friction_update") is not None:
         return (measured_friction.key_figure(products["friction_update"]),)
+    if products.get("modal_test") is not None:
+        return (modal_test.key_figure(products["modal_test"], look),)
     if products.get("noise_events") is not None and products.get("complex_modes") is None:
         return tuple(filter(None, [noise_events.key_figure(products["noise_events"], look)]))
     answer, cycle = _key_figure(products, look), products.get("limit_cycle")

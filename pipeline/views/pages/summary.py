@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from pipeline.views.chapters import convergence, limit_cycle, probability
-from pipeline.views.chapters.bench import diagnosis, line_evidence, measured_friction, noise_events
+from pipeline.views.chapters.bench import diagnosis, line_evidence, measured_friction, modal_test, noise_events
 from pipeline.views.chapters.friction import outside_computed
 from pipeline.views.chapters.models.rupture import headline as rupture_headline
 from pipeline.views.chapters.pad_motion import extremes, open_balance, point, rate_in_words
@@ -89,6 +89,8 @@ def _headline(products):
         start = "No peak exceeds the squeal threshold, but " if squeal is not None else ""
         text = f"{start}{plural(unstable, 'mode')} {'is' if unstable == 1 else 'are'} unstable"
         return text[0].upper() + text[1:], "warning"
+    if products.get("modal_test") is not None and modes is None:
+        return modal_test.headline(products["modal_test"])
     heard = products.get("noise_events")
     if heard is not None and modes is None and (told := noise_events.headline(heard)):
         return told

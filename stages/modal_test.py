@@ -1,0 +1,144 @@
+"""Stage modal_test: modes from measured frequency responses."""
+
+from functools import partial
+
+import numpy as np
+
+from pipeline.contract import ConfigError, Context, Quantity, Section, option, stage
+from pipeline.physics.modal.frf_identification import identify
+from pipeline.products import ModalTest, Recording, TestModes
+
+
+class Settings(Section):
+    """Band and orders of the identification."""
+
+    runs: tuple[str, ...] = option((), "runs to analyse; none = all that hold frequency responses")
+    lowest_frequency: Quantity("Hz", ge=0) | None = option(None, "begin of the band; none = that of the responses")
+    highest_frequency: Quantity("Hz", gt=0) | None = option(None, "end of the band; none = that of the responses")
+    band: Quantity("Hz", gt=0) = option("1 kHz", "the band is taken in parts of about this width, which overlap")
+    order: int = option(40, "highest order of the denominator in a part", ge=4, le=200)
+    pair_within: float = option(0.02, "share of their frequency within which two modes of other shapes are a pair",
+                                gt=0, lt=1)
+
+
+#: share of a part by which it reaches into its neighbours, where its own modes are not kept
+_OVERLAP = 0.15
+#: likeness of two shapes up to which modes close in frequency make a pair
+_ALIKE = 0.5
+
+
+@stage
+def modal_test(recording: Recording, settings: Settings, context: Context) -> ModalTest:
+    """Identify natural frequencies, damping and shapes from measured frequency responses, with their uncertainty.
+
+    Method:
+    Poles of common denominators of rising order up to {order} (least squares complex frequency) were followed from
+    order to order, in parts of the band of {band}; those that came back were refined together with their residues by
+    weighted least squares over all responses. Modes whose residues do not exceed four standard deviations were left
+    out, and poles added or split where more than noise was left. Standard deviations are those of the least squares,
+    the noise of each response being what is left of it.
+    """
+    strange = sorted(set(settings.runs) - set(recording.runs))
+    if strange:
+        raise ConfigError("modal_test.runs", f"some of {', '.join(recording.runs)}", ", ".join(strange))
+    chosen = {name: run for name, run in recording.runs.items()
+              if run.frf and (not settings.runs or name in settings.runs)}
+    if not chosen:
+        raise ConfigError("modal_test", "a run with frequency responses", f"none in {', '.join(recording.runs)}",
+                          "records of force and response are not turned into frequency responses yet")
+    return ModalTest(runs={name: _modes(name, run, settings, context) for name, run in chosen.items()})
+
+
+def _modes(name, run, settings, context):
+    """TestModes of one run."""
+    where = f"modal_test: {name}"
+    axes = {tuple(np.round(f.frequency, 9)) for f in run.frf.values()}
+    if len(axes) > 1:
+        raise ConfigError(where, "frequency responses on one frequency axis", f"{len(axes)} axes")
+    axis = np.asarray(next(iter(run.frf.values())).frequency, float)
+    low = axis[axis > 0.0][0] if settings.lowest_frequency is None else settings.lowest_frequency
+    high = axis[-1] if settings.highest_frequency is None else settings.highest_frequency
+    if not low < high or np.count_nonzero((axis >= low) & (axis <= high)) < 64:
+        raise ConfigError(where, f"64 or more lines between {low:g} and {high:g} Hz",
+                          f"{np.count_nonzero((axis >= low) & (axis <= high))} of {len(axis)}, {axis[0]:g} to"
+                          f" {axis[-1]:g} Hz")
+    response = np.array([f.response for f in run.frf.values()])
+    parts = _parts(axis, low, high, settings.band)
+    found = context.map(partial(_identified, axis=axis, response=response, most=settings.order), parts,
+                        f"modes of {name}")
+    kept = [(one, one.frequency >= first, one.frequency < last) for one, (first, last, *_) in zip(
+        found, parts, strict=True)]
+    fields = ("frequency", "frequency_std", "damping_ratio", "damping_ratio_std", "residue", "residue_std")
+    modes = {field: np.concatenate([getattr(one, field)[above & below] for one, above, below in kept])
+             for field in fields}
+    inside = (axis >= low) & (axis <= high)
+    return TestModes(
+        **{field: modes[field] for field in fields[:4]},
+        partner=_partners(modes["frequency"], _likeness(modes["residue"]), settings.pair_within),
+        place=[str(f.place) or key for key, f in run.frf.items()],
+        reference=[str(f.reference) for f in run.frf.values()], shape=modes["residue"], shape_std=modes["residue_std"],
+        likeness=_likeness(modes["residue"]), **_fit(axis, response, inside, found, parts), **_diagram(kept, parts))
+
+
+def _parts(axis, low, high, width):
+    """[(first, last, lower, upper)] in Hz: modes of first to last are kept of the lines of lower to upper."""
+    count = max(round((high - low) / width), 1)
+    edges = np.linspace(low, high, count + 1)
+    more = _OVERLAP * (edges[1] - edges[0])
+    return [(edges[k] if k else 0.0, edges[k + 1] if k + 1 < count else np.inf, max(edges[k] - more, low),
+             min(edges[k + 1] + more, high)) for k in range(count)]
+
+
+def _identified(part, axis, response, most):
+    inside = (axis >= part[2]) & (axis <= part[3])
+    return identify(axis[inside], response[:, inside], most)
+
+
+def _likeness(shape):
+    """Modal assurance criterion (m, m) of shapes (m, n)."""
+    size = np.sum(abs(shape) ** 2, axis=1)
+    return abs(shape.conj() @ shape.T) ** 2 / np.maximum(np.outer(size, size), 1e-300)
+
+
+def _partners(frequency, likeness, within):
+    """Mode (m,) that is nearest in frequency, of another shape, and says the same of this one; itself without such."""
+    partner = np.arange(len(frequency))
+    apart = abs(frequency[:, None] / frequency - 1.0) + 1e9 * (likeness > _ALIKE)
+    if len(frequency) > 1:
+        nearest = apart.argmin(axis=1)
+        mutual = (nearest[nearest] == partner) & (apart[partner, nearest] < within)
+        partner = np.where(mutual, nearest, partner)
+    return partner
+
+
+def _fit(axis, response, inside, found, parts):
+    """Fields of what is measured and fitted over the lines, and of what is left of each response."""
+    fitted = np.zeros_like(response)
+    for one, (first, last, lower, upper) in zip(found, parts, strict=True):
+        lines = (axis >= lower) & (axis <= upper) & (axis > 0.0)
+        own = (axis[lines] >= first) & (axis[lines] < last)
+        fitted[:, np.flatnonzero(lines)[own]] = one.fitted[:, own]
+    measured, fitted = response[:, inside], fitted[:, inside]
+    size = np.sqrt(np.mean(abs(measured) ** 2, axis=1))
+    left = np.sqrt(np.mean(abs(measured - fitted) ** 2, axis=1))
+
+    def together(values):
+        return np.sqrt(np.mean(abs(values / np.maximum(size, 1e-300)[:, None]) ** 2, axis=0))
+
+    return {"line": axis[inside], "measured": together(measured), "fitted": together(fitted),
+            "noise": left / np.maximum(size, 1e-300)}
+
+
+def _diagram(kept, parts):
+    """Fields of the stabilisation diagrams of all parts, the modes numbered through."""
+    rows, number = [], 0
+    for (one, above, below), (first, last, *_) in zip(kept, parts, strict=True):
+        renumbered = np.full(len(one.pole) + 1, -1)
+        renumbered[:-1][above & below] = number + np.arange(np.count_nonzero(above & below))
+        number += np.count_nonzero(above & below)
+        diagram, size = one.stabilisation, abs(one.stabilisation.pole) / (2 * np.pi)
+        own = (size >= first) & (size < last)
+        rows.append((diagram.order[own], size[own], (-diagram.pole.real / abs(diagram.pole))[own],
+                     diagram.stable[own].astype(int), renumbered[diagram.chosen[own]]))
+    names = ("order", "pole_frequency", "pole_damping", "stable", "chosen")
+    return {name: np.concatenate(column) for name, column in zip(names, zip(*rows, strict=True), strict=True)}
