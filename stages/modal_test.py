@@ -21,8 +21,8 @@ class Settings(Section):
                                 gt=0, lt=1)
 
 
-#: share of a part by which it reaches into its neighbours, where its own modes are not kept
-_OVERLAP = 0.15
+#: share of a part by which it reaches into its neighbours, where its modes are not kept, and by which its edges move
+_OVERLAP, _MOVABLE = 0.25, 0.25
 #: likeness of two shapes up to which modes close in frequency make a pair
 _ALIKE = 0.5
 
@@ -63,7 +63,7 @@ def _modes(name, run, settings, context):
                           f"{np.count_nonzero((axis >= low) & (axis <= high))} of {len(axis)}, {axis[0]:g} to"
                           f" {axis[-1]:g} Hz")
     response = np.array([f.response for f in run.frf.values()])
-    parts = _parts(axis, low, high, settings.band)
+    parts = _parts(axis, response, low, high, settings.band)
     found = context.map(partial(_identified, axis=axis, response=response, most=settings.order), parts,
                         f"modes of {name}")
     kept = [(one, one.frequency >= first, one.frequency < last) for one, (first, last, *_) in zip(
@@ -80,11 +80,16 @@ def _modes(name, run, settings, context):
         likeness=_likeness(modes["residue"]), **_fit(axis, response, inside, found, parts), **_diagram(kept, parts))
 
 
-def _parts(axis, low, high, width):
-    """[(first, last, lower, upper)] in Hz: modes of first to last are kept of the lines of lower to upper."""
+def _parts(axis, response, low, high, width):
+    """[(first, last, lower, upper)] in Hz: modes of first to last are kept of the lines of lower to upper. Parts meet
+    where the responses are small, so that no mode lies at an edge."""
     count = max(round((high - low) / width), 1)
     edges = np.linspace(low, high, count + 1)
-    more = _OVERLAP * (edges[1] - edges[0])
+    size = np.sqrt(np.mean(abs(response) ** 2 / np.mean(abs(response) ** 2, axis=1, keepdims=True), axis=0))
+    for k in range(1, count):
+        near = np.flatnonzero(abs(axis - edges[k]) <= _MOVABLE * (high - low) / count)
+        edges[k] = axis[near[size[near].argmin()]] if len(near) else edges[k]
+    more = _OVERLAP * (high - low) / count
     return [(edges[k] if k else 0.0, edges[k + 1] if k + 1 < count else np.inf, max(edges[k] - more, low),
              min(edges[k + 1] + more, high)) for k in range(count)]
 

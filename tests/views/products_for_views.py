@@ -122,7 +122,8 @@ def modal_test(empty=False):
     modes = TestModes(
         frequency=frequency, frequency_std=1e-5 * frequency, damping_ratio=np.full(count, 2e-3),
         damping_ratio_std=np.full(count, 1e-5), partner=[1, 0, 2][:count],
-        place=[f"node {k} direction 3" for k in range(4)], reference=["node 0 direction 3"] * 4, shape=shape, shape_std=np.full((count, 4), 0.01),
+        place=[f"node {k} direction 3" for k in range(4)], reference=["node 0 direction 3"] * 4, shape=shape,
+        shape_std=np.full((count, 4), 0.01),
         likeness=np.eye(3)[:count, :count], noise=np.full(4, 0.012), line=line, measured=1.01 * peaks, fitted=peaks,
         order=order, pole_frequency=np.resize(frequency if count else [500.0], len(order)),
         pole_damping=np.full(len(order), 2e-3), stable=np.full(len(order), int(not empty)),

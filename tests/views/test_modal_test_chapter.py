@@ -21,7 +21,8 @@ def plain(text):
 def test_modes_errors_and_pairs_are_told():
     made = chapter(small.modal_test(), LOOK)
     told = plain(made.conclude)
-    assert told.startswith("Run hammer: 3 modes, frequencies known to 0.001 %, damping ratios of 0.002 to 0.5 %")
+    assert told.startswith("Run hammer: 3 modes, frequencies known to 0.001 %, damping ratios of 0.2 % to 0.5 % of"
+                           " themselves")
     assert "leave 1.2 % of a response" in told and "1 pair of modes is split by 0.25 %" in told
     rows = made.tables[0].rows
     assert [row[3] for row in rows] == ["2", "1", ""] and plain(rows[0][1]) == "800 ± 0.008"

@@ -28,6 +28,8 @@ _ITERATIONS, _STEP = 60, 1e-9
 #: modes that are added at most where something is left, standard deviations by which that must exceed noise, over so
 #: many lines, and by how much more than the number of its values (half of them: chance) a mode must lower chi^2
 _ADDED, _LEFT, _LINES, _GAIN = 20, 8.0, 3, 3.0
+#: share of the band next to its ends in which what is left belongs to modes beside it
+_EDGE = 0.05
 #: share of a response below which what is left of it is rounding
 _EXACT = 1e-6
 #: half the distance of two poles that one stood for, and width of the band in which they are tried, over its decay rate
@@ -104,12 +106,19 @@ def identify(frequency, response, most=60):
             break
         fit = more
     fit = _pruned(frequency, response, _refined(frequency, response, fit.pole))     # weights of what is left now
-    return replace(fit, stabilisation=_told(diagram, fit.pole))
+    own = _within(frequency, fit.pole)
+    return replace(fit, pole=fit.pole[own], std=fit.std[own], residue=fit.residue[own],
+                   residue_std=fit.residue_std[own], stabilisation=_told(diagram, fit.pole[own]))
+
+
+def _within(frequency, poles):
+    """(m,) whether a pole lies in the band; those beside it stand for the flanks of their modes alone."""
+    return (poles.imag >= 2 * np.pi * frequency[0]) & (poles.imag <= 2 * np.pi * frequency[-1])
 
 
 def _pruned(frequency, response, fit):
     """The fit without modes that are none."""
-    while len(fit.pole) and (keep := _significant(fit)).sum() < len(keep):
+    while len(fit.pole) and (keep := _significant(fit, frequency)).sum() < len(keep):
         fit = _refined(frequency, response, fit.pole[keep])
     return fit
 
@@ -128,11 +137,16 @@ def _with_another(frequency, response, fit):
     at = 2 * np.pi * frequency[peak]
     near = int(abs(fit.pole.imag - at).argmin()) if len(fit.pole) else None
     decay = -np.median(fit.pole.real / abs(fit.pole)) * at if near is not None else 10 * _FREQUENCY * at
-    about = abs(2 * np.pi * frequency - at) < max(_ABOUT * decay, 32 * np.pi * (frequency[1] - frequency[0]))
-    local = abs(fit.pole.imag - at) < 0.9 * _ABOUT * decay
+    edge = min(peak, len(frequency) - 1 - peak) < _EDGE * len(frequency)
+    if edge:                    # the flank of a mode beside the band: a matter of all lines
+        about, local = np.ones(len(frequency), bool), np.ones(len(fit.pole), bool)
+        at += (1 if 2 * peak > len(frequency) else -1) * _EDGE * 2 * np.pi * (frequency[-1] - frequency[0])
+    else:
+        about = abs(2 * np.pi * frequency - at) < max(_ABOUT * decay, 32 * np.pi * (frequency[1] - frequency[0]))
+        local = abs(fit.pole.imag - at) < 0.9 * _ABOUT * decay
     frequencies, responses, poles = frequency[about], response[:, about], fit.pole[local]
-    starts = [np.append(poles, -decay + 1j * at)]
-    if near is not None and abs(fit.pole[near].imag - at) < 4 * abs(fit.pole[near].real):
+    starts = [np.append(poles, -decay + 1j * at)] if at > 0.0 else []
+    if not edge and near is not None and abs(fit.pole[near].imag - at) < 4 * abs(fit.pole[near].real):
         apart = _APART * abs(fit.pole[near].real) * np.array([-1j, 1j])
         starts.append(np.append(poles[poles != fit.pole[near]], fit.pole[near] + apart))
     best, least = None, np.sum(np.log(_refined(frequencies, responses, poles).noise)) - _GAIN * (
@@ -305,10 +319,11 @@ def _jacobian(omega, data, poles, basis, factor, coefficient):
     return np.column_stack(columns)
 
 
-def _significant(fit):
-    """(m,) whether the residues of a mode exceed their errors, and its pole is known and decays."""
+def _significant(fit, frequency):
+    """(m,) whether the residues of a mode exceed their errors, and its pole is known and decays, if in the band."""
     strength = np.sqrt(np.mean((abs(fit.residue) / np.maximum(fit.residue_std, 1e-300)) ** 2, axis=1))
     known = fit.std[:, 1] < 0.5 * np.maximum(abs(fit.pole.real), _FREQUENCY * abs(fit.pole))
+    known |= ~_within(frequency, fit.pole)
     return (strength > _SEEN) & known & (fit.damping_ratio < _DAMPED)
 
 

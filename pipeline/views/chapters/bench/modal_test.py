@@ -50,7 +50,7 @@ def _sentence(name, modes):
     frequency, damping = (percent(float(np.median(std / value)), 2) for std, value in (
         (modes.frequency_std, modes.frequency), (modes.damping_ratio_std, modes.damping_ratio)))
     told = (f"Run {name}: {plural(count, 'mode')}, frequencies known to {frequency}, damping ratios of"
-            f" {span(modes.damping_ratio, '1', 2)} to {damping} (medians). The modes leave"
+            f" {span(100 * modes.damping_ratio, '1', 2)} % to {damping} of themselves (medians). The modes leave"
             f" {percent(np.median(modes.noise), 2)} of a response.")
     return told + (f" {plural(pairs, 'pair')} of modes {'is' if pairs == 1 else 'are'} split by"
                    f" {_splits(modes)}." if pairs else "")
