@@ -2,11 +2,13 @@
 
 import numpy as np
 
-from pipeline.contract import ConfigError, Context, ConvergenceError, Section, option, stage
+from pipeline.case_models.rough.pair import Settings as MicroSettings
+from pipeline.contract import ConfigError, Context, ConvergenceError, Quantities, Section, option, stage
+from pipeline.contract.settings import restored
 from pipeline.physics.friction import table_formats
 from pipeline.physics.friction.friction_table import refine
 from pipeline.physics.friction.pressure_law import levelling_axis, polynomial_fit, slope_error
-from pipeline.products import FrictionMap, MicroFriction
+from pipeline.products import FrictionMap, FrictionOverTemperature, MicroFriction
 
 
 class Settings(Section):
@@ -18,13 +20,17 @@ class Settings(Section):
     pressure_subdivisions: int = option(10, "parts of each interval between computed pressures", ge=1)
     speed_subdivisions: int = option(5, "parts of each interval between computed speeds", ge=1)
     distance_subdivisions: int = option(5, "parts of each interval between recorded distances", ge=1)
+    bulk_temperatures: Quantities("K", ge=0) | None = option(
+        None, "temperatures of both bodies above that of reference at which the map is told too, by micro_friction's"
+        " softening; none = not")
 
 
 def companions(product, case=None):
-    """The map at its refined points in SI units: as CSV, and as the tables that Abaqus, Adams and FMUs read."""
-    axes = product.pressure, product.speed, product.distance
+    """The map at its refined points in SI units: as CSV, and as the tables that Abaqus, Adams and FMUs read. Abaqus'
+    has the temperatures, where there are some; the others are those of reference."""
+    axes, warm = (product.pressure, product.speed, product.distance), product.over_temperature.get("bodies")
     return {"friction_map.csv": table_formats.as_csv(*axes, product.friction, product.friction_std),
-            "friction_map.inp": table_formats.as_abaqus(*axes, product.friction),
+            "friction_map.inp": table_formats.as_abaqus(*axes, product.friction, warm),
             "friction_map.adm": table_formats.as_adams(*axes, product.friction),
             "friction_map.txt": table_formats.as_modelica(*axes, product.friction)}
 
@@ -61,7 +67,36 @@ def friction_map(micro_friction: MicroFriction, settings: Settings, context: Con
         fine, friction, scatter, stiffness, fit, slope = _fitted(micro_friction, settings, fine, stiffness)
     return FrictionMap(pressure=fine[0], speed=fine[1], distance=fine[2], friction=friction, friction_std=scatter,
                        normal_stiffness=stiffness, computed_pressure=micro_friction.pressure,
-                       computed_speed=micro_friction.speed, **_slope_errors(micro_friction, fine, scatter, fit, slope))
+                       computed_speed=micro_friction.speed, **_slope_errors(micro_friction, fine, scatter, fit, slope),
+                       over_temperature=_warmed(micro_friction, settings.bulk_temperatures, fine, friction))
+
+
+def _warmed(computed, temperatures, fine, friction):
+    """FrictionOverTemperature of the map: friction goes with the shear limit, which bulk and flash heat soften."""
+    if temperatures is None:
+        return {}
+    softening = restored(MicroSettings, computed.settings.item()).softening
+    if softening * temperatures[-1] >= 1.0:
+        raise ConfigError("friction_map.bulk_temperatures", f"less than {1 / softening:.4g} K, where nothing is left of"
+                          " the shear limit", f"{temperatures[-1]:g} K", "lower micro_friction.softening")
+    cold = 1.0 - softening * computed.flash_temperature                     # limit over that without any flash
+    heating = softening * computed.flash_temperature / cold
+    points = np.stack(np.meshgrid(*(np.clip(axis, own[0], own[-1]) for axis, own in zip(
+        fine, (computed.pressure, computed.speed, computed.distance), strict=True)), indexing="ij"), axis=-1)
+    factors = [_at((computed.pressure, computed.speed, computed.distance), (1 - softening * rise) / (
+        1 + heating * (1 - softening * rise)) / cold, points) for rise in temperatures]
+    return {"bodies": FrictionOverTemperature(temperature=temperatures, friction=[friction * f for f in factors])}
+
+
+def _at(axes, values, points):
+    """``values`` on ``axes`` at ``points`` (..., 3), linearly; of an axis of one point they do not vary."""
+    from scipy.interpolate import RegularGridInterpolator
+
+    several = [k for k, axis in enumerate(axes) if len(axis) > 1]
+    if not several:
+        return np.full(points.shape[:-1], values.item())
+    grid = RegularGridInterpolator([axes[k] for k in several], values.reshape([len(axes[k]) for k in several]))
+    return grid(points[..., several])
 
 
 def _fitted(computed, settings, fine, stiffness):

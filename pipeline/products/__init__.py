@@ -21,7 +21,14 @@ from pipeline.products.diagnosis import (
     Located,
     SquealCheck,
 )
-from pipeline.products.friction import FrictionDescriptions, FrictionMap, FrictionUpdate, InterfaceLaw, MicroFriction
+from pipeline.products.friction import (
+    FrictionDescriptions,
+    FrictionMap,
+    FrictionOverTemperature,
+    FrictionUpdate,
+    InterfaceLaw,
+    MicroFriction,
+)
 from pipeline.products.limit_cycle import LimitCycle
 from pipeline.products.lumped import Lumped
 from pipeline.products.motion import ComplexModes, Convergence, Multibody, Probability, Transient
@@ -48,7 +55,7 @@ from pipeline.products.surfaces import Surface
 
 __all__ = ["BeamGeometry", "BeamOnBeam", "Bench", "BenchRun", "Body", "Channel", "Comparison", "ComplexModes",
            "Condition", "Convergence", "DiagnosedRun", "Diagnosis", "Effects", "Follows", "FrequencyResponse", "FrictionDescriptions",
-           "FrictionMap", "FrictionUpdate", "Incidence", "InterfaceLaw", "LatentForce", "LatentPrediction", "LimitCycle", "LineEvidence", "Lines", "Located", "LockIn",
+           "FrictionMap", "FrictionOverTemperature", "FrictionUpdate", "Incidence", "InterfaceLaw", "LatentForce", "LatentPrediction", "LimitCycle", "LineEvidence", "Lines", "Located", "LockIn",
            "Lumped", "MeasuredFriction", "MeasuredModes", "MicroFriction", "ModalTest", "MotionScatter", "Multibody", "NoiseEvents", "PinOnDisc", "Probability",
            "Recording", "ReducedModel", "Report", "Response", "Run", "Rupture", "Spectrogram", "Squeal", "SquealCheck", "Structure", "Surface", "TestModes", "Topography",
            "Transient"]

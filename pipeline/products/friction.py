@@ -1,6 +1,6 @@
 """Friction of the rough pair: computed, mapped, and as a law of the interface."""
 
-from pipeline.contract import Array, count, product, quantity, text
+from pipeline.contract import Array, count, parts, product, quantity, text
 
 
 @product(version=6)
@@ -49,7 +49,15 @@ class MicroFriction:
     area_order: Array = quantity("1", "", "order at which it approaches that; 0 where fewer than three grids tell none")
 
 
-@product(version=3)
+@product(version=1)
+class FrictionOverTemperature:
+    """The friction map at other temperatures of the bodies, by the softening of the shear limit."""
+
+    temperature: Array = quantity("K", "temperature", "temperature of both bodies above that of reference")
+    friction: Array = quantity("1", "temperature pressure speed distance", "coefficient of friction at the points of the map")
+
+
+@product(version=4)
 class FrictionMap:
     """mu(pressure, speed, distance) of the interface and its normal stiffness."""
 
@@ -65,6 +73,7 @@ class FrictionMap:
     normal_stiffness: Array = quantity("Pa/m", "pressure distance", "interface stiffness, mean over speed")
     computed_pressure: Array = quantity("Pa", "computed_pressure", "pressures at which micro_friction ran")
     computed_speed: Array = quantity("m/s", "computed_speed", "speeds at which micro_friction ran")
+    over_temperature: dict[str, FrictionOverTemperature] = parts("'bodies' where temperatures were asked for", empty=True)
 
 
 @product(version=1)

@@ -6,6 +6,8 @@ import pytest
 from pipeline.case_models import effect_block
 from pipeline.contract import ConfigError, Context, ConvergenceError
 from pipeline.contract.settings import fill, restored
+from stages.friction_map import Settings as MapSettings
+from stages.friction_map import friction_map
 from stages.micro_friction import Settings, micro_friction
 from stages.surface import Settings as SurfaceSettings
 from stages.surface import surface
@@ -226,3 +228,18 @@ def test_bearing_curves_lose_what_wears_and_stress_is_largest_below_the_spots(re
     np.testing.assert_allclose(result.stress.max(), result.stress_largest.max())
     assert result.stress_largest[-1] < 0.6 * result.stress_largest.max()
     assert 0.5 < result.stress_largest.max() / result.contact_pressure[0].max() < 2.0
+
+
+@pytest.mark.exact
+def test_the_map_over_temperature_is_that_of_a_softer_limit(result):
+    """Bodies that are warmer by T have 1 - softening T of the shear limit: as computed with that third-body factor."""
+    stated = Settings(**TINY)
+    made = friction_map(result, settings=MapSettings(bulk_temperatures=["0 K", "300 K"])).over_temperature["bodies"]
+    cooler = friction_map(result, settings=MapSettings())
+    assert not cooler.over_temperature
+    np.testing.assert_allclose(made.friction[0], cooler.friction, rtol=1e-12)
+    softer = micro_friction(rough(), settings=Settings(
+        **TINY, third_body_factor=stated.third_body_factor * (1 - 300 * stated.softening)))
+    np.testing.assert_allclose(made.friction[1], friction_map(softer, settings=MapSettings()).friction, rtol=1e-3)
+    with pytest.raises(ConfigError, match="bulk_temperatures: expected less than 2000 K"):
+        friction_map(result, settings=MapSettings(bulk_temperatures=["2500 K"]))

@@ -14,15 +14,20 @@ def as_csv(pressure, speed, distance, friction, deviation):
     return "\n".join([head, *(",".join(_number(v) for v in row) for row in rows)]) + "\n"
 
 
-def as_abaqus(pressure, speed, distance, friction):
-    """Option *FRICTION of Abaqus: mu over slip rate and contact pressure, without temperature; the sliding distance is
-    field variable 1. Rows rise in pressure within a slip rate, and in slip rate within a distance, as Abaqus asks."""
-    lines = ["** coefficient of friction, slip rate m/s, contact pressure Pa, temperature (none), sliding distance m",
+def as_abaqus(pressure, speed, distance, friction, warm=None):
+    """Option *FRICTION of Abaqus: mu over slip rate and contact pressure; the sliding distance is field variable 1.
+    Rows rise in pressure within a slip rate, in that within a temperature, and in that within a distance, as it asks.
+    ``warm``: temperatures (t,) above that of reference and friction (t, p, v, s) there; None: without temperature."""
+    told = "(none)" if warm is None else "of the bodies above reference K"
+    lines = [f"** coefficient of friction, slip rate m/s, contact pressure Pa, temperature {told}, sliding distance m",
              "*FRICTION, DEPENDENCIES=1"]
+    layers = [("", friction)] if warm is None else [(_number(t), f) for t, f in zip(
+        warm.temperature, warm.friction, strict=True)]
     for s, way in enumerate(distance):
-        for v, fast in enumerate(speed):
-            lines += [f"{_number(friction[p, v, s])}, {_number(fast)}, {_number(load)}, , {_number(way)}"
-                      for p, load in enumerate(pressure)]
+        for degrees, values in layers:
+            for v, fast in enumerate(speed):
+                lines += [f"{_number(values[p, v, s])}, {_number(fast)}, {_number(load)}, {degrees}, {_number(way)}"
+                          for p, load in enumerate(pressure)]
     return "\n".join(lines) + "\n"
 
 

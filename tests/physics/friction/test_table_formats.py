@@ -1,5 +1,7 @@
 """Tables of other programs hold every point: each text is read back by its own rules."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 
@@ -58,3 +60,12 @@ def test_modelica():
     np.testing.assert_allclose(table[0], [0, *SPEED])
     np.testing.assert_allclose(table[1:, 0], PRESSURE)
     np.testing.assert_allclose(table[1:, 1:], FRICTION[:, :, 1], rtol=1e-9)
+
+
+def test_abaqus_reads_the_temperatures_of_the_bodies():
+    warm = SimpleNamespace(temperature=np.array([0.0, 200.0]), friction=np.array([FRICTION, 0.9 * FRICTION]))
+    lines = [line for line in table_formats.as_abaqus(*AXES, FRICTION, warm).splitlines() if line[0] not in "*"]
+    assert len(lines) == 2 * FRICTION.size
+    rows = np.array([[float(part) for part in line.split(",")] for line in lines])
+    assert set(rows[:, 3]) == {0.0, 200.0}
+    np.testing.assert_allclose(rows[rows[:, 3] == 200.0][:, 0], 0.9 * rows[rows[:, 3] == 0.0][:, 0])

@@ -76,6 +76,7 @@ def test_stated_errors_hold():
 
 
 @pytest.mark.slow
+@pytest.mark.study
 def test_stated_errors_hold_in_two_hundred_draws():
     share = covered(200)
     assert np.all((share > 0.90) & (share < 0.98)), share
