@@ -4,7 +4,7 @@ from functools import partial
 
 import numpy as np
 
-from pipeline.contract import ConfigError, Context, Quantity, Section, option, stage
+from pipeline.contract import ConfigError, Context, ConvergenceError, Quantity, Section, option, stage
 from pipeline.physics.modal.frf_identification import identify
 from pipeline.products import ModalTest, Recording, TestModes
 
@@ -23,6 +23,8 @@ class Settings(Section):
 
 #: share of a part by which it reaches into its neighbours, where its modes are not kept, and by which its edges move
 _OVERLAP, _MOVABLE = 0.25, 0.25
+#: fewest lines of a part
+_LEAST = 64
 #: likeness of two shapes up to which modes close in frequency make a pair
 _ALIKE = 0.5
 
@@ -58,11 +60,14 @@ def _modes(name, run, settings, context):
     axis = np.asarray(next(iter(run.frf.values())).frequency, float)
     low = axis[axis > 0.0][0] if settings.lowest_frequency is None else settings.lowest_frequency
     high = axis[-1] if settings.highest_frequency is None else settings.highest_frequency
-    if not low < high or np.count_nonzero((axis >= low) & (axis <= high)) < 64:
-        raise ConfigError(where, f"64 or more lines between {low:g} and {high:g} Hz",
+    if not low < high or np.count_nonzero((axis >= low) & (axis <= high)) < _LEAST:
+        raise ConfigError(where, f"{_LEAST} or more lines between {low:g} and {high:g} Hz",
                           f"{np.count_nonzero((axis >= low) & (axis <= high))} of {len(axis)}, {axis[0]:g} to"
                           f" {axis[-1]:g} Hz")
     response = np.array([f.response for f in run.frf.values()])
+    dead = [key for key, row in zip(run.frf, response, strict=True) if not np.any(row)]
+    if dead:
+        raise ConfigError(where, "responses that are not 0 all over", ", ".join(dead), "leave them out of the file")
     parts = _parts(axis, response, low, high, settings.band)
     found = context.map(partial(_identified, axis=axis, response=response, most=settings.order), parts,
                         f"modes of {name}")
@@ -83,7 +88,8 @@ def _modes(name, run, settings, context):
 def _parts(axis, response, low, high, width):
     """[(first, last, lower, upper)] in Hz: modes of first to last are kept of the lines of lower to upper. Parts meet
     where the responses are small, so that no mode lies at an edge."""
-    count = max(round((high - low) / width), 1)
+    lines = np.count_nonzero((axis >= low) & (axis <= high))
+    count = max(min(round((high - low) / width), lines // _LEAST), 1)
     edges = np.linspace(low, high, count + 1)
     size = np.sqrt(np.mean(abs(response) ** 2 / np.mean(abs(response) ** 2, axis=1, keepdims=True), axis=0))
     for k in range(1, count):
@@ -96,7 +102,11 @@ def _parts(axis, response, low, high, width):
 
 def _identified(part, axis, response, most):
     inside = (axis >= part[2]) & (axis <= part[3])
-    return identify(axis[inside], response[:, inside], most)
+    try:
+        return identify(axis[inside], response[:, inside], most)
+    except np.linalg.LinAlgError as error:
+        raise ConvergenceError(f"modal_test: {part[2]:g} to {part[3]:g} Hz", "equations that can be solved", str(error),
+                               "choose another band") from None
 
 
 def _likeness(shape):

@@ -11,6 +11,7 @@ from pipeline.physics.signals.noise_events import broadband, tonal
 from pipeline.physics.signals.spectra import level
 from pipeline.physics.signals.squeal_detector import Detector, frames, loudest
 from pipeline.products import NoiseEvents, Recording, Spectrogram
+from pipeline.recordings.samples import with_gaps
 
 
 class Settings(Section):
@@ -97,13 +98,21 @@ def noise_events(recording: Recording, settings: Settings, context: Context) -> 
 
 def _kind(name, channel, settings):
     """'sound', 'vibration', or '' of a channel that is not searched."""
-    measures, unit = str(channel.measures), str(channel.unit)
-    if settings.channels and name not in settings.channels:
+    unit, asked = str(channel.unit), name in settings.channels
+    if settings.channels and not asked:
         return ""
-    quiet = unit == "Pa" and np.abs(channel.samples).max() < _SOUND
-    if measures == "sound_pressure" or (measures == "pressure" and quiet):
+    if asked and unit not in ("Pa", "m/s^2"):
+        raise ConfigError("noise_events.channels", "channels of sound pressure or acceleration", f"{name} in {unit}")
+    if str(channel.measures) == "sound_pressure" or (unit == "Pa" and (asked or _heard(channel))):
         return "sound"
     return "vibration" if unit == "m/s^2" else ""
+
+
+def _heard(channel):
+    """Whether a pressure is that of sound: about 0, and of its size but for single samples."""
+    size = np.abs(channel.samples)
+    return bool(str(channel.measures) in ("pressure", "value") and np.percentile(size, 99.9) < _SOUND
+                and abs(channel.samples.mean()) <= channel.samples.std())
 
 
 def _searched(task, settings):
@@ -189,10 +198,12 @@ def _condition(run, name, start, duration):
     """Mean of a condition of a Run over an event, by a channel that measures it, else as the run states it, or None."""
     for channel in run.channels.values():
         if str(channel.measures) in _CONDITIONS[name] and str(channel.unit) == _UNITS[name] and not (
-                name == "pressure" and np.abs(channel.samples).max() < _SOUND):
+                name == "pressure" and _heard(channel)):
             rate, begin = float(channel.rate), float(channel.begin)
-            first = int(np.clip((start - begin) * rate, 0, len(channel.samples) - 1))
-            return float(np.mean(channel.samples[first:max(first + 1, int((start + duration - begin) * rate))]))
+            first, last = (int((t - begin) * rate) for t in (start, start + duration))
+            inside = with_gaps(channel)[max(first, 0):max(last, first + 1)]
+            if np.isfinite(inside).any():
+                return float(np.nanmean(inside))
     stated = run.conditions.get(name)
     if stated is None or str(stated.unit) != _UNITS[name]:
         return None

@@ -1,7 +1,6 @@
 """Stage recording: test bench recordings, read from any supported file format into one product."""
 
 import hashlib
-import re
 from collections import Counter
 from dataclasses import dataclass
 from functools import partial
@@ -16,12 +15,14 @@ from pipeline.recordings.apart import runs, waveforms
 from pipeline.recordings.columns import read_table
 from pipeline.recordings.friction import measured_friction
 from pipeline.recordings.lines import line_list
-from pipeline.recordings.samples import channel, even_rate, on_grid, stretch
-from pipeline.recordings.waveform import SPELT
+from pipeline.recordings.samples import channel, even_rate, on_grid, steady_tone, stretch
+from pipeline.recordings.waveform import SPELT, free_name, plain_name
 from pipeline.validation.published_facts import load
 
 #: sound pressure of 0 dB, Pa (ISO 1683)
 HEARING = 20e-6
+#: kinds of a calibrator's file by its suffix; any other is sound
+_KINDS = {".tdms": "tdms", ".mf4": "mdf", ".mdf": "mdf"}
 
 
 class Column(Section):
@@ -230,21 +231,22 @@ def _from_columns(file, columns, refused):
     values, rate, begin = _sampled(file, values, columns, f"{where}: time")
     return _cut(file.runs, refused.channels({
         name: partial(channel, values[name], w.unit, w.measures, rate, begin, f"{where}: {name}", role=w.role,
-                      place=w.place, direction=w.direction) for name, w in file.columns.items()}), where)
+                      place=w.place, direction=w.direction) for name, w in file.columns.items()}), where, refused)
 
 
-def _cut(runs, whole, where):
+def _cut(runs, whole, where, refused):
     """The ``runs`` of a case, stretches of the channels ``whole``."""
-    return {name: _run({k: stretch(c, run.begin, run.end, f"{where}: runs.{name}") for k, c in whole.items()}, run,
-                       f"{where}: runs.{name}") for name, run in runs.items()}
+    return {name: _run(refused.channels({k: partial(stretch, c, run.begin, run.end, f"{where}: runs.{name}")
+                                         for k, c in whole.items()}), run, f"{where}: runs.{name}")
+            for name, run in runs.items()}
 
 
 def _from_waveforms(file, refused):
     """Runs of a file whose channels have their own rates, and maybe units."""
     where, found = f"{file.file}", waveforms(file.kind, file.file)
     _refuse_unknown(file, found, f"{where}: ")
-    tracks = file.columns or {_plain(name): Track(column=name) for name in found}
-    names, uses = list(found), Counter(track.column for track in tracks.values())
+    tracks, names = file.columns or _tracks(found, file.sample_rate, where, refused.tell), list(found)
+    uses = Counter(track.column for track in tracks.values())
 
     def made(name, track):
         uses[track.column] -= 1     # long records: a column is let go once all channels of it are made
@@ -255,12 +257,20 @@ def _from_waveforms(file, refused):
     if not whole:
         raise ConfigError(where, "a channel that can be used", f"none of {', '.join(names)}",
                           "name channels under 'columns', with unit and what they measure")
-    return _cut(file.runs or {_plain(file.file.stem): Stretch()}, whole, where)
+    return _cut(file.runs or {plain_name(file.file.stem, "run"): Stretch()}, whole, where, refused)
 
 
-def _plain(name):
-    """A name as runs and channels have them."""
-    return re.sub(r"\W+", "_", name).strip("_") or "channel"
+def _tracks(found, rate, where, tell):
+    """{name: Track} of the channels that the file itself says enough of; tells which are left out, and why."""
+    tracks = {}
+    for name, waveform in found.items():
+        lacks = [what for what, there in (("unit", SPELT.get(waveform.unit, waveform.unit)),
+                                          ("even sampling", waveform.rate or rate)) if not there]
+        if lacks and len(found) > 1:
+            tell(f"{where}: {name} left out: the file states no {' and no '.join(lacks)}; name it under 'columns'")
+        else:
+            tracks[free_name(plain_name(name), tracks)] = Track(column=name)
+    return tracks
 
 
 def _track(track, waveform, rate, where):
@@ -268,6 +278,8 @@ def _track(track, waveform, rate, where):
     written = waveform.unit if track.unit is None else track.unit
     unit, factor = SPELT.get(written, written) or None, track.factor
     if track.calibrator is not None:
+        if track.unit is not None or factor != 1.0:
+            raise ConfigError(f"{where}: calibrator", "no unit and no factor beside it, which it gives", "one of them")
         unit, factor = "Pa", _pascal(track.calibrator, where)
     if unit is None:
         raise ConfigError(f"{where}: unit", "a unit in the file or in the case", "none", "add unit and measures, of a"
@@ -279,12 +291,12 @@ def _track(track, waveform, rate, where):
 
 def _pascal(calibrator, where):
     """Pa per unit of a channel by a record of its calibrator: the tone of a calibrator rules its level."""
-    found = waveforms("audio", calibrator.file)
+    found = waveforms(_KINDS.get(calibrator.file.suffix.lower(), "audio"), calibrator.file)
     if calibrator.column not in found:
         raise ConfigError(f"{where}: calibrator.column", f"one of {', '.join(found)}", repr(calibrator.column))
-    effective = found[calibrator.column].values.std()
-    if effective == 0.0:
-        raise ConfigError(f"{where}: calibrator", "the tone of a calibrator", "silence")
+    effective = steady_tone(np.asarray(found[calibrator.column].values, float))
+    if effective is None:
+        raise ConfigError(f"{where}: calibrator", "the steady tone of a calibrator", "none")
     return HEARING * 10.0 ** (calibrator.level / 20.0) / effective
 
 

@@ -23,9 +23,11 @@ def export(recording, file, name, channels, full_scale):
     from pipeline.contract import store
     from pipeline.products import Recording
 
-    run = _chosen(store.read(Recording, recording).runs, name, channels, recording)
-    _WRITERS[_kind(file)](file, run, full_scale)
-    click.echo(f"{file}: {', '.join((*run.channels, *run.frf))}")
+    run, kind = _chosen(store.read(Recording, recording).runs, name, channels, recording), _kind(file)
+    _WRITERS[kind](file, run, full_scale)
+    left_out = [] if kind in (".uff", ".unv") else list(run.frf)
+    click.echo(f"{file}: {', '.join([*run.channels, *([] if left_out else run.frf)])}"
+               + (f"; not written, frequency responses: {', '.join(left_out)}" if left_out else ""))
 
 
 def _kind(file):
@@ -60,14 +62,18 @@ def _as_uff(file, run, _):
 
 def _as_sound(file, run, full_scale):
     from pipeline.recordings.audio import write_audio
+    from pipeline.recordings.samples import with_gaps
 
     largest = max((abs(c.samples).max() for c in run.channels.values()), default=0.0)
-    write_audio(file, {n: (c.samples, float(c.rate)) for n, c in run.channels.items()}, full_scale or largest or 1.0)
+    write_audio(file, {n: (with_gaps(c), float(c.rate)) for n, c in run.channels.items()}, full_scale or largest or 1.0)
 
 
 def _as_table(file, run, _):
+    from pipeline.contract import ConfigError
     from pipeline.recordings.columns import write_table
 
+    if not run.channels:
+        raise ConfigError(file, "a run with channels", "none")
     write_table(file, run.channels)
 
 

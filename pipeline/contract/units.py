@@ -121,6 +121,8 @@ def in_si(values, unit, where, measures=""):
     import pint
 
     wanted, unit = QUANTITIES.get(measures, ()), AS_WRITTEN.get(unit, unit)
+    if "\N{REPLACEMENT CHARACTER}" in unit:
+        raise ConfigError(where, "a unit such as mm/s or kN", repr(unit), "state the unit in the case")
     if unit.startswith("dB"):
         return _from_level(np.asarray(values, float), unit, where, measures)
     if "m/s^2" in wanted and unit in GRAVITIES:

@@ -31,7 +31,7 @@ _SECONDS, _BYTES_A_SECOND = 15, 5_000_000
 _MEMORY, _MEMORY_A_BYTE = 3_000_000_000, 24
 #: wall clock over time of the processor before a reader is stopped that waits
 _PATIENCE = 3
-_ERROR, _COLUMNS, _RUNS = "error.json", "columns.json", "runs.h5"
+_ERROR, _COLUMNS, _RUNS, _SAID = "error.json", "columns.json", "runs.h5", "said.txt"
 
 
 def waveforms(kind, path):
@@ -63,9 +63,10 @@ def _child(kind, path, given, collect):
     with TemporaryDirectory(prefix="brakechain-") as folder:
         arguments = [kind, str(path.absolute()), folder, str(seconds), str(_MEMORY + _MEMORY_A_BYTE * size)]
         try:
-            child = subprocess.run([sys.executable, "-P", "-m", "pipeline.recordings.apart", *arguments],
-                                   input=json.dumps(given), capture_output=True, text=True, env=variables,
-                                   timeout=_PATIENCE * seconds)
+            with (Path(folder) / _SAID).open("wb") as said:
+                child = subprocess.run([sys.executable, "-P", "-m", "pipeline.recordings.apart", *arguments],
+                                       input=json.dumps(given).encode(), stdout=subprocess.DEVNULL, stderr=said,
+                                       env=variables, timeout=_PATIENCE * seconds)
         except subprocess.TimeoutExpired:
             raise ConfigError(path, f"a file that is read within {seconds} s", "a reader that is not done",
                               "the file is damaged, or too large: copy it again, or cut it") from None
@@ -80,7 +81,10 @@ def _answer(child, path, folder, seconds, collect):
         raise ConfigError(path, f"a file that is read within {seconds} s", "a reader that is not done",
                           "the file is damaged: copy it again")
     if child.returncode:
-        reason = (child.stderr.strip().splitlines() or [f"exit code {child.returncode}"])[-1][:200]
+        with (folder / _SAID).open("rb") as said:
+            said.seek(max((folder / _SAID).stat().st_size - 2000, 0))
+            lines = said.read().decode(errors="replace").strip().splitlines()
+        reason = (lines or [f"exit code {child.returncode}"])[-1][:200]
         raise ConfigError(path, "an undamaged file", f"one that stops its reader ({reason})", "copy it again")
     try:
         return collect(folder)
@@ -134,8 +138,9 @@ def _limit(seconds, memory):
         return
     resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
     resource.setrlimit(resource.RLIMIT_CPU, (seconds, seconds + 5))
-    hard = resource.getrlimit(resource.RLIMIT_AS)[1]
-    resource.setrlimit(resource.RLIMIT_AS, (memory if hard == resource.RLIM_INFINITY else min(memory, hard), hard))
+    for kind in (resource.RLIMIT_AS, resource.RLIMIT_FSIZE):
+        hard = resource.getrlimit(kind)[1]
+        resource.setrlimit(kind, (memory if hard == resource.RLIM_INFINITY else min(memory, hard), hard))
 
 
 def main(kind, path, folder, seconds, memory):

@@ -42,8 +42,12 @@ def write_audio(path, channels, full_scale):
     unlike rates or lengths.
     """
     sound = library("soundfile", "soundfile", path)
-    samples, rates = zip(*channels.values(), strict=True)
-    if len(set(rates)) > 1 or len({len(s) for s in samples}) > 1 or rates[0] != round(rates[0]):
+    samples, rates = zip(*channels.values(), strict=True) if channels else ((), ())
+    if not channels or np.isnan(np.concatenate(samples)).any():
+        raise ConfigError(path, "channels without gaps", "none" if not channels else "missing samples",
+                          "choose some of the channels")
+    if np.ptp(rates) > 1e-6 * rates[0] or len({len(s) for s in samples}) > 1 or (
+            abs(rates[0] - round(rates[0])) > 1e-6 * rates[0]):
         raise ConfigError(path, "channels of one whole sampling rate and length",
                           f"{', '.join(f'{len(s)} at {r:g} Hz' for s, r in zip(samples, rates, strict=True))}",
                           "choose some of the channels")
@@ -51,7 +55,7 @@ def write_audio(path, channels, full_scale):
     if np.abs(table).max() > 1.0:
         raise ConfigError(path, f"samples up to {full_scale:g}", f"{np.abs(table).max() * full_scale:g}",
                           "raise the full scale")
-    sound.write(str(path), table, int(rates[0]), subtype="PCM_24", format="WAV")
+    sound.write(str(path), table, round(rates[0]), subtype="PCM_24", format="WAV")
 
 
 def _refuse_cut(path):

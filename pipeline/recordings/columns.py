@@ -96,9 +96,24 @@ def _read_hdf5(path, expected):
 
     try:
         with h5py.File(path, "r") as h5:
+            refuse_outside(h5, path)
             return {name: value for key, node in h5.items() if key != "#refs#" for name, value in _nodes(key, node)}
     except OSError as error:
         raise ConfigError(path, expected, str(error)) from None
+
+
+def refuse_outside(group, path):
+    """Refuse an HDF5 file that takes anything from another file: by an external link, or by storage outside of it."""
+    import h5py
+
+    for name in group:
+        link = group.get(name, getlink=True)
+        node = None if isinstance(link, h5py.ExternalLink) else group.get(name)
+        outside = isinstance(node, h5py.Dataset) and (node.external or node.is_virtual)
+        if outside or isinstance(link, h5py.ExternalLink):
+            raise ConfigError(f"{path}: {group.name.rstrip('/')}/{name}", "data of this file", "data of another one")
+        if isinstance(node, h5py.Group) and isinstance(link, h5py.HardLink):
+            refuse_outside(node, path)
 
 
 def _nodes(name, node):

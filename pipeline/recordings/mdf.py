@@ -6,7 +6,7 @@ import numpy as np
 
 from pipeline.contract.errors import ConfigError
 from pipeline.recordings.samples import even_rate
-from pipeline.recordings.waveform import Waveform, library
+from pipeline.recordings.waveform import Waveform, free_name, library
 
 
 def read_mdf(path):
@@ -28,9 +28,11 @@ def read_mdf(path):
         raise ConfigError(path, "an undamaged MDF file", str(error) or type(error).__name__) from None
     if not found:
         raise ConfigError(path, "a channel of numbers", "none")
-    often = Counter(signal.name for _, signal in found)
-    return {signal.name if often[signal.name] == 1 else f"{signal.name} (group {k + 1})": _waveform(signal, path)
-            for k, signal in found}
+    often, named = Counter(signal.name for _, signal in found), {}
+    for k, signal in found:
+        name = signal.name if often[signal.name] == 1 else f"{signal.name} (group {k + 1})"
+        named[free_name(name, named)] = _waveform(signal, path)
+    return named
 
 
 def _waveform(signal, path):

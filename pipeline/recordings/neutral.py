@@ -16,6 +16,7 @@ from pipeline.products import (
     Run,
     Topography,
 )
+from pipeline.recordings.columns import refuse_outside
 from pipeline.recordings.friction import SILENT
 from pipeline.recordings.samples import channel
 
@@ -40,6 +41,7 @@ def read_neutral(path):
     """
     try:
         with h5py.File(path, "r") as h5:
+            refuse_outside(h5, path)
             if not isinstance(h5.get("runs"), h5py.Group) or not len(h5["runs"]):
                 raise ConfigError(path, "a group /runs with at least one run", f"{', '.join(h5) or 'an empty file'}")
             return {name: _run(group, f"{path}: runs/{name}") for name, group in h5["runs"].items()}
@@ -49,17 +51,19 @@ def read_neutral(path):
 
 def write_neutral(path, runs):
     """Write {run: {description, repeat_of, conditions {name: (value, unit)}, channels {name: (samples, unit, quantity,
-    rate in Hz)}, topography* {name: (heights in m, pixel in m, body, state)}, friction* {name: {column: SI values}}}}
-    in this form."""
+    rate in Hz, begin in s*)}, topography* {name: (heights in m, pixel in m, body, state)}, friction* {name: {column: SI
+    values}}}} in this form."""
     with h5py.File(path, "w") as h5:
         for name, run in runs.items():
             group = h5.create_group(f"runs/{name}")
             group.attrs.update(description=run["description"], repeat_of=run["repeat_of"])
             for key, (value, unit) in run["conditions"].items():
                 group.create_dataset(f"conditions/{key}", data=float(value)).attrs["units"] = unit
-            for key, (samples, unit, quantity, rate) in run["channels"].items():
+            for key, (samples, unit, quantity, rate, *begin) in run["channels"].items():
                 node = group.create_dataset(f"channels/{key}", data=np.asarray(samples, np.float32), compression="gzip")
                 node.attrs.update(units=unit, quantity=quantity, sample_rate=float(rate))
+                if begin and begin[0]:
+                    node.attrs["t0"] = float(begin[0])
             for key, (heights, pixel, body, state) in run.get("topography", {}).items():
                 node = group.create_dataset(f"topography/{key}", data=heights, compression="gzip")
                 node.attrs.update(units="m", pixel_size=pixel, body=body, state=state)

@@ -10,6 +10,8 @@ from pipeline.products import Channel
 ROLES = ("response", "excitation")
 #: largest deviation of a sampling instant from an even grid, as a fraction of the interval
 EVEN = 0.01
+#: parts of a record of a calibrator, each loud or not
+_BLOCKS = 40
 #: largest distance of an instant from a declared grid, in intervals
 OFF_GRID = 0.25
 
@@ -34,6 +36,31 @@ def channel(values, unit, measures, rate, begin, where, *, role="response", plac
     return Channel(samples=converted if good.all() else np.where(good, converted, 0.0), missing=stretches(~good),
                    unit=name, measures=measures, rate=rate, begin=begin, place=place, position=position,
                    direction=_unit_vector(direction, where), role=role)
+
+
+def with_gaps(one):
+    """Samples (n,) of a Channel, NaN where they are missing."""
+    samples = np.array(one.samples, float)
+    for first, last in one.missing:
+        samples[first:last] = np.nan
+    return samples
+
+
+def steady_tone(samples):
+    """Effective value of the steady tone that samples (n,) hold, silence before and after it left out; None of none."""
+    blocks = samples[:len(samples) // _BLOCKS * _BLOCKS].reshape(_BLOCKS, -1) if len(samples) >= 64 * _BLOCKS else None
+    if blocks is None or not np.any(samples):
+        return None
+    levels = blocks.std(axis=1)
+    loud = blocks[levels > 0.7 * levels.max()][1:-1]
+    if len(loud) < 5:
+        return None
+    shares = []
+    for block in loud:
+        power = abs(np.fft.rfft(block * np.hanning(len(block)))) ** 2
+        peak = int(power[1:].argmax()) + 1
+        shares.append(power[max(peak - 3, 1):peak + 4].sum() / power[1:].sum())
+    return float(np.sqrt(np.mean(loud.std(axis=1) ** 2))) if np.median(shares) > 0.8 else None
 
 
 def stretches(flag):

@@ -10,7 +10,7 @@ from pipeline.contract.errors import ConfigError
 from pipeline.contract.units import measured_in
 from pipeline.products import Run
 from pipeline.recordings.neutral import write_neutral
-from pipeline.recordings.samples import channel, even_rate
+from pipeline.recordings.samples import channel, even_rate, with_gaps
 
 
 def run_of(signals, description="", where="signals"):
@@ -40,9 +40,7 @@ def signals_of(run):
     """The channels of a product Run as dictionaries of the convention; samples that are missing are NaN."""
     found = []
     for name, one in run.channels.items():
-        samples, rate, begin = np.array(one.samples, float), float(one.rate), float(one.begin)
-        for first, last in one.missing:
-            samples[first:last] = np.nan
+        samples, rate, begin = with_gaps(one), float(one.rate), float(one.begin)
         signal = {"name": name, "data": samples, "unit_str": str(one.unit), "fs": rate, "quantity": str(one.measures)}
         if begin:
             signal["time"] = begin + np.arange(len(samples)) / rate
@@ -55,5 +53,5 @@ def save(signals, path, run="run", description=""):
     made = run_of(signals, description, str(path))
     write_neutral(path, {run: {
         "description": description, "repeat_of": "", "conditions": {},
-        "channels": {name: (one.samples, str(one.unit), str(one.measures), float(one.rate))
+        "channels": {name: (with_gaps(one), str(one.unit), str(one.measures), float(one.rate), float(one.begin))
                      for name, one in made.channels.items()}}})

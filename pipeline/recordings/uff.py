@@ -1,5 +1,6 @@
 """Universal files: time signals and frequency responses (data set 58), modes (data set 55). The door of pyuff."""
 
+import re
 import warnings
 from collections import Counter
 from pathlib import Path
@@ -8,7 +9,7 @@ from tempfile import TemporaryDirectory
 import numpy as np
 
 from pipeline.contract.errors import ConfigError
-from pipeline.contract.units import in_si
+from pipeline.contract.units import QUANTITIES, in_si, measured_in
 from pipeline.products import FrequencyResponse, MeasuredModes
 from pipeline.recordings import waveform
 from pipeline.recordings.samples import channel, even_rate
@@ -20,7 +21,7 @@ TIME, RESPONSE = 1, 4
 QUANTITY = {8: "displacement", 9: "force", 11: "velocity", 12: "acceleration", 13: "force", 15: "pressure",
             21: "pressure", 5: "temperature"}
 #: units as this kind of file writes them, and as they are read: g there is no gram
-SPELT = waveform.SPELT | {"g": "g_0", "m/s2": "m/s^2"}
+SPELT = (re.compile(r"\bg\b"), "g_0"), (re.compile(r"m/s2\b"), "m/s^2"), (re.compile(r"\bNm\b"), "N m")
 #: what is read: modes, functions, and the system of units of the file
 READ = (55, 58, 164)
 #: SI units of quantities, and the powers of length and force in them, for files whose units are a system (data set 164)
@@ -87,16 +88,23 @@ def _read(one, where):
         count, found = int(data_set["num_pts"]), len(data_set["data"])
         if found != count or len(data_set["x"]) != count:
             raise ConfigError(where, f"{count} points, as its head says", f"{found}", "copy it again")
-        if not np.isfinite(data_set["data"]).all() or not np.isfinite(data_set["x"]).all():
+        if not np.isfinite(data_set["x"]).all() or _damaged(data_set["data"]):
             raise ConfigError(where, "finite numbers", "others", "the data set is damaged: copy it again")
         if one.doubtful and _torn(np.abs(data_set["data"])):
             raise ConfigError(where, "numbers of one size", "others towards its end", "a byte is lost: copy it again")
     return data_set
 
 
+def _damaged(values):
+    """Whether values are not finite other than by the one NaN that stands for a missing sample."""
+    parts = np.ascontiguousarray(values).view(float)
+    strange = parts[~np.isfinite(parts)]
+    return bool(np.any(strange.view(np.int64) & np.iinfo(np.int64).max != np.float64(np.nan).view(np.int64)))
+
+
 def _torn(size):
     """Whether absolute values (n,) differ as those do whose bytes are out of step."""
-    some = size[size > 0.0]
+    some = size[np.nan_to_num(size) > 0.0]
     typical = np.median(some) if some.size else 1.0
     return bool(np.any(some > _FAR * typical) or np.any(some < typical / _FAR**2))
 
@@ -111,23 +119,21 @@ def _others(found, sets):
 
 def _put(table, name, item):
     """Under ``name``, or the first free name_2, name_3, ..."""
-    free = (name if k == 1 else f"{name}_{k}" for k in range(1, len(table) + 2))
-    table[next(n for n in free if n not in table)] = item
+    table[waveform.free_name(name, table)] = item
 
 
 def _name(data_set):
     """'mic_01' of a response entity 'Mic 01'; node and direction where the file names none."""
     named, title = data_set.get("rsp_ent_name", "NONE").strip(), data_set.get("id1", "").strip()
     named = title if len(named) == _NAME and title.startswith(named) else named
-    spelt = "".join(c if c.isalnum() else "_" for c in named.lower().replace("+", "p").replace("-", "m")).strip("_")
+    spelt = waveform.plain_name(named.lower().replace("+", "p").replace("-", "m"), "")
     return spelt if spelt and spelt != "none" else f"node_{data_set['rsp_node']}_{data_set['rsp_dir']}"
 
 
 def _unit(data_set, units, where, system=None):
     """(unit, factor on the numbers) of the ordinate: of the set, of the case, or of the file (``system``)."""
     name = _name(data_set)
-    written = data_set.get("ordinate_axis_units_lab", "NONE").strip()
-    unit, factor = SPELT.get(written, written) or units.get(name, ""), 1.0
+    unit, factor = _spelt(data_set.get("ordinate_axis_units_lab", "")) or _spelt(units.get(name, "")), 1.0
     if not unit and system and data_set["ordinate_spec_data_type"] in IN_SYSTEM:
         unit, length, force = IN_SYSTEM[data_set["ordinate_spec_data_type"]]
         factor = system["length"] ** -length * system["force"] ** -force
@@ -135,6 +141,14 @@ def _unit(data_set, units, where, system=None):
         raise ConfigError(f"{where} ({name})", "a unit in the file or in 'units'", "none",
                           f"add units: {{{name}: ...}}")
     return unit, factor
+
+
+def _spelt(label):
+    """A unit as it is read of a ``label`` as systems write it; '' of one that states none."""
+    unit = waveform.SPELT.get(label.strip(), label.strip())
+    for written, read in SPELT:
+        unit = written.sub(read, unit)
+    return unit
 
 
 def _direction(code):
@@ -147,9 +161,11 @@ def _direction(code):
 def _signal(data_set, units, system, where):
     rate, begin = even_rate(np.asarray(data_set["x"], float), where)
     rate = _meant(rate)
-    measures = QUANTITY.get(data_set["ordinate_spec_data_type"], data_set["ordinate_axis_lab"].strip().lower())
-    role = "excitation" if measures == "force" else "response"
     unit, factor = _unit(data_set, units, where, system)
+    label = data_set["ordinate_axis_lab"].strip().lower().replace(" ", "_")
+    measures = QUANTITY.get(data_set["ordinate_spec_data_type"]) or (label if label in QUANTITIES else measured_in(
+        unit, where))
+    role = "excitation" if measures == "force" else "response"
     return channel(factor * np.asarray(data_set["data"]), unit, measures, rate, begin, where, role=role,
                    place=f"node {data_set['rsp_node']}" if data_set["rsp_node"] else "",
                    direction=_direction(data_set["rsp_dir"]))
@@ -164,8 +180,7 @@ def _meant(rate):
 
 def _response(data_set, units, system, where):
     upper, factor = _unit(data_set, units, where, system)
-    lower = data_set.get("orddenom_axis_units_lab", "NONE").strip()
-    below = SPELT.get(lower, lower)
+    below = _spelt(data_set.get("orddenom_axis_units_lab", ""))
     if not below and system and data_set["orddenom_spec_data_type"] in IN_SYSTEM:
         below, length, force = IN_SYSTEM[data_set["orddenom_spec_data_type"]]
         factor *= system["length"] ** length * system["force"] ** force

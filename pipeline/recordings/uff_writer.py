@@ -3,6 +3,7 @@
 import numpy as np
 
 from pipeline.contract.errors import ConfigError
+from pipeline.recordings.samples import with_gaps
 
 #: codes of quantities in data set 58, by SI unit
 _CODES = {"m": 8, "m/s": 11, "m/s^2": 12, "N": 13, "Pa": 15, "K": 5}
@@ -26,11 +27,8 @@ def write_uff(path, run):
 
 
 def _channel(number, name, channel):
-    samples = np.array(channel.samples, float)
-    for first, last in channel.missing:
-        samples[first:last] = np.nan
     ends = _point(str(channel.place), number), _axis(channel.direction), 0, 0
-    return _function(1, name, ends, samples, (float(channel.begin), 1.0 / float(channel.rate)), _TIME,
+    return _function(1, name, ends, with_gaps(channel), (float(channel.begin), 1.0 / float(channel.rate)), _TIME,
                      (str(channel.measures), str(channel.unit)), None)
 
 

@@ -16,6 +16,8 @@ _CLOSING = re.compile(rb"(\r\n|\r|\n)    -1[ \t]*(\r\n|\r|\n|\Z)")
 #: bytes of a value of each data type of data set 58: real and complex, of single and double precision
 _SIZE = {2: 4, 4: 8, 5: 8, 6: 16}
 _REMEDY = "copy it again"
+#: lines of a binary data set before its data
+_HEADS = 12
 
 
 @dataclass(frozen=True)
@@ -30,12 +32,30 @@ class UniversalSet:
     @property
     def file(self):
         """A universal file of this data set alone, marks on lines of their own."""
-        return b"    -1\n" + self.body + (b"" if self.body.endswith(b"\n") and not self.binary else b"\n") + b"    -1\n"
+        heads, data = (_split(self.body), b"\n") if self.binary else ((self.body, b""), b"\n")
+        return b"    -1\n" + _utf8(heads[0]) + heads[1] + data + b"    -1\n"
 
     @property
     def binary(self):
         """Whether its data are bytes."""
         return self.body[6:7] in (b"b", b"B")
+
+
+def _split(body):
+    """(head lines, data) of a binary data set."""
+    position = 0
+    for _ in range(_HEADS):
+        position = _BREAK.search(body, position).end()
+    return body[:position], body[position:]
+
+
+def _utf8(text):
+    """Bytes of text that may be that of Windows, in UTF-8; columns stay where they are."""
+    try:
+        text.decode()
+    except UnicodeDecodeError:
+        return text.decode("cp1252", "replace").encode()
+    return text
 
 
 def universal_sets(content, path):

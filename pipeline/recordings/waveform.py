@@ -1,5 +1,7 @@
 """One channel of a file as the file has it, before the case says what it means."""
 
+import re
+import unicodedata
 from dataclasses import dataclass
 from importlib import import_module
 
@@ -10,6 +12,8 @@ from pipeline.contract.errors import ConfigError
 #: units as measurement systems write them, and as they are read; none where nothing is stated
 SPELT = {"NONE": "", "none": "", "-": "", "?": ""}
 
+_UMLAUTS = str.maketrans({"ä": "ae", "ö": "oe", "ü": "ue", "Ä": "Ae", "Ö": "Oe", "Ü": "Ue", "ß": "ss"})
+
 
 @dataclass(frozen=True)
 class Waveform:
@@ -19,6 +23,17 @@ class Waveform:
     unit: str = ""
     rate: float | None = None
     begin: float = 0.0
+
+
+def plain_name(text, otherwise="channel"):
+    """A name as runs and channels have them: ASCII letters, digits and _, umlauts written out."""
+    written = unicodedata.normalize("NFKD", str(text).translate(_UMLAUTS)).encode("ascii", "ignore").decode()
+    return re.sub(r"\W+", "_", written).strip("_") or otherwise
+
+
+def free_name(name, taken):
+    """``name``, or the first of name_2, name_3, ... that is not among ``taken``."""
+    return next(n for n in (name if k == 1 else f"{name}_{k}" for k in range(1, len(taken) + 2)) if n not in taken)
 
 
 def library(module, package, path):

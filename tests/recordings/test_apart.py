@@ -3,6 +3,7 @@
 import os
 from pathlib import Path
 
+import h5py
 import numpy as np
 import pytest
 from scipy.io import savemat
@@ -76,3 +77,38 @@ def test_damaged_files_give_one_sentence(name):
     with pytest.raises(ConfigError) as error:
         (apart.waveforms if kind == "matlab" else apart.runs)(kind, HOSTILE / name)
     assert len(str(error.value)) < 600 and "expected" in str(error.value)
+
+
+def test_data_of_another_file_are_refused(tmp_path):
+    """External links, external storage and virtual data would read any file into samples."""
+    (tmp_path / "secret").write_bytes(np.arange(8.0).tobytes())
+    with h5py.File(tmp_path / "other.h5", "w") as h5:
+        h5["x"] = np.arange(3.0)
+    for name, make in (("link", lambda h5: h5.__setitem__("x", h5py.ExternalLink(str(tmp_path / "other.h5"), "x"))),
+                       ("stored", lambda h5: h5.create_dataset("x", (8,), "f8", external=[
+                           (str(tmp_path / "secret"), 0, 64)])),
+                       ("virtual", lambda h5: h5.create_virtual_dataset("x", _layout(tmp_path / "other.h5")))):
+        path = tmp_path / f"{name}.mat"
+        with h5py.File(path, "w", userblock_size=512) as h5:
+            make(h5)
+        with open(path, "r+b") as stream:
+            stream.write(b"MATLAB 7.3 MAT-file, Platform: any")
+        with pytest.raises(ConfigError, match="/x: expected data of this file, found data of another one"):
+            apart.waveforms("matlab", path)
+
+
+def _layout(other):
+    layout = h5py.VirtualLayout((3,), "f8")
+    layout[:] = h5py.VirtualSource(str(other), "x", (3,))
+    return layout
+
+
+def test_what_a_reader_says_does_not_fill_the_memory(tmp_path, monkeypatch):
+    (tmp_path / "sitecustomize.py").write_text("import pipeline.recordings.audio as a\ndef read(path):\n"
+                                               "    import os\n    for _ in range(3000):\n"
+                                               "        os.write(2, b'\\xff' * 10000)\n    os._exit(3)\n"
+                                               "a.read_audio = read\n")
+    monkeypatch.setenv("PYTHONPATH", str(tmp_path))
+    with pytest.raises(ConfigError, match="one that stops its reader") as error:
+        apart.waveforms("audio", sound(tmp_path / "a.wav"))
+    assert len(str(error.value)) < 1000

@@ -38,3 +38,14 @@ def test_a_file_that_is_cut_off_is_refused(tmp_path, share):
     path.write_bytes(path.read_bytes()[:int(share * path.stat().st_size)])
     with pytest.raises(ConfigError, match="undamaged MDF file"):
         read_mdf(path)
+
+
+def test_channels_of_one_name_in_one_group_are_both_kept(tmp_path):
+    import asammdf
+
+    time = np.arange(10) / 10
+    with asammdf.MDF(version="4.10") as file:
+        file.append([asammdf.Signal(np.arange(10.0), time, unit="N", name="a"),
+                     asammdf.Signal(-np.arange(10.0), time, unit="N", name="a")])
+        file.save(str(tmp_path / "a.mf4"))
+    assert [w.values[1] for w in read_mdf(tmp_path / "a.mf4").values()] == [1, -1]

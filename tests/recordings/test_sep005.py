@@ -52,3 +52,10 @@ def test_what_the_convention_does_not_allow_is_refused(change, told):
 def test_no_signals_are_refused():
     with pytest.raises(ConfigError, match="at least one signal"):
         run_of([])
+
+
+def test_gaps_and_begin_are_kept(tmp_path):
+    gapped = {"name": "a", "data": np.array([1.0, np.nan, 3.0]), "unit_str": "N", "time": [1.5, 1.6, 1.7]}
+    save([gapped], tmp_path / "a.h5")
+    (one,) = read_neutral(tmp_path / "a.h5")["run"].channels.values()
+    assert one.missing.tolist() == [[1, 2]] and float(one.begin) == 1.5

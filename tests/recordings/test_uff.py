@@ -83,3 +83,25 @@ def test_refuses_what_is_no_universal_file(tmp_path):
 def test_public_samples(name, channel, rate, unit):
     found = read_uff(SAMPLES / name)[0][channel]
     assert float(found.rate) == pytest.approx(rate, rel=1e-5) and str(found.unit) == unit
+
+
+def test_labels_of_windows_and_g_in_any_place(tmp_path):
+    """Bytes of cp1252 keep their unit; g is gravity wherever it stands, in the file and in the case."""
+    path = write(tmp_path / "a.uff", ordinate_axis_units_lab="mm/sX")
+    path.write_bytes(path.read_bytes().replace(b"mm/sX", b"mm/s\xb2"))
+    found = read_uff(path)[0]["acc_1"]
+    assert str(found.unit) == "m/s^2" and found.samples[1] == pytest.approx(1e-3)
+    frf = {"func_type": 4, "x": np.array([0.0, 10.0, 20.0]), "data": np.array([1.0, 2.0, 3.0 + 0j]), "ord_data_type": 6,
+           "num_pts": 3, "abscissa_inc": 10.0, "abscissa_axis_units_lab": "Hz"}
+    for label, below, units in (("g", "N", {}), ("g/N", "NONE", {}), ("NONE", "NONE", {"acc_1": "g/N"})):
+        path = write(tmp_path / "b.uff", ordinate_axis_units_lab=label, orddenom_axis_units_lab=below, **frf)
+        response = read_uff(path, units)[1]["acc_1"]
+        assert str(response.unit) == "1/kg" and response.response[0] == pytest.approx(9.80665), (label, units)
+
+
+def test_a_label_that_names_the_quantity_counts_where_no_code_does(tmp_path):
+    path = write(tmp_path / "a.uff", ordinate_spec_data_type=0, ordinate_axis_lab="Sound pressure",
+                 ordinate_axis_units_lab="Pa")
+    assert str(read_uff(path)[0]["acc_1"].measures) == "sound_pressure"
+    path = write(tmp_path / "a.uff", ordinate_spec_data_type=0, ordinate_axis_lab="NONE", ordinate_axis_units_lab="N")
+    assert str(read_uff(path)[0]["acc_1"].measures) == "force"

@@ -59,3 +59,11 @@ def test_what_cannot_be_written_is_refused(tmp_path, run):
     uneven = replace(run.frf["drive"], frequency=np.array([0.0, 1.0, 3.0, 4.0, 5.0]))
     with pytest.raises(ConfigError, match="frf drive: expected an even frequency axis"):
         write_uff(tmp_path / "a.uff", replace(run, frf={"drive": uneven}))
+
+
+def test_missing_samples_come_back(tmp_path):
+    gapped = channel(np.where(np.arange(500) // 50 == 2, np.nan, SAMPLES), "N", "force", 1000.0, 0.0, "a")
+    write_uff(tmp_path / "a.uff", Run(description="", repeat_of="", channels={"a": gapped}))
+    again = read_uff(tmp_path / "a.uff")[0]["a"]
+    assert again.missing.tolist() == [[100, 150]]
+    np.testing.assert_array_equal(again.samples, gapped.samples)

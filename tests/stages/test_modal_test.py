@@ -62,3 +62,12 @@ def test_responses_on_unlike_axes_are_refused():
     mixed = Run(description="", repeat_of="", frf=recorded().runs["hammer"].frf | {"other": other})
     with pytest.raises(ConfigError, match="frequency responses on one frequency axis, found 2 axes"):
         modal_test(Recording(source=[], runs={"mixed": mixed}), settings=Settings())
+
+
+def test_a_dead_response_is_named_and_coarse_ones_are_taken():
+    whole = recorded().runs["hammer"].frf
+    dead = whole | {"p3": FrequencyResponse(frequency=LINE, response=0 * LINE, unit="m/s^2/N", place="", reference="")}
+    with pytest.raises(ConfigError, match="responses that are not 0 all over, found p3"):
+        modal_test(Recording(source=[], runs={"a": Run(description="", repeat_of="", frf=dead)}), settings=Settings())
+    coarse = modal_test(recorded(np.arange(0.0, 2500.1, 12.5)), settings=Settings())
+    assert len(coarse.runs["hammer"].line) == 200

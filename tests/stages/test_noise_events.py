@@ -100,3 +100,35 @@ def test_the_table_of_events(result):
     head, first, *_ = companions(result)["noise_events.csv"].splitlines()
     assert head.startswith("run,channel,kind,frequency / Hz") and head.endswith("temperature / K")
     assert first.startswith("loud,mic,squeal,31") and first.split(",")[6].startswith("86.") and first.endswith(",400")
+
+
+def test_conditions_come_from_what_was_measured_meanwhile():
+    """Missing samples do not count, and a channel that ended before the event tells nothing."""
+    gapped = np.full(400, 2e6)
+    gapped[100:180] = np.nan
+    early = channel(np.full(100, 2e6), "Pa", "pressure", 200.0, 0.0, "line")
+    mic = channel(TONE + NOISE, "Pa", "sound_pressure", RATE, 0.0, "mic")
+    for line, value in ((channel(gapped, "Pa", "pressure", 100.0, 0.0, "line"), 2e6), (early, None)):
+        found = noise_events(Recording(source=[], runs={"a": run({"mic": mic, "line": line})}), settings=Settings())
+        assert found.event_condition_known[0].tolist() == [int(value is not None), 0, 0]
+        assert found.event_condition[0, 0] == (value or 0.0)
+
+
+def test_what_is_no_sound_is_not_taken_for_it_and_what_is_named_is_searched():
+    resting = channel(500.0 + TONE, "Pa", "pressure", RATE, 0.0, "line")
+    glitch = np.array(TONE + NOISE)
+    glitch[7] = 1e5
+    runs = {"a": run({"line": resting}), "b": run({"mic": channel(glitch, "Pa", "pressure", RATE, 0.0, "mic")})}
+    assert list(noise_events(Recording(source=[], runs=runs), settings=Settings()).record_run) == ["b"]
+    named = noise_events(Recording(source=[], runs=runs), settings=Settings(channels=["line"]))
+    assert list(named.record_run) == ["a"]
+    force = run({"f": channel(T, "N", "force", RATE, 0.0, "f")})
+    with pytest.raises(ConfigError, match="channels of sound pressure or acceleration, found f in N"):
+        noise_events(Recording(source=[], runs={"a": force}), settings=Settings(channels=["f"]))
+
+
+def test_a_tone_of_a_narrow_band_is_not_noise_as_well():
+    tone = np.sqrt(2) * 20e-6 * 10 ** (85 / 20) * np.sin(2 * np.pi * 2500 * T)
+    mic = run({"mic": channel(tone + NOISE, "Pa", "sound_pressure", RATE, 0.0, "mic")})
+    found = noise_events(Recording(source=[], runs={"a": mic}), settings=Settings(highest_frequency="3 kHz"))
+    assert list(found.event_kind) == ["squeal"]

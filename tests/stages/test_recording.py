@@ -114,7 +114,8 @@ def test_sound_and_measurement_files_need_no_columns(tmp_path):
 @pytest.mark.exact
 def test_a_microphone_has_a_calibrator_or_a_factor(tmp_path):
     """A tone of 94 dB is 1 Pa effective (ISO 1683), whatever the gain."""
-    sound(tmp_path / "cal.wav", 0.2 * np.sin(2 * np.pi * np.arange(48000) / 48))
+    tone = 0.2 * np.sin(2 * np.pi * np.arange(48000) / 48)
+    sound(tmp_path / "cal.wav", np.concatenate([np.zeros(24000), tone, np.zeros(24000)]))      # silence does not count
     sound(tmp_path / "stop.wav", 0.05 * SINE, 0.1 * SINE)
     found = read(tmp_path, {"kind": "audio", "file": "stop.wav", "columns": {
         "left": {"column": "1", "calibrator": {"file": "cal.wav"}},
@@ -129,7 +130,7 @@ def test_a_microphone_has_a_calibrator_or_a_factor(tmp_path):
 
 
 @pytest.mark.parametrize("file, told", [
-    ({"kind": "audio", "file": "a.wav"}, "1: unit: expected a unit in the file or in the case, found none"),
+    ({"kind": "audio", "file": "a.wav"}, "a channel that can be used, found none of 1, 2"),
     ({"kind": "audio", "file": "a.wav", "columns": {"m": {"column": "3", "unit": "Pa"}}}, "one of 1, 2, found '3'"),
     ({"kind": "tdms", "file": "b.tdms", "columns": {"p": {"column": "bench/pad", "measures": "force"}}},
      "a unit of force, such as N, found 'g'"),
@@ -143,11 +144,46 @@ def test_what_files_of_channels_lack_is_asked_for(tmp_path, file, told):
         read(tmp_path, file)
 
 
-def test_good_channels_stay_usable(tmp_path):
-    mdf(tmp_path / "drag.mf4")
+def told_by(tmp_path, **case):
+    """(Recording, what was logged) of a case."""
     told = []
-    settings = fill(Settings, {"keep_going": True, "files": [{"kind": "mdf", "file": "drag.mf4"}]}, "case",
-                    {"folders": (tmp_path,)})
-    found = recording(settings=settings, context=SimpleNamespace(log=told.append))
+    settings = fill(Settings, case, "case", {"folders": (tmp_path,)})
+    return recording(settings=settings, context=SimpleNamespace(log=told.append)), told
+
+
+def test_channels_that_the_file_says_too_little_of_are_left_out_aloud(tmp_path):
+    mdf(tmp_path / "drag.mf4")
+    found, told = told_by(tmp_path, files=[{"kind": "mdf", "file": "drag.mf4"}])
     assert list(found.runs["drag"].channels) == ["pad", "line", "disc"]
-    assert any("left out" in line and "disc_speed" in line for line in told)
+    assert any("disc speed left out: the file states no even sampling" in line for line in told)
+
+
+def test_good_channels_stay_usable(tmp_path):
+    sound(tmp_path / "a.wav")
+    columns = {"good": {"column": "1", "unit": "Pa"}, "bad": {"column": "2", "unit": "Pa", "measures": "force"}}
+    file = {"kind": "audio", "file": "a.wav", "columns": columns}
+    found, told = told_by(tmp_path, files=[file], keep_going=True)
+    assert list(found.runs["a"].channels) == ["good"] and any("left out" in line and "bad" in line for line in told)
+    with pytest.raises(ConfigError, match="a unit of force"):
+        told_by(tmp_path, files=[file])
+
+
+def test_names_of_a_file_are_made_plain_and_none_is_lost(tmp_path):
+    from nptdms import ChannelObject, TdmsWriter
+
+    with TdmsWriter(str(tmp_path / "Geräusch.tdms")) as writer:
+        writer.write_segment([ChannelObject("Gerät", name, SINE, properties={"wf_increment": 1e-4, "unit_string": "Pa"})
+                              for name in ("Mic-1", "Mic 1")])
+    found = read(tmp_path, {"kind": "tdms", "file": "Geräusch.tdms"})
+    assert list(found.runs) == ["Geraeusch"]
+    assert list(found.runs["Geraeusch"].channels) == ["Geraet_Mic_1", "Geraet_Mic_1_2"]
+
+
+@pytest.mark.parametrize("more, told", [({"factor": -10}, "no unit and no factor beside it"),
+                                        ({"unit": "Pa"}, "no unit and no factor beside it"), ({}, "the steady tone")])
+def test_a_calibrator_rules_alone_and_must_hold_a_tone(tmp_path, more, told):
+    sound(tmp_path / "cal.wav", 0.1 * np.random.default_rng(1).standard_normal(48000))
+    sound(tmp_path / "a.wav")
+    with pytest.raises(ConfigError, match=told):
+        read(tmp_path, {"kind": "audio", "file": "a.wav", "columns": {
+            "m": {"column": "1", "calibrator": {"file": "cal.wav"}, **more}}})

@@ -61,3 +61,13 @@ def test_the_first_screen_answers():
     assert plain(dict(told.answers)["Where"]).startswith("2 squeal events")
     quiet = verdict({"recording": RECORDING, "noise_events": small.noise_events(quiet=True)}, ())
     assert quiet.headline == "No squeal in 2 runs"
+
+
+def test_a_run_without_a_microphone_counts_by_its_accelerometer():
+    """Beside a quiet run with a microphone; a peak of vibration is not compared with one of sound."""
+    product = small.noise_events()
+    mixed = replace(product, record_run=np.array(["a", "b", "a"], dtype=object),
+                    event_kind=np.array(["sweep", "harmonic", "sweep", "groan", "squeal"], dtype=object))
+    assert runs(mixed)[0] == ["b"] and headline(mixed)[0].startswith("Squeal in 1 of 2 runs")
+    silent = replace(mixed, event_kind=np.array(["sweep"] * 5, dtype=object))
+    assert "89 dB(A)" in plain(conclusion(silent))

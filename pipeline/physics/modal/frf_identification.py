@@ -5,7 +5,8 @@
 of every response n with the same poles p_k, whatever its quantity (receptance, mobility, accelerance): the last three
 terms stand for modes beyond the band. First poles are those of a common denominator in z (least squares complex
 frequency: Guillaume, Verboven, Vanlanduit, ISMA 1998) of rising order, kept where they come back from order to order;
-they are refined together by Gauss-Newton with residues eliminated (variable projection), whose Jacobian and residual
+they are refined together by Levenberg-Marquardt with residues eliminated (variable projection), whose Jacobian and
+residual
 give the standard deviations. Where more than noise is left, a pole is added or split, as the partner of a doublet.
 """
 
@@ -24,7 +25,7 @@ _DAMPED = 0.2
 _ONE, _OFTEN = 0.5, 0.4
 #: standard deviations that the residues of a mode exceed in the mean square, or it is none
 _SEEN = 4.0
-_ITERATIONS, _STEP = 60, 1e-9
+_ITERATIONS, _STEP, _LOWER = 100, 1e-9, 1e-11
 #: modes that are added at most where something is left, standard deviations by which that must exceed noise, over so
 #: many lines, and by how much more than the number of its values (half of them: chance) a mode must lower chi^2
 _ADDED, _LEFT, _LINES, _GAIN = 20, 8.0, 3, 3.0
@@ -166,8 +167,8 @@ def _check(frequency, response):
     step = np.diff(frequency)
     if len(frequency) < 32 or np.abs(step - step.mean()).max(initial=0.0) > 1e-3 * step.mean():
         raise ConfigError("frequency responses", "32 or more lines at even distances", f"{len(frequency)} lines, "
-                          f"{step.min(initial=0):.4g} to {step.max(initial=0):.4g} Hz apart")
-    if not np.isfinite(response).all() or not np.any(response):
+                          f"{np.min(step, initial=np.inf):.4g} to {step.max(initial=0):.4g} Hz apart")
+    if not np.isfinite(response).all() or not np.any(response, axis=1).all():
         raise ConfigError("frequency responses", "finite values that are not all 0", "others")
 
 
@@ -238,14 +239,14 @@ def _basis(omega, poles):
 
 
 def _refined(frequency, response, poles, noise=None):
-    """IdentifiedModes that begin at ``poles``; Gauss-Newton with steps halved until they help. ``noise`` (n,) of the
+    """IdentifiedModes that begin at ``poles``; Levenberg and Marquardt's steps. ``noise`` (n,) of the
     responses where it is known about; else it is found in turns with the poles."""
     omega, count = 2 * np.pi * frequency, len(poles)
     data = np.vstack([response.real.T, response.imag.T])
     weight = np.ones(len(response)) if noise is None else 1.0 / np.maximum(noise, 1e-300)
     if count:
         for _ in range(3 if noise is None else 1):      # noise of each response by what the fit before leaves of it
-            poles, left = _gauss_newton(omega, data * weight, poles)
+            poles, left = _least_squares(omega, data * weight, poles)
             noise = np.sqrt(np.sum((left / weight) ** 2, axis=0) / _freedom(len(data), count))
             weight = 1.0 / np.maximum(noise, 1e-12 * abs(response).max())
     basis = _basis(omega, poles)
@@ -263,6 +264,8 @@ def _refined(frequency, response, poles, noise=None):
         jacobian = _jacobian(omega, data * weight, poles, basis, factor, coefficient * weight)
         covariance = np.linalg.inv(jacobian.T @ jacobian)
         std = np.sqrt(np.diag(covariance)).reshape(2, count).T
+        moved = _residue_by_pole(omega, poles, factor, triangle, coefficient)
+        spread = np.sqrt(spread**2 + np.einsum("jrn,jk,krn->rn", moved.conj(), covariance, moved).real)
     order = np.argsort(poles.imag)
     nothing = Stabilisation(*(np.empty(0),) * 4)
     return IdentifiedModes(poles[order], std[order], residue[order], spread[order], noise, fitted.T, nothing)
@@ -273,7 +276,7 @@ def _freedom(rows, count):
     return max(rows - 2 * count - 6, 1)
 
 
-def _gauss_newton(omega, data, poles):
+def _least_squares(omega, data, poles):
     """(poles, what they leave (2 f, n)); ConvergenceError where the steps do not end."""
     def left_by(at):
         basis = _basis(omega, at)
@@ -281,24 +284,24 @@ def _gauss_newton(omega, data, poles):
         projected = factor.T @ data
         return data - factor @ projected, basis, factor, np.linalg.solve(triangle, projected)
 
-    left, basis, factor, coefficient = left_by(poles)
+    state, damping = left_by(poles), 1e-3
     for _ in range(_ITERATIONS):
+        left, basis, factor, coefficient = state
         jacobian = _jacobian(omega, data, poles, basis, factor, coefficient)
         size = np.sqrt(np.einsum("ij,ij->j", jacobian, jacobian))
-        scaled = jacobian / size
-        step = -np.linalg.lstsq(scaled.T @ scaled, scaled.T @ left.T.ravel(), rcond=1e-14)[0] / size
-        move, share = step[:len(poles)] + 1j * step[len(poles):], 1.0
-        while True:
-            tried = poles + share * move
+        normal, slope = (jacobian / size).T @ (jacobian / size), (jacobian / size).T @ left.T.ravel()
+        before, moved = np.sum(left**2), np.inf
+        while moved > _STEP:
+            step = -np.linalg.solve(normal + damping * np.eye(len(normal)), slope) / size
+            tried = poles + step[:len(poles)] + 1j * step[len(poles):]
             tried = np.where(tried.real < 0.0, tried, 0.5 * poles.real + 1j * tried.imag)
-            after = left_by(tried)
-            if np.sum(after[0] ** 2) <= np.sum(left**2) * (1 + 1e-12) or share < 1e-3:
+            moved, after = abs(tried - poles).max() / abs(poles).max(), left_by(tried)
+            if np.sum(after[0] ** 2) <= before:
+                poles, state, damping = tried, after, max(damping / 10.0, 1e-12)
                 break
-            share /= 2.0
-        moved = abs(tried - poles).max() / abs(poles).max()
-        poles, (left, basis, factor, coefficient) = tried, after
-        if moved < _STEP or share < 1e-3:
-            return poles, left
+            damping *= 5.0
+        if moved < _STEP or before - np.sum(state[0] ** 2) < _LOWER * before:
+            return poles, state[0]
     raise ConvergenceError("modes from frequency responses", f"poles that settle within {_ITERATIONS} steps",
                            f"a last step of {moved:.1e} of the frequency", "narrow the band")
 
@@ -306,17 +309,27 @@ def _gauss_newton(omega, data, poles):
 def _jacobian(omega, data, poles, basis, factor, coefficient):
     """(n 2 f, 2 m) derivative of what is left by real, then imaginary parts of the poles, residues following (Kaufman).
     """
+    return np.column_stack([-(change - factor @ (factor.T @ change)).T.ravel()
+                            for change in _changes(omega, poles, coefficient)])
+
+
+def _residue_by_pole(omega, poles, factor, triangle, coefficient):
+    """(2 m, m, n) derivative of the residues by real, then imaginary parts of the poles."""
+    count = len(poles)
+    moved = np.array([np.linalg.solve(triangle, -factor.T @ change) for change in _changes(omega, poles, coefficient)])
+    return moved[:, :count] + 1j * moved[:, count:2 * count]
+
+
+def _changes(omega, poles, coefficient):
+    """Derivatives (2 f, n) of the model by real, then imaginary parts of the poles, the residues held."""
     count = len(poles)
     residue = coefficient[:count] + 1j * coefficient[count:2 * count]           # (m, n)
     first = 1.0 / (1j * omega[:, None] - poles) ** 2
     second = 1.0 / (1j * omega[:, None] - poles.conj()) ** 2
-    columns = []
     for by in (1.0, 1j):
         for k in range(count):
             change = first[:, k, None] * (by * residue[k]) + second[:, k, None] * np.conj(by * residue[k])
-            stacked = np.vstack([change.real, change.imag])
-            columns.append(-(stacked - factor @ (factor.T @ stacked)).T.ravel())
-    return np.column_stack(columns)
+            yield np.vstack([change.real, change.imag])
 
 
 def _significant(fit, frequency):

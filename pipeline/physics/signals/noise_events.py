@@ -77,6 +77,8 @@ def broadband(found, detector):
         power = np.square(row[inside], dtype=float)
         if len(power) > 4 * _TONES:
             power[np.argpartition(power, -_TONES)[-_TONES:]] = 0.0
+        else:                   # too few lines to leave some out: noise by their median
+            power = np.full(len(power), np.median(power) / np.log(2.0))
         whole = power.sum()
         levels[k] = level(whole / _BANDWIDTH, detector.reference)
         middles[k] = power @ frequency / whole if whole > 0.0 else 0.0

@@ -111,3 +111,14 @@ def test_noise_alone_has_no_modes(seed):
 def test_what_cannot_be_analysed_is_refused(line, response, told):
     with pytest.raises(ConfigError, match=told):
         identify(line, response)
+
+
+def test_errors_of_shapes_hold_for_close_modes():
+    """500 and 501 Hz at .2 % damping: the scatter of residues over draws is what is stated."""
+    line, frequency, damping = np.arange(400.0, 600.1, 0.5), np.array([500.0, 501.0]), np.full(2, 2e-3)
+    shape = np.array([np.cos(2 * ANGLE), np.sin(2 * ANGLE)])
+    clean = responses(line, frequency, damping, shape)
+    found = [identify(line, noisy(clean, 0.01, np.random.default_rng(k))) for k in range(30)]
+    scatter = np.std([one.residue for one in found], axis=0)
+    stated = np.mean([one.residue_std for one in found], axis=0)
+    assert np.mean(scatter / stated) == pytest.approx(1, abs=0.2)

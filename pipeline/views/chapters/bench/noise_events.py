@@ -18,9 +18,10 @@ def chapter(product, look):
 
 
 def squeals(product):
-    """Indices of the squeal events, the loudest first; of microphones, or of accelerometers where there are none."""
+    """Indices of the squeal events, the loudest first; of microphones, then of accelerometers in runs without any."""
     rows = np.flatnonzero(pictures.heard(product))
-    return rows[np.argsort(-product.event_level[rows], kind="stable")]
+    sound = product.record_kind[product.event_record[rows]] == "sound"
+    return rows[np.lexsort((-product.event_level[rows], ~sound))]
 
 
 def runs(product):
@@ -52,7 +53,8 @@ def conclusion(product):
     beside = ", ".join(f"{count} of {kind}" if kind in ("broadband", "series") else plural(count, kind)
                        for kind, count in others.items() if count)
     if not len(rows):
-        peak = int(np.argmax(product.record_peak))
+        sound = product.record_kind == "sound"      # levels of sound and of vibration are not compared
+        peak = int(np.argmax(np.where(sound | ~sound.any(), product.record_peak, -np.inf)))
         return (f"No steady tone reaches the threshold. The loudest tone in the band has"
                 f" {number(product.record_peak[peak], 3)} {_unit(product, peak)} at"
                 f" {quantity(product.record_peak_frequency[peak], 'Hz', 3)}, run {product.record_run[peak]}."

@@ -63,10 +63,10 @@ def level_frequency(product):
 
 
 def heard(product):
-    """(event,) whether an event is squeal: of microphones, or of accelerometers where there are none."""
+    """(event,) whether an event is squeal: of microphones, or of accelerometers in runs that have none."""
     sound = product.record_kind == "sound"
-    squeal = product.event_kind == "squeal"
-    return squeal & sound[product.event_record] if sound.any() else squeal
+    listened = np.isin(product.record_run, product.record_run[sound])
+    return (product.event_kind == "squeal") & (sound | ~listened)[product.event_record]
 
 
 def told(product, *conditions):
