@@ -99,12 +99,19 @@ def along_motions(null, catalogue, motions: Motions, rules, fan_out):
     except BrakechainError:
         return None
     every = tuple(fan_out(partial(directions, along, null), catalogue))
-    return _selected(null, every, catalogue, rules, along)
+    return _selected(null, _of_physics(every, catalogue), catalogue, rules, along)
 
 
 def linearised_about(null, every, catalogue, rules):
     """Selection by the Directions ``every`` of a ``catalogue`` at the Fit ``null`` itself; it judges nobody."""
-    return replace(_selected(null, every, catalogue, rules), judged=frozenset())
+    return replace(_selected(null, _of_physics(every, catalogue), catalogue, rules), judged=frozenset())
+
+
+def _of_physics(every, catalogue):
+    """The Directions, none of a candidate that changes what sensors show: several together shrink all data, which takes
+    away what is left without explaining anything."""
+    return tuple(d if c.kind == "physics" else replace(d, vectors=d.vectors[:0], sign=d.sign[:0], tried=())
+                 for d, c in zip(every, catalogue, strict=True))
 
 
 def _selected(null, every, catalogue, rules, along=None):

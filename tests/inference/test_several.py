@@ -107,3 +107,16 @@ def test_one_law_alone_gets_no_second_name():
     motions = Measured(whole, {run: np.zeros((1, 400)) for run in tables})
     solved = diagnose(whole, noise, catalogue, Settings(draws=2000), motions=motions)
     assert [c.name for c in solved.decision.named] == ["effect_1"] and solved.base is None and solved.laws == 1
+
+
+def test_sensors_are_in_no_set():
+    """Gains of several sensors together shrink all data, which leaves less without explaining anything."""
+    null, whole, _, catalogue, tables = posed({"effect_1_0": 1.0, "effect_3_0": -0.7})
+    mixed = tuple(replace(c, kind="sensor") if c.name == "effect_3" else c for c in catalogue)
+    every = tuple(map(partial(directions, whole, null), mixed))
+    motions = Measured(whole, {run: np.zeros((1, 400)) for run in tables})
+    along = several.along_motions(null, mixed, motions, RULES, map)
+    for selection in (several.linearised_about(null, every, mixed, RULES), along):
+        tried = {name for combination in selection.tried for name in combination.effects}
+        assert "effect_1" in named(selection, mixed) and "effect_3" not in tried
+    assert along.judged == {0, 1, 2, 3, 4} - {[c.name for c in mixed].index("effect_3")}
