@@ -1,12 +1,11 @@
 """Effects on the pads of a disc brake, as the stage multibody has them."""
 
-from dataclasses import fields
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
 from pipeline.contract import ConfigError
-from pipeline.products import FrictionMap
 from stages.multibody import multibody
 from tests.diagnosis.small_rig import effects
 from tests.effects.systems import system
@@ -31,7 +30,7 @@ def same(one, other, rtol=1e-9):
 
 def halved():
     whole = small_map()
-    return FrictionMap(**{f.name: getattr(whole, f.name) / (2 if f.name == "friction" else 1) for f in fields(whole)})
+    return replace(whole, friction=whole.friction / 2)
 
 
 @pytest.mark.exact

@@ -75,5 +75,5 @@ def test_xarray_shows_named_dimensions_and_units(finished, name):
 
 def test_inspect_tells_dimensions_units_and_provenance(finished):
     told = brakechain("inspect", finished / "friction_map.h5").stdout
-    assert "friction_map version 3" in told and "friction (pressure: " in told and "provenance" in told
+    assert "friction_map version 4" in told and "friction (pressure: " in told and "provenance" in told
     assert "Pa" in told and "settings" in told
