@@ -52,8 +52,8 @@ def micro_friction(surface: Surface, effects: Effects | None, settings: Settings
     run = partial(_slide, speeds=speeds, recorded=recorded)
     records = context.map(run, [(*task, k == shown) for k, task in enumerate(tasks)], "sliding of the rough pair")
     middle = settings.pressures[len(settings.pressures) // 2]
-    begins = context.map(partial(_from_rest, rubbed=pairs[0], speed=speeds[len(speeds) // 2],
-                                 shares=settings.presliding), settings.pressures if settings.presliding else (),
+    begins = context.map(partial(from_rest, pairs[0], speed=speeds[len(speeds) // 2], shares=settings.presliding),
+                         settings.pressures if settings.presliding else (),
                          "friction from rest")
     areas = context.map(partial(_area_on_grid, surface=surface, settings=settings, pressure=middle),
                         settings.refinement, "convergence of the contact area")
@@ -91,10 +91,6 @@ def _slide(task, speeds, recorded):
     pressure, rubbed, offset, kept = task
     record = slide(shifted(rubbed, offset), pressure, speeds, recorded)
     return record if kept else replace(record, maps=None)
-
-
-def _from_rest(pressure, rubbed, speed, shares):
-    return from_rest(rubbed, pressure, speed, shares)
 
 
 def _presliding(found, pressures):

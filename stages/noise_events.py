@@ -8,7 +8,7 @@ import numpy as np
 
 from pipeline.contract import ConfigError, Context, Quantity, Section, option, stage
 from pipeline.physics.signals.noise_events import broadband, tonal
-from pipeline.physics.signals.spectra import level
+from pipeline.physics.signals.spectra import HEARING, level
 from pipeline.physics.signals.squeal_detector import Detector, frames, loudest
 from pipeline.products import NoiseEvents, Recording, Spectrogram
 from pipeline.recordings.samples import with_gaps
@@ -40,8 +40,8 @@ class Settings(Section):
     lowest_tone: Quantity("Hz", gt=0) = option("20 Hz", "tones from here on are told")
 
 
-#: sound pressure of 0 dB and acceleration of 0 dB (ISO 1683)
-_HEARING, _STILL = 20e-6, 1e-6
+#: acceleration of 0 dB [m/s^2] (ISO 1683)
+_STILL = 1e-6
 #: largest pressure in Pa that a microphone hears (160 dB); a line pressure is more
 _SOUND = 2e3
 #: conditions of an event: name, and what channels measure it
@@ -141,7 +141,7 @@ def _searched(task, settings):
 
 def _detector(settings, kind, band):
     sound = kind == "sound"
-    reference = _HEARING if sound else _STILL
+    reference = HEARING if sound else _STILL
     threshold = settings.threshold if sound else float(level(settings.vibration_threshold**2, _STILL))
     return Detector(band, threshold, reference, settings.window, settings.overlap, settings.prominence,
                     settings.dynamic_range, settings.drift, settings.gap, settings.shortest,
@@ -152,7 +152,7 @@ def _low_detector(settings, kind, rate):
     sound = kind == "sound"
     threshold = settings.low_threshold if sound else float(level(settings.vibration_threshold**2, _STILL))
     return Detector((settings.lowest_tone, min(settings.lowest_frequency, 0.45 * rate)), threshold,
-                    _HEARING if sound else _STILL, settings.low_window, settings.overlap, settings.prominence,
+                    HEARING if sound else _STILL, settings.low_window, settings.overlap, settings.prominence,
                     settings.dynamic_range, settings.drift, 2 * settings.low_window, 2 * settings.low_window,
                     settings.lowest_tone, 0.05, 0.1, 0.33, False, settings.above, 0)
 
@@ -174,10 +174,12 @@ def _product(kept, recording, settings):
     begins = [result[4] for _, result in kept]
     values = np.zeros((len(rows), len(_CONDITIONS)))
     known = np.zeros(values.shape, int)
+    measured = {name: _measured(recording.runs[name]) for (name, *_), _ in kept}
     for j, (k, event) in enumerate(rows):
-        run = recording.runs[kept[k][0][0]]
+        run = kept[k][0][0]
         for i, name in enumerate(_CONDITIONS):
-            value = _condition(run, name, begins[k] + event.start, event.duration)
+            value = _condition(measured[run][name], recording.runs[run].conditions.get(name), name,
+                               begins[k] + event.start, event.duration)
             if value is not None:
                 values[j, i], known[j, i] = value, 1
     columns = {name: [getattr(event, name) for _, event in rows] for name in _FIELDS}
@@ -194,17 +196,20 @@ def _product(kept, recording, settings):
         **{f"event_{name}": column for name, column in columns.items()})
 
 
-def _condition(run, name, start, duration):
-    """Mean of a condition of a Run over an event, by a channel that measures it, else as the run states it, or None."""
-    for channel in run.channels.values():
-        if str(channel.measures) in _CONDITIONS[name] and str(channel.unit) == _UNITS[name] and not (
-                name == "pressure" and _heard(channel)):
-            rate, begin = float(channel.rate), float(channel.begin)
-            first, last = (int((t - begin) * rate) for t in (start, start + duration))
-            inside = with_gaps(channel)[max(first, 0):max(last, first + 1)]
-            if np.isfinite(inside).any():
-                return float(np.nanmean(inside))
-    stated = run.conditions.get(name)
+def _measured(run):
+    """{condition: [(samples, NaN where missing, rate in Hz, begin in s)]} of the channels of a Run that measure it."""
+    return {name: [(with_gaps(c), float(c.rate), float(c.begin)) for c in run.channels.values()
+                   if str(c.measures) in wanted and str(c.unit) == _UNITS[name]
+                   and not (name == "pressure" and _heard(c))] for name, wanted in _CONDITIONS.items()}
+
+
+def _condition(measured, stated, name, start, duration):
+    """Mean of a condition over an event, by what ``_measured`` it, else as the run has ``stated`` it, or None."""
+    for samples, rate, begin in measured:
+        first, last = (int((t - begin) * rate) for t in (start, start + duration))
+        inside = samples[max(first, 0):max(last, first + 1)]
+        if np.isfinite(inside).any():
+            return float(np.nanmean(inside))
     if stated is None or str(stated.unit) != _UNITS[name]:
         return None
     return float(np.interp(start + duration / 2, stated.time, stated.value))

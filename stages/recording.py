@@ -10,6 +10,7 @@ import numpy as np
 
 from pipeline.contract import ConfigError, Context, InputFile, OneOf, Quantity, Section, option, stage
 from pipeline.contract.units import in_si, measured_in
+from pipeline.physics.signals.spectra import HEARING
 from pipeline.products import Condition, Recording, Run
 from pipeline.recordings.apart import runs, waveforms
 from pipeline.recordings.columns import read_table
@@ -19,8 +20,6 @@ from pipeline.recordings.samples import channel, even_rate, on_grid, steady_tone
 from pipeline.recordings.waveform import SPELT, free_name, plain_name
 from pipeline.validation.published_facts import load
 
-#: sound pressure of 0 dB, Pa (ISO 1683)
-HEARING = 20e-6
 #: kinds of a calibrator's file by its suffix; any other is sound
 _KINDS = {".tdms": "tdms", ".mf4": "mdf", ".mdf": "mdf"}
 

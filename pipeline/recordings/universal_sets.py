@@ -32,8 +32,8 @@ class UniversalSet:
     @property
     def file(self):
         """A universal file of this data set alone, marks on lines of their own."""
-        heads, data = (_split(self.body), b"\n") if self.binary else ((self.body, b""), b"\n")
-        return b"    -1\n" + _utf8(heads[0]) + heads[1] + data + b"    -1\n"
+        heads, data = _split(self.body) if self.binary else (self.body, b"")
+        return b"    -1\n" + _utf8(heads) + data + b"\n    -1\n"
 
     @property
     def binary(self):

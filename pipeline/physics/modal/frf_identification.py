@@ -252,16 +252,17 @@ def _refined(frequency, response, poles, noise=None):
     basis = _basis(omega, poles)
     factor, triangle = np.linalg.qr(basis)
     coefficient = np.linalg.solve(triangle, factor.T @ data)
-    left = data - basis @ coefficient
+    modelled = basis @ coefficient
+    left = data - modelled
     noise = np.sqrt(np.sum(left**2, axis=0) / _freedom(len(data), count))
-    fitted = (basis @ coefficient)[:len(omega)] + 1j * (basis @ coefficient)[len(omega):]
+    fitted = modelled[:len(omega)] + 1j * modelled[len(omega):]
     residue = coefficient[:count] + 1j * coefficient[count:2 * count]
     inverse = np.linalg.inv(triangle)
     linear = np.sum(inverse**2, axis=1)
     spread = np.sqrt(linear[:count] + linear[count:2 * count])[:, None] * noise
     std = np.zeros((count, 2))
     if count:
-        jacobian = _jacobian(omega, data * weight, poles, basis, factor, coefficient * weight)
+        jacobian = _jacobian(omega, poles, factor, coefficient * weight)
         covariance = np.linalg.inv(jacobian.T @ jacobian)
         std = np.sqrt(np.diag(covariance)).reshape(2, count).T
         moved = _residue_by_pole(omega, poles, factor, triangle, coefficient)
@@ -279,15 +280,14 @@ def _freedom(rows, count):
 def _least_squares(omega, data, poles):
     """(poles, what they leave (2 f, n)); ConvergenceError where the steps do not end."""
     def left_by(at):
-        basis = _basis(omega, at)
-        factor, triangle = np.linalg.qr(basis)
+        factor, triangle = np.linalg.qr(_basis(omega, at))
         projected = factor.T @ data
-        return data - factor @ projected, basis, factor, np.linalg.solve(triangle, projected)
+        return data - factor @ projected, factor, np.linalg.solve(triangle, projected)
 
     state, damping = left_by(poles), 1e-3
     for _ in range(_ITERATIONS):
-        left, basis, factor, coefficient = state
-        jacobian = _jacobian(omega, data, poles, basis, factor, coefficient)
+        left, factor, coefficient = state
+        jacobian = _jacobian(omega, poles, factor, coefficient)
         size = np.sqrt(np.einsum("ij,ij->j", jacobian, jacobian))
         normal, slope = (jacobian / size).T @ (jacobian / size), (jacobian / size).T @ left.T.ravel()
         before, moved = np.sum(left**2), np.inf
@@ -306,7 +306,7 @@ def _least_squares(omega, data, poles):
                            f"a last step of {moved:.1e} of the frequency", "narrow the band")
 
 
-def _jacobian(omega, data, poles, basis, factor, coefficient):
+def _jacobian(omega, poles, factor, coefficient):
     """(n 2 f, 2 m) derivative of what is left by real, then imaginary parts of the poles, residues following (Kaufman).
     """
     return np.column_stack([-(change - factor @ (factor.T @ change)).T.ravel()

@@ -7,6 +7,8 @@ import scipy
 _OCTAVE = 10**0.3
 #: pole frequencies of the A-weighting [Hz]
 _A_POLES = (20.598997, 107.65265, 737.86223, 12194.217)
+#: sound pressure of 0 dB [Pa] (ISO 1683)
+HEARING = 20e-6
 #: level of silence: a mean square of zero has no logarithm
 LOWEST_LEVEL = -200.0
 
