@@ -2,21 +2,26 @@
 
 import subprocess
 import sys
+from pathlib import Path
 
 import pytest
 
+# The peak is read from /proc: what `getrusage` tells of a child begins at the size of the process that started it.
+STATUS = Path("/proc/self/status")
 RUN = """
-import resource
+import time
+from pathlib import Path
 from pipeline.physics.rupture.history import run
 from tests.physics.small_ruptures import interface, plates
 lower, upper = plates(6.25e-6, length=20e-3, height=5e-3)
 run(lower, upper, interface(lower, upper)[0], 2.02e-6)
-used = resource.getrusage(resource.RUSAGE_SELF)
-print(used.ru_maxrss, used.ru_utime + used.ru_stime)
+peak = next(line for line in Path("/proc/self/status").read_text().splitlines() if line.startswith("VmHWM"))
+print(peak.split()[1], time.process_time())
 """
 
 
 @pytest.mark.slow
+@pytest.mark.skipif(not STATUS.exists(), reason="the peak of memory is read from /proc/self/status")
 def test_the_finest_mesh_fits_into_a_minute_and_a_gigabyte():
     done = subprocess.run([sys.executable, "-c", RUN], capture_output=True, text=True, check=True)
     kilobytes, seconds = map(float, done.stdout.split())
