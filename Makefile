@@ -48,7 +48,7 @@ test-kernels: $(READY)  ## tests sensitive to rounding, with the kernels of othe
 		$(BIN)/python -m pytest -q -rs -m "not slow" -n auto --dist loadfile $(ARGS) $(ROUNDING) || exit 1; done
 
 test-slow: $(READY)  ## slow tests: full cases, kill and resume in every stage
-	$(BIN)/python -m pytest -q -m "slow and not study" $(ARGS) $(TESTS)
+	$(BIN)/python -m pytest -q -m "slow and not study" -n auto --dist worksteal $(ARGS) $(TESTS)
 
 test-study: $(READY)  ## long diagnoses: every kind of case, samples of the studies
 	$(BIN)/python -m pytest -q -m study $(ARGS) $(TESTS)
