@@ -4,8 +4,9 @@ what is left."""
 from dataclasses import dataclass
 from typing import Any, Protocol
 
+from pipeline.inference.diagnosis import Diagnosis, Settings
 from pipeline.inference.problem import Hypothesis, Motions, Problem
-from pipeline.inference.procedure import Diagnosis, Settings, diagnose
+from pipeline.inference.procedure import diagnose
 
 
 class Locator(Protocol):

@@ -9,8 +9,8 @@ from pipeline.diagnosis.published.harmonics import Harmonics
 from pipeline.diagnosis.published.mode_table import ModeTable
 from pipeline.diagnosis.published.squeal_frequencies import SquealLines
 from pipeline.diagnosis.rules import RulesSection, rules_stated
+from pipeline.inference.diagnosis import Settings as ProcedureSettings
 from pipeline.inference.priors import HalfNormal, LogNormal, Normal, Parameter, Uniform
-from pipeline.inference.procedure import Settings as ProcedureSettings
 
 
 class Prior(Section):

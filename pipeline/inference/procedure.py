@@ -8,112 +8,25 @@ A null hypothesis that has not converged lets every candidate win: it is refitte
 that lacks physics may have no smooth optimum at all: then a candidate counts only where it goes far below the null.
 """
 
-from dataclasses import dataclass, field, replace
-from typing import Optional
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from pipeline.contract.errors import BrakechainError, ConvergenceError
 from pipeline.inference import several
 from pipeline.inference.decision import other_form, second_effect, several_laws
-from pipeline.inference.decision.decision_rules import Decision
-from pipeline.inference.decision.weighing import Weighing, weigh
-from pipeline.inference.fitting.calibration import Calibration, recalibrate
+from pipeline.inference.diagnosis import Settings, decided, reaches_noise
+from pipeline.inference.fitting import tone_starts
+from pipeline.inference.fitting.calibration import recalibrate
 from pipeline.inference.fitting.fit_state import linearised
 from pipeline.inference.fitting.least_squares import continued
 from pipeline.inference.fitting.refitted import NOT_BEGUN
-from pipeline.inference.fitting.refitting import Refits, Refitter, refit_catalogue, refit_from
+from pipeline.inference.fitting.refitting import Refitter, refit_catalogue, refit_from
 from pipeline.inference.problem import FanOut, Problem
-from pipeline.inference.rules import DEFAULTS, Rules
 from pipeline.inference.search.score_screen import screen_catalogue
 
 #: share of the best candidate's gain at which another one tells that its place matters
 _FELT = 0.05
-
-
-@dataclass(frozen=True)
-class Settings:
-    """``kept``: candidates refitted after the screen; ``starts``: latent values tried; ``draws``, ``seed`` of nulls.
-
-    ``tied_seconds``: whether second effects that cannot be distinguished complete a first one all the same.
-    """
-
-    kept: int = 8
-    starts: tuple = (-1.0, 0.0, 1.0)
-    draws: int = 20000
-    seed: int = 0
-    rules: Rules = DEFAULTS
-    tied_seconds: bool = False
-
-
-@dataclass(frozen=True)
-class Diagnosis:
-    """What the steps came to: the ``calibration``, the ``weighing`` of a screened and refitted catalogue, the decision.
-
-    ``base``: the Diagnosis that came before a pair, whose nominal hypothesis takes the first effect as known, or before
-    a set of several, which takes all but one as known; ``refits``: what was weighed. ``further``: what was tried beside
-    the leading effect and did not matter, if anything. ``combinations``: the several Combinations that were tried;
-    ``laws``: how many were fitted as one set; ``objected`` {law: why it is of another form}.
-    """
-
-    calibration: Calibration
-    weighing: Weighing
-    decision: Decision
-    base: Optional["Diagnosis"] = None
-    refits: Refits | None = None
-    further: Optional["Diagnosis"] = None
-    combinations: tuple = ()
-    laws: int = 1
-    objected: dict = field(default_factory=dict)
-
-    @property
-    def nominal(self):
-        """The hypothesis that was taken as known."""
-        return self.calibration.problem.nominal
-
-    @property
-    def null(self):
-        """The Fit of the nominal hypothesis."""
-        return self.calibration.null
-
-    @property
-    def recalibrated(self):
-        """The Fit of the nominal model of the case, without what a pair takes as known."""
-        return (self.base or self).null
-
-    @property
-    def weighed(self):
-        """The refitted candidates, best first."""
-        return self.weighing.weighed
-
-    @property
-    def screen(self):
-        return self.weighing.evidences.screen
-
-    @property
-    def weights(self):
-        """Weights (runs,) of the log-likelihoods."""
-        return self.weighing.evidences.weights
-
-    @property
-    def posterior(self):
-        return self.weighing.posterior
-
-    @property
-    def failures(self):
-        return self.weighing.failures
-
-    @property
-    def named(self):
-        """The refitted candidates that the decision names."""
-        names = [c.name for c in self.decision.named]
-        return tuple(w for w in self.weighed if w.candidate.name in names)
-
-    @property
-    def completed(self):
-        """The Fit of the model that the decision completes: that of its first named hypothesis, else the nominal."""
-        names = [c.name for c in self.decision.named]
-        return next((w.fit for name in names for w in self.weighed if w.candidate.name == name), self.null)
 
 
 def diagnose(problem, budget, catalogue, settings=None, fan_out=map, motions=None):
@@ -159,15 +72,15 @@ class Asked:
         refits = refit_catalogue(screening, simple, settings, fan_out, beside_a_first=second)
         if refits.overtake(calibration):
             return self._from(refits.calibration, base)
-        decided = _decided(refits, settings, base)
-        if len(simple) == len(self.catalogue) or _reaches_noise(decided, settings.rules):
-            return refits, decided
+        told = decided(refits, settings, base)
+        if len(simple) == len(self.catalogue) or reaches_noise(told, settings.rules):
+            return refits, told
         catalogue = (*simple, *_where_felt(self.catalogue[len(simple):], simple, screening.screen, refits))
         screening = screen_catalogue(refits.calibration, catalogue, settings, fan_out, second, refits.directions)
         refits = refit_catalogue(screening, catalogue, settings, fan_out, refits.results, second)
         if refits.overtake(calibration):
             return self._from(refits.calibration, base)
-        return refits, _decided(refits, settings, base)
+        return refits, decided(refits, settings, base)
 
     def given(self, known):
         """The same with Hypotheses ``known`` taken as known."""
@@ -179,7 +92,7 @@ class Asked:
     def along(self, single, motions):
         """The Diagnosis of several laws, selected along Motions, or ``single``; what motions do not show in pairs."""
         rules, best = self.settings.rules, next((w.fit for w in single.named), None)
-        if best is not None and (_reaches_noise(single, rules)
+        if best is not None and (reaches_noise(single, rules)
                                  or not second_effect.has_room(best, best.betters(single.null), rules)):
             return single
         selection = several.along_motions(single.null, self.catalogue, motions, rules.decision, self.fan_out)
@@ -187,7 +100,7 @@ class Asked:
             return self.pairs(single, self.catalogue)
         if selection.left > rules.decision.along_motions:
             pair = self.pairs(single, self.catalogue)
-            if pair.base is not None and _reaches_noise(pair, rules):
+            if pair.base is not None and reaches_noise(pair, rules):
                 return pair
         best = self.together(single, selection)
         unseen = tuple(c for i, c in enumerate(self.catalogue) if i not in selection.judged)
@@ -227,9 +140,8 @@ class Asked:
         names = tuple(c.name for c in (*known, last))
         tried = next((c for c in selection.tried if set(c.effects) == set(names)), several.Combination(names, 0.0))
         asked = self.given(known)
-        begins = {asked.catalogue.index(last): selection.start(members)}
         try:
-            calibration, results = asked.begun_together(single.null, selection.start(members[:-1]), begins)
+            calibration, results = asked.begun_together(single.null, selection.start(members), last)
             fit = next((r.fit for r in results.values()), None)
             if fit is None:
                 return None, replace(tried, outcome=NOT_BEGUN.failure), True
@@ -237,35 +149,40 @@ class Asked:
             tried = replace(tried, objective=fit.objective, held_out=error)
             if left > self.settings.rules.decision.unexplained:
                 return None, replace(tried, outcome=f"together they leave {left:.0%} of the excess error"), False
-            whole, why = asked.named_together(single, calibration, results, (*known, last))
+            whole, why = asked.named_together(single, calibration, results, known)
         except BrakechainError as error:
             return None, replace(tried, outcome=str(error)), True
-        return whole, replace(tried, outcome=why or "named"), True
+        if whole is None:
+            return None, replace(tried, outcome=why), True
+        named = (*names[:-1], *(w.candidate.name for w in whole.named))
+        return whole, replace(tried, effects=named, outcome="named"), True
 
-    def begun_together(self, null, start, begins):
-        """(Calibration of the laws that are taken as known, from latent values ``start``; {index: Refitted} of one more
-        law from ``begins`` {index: latent values}); ``null``: Fit of the nominal model alone."""
-        problem, rules = self.problem, self.settings.rules
-        begin = linearised(problem, null.noises, problem.nominal, start, null.runs)
+    def begun_together(self, null, start, last):
+        """(Calibration of the laws that are taken as known, {index: Refitted} of one more, the Hypothesis ``last``)
+        from latent values ``start`` of all; ``null``: Fit of the nominal model alone."""
+        problem, rules, size = self.problem, self.settings.rules, len(last.parameters)
+        begin = linearised(problem, null.noises, problem.nominal, start[:-size], null.runs)
         calibration = recalibrate(problem, self.budget, rules.calibration, continued(problem, begin, patient=False))
         refitter = Refitter.about(calibration, self.catalogue, self.settings, self.fan_out)
-        return calibration, refitter.better({}, begins)
+        return calibration, refitter.best_begun({}, {self.catalogue.index(last): [
+            start, *tone_starts.starts(problem, calibration.null, last)]})
 
-    def named_together(self, single, calibration, results, members):
-        """(Diagnosis that names the last of ``members`` (Hypotheses) beside the others or None, why there is none);
-        ``results`` {index: Refitted} of that."""
-        rules, last = self.settings.rules.decision, members[-1]
+    def named_together(self, single, calibration, results, known):
+        """(Diagnosis that names one more law beside those ``known`` (Hypotheses) or None, why there is none).
+
+        ``results`` {index: Refitted} of the one that was selected; what it imitates is weighed too.
+        """
+        rules = self.settings.rules.decision
         screening = screen_catalogue(calibration, self.catalogue, self.settings, self.fan_out, True)
         refits = refit_from(screening, self.catalogue, results, self.settings, self.fan_out)
-        whole = _decided(refits, self.settings, single, len(members))
-        weighed = next((w for w in whole.weighed if w.candidate.name == last.name), None)
-        if weighed is None:
-            return None, NOT_BEGUN.failure
-        if whole.decision.verdict not in second_effect.NAMING or weighed not in whole.named:
+        whole = decided(refits, self.settings, single, len(known) + 1)
+        if whole.decision.verdict != "missing":
             return None, "; ".join(whole.decision.reasons[:2])
         if second_effect.better_alone(single, whole):
             return None, f"{single.named[0].candidate.name} alone has more evidence"
-        reasons = several_laws.unneeded(self.problem, self.budget, single.null, whole.null, weighed.fit, members, rules)
+        first = whole.named[0]
+        reasons = several_laws.unneeded(self.problem, self.budget, single.null, whole.null, first.fit,
+                                        (*known, first.candidate), rules)
         return (None if reasons else whole), "; ".join(reasons)
 
     def pairs(self, single, seconds):
@@ -284,6 +201,7 @@ class Asked:
         rules, explained = self.settings.rules, first.fit.betters(single.null)
         if not second_effect.has_room(first.fit, explained, rules):
             return None, False
+        seconds = second_effect.beside(first.candidate, seconds)
         asked = replace(self, catalogue=seconds).given([first.refined])
         try:
             _, pair = asked.steps(first.fit, single)
@@ -292,7 +210,7 @@ class Asked:
         if not second_effect.matters(pair, explained, rules):
             return pair, False
         starts = second_effect.starts_without(first, pair, single)
-        alone = _decided(single.refits.begun_anew(starts), self.settings, single.base)
+        alone = decided(single.refits.begun_anew(starts), self.settings, single.base)
         dispensable = alone.decision.verdict in second_effect.NAMING and not second_effect.remains(first, pair, rules)
         return (alone if dispensable or second_effect.better_alone(alone, pair) else pair), True
 
@@ -315,17 +233,6 @@ class Asked:
         return replace(told, decision=replace(told.decision, reasons=(*told.decision.reasons, why))) if why else told
 
 
-def _reaches_noise(diagnosis, rules):
-    """Whether a Diagnosis leaves nothing to explain: the nominal model, or a candidate, reaches the noise on all runs.
-    """
-    def reaches(weighed):
-        statistics = weighed.statistics
-        return (weighed.fit.reaches_noise(rules.decision.noise_uncertainty) and not statistics.unexplained
-                and statistics.held_out_left <= rules.decision.held_out_left)
-
-    return diagnosis.decision.verdict in ("consistent", "parameters") or any(map(reaches, diagnosis.weighed))
-
-
 def _where_felt(elaborate, simple, screen, refits):
     """Those of the ``elaborate`` candidates that act where a simple one matters: it scores, or its refit explains, a
     share of what the best does."""
@@ -340,49 +247,6 @@ def _where_felt(elaborate, simple, screen, refits):
         if gains[i] >= _FELT * most or explained.get(i, -1.0) >= _FELT * best:
             felt |= places(candidate)
     return tuple(c for c in elaborate if places(c) & felt)
-
-
-def _decided(refits, settings, base, laws=1):
-    """Diagnosis of Refits, the last of so many ``laws``. ConvergenceError where nothing is missing but nothing
-    converged."""
-    weighing, decision = _weighed(refits, settings, base and base.null, laws)
-    null = refits.calibration.null
-    if not null.converged and decision.verdict in ("consistent", "parameters"):
-        raise ConvergenceError(f"calibration of {null.hypothesis.name}", "a fit that converges",
-                               f"none after {null.evaluations} predictions", "check the nominal values and priors")
-    return Diagnosis(refits.calibration, weighing, decision, base, refits, laws=laws)
-
-
-def _weighed(refits, settings, null, laws, objected=None):
-    """(Weighing, Decision) of Refits, laws ``objected`` to {name: why}; of a set of ``laws`` together, as it stands
-    beside the Fit ``null``."""
-    settings = several_laws.allowing(settings, laws)
-    weighing, calibration = weigh(refits, settings), refits.calibration
-    if laws > 1:
-        weighing = several_laws.against(null, calibration.problem, calibration.budget, weighing, settings.rules)
-    weighing = weighing.objected(objected or {})
-    return weighing, weighing.decided(settings.rules)
-
-
-@dataclass(frozen=True)
-class VerdictAtNoise:
-    """What the decision would be if noise were ``factor`` times what is stated: its ``verdict`` and whom it ``named``.
-    """
-
-    factor: float
-    verdict: str
-    named: tuple
-
-
-def over_noise(diagnosis, settings, factors):
-    """[VerdictAtNoise] of a Diagnosis, all fitted values as they are: how far the verdict hangs on the level of noise.
-    """
-    told = []
-    for factor in factors:
-        _, decision = _weighed(diagnosis.refits.at_noise(factor), settings, diagnosis.recalibrated.at_noise(factor),
-                               diagnosis.laws, diagnosis.objected)
-        told.append(VerdictAtNoise(float(factor), decision.verdict, tuple(c.name for c in decision.named)))
-    return told
 
 
 def _tied_pair(problem, budget, catalogue, settings, fan_out, single):

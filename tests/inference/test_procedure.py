@@ -10,10 +10,11 @@ import numpy as np
 import pytest
 
 from pipeline.contract.errors import ConvergenceError
+from pipeline.inference.diagnosis import Settings
 from pipeline.inference.fitting.noise import budget
 from pipeline.inference.priors import Normal, Parameter
 from pipeline.inference.problem import Hypothesis
-from pipeline.inference.procedure import Settings, _where_felt, diagnose, over_noise
+from pipeline.inference.procedure import _where_felt, diagnose
 from pipeline.inference.rules import DEFAULTS
 from pipeline.inference.search import score_screen
 from tests.inference import linear
@@ -69,17 +70,6 @@ def test_the_verdict_is_right(truth, verdict, named, noise):
         best, = told.named
         true = {"cubic": ("cubic_stiffness", 1.5e4), "coulomb": ("friction_force", 0.6)}[named[0]]
         assert abs(best.fit.values[true[0]] - true[1]) < 4 * best.fit.spread(told.weights)[true[0]]
-
-
-def test_a_verdict_that_hangs_on_the_level_of_noise_says_so():
-    """Friction beside a spring that pulsates is named only where noise would hide the rest."""
-    problem = bench(5, 0.02, stiffness=430.0, extra=lambda t, x, v: coulomb(t, x, v) + 8.0 * np.sin(9.0 * t) * x)
-    settings = Settings()
-    told = diagnose(problem, budget(problem), CATALOGUE, settings)
-    same, louder = over_noise(told, settings, (1.0, 4.0))
-    assert (same.verdict, same.named) == (told.decision.verdict, tuple(c.name for c in told.decision.named))
-    assert (told.decision.verdict, told.decision.leading.name) == ("unknown", "coulomb")
-    assert (louder.verdict, louder.named) == ("missing", ("coulomb",))
 
 
 def test_two_effects_are_found_one_after_the_other():

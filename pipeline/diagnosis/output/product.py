@@ -10,9 +10,9 @@ from pipeline.diagnosis.problem import label, split_name
 from pipeline.diagnosis.signals.localisation import stage_of
 from pipeline.inference.decision.candidate_statistics import unexplained
 from pipeline.inference.decision.held_out import errors
+from pipeline.inference.diagnosis import over_noise
 from pipeline.inference.fitting.noise import normalised_error
 from pipeline.inference.fitting.parameter_drift import spread
-from pipeline.inference.procedure import over_noise
 from pipeline.products import DiagnosedRun, Diagnosis, Follows, LatentForce, LatentPrediction, Located, SquealCheck
 
 #: models that are compared, in the order of the tables

@@ -16,11 +16,11 @@ import scipy
 from pipeline.contract import ConfigError
 from pipeline.diagnosis.problem import DiagnosisProblem, label, nominal, parameter_name
 from pipeline.diagnosis.rules import DEFAULTS, ListRules
+from pipeline.inference.diagnosis import Settings
 from pipeline.inference.fitting.fit_state import whitened
 from pipeline.inference.fitting.noise import budget
 from pipeline.inference.priors import HalfNormal, Parameter
 from pipeline.inference.problem import Hypothesis, Observed, Problem
-from pipeline.inference.procedure import Settings
 from pipeline.inference.search.localisation import Location, holm
 
 #: the parameter of every alternative, and the one nominal value that lists of frequencies may have

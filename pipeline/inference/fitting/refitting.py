@@ -76,9 +76,13 @@ def refit_catalogue(screening, catalogue, settings, fan_out, results=None, besid
 
 
 def refit_from(screening, catalogue, results, settings, fan_out):
-    """Refits of the candidates that have ``results`` {index: Refitted} alone, and of what outshines them."""
+    """Refits of the candidates that have ``results`` {index: Refitted} alone, of what outshines them, and, where they
+    explain enough, of what moves as they do."""
     refitter = Refitter.about(screening.calibration, catalogue, settings, fan_out)
-    return Refits(screening.calibration, screening.directions, refitter.with_overlooked(screening, results), refitter)
+    results = refitter.with_overlooked(screening, results)
+    if refitter.explained(results):
+        results = refitter.with_imitators(results, screening.screen.start)
+    return Refits(screening.calibration, screening.directions, refitter.settled(results), refitter)
 
 
 @dataclass(frozen=True)
@@ -205,9 +209,9 @@ class Refitter:
     def better(self, results, starts, enough=np.inf):
         """{index: Refitted} with fits begun at the latent values ``starts`` {index: (k,)}, where they are better; those
         are given up that do not come down to ``enough``."""
-        return self._best_begun(results, {i: [start] for i, start in starts.items()}, enough)
+        return self.best_begun(results, {i: [start] for i, start in starts.items()}, enough)
 
-    def _best_begun(self, results, starts, enough=np.inf):
+    def best_begun(self, results, starts, enough=np.inf):
         """The same from the best of several latent values each, ``starts`` {index: [(k,)]}."""
         begins = {i: tried(self.problem, self.null, self.catalogue[i], each, ())[0]
                   for i, each in starts.items() if each}
@@ -255,7 +259,7 @@ class Refitter:
         """Results with the candidate ``top`` begun in other shapes, as where few sliders slip one after the other."""
         size, fit = len(self.null.latent), results[top].fit
         others = reshaped(self.catalogue[top], fit.latent[size:])
-        return self._best_begun(results, {top: [np.concatenate((fit.latent[:size], own)) for own in others]})
+        return self.best_begun(results, {top: [np.concatenate((fit.latent[:size], own)) for own in others]})
 
     def _at_its_end(self, fit):
         return fit.converged and (fit.strict or fit.unordered

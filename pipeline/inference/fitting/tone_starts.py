@@ -38,7 +38,8 @@ def tone_of(candidate):
 
 
 def standing_out(fit, count=_TRIED):
-    """Frequencies (up to ``count``,) in Hz of the largest peaks in the spectrum of what a Fit leaves, over all runs."""
+    """Frequencies (up to ``count``,) in Hz of the largest peaks in the spectrum of what a Fit leaves, over all runs,
+    between its ordinates by a parabola."""
     ordered = [(run.rate, part) for run, noise, white in zip(fit.runs, fit.noises, fit.residuals, strict=True)
                if noise.ordered and run.rate for part in noise.over_time(white)]
     if not ordered:
@@ -46,8 +47,11 @@ def standing_out(fit, count=_TRIED):
     length = max(len(part) / rate for rate, part in ordered)
     grid = np.arange(1, int(_FINER * length * min(rate for rate, _ in ordered) / 2)) / (_FINER * length)
     power = sum(_power(part, rate, grid) for rate, part in ordered)
-    peaks, _ = scipy.signal.find_peaks(np.concatenate(([0.0], power, [0.0])), distance=_FINER)
-    return grid[peaks - 1][np.argsort(-power[peaks - 1])[:count]]
+    padded = np.concatenate(([0.0], power, [0.0]))
+    peaks, _ = scipy.signal.find_peaks(padded, distance=_FINER)
+    peaks = peaks[np.argsort(-padded[peaks])[:count]]
+    before, at, after = (padded[peaks + k] for k in (-1, 0, 1))
+    return grid[peaks - 1] + (grid[1] - grid[0]) * 0.5 * (after - before) / np.maximum(2 * at - before - after, 1e-300)
 
 
 def _power(part, rate, grid):

@@ -56,6 +56,11 @@ class Directions:
         """The directions whitened by noise ``factor`` times as large."""
         return replace(self, vectors=self.vectors / factor)
 
+    def with_those_of(self, other):
+        """The directions beside those of ``other`` Directions of the same candidate."""
+        return replace(self, vectors=np.concatenate((self.vectors, other.vectors)), tried=self.tried + other.tried,
+                       sign=np.concatenate((self.sign, other.sign)), failure=self.failure and other.failure)
+
 
 @dataclass(frozen=True)
 class Screen:

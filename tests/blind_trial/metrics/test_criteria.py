@@ -4,8 +4,9 @@ import numpy as np
 import pytest
 
 from pipeline.blind_trial.metrics.criteria import VISIBLE, class_of, judged, same
+from pipeline.inference.diagnosis import Settings
 from pipeline.inference.fitting.fit_state import orthogonal
-from pipeline.inference.procedure import Settings, diagnose
+from pipeline.inference.procedure import diagnose
 from tests.inference import linear
 
 COULOMB, CUBIC, SHIFTED = ("coulomb", "link_1"), ("cubic_stiffness", "link_0"), ("coulomb", "link_0")

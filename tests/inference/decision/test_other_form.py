@@ -8,11 +8,12 @@ import pytest
 
 from pipeline.inference.decision import other_form
 from pipeline.inference.decision.other_form import largest_shifted, left_along, objection
+from pipeline.inference.diagnosis import Settings, over_noise
 from pipeline.inference.fitting.fit_state import linearised
 from pipeline.inference.fitting.least_squares import continued
 from pipeline.inference.fitting.noise import budget
 from pipeline.inference.problem import Hypothesis
-from pipeline.inference.procedure import Settings, diagnose, over_noise
+from pipeline.inference.procedure import diagnose
 from pipeline.inference.rules import DEFAULTS
 from tests.inference import linear
 from tests.inference.oscillator import CATALOGUE, bench

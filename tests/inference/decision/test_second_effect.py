@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 
 from pipeline.inference.decision import second_effect
-from pipeline.inference.procedure import Settings, diagnose
+from pipeline.inference.diagnosis import Settings
+from pipeline.inference.procedure import diagnose
 from pipeline.inference.rules import DEFAULTS
 from tests.inference import linear
 
@@ -22,6 +23,14 @@ def solved():
 def test_the_named_effect_leads(solved):
     single, _ = solved
     assert [w.candidate.name for w in second_effect.leading(single, DEFAULTS)] == ["effect_1"]
+
+
+def test_no_faulty_sensor_is_second_to_another(solved):
+    """Gains of two sensors shrink all data, which leaves less without explaining anything."""
+    first, second = solved[1]
+    as_sensor = replace(second, kind="sensor")
+    assert second_effect.beside(first, (second, as_sensor)) == (second, as_sensor)
+    assert second_effect.beside(replace(first, kind="sensor"), (second, as_sensor)) == (second,)
 
 
 def test_a_fit_at_the_noise_leaves_room_only_for_what_the_noise_may_hide(solved):

@@ -5,8 +5,8 @@ from dataclasses import replace
 import pytest
 
 from pipeline.inference.decision import several_laws
+from pipeline.inference.diagnosis import Settings
 from pipeline.inference.fitting.least_squares import fit
-from pipeline.inference.procedure import Settings
 from pipeline.inference.rules import DEFAULTS
 from tests.inference import linear
 

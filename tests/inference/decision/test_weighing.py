@@ -5,10 +5,10 @@ import pytest
 
 from pipeline.inference.decision.evidence import evidence, screened
 from pipeline.inference.decision.weighing import _without_mere_extensions, evidence_of_all, weigh
+from pipeline.inference.diagnosis import Settings
 from pipeline.inference.fitting.calibration import recalibrate
 from pipeline.inference.fitting.refitting import refit_catalogue
 from pipeline.inference.problem import Hypothesis
-from pipeline.inference.procedure import Settings
 from pipeline.inference.rules import DEFAULTS
 from pipeline.inference.search.score_screen import screen_catalogue
 from tests.inference import linear

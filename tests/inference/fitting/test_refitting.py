@@ -6,13 +6,14 @@ import numpy as np
 import pytest
 
 from pipeline.inference import procedure
+from pipeline.inference.diagnosis import Settings
 from pipeline.inference.fitting import begins, refitting
 from pipeline.inference.fitting.calibration import calibrate
 from pipeline.inference.fitting.fit_state import linearised
 from pipeline.inference.fitting.noise import budget
 from pipeline.inference.fitting.refitted import NOT_BEGUN, Refitted
 from pipeline.inference.fitting.refitting import Refitter
-from pipeline.inference.procedure import Settings, diagnose
+from pipeline.inference.procedure import diagnose
 from pipeline.inference.rules import DEFAULTS
 from tests.inference import resonance
 from tests.inference.oscillator import CATALOGUE, bench

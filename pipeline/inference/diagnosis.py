@@ -1,0 +1,151 @@
+"""What a diagnosis comes to: how its refits are weighed and decided, and how far that hangs on the level of noise."""
+
+from dataclasses import dataclass, field
+from typing import Optional
+
+from pipeline.contract.errors import ConvergenceError
+from pipeline.inference.decision import several_laws
+from pipeline.inference.decision.decision_rules import Decision
+from pipeline.inference.decision.weighing import Weighing, weigh
+from pipeline.inference.fitting.calibration import Calibration
+from pipeline.inference.fitting.refitting import Refits
+from pipeline.inference.rules import DEFAULTS, Rules
+
+
+@dataclass(frozen=True)
+class Settings:
+    """``kept``: candidates refitted after the screen; ``starts``: latent values tried; ``draws``, ``seed`` of nulls.
+
+    ``tied_seconds``: whether second effects that cannot be distinguished complete a first one all the same.
+    """
+
+    kept: int = 8
+    starts: tuple = (-1.0, 0.0, 1.0)
+    draws: int = 20000
+    seed: int = 0
+    rules: Rules = DEFAULTS
+    tied_seconds: bool = False
+
+
+@dataclass(frozen=True)
+class Diagnosis:
+    """What the steps came to: the ``calibration``, the ``weighing`` of a screened and refitted catalogue, the decision.
+
+    ``base``: the Diagnosis that came before a pair, whose nominal hypothesis takes the first effect as known, or before
+    a set of several, which takes all but one as known; ``refits``: what was weighed. ``further``: what was tried beside
+    the leading effect and did not matter, if anything. ``combinations``: the several Combinations that were tried;
+    ``laws``: how many were fitted as one set; ``objected`` {law: why it is of another form}.
+    """
+
+    calibration: Calibration
+    weighing: Weighing
+    decision: Decision
+    base: Optional["Diagnosis"] = None
+    refits: Refits | None = None
+    further: Optional["Diagnosis"] = None
+    combinations: tuple = ()
+    laws: int = 1
+    objected: dict = field(default_factory=dict)
+
+    @property
+    def nominal(self):
+        """The hypothesis that was taken as known."""
+        return self.calibration.problem.nominal
+
+    @property
+    def null(self):
+        """The Fit of the nominal hypothesis."""
+        return self.calibration.null
+
+    @property
+    def recalibrated(self):
+        """The Fit of the nominal model of the case, without what a pair takes as known."""
+        return (self.base or self).null
+
+    @property
+    def weighed(self):
+        """The refitted candidates, best first."""
+        return self.weighing.weighed
+
+    @property
+    def screen(self):
+        return self.weighing.evidences.screen
+
+    @property
+    def weights(self):
+        """Weights (runs,) of the log-likelihoods."""
+        return self.weighing.evidences.weights
+
+    @property
+    def posterior(self):
+        return self.weighing.posterior
+
+    @property
+    def failures(self):
+        return self.weighing.failures
+
+    @property
+    def named(self):
+        """The refitted candidates that the decision names."""
+        names = [c.name for c in self.decision.named]
+        return tuple(w for w in self.weighed if w.candidate.name in names)
+
+    @property
+    def completed(self):
+        """The Fit of the model that the decision completes: that of its first named hypothesis, else the nominal."""
+        names = [c.name for c in self.decision.named]
+        return next((w.fit for name in names for w in self.weighed if w.candidate.name == name), self.null)
+
+
+def decided(refits, settings, base, laws=1):
+    """Diagnosis of Refits, the last of so many ``laws``. ConvergenceError where nothing is missing but nothing
+    converged."""
+    weighing, decision = _weighed(refits, settings, base and base.null, laws)
+    null = refits.calibration.null
+    if not null.converged and decision.verdict in ("consistent", "parameters"):
+        raise ConvergenceError(f"calibration of {null.hypothesis.name}", "a fit that converges",
+                               f"none after {null.evaluations} predictions", "check the nominal values and priors")
+    return Diagnosis(refits.calibration, weighing, decision, base, refits, laws=laws)
+
+
+def _weighed(refits, settings, null, laws, objected=None):
+    """(Weighing, Decision) of Refits, laws ``objected`` to {name: why}; of a set of ``laws`` together, as it stands
+    beside the Fit ``null``."""
+    settings = several_laws.allowing(settings, laws)
+    weighing, calibration = weigh(refits, settings), refits.calibration
+    if laws > 1:
+        weighing = several_laws.against(null, calibration.problem, calibration.budget, weighing, settings.rules)
+    weighing = weighing.objected(objected or {})
+    return weighing, weighing.decided(settings.rules)
+
+
+@dataclass(frozen=True)
+class VerdictAtNoise:
+    """What the decision would be if noise were ``factor`` times what is stated: its ``verdict`` and whom it ``named``.
+    """
+
+    factor: float
+    verdict: str
+    named: tuple
+
+
+def over_noise(diagnosis, settings, factors):
+    """[VerdictAtNoise] of a Diagnosis, all fitted values as they are: how far the verdict hangs on the level of noise.
+    """
+    told = []
+    for factor in factors:
+        _, decision = _weighed(diagnosis.refits.at_noise(factor), settings, diagnosis.recalibrated.at_noise(factor),
+                               diagnosis.laws, diagnosis.objected)
+        told.append(VerdictAtNoise(float(factor), decision.verdict, tuple(c.name for c in decision.named)))
+    return told
+
+
+def reaches_noise(diagnosis, rules):
+    """Whether a Diagnosis leaves nothing to explain: the nominal model, or a candidate, reaches the noise on all runs.
+    """
+    def reaches(weighed):
+        statistics = weighed.statistics
+        return (weighed.fit.reaches_noise(rules.decision.noise_uncertainty) and not statistics.unexplained
+                and statistics.held_out_left <= rules.decision.held_out_left)
+
+    return diagnosis.decision.verdict in ("consistent", "parameters") or any(map(reaches, diagnosis.weighed))
