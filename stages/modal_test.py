@@ -1,18 +1,18 @@
 """Stage modal_test: modes from measured frequency responses."""
 
+from dataclasses import replace
 from functools import partial
 
 import numpy as np
 
 from pipeline.contract import ConfigError, Context, ConvergenceError, Quantity, Section, option, stage
 from pipeline.physics.modal.frf_identification import identify
-from pipeline.products import ModalTest, Recording, TestModes
+from pipeline.products import ModalTest, ResponseFunctions, TestModes
 
 
 class Settings(Section):
     """Band and orders of the identification."""
 
-    runs: tuple[str, ...] = option((), "runs to analyse; none = all that hold frequency responses")
     lowest_frequency: Quantity("Hz", ge=0) | None = option(None, "begin of the band; none = that of the responses")
     highest_frequency: Quantity("Hz", gt=0) | None = option(None, "end of the band; none = that of the responses")
     band: Quantity("Hz", gt=0) = option("1 kHz", "the band is taken in parts of about this width, which overlap")
@@ -30,7 +30,7 @@ _ALIKE = 0.5
 
 
 @stage
-def modal_test(recording: Recording, settings: Settings, context: Context) -> ModalTest:
+def modal_test(responses: ResponseFunctions, settings: Settings, context: Context) -> ModalTest:
     """Identify natural frequencies, damping and shapes from measured frequency responses, with their uncertainty.
 
     Method:
@@ -38,41 +38,30 @@ def modal_test(recording: Recording, settings: Settings, context: Context) -> Mo
     order to order, in parts of the band of {band}; those that came back were refined together with their residues by
     weighted least squares over all responses. Modes whose residues do not exceed four standard deviations were left
     out, and poles added or split where more than noise was left. Standard deviations are those of the least squares,
-    the noise of each response being what is left of it.
+    the noise of each response being what is left of it. What windows of blows and correlations add is taken off the
+    decay rates.
     """
-    strange = sorted(set(settings.runs) - set(recording.runs))
-    if strange:
-        raise ConfigError("modal_test.runs", f"some of {', '.join(recording.runs)}", ", ".join(strange))
-    chosen = {name: run for name, run in recording.runs.items()
-              if run.frf and (not settings.runs or name in settings.runs)}
-    if not chosen:
-        raise ConfigError("modal_test", "a run with frequency responses", f"none in {', '.join(recording.runs)}",
-                          "records of force and response are not turned into frequency responses yet")
-    return ModalTest(runs={name: _modes(name, run, settings, context) for name, run in chosen.items()})
+    return ModalTest(runs={name: _modes(name, test, settings, context) for name, test in responses.tests.items()})
 
 
-def _modes(name, run, settings, context):
-    """TestModes of one run."""
-    where = f"modal_test: {name}"
-    axes = {tuple(np.round(f.frequency, 9)) for f in run.frf.values()}
-    if len(axes) > 1:
-        raise ConfigError(where, "frequency responses on one frequency axis", f"{len(axes)} axes")
-    axis = np.asarray(next(iter(run.frf.values())).frequency, float)
+def _modes(name, test, settings, context):
+    """TestModes of the TestResponses of one test."""
+    where, axis, response = f"modal_test: {name}", test.line, test.response
     low = axis[axis > 0.0][0] if settings.lowest_frequency is None else settings.lowest_frequency
     high = axis[-1] if settings.highest_frequency is None else settings.highest_frequency
     if not low < high or np.count_nonzero((axis >= low) & (axis <= high)) < _LEAST:
         raise ConfigError(where, f"{_LEAST} or more lines between {low:g} and {high:g} Hz",
                           f"{np.count_nonzero((axis >= low) & (axis <= high))} of {len(axis)}, {axis[0]:g} to"
                           f" {axis[-1]:g} Hz")
-    response = np.array([f.response for f in run.frf.values()])
-    dead = [key for key, row in zip(run.frf, response, strict=True) if not np.any(row)]
+    dead = [str(key) for key, row in zip(test.label, response, strict=True) if not np.any(row)]
     if dead:
         raise ConfigError(where, "responses that are not 0 all over", ", ".join(dead), "leave them out of the file")
     parts = _parts(axis, response, low, high, settings.band)
     found = context.map(partial(_identified, axis=axis, response=response, most=settings.order), parts,
                         f"modes of {name}")
+    free = [replace(one, pole=one.pole + test.decay) for one in found]
     kept = [(one, one.frequency >= first, one.frequency < last) for one, (first, last, *_) in zip(
-        found, parts, strict=True)]
+        free, parts, strict=True)]
     fields = ("frequency", "frequency_std", "damping_ratio", "damping_ratio_std", "residue", "residue_std")
     modes = {field: np.concatenate([getattr(one, field)[above & below] for one, above, below in kept])
              for field in fields}
@@ -80,9 +69,9 @@ def _modes(name, run, settings, context):
     return TestModes(
         **{field: modes[field] for field in fields[:4]},
         partner=_partners(modes["frequency"], _likeness(modes["residue"]), settings.pair_within),
-        place=[str(f.place) or key for key, f in run.frf.items()],
-        reference=[str(f.reference) for f in run.frf.values()], shape=modes["residue"], shape_std=modes["residue_std"],
-        likeness=_likeness(modes["residue"]), **_fit(axis, response, inside, found, parts), **_diagram(kept, parts))
+        place=list(test.place), reference=list(test.reference), shape=modes["residue"],
+        shape_std=modes["residue_std"], likeness=_likeness(modes["residue"]),
+        **_fit(axis, response, inside, found, parts), **_diagram(kept, parts, float(test.decay)))
 
 
 def _parts(axis, response, low, high, width):
@@ -144,16 +133,17 @@ def _fit(axis, response, inside, found, parts):
             "noise": left / np.maximum(size, 1e-300)}
 
 
-def _diagram(kept, parts):
-    """Fields of the stabilisation diagrams of all parts, the modes numbered through."""
+def _diagram(kept, parts, decay):
+    """Fields of the stabilisation diagrams of all parts, the modes numbered through; ``decay`` 1/s is the window's."""
     rows, number = [], 0
     for (one, above, below), (first, last, *_) in zip(kept, parts, strict=True):
         renumbered = np.full(len(one.pole) + 1, -1)
         renumbered[:-1][above & below] = number + np.arange(np.count_nonzero(above & below))
         number += np.count_nonzero(above & below)
-        diagram, size = one.stabilisation, abs(one.stabilisation.pole) / (2 * np.pi)
+        diagram, pole = one.stabilisation, one.stabilisation.pole + decay
+        size = abs(pole) / (2 * np.pi)
         own = (size >= first) & (size < last)
-        rows.append((diagram.order[own], size[own], (-diagram.pole.real / abs(diagram.pole))[own],
+        rows.append((diagram.order[own], size[own], (-pole.real / abs(pole))[own],
                      diagram.stable[own].astype(int), renumbered[diagram.chosen[own]]))
     names = ("order", "pole_frequency", "pole_damping", "stable", "chosen")
     return {name: np.concatenate(column) for name, column in zip(names, zip(*rows, strict=True), strict=True)}

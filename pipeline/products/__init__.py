@@ -43,8 +43,10 @@ from pipeline.products.recording import (
     MeasuredModes,
     ModalTest,
     Recording,
+    ResponseFunctions,
     Run,
     TestModes,
+    TestResponses,
     Topography,
 )
 from pipeline.products.rupture import Rupture
@@ -57,5 +59,5 @@ __all__ = ["BeamGeometry", "BeamOnBeam", "Bench", "BenchRun", "Body", "Channel",
            "Condition", "Convergence", "DiagnosedRun", "Diagnosis", "Effects", "Follows", "FrequencyResponse", "FrictionDescriptions",
            "FrictionMap", "FrictionOverTemperature", "FrictionUpdate", "Incidence", "InterfaceLaw", "LatentForce", "LatentPrediction", "LimitCycle", "LineEvidence", "Lines", "Located", "LockIn",
            "Lumped", "MeasuredFriction", "MeasuredModes", "MicroFriction", "ModalTest", "MotionScatter", "Multibody", "NoiseEvents", "PinOnDisc", "Probability",
-           "Recording", "ReducedModel", "Report", "Response", "Run", "Rupture", "Spectrogram", "Squeal", "SquealCheck", "Structure", "Surface", "TestModes", "Topography",
+           "Recording", "ReducedModel", "Report", "Response", "ResponseFunctions", "Run", "Rupture", "Spectrogram", "Squeal", "SquealCheck", "Structure", "Surface", "TestModes", "TestResponses", "Topography",
            "Transient"]

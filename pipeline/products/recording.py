@@ -113,6 +113,30 @@ class Recording:
 
 
 @product(version=1)
+class TestResponses:
+    """Frequency responses of one test, given or estimated from records, on one frequency axis."""
+
+    line: Array = quantity("Hz", "line", "frequency axis")
+    response: Array = quantity("1", "function line", "responses per reference, each in its own unit", complex)
+    coherence: Array = quantity("1", "known line", "multiple coherence of each response; none where it is not known")
+    label: Array = text("function", "channel of each response, or name of the function in the file")
+    unit: Array = text("function", "its unit, e.g. m/s^2/N")
+    place: Array = text("function", "location and direction of the response")
+    reference: Array = text("function", "location and direction of the reference")
+    method: Array = text("", "given, blows, lasting force, motions alone, or several of these")
+    averages: Array = count("record", "segments or blows of each record, 0 where given")
+    left_out: Array = text("blow", "blows that were left out, when and why")
+    decay: Array = quantity("1/s", "", "what windows add to every decay rate")
+
+
+@product(version=1)
+class ResponseFunctions:
+    """Frequency responses of every test of a recording."""
+
+    tests: dict[str, TestResponses] = parts("by run, or of all runs together", empty=True)
+
+
+@product(version=1)
 class TestModes:
     """Modes that the frequency responses of one run hold."""
 

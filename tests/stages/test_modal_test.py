@@ -1,11 +1,15 @@
 """Stage modal_test on frequency responses of a disc."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from pipeline.contract import ConfigError
-from pipeline.products import FrequencyResponse, Recording, Run
+from pipeline.products import FrequencyResponse, Recording, ResponseFunctions, Run
 from stages.modal_test import Settings, modal_test
+from stages.response_functions import Settings as ResponseSettings
+from stages.response_functions import response_functions
 from tests.physics.modal.test_frf_identification import disc, noisy, responses
 
 LINE = np.arange(0.0, 2500.1, 0.5)
@@ -20,9 +24,13 @@ def recorded(line=LINE, **runs):
                                       "stop": Run(description="", repeat_of="")} | runs)
 
 
+def given(recording, **settings):
+    return response_functions(recording, settings=ResponseSettings(**settings))
+
+
 @pytest.fixture(scope="module")
 def result():
-    return modal_test(recorded(), settings=Settings(highest_frequency="2.2 kHz")).runs
+    return modal_test(given(recorded()), settings=Settings(highest_frequency="2.2 kHz")).runs
 
 
 def test_modes_of_all_parts_of_the_band_once(result):
@@ -48,26 +56,33 @@ def test_what_is_left_is_the_noise(result):
     assert np.all(np.diag(modes.likeness) == pytest.approx(1)) and modes.likeness[0, 1] < 0.1
 
 
-@pytest.mark.parametrize("settings, told", [
-    ({"runs": ["hamer"]}, "modal_test.runs: expected some of hammer, stop, found hamer"),
-    ({"runs": ["stop"]}, "a run with frequency responses, found none"),
-    ({"lowest_frequency": "3 kHz"}, "64 or more lines between 3000 and 2500 Hz")])
-def test_what_holds_no_responses_is_refused(settings, told):
-    with pytest.raises(ConfigError, match=told):
-        modal_test(recorded(), settings=Settings(**settings))
-
-
-def test_responses_on_unlike_axes_are_refused():
-    other = FrequencyResponse(frequency=np.arange(100.0), response=np.ones(100), unit="1", place="", reference="")
-    mixed = Run(description="", repeat_of="", frf=recorded().runs["hammer"].frf | {"other": other})
-    with pytest.raises(ConfigError, match="frequency responses on one frequency axis, found 2 axes"):
-        modal_test(Recording(source=[], runs={"mixed": mixed}), settings=Settings())
+def test_a_band_without_lines_is_refused():
+    with pytest.raises(ConfigError, match="64 or more lines between 3000 and 2500 Hz"):
+        modal_test(given(recorded()), settings=Settings(lowest_frequency="3 kHz"))
 
 
 def test_a_dead_response_is_named_and_coarse_ones_are_taken():
     whole = recorded().runs["hammer"].frf
     dead = whole | {"p3": FrequencyResponse(frequency=LINE, response=0 * LINE, unit="m/s^2/N", place="", reference="")}
     with pytest.raises(ConfigError, match="responses that are not 0 all over, found p3"):
-        modal_test(Recording(source=[], runs={"a": Run(description="", repeat_of="", frf=dead)}), settings=Settings())
-    coarse = modal_test(recorded(np.arange(0.0, 2500.1, 12.5)), settings=Settings())
+        modal_test(given(Recording(source=[], runs={"a": Run(description="", repeat_of="", frf=dead)})),
+                   settings=Settings())
+    coarse = modal_test(given(recorded(np.arange(0.0, 2500.1, 12.5))), settings=Settings())
     assert len(coarse.runs["hammer"].line) == 200
+
+
+def test_what_windows_add_is_taken_off_the_decay_rates():
+    """Responses at i w + r, as blows under exp(-r t) give them."""
+    decay, natural = 3.0, 2 * np.pi * FREQUENCY
+    laplace = 2j * np.pi * LINE + decay
+    modal = 1.0 / (natural[:, None] ** 2 + laplace**2 + 2 * (DAMPING * natural)[:, None] * laplace)
+    shown = np.einsum("mo,mf->of", SHAPE * SHAPE[:, :1], modal)
+    whole = given(recorded()).tests["hammer"]
+    shown = noisy(shown, 0.002, np.random.default_rng(5))
+    tests = ResponseFunctions(tests={"blows": replace(whole, response=shown, decay=decay)})
+    modes = modal_test(tests, settings=Settings(highest_frequency="2.2 kHz")).runs["blows"]
+    assert np.all(abs(modes.damping_ratio - 1e-3) < 4 * modes.damping_ratio_std)
+    np.testing.assert_allclose(modes.damping_ratio, 1e-3, rtol=0.03)
+    np.testing.assert_allclose(modes.frequency, np.sort(FREQUENCY), rtol=2e-5)
+    chosen = modes.chosen >= 0
+    assert np.median(modes.pole_damping[chosen]) == pytest.approx(1e-3, rel=0.05)

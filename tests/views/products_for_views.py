@@ -27,12 +27,14 @@ from pipeline.products import (
     Probability,
     ReducedModel,
     Response,
+    ResponseFunctions,
     Rupture,
     Spectrogram,
     Squeal,
     Structure,
     Surface,
     TestModes,
+    TestResponses,
     Transient,
 )
 
@@ -129,6 +131,17 @@ def modal_test(empty=False):
         pole_damping=np.full(len(order), 2e-3), stable=np.full(len(order), int(not empty)),
         chosen=np.resize(np.arange(count) if count else [-1], len(order)))
     return ModalTest(runs={"hammer": modes})
+
+
+def response_functions(known=True):
+    """Two blows with a third left out, or responses as a file gives them."""
+    line = np.linspace(0, 2000, 200)
+    response = np.array([1e-6 * (1 + k) / (1 + 1j * (line - 800) / 20) for k in range(4)])
+    return ResponseFunctions(tests={"hammer": TestResponses(
+        line=line, response=response, coherence=np.full((4, 200), 0.98) if known else np.empty((0, 200)),
+        label=[f"x_{k}" for k in range(4)], unit=["m/N"] * 4, place=[f"node {k} direction 3" for k in range(4)],
+        reference=["node 0 direction 3"] * 4, method="blows" if known else "given", averages=[2 if known else 0],
+        left_out=["2.1 s: struck twice"] if known else [], decay=3.5 if known else 0.0)})
 
 
 def noise_events(quiet=False):

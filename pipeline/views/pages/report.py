@@ -23,6 +23,7 @@ from pipeline.views.chapters.bench import (
     modal_test,
     noise_events,
     recording,
+    response_functions,
 )
 from pipeline.views.chapters.chapter import Figure
 from pipeline.views.chapters.models import beam_on_beam, lock_in, lumped, rupture, transient
@@ -60,6 +61,7 @@ CHAPTERS = {
     "rupture": (rupture.chapter, ()),
     "recording": (recording.chapter, ()),
     "noise_events": (noise_events.chapter, ()),
+    "response_functions": (response_functions.chapter, ()),
     "modal_test": (modal_test.chapter, ()),
     "line_evidence": (line_evidence.chapter, ()),
     "friction_update": (measured_friction.chapter, ()),

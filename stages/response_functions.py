@@ -1,0 +1,214 @@
+"""Stage response_functions: frequency responses, from universal files or estimated from records."""
+
+from functools import partial
+from typing import Literal
+
+import numpy as np
+
+from pipeline.contract import ConfigError, Context, Quantity, Section, option, stage
+from pipeline.physics.signals import frequency_response as estimate
+from pipeline.products import Recording, ResponseFunctions, TestResponses
+
+#: methods, and how the page calls them
+METHODS = {"blows": "blows", "lasting_force": "lasting force", "motions_alone": "motions alone"}
+
+
+class Settings(Section):
+    """Which records are a modal test, and how its responses are estimated."""
+
+    runs: tuple[str, ...] = option((), "runs of the test; none = all that hold frequency responses, else all")
+    together: bool = option(False, "the runs are one test: a hammer at one place after the other, or sensors moved on")
+    method: Literal["auto", *METHODS] = option("auto", "blows of a hammer, a lasting force, motions alone; auto: as the"
+                                               " channels of force show")
+    force: tuple[str, ...] = option((), "channels of force; none = all that measure one")
+    motion: tuple[str, ...] = option((), "channels of motion; none = all displacements, velocities and accelerations")
+    references: tuple[str, ...] = option((), "motions that all are correlated with where no force is measured; none ="
+                                             " the one that moves most")
+    resolution: Quantity("Hz", gt=0) | None = option(None, "distance of the lines; none = 16 segments of the record,"
+                                                     " of motions alone a tenth of it; of blows it follows from them")
+    rebound: Quantity("s", gt=0) = option("100 ms", "a second pulse within this time makes it a blow struck twice")
+
+
+_FORCE, _MOTIONS = "N", ("m", "m/s", "m/s^2", "rad", "rad/s", "rad/s^2")
+#: lines of a test of motions alone: its record is so many times longer than the inverse of their distance
+_LONGER = 10
+
+
+@stage
+def response_functions(recording: Recording, settings: Settings, context: Context) -> ResponseFunctions:
+    """Take frequency responses from the recording, or estimate them from records of force and motion.
+
+    Method:
+    Under a lasting force H1 = S_xf / S_ff over Hann segments, half overlapped, with the multiple coherence of all
+    forces. Of blows of a hammer each is cut out up to the next one, its force zero beside its pulse, and both signals
+    weighed by exp(-r t) where the motion does not decay by itself; r is taken off the decay rates again. Blows struck
+    twice within {rebound}, clipped or cut off are left out. Without a measured force correlation functions with the
+    references stand for the responses: their poles are those of the structure under a wide-band force, and its
+    harmonics, where it has some, look like modes without damping.
+    """
+    strange = sorted(set(settings.runs) - set(recording.runs))
+    if strange:
+        raise ConfigError("response_functions.runs", f"some of {', '.join(recording.runs)}", ", ".join(strange))
+    chosen = settings.runs or [name for name, run in recording.runs.items() if run.frf] or list(recording.runs)
+    items = [(name, recording.runs[name]) for name in chosen]
+    tests = context.map(partial(_of_run, settings=settings), items, "frequency responses")
+    if settings.together and len(tests) > 1:
+        if any(str(one.method) == METHODS["blows"] for one in tests):
+            tests = context.map(partial(_of_run, settings=settings, window=_common_window(tests)), items, "one window")
+        return ResponseFunctions(tests={"all": _joined(dict(zip(chosen, tests, strict=True)))})
+    return ResponseFunctions(tests=dict(zip(chosen, tests, strict=True)))
+
+
+def _common_window(tests):
+    """(Samples that every blow of several TestResponses has, largest decay in 1/s)."""
+    blows = [one for one in tests if str(one.method) == METHODS["blows"]]
+    return 2 * (min(len(one.line) for one in blows) - 1), max(float(one.decay) for one in blows)
+
+
+def _of_run(item, settings, window=(None, None)):
+    """TestResponses of one run (name, Run); ``window`` (samples, decay in 1/s) of blows."""
+    name, run = item
+    where = f"response_functions: {name}"
+    if run.frf:
+        return _given(where, run)
+    forces = _channels(where, run, settings.force, (_FORCE,), "force")
+    motions = _channels(where, run, settings.motion, _MOTIONS, "motion")
+    method = settings.method
+    if method == "auto":
+        blows = len(forces) == 1 and estimate.of_blows_alone(_samples(forces)[0])
+        method = "motions_alone" if not forces else "blows" if blows else "lasting_force"
+    if not motions or (not forces and method != "motions_alone"):
+        raise ConfigError(where, "frequency responses, or channels of motion" + " and of force" * bool(motions),
+                          ", ".join(f"{key} in {one.unit}" for key, one in run.channels.items()) or "no channel",
+                          "name them in response_functions.motion and .force, or choose other runs")
+    rate = _one_grid(where, {**forces, **motions})
+    if method == "motions_alone":
+        return _from_motions(where, motions, settings, rate)
+    found = _estimated(where, method, forces, motions, settings, rate, window)
+    keys = [(motion, force) for motion in motions for force in forces]
+    return TestResponses(
+        line=found.frequency, response=found.response.reshape(len(keys), -1),
+        coherence=np.empty((0, len(found.frequency))) if found.coherence is None else found.coherence,
+        label=[motion if len(forces) == 1 else f"{motion} to {force}" for motion, force in keys],
+        unit=[f"{motions[motion].unit}/{_FORCE}" for motion, _ in keys],
+        place=[_place(motion, motions[motion]) for motion, _ in keys],
+        reference=[_place(force, forces[force]) for _, force in keys], method=METHODS[method],
+        averages=[found.averages], left_out=[f"{time:.4g} s: {why}" for time, why in found.left_out],
+        decay=found.decay)
+
+
+def _estimated(where, method, forces, motions, settings, rate, window):
+    """Estimated of a run with measured forces."""
+    try:
+        if method == "lasting_force":
+            return estimate.from_lasting_forces(_samples(forces), _samples(motions), rate, settings.resolution)
+        if len(forces) > 1:
+            raise ConfigError("blows", "one channel of force", ", ".join(forces), "name it in response_functions.force")
+        return estimate.from_blows(_samples(forces)[0], _samples(motions), rate, settings.rebound, *window)
+    except ConfigError as error:
+        raise _within(where, error) from None
+
+
+def _from_motions(where, motions, settings, rate):
+    samples, names = _samples(motions), list(motions)
+    strange = sorted(set(settings.references) - set(names))
+    if strange:
+        raise ConfigError("response_functions.references", f"channels of motion: {', '.join(names)}",
+                          ", ".join(strange))
+    references = settings.references or (names[int(samples.std(axis=1).argmax())],)
+    resolution = settings.resolution or _LONGER * rate / samples.shape[1]
+    try:
+        found = estimate.from_motions(samples, [names.index(r) for r in references], rate, resolution)
+    except ConfigError as error:
+        raise _within(where, error) from None
+    keys = [(motion, reference) for motion in names for reference in references]
+    return TestResponses(
+        line=found.frequency, response=found.response.reshape(len(keys), -1),
+        coherence=np.empty((0, len(found.frequency))),
+        label=[motion if len(references) == 1 else f"{motion} with {reference}" for motion, reference in keys],
+        unit=[f"{motions[motion].unit}*{motions[reference].unit}*s" for motion, reference in keys],
+        place=[_place(motion, motions[motion]) for motion, _ in keys],
+        reference=[_place(reference, motions[reference]) for _, reference in keys], method=METHODS["motions_alone"],
+        averages=[found.averages], left_out=[], decay=found.decay)
+
+
+def _within(where, error):
+    """A ConfigError of an estimate with the run that it is about."""
+    return ConfigError(f"{where}: {error.where}", error.expected, error.found, error.remedy)
+
+
+def _given(where, run):
+    """TestResponses of the frequency responses that a run holds."""
+    axes = {tuple(np.round(f.frequency, 9)) for f in run.frf.values()}
+    if len(axes) > 1:
+        raise ConfigError(where, "frequency responses on one frequency axis", f"{len(axes)} axes")
+    line = np.asarray(next(iter(run.frf.values())).frequency, float)
+    return TestResponses(
+        line=line, response=np.array([f.response for f in run.frf.values()]), coherence=np.empty((0, len(line))),
+        label=list(run.frf), unit=[str(f.unit) for f in run.frf.values()],
+        place=[str(f.place) or key for key, f in run.frf.items()],
+        reference=[str(f.reference) for f in run.frf.values()], method="given", averages=[0], left_out=[], decay=0.0)
+
+
+def _channels(where, run, asked, units, kind):
+    """{name: Channel} of a run in one of the ``units``: those ``asked`` for, or all."""
+    strange = [name for name in asked if name not in run.channels]
+    if strange:
+        raise ConfigError(f"response_functions.{kind}", f"channels of {where.rpartition(' ')[2]}:"
+                          f" {', '.join(run.channels)}", ", ".join(strange))
+    found = {name: one for name, one in run.channels.items() if str(one.unit) in units and (not asked or name in asked)}
+    wrong = [f"{name} in {run.channels[name].unit}" for name in asked if name not in found]
+    if wrong:
+        raise ConfigError(f"response_functions.{kind}", f"channels in {' or '.join(units)}", ", ".join(wrong))
+    return found
+
+
+def _one_grid(where, channels):
+    """The sampling rate of channels that were sampled together, without gaps."""
+    grids = {(float(one.rate), float(one.begin), len(one.samples)) for one in channels.values()}
+    if len(grids) > 1:
+        raise ConfigError(where, "force and motion sampled at the same instants",
+                          f"{len(grids)} different rates, begins or lengths", "name channels that were")
+    holes = [name for name, one in channels.items() if len(one.missing)]
+    if holes:
+        raise ConfigError(where, "records without gaps", f"gaps in {', '.join(holes)}",
+                          "cut the record into runs beside them, or leave the channel out")
+    return next(iter(grids))[0]
+
+
+def _samples(channels):
+    return np.array([np.asarray(one.samples, float) for one in channels.values()])
+
+
+def _place(name, one):
+    """The place of a channel as it is told, and its direction along an axis, as universal files have it."""
+    direction = np.asarray(one.direction, float)
+    axis = int(np.argmax(abs(direction))) if direction.size else -1
+    along = f" direction {'-' * bool(direction[axis] < 0)}{axis + 1}" if direction.size and np.isclose(
+        abs(direction[axis]), 1.0) else ""
+    return (str(one.place) or name) + along
+
+
+def _joined(tests):
+    """TestResponses of several tests on one frequency axis, the axis of the shortest common one."""
+    every = list(tests.values())
+    grids = {(len(one.line), round(float(one.line[1] - one.line[0]), 9)) for one in every}
+    decays = np.array([one.decay for one in every])
+    if len(grids) > 1:
+        raise ConfigError("response_functions.together", "runs on one frequency axis", f"{len(grids)} axes",
+                          "cut the blows to one length, or state a resolution")
+    if np.ptp(decays) > 1e-9:
+        raise ConfigError("response_functions.together", "runs with one window", f"decays of {decays.min():.3g} to"
+                          f" {decays.max():.3g} 1/s")
+    coherence = [one.coherence for one in every]
+
+    def listed(field):
+        return [str(value) for one in every for value in getattr(one, field)]
+
+    return TestResponses(
+        line=every[0].line, response=np.concatenate([one.response for one in every]),
+        coherence=np.concatenate(coherence), unit=listed("unit"), place=listed("place"),
+        reference=listed("reference"), label=[f"{run}: {label}" for run, one in tests.items() for label in one.label],
+        method=", ".join(dict.fromkeys(str(one.method) for one in every)), decay=decays[0],
+        averages=np.concatenate([one.averages for one in every]),
+        left_out=[f"{run}, {told}" for run, one in tests.items() for told in one.left_out])
