@@ -65,7 +65,8 @@ class Hypothesis:
 
     ``kind``: ``physics``, ``sensor`` (the measurement) or ``numerics`` (the solver). ``forbidden``: a constraint on
     fitted values; priors already keep single signs. ``elaborate``: weighed only where simpler ones leave something.
-    ``extends``: names of hypotheses that it has as limits, beside which it counts by what it adds to them.
+    ``extends``: names of hypotheses that it has as limits, beside which it counts by what it adds to them; no two of
+    such a family act together.
     ``halvings``: how many times the time step of the forward model is halved, where its error would matter (see
     ``fitting.step_error``).
     """
@@ -114,6 +115,11 @@ class Hypothesis:
     def moves(self, run):
         """True (k,) for parameters that may change the prediction of the run of this name."""
         return np.array([p.run in ("", run) for p in self.parameters], dtype=bool)
+
+    def excludes(self, other):
+        """Whether the two are one law or more of one family: one is the other's limit, or they share a limit."""
+        own, others = {self.name, *self.extends}, {other.name, *other.extends}
+        return bool(own & others)
 
     def joined(self, other):
         """Both together, named by their effects."""

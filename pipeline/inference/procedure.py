@@ -84,7 +84,7 @@ class Asked:
 
     def given(self, known):
         """The same with Hypotheses ``known`` taken as known."""
-        problem, rest = self.problem, tuple(c for c in self.catalogue if c.name not in [k.name for k in known])
+        problem, rest = self.problem, tuple(c for c in self.catalogue if not any(map(c.excludes, known)))
         for candidate in known:
             problem = problem.given(candidate)
         return replace(self, problem=problem, catalogue=rest)

@@ -13,11 +13,10 @@ from itertools import combinations
 import numpy as np
 
 from pipeline.contract.errors import BrakechainError
-from pipeline.inference.fitting import tone_starts
 from pipeline.inference.fitting.fit_state import from_prior_mean
 from pipeline.inference.fitting.least_squares import fit
 from pipeline.inference.problem import Motions
-from pipeline.inference.search.score_screen import directions, scaled
+from pipeline.inference.search.score_screen import directions_with_tones, scaled
 from pipeline.inference.search.subset_selection import best_subsets, left_by, multiplicity, table
 
 
@@ -99,15 +98,8 @@ def along_motions(null, catalogue, motions: Motions, rules, fan_out):
         null = fit(along, null.noises, along.nominal, null.latent, along.runs)
     except BrakechainError:
         return None
-    every = tuple(fan_out(partial(_directions_along, along, null), catalogue))
+    every = tuple(fan_out(partial(directions_with_tones, along, null), catalogue))
     return _selected(null, _of_physics(every, catalogue), catalogue, rules, along)
-
-
-def _directions_along(along, null, candidate):
-    """Directions of a candidate, those of a tone also at the frequencies and phases that stand out of what is left."""
-    found, size = directions(along, null, candidate), len(null.latent)
-    shapes = [start[size:][candidate.shaping] for start in tone_starts.starts(along, null, candidate)]
-    return found.with_those_of(directions(along, null, candidate, shapes)) if shapes else found
 
 
 def linearised_about(null, every, catalogue, rules):

@@ -23,6 +23,14 @@ def test_hypotheses_join_their_effects_and_parameters():
     assert NOMINAL.joined(CATALOGUE[-1]).kind == "sensor"
 
 
+def test_laws_of_one_family_exclude_each_other():
+    dry, lugre, dahl, spring = (Hypothesis(name, extends=extends) for name, extends in (
+        ("coulomb at a", ()), ("lugre at a", ("dahl at a", "coulomb at a")), ("dahl at a", ("coulomb at a",)),
+        ("cubic at a", ())))
+    assert all(one.excludes(other) for one in (dry, lugre, dahl) for other in (dry, lugre, dahl))
+    assert not spring.excludes(dry) and not dry.excludes(Hypothesis("lugre at b", extends=("coulomb at b",)))
+
+
 def test_missing_samples_may_hold_anything_and_count_as_nothing():
     holed = run("a", samples=np.array([[1.0, np.nan, 2.0, 3.0]]), valid=np.array([[True, False, True, True]]))
     assert holed.samples[0, 1] == 0.0 and holed.valid.sum() == 3

@@ -9,14 +9,12 @@ import pytest
 from pipeline.contract.errors import ConvergenceError
 from pipeline.inference import several
 from pipeline.inference.diagnosis import Settings
-from pipeline.inference.fitting.fit_state import from_prior_mean, linearised
+from pipeline.inference.fitting.fit_state import linearised
 from pipeline.inference.problem import Problem
 from pipeline.inference.procedure import diagnose
 from pipeline.inference.rules import DEFAULTS
 from pipeline.inference.search.score_screen import directions
-from pipeline.inference.search.subset_selection import left_by
 from tests.inference import linear
-from tests.inference.tones import DRAG, RIPPLE, TRUE, null_of
 from tests.studies import several as study
 
 RULES = DEFAULTS.decision
@@ -123,19 +121,3 @@ def test_sensors_are_in_no_set():
         tried = {name for combination in selection.tried for name in combination.effects}
         assert "effect_1" in named(selection, mixed) and "effect_3" not in tried
     assert along.judged == {0, 1, 2, 3, 4} - {[c.name for c in mixed].index("effect_3")}
-
-
-def test_the_directions_of_a_tone_hold_the_one_that_is_there():
-    """Spread over the priors of frequency and phase, they miss it; one that stands out explains nearly all of it."""
-    whole, null = null_of(TRUE)
-    residual, known = np.concatenate(from_prior_mean(null)), np.concatenate(null.jacobians)
-
-    def left(*vectors):
-        return (left_by(np.column_stack((known, *vectors)), residual) ** 2).sum()
-
-    def explained(found):
-        return max(1 - left(vector) / left() for vector in found.vectors)
-
-    assert explained(directions(whole, null, RIPPLE)) < 0.05
-    assert explained(several._directions_along(whole, null, RIPPLE)) > 0.95
-    assert len(several._directions_along(whole, null, DRAG).sign) == len(directions(whole, null, DRAG).sign)

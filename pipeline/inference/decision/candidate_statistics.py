@@ -64,7 +64,8 @@ def candidate_statistics(null, null_evidence, candidate, fit, evidence, posterio
         unfinished(fit, null, rules.evidence) + fit.excluded(LATENT_LIMIT - 1e-6),
         powered, float(max(judged.share, 0.0)), float(judged.left(uncertainty)),
         max(-gained.value, 0.0) / max(fit.explains(null), 1e-300) if gained else 0.0,
-        tuple(_varying(fit, [k for k, _ in added], weights, rules.decision)), gained and gained.error,
+        tuple(_varying(fit, [k for k, _ in added], weights, rules.decision))
+        + tuple(_beside(fit, null, weights, rules.decision)), gained and gained.error,
         candidate.kind == "physics" and bool(candidate.shaping) and not fit.unordered)
 
 
@@ -76,12 +77,18 @@ def _shaped(fit, null, candidate):
     return [np.sqrt(fit.weights.max() * max(fit.betters(null), 0.0))]
 
 
-def _varying(fit, indices, weights, rules):
+def _varying(fit, indices, weights, rules, whose="its value"):
     """What values of an effect follow along the runs, in words."""
     for one in (one for k in indices for one in followed(fit, k, weights)):
         if one.deviate > rules.varies and abs(one.change) > rules.varies_by:
-            yield (f"its value follows {one.what} along the runs, by {abs(one.change):.0%} ({one.deviate:.1f} standard"
+            yield (f"{whose} follows {one.what} along the runs, by {abs(one.change):.0%} ({one.deviate:.1f} standard"
                    " deviations): a law of another form")
+
+
+def _beside(fit, null, weights, rules):
+    """The same of the effects that the nominal hypothesis takes as known."""
+    for k in null.hypothesis.sizes:
+        yield from _varying(fit, [k], weights, rules, f"{fit.hypothesis.parameters[k].name}, beside it,")
 
 
 def _everywhere(gained, null, fit):

@@ -107,7 +107,7 @@ def weigh(refits, settings):
     evidences = evidence_of_all(null, refits.directions, fits, settings, failures)
     count, weights = len(refits.directions), evidences.weights
     counted = _without_mere_extensions(evidences.log_evidence, [d.candidate for d in refits.directions], fits,
-                                       settings.rules.decision.evidence_gain)
+                                       settings.rules.decision)
     probability = posterior(counted, cautious_prior(count))
     held_out = held_out_gains(problem, budget, null, fits, probability[1:], settings.rules)
     drifting = drift(null, weights, seed=settings.seed)
@@ -125,14 +125,16 @@ def weigh(refits, settings):
     return Weighing(runs, tuple(every), probability, evidences, drifting, failures)
 
 
-def _without_mere_extensions(log_evidence, candidates, fits, margin):
-    """Log evidence (1 + candidates,), -inf of those that extend a refitted one without a gain of ``margin`` over it.
+def _without_mere_extensions(log_evidence, candidates, fits, rules):
+    """Log evidence (1 + candidates,), -inf of those that extend a refitted one without a gain over it that matters.
 
-    With another value or two a law fits as well as its limit does: that is no rival of it.
+    With another value or two a law fits as well as its limit does: that is no rival of it. What it adds must exceed
+    chance, and, as a second law beside the limit, what numerics of that may be wrong by.
     """
     index, counted = {c.name: i for i, c in enumerate(candidates)}, log_evidence.copy()
     for i, candidate in enumerate(candidates):
         limits = [log_evidence[1 + index[name]] for name in candidate.extends if index.get(name) in fits]
-        if limits and log_evidence[1 + i] < max(limits) + margin:
+        best = max(limits, default=-np.inf)
+        if log_evidence[1 + i] < best + max(rules.evidence_gain, rules.second_at_noise * (best - log_evidence[0])):
             counted[1 + i] = -np.inf
     return counted

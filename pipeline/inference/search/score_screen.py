@@ -15,6 +15,7 @@ from itertools import product
 
 import numpy as np
 
+from pipeline.inference.fitting import tone_starts
 from pipeline.inference.fitting.calibration import Calibration
 from pipeline.inference.fitting.fit_state import from_prior_mean, orthogonal, whitened
 from pipeline.inference.rules import DEFAULTS
@@ -156,6 +157,14 @@ def directions(problem, null, candidate, shapes=None, steps=STEPS):
         best = [int(np.argmin(((base - vectors) ** 2).sum(axis=1)))]
         vectors, signs, tried = vectors[best], [signs[i] for i in best], [tried[i] for i in best]
     return Directions(candidate, vectors, np.array(signs, int), tuple(tried), "" if len(vectors) else failure)
+
+
+def directions_with_tones(problem, null, candidate):
+    """Directions of one candidate, those of a tone also at the frequencies and phases that stand out of what the Fit
+    ``null`` leaves."""
+    found, size = directions(problem, null, candidate), len(null.latent)
+    shapes = [start[size:][candidate.shaping] for start in tone_starts.starts(problem, null, candidate)]
+    return found.with_those_of(directions(problem, null, candidate, shapes)) if shapes else found
 
 
 def screen(null, every, weights=None, draws=DRAWS, seed=0, rules=DEFAULTS.screening):

@@ -33,7 +33,8 @@ class Table:
     """Gram matrix ``gram`` (q, q) and projections ``score`` (q,) of directions, ``owner`` (q,) their candidates.
 
     ``sign`` (q,): +1 or -1 where a coefficient has one sign, else 0; ``tried`` (q,) latent values of the effects'
-    parameters, ``index`` (q,) of the direction among all; ``count`` n of candidates; ``weights`` (runs,) of the runs.
+    parameters, ``index`` (q,) of the direction among all; ``exclusive`` (n, n): which of n candidates are of one
+    family, and never together; ``weights`` (runs,) of the runs.
     """
 
     gram: np.ndarray
@@ -42,8 +43,13 @@ class Table:
     sign: np.ndarray
     tried: tuple
     index: np.ndarray
-    count: int
+    exclusive: np.ndarray
     weights: np.ndarray
+
+    @property
+    def count(self):
+        """Number of candidates."""
+        return len(self.exclusive)
 
     def gain(self, members):
         """(m,) gain in log evidence of subsets ``members`` (m, k) of directions, and (m, k) their coefficients."""
@@ -90,7 +96,11 @@ def table(null, every):
     root = np.sqrt(np.repeat(weights, null.counts))
     cleaned = orthogonal((root * vectors).T, root[:, None] * certain)
     return Table((root * vectors) @ cleaned, cleaned.T @ (root * residual), owner[kept], sign[kept],
-                 tuple(tried[q] for q in kept), kept, len(every), weights)
+                 tuple(tried[q] for q in kept), kept, _exclusive([d.candidate for d in every]), weights)
+
+
+def _exclusive(candidates):
+    return np.array([[one.excludes(other) for other in candidates] for one in candidates], bool)
 
 
 def best_subsets(of, most=MOST, count=8):
@@ -109,10 +119,10 @@ def best_subsets(of, most=MOST, count=8):
 
 
 def _combined(of, directions, size):
-    """(m, size) combinations of ``directions``, no two of one candidate."""
+    """(m, size) combinations of ``directions``, no two of one family of candidates."""
     members = np.array(list(combinations(directions, size)), int).reshape(-1, size)
     owners = of.owner[members]
-    alike = [owners[:, i] == owners[:, k] for i, k in combinations(range(size), 2)]
+    alike = [of.exclusive[owners[:, i], owners[:, k]] for i, k in combinations(range(size), 2)]
     return members[~np.any(alike, axis=0)] if alike and len(members) else members
 
 

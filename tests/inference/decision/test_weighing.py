@@ -58,11 +58,13 @@ def test_the_hidden_effect_is_weighed_first_and_probabilities_sum_to_one():
     assert weighing.weighed[0].statistics.held_out_errors > 3 and weighing.runs.runs == 4
 
 
-@pytest.mark.parametrize("gain, counts", [(0.0, False), (4.9, False), (5.1, True)])
-def test_a_law_that_extends_another_counts_by_what_it_adds(gain, counts):
-    """Margin 5 nat over its limit; a limit that was not refitted, or is none of the candidates, takes nothing away."""
-    limit, law = Hypothesis("limit"), Hypothesis("law", extends=("limit", "elsewhere"))
-    logs = np.array([0.0, 40.0, 40.0 + gain])
-    counted = _without_mere_extensions(logs, [limit, law], {0: None, 1: None}, 5.0)
-    assert list(counted[:2]) == [0.0, 40.0] and counted[2] == (logs[2] if counts else -np.inf)
-    assert np.array_equal(_without_mere_extensions(logs, [limit, law], {1: None}, 5.0), logs)
+@pytest.mark.parametrize("limit, gain, counts", [
+    (40.0, 0.0, False), (40.0, 4.9, False), (40.0, 5.1, True), (2e5, 19.9, False), (2e5, 20.1, True)])
+def test_a_law_that_extends_another_counts_by_what_it_adds(limit, gain, counts):
+    """Margin 5 nat over its limit, or a ten thousandth of what that explains; a limit that was not refitted, or is none
+    of the candidates, takes nothing away."""
+    laws = [Hypothesis("limit"), Hypothesis("law", extends=("limit", "elsewhere"))]
+    logs = 7.0 + np.array([0.0, limit, limit + gain])
+    counted = _without_mere_extensions(logs, laws, {0: None, 1: None}, DEFAULTS.decision)
+    assert list(counted[:2]) == list(logs[:2]) and counted[2] == (logs[2] if counts else -np.inf)
+    assert np.array_equal(_without_mere_extensions(logs, laws, {1: None}, DEFAULTS.decision), logs)

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from scipy import stats
 
+from pipeline.inference.fitting.fit_state import from_prior_mean
 from pipeline.inference.fitting.least_squares import fit
 from pipeline.inference.priors import Factors, HalfNormal, LogNormal, Normal, Parameter, Uniform
 from pipeline.inference.problem import Hypothesis
@@ -13,6 +14,7 @@ from pipeline.inference.search.score_screen import (
     _each_once,
     _trials,
     directions,
+    directions_with_tones,
     faint,
     family_p,
     largest_scores,
@@ -20,7 +22,9 @@ from pipeline.inference.search.score_screen import (
     screen,
     shapes_like,
 )
+from pipeline.inference.search.subset_selection import left_by
 from tests.inference import linear
+from tests.inference.tones import DRAG, RIPPLE, TRUE, null_of
 
 
 def screened(seed=0, sizes=(2, 1, 1, 1), truth=None, draws=2000):
@@ -198,3 +202,19 @@ def test_of_discrete_values_the_one_that_errs_least_is_screened():
     shown = directions(whole, null, Hypothesis("scaled", (("scaled", "here"),), (factor,)))
     assert len(shown.vectors) == 1 and factor.prior.value(shown.tried[0][0]) == pytest.approx(10.0)
     assert screen(null, [shown]).p_value[0] < 1e-3
+
+
+def test_the_directions_of_a_tone_hold_the_one_that_is_there():
+    """Spread over the priors of frequency and phase, they miss it; one that stands out explains nearly all of it."""
+    whole, null = null_of(TRUE)
+    residual, known = np.concatenate(from_prior_mean(null)), np.concatenate(null.jacobians)
+
+    def left(*vectors):
+        return (left_by(np.column_stack((known, *vectors)), residual) ** 2).sum()
+
+    def explained(found):
+        return max(1 - left(vector) / left() for vector in found.vectors)
+
+    assert explained(directions(whole, null, RIPPLE)) < 0.05
+    assert explained(directions_with_tones(whole, null, RIPPLE)) > 0.95
+    assert len(directions_with_tones(whole, null, DRAG).sign) == len(directions(whole, null, DRAG).sign)

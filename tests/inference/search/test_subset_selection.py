@@ -53,6 +53,15 @@ def test_the_three_that_are_there_are_the_best_set():
     assert max(sets, key=lambda s: exact(*dense, s) - log(comb(6, len(s)))) == (0, 2, 3)
 
 
+def test_no_two_of_one_family_are_in_a_set():
+    """Of three that are there two are one law and its limit, or share a limit: one of them is left out."""
+    null, every, *_ = at_null(TRUTH)
+    for extends in ({2: ("effect_1",)}, {0: ("coulomb",), 2: ("coulomb",)}):
+        related = [replace(d, candidate=replace(d.candidate, extends=extends.get(i, ()))) for i, d in enumerate(every)]
+        found = best_subsets(table(null, related))
+        assert len(found[0].owners) >= 2 and all(not {0, 2} <= set(subset.owners) for subset in found)
+
+
 def test_laws_that_explain_only_together_are_a_set():
     """Two directions that all but cancel: each alone explains nothing of their difference."""
     null, every, *_ = at_null({})
