@@ -8,6 +8,7 @@ import numpy as np
 from pipeline.contract import ConfigError, Context, Quantity, Section, option, stage
 from pipeline.physics.signals import frequency_response as estimate
 from pipeline.products import Recording, ResponseFunctions, TestResponses
+from pipeline.recordings.samples import place_of
 
 #: methods, and how the page calls them
 METHODS = {"blows": "blows", "lasting_force": "lasting force", "motions_alone": "motions alone"}
@@ -85,28 +86,39 @@ def _of_run(item, settings, window=(None, None)):
     if method == "motions_alone":
         return _from_motions(where, motions, settings, rate)
     found = _estimated(where, method, forces, motions, settings, rate, window)
-    keys = [(motion, force) for motion in motions for force in forces]
+    return _test(found, METHODS[method], motions, forces, "{motion}/{reference}", "to")
+
+
+def _test(found, method, motions, references, unit, link):
+    """TestResponses of an Estimated of ``motions`` {name: Channel} per ``references``; ``unit`` of both units."""
+    keys = [(motion, reference) for motion in motions for reference in references]
     return TestResponses(
         line=found.frequency, response=found.response.reshape(len(keys), -1),
         coherence=np.empty((0, len(found.frequency))) if found.coherence is None else found.coherence,
-        label=[motion if len(forces) == 1 else f"{motion} to {force}" for motion, force in keys],
-        unit=[f"{motions[motion].unit}/{_FORCE}" for motion, _ in keys],
-        place=[_place(motion, motions[motion]) for motion, _ in keys],
-        reference=[_place(force, forces[force]) for _, force in keys], method=METHODS[method],
+        label=[motion if len(references) == 1 else f"{motion} {link} {reference}" for motion, reference in keys],
+        unit=[unit.format(motion=motions[m].unit, reference=references[r].unit) for m, r in keys],
+        place=[place_of(motion, motions[motion]) for motion, _ in keys],
+        reference=[place_of(reference, references[reference]) for _, reference in keys], method=method,
         averages=[found.averages], left_out=[f"{time:.4g} s: {why}" for time, why in found.left_out],
         decay=found.decay)
 
 
 def _estimated(where, method, forces, motions, settings, rate, window):
     """Estimated of a run with measured forces."""
+    force, motion = _samples(forces), _samples(motions)
+    if method == "lasting_force":
+        return _of(where, estimate.from_lasting_forces, force, motion, rate, settings.resolution)
+    if len(forces) > 1:
+        raise ConfigError(where, "one channel of force", ", ".join(forces), "name it in response_functions.force")
+    return _of(where, estimate.from_blows, force[0], motion, rate, settings.rebound, *window)
+
+
+def _of(where, estimator, *given):
+    """Estimated by an ``estimator``, whose errors say of which run."""
     try:
-        if method == "lasting_force":
-            return estimate.from_lasting_forces(_samples(forces), _samples(motions), rate, settings.resolution)
-        if len(forces) > 1:
-            raise ConfigError("blows", "one channel of force", ", ".join(forces), "name it in response_functions.force")
-        return estimate.from_blows(_samples(forces)[0], _samples(motions), rate, settings.rebound, *window)
+        return estimator(*given)
     except ConfigError as error:
-        raise _within(where, error) from None
+        raise ConfigError(f"{where}: {error.where}", error.expected, error.found, error.remedy) from None
 
 
 def _from_motions(where, motions, settings, rate):
@@ -117,24 +129,9 @@ def _from_motions(where, motions, settings, rate):
                           ", ".join(strange))
     references = settings.references or (names[int(samples.std(axis=1).argmax())],)
     resolution = settings.resolution or _LONGER * rate / samples.shape[1]
-    try:
-        found = estimate.from_motions(samples, [names.index(r) for r in references], rate, resolution)
-    except ConfigError as error:
-        raise _within(where, error) from None
-    keys = [(motion, reference) for motion in names for reference in references]
-    return TestResponses(
-        line=found.frequency, response=found.response.reshape(len(keys), -1),
-        coherence=np.empty((0, len(found.frequency))),
-        label=[motion if len(references) == 1 else f"{motion} with {reference}" for motion, reference in keys],
-        unit=[f"{motions[motion].unit}*{motions[reference].unit}*s" for motion, reference in keys],
-        place=[_place(motion, motions[motion]) for motion, _ in keys],
-        reference=[_place(reference, motions[reference]) for _, reference in keys], method=METHODS["motions_alone"],
-        averages=[found.averages], left_out=[], decay=found.decay)
-
-
-def _within(where, error):
-    """A ConfigError of an estimate with the run that it is about."""
-    return ConfigError(f"{where}: {error.where}", error.expected, error.found, error.remedy)
+    found = _of(where, estimate.from_motions, samples, [names.index(r) for r in references], rate, resolution)
+    return _test(found, METHODS["motions_alone"], motions, {r: motions[r] for r in references},
+                 "{motion}*{reference}*s", "with")
 
 
 def _given(where, run):
@@ -152,14 +149,12 @@ def _given(where, run):
 
 def _channels(where, run, asked, units, kind):
     """{name: Channel} of a run in one of the ``units``: those ``asked`` for, or all."""
-    strange = [name for name in asked if name not in run.channels]
-    if strange:
-        raise ConfigError(f"response_functions.{kind}", f"channels of {where.rpartition(' ')[2]}:"
-                          f" {', '.join(run.channels)}", ", ".join(strange))
     found = {name: one for name, one in run.channels.items() if str(one.unit) in units and (not asked or name in asked)}
-    wrong = [f"{name} in {run.channels[name].unit}" for name in asked if name not in found]
+    wrong = [f"{name} in {run.channels[name].unit}" if name in run.channels else name
+             for name in asked if name not in found]
     if wrong:
-        raise ConfigError(f"response_functions.{kind}", f"channels in {' or '.join(units)}", ", ".join(wrong))
+        raise ConfigError(f"response_functions.{kind}", f"channels of {where.rpartition(' ')[2]} in"
+                          f" {' or '.join(units)}", ", ".join(wrong))
     return found
 
 
@@ -178,15 +173,6 @@ def _one_grid(where, channels):
 
 def _samples(channels):
     return np.array([np.asarray(one.samples, float) for one in channels.values()])
-
-
-def _place(name, one):
-    """The place of a channel as it is told, and its direction along an axis, as universal files have it."""
-    direction = np.asarray(one.direction, float)
-    axis = int(np.argmax(abs(direction))) if direction.size else -1
-    along = f" direction {'-' * bool(direction[axis] < 0)}{axis + 1}" if direction.size and np.isclose(
-        abs(direction[axis]), 1.0) else ""
-    return (str(one.place) or name) + along
 
 
 def _joined(tests):

@@ -32,8 +32,10 @@ QUANTITIES = {"displacement": ("m", "rad"), "position": ("m", "rad"), "velocity"
 GRAVITIES = {"g": 9.80665, "mg": 9.80665e-3, "ug": 9.80665e-6}
 
 #: units as people and programs write them, which pint reads as something else, or not at all
-AS_WRITTEN = {"Nm": "N m", "kNm": "kN m", "Nmm": "N mm", "m/s2": "m/s^2", "mm/s2": "mm/s^2", "U/min": "rpm",
-              "°": "deg"}
+AS_WRITTEN = {"U/min": "rpm", "°": "deg"}
+#: and the same of parts of a unit: torques, accelerations
+_PARTS = ((re.compile(r"(?<![A-Za-z])([kM]?N)(m{1,2})(?![A-Za-z])"), r"(\1 \2)"),
+          (re.compile(r"\b([mu]?m)/s2\b"), r"\1/s^2"))
 _LEVEL = re.compile(r"dB\s+re\s+(?P<value>[\d.]+(e[-+]?\d+)?)\s*(?P<unit>.+)", re.IGNORECASE)
 
 #: unit of a linear quantity -> that of its counterpart about an axis, at a radius of 1 m of one size
@@ -55,6 +57,14 @@ _SPELT = {("deg", "rad"): math.pi / 180, ("rpm", "rad/s"): math.pi / 30,
 _ATOM = re.compile(r"(?P<name>[A-Za-z]+)(\^(?P<power>[23]))?")
 
 
+def as_written(unit):
+    """A unit as files and people write it, as it is read."""
+    unit = AS_WRITTEN.get(unit, unit)
+    for written, read in _PARTS:
+        unit = written.sub(read, unit)
+    return unit
+
+
 def to_si(value, unit, where):
     """Convert ``"12 mm"`` (or a bare number, where ``unit`` is "1") to a float in ``unit``.
 
@@ -70,8 +80,11 @@ def to_si(value, unit, where):
         raise ConfigError(where, expected, repr(value))
     if _STRAY.search(_OF_UNIT.sub("", spelt["unit"])):
         raise ConfigError(where, expected, repr(value), "write one number, with a decimal point, and its unit")
-    plain = _plainly(value.removesuffix(spelt["unit"]), spelt["unit"], unit)
-    return _convert(value, unit, lambda: ConfigError(where, expected, repr(value))) if plain is None else plain
+    number, written = value.removesuffix(spelt["unit"]), as_written(spelt["unit"])
+    plain = _plainly(number, written, unit)
+    if plain is not None:
+        return plain
+    return _convert(f"{number}{written}", unit, lambda: ConfigError(where, expected, repr(value)))
 
 
 def _plainly(number, spelt, unit):
@@ -120,7 +133,7 @@ def in_si(values, unit, where, measures=""):
     """
     import pint
 
-    wanted, unit = QUANTITIES.get(measures, ()), AS_WRITTEN.get(unit, unit)
+    wanted, unit = QUANTITIES.get(measures, ()), as_written(unit)
     if "\N{REPLACEMENT CHARACTER}" in unit:
         raise ConfigError(where, "a unit such as mm/s or kN", repr(unit), "state the unit in the case")
     if unit.startswith("dB"):
@@ -141,6 +154,17 @@ def in_si(values, unit, where, measures=""):
         raise ConfigError(where, f"a unit of {measures}, such as {' or '.join(wanted)}", repr(unit),
                           "correct the unit, or what the channel measures")
     return converted.magnitude, name
+
+
+def quotient_in_si(values, unit, where):
+    """The same of a quotient such as ``mm/s^2/N``, whose parts keep their names: (values, ``m/s^2/N``)."""
+    above, _, below = unit.rpartition("/")
+    whole = in_si(values, unit, where)
+    if not above or below.count("(") != below.count(")") or whole[1] in MEASURED:
+        return whole
+    values, upper = in_si(values, above, where)
+    per, lower = in_si(1.0, below, where)
+    return values / per, f"{upper}/{lower}"
 
 
 def measured_in(unit, where):

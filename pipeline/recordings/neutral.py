@@ -6,7 +6,7 @@ import h5py
 import numpy as np
 
 from pipeline.contract.errors import ConfigError
-from pipeline.contract.units import in_si
+from pipeline.contract.units import in_si, quotient_in_si
 from pipeline.products import (
     Condition,
     FrequencyResponse,
@@ -129,7 +129,7 @@ def _condition(node, where):
 
 
 def _frf(node, where):
-    response, unit = in_si(_array(node, "response", where), _unit(node, where), where)
+    response, unit = quotient_in_si(_array(node, "response", where), _unit(node, where), where)
     return FrequencyResponse(frequency=_array(node, "frequency", where), response=response, unit=unit,
                              place=_text(node, "response"), reference=_text(node, "reference"))
 

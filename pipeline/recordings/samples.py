@@ -122,6 +122,15 @@ def stretch(whole, begin, end, where):
                                                               "role")})
 
 
+def place_of(name, one):
+    """The place of a Channel called ``name``, and its direction along an axis, as universal files have it."""
+    direction = np.asarray(one.direction, float)
+    axis = int(np.argmax(abs(direction))) if direction.size else -1
+    along = f" direction {'-' * bool(direction[axis] < 0)}{axis + 1}" if direction.size and np.isclose(
+        abs(direction[axis]), 1.0) else ""
+    return (str(one.place) or name) + along
+
+
 def _instant(instant):
     return "its end" if instant is None else f"{instant:g} s"
 

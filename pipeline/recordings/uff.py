@@ -9,7 +9,7 @@ from tempfile import TemporaryDirectory
 import numpy as np
 
 from pipeline.contract.errors import ConfigError
-from pipeline.contract.units import QUANTITIES, in_si, measured_in
+from pipeline.contract.units import QUANTITIES, measured_in, quotient_in_si
 from pipeline.products import FrequencyResponse, MeasuredModes
 from pipeline.recordings import waveform
 from pipeline.recordings.samples import channel, even_rate
@@ -20,8 +20,8 @@ TIME, RESPONSE = 1, 4
 #: ordinate codes of data set 58
 QUANTITY = {8: "displacement", 9: "force", 11: "velocity", 12: "acceleration", 13: "force", 15: "pressure",
             21: "pressure", 5: "temperature"}
-#: units as this kind of file writes them, and as they are read: g there is no gram
-SPELT = (re.compile(r"\bg\b"), "g_0"), (re.compile(r"m/s2\b"), "m/s^2"), (re.compile(r"\bNm\b"), "N m")
+#: standard gravity as this kind of file writes it: g there is no gram
+GRAVITY = re.compile(r"\bg\b")
 #: what is read: modes, functions, and the system of units of the file
 READ = (55, 58, 164)
 #: SI units of quantities, and the powers of length and force in them, for files whose units are a system (data set 164)
@@ -145,10 +145,7 @@ def _unit(data_set, units, where, system=None):
 
 def _spelt(label):
     """A unit as it is read of a ``label`` as systems write it; '' of one that states none."""
-    unit = waveform.SPELT.get(label.strip(), label.strip())
-    for written, read in SPELT:
-        unit = written.sub(read, unit)
-    return unit
+    return GRAVITY.sub("g_0", waveform.SPELT.get(label.strip(), label.strip()))
 
 
 def _direction(code):
@@ -184,8 +181,8 @@ def _response(data_set, units, system, where):
     if not below and system and data_set["orddenom_spec_data_type"] in IN_SYSTEM:
         below, length, force = IN_SYSTEM[data_set["orddenom_spec_data_type"]]
         factor *= system["length"] ** length * system["force"] ** force
-    spelt = f"({upper}) / ({below})" if below else upper
-    values, unit = in_si(factor * np.asarray(data_set["data"], complex), spelt, where)
+    spelt = upper if not below else f"({upper})/({below})" if "/" in below else f"{upper}/{below}"
+    values, unit = quotient_in_si(factor * np.asarray(data_set["data"], complex), spelt, where)
     return FrequencyResponse(frequency=data_set["x"], response=values, unit=unit,
                              place=f"node {data_set['rsp_node']} direction {data_set['rsp_dir']}",
                              reference=f"node {data_set['ref_node']} direction {data_set['ref_dir']}")

@@ -29,23 +29,24 @@ def write_uff(path, run):
 def _channel(number, name, channel):
     ends = _point(str(channel.place), number), _axis(channel.direction), 0, 0
     return _function(1, name, ends, with_gaps(channel), (float(channel.begin), 1.0 / float(channel.rate)), _TIME,
-                     (str(channel.measures), str(channel.unit)), None)
+                     (str(channel.measures), str(channel.unit)), "NONE")
 
 
 def _response(number, name, frf):
     step = np.diff(frf.frequency)
     if len(step) and np.abs(step - step[0]).max() > 1e-6 * step[0]:
         raise ConfigError(f"frf {name}", "an even frequency axis", "an uneven one")
-    above, _, below = str(frf.unit).partition("/")
+    above, _, below = str(frf.unit).rpartition("/")
+    ends = (above, below) if above in _CODES and below in _CODES else (str(frf.unit), "NONE")
     reference = str(frf.reference)
     return _function(4, name, (_point(str(frf.place), number), _code(str(frf.place)), _point(reference, 1),
                                _code(reference)), np.asarray(frf.response, complex),
                      (float(frf.frequency[0]), float(step[0]) if len(step) else 1.0), _FREQUENCY,
-                     ("response", above if not below else str(frf.unit)), "")
+                     ("response", ends[0]), ends[1])
 
 
 def _function(kind, name, ends, values, axis, abscissa, ordinate, denominator):
-    """Bytes of one data set 58b."""
+    """Bytes of one data set 58b; ``ordinate`` (label, unit) per unit ``denominator``."""
     node, direction, reference, reference_direction = ends
     data = np.ascontiguousarray(values, "<c16" if np.iscomplexobj(values) else "<f8").tobytes()
     heads = [name, "NONE", "NONE", "NONE", "NONE",
@@ -54,7 +55,7 @@ def _function(kind, name, ends, values, axis, abscissa, ordinate, denominator):
              f"{_COMPLEX if np.iscomplexobj(values) else _REAL:10d}{len(values):10d}{1:10d}{axis[0]:13.5e}"
              f"{axis[1]:13.5e}{0.0:13.5e}",
              _axis_line(*abscissa), _axis_line(_CODES.get(ordinate[1], 0), *ordinate),
-             _axis_line(0, "NONE", denominator or "NONE"), _axis_line(0, "NONE", "NONE")]
+             _axis_line(_CODES.get(denominator, 0), "NONE", denominator), _axis_line(0, "NONE", "NONE")]
     head = f"    -1\n    58b{1:6d}{2:6d}{11:12d}{len(data):12d}{0:6d}{0:6d}{0:12d}{0:12d}\n"
     return (head + "".join(f"{line:<80}\n" for line in heads)).encode() + data + b"    -1\n"
 

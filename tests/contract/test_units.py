@@ -5,7 +5,7 @@ import pint
 import pytest
 
 from pipeline.contract import ConfigError, units
-from pipeline.contract.units import SI, in_si, to_si
+from pipeline.contract.units import SI, in_si, quotient_in_si, to_si
 
 #: spelt -> unit: what is read without pint
 PLAIN = {**{f"{prefix}{unit}": unit for unit in ("m", "s", "rad", "Hz", "N", "Pa", "J", "W", "K", "V", "A")
@@ -89,3 +89,22 @@ def test_units_of_samples_follow_what_is_measured(measures, unit, value, name):
 def test_a_unit_that_contradicts_the_quantity_is_one_error(measures, unit):
     with pytest.raises(ConfigError, match=f"x: expected a unit of {measures}, such as .*found '{unit}'.*what the"):
         in_si(np.ones(2), unit, "x", measures)
+
+
+@pytest.mark.parametrize("written, unit, factor", [
+    ("Nm", "N m", 1.0), ("kNm", "N m", 1e3), ("Nmm", "N m", 1e-3), ("m/s2", "m/s^2", 1.0), ("mm/s2", "m/s^2", 1e-3)])
+def test_units_are_read_as_people_write_them(written, unit, factor):
+    """In files and in settings, alone and as part of a unit; nanometres are none of them."""
+    assert in_si(2.0, written, "here") == (pytest.approx(2 * factor), unit)
+    assert to_si(f"2 {written}", unit, "here") == pytest.approx(2 * factor)
+    assert in_si(2.0, f"rad/{written}", "here")[0] == pytest.approx(2 / factor)
+    assert in_si(2.0, f"{written}/V", "here")[0] == pytest.approx(2 * factor)
+    assert in_si(2.0, "nm", "here")[0] == pytest.approx(2e-9)
+
+
+@pytest.mark.parametrize("unit, factor, name", [
+    ("m/s2/N", 1.0, "m/s^2/N"), ("g_0/N", 9.80665, "m/s^2/N"), ("mm/kN", 1e-6, "m/N"), ("(mm/s)/(N)", 1e-3, "m/s/N"),
+    ("m/s^2", 1.0, "m/s^2"), ("(N)/(N m/rad)", 1.0, "rad/m"), ("m/Nm", 1.0, "m/N m"), ("V", 1.0, "V")])
+def test_parts_of_a_quotient_keep_their_names(unit, factor, name):
+    """An accelerance is no inverse mass to its reader."""
+    assert quotient_in_si(3.0, unit, "here") == (pytest.approx(3 * factor), name)

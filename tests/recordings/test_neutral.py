@@ -36,7 +36,7 @@ def test_everything_comes_back_in_si(tmp_path):
     assert str(force.place) == "pad" and str(force.role) == "excitation" and float(force.rate) == 100
     assert run.conditions["pressure"].value.tolist() == [2e5] and str(run.conditions["speed"].unit) == "rad/s"
     assert run.conditions["speed"].time.tolist() == [0, 0.1]
-    assert run.frf["drive_point"].response.tolist() == [1 + 1j, 2] and str(run.frf["drive_point"].unit) == "1/kg"
+    assert run.frf["drive_point"].response.tolist() == [1 + 1j, 2] and str(run.frf["drive_point"].unit) == "m/s^2/N"
     assert run.modes["hammer"].frequency.tolist() == [100, 200] and run.modes["hammer"].shape.shape == (2, 0)
     assert run.lines["squeal"].level_known.tolist() == [1, 0]
     assert run.topography["pad"].height[2, 1] == pytest.approx(5e-6) and run.topography["pad"].y[2] == 2e-6
