@@ -20,7 +20,8 @@ def responses(test, dpi):
             above.semilogy(kilohertz, row, color=FAINT, lw=0.7)
         above.semilogy(kilohertz, np.sqrt(np.mean(size**2, axis=0)), color=COLOURS[0], lw=1.0)
         units = sorted(set(map(str, test.unit)))
-        above.set(ylabel=f"response / {units[0]}" if len(units) == 1 else "responses", xlim=(0, kilohertz[-1]))
+        above.set(ylabel=f"response / {units[0].replace('^2', '²')}" if len(units) == 1 else "responses",
+                  xlim=(0, kilohertz[-1]))
         for axes in below:
             axes.plot(kilohertz, np.median(test.coherence[:, shown], axis=0), color=COLOURS[0], lw=0.8)
             axes.plot(kilohertz, test.coherence[:, shown].min(axis=0), color=FAINT, lw=0.7, zorder=0)
