@@ -23,6 +23,8 @@ class Settings(Section):
 
 #: share of a part by which it reaches into its neighbours, where its modes are not kept, and by which its edges move
 _OVERLAP, _MOVABLE = 0.25, 0.25
+#: lines within the half-power band of a mode from which its damping comes out to 2 % under a lasting force
+_WITHIN = 8
 #: fewest lines of a part
 _LEAST = 64
 #: likeness of two shapes up to which modes close in frequency make a pair
@@ -67,11 +69,17 @@ def _modes(name, test, settings, context):
              for field in fields}
     inside = (axis >= low) & (axis <= high)
     return TestModes(
-        **{field: modes[field] for field in fields[:4]},
+        **{field: modes[field] for field in fields[:4]}, narrow=_narrow(test, modes),
         partner=_partners(modes["frequency"], _likeness(modes["residue"]), settings.pair_within),
         place=list(test.place), reference=list(test.reference), shape=modes["residue"],
         shape_std=modes["residue_std"], likeness=_likeness(modes["residue"]),
         **_fit(axis, response, inside, found, parts), **_diagram(kept, parts, float(test.decay)))
+
+
+def _narrow(test, modes):
+    """(m,) 1 of modes whose half-power band holds few lines of responses that Hann segments of a lasting force gave."""
+    width = 2 * modes["damping_ratio"] * modes["frequency"]
+    return ((width < _WITHIN * (test.line[1] - test.line[0])) & ("lasting force" in str(test.method))).astype(int)
 
 
 def _parts(axis, response, low, high, width):

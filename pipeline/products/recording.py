@@ -136,7 +136,7 @@ class ResponseFunctions:
     tests: dict[str, TestResponses] = parts("by run, or of all runs together", empty=True)
 
 
-@product(version=1)
+@product(version=2)
 class TestModes:
     """Modes that the frequency responses of one run hold."""
 
@@ -144,6 +144,7 @@ class TestModes:
     frequency_std: Array = quantity("Hz", "mode", "their standard deviations")
     damping_ratio: Array = quantity("1", "mode", "damping ratios")
     damping_ratio_std: Array = quantity("1", "mode", "their standard deviations")
+    narrow: Array = count("mode", "1 where its peak is too narrow for the lines of a lasting force: damping comes out too large")
     partner: Array = count("mode", "mode that makes a pair with it, close in frequency and of another shape; itself without one")
     place: Array = text("response", "location and direction of each response")
     reference: Array = text("response", "location and direction of its reference")

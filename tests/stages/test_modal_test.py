@@ -71,6 +71,15 @@ def test_a_dead_response_is_named_and_coarse_ones_are_taken():
     assert len(coarse.runs["hammer"].line) == 200
 
 
+def test_peaks_that_are_too_narrow_for_a_lasting_force_are_marked():
+    """2.4 to 3.4 Hz wide, at lines of .5 Hz."""
+    test = given(recorded()).tests["hammer"]
+    settings = Settings(highest_frequency="2.2 kHz")
+    for method, narrow in (("lasting force", [1] * 5), ("given", [0] * 5), ("blows", [0] * 5)):
+        modes = modal_test(ResponseFunctions(tests={"a": replace(test, method=method)}), settings=settings).runs["a"]
+        assert modes.narrow.tolist() == narrow
+
+
 def test_what_windows_add_is_taken_off_the_decay_rates():
     """Responses at i w + r, as blows under exp(-r t) give them."""
     decay, natural = 3.0, 2 * np.pi * FREQUENCY

@@ -123,7 +123,7 @@ def modal_test(empty=False):
     shape = np.array([[1, 0, -1, 0], [0, 1, 0, -1], [1, 1, 1, 1]], complex)[:count]
     modes = TestModes(
         frequency=frequency, frequency_std=1e-5 * frequency, damping_ratio=np.full(count, 2e-3),
-        damping_ratio_std=np.full(count, 1e-5), partner=[1, 0, 2][:count],
+        damping_ratio_std=np.full(count, 1e-5), narrow=np.zeros(count, int), partner=[1, 0, 2][:count],
         place=[f"node {k} direction 3" for k in range(4)], reference=["node 0 direction 3"] * 4, shape=shape,
         shape_std=np.full((count, 4), 0.01),
         likeness=np.eye(3)[:count, :count], noise=np.full(4, 0.012), line=line, measured=1.01 * peaks, fitted=peaks,

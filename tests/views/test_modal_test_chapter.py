@@ -29,6 +29,14 @@ def test_modes_errors_and_pairs_are_told():
     assert len(made.figures) == 2 and "3 modes" in made.figures[0].caption
 
 
+def test_damping_of_narrow_peaks_is_doubted():
+    known = small.modal_test()
+    assert "too large" not in chapter(known, LOOK).conclude
+    modes = replace(known.runs["hammer"], narrow=np.array([1, 1, 0]))
+    assert "The damping of 2 modes comes out too large: fewer than eight lines" in chapter(
+        ModalTest(runs={"shaker": modes}), LOOK).conclude
+
+
 def test_no_mode_is_told():
     none = small.modal_test(empty=True)
     assert headline(none) == ("No mode in the frequency responses", "warning")

@@ -125,7 +125,7 @@ def _pulses(force, motion, rate, rebound):
     found = [_extent(size, start, apart) for start in first]
     begins = [max(begin - _BEFORE * max(end - begin, 2), 0) for begin, end, _ in found]
     nexts = [*begins[1:], len(force)]
-    typical = np.median(np.diff(begins)) if len(begins) > 1 else len(force)
+    typical = np.median(np.diff(begins)) if len(begins) > 1 else 0
     peaks = [abs(row).max() for row in (force, *motion)]
     kept, left_out = [], []
     for (_, end, twice), begin, following in zip(found, begins, nexts, strict=True):

@@ -81,6 +81,10 @@ def test_blows_that_are_of_no_use_are_left_out_and_told():
     assert found.coherence[:, band].mean() > 0.999
 
 
+def test_one_blow_late_in_the_record_is_whole():
+    assert from_blows(*hammered([1.5], 2.5, 4), RATE).averages == 1
+
+
 def test_without_a_usable_blow_each_is_told():
     force, motion = hammered([0.5], 1.5, 4, lambda t: 30 * blow(t, 0.53))
     with pytest.raises(ConfigError, match="one usable blow at least, found 0.49.* s: struck twice"):
@@ -117,6 +121,17 @@ def test_noise_of_the_motion_averages_out_and_the_coherence_tells():
     peak = band & (abs(found.frequency - 420) < 3)
     np.testing.assert_allclose(abs(found.response[:, 0, peak]), abs(exact[:, peak]), rtol=0.1)
     assert found.coherence[:, peak].min() > 0.95 > 0.5 > np.median(found.coherence[:, found.frequency > 2000])
+
+
+@pytest.mark.parametrize("lines, too_large", [(4, 0.3), (8, 0.05)])
+def test_damping_comes_out_too_large_where_few_lines_lie_within_a_peak(lines, too_large):
+    """Lines within the half-power band of the lowest mode: what the docs say of lasting forces."""
+    force = np.random.default_rng(3).standard_normal(int(120 * RATE))
+    found = from_lasting_forces(force[None], moved(force), RATE, 2 * DAMPING[0] * FREQUENCY[0] / lines)
+    band = (found.frequency > 250) & (found.frequency < 1200)
+    modes = identify(found.frequency[band], found.response[:, 0, band])
+    ratio = modes.damping_ratio[abs(modes.frequency - FREQUENCY[0]).argmin()] / DAMPING[0]
+    assert abs(ratio - 1) < too_large and (lines == 8 or ratio > 1.05)
 
 
 @pytest.mark.exact
