@@ -10,7 +10,12 @@ _LONG = 90
 
 
 def describe(path):
-    """Yield the lines: identity, tree with dimensions, units and ranges, provenance."""
+    """Lines: identity, tree with dimensions, units and ranges, provenance. Raises DamagedFile of a damaged file."""
+    with store.damage_told(path):
+        yield from _lines(path)
+
+
+def _lines(path):
     for name, attributes, dataset in store.walk(path):
         if name == "/":
             yield f"{path}: {attributes['product']} version {attributes['version']}"

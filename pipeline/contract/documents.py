@@ -25,6 +25,19 @@ class _StrictLoader(getattr(yaml, "CSafeLoader", yaml.SafeLoader)):
         return super().construct_mapping(node, deep)
 
 
+    def construct_object(self, node, deep=False):
+        """The value of a node; of one that is not what its tag says, as ``!!bool 3 m/s``, an error with its line."""
+        try:
+            return super().construct_object(node, deep)
+        except (KeyError, ValueError, TypeError, AttributeError, OverflowError) as error:
+            if not isinstance(node, yaml.ScalarNode):
+                raise
+            why = f" ({error})" if isinstance(error, ValueError) else ""
+            raise ConfigError(f"{node.start_mark.name}:{node.start_mark.line + 1}",
+                              f"a {node.tag.rpartition(':')[2]}", f"{node.value!r}{why}"[:_LONGEST],
+                              "correct it, or quote it if it is a text") from None
+
+
 def read_yaml(path):
     """The YAML document at ``path`` as plain Python values; {} when it is empty.
 

@@ -7,13 +7,14 @@ so that xarray (engine h5netcdf, group "data") sees named dimensions; ``/provena
 
 import hashlib
 import os
+from contextlib import contextmanager
 from dataclasses import fields
 from pathlib import Path
 
 import h5py
 import numpy as np
 
-from pipeline.contract.errors import ProductError
+from pipeline.contract.errors import BrakechainError, ProductError
 from pipeline.contract.product import held_by, is_product
 
 
@@ -21,6 +22,10 @@ class DamagedFile(ProductError):
     """An HDF5 file that is truncated or damaged."""
 
 
+#: characters shown of what a library says
+_LONGEST = 200
+#: what h5py and numpy raise of damaged bytes
+DAMAGE = (KeyError, OSError, RuntimeError, TypeError, ValueError, AttributeError, UnicodeDecodeError, MemoryError)
 _NO_COORDINATE = "This is a netCDF dimension but not a netCDF variable."
 
 
@@ -122,10 +127,7 @@ def read(cls, path):
     """Read a ``cls`` back; refuses another product, version or unit, and a damaged file."""
     with _opened(path) as h5:
         _check_identity(h5, cls, path)
-        try:
-            item, content = _read_group(h5["data"], cls, path), h5.attrs["content"]
-        except (KeyError, OSError, RuntimeError) as error:
-            raise _damaged(path, error) from None
+        item, content = _read_group(h5["data"], cls, path), h5.attrs["content"]
     if content_hash(item) != content:
         raise _damaged(path, "its values are not those that were written")
     return item
@@ -138,7 +140,7 @@ def identity(path):
     try:
         with _opened(path) as h5:
             return tuple(h5.attrs[k] for k in ("product", "version", "content"))
-    except (DamagedFile, KeyError, OSError, RuntimeError):
+    except DamagedFile:
         return None
 
 
@@ -148,7 +150,25 @@ def provenance(path):
         return dict(h5["provenance"].attrs)
 
 
+@contextmanager
 def _opened(path):
+    """The open file; what is raised of damaged bytes while it is read says so."""
+    with _file(path) as h5, damage_told(path):
+        yield h5
+
+
+@contextmanager
+def damage_told(path):
+    """Whatever h5py raises of damaged bytes of the file at ``path`` as DamagedFile."""
+    try:
+        yield
+    except BrakechainError:
+        raise
+    except DAMAGE as error:
+        raise _damaged(path, error) from None
+
+
+def _file(path):
     if not Path(path).exists():
         product = Path(path).stem
         command = f"brakechain {product.replace('_', '-')}"
@@ -167,7 +187,8 @@ def _unwritable(path, error):
 
 
 def _damaged(path, error):
-    return DamagedFile(path, "a complete HDF5 product", f"a truncated or damaged file ({error})",
+    told = " ".join(str(error).split())[:_LONGEST]
+    return DamagedFile(path, "a complete HDF5 product", f"a truncated or damaged file ({told})",
                        "rerun the stage that writes it")
 
 

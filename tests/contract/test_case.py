@@ -68,7 +68,9 @@ def test_an_alias_is_a_copy(tmp_path):
     ("chain: toy\ntitle: [1]", "title: expected text"),
     ("chain: toy\nsource: 3", "source: expected a mapping of settings"),
     ("chain: [toy]", "chain: expected one of toy, varied, found ['toy']"),
-    ("chain: toy\ntitle: 2020-13-45", "expected values that YAML can hold, found ValueError: month must be in 1..12"),
+    ("chain: toy\ntitle: 2020-13-45", "bad.yaml:2: expected a timestamp, found '2020-13-45' (month must be in 1..12)"),
+    ("chain: toy\nsource: {duration: !!bool 3 s}", "bad.yaml:2: expected a bool, found '3 s'; correct it, or quote"),
+    ("chain: toy\ntitle: !!int x", "bad.yaml:2: expected a int, found 'x'"),
     ("chain: toy\n? {a: 1}\n: 3", "bad.yaml"), ("chain: toy\nsource: &a {duration: *a}", "bad.yaml"),
 ])
 def test_refusals(tmp_path, text, message):

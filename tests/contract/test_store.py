@@ -1,10 +1,15 @@
 """Products on disk: round trip, identity, damage."""
 
+import os
+from pathlib import Path
+
 import h5py
 import numpy as np
 import pytest
 
+from pipeline.cli.inspect import describe
 from pipeline.contract import ProductError, store
+from pipeline.products import FrictionMap, Surface
 from tests.contract.test_product import GOOD
 from tests.contract.toy.products import Doubled, Inner, Shelf, Source
 
@@ -77,6 +82,32 @@ def test_refuses_truncated_changed_or_missing_files(written):
     written.unlink()
     with pytest.raises(ProductError, match="expected the product source, found no file; run 'brakechain source' first"):
         store.read(Source, written)
+
+
+@pytest.mark.parametrize("error", [KeyError("bad object header"), RuntimeError("no link"), ValueError("shape"),
+                                   TypeError("class"), AttributeError("asstr"), MemoryError("1e19 bytes")])
+def test_whatever_damaged_bytes_raise_is_told_as_damage(written, monkeypatch, error):
+    def damaged(*_):
+        raise error
+
+    monkeypatch.setattr(store, "_read_group", damaged)
+    with pytest.raises(store.DamagedFile, match="truncated or damaged"):
+        store.read(Source, written)
+    with pytest.raises(store.DamagedFile), store.damage_told(written):
+        raise error
+    with pytest.raises(ProductError, match="units") as told, store.damage_told(written):
+        raise ProductError("signal", "units Pa", "bar")
+    assert not isinstance(told.value, store.DamagedFile)
+
+
+@pytest.mark.measured
+@pytest.mark.parametrize("name", ["product_friction_map.h5", "product_surface.h5"])
+def test_damaged_products_of_others_give_one_sentence(name):
+    path = Path(os.environ.get("BRAKECHAIN_DATA", "../shared/data")) / "hostile" / name
+    with pytest.raises(ProductError, match="truncated or damaged file .*; rerun the stage"):
+        list(describe(path))
+    with pytest.raises(ProductError):
+        store.read(FrictionMap if "map" in name else Surface, path)
 
 
 def test_an_interrupted_write_leaves_the_old_product(written, monkeypatch):

@@ -99,6 +99,7 @@ def test_the_ratio_of_the_forces_makes_the_middle_slip_before_the_rupture():
     ({"lower": {"youngs_modulus": "3 GPa", "poisson_ratio": 0.5}}, "poisson_ratio: input should be less than 0.5"),
     ({"lower_spacing": "40 um", "preload": "solved"}, "lower_spacing: expected matched interface nodes"),
     ({"field_spacing": "70 um"}, "field_spacing: expected a multiple of the spacing"),
+    ({"studies": {**NONE, "spacings": ["1e-29 um"]}}, "mesh study: rupture.lower: elements of 1e-35 m: expected at"),
     ({"run_in": "2 mm"}, "run_in: expected less than half the length, 0.002 m, found 0.002 m"),
     ({"studies": {**NONE, "stress_ratios": [1.5]}}, "stress study: rupture.stress_ratio: expected shear over pressure"),
     ({"studies": {**NONE, "poisson_ratios": [0.5]}}, "poisson study: rupture.upper.poisson_ratio: expected a value be"),

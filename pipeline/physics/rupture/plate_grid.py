@@ -17,6 +17,8 @@ from pipeline.physics.closed_form.wave_speeds import checked
 
 FREE, FIXED, ABSORBING = 0, 1, 2
 EDGES = ("left", "right", "bottom", "top")
+#: elements of a plate, at most: beyond, memory and time are those of no workstation
+_MOST = 1e9
 
 
 class Plate(NamedTuple):
@@ -43,6 +45,9 @@ def plate(solid, length, height, spacing, damping_share, edges, where="rupture")
         if count < 2 or abs(count * spacing - side) > 1e-6 * side:
             raise ConfigError(f"{where}: side of {side:g} m", f"two or more whole elements of {spacing:g} m",
                               f"{side / spacing:.6g}", "choose a spacing that divides the sides")
+    if counts[0] * counts[1] > _MOST:
+        raise ConfigError(f"{where}: elements of {spacing:g} m", f"at most {_MOST:.0e} of them",
+                          f"{float(counts[0]) * counts[1]:.1e}", "choose a coarser spacing")
     return Plate(counts[1] + 1, counts[0] + 1, spacing, solid.density, solid.first_modulus, solid.shear_modulus,
                  damping_share * spacing / solid.dilatational_speed, np.array(edges, dtype=np.int64))
 
