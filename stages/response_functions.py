@@ -31,8 +31,6 @@ class Settings(Section):
 
 
 _FORCE, _MOTIONS = "N", ("m", "m/s", "m/s^2", "rad", "rad/s", "rad/s^2")
-#: lines of a test of motions alone: its record is so many times longer than the inverse of their distance
-_LONGER = 10
 
 
 @stage
@@ -128,8 +126,7 @@ def _from_motions(where, motions, settings, rate):
         raise ConfigError("response_functions.references", f"channels of motion: {', '.join(names)}",
                           ", ".join(strange))
     references = settings.references or (names[int(samples.std(axis=1).argmax())],)
-    resolution = settings.resolution or _LONGER * rate / samples.shape[1]
-    found = _of(where, estimate.from_motions, samples, [names.index(r) for r in references], rate, resolution)
+    found = _of(where, estimate.from_motions, samples, [names.index(r) for r in references], rate, settings.resolution)
     return _test(found, METHODS["motions_alone"], motions, {r: motions[r] for r in references},
                  "{motion}*{reference}*s", "with")
 

@@ -24,7 +24,6 @@ class _StrictLoader(getattr(yaml, "CSafeLoader", yaml.SafeLoader)):
             lines[key] = line
         return super().construct_mapping(node, deep)
 
-
     def construct_object(self, node, deep=False):
         """The value of a node; of one that is not what its tag says, as ``!!bool 3 m/s``, an error with its line."""
         try:

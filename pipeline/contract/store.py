@@ -14,7 +14,7 @@ from pathlib import Path
 import h5py
 import numpy as np
 
-from pipeline.contract.errors import BrakechainError, ProductError
+from pipeline.contract.errors import ProductError
 from pipeline.contract.product import held_by, is_product
 
 
@@ -25,7 +25,7 @@ class DamagedFile(ProductError):
 #: characters shown of what a library says
 _LONGEST = 200
 #: what h5py and numpy raise of damaged bytes
-DAMAGE = (KeyError, OSError, RuntimeError, TypeError, ValueError, AttributeError, UnicodeDecodeError, MemoryError)
+_DAMAGE = (KeyError, OSError, RuntimeError, TypeError, ValueError, AttributeError, MemoryError)
 _NO_COORDINATE = "This is a netCDF dimension but not a netCDF variable."
 
 
@@ -162,9 +162,7 @@ def damage_told(path):
     """Whatever h5py raises of damaged bytes of the file at ``path`` as DamagedFile."""
     try:
         yield
-    except BrakechainError:
-        raise
-    except DAMAGE as error:
+    except _DAMAGE as error:
         raise _damaged(path, error) from None
 
 

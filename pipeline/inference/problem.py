@@ -117,9 +117,13 @@ class Hypothesis:
         return np.array([p.run in ("", run) for p in self.parameters], dtype=bool)
 
     def excludes(self, other):
-        """Whether the two are one law or more of one family: one is the other's limit, or they share a limit."""
+        """Whether the two cannot act together: one law or more of one family, or two faulty sensors.
+
+        Of a family one is the other's limit, or they share a limit. Gains of several sensors shrink all data together,
+        which takes away what is left without explaining anything.
+        """
         own, others = {self.name, *self.extends}, {other.name, *other.extends}
-        return bool(own & others)
+        return bool(own & others) or self.kind == other.kind == "sensor"
 
     def joined(self, other):
         """Both together, named by their effects."""

@@ -201,7 +201,6 @@ class Asked:
         rules, explained = self.settings.rules, first.fit.betters(single.null)
         if not second_effect.has_room(first.fit, explained, rules):
             return None, False
-        seconds = second_effect.beside(first.candidate, seconds)
         asked = replace(self, catalogue=seconds).given([first.refined])
         try:
             _, pair = asked.steps(first.fit, single)

@@ -1,6 +1,7 @@
 """Runs, hypotheses and problems: what joins, and what is refused."""
 
 import pickle
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -29,6 +30,14 @@ def test_laws_of_one_family_exclude_each_other():
         ("cubic at a", ())))
     assert all(one.excludes(other) for one in (dry, lugre, dahl) for other in (dry, lugre, dahl))
     assert not spring.excludes(dry) and not dry.excludes(Hypothesis("lugre at b", extends=("coulomb at b",)))
+
+
+def test_no_faulty_sensor_is_second_to_another():
+    """Gains of two sensors shrink all data, which leaves less without explaining anything."""
+    first, second = Hypothesis("gain at a"), Hypothesis("gain at b")
+    faulty = replace(first, kind="sensor")
+    assert not first.excludes(second) and not first.excludes(replace(second, kind="sensor"))
+    assert not faulty.excludes(second) and faulty.excludes(replace(second, kind="sensor"))
 
 
 def test_missing_samples_may_hold_anything_and_count_as_nothing():

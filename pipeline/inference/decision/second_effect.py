@@ -24,14 +24,6 @@ def leading(single, rules, count=2):
             if gained >= decision.first_share * max(explained)]
 
 
-def beside(first, seconds):
-    """Those of the Hypotheses ``seconds`` that may be second to a ``first``: no faulty sensor to a faulty sensor.
-
-    Gains of several sensors shrink all data together, which takes away what is left without explaining anything.
-    """
-    return tuple(c for c in seconds if not c.kind == first.kind == "sensor")
-
-
 def has_room(fit, explained, rules):
     """Whether a second effect may matter beside a first, whose Fit ``explained`` so much of the objective.
 

@@ -14,6 +14,7 @@ import numpy as np
 import scipy
 
 from pipeline.contract.errors import ConfigError
+from pipeline.physics.signals.spectra import power_spectrum
 
 #: share of its begin to which a decaying motion is brought at the end of its window
 _END = 1e-3
@@ -30,6 +31,8 @@ _CLIPPED = 3
 _RARELY = 0.02
 #: Hann segments over which a record without a stated resolution is averaged, at least
 _AVERAGES = 16
+#: lengths of the correlations that a record of motions alone holds, at least
+_LONGER = 10
 
 
 @dataclass(frozen=True)
@@ -60,15 +63,15 @@ def from_lasting_forces(force, motion, rate, resolution=None):
     Raises ConfigError for fewer segments than forces, or forces that are one.
     """
     count = force.shape[1]
-    size = int(2 * count // (_AVERAGES + 1)) if resolution is None else round(rate / resolution)
-    averages = int(2 * count // max(size, 1)) - 1
+    size = 2 * count // (_AVERAGES + 1) if resolution is None else round(rate / resolution)
+    averages = 2 * count // max(size, 1) - 1
     if size < 2 or averages < max(2, len(force)):
         raise ConfigError("frequency response: resolution", f"{max(2, len(force))} or more segments",
                           f"{max(averages, 0)} of {size / rate:.3g} s in {count / rate:.3g} s",
                           "state a coarser resolution")
     frequency, auto_force = _spectra(force, force, rate, size)
     _, cross = _spectra(motion, force, rate, size)
-    power = scipy.signal.welch(motion, rate, "hann", size)[1]
+    _, power = power_spectrum(motion, rate, rate / size)
     response, coherence = _h1(auto_force, cross, power)
     return Estimated(frequency, response, coherence, averages)
 
@@ -170,22 +173,20 @@ def _pulse(force, begin, end, size):
 
 def _decay(motions, rate):
     """Rate 1/s of the window that brings motions (b, n, m) to a small share at their ends, where they do not come."""
-    size = motions.shape[-1]
-    part = max(size // 20, 1)
-    power = np.mean(motions**2, axis=(0, 1))
+    size, power = motions.shape[-1], np.mean(motions**2, axis=(0, 1))
     most = power[:size // 4].max() if size >= 4 else power.max()
-    left = np.sqrt(np.mean(power[-part:]) / max(most, 1e-300))
+    left = np.sqrt(np.mean(power[-max(size // 20, 1):]) / max(most, 1e-300))
     return float(max(np.log(max(left, 1e-300) / _END), 0.0) * rate / size)
 
 
-def from_motions(motion, references, rate, resolution):
+def from_motions(motion, references, rate, resolution=None):
     """Estimated from ``motion`` (n, m) alone: its correlations with the rows ``references`` [index].
 
-    Sampled at ``rate`` [Hz], with lags up to 1 / ``resolution`` [Hz]; ConfigError where it is shorter than ten times
-    that.
+    Sampled at ``rate`` [Hz]; lags up to 1 / ``resolution`` [Hz], by default and at most (ConfigError) a tenth of it.
     """
-    size, count = round(rate / resolution), motion.shape[1]
-    if size < 2 or count < 10 * size:
+    count, resolution = motion.shape[1], resolution or _LONGER * rate / motion.shape[1]
+    size = round(rate / resolution)
+    if size < 2 or count < _LONGER * size:
         raise ConfigError("frequency response: resolution", f"ten times {1 / resolution:.3g} s or more",
                           f"{count / rate:.3g} s", "state a coarser resolution, or record for longer")
     motion = motion - motion.mean(axis=1, keepdims=True)

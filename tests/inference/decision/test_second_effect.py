@@ -25,14 +25,6 @@ def test_the_named_effect_leads(solved):
     assert [w.candidate.name for w in second_effect.leading(single, DEFAULTS)] == ["effect_1"]
 
 
-def test_no_faulty_sensor_is_second_to_another(solved):
-    """Gains of two sensors shrink all data, which leaves less without explaining anything."""
-    first, second = solved[1]
-    as_sensor = replace(second, kind="sensor")
-    assert second_effect.beside(first, (second, as_sensor)) == (second, as_sensor)
-    assert second_effect.beside(replace(first, kind="sensor"), (second, as_sensor)) == (second,)
-
-
 def test_a_fit_at_the_noise_leaves_room_only_for_what_the_noise_may_hide(solved):
     first = solved[0].named[0].fit
     assert second_effect.has_room(first, 1e-3 * first.counts.sum(), DEFAULTS)
