@@ -15,6 +15,8 @@ Bodies of one coordinate also have masses.NAME in kg. What acts about an axis ha
 
 from dataclasses import replace
 from difflib import get_close_matches
+from itertools import groupby
+from operator import itemgetter
 
 import numpy as np
 
@@ -69,8 +71,7 @@ def nominal(bench, name, where="parameters"):
         row = bench.model.joints.name.index(name_of)
         return float(getattr(bench.model.joints, what)[row])
     if kind == "masses":
-        index = np.flatnonzero(bench.model.coordinate_body == bench.model.body_name.index(name_of))
-        return float(bench.model.mass[index, index][0])
+        return _own_mass(bench.model, name_of)
     if kind == "channels":
         return float(getattr(next(c for c in bench.channels if c.name == name_of), what))
     if name == "contact.damping":
@@ -86,9 +87,13 @@ def is_factor(name):
 
 def corrected(bench, values):
     """The bench with ``values`` {name: SI value} in place of its own."""
-    for name, value in values.items():
-        kind, name_of, what = _steps(name)
-        bench = _CHANGES[kind](bench, name_of, what, value)
+    changes = [(*_steps(name), value) for name, value in values.items()]
+    for kind, alike in groupby(changes, key=itemgetter(0)):
+        if kind == "joints":
+            bench = _joints(bench, alike)
+            continue
+        for _, owner, what, value in alike:
+            bench = _CHANGES[kind](bench, owner, what, value)
     return bench
 
 
@@ -109,15 +114,21 @@ def _known(name, units, where):
                       f"did you mean '{near[0]}'?" if near else None)
 
 
-def _joint(bench, owner, what, value):
+def _joints(bench, changes):
     joints = bench.model.joints
-    values = np.array(getattr(joints, what), float)
-    values[joints.name.index(owner)] = value
-    return _with_model(bench, joints=replace(joints, **{what: values}))
+    numbers = {what: np.array(getattr(joints, what), float) for what in ("stiffness", "damping")}
+    for _, owner, what, value in changes:
+        numbers[what][joints.name.index(owner)] = value
+    return _with_model(bench, joints=replace(joints, **numbers))
 
 
 def _mass(bench, owner, what, value):
-    return _body(bench, owner, "mass", value / nominal(bench, f"masses.{owner}"))
+    return _body(bench, owner, "mass", value / _own_mass(bench.model, owner))
+
+
+def _own_mass(model, owner):
+    index = np.flatnonzero(model.coordinate_body == model.body_name.index(owner))
+    return float(model.mass[index, index][0])
 
 
 def _body(bench, owner, what, factor):
@@ -177,5 +188,5 @@ def _with_model(bench, **change):
     return replace(bench, model=replace(bench.model, **change))
 
 
-_CHANGES = {"joints": _joint, "masses": _mass, "bodies": _body, "inputs": _input, "channels": _channel,
+_CHANGES = {"masses": _mass, "bodies": _body, "inputs": _input, "channels": _channel,
             "friction": _friction, "contact": _contact}

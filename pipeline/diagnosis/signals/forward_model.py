@@ -22,6 +22,8 @@ from pipeline.physics.virtual_rig.response import Responder
 
 #: the solver as a hypothesis: its place, and its parameter: 0 as it is, 1 with half its step (4/3: none, at order 2)
 STEP, SOLVER, REFINEMENT = "time_step", "solver", "refinement"
+#: bytes of motions that are kept: some dozens of every run of a rig
+_MOTIONS = 2**24
 #: names of all effects; the solver and the friction map are none
 NAMES = frozenset(effect.name for effect in CATALOGUE)
 
@@ -60,13 +62,14 @@ class Simulated:
     """Picklable prediction, of cut runs too: ``runs`` {name: Run}.
 
     ``altered`` {name: changes}: runs on another bench, see ``next_run``; ``built`` holds the last bench and what its
-    runs share, and is left out of pickles.
+    runs share, ``motions`` what was measured of late before sensors wrote it; both are left out of pickles.
     """
 
     bench: object
     runs: dict
     altered: dict = field(default_factory=dict)
     built: dict = field(default_factory=dict, compare=False)
+    motions: dict = field(default_factory=dict, compare=False)
 
     def __call__(self, hypothesis, values, run):
         observed_run, kept = begun(self.runs[run.name], hypothesis, values), run.samples.shape[1]
@@ -76,7 +79,9 @@ class Simulated:
         if observed_run.start is not None:
             start = held(responder.bench.model, observed_run.start, self.bench.model.size)
             observed_run = replace(observed_run, start=start)
-        predicted = _answer(responder, observed_run, run.channels)
+        measured = self._measured(responder, observed_run, (kept, run.channels, *_moving(hypothesis, values)))
+        answer = responder.written(observed_run, measured)
+        predicted = np.array([answer[c] for c in run.channels])
         refinement = values.get(parameter_name(STEP, SOLVER, REFINEMENT), 0.0)
         if not refinement:
             return predicted
@@ -84,6 +89,16 @@ class Simulated:
 
     def __reduce__(self):
         return Simulated, (self.bench, self.runs, self.altered)
+
+    def _measured(self, responder, run, key):
+        """Measured of a Run, as it was for the same ``key``: where gain or delay of a channel alone changes, as for its
+        derivative, bodies move as before."""
+        key, motions = (run.name, *key), self.motions
+        if key not in motions:
+            motions[key] = responder.measured(run)
+            while len(motions) > 1 and len(motions) * motions[key].size > _MOTIONS:
+                del motions[next(iter(motions))]
+        return motions[key]
 
     def _responder(self, hypothesis, values, channels, change):
         """Responder of a hypothesis, kept as long as run after run asks for the same values and channels."""
@@ -98,6 +113,12 @@ class Simulated:
         if channels not in self.built:
             self.built[channels] = Responder(only(bench, channels), halvings=finer)
         return self.built[channels]
+
+
+def _moving(hypothesis, values):
+    """What the motion of bodies follows from: (effects, halvings, values but those of nominal channels)."""
+    return (hypothesis.effects, hypothesis.halvings,
+            tuple(values[p.name] for p in hypothesis.parameters if not p.name.startswith("channels.")))
 
 
 def shown(bench, run, channels):

@@ -143,6 +143,20 @@ def respond(bench, run, system=None):
     return Responder(bench, system).respond(run)
 
 
+@dataclass(frozen=True)
+class Measured:
+    """``parts`` [(values (steps + 1,), [(factor, part)])] of channels at every ``step`` s, before sensors write them;
+    see ``Measurand.parts``."""
+
+    step: float
+    parts: tuple
+
+    @property
+    def size(self):
+        """Bytes of its values."""
+        return sum(values.nbytes for values, _ in self.parts)
+
+
 class Responder:
     """Answers of one Bench to many runs, which share what depends on speed, step and friction alone.
 
@@ -156,6 +170,17 @@ class Responder:
 
     def respond(self, run):
         """{channel: (samples,)} of a Run; errors as of ``respond``."""
+        return self.written(run, self.measured(run))
+
+    def written(self, run, measured):
+        """{channel: (samples,)} of what was ``measured`` in a Run, here or on a bench that differs in the numbers of
+        its channels alone."""
+        parts = round(1 / run.sample_rate / measured.step)
+        return {sensor.name: sensor.written(values, measured.step, sharp)[::parts]
+                for sensor, (values, sharp) in zip(self.bench.channels, measured.parts, strict=True)}
+
+    def measured(self, run):
+        """Measured of the channels in a Run; errors as of ``respond``."""
         bench = self.bench
         step = run.step(bench.step) / self._finer
         parts = round(1 / run.sample_rate / step)
@@ -170,7 +195,7 @@ class Responder:
         motion = stepping.run(steps * step, start=start, inputs=_history(inputs, driven, holding(bench, run)),
                               drive=_history([run_drive(bench, run)], run), book=False)
         simulated = SimulatedRun(under_load, driven, motion, inputs, step, self._rows)
-        return {sensor.name: sensor.shown(simulated)[::parts] for sensor in bench.channels}
+        return Measured(step, tuple(sensor.measurand.parts(simulated, sensor) for sensor in bench.channels))
 
     def _stepper(self, bench, friction, speed, step):
         """Stepper of the bench under the load of a run; runs without one share that of their speed, step and friction.

@@ -57,6 +57,18 @@ def test_true_values_reproduce_the_recording():
     assert abs(predict(nominal([]), {}, run) - run.samples).max() > 1e-3
 
 
+def test_gains_and_delays_of_channels_move_no_body_anew():
+    names = "channels.x.gain", "channels.x.delay", "joints.mount.stiffness"
+    hypothesis = nominal([Parameter(n, "1", 1.0, LogNormal(1.0, 0.1)) for n in names])
+    run, kept = observed(RECORDED["level_1"]), Simulated(BENCH, RUNS)
+    stiffness = float(BENCH.model.joints.stiffness[0])
+    for gain, delay, factor, motions in ((1.0, 0.0, 1.0, 1), (1.1, 0.0, 1.0, 1), (1.1, 2e-4, 1.0, 1),
+                                           (1.1, 2e-4, 1.2, 2)):
+        values = dict(zip(names, (gain, delay, factor * stiffness), strict=True))
+        np.testing.assert_array_equal(kept(hypothesis, values, run), Simulated(BENCH, RUNS)(hypothesis, values, run))
+        assert len(kept.motions) == motions
+
+
 def test_corrections_and_effects_go_on_together():
     whole = nominal([Parameter("masses.block", "kg", 1.0, LogNormal(1.0, 0.1))]).joined(CUBIC)
     bench = completed(BENCH, whole, {"masses.block": 1.2, CUBIC.parameters[0].name: 1.5e4})
