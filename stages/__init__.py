@@ -19,6 +19,7 @@ CHAINS = {
     "beam_geometry": ("beam_geometry", "report"),
     "recording": ("recording", "noise_events", "report"),
     "modal_test": ("recording", "response_functions", "modal_test", "report"),
+    "model_update": ("recording", "response_functions", "modal_test", "model_update", "report"),
     "lumped_bench": ("lumped", "reduced_model", "effects", "recording", "bench", "diagnosis", "report"),
     "disc_modes": ("surface", "micro_friction", "friction_map", "structure", "recording", "diagnosis", "report"),
     "disc_squeal": ("surface", "micro_friction", "friction_map", "structure", "reduced_model", "complex_modes",

@@ -7,7 +7,7 @@ radially outwards. A relative displacement is pad minus disc: positive normal op
 """
 
 from pipeline.products.beams import BeamGeometry, BeamOnBeam, MotionScatter
-from pipeline.products.bodies import Body, Incidence
+from pipeline.products.bodies import Body, Incidence, ModelUpdate
 from pipeline.products.diagnosis import (
     Bench,
     BenchRun,
@@ -58,6 +58,6 @@ from pipeline.products.surfaces import Surface
 __all__ = ["BeamGeometry", "BeamOnBeam", "Bench", "BenchRun", "Body", "Channel", "Comparison", "ComplexModes",
            "Condition", "Convergence", "DiagnosedRun", "Diagnosis", "Effects", "Follows", "FrequencyResponse", "FrictionDescriptions",
            "FrictionMap", "FrictionOverTemperature", "FrictionUpdate", "Incidence", "InterfaceLaw", "LatentForce", "LatentPrediction", "LimitCycle", "LineEvidence", "Lines", "Located", "LockIn",
-           "Lumped", "MeasuredFriction", "MeasuredModes", "MicroFriction", "ModalTest", "MotionScatter", "Multibody", "NoiseEvents", "PinOnDisc", "Probability",
+           "Lumped", "MeasuredFriction", "MeasuredModes", "MicroFriction", "ModalTest", "ModelUpdate", "MotionScatter", "Multibody", "NoiseEvents", "PinOnDisc", "Probability",
            "Recording", "ReducedModel", "Report", "Response", "ResponseFunctions", "Run", "Rupture", "Spectrogram", "Squeal", "SquealCheck", "Structure", "Surface", "TestModes", "TestResponses", "Topography",
            "Transient"]

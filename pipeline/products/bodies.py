@@ -1,4 +1,4 @@
-"""FE bodies and the rows that tie them, joint by joint and contact by contact."""
+"""FE bodies and the rows that tie them, joint by joint and contact by contact; their update by a modal test."""
 
 from pipeline.contract import Array, count, product, quantity, text
 
@@ -31,3 +31,38 @@ class Incidence:
     node: Array = count("entry", "node of the entry")
     axis: Array = count("entry", "axis of the entry: 0, 1, 2 = x, y, z")
     weight: Array = quantity("1", "entry", "weight")
+
+
+@product(version=1)
+class ModelUpdate:
+    """Values of a body that its modal test asks for, and the pairs of modes that they come from."""
+
+    run: Array = text("", "run of the modal test")
+    body: Array = text("", "body of the brake")
+    parameter: Array = text("parameter", "names of the values")
+    unit: Array = text("parameter", "their SI units")
+    before: Array = quantity("1", "parameter", "values stated, in the unit that `unit` names")
+    before_spread: Array = quantity("1", "parameter", "standard deviation of the logarithm that was stated")
+    after: Array = quantity("1", "parameter", "values that the test asks for")
+    after_spread: Array = quantity("1", "parameter", "standard deviation of their logarithm")
+    correlation: Array = quantity("1", "parameter other", "correlation of the errors of the logarithms")
+    model_error: Array = quantity("1", "", "relative error of natural frequencies that no value mends")
+    model_error_spread: Array = quantity("1", "", "standard deviation of its logarithm")
+    measured_frequency: Array = quantity("Hz", "measured", "natural frequencies of the test")
+    measured_std: Array = quantity("Hz", "measured", "their standard deviations")
+    pair: Array = count("measured", "group of the model that a measured mode is, -1 for none")
+    rival: Array = count("measured", "group that it would be otherwise, -1 for none")
+    odds: Array = quantity("1", "measured", "logarithm of the odds of the pair over the rival; inf where there is none")
+    clear: Array = count("measured", "1 where the pair counts: beyond doubt")
+    likeness: Array = quantity("1", "measured cluster", "modal assurance criterion of measured shape and group; 0 where"
+                                                        " no point is known")
+    frequency_before: Array = quantity("Hz", "cluster", "mean natural frequency of each group of the model as stated")
+    frequency: Array = quantity("Hz", "cluster", "the same of the updated model")
+    frequency_spread: Array = quantity("1", "cluster", "its relative standard deviation by the values")
+    members: Array = count("cluster", "modes of each group: 2 for a pair of a disc")
+    diameters: Array = count("cluster", "nodal diameters of a disc, -1 of other bodies")
+    place: Array = text("seen", "measured points that the shapes are compared at")
+    reference: Array = text("seen", "their references")
+    agreement: Array = quantity("1", "seen", "correlation of measured and computed motion over the pairs: its square is"
+                                             " the COMAC, a sensor that is mounted in reverse has a negative one")
+    distance: Array = quantity("m", "seen", "distance of the node that stands for a point")

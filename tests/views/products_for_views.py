@@ -21,6 +21,7 @@ from pipeline.products import (
     Lumped,
     MicroFriction,
     ModalTest,
+    ModelUpdate,
     Multibody,
     NoiseEvents,
     PinOnDisc,
@@ -131,6 +132,20 @@ def modal_test(empty=False):
         pole_damping=np.full(len(order), 2e-3), stable=np.full(len(order), int(not empty)),
         chosen=np.resize(np.arange(count) if count else [-1], len(order)))
     return ModalTest(runs={"hammer": modes})
+
+
+def model_update(points=True):
+    """Three measured modes: a pair of a disc, one in doubt, and one that the model lacks."""
+    return ModelUpdate(
+        run="hammer", body="disc", parameter=["young", "poisson"], unit=["Pa", "1"], before=[120e9, 0.27],
+        before_spread=[0.1, 0.1], after=[128.3e9, 0.272], after_spread=[0.004, 0.09], correlation=np.eye(2),
+        model_error=0.003, model_error_spread=0.3, measured_frequency=[800.0, 801.0, 1500.0, 1710.0],
+        measured_std=[0.01, 0.01, 0.02, 0.1], pair=[0, 0, 1, -1], rival=[-1, -1, 2, -1], odds=[25.0, 25.0, 1.1, 4.0],
+        clear=[1, 1, 0, 0], likeness=np.array([[0.99, 0.01, 0], [0.98, 0, 0.01], [0, 0.7, 0.6], [0, 0, 0]]) * points,
+        frequency_before=[770.0, 1450.0, 1470.0], frequency=[801.2, 1495.0, 1512.0],
+        frequency_spread=[0.001, 0.001, 0.001], members=[2, 1, 2], diameters=[2, 0, 3],
+        place=["node 1 direction 3", "node 2 direction 3"] * points, reference=["node 1 direction 3"] * 2 * points,
+        agreement=[0.99, 0.5][:2 * points], distance=[1e-3, 4e-3][:2 * points])
 
 
 def response_functions(known=True):

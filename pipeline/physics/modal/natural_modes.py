@@ -59,6 +59,20 @@ def lowest_modes(stiffness, mass, solver, count=None, below=None, shift=None):
     return frequency, shape * np.sign(largest)
 
 
+def slopes(frequency, shape, before, after):
+    """(m,) change of ln f from matrices (K, M) ``before`` to those ``after``, first order: x.(dK - w^2 dM) x / (2 w^2).
+
+    ``frequency`` (m,) Hz above 0 and mass-normalised ``shape`` (n, m) are those before, or between both. Shapes that
+    stay while nodes move strain thin walls by the square of the change, which their bending frequencies would show:
+    changes to either side of the modes cancel it. Of modes of one frequency single changes depend on the mixture that
+    stands for them, their mean does not.
+    """
+    square = (2 * np.pi * frequency)**2
+    pulled, carried = (np.einsum("nm,nm->m", shape, (new - old) @ shape)
+                       for old, new in zip(before, after, strict=True))
+    return (pulled - square * carried) / (2 * square)
+
+
 def _modes_below(stiffness, mass, solver, below):
     negative = factorise(stiffness - (2 * np.pi * below)**2 * mass, solver).negative
     if negative is None:

@@ -21,6 +21,7 @@ from pipeline.views.chapters.bench import (
     line_evidence,
     measured_friction,
     modal_test,
+    model_update,
     noise_events,
     recording,
     response_functions,
@@ -63,6 +64,7 @@ CHAPTERS = {
     "noise_events": (noise_events.chapter, ()),
     "response_functions": (response_functions.chapter, ()),
     "modal_test": (modal_test.chapter, ()),
+    "model_update": (model_update.chapter, ()),
     "line_evidence": (line_evidence.chapter, ()),
     "friction_update": (measured_friction.chapter, ()),
     "bench": (bench.chapter, ()),
@@ -99,6 +101,8 @@ def _key_figures(products, look):
         return diagnosis.key_figures(products["diagnosis"])
     if products.get("friction_update") is not None:
         return (measured_friction.key_figure(products["friction_update"]),)
+    if products.get("model_update") is not None:
+        return (model_update.key_figure(products["model_update"]),)
     if products.get("modal_test") is not None:
         return (modal_test.key_figure(products["modal_test"], look),)
     if products.get("noise_events") is not None and products.get("complex_modes") is None:

@@ -5,7 +5,14 @@ from dataclasses import dataclass
 import numpy as np
 
 from pipeline.views.chapters import convergence, limit_cycle, probability
-from pipeline.views.chapters.bench import diagnosis, line_evidence, measured_friction, modal_test, noise_events
+from pipeline.views.chapters.bench import (
+    diagnosis,
+    line_evidence,
+    measured_friction,
+    modal_test,
+    model_update,
+    noise_events,
+)
 from pipeline.views.chapters.friction import outside_computed
 from pipeline.views.chapters.models.rupture import headline as rupture_headline
 from pipeline.views.chapters.pad_motion import extremes, open_balance, point, rate_in_words
@@ -39,11 +46,11 @@ def verdict(products, tuned_settings):
     """Verdict over ``products`` (name -> product or None); ``tuned_settings`` are (name, value) pairs."""
     if products.get("diagnosis") is not None or products.get("line_evidence") is not None:
         return _diagnosed(products.get("diagnosis"), products, tuned_settings)
-    measured = products.get("friction_update")
-    if measured is not None:
-        answers = (*measured_friction.note(measured), ("Tuned", _tuned(products, tuned_settings)))
-        return Verdict(*measured_friction.headline(measured), tuple(filter(lambda a: a[1], answers)),
-                       tuple(_facts(products)))
+    for name, told in (("friction_update", measured_friction), ("model_update", model_update)):
+        if products.get(name) is not None:
+            answers = (*told.note(products[name]), ("Tuned", _tuned(products, tuned_settings)))
+            return Verdict(*told.headline(products[name]), tuple(filter(lambda a: a[1], answers)),
+                           tuple(_facts(products)))
     headline, tone = _headline(products)
     answers = [("Where", _where(products)), ("Why", _why(products)), ("How likely", _likely(products)),
                ("How certain", _sure(products)),

@@ -7,7 +7,7 @@ from pipeline.contract.errors import ConfigError
 from pipeline.physics.closed_form.axisymmetric_disc import section_frequencies
 from pipeline.physics.fem.elasticity import assemble, isotropic
 from pipeline.physics.fem.mesh import block, revolve
-from pipeline.physics.modal.natural_modes import lowest_modes
+from pipeline.physics.modal.natural_modes import lowest_modes, slopes
 from pipeline.physics.numerics.sparse_solver import available
 
 pytestmark = pytest.mark.exact
@@ -100,3 +100,13 @@ def test_count_and_limit_exclude_one_another():
     stiffness, mass = body(beam(2))
     with pytest.raises(ConfigError, match="either count or below"):
         lowest_modes(stiffness, mass, FASTEST)
+
+
+def test_slopes_are_the_differences_of_frequencies():
+    """Of a beam that becomes thicker, whose nodes move, and stiffer; modes of bending and of torsion."""
+    first, stiffer = body(beam(10)), body(beam(10), young=2e11 * 1.01)
+    frequency, shape = (part[..., 6:] for part in lowest_modes(*first, FASTEST, count=10))
+    np.testing.assert_allclose(slopes(frequency, shape, first, stiffer), 0.005, rtol=1e-5)
+    near, far = ([body(beam(10, 0.01 * (1 + side * h))) for side in (-1, 1)] for h in (1e-4, 1e-3))
+    ends = [lowest_modes(*matrices, FASTEST, count=10)[0][6:] for matrices in far]
+    np.testing.assert_allclose(slopes(frequency, shape, *near) / 2e-4, np.log(ends[1] / ends[0]) / 2e-3, atol=1e-3)

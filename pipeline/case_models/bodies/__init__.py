@@ -1,0 +1,1 @@
+"""Bodies of a brake: their settings, and where a test has measured them."""
