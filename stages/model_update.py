@@ -75,7 +75,7 @@ def model_update(responses: ResponseFunctions, modes: ModalTest, settings: Setti
     Measured modes of the free body were paired with those of its finite-element model by frequency and shape (MAC, of
     pairs of a disc with the nearest mixture of both); pairs in doubt (odds below e^3) do not count. The values declared
     were updated by all others, ln f being normal about that of the model with the error of the test and one of the
-    model, which is integrated out; priors are log-normal with the spreads declared.
+    model, which is integrated out; a split pair counts by its mean; priors are log-normal with the spreads declared.
     """
     name, test = _test(modes, settings)
     body = Body(settings, context.solver, float(test.frequency.max()))

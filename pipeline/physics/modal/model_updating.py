@@ -82,9 +82,8 @@ def update(model, seen, test, count):
         if not clear.any():
             raise ConvergenceError("model update", "a measured mode that is one of the model beyond doubt", "none",
                                    "measure more points and state where they are, or widen the priors")
-        own = pairing.group[clear]
-        left = np.log(test.frequency[clear] / frequency[own]) + slope[own] @ latent
-        target, covariance, error, error_spread = posterior(left, slope[own], test.spread[clear])
+        own, left, noise = _told(test, pairing, frequency)
+        target, covariance, error, error_spread = posterior(left + slope[own] @ latent, slope[own], noise)
         moved = (target - latent) / np.sqrt(np.diag(covariance))
         if abs(moved).max(initial=0.0) < _ENOUGH:
             return Updated(target, covariance, error, error_spread, before, modes, groups,
@@ -118,6 +117,16 @@ def posterior(left, slope, spread):
     whole = np.einsum("w,wpq->pq", weight, np.array(covariances)) + np.einsum("w,wp,wq->pq", weight, apart, apart)
     middle = weight @ np.log(_ERRORS)
     return mean, whole, float(np.exp(middle)), float(np.sqrt(weight @ (np.log(_ERRORS) - middle) ** 2))
+
+
+def _told(test, pairing, frequency):
+    """(group (o,), ln f measured less that of the model (o,), its error (o,)) of the groups with clear pairs: means of
+    their measured modes, as what splits two modes of a disc is not in the model."""
+    own = np.unique(pairing.group[pairing.clear])
+    members = [pairing.clear & (pairing.group == group) for group in own]
+    left = [np.log(test.frequency[m] / frequency[group]).mean() for m, group in zip(members, own, strict=True)]
+    noise = [np.linalg.norm(test.spread[m]) / np.count_nonzero(m) for m in members]
+    return own, np.array(left), np.array(noise)
 
 
 def _means(modes, groups):

@@ -79,3 +79,15 @@ def test_modes_of_another_structure_are_refused():
     other = Test(np.array([500.0, 900.0]), np.full(2, 1e-4), np.random.default_rng(2).standard_normal((2, 5)))
     with pytest.raises(ConvergenceError, match="one of the model beyond doubt"):
         update(chain, lambda shape: shape, other, 2)
+
+
+def test_what_splits_a_pair_counts_as_no_error_of_the_model():
+    """Two equal pendulums that a test shows 1 % apart, and a third one."""
+    def pendulums(latent):
+        return ModelModes(np.array([10.0, 10.0, 30.0]) * np.exp(0.1 * latent[0]), np.full((3, 1), 0.1), np.eye(6)[:, :3])
+
+    middle = 10.0 * np.exp(0.05)
+    test = Test(middle * np.array([np.exp(-0.005), np.exp(0.005), 3.0]), np.full(3, 1e-4), np.eye(6)[:3])
+    found = update(pendulums, lambda shape: shape, test, 1)
+    assert 10.0 * np.exp(0.1 * found.latent[0]) == pytest.approx(middle, rel=1e-3)
+    assert found.pairing.group.tolist() == [0, 0, 1] and found.pairing.clear.all() and found.error < 3e-3

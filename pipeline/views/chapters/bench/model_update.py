@@ -57,7 +57,7 @@ def _together(product):
     first, second = np.triu_indices(len(product.parameter), 1)
     pairs = [f"{product.parameter[i]} and {product.parameter[j]}" for i, j in zip(first, second, strict=True)
              if abs(product.correlation[i, j]) > _TOGETHER]
-    return f" Of {'; '.join(pairs)} the test tells little more than one combination." if pairs else ""
+    return f" Of {', of '.join(pairs)} the test tells little more than one combination." if pairs else ""
 
 
 def doubts(product):
