@@ -84,7 +84,8 @@ def test_modes_of_another_structure_are_refused():
 def test_what_splits_a_pair_counts_as_no_error_of_the_model():
     """Two equal pendulums that a test shows 1 % apart, and a third one."""
     def pendulums(latent):
-        return ModelModes(np.array([10.0, 10.0, 30.0]) * np.exp(0.1 * latent[0]), np.full((3, 1), 0.1), np.eye(6)[:, :3])
+        frequency = np.array([10.0, 10.0, 30.0]) * np.exp(0.1 * latent[0])
+        return ModelModes(frequency, np.full((3, 1), 0.1), np.eye(6)[:, :3])
 
     middle = 10.0 * np.exp(0.05)
     test = Test(middle * np.array([np.exp(-0.005), np.exp(0.005), 3.0]), np.full(3, 1e-4), np.eye(6)[:3])

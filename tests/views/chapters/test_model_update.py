@@ -14,7 +14,7 @@ def test_values_pairs_doubts_and_points_are_told():
     assert "disc.young 120\u202fGPa to 128.3\u202fGPa ± 0.4\u202f%" in model_update.values(product)
     assert "hardly tells poisson: what was stated decides" in model_update.values(product)
     assert model_update.doubts(product) == ("No mode of the model: 1710 Hz; one of two modes of the model: 1500 Hz.")
-    assert "Point node 2 direction 3 shows other shapes than the model (correlation of 0.5" in model_update.left(product)
+    assert "Point node 2 direction 3 shows other shapes than the model (correlation of 0.5" in made.conclude
     values, modes, points = made.tables
     assert modes.rows[0][4:] == ("0.99", "2 nodal diameters") and modes.rows[2][5] == "in doubt: or 1512 Hz"
     assert modes.rows[3][5] == "no mode of the model" and points.rows[1][4] == "4"
