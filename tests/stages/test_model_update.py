@@ -88,3 +88,15 @@ def test_values_that_the_body_does_not_have_and_runs_without_modes_are_refused()
         model_update(responses, modes, settings=Settings(**GIVEN | {"values": {"yuong": {"spread": 0.1}}}))
     with pytest.raises(ConfigError, match="model_update.run: expected a run with modes: hammer, found 'stop'"):
         model_update(responses, modes, settings=Settings(**GIVEN | {"run": "stop"}))
+
+
+@pytest.mark.parametrize(("body", "given", "values", "slope"), [
+    ("caliper", {"radial_cells": 1, "angular_cells": 2, "housing_cells": 1, "bridge_cells": 1}, ("young",), 0.5),
+    ("caliper", {"radial_cells": 1, "angular_cells": 2, "housing_cells": 1, "bridge_cells": 1}, ("density",), -0.5),
+    ("pad", {"patches_angular": 2, "patches_radial": 1}, ("lining_density", "backplate_density"), -0.5)])
+def test_other_bodies_follow_their_moduli_and_densities(body, given, values, slope):
+    """f goes with the root of modulus over density, of all materials together."""
+    settings = Settings(body=body, values={name: {"spread": 0.1} for name in values}, **{body: given})
+    modes = Body(settings, "superlu", 6e3)(np.zeros(len(values)))
+    assert len(modes.frequency) > 2
+    np.testing.assert_allclose(modes.slope.sum(axis=1) / 0.1, slope, rtol=1e-5)
