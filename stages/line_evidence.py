@@ -20,12 +20,12 @@ from pipeline.diagnosis.published.line_hypotheses import (
     on_rigid_disc,
     same_solution,
 )
-from pipeline.diagnosis.published.line_tests import cycle_tests, run_tests
+from pipeline.diagnosis.published.line_tests import cycle_tests, record_tests, run_tests
 from pipeline.diagnosis.published.line_weighing import predicted, weighed
 from pipeline.diagnosis.published.pressure_cycle import Cycle, cycle_fields, no_cycle
 from pipeline.physics.stability.sampled_roots import sampled
 from pipeline.physics.stability.scatter import NOMINAL
-from pipeline.products import ComplexModes, FrictionMap, LineEvidence, Recording, ReducedModel
+from pipeline.products import ComplexModes, FrictionMap, LineEvidence, NoiseEvents, Recording, ReducedModel
 
 #: draws of one task of the fan-out
 _CHUNK = 10
@@ -37,7 +37,11 @@ class Settings(Section):
     run: str = option("bench", "recorded run of a cycle of changing load, beside a test at constant load without lines")
     runs: tuple[str, ...] = option(
         (), "instead: recorded runs, each a test at the pressure and the speed among its conditions, with a list of its"
-        " lines, empty where it was silent")
+        " lines, empty where it was silent; none = after noise_events all runs that it has searched")
+    pressure_factor: float = option(1.0, "nominal pad pressure over that of the runs: area of the piston over that of"
+                                    " the pad where these state the pressure in the line", gt=0)
+    pressure_within: float = option(0.05, "share within which the pressures of records are those of structure", gt=0,
+                                    lt=0.5)
     list: str = option("laser", "list of lines in a run")
     disc: tuple[str, ...] = option(("disc",), "bodies that are the disc", min_length=1)
     low: Quantity("Hz", ge=0) = option("1.25 kHz", "lower end of the band in which lines could be heard")
@@ -78,7 +82,7 @@ def _check(sections):
     if settings.cycle is not None and not settings.cycle.low < settings.cycle.high:
         raise ConfigError("line_evidence.cycle.high", f"more than low, {settings.cycle.low:g} Pa",
                           f"{settings.cycle.high:g} Pa")
-    if settings.runs and any(h.load_rate for h in settings.hypotheses.values()):
+    if (settings.runs or "noise_events" in sections) and any(h.load_rate for h in settings.hypotheses.values()):
         raise ConfigError("line_evidence.hypotheses", "no load_rate, as every run of line_evidence.runs has one load",
                           "a changing load")
     if "friction_map" not in sections:
@@ -96,7 +100,7 @@ def _refuse_pressure(settings):
 
 @stage(companions=companions, check=_check)
 def line_evidence(model: ReducedModel, friction_map: FrictionMap | None, modes: ComplexModes, recording: Recording,
-                  settings: Settings, context: Context) -> LineEvidence:
+                  events: NoiseEvents | None, settings: Settings, context: Context) -> LineEvidence:
     """Weigh hypotheses on a squeal by how probable they make the lines that were heard.
 
     Method:
@@ -110,7 +114,7 @@ def line_evidence(model: ReducedModel, friction_map: FrictionMap | None, modes: 
     if settings.high > points.frequency_max:
         raise ConfigError("line_evidence.high", f"at most {points.frequency_max:g} Hz, where the complex modes end",
                           f"{settings.high:g} Hz", "raise complex_modes.frequency_max")
-    tests = (run_tests if settings.runs else cycle_tests)(recording, settings, model.pressure)
+    tests = _tests(recording, events, settings, model.pressure)
     errors = friction_errors(friction_map, points.sliding_distance)
 
     def draws(hypothesis, count, seed):
@@ -138,6 +142,13 @@ def line_evidence(model: ReducedModel, friction_map: FrictionMap | None, modes: 
             context.map)
     return LineEvidence(pressure=model.pressure[tests.state], speed=tests.speed, operating_test=tests.test, **fields,
                         **run)
+
+
+def _tests(recording, events, settings, pressure):
+    """BenchTests of the settings: squeal of records, lists of runs, or a cycle beside a silent test."""
+    if events is not None:
+        return record_tests(recording, events, settings, pressure)
+    return (run_tests if settings.runs else cycle_tests)(recording, settings, pressure)
 
 
 def _family(model, state, friction_map, points, held):

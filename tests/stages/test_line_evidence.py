@@ -16,7 +16,7 @@ from stages.reduced_model import Settings as Reduction
 from stages.reduced_model import reduced_model
 from tests.stages.small_structure import small_friction_map, small_structure
 from tests.stages.two_processes import TwoProcesses
-from tests.views.products_for_views import filled
+from tests.views.products_for_views import filled, noise_events
 
 SOURCES = ({"kind": "joint_stiffness", "variation": 0.3}, {"kind": "friction", "variation": 0.1})
 GIVEN = {"low": "500 Hz", "high": "8 kHz", "silent_up_to": "1.5 MPa", "constant_speed": "8 rad/s",
@@ -91,6 +91,23 @@ def test_recorded_runs_are_tests_at_their_own_operating_points(brake, tone):
     np.testing.assert_array_equal(made.heard_in, [[0, 1]])
     np.testing.assert_allclose(made.pressure, [1e6, 2e6])
     assert made.lines_alone[1] > made.lines_alone[0] and made.near[1, 0] > made.near[0, 0]
+
+
+def test_squeal_found_in_records_weighs_as_a_list_of_it(brake, tone):
+    runs = {}
+    for name, pressure, lines in (("low", 1e6, ()), ("high", 2e6, (tone,))):
+        given = {"pressure": (pressure, "Pa"), "speed": (8.0, "rad/s")}
+        runs[name] = replace(recording(*lines).runs["bench"], conditions={
+            key: Condition(value=[value], time=[0.0], unit=unit) for key, (value, unit) in given.items()})
+    every = noise_events()
+    events = replace(every, band=[500.0, 16e3], record_run=["low", "low", "high"], **{
+        name: getattr(every, name)[2:3] for name in vars(every) if name.startswith("event_")})
+    events = replace(events, event_frequency=[tone], event_lowest=[tone - 50.0], event_highest=[tone + 50.0])
+    settings = Settings(**{**GIVEN, "runs": ("low", "high")})
+    listed = line_evidence(*brake, Recording(source=[], runs=runs), settings=settings)
+    found = line_evidence(*brake, Recording(source=[], runs=runs), events, settings=settings)
+    np.testing.assert_array_equal(found.evidence, listed.evidence)
+    np.testing.assert_array_equal(found.heard_in, [[0, 1]])
 
 
 def test_the_number_of_workers_changes_no_bit(brake, made, tone):

@@ -16,7 +16,7 @@ from pipeline.diagnosis.published.line_hypotheses import FALLING, FLEXIBLE, LOAD
 #: chain of the completed case by the section that describes the brake
 _CHAINS = {"lumped": "lumped_modes", "structure": "brake_squeal"}
 #: sections that ask what was heard
-_ASKED = ("recording", "line_evidence", "diagnosis")
+_ASKED = ("recording", "noise_events", "line_evidence", "diagnosis")
 #: part of the name of a joint -> its values in structure.joints
 _JOINTS = {"abutment": ("abutment_stiffness", "clip_stiffness", "abutment_radial_stiffness"),
            "finger": ("finger_stiffness", "finger_shear_stiffness"),

@@ -1,18 +1,21 @@
 """Tests of a bench from its recording: a cycle beside a silent test, and runs at one operating point each."""
 
+from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 from pipeline.contract import ConfigError
-from pipeline.diagnosis.published.line_tests import cycle_tests, grouped, run_tests
-from pipeline.products import Condition, Lines, Recording, Run
+from pipeline.diagnosis.published.line_tests import cycle_tests, grouped, record_tests, run_tests
+from pipeline.products import Channel, Condition, Lines, Recording, Run
+from tests.views import products_for_views as small
 from tests.views.products_for_views import filled
 
 PRESSURE = np.array([0.5e6, 1e6, 2e6])
 SETTINGS = SimpleNamespace(run="bench", runs=("low", "high", "quiet"), list="laser", low=1e3, high=20e3,
-                           model_error=0.01, silent_up_to=0.6e6, constant_speed=8.0, cycle_speed=6.0)
+                           model_error=0.01, silent_up_to=0.6e6, constant_speed=8.0, cycle_speed=6.0,
+                           pressure_factor=1.0, pressure_within=0.05)
 
 
 def run(*lines, pressure=1e6, unit="Pa"):
@@ -69,3 +72,41 @@ def test_runs_that_do_not_fit_are_refused(runs, where):
 def test_cycles_that_do_not_fit_are_refused(pressure, lines, where):
     with pytest.raises(ConfigError, match=where):
         cycle_tests(recording(bench=run(*lines)), SETTINGS, pressure)
+
+
+def channel(samples, unit, measures):
+    return filled(Channel, samples=samples, missing=np.empty((0, 2), int), unit=unit, measures=measures, rate=10.0,
+                  role="response")
+
+
+#: two stops, of which one states its conditions and the other has channels for them
+RECORDED = recording(
+    stop_1=replace(run(pressure=10e6), lines={}),
+    stop_2=Run(description="", repeat_of="", channels={
+        "line": channel(np.full(20, 5.1e6), "Pa", "pressure"), "mic": channel(np.ones(20), "Pa", "sound_pressure"),
+        "wheel": channel(np.linspace(3.9, 4.1, 20), "rad/s", "angular_velocity")}))
+PADS = SimpleNamespace(**{**vars(SETTINGS), "runs": (), "pressure_factor": 0.2, "low": 2e3})
+
+
+def test_squeal_of_records_is_what_was_heard_at_their_conditions():
+    """Of stop_1 the microphone counts, without its harmonic; of a line pressure a fifth acts on the pads."""
+    made = record_tests(RECORDED, small.noise_events(), PADS, PRESSURE)
+    assert made.name == ("stop_1", "stop_2") and made.state.tolist() == [2, 1]
+    np.testing.assert_allclose(made.heard.lines, [2780.0, 7340.0])
+    np.testing.assert_array_equal(made.heard.tests, [[1, 0], [0, 1]])
+    np.testing.assert_allclose(made.speed, [4.0, 4.0], atol=0.02)
+    assert made.reading == pytest.approx(7340e-3 / np.sqrt(3))
+
+
+def test_a_stop_over_many_speeds_unsearched_runs_and_a_band_that_nobody_searched_are_refused():
+    moving = replace(RECORDED.runs["stop_2"], channels={**RECORDED.runs["stop_2"].channels, "wheel": channel(
+        np.linspace(9.0, 1.0, 20), "rad/s", "angular_velocity")})
+    events = small.noise_events()
+    with pytest.raises(ConfigError, match="stop_2: expected one speed, .*cut the record into runs"):
+        record_tests(recording(**{**RECORDED.runs, "stop_2": moving}), events, PADS, PRESSURE)
+    with pytest.raises(ConfigError, match="runs with a microphone or an accelerometer: stop_1, stop_2, found drag"):
+        record_tests(RECORDED, events, SimpleNamespace(**{**vars(PADS), "runs": ("drag",)}), PRESSURE)
+    with pytest.raises(ConfigError, match="line_evidence.low: expected at least 2000 Hz"):
+        record_tests(RECORDED, events, SimpleNamespace(**{**vars(PADS), "low": 1e3}), PRESSURE)
+    with pytest.raises(ConfigError, match="a pressure that the model was computed at"):
+        record_tests(RECORDED, events, SimpleNamespace(**{**vars(PADS), "pressure_factor": 0.3}), PRESSURE)
