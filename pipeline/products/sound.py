@@ -83,3 +83,32 @@ class NoiseEvents:
     event_condition: Array = quantity("1", "event condition", "mean of each condition over the event, SI; 0 where not known")
     event_condition_known: Array = count("event condition", "1 where it is known")
     spectrogram: dict[str, Spectrogram] = parts("of each record, named run.channel", empty=True)
+
+
+@product(version=1)
+class OrderSpectra:
+    """Vibration over the revolutions of a shaft: one channel of a run during which the speed varies."""
+
+    run: Array = text("", "run")
+    channel: Array = text("", "channel")
+    shaft: Array = text("", "channel that tells the speed")
+    unit: Array = text("", "coherent SI unit of the amplitudes")
+    time: Array = quantity("s", "time", "middle of each block of revolutions, in the time of the record")
+    speed: Array = quantity("rad/s", "time", "mean speed in it")
+    order: Array = quantity("1", "order", "order axis: 1 is once per revolution")
+    amplitude: Array = quantity("1", "time order", "amplitude of a sine of that order", np.float32)
+    edge: Array = quantity("rad/s", "edge", "ends of the bins of speed")
+    outstanding: Array = quantity("1", "outstanding", "orders that stand out and follow the speed, strongest first")
+    sure: Array = count("outstanding", "0 where the speed varies too little to tell it from a tone of constant frequency")
+    level: Array = quantity("1", "outstanding bin", "their amplitude over speed, root mean square over blocks; 0 where there are none")
+    blocks: Array = count("bin", "blocks in each bin of speed")
+    frequency: Array = quantity("Hz", "frequency", "frequency axis of the Campbell diagram")
+    campbell: Array = quantity("1", "bin frequency", "amplitude over speed and frequency, root mean square over frames; 0 where there are none", np.float32)
+    frames: Array = count("bin", "frames in each bin of speed")
+
+
+@product(version=1)
+class Orders:
+    """Orders of the recordings of a bench. Empty where no channel tells a speed that varies."""
+
+    spectra: dict[str, OrderSpectra] = parts("of each channel, named run.channel", empty=True)

@@ -23,6 +23,8 @@ from pipeline.products import (
     ModalTest,
     Multibody,
     NoiseEvents,
+    Orders,
+    OrderSpectra,
     PinOnDisc,
     Probability,
     ReducedModel,
@@ -163,6 +165,18 @@ def noise_events(quiet=False):
         condition=["pressure", "speed", "temperature"], event_lowest=0.999 * events["event_frequency"],
         event_highest=1.001 * events["event_frequency"], **events,
         spectrogram={"stop_1.mic": spectrogram, "stop_1.pad": spectrogram, "stop_2.mic": spectrogram})
+
+
+def orders(quiet=False):
+    """A stop from 25 to 5 revolutions per second: orders 1 and 10 of the torque stand out, or none does."""
+    edge = 2 * np.pi * np.linspace(5.0, 25.0, 11)
+    frequency, random = np.linspace(0.0, 500.0, 40), np.random.default_rng(7)
+    found = np.array([] if quiet else [1.0, 10.0])
+    return Orders(spectra={"stop.torque": filled(
+        OrderSpectra, run="stop", channel="torque", shaft="wheel", unit="N m", time=np.arange(30.0),
+        speed=np.linspace(edge[-1], edge[0], 30), order=np.arange(161) / 8, edge=edge, outstanding=found,
+        sure=[0, 1][:len(found)], level=np.outer(found, 1.0 + random.random(10)).reshape(-1, 10),
+        blocks=[3] * 9 + [0], frequency=frequency, campbell=random.random((10, 40)), frames=[5] * 9 + [0])})
 
 
 def friction_update():

@@ -22,6 +22,7 @@ from pipeline.views.chapters.bench import (
     measured_friction,
     modal_test,
     noise_events,
+    orders,
     recording,
     response_functions,
 )
@@ -61,6 +62,7 @@ CHAPTERS = {
     "rupture": (rupture.chapter, ()),
     "recording": (recording.chapter, ()),
     "noise_events": (noise_events.chapter, ()),
+    "orders": (orders.chapter, ()),
     "response_functions": (response_functions.chapter, ()),
     "modal_test": (modal_test.chapter, ()),
     "line_evidence": (line_evidence.chapter, ()),
@@ -74,7 +76,10 @@ NO_CHAPTER = {"effects": "the settings", "reduced_model": "the chapter of comple
 
 
 def plan(products, look):
-    """Functions without arguments, one per chapter whose product is there, in chain order."""
+    """Functions without arguments, one per chapter whose product is there, in chain order.
+
+    A chapter is None where its product has nothing to say.
+    """
     published = published_squeal(products.get("comparison"))
 
     def given(name):
@@ -87,10 +92,12 @@ def plan(products, look):
 def page(chapters, products, case, look):
     """HTML text of the report; the same arguments give the same bytes."""
     facts = products.get("comparison")
+    silent = set(CHAPTERS) & set(products) - {chapter.anchor for chapter in chapters}
+    methods = tuple((stage, sentence) for stage, sentence in case_view.methods(case) if stage not in silent)
     return template().render(
         case=case, chapters=chapters, verdict=verdict(products, case_view.tuned(case)),
         key_figures=_key_figures(products, look), key_tables=() if facts is None else comparison.tables(facts),
-        stages=case_view.stages(case), methods=case_view.methods(case), limits=limits(products))
+        stages=case_view.stages(case), methods=methods, limits=limits(products))
 
 
 def _key_figures(products, look):
