@@ -6,7 +6,8 @@ from functools import partial
 
 import numpy as np
 
-from pipeline.contract import ConfigError, Context, Quantity, Section, option, stage
+from pipeline.case_models.named_modes import named_modes
+from pipeline.contract import ConfigError, Context, InputFile, Quantity, Section, option, stage
 from pipeline.physics.signals.noise_events import broadband, tonal
 from pipeline.physics.signals.spectra import HEARING, level
 from pipeline.physics.signals.squeal_detector import Detector, frames, loudest
@@ -38,6 +39,10 @@ class Settings(Section):
                                   " weighted", gt=0)
     low_window: Quantity("s", gt=0) = option("200 ms", "length of a frame for tones below the squeal band")
     lowest_tone: Quantity("Hz", gt=0) = option("20 Hz", "tones from here on are told")
+    modes: dict[str, Quantity("Hz", gt=0)] = option({}, "natural frequencies by name, to compare the events with")
+    modes_file: InputFile | None = option(None, "modes of another run to compare the events with: its complex_modes.h5"
+                                          " or modal_test.h5")
+    near: float = option(0.03, "largest distance of an event from a mode near it, as a share", gt=0, lt=0.3)
 
 
 #: acceleration of 0 dB [m/s^2] (ISO 1683)
@@ -50,6 +55,8 @@ _CONDITIONS = {"pressure": ("pressure",), "speed": ("angular_velocity", "speed")
 _UNITS = {"pressure": "Pa", "speed": "rad/s", "temperature": "K"}
 #: most frames and lines of a spectrogram that is kept for the page
 _KEPT = 600, 320
+#: kinds of events that have a tone of their own
+_OWN = ("squeal", "moan", "groan", "judder")
 _FIELDS = ("kind", "frequency", "lowest", "highest", "level", "start", "duration", "fundamental", "order")
 
 
@@ -58,12 +65,15 @@ def companions(product, case=None):
     stream = io.StringIO()
     writer = csv.writer(stream, lineterminator="\n")
     writer.writerow(("run", "channel", "kind", "frequency / Hz", "lowest / Hz", "highest / Hz", "level / dB",
-                     "start / s", "duration / s", "order", *(f"{name} / {_UNITS[name]}" for name in product.condition)))
+                     "start / s", "duration / s", "order", *(f"{name} / {_UNITS[name]}" for name in product.condition),
+                     *(("mode", "mode / Hz") if len(product.mode_name) else ())))
     for k, record in enumerate(product.event_record):
         writer.writerow((product.record_run[record], product.record_channel[record], product.event_kind[k],
                          *(f"{getattr(product, f'event_{name}')[k]:.6g}" for name in _FIELDS[1:7]),
                          product.event_order[k], *(f"{value:.6g}" if known else "" for value, known in zip(
-                             product.event_condition[k], product.event_condition_known[k], strict=True))))
+                             product.event_condition[k], product.event_condition_known[k], strict=True)),
+                         *((product.mode_name[mode], f"{product.mode_frequency[mode]:.6g}")
+                           if (mode := product.event_mode[k]) >= 0 else ())))
     return {"noise_events.csv": stream.getvalue()}
 
 
@@ -79,10 +89,12 @@ def noise_events(recording: Recording, settings: Settings, context: Context) -> 
     amplitude. Levels are those of the tones, A-weighted by the formula of IEC 61672-1. Noise without a tone counts by
     the level of the band without its strongest lines. Tones below the band are told from {low_threshold} dB on, not
     weighted; accelerometers from {vibration_threshold} on. No standard fixes the last two, nor the shortest event.
+    Where modes are given, an event is near one if their frequencies differ by at most {near}.
     """
     if settings.lowest_frequency >= settings.highest_frequency:
         raise ConfigError("noise_events.lowest_frequency", f"less than highest_frequency,"
                           f" {settings.highest_frequency:g} Hz", f"{settings.lowest_frequency:g} Hz")
+    modes = named_modes(settings.modes, settings.modes_file, "noise_events.modes_file")
     tasks = [(name, key, channel, kind) for name, run in recording.runs.items()
              for key, channel in run.channels.items() for kind in [_kind(key, channel, settings)] if kind]
     strange = set(settings.channels) - {key for run in recording.runs.values() for key in run.channels}
@@ -93,7 +105,7 @@ def noise_events(recording: Recording, settings: Settings, context: Context) -> 
         if isinstance(result, str):
             context.log(f"{name}, {key}: not searched: {result}")
     kept = [(task, result) for task, result in zip(tasks, found, strict=True) if not isinstance(result, str)]
-    return _product(kept, recording, settings)
+    return _product(kept, recording, modes, settings)
 
 
 def _kind(name, channel, settings):
@@ -169,7 +181,7 @@ def _spectrogram(spectra, detector, begin, top):
                        level=level(np.square(blocks.max(axis=(1, 3)), dtype=float), detector.reference))
 
 
-def _product(kept, recording, settings):
+def _product(kept, recording, modes, settings):
     rows = [(k, event) for k, (_, (events, *_)) in enumerate(kept) for event in events]
     begins = [result[4] for _, result in kept]
     values = np.zeros((len(rows), len(_CONDITIONS)))
@@ -184,8 +196,10 @@ def _product(kept, recording, settings):
                 values[j, i], known[j, i] = value, 1
     columns = {name: [getattr(event, name) for _, event in rows] for name in _FIELDS}
     columns["start"] = [begins[k] + event.start for k, event in rows]
+    near = [modes.nearest([event.frequency], settings.near)[0] if event.kind in _OWN else -1 for _, event in rows]
+    band = settings.lowest_frequency, settings.highest_frequency
     return NoiseEvents(
-        threshold=settings.threshold, band=[settings.lowest_frequency, settings.highest_frequency],
+        threshold=settings.threshold, band=list(band),
         record_run=[name for (name, *_), _ in kept], record_channel=[key for (_, key, *_), _ in kept],
         record_kind=[kind for (*_, kind), _ in kept], condition=list(_CONDITIONS),
         record_duration=[len(channel.samples) / float(channel.rate) for (_, _, channel, _), _ in kept],
@@ -193,6 +207,8 @@ def _product(kept, recording, settings):
         record_background=[result[2] for _, result in kept],
         spectrogram={f"{name}.{key}": result[3] for (name, key, *_), result in kept},
         event_record=[k for k, _ in rows], event_condition=values, event_condition_known=known,
+        event_mode=near, mode_name=list(modes.name), mode_frequency=modes.frequency, mode_unstable=modes.unstable,
+        near=settings.near, near_chance=[modes.covered(band, settings.near, unstable) for unstable in (False, True)],
         **{f"event_{name}": column for name, column in columns.items()})
 
 

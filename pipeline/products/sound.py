@@ -56,7 +56,7 @@ class Spectrogram:
     level: Array = quantity("1", "time frequency", "largest level in it, dB; of sound A-weighted", np.float32)
 
 
-@product(version=1)
+@product(version=2)
 class NoiseEvents:
     """Squeal and other noise events in recordings. A record is a channel of a run."""
 
@@ -82,6 +82,12 @@ class NoiseEvents:
     event_order: Array = count("event", "the multiple; 1: a tone of its own")
     event_condition: Array = quantity("1", "event condition", "mean of each condition over the event, SI; 0 where not known")
     event_condition_known: Array = count("event condition", "1 where it is known")
+    event_mode: Array = count("event", "named mode nearest in frequency, -1 where none lies within `near`, or of a harmonic, sweep, series or broadband noise")
+    mode_name: Array = text("mode", "modes that the events are compared with")
+    mode_frequency: Array = quantity("Hz", "mode", "their natural frequencies, rising")
+    mode_unstable: Array = count("mode", "1 where it is predicted to be unstable, 0 where it is predicted not to be, -1 where nothing is predicted")
+    near: Array = quantity("1", "", "largest distance of an event from a mode near it, as a share of its frequency")
+    near_chance: Array = quantity("1", "chance", "share of the squeal band, on a logarithmic axis, that lies as near to a mode, and to an unstable one")
     spectrogram: dict[str, Spectrogram] = parts("of each record, named run.channel", empty=True)
 
 

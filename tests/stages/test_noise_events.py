@@ -132,3 +132,16 @@ def test_a_tone_of_a_narrow_band_is_not_noise_as_well():
     mic = run({"mic": channel(tone + NOISE, "Pa", "sound_pressure", RATE, 0.0, "mic")})
     found = noise_events(Recording(source=[], runs={"a": mic}), settings=Settings(highest_frequency="3 kHz"))
     assert list(found.event_kind) == ["squeal"]
+
+
+def test_events_are_compared_with_modes():
+    """The tone lies 1.6 % below a mode, which names it; within 1 % of none."""
+    modes = {"bell": "3.2 kHz", "ring": "5 kHz"}
+    found = noise_events(recorded(), settings=Settings(modes=modes))
+    assert list(found.mode_name) == ["bell", "ring"] and found.event_mode.tolist() == [0, 0]
+    covered = (np.log(1.03 / 0.97) * 2) / np.log(8)
+    assert found.near_chance == pytest.approx([covered, 0.0]) and found.mode_unstable.tolist() == [-1, -1]
+    head, first, *_ = companions(found)["noise_events.csv"].splitlines()
+    assert head.endswith("mode,mode / Hz") and first.endswith("bell,3200")
+    far = noise_events(recorded(), settings=Settings(modes=modes, near=0.01))
+    assert far.event_mode.tolist() == [-1, -1] and companions(far)["noise_events.csv"].splitlines()[1].endswith(",400")

@@ -163,7 +163,9 @@ def noise_events(quiet=False):
         record_channel=["mic", "pad", "mic"], record_kind=["sound", "vibration", "sound"], record_duration=[10.0] * 3,
         record_peak=[89.0, 149.0, 78.0], record_peak_frequency=[2780.0, 2780.0, 7340.0], record_background=[62.0] * 3,
         condition=["pressure", "speed", "temperature"], event_lowest=0.999 * events["event_frequency"],
-        event_highest=1.001 * events["event_frequency"], **events,
+        event_highest=1.001 * events["event_frequency"], **events, mode_name=["umbrella", "mode 7"],
+        mode_frequency=[2800.0, 9000.0], mode_unstable=[1, 0], near=0.03, near_chance=[0.06, 0.03],
+        event_mode=np.array([0, -1, -1, -1, 0])[kept],
         spectrogram={"stop_1.mic": spectrogram, "stop_1.pad": spectrogram, "stop_2.mic": spectrogram})
 
 

@@ -71,3 +71,16 @@ def test_a_run_without_a_microphone_counts_by_its_accelerometer():
     assert runs(mixed)[0] == ["b"] and headline(mixed)[0].startswith("Squeal in 1 of 2 runs")
     silent = replace(mixed, event_kind=np.array(["sweep"] * 5, dtype=object))
     assert "89 dB(A)" in plain(conclusion(silent))
+
+
+def test_events_are_told_beside_modes_and_what_chance_would_do():
+    product = small.noise_events()
+    told = plain(conclusion(product))
+    assert "1 of 2 squeal events lie within 3 % of one of 2 modes; a tone that has nothing to do with them" in told
+    assert "would with 6 %. Near one that is predicted to be unstable: 1; by chance 3 %." in told
+    rows = [plain(row[-1]) for row in chapter(product, LOOK).tables[0].rows]
+    assert rows[0] == "umbrella, −0.71 %, unstable" and rows.count("none within 3 %") == 2 and rows.count("") == 1
+    bare = replace(product, event_mode=-1 + 0 * product.event_mode, mode_name=np.array([], dtype=object),
+                   mode_frequency=np.array([]), mode_unstable=np.array([], int))
+    assert "modes" not in conclusion(bare) and len(chapter(bare, LOOK).tables[0].head) == 8
+    assert key_figure(bare, LOOK).image != key_figure(product, LOOK).image

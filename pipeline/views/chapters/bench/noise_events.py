@@ -8,6 +8,8 @@ from pipeline.views.figures.number_format import number, percent, plural, quanti
 
 #: spectrograms and rows that are shown
 _SHOWN, _ROWS = 6, 60
+#: kinds of events that have a tone of their own, and what is said of a mode by ``mode_unstable``
+_TONES, _STATES = ("squeal", "moan", "groan", "judder"), {1: ", unstable", 0: ", stable", -1: ""}
 _PAIRS = (("pressure", "speed"), ("pressure", "temperature"), ("speed", "temperature"))
 
 
@@ -64,7 +66,8 @@ def conclusion(product):
             f" ({percent(len(noisy) / len(every), 2)}). The loudest: {number(product.event_level[first], 3)}"
             f" {_unit(product, product.event_record[first])} at {quantity(product.event_frequency[first], 'Hz', 4)} for"
             f" {quantity(product.event_duration[first], 's', 2)}, run {product.record_run[product.event_record[first]]}"
-            f"{_at(product, first)}.{_bands(product, rows)}" + (f" Told beside: {beside}." if beside else ""))
+            f"{_at(product, first)}.{_bands(product, rows)}{_modes(product)}"
+            + (f" Told beside: {beside}." if beside else ""))
 
 
 def _searched(product):
@@ -99,14 +102,41 @@ def _bands(product, rows):
     return f" Frequencies, with the number of events: {told}."
 
 
+def _mode(product, event):
+    """The mode near an event, and how far the event lies above or below it."""
+    mode = product.event_mode[event]
+    if mode < 0:
+        return f"none within {percent(product.near, 2)}" if str(product.event_kind[event]) in _TONES else ""
+    away = product.event_frequency[event] / product.mode_frequency[mode] - 1.0
+    sign = "+" if away >= 0 else ""
+    return f"{product.mode_name[mode]}, {sign}{percent(away, 2)}{_STATES[product.mode_unstable[mode]]}"
+
+
+def _modes(product):
+    """How many squeal events lie near a mode, and how many would by chance; '' without modes."""
+    rows = squeals(product)
+    if not len(product.mode_name) or not len(rows):
+        return ""
+    near = product.event_mode[rows]
+    told = (f" {np.count_nonzero(near >= 0)} of {plural(len(rows), 'squeal event')} lie within"
+            f" {percent(product.near, 2)} of one of {plural(len(product.mode_name), 'mode')}; a tone that has nothing"
+            f" to do with them would with {percent(product.near_chance[0], 2)}.")
+    if np.any(product.mode_unstable == 1):
+        unstable = np.count_nonzero(product.mode_unstable[near[near >= 0]] == 1)
+        told += (f" Near one that is predicted to be unstable: {unstable}; by chance"
+                 f" {percent(product.near_chance[1], 2)}.")
+    return told
+
+
 def _figures(product, look):
     squeal = set(product.event_record[squeals(product)])
     order = sorted(range(len(product.record_run)), key=lambda k: (k not in squeal, product.record_kind[k] != "sound",
                                                        -product.record_peak[k]))
+    drawn = " White: modes, stable ones dotted." if len(product.mode_name) else ""
     for record in order[:_SHOWN]:
         yield Figure(pictures.spectrogram(product, record, look.dpi),
                      f"Run {product.record_run[record]}, {product.record_channel[record]}: level over time and"
-                     " frequency; lines are events, red squeal.")
+                     f" frequency; lines are events, red squeal.{drawn}")
     if np.any(product.record_kind[product.event_record] == "sound"):
         yield Figure(pictures.level_frequency(product), "Events of the microphones: level over frequency; dashed: the"
                      " threshold. Those below the band are not A-weighted.")
@@ -120,13 +150,13 @@ def _tables(product):
     rows = tuple((str(product.record_run[r]), str(product.record_channel[r]), str(product.event_kind[k]),
                   quantity(product.event_frequency[k], "Hz", 4), number(product.event_level[k], 3),
                   quantity(product.event_start[k], "s", 3), quantity(product.event_duration[k], "s", 2),
-                  _at(product, k).strip(" ()"))
+                  _at(product, k).strip(" ()"), *([_mode(product, k)] if len(product.mode_name) else []))
                  for k in _in_order(product)[:_ROWS] for r in [product.event_record[k]])
     if rows:
         more = len(product.event_record) - len(rows)
         title = "Events" + (f", the loudest; {more} more in noise_events.csv" if more else "")
-        yield Table(("run", "channel", "kind", "frequency", "level / dB", "begin", "length", "conditions"), rows, title,
-                    numeric=(3, 4, 5, 6), wide=(7,), folded=len(rows) > 12)
+        head = ("run", "channel", "kind", "frequency", "level / dB", "begin", "length", "conditions", "nearest mode")
+        yield Table(head[:len(rows[0])], rows, title, numeric=(3, 4, 5, 6), wide=(7,), folded=len(rows) > 12)
     peaks = tuple((str(product.record_run[k]), str(product.record_channel[k]),
                    number(product.record_peak[k], 3), quantity(product.record_peak_frequency[k], "Hz", 4),
                    number(product.record_background[k], 3), quantity(product.record_duration[k], "s", 3))

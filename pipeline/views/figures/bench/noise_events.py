@@ -21,6 +21,8 @@ KINDS = {"squeal": RED, "harmonic": COLOURS[4], "sweep": COLOURS[5], "series": C
          "moan": COLOURS[2], "groan": COLOURS[2], "judder": COLOURS[2]}
 #: dB that a spectrogram shows
 _RANGE = 60.0
+#: so many modes are all drawn across
+_FEW = 12
 
 
 def spectrogram(product, record, dpi):
@@ -40,10 +42,29 @@ def spectrogram(product, record, dpi):
             axes.plot([begin, begin + product.event_duration[k]], [height, height], lw=1.4,
                       color=KINDS[str(product.event_kind[k])], solid_capstyle="butt")
         axes.set(xlabel="time / s", ylabel="frequency / kHz", ylim=(0, shown.frequency[-1] / 1e3))
+        _modes(axes, product, shown)
         axes.grid(False)
         unit = "dB(A)" if product.record_kind[record] == "sound" else "dB re 1 µm/s²"
         colour_bar(axes, image, f"level / {unit}")
         return png(figure, dpi)
+
+
+def _modes(axes, product, shown):
+    """Dashed lines at the natural frequencies of named modes: all if they are few, else the unstable and those near an
+    event, the others as ticks; names at the left, of none that would cover another."""
+    inside = np.flatnonzero(product.mode_frequency < shown.frequency[-1])
+    named = np.isin(inside, product.event_mode) | (product.mode_unstable[inside] == 1) | (len(inside) <= _FEW)
+    begin, end = axes.get_xlim()
+    last = -np.inf
+    for k, whole in zip(inside, named, strict=True):
+        height = product.mode_frequency[k] / 1e3
+        axes.plot([begin, end if whole else begin + 0.02 * (end - begin)], [height, height], color="white", lw=0.7, zorder=1.5,
+                  ls="--" if product.mode_unstable[k] else ":")
+        if whole and height - last > 0.05 * shown.frequency[-1] / 1e3:
+            last = height
+            name = f"{product.mode_name[k]}{', unstable' if product.mode_unstable[k] == 1 else ''}"
+            axes.annotate(name, (begin, height), (3, 1), textcoords="offset points", color="white", fontsize=7.5)
+    axes.set_xlim(begin, end)
 
 
 def level_frequency(product):
