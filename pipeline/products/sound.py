@@ -56,7 +56,21 @@ class Spectrogram:
     level: Array = quantity("1", "time frequency", "largest level in it, dB; of sound A-weighted", np.float32)
 
 
-@product(version=2)
+@product(version=1)
+class OccurrenceMap:
+    """Squeal over two conditions, in bins, over all runs in which both are known."""
+
+    condition: Array = text("axis", "the two conditions")
+    first_edge: Array = quantity("1", "first_edge", "ends of the bins of the first condition, SI")
+    second_edge: Array = quantity("1", "second_edge", "ends of the bins of the second condition, SI")
+    time: Array = quantity("s", "first second", "recorded time in the bin")
+    squealing: Array = quantity("s", "first second", "part of it with squeal")
+    runs: Array = count("first second", "runs that were in the bin")
+    squealing_runs: Array = count("first second", "runs that squealed there")
+    level: Array = quantity("1", "first second", "largest level of the events there, dB(A); dB re 1e-6 m/s^2 if no run has a microphone; 0 where none")
+
+
+@product(version=3)
 class NoiseEvents:
     """Squeal and other noise events in recordings. A record is a channel of a run."""
 
@@ -88,6 +102,7 @@ class NoiseEvents:
     mode_unstable: Array = count("mode", "1 where it is predicted to be unstable, 0 where it is predicted not to be, -1 where nothing is predicted")
     near: Array = quantity("1", "", "largest distance of an event from a mode near it, as a share of its frequency")
     near_chance: Array = quantity("1", "chance", "share of the squeal band, on a logarithmic axis, that lies as near to a mode, and to an unstable one")
+    maps: dict[str, OccurrenceMap] = parts("squeal over two conditions, named first.second", empty=True)
     spectrogram: dict[str, Spectrogram] = parts("of each record, named run.channel", empty=True)
 
 

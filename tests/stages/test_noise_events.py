@@ -145,3 +145,16 @@ def test_events_are_compared_with_modes():
     assert head.endswith("mode,mode / Hz") and first.endswith("bell,3200")
     far = noise_events(recorded(), settings=Settings(modes=modes, near=0.01))
     assert far.event_mode.tolist() == [-1, -1] and companions(far)["noise_events.csv"].splitlines()[1].endswith(",400")
+
+
+@pytest.mark.exact
+def test_maps_tell_the_share_of_time_with_squeal_in_every_bin(result):
+    """The line pressure rises by 1 MPa a second from 0.5 s on while it squeals from 1.5 s to 3 s; 400 K are stated."""
+    assert set(result.maps) == {"pressure.speed", "pressure.temperature", "speed.temperature"}
+    one = result.maps["pressure.temperature"]
+    assert one.first_edge.tolist() == [0.0, 5e5, 1e6, 1.5e6, 2e6, 2.5e6, 3e6, 3.5e6, 4e6] and one.time.shape == (8, 1)
+    np.testing.assert_allclose(one.time[:, 0], 0.5)
+    np.testing.assert_allclose(one.squealing[:, 0], [0, 0, 0.5, 0.5, 0.5, 0, 0, 0], atol=0.051)
+    assert one.runs[:, 0].tolist() == [1] * 8 and one.squealing_runs[:, 0].tolist() == [0, 0, 1, 1, 1, 0, 0, 0]
+    assert one.level[3, 0] == pytest.approx(86.2, abs=0.3) and one.level[0, 0] == 0
+    assert not noise_events(recorded(), settings=Settings(channels=["pad"])).maps["pressure.speed"].level.max() < 100

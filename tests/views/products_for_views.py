@@ -23,6 +23,7 @@ from pipeline.products import (
     ModalTest,
     Multibody,
     NoiseEvents,
+    OccurrenceMap,
     Orders,
     OrderSpectra,
     PinOnDisc,
@@ -165,8 +166,17 @@ def noise_events(quiet=False):
         condition=["pressure", "speed", "temperature"], event_lowest=0.999 * events["event_frequency"],
         event_highest=1.001 * events["event_frequency"], **events, mode_name=["umbrella", "mode 7"],
         mode_frequency=[2800.0, 9000.0], mode_unstable=[1, 0], near=0.03, near_chance=[0.06, 0.03],
-        event_mode=np.array([0, -1, -1, -1, 0])[kept],
+        event_mode=np.array([0, -1, -1, -1, 0])[kept], maps={} if quiet else {"pressure.speed": occurrence_map()},
         spectrogram={"stop_1.mic": spectrogram, "stop_1.pad": spectrogram, "stop_2.mic": spectrogram})
+
+
+def occurrence_map():
+    """Pressures to 3 MPa and speeds to 20 rad/s, not all of them recorded, squeal at the middle pressure."""
+    time = np.array([[2.0, 4.0], [3.0, 1.0], [0.0, 5.0]])
+    return filled(OccurrenceMap, condition=["pressure", "speed"], first_edge=[0.0, 1e6, 2e6, 3e6],
+                  second_edge=[0.0, 10.0, 20.0], time=time, squealing=time * [[0, 0], [0.5, 1], [0, 0]],
+                  runs=[[2, 2], [2, 1], [0, 2]], squealing_runs=[[0, 0], [1, 1], [0, 0]],
+                  level=[[0, 0], [78.0, 89.0], [0, 0]])
 
 
 def orders(quiet=False):

@@ -51,7 +51,8 @@ def test_the_page_has_spectrograms_levels_and_tables():
     assert [t.title for t in made.tables] == ["Events", "Records"] and len(made.tables[0].rows) == 5
     assert [row[2] for row in made.tables[0].rows][:3] == ["squeal"] * 3
     captions = [figure.caption for figure in made.figures]
-    assert len(captions) == 5 and "Run stop_1, mic" in captions[0] and "pressure and speed" in captions[-1]
+    assert len(captions) == 7 and "Run stop_1, mic" in captions[0] and "over pressure and speed" in captions[4]
+    assert captions[5].startswith("Share of the time with squeal over pressure and speed; runs that squealed there /")
     assert "loudest squeal: run stop_1, mic" in key_figure(product, LOOK).caption
 
 

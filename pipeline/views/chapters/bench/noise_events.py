@@ -144,6 +144,17 @@ def _figures(product, look):
     if pair is not None:
         yield Figure(pictures.over_conditions(product, *pair), f"Squeal over {pair[0]} and {pair[1]}: one marker an"
                      " event, the larger the louder.")
+    yield from _maps(product)
+
+
+def _maps(product):
+    """Figures of squeal over two conditions of which both vary."""
+    for one in product.maps.values():
+        if min(one.time.shape) > 1 and one.squealing.any():
+            first, second = one.condition
+            counts = f"over {first} and {second}; runs that squealed there / runs that were there."
+            yield Figure(pictures.occurrence(one), f"Share of the time with squeal {counts} Without: no run was.")
+            yield Figure(pictures.loudest(one), f"Largest level of squeal {counts} White: no squeal.")
 
 
 def _tables(product):
