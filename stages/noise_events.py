@@ -9,11 +9,12 @@ import numpy as np
 
 from pipeline.case_models.named_modes import named_modes
 from pipeline.contract import ConfigError, Context, InputFile, Quantity, Section, option, stage
+from pipeline.physics.signals.listening import LONGEST, RATE, excerpt
 from pipeline.physics.signals.noise_events import broadband, tonal
 from pipeline.physics.signals.occurrence import Conditions, even_edges, occurrence
 from pipeline.physics.signals.spectra import HEARING, level
 from pipeline.physics.signals.squeal_detector import Detector, frames, loudest
-from pipeline.products import NoiseEvents, OccurrenceMap, Recording, Spectrogram
+from pipeline.products import Excerpt, NoiseEvents, OccurrenceMap, Recording, Spectrogram
 from pipeline.recordings.samples import with_gaps
 
 
@@ -50,6 +51,8 @@ class Settings(Section):
 
 #: acceleration of 0 dB [m/s^2] (ISO 1683)
 _STILL = 1e-6
+#: what is heard before and after an event [s]
+_BEFORE = 0.2
 #: largest pressure in Pa that a microphone hears (160 dB); a line pressure is more
 _SOUND = 2e3
 #: conditions of an event: name, what channels measure it, and their unit
@@ -65,7 +68,13 @@ _FIELDS = ("kind", "frequency", "lowest", "highest", "level", "start", "duration
 
 
 def companions(product, case=None):
-    """The table of events."""
+    """The table of events, and the loudest squeal to listen to."""
+    from pipeline.views.pages.sound_file import wav
+
+    return {"noise_events.csv": _table(product)} | {f"{name}.wav": wav(one) for name, one in product.listen.items()}
+
+
+def _table(product):
     stream = io.StringIO()
     writer = csv.writer(stream, lineterminator="\n")
     writer.writerow(("run", "channel", "kind", "frequency / Hz", "lowest / Hz", "highest / Hz", "level / dB",
@@ -79,7 +88,7 @@ def companions(product, case=None):
                              product.event_condition[k], product.event_condition_known[k], strict=True)),
                          *((product.mode_name[mode], f"{product.mode_frequency[mode]:.6g}")
                            if (mode := product.event_mode[k]) >= 0 else ())))
-    return {"noise_events.csv": stream.getvalue()}
+    return stream.getvalue()
 
 
 @stage(companions=companions)
@@ -206,12 +215,27 @@ def _product(kept, recording, modes, settings):
         record_duration=[len(channel.samples) / float(channel.rate) for (_, _, channel, _), _ in kept],
         record_peak=[result[1][0] for _, result in kept], record_peak_frequency=[result[1][1] for _, result in kept],
         record_background=[result[2] for _, result in kept],
-        maps=_maps(kept, conditions, settings.bins),
+        maps=_maps(kept, conditions, settings.bins), listen=_listen(kept),
         spectrogram={f"{name}.{key}": result[3] for (name, key, *_), result in kept},
         event_record=[k for k, _ in rows], event_condition=values, event_condition_known=known,
         event_mode=near, mode_name=list(modes.name), mode_frequency=modes.frequency, mode_unstable=modes.unstable,
         near=settings.near, near_chance=[modes.covered(band, settings.near, unstable) for unstable in (False, True)],
         **{f"event_{name}": column for name, column in columns.items()})
+
+
+def _listen(kept):
+    """{'squeal': Excerpt} of the loudest squeal, of a microphone if any heard one; {} without squeal."""
+    squeal = [(kind == "sound", event.level, event, name, key, channel, begin)
+              for (name, key, channel, kind), (events, *_, begin) in kept for event in events if event.kind == "squeal"]
+    if not squeal:
+        return {}
+    *_, event, name, key, channel, begin = max(squeal, key=lambda row: row[:2])
+    rate = float(channel.rate)
+    first, last = (max(int((t - _BEFORE * sign) * rate), 0) for t, sign in (
+        (event.start, 1), (event.start + min(event.duration, LONGEST - 2 * _BEFORE), -1)))
+    sound = excerpt(channel.samples[first:last], rate)
+    return {"squeal": Excerpt(samples=sound.samples, rate=RATE, full_scale=sound.full_scale, unit=str(channel.unit),
+                              content=f"run {name}, {key}", begin=begin + first / rate)}
 
 
 def _conditions(run):

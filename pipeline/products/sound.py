@@ -23,7 +23,19 @@ class Response:
     coupling: Array = text("", "how forces enter: disc, released (open contacts) or assembly (closed contacts)")
 
 
-@product(version=3)
+@product(version=1)
+class Excerpt:
+    """A sound to listen to, mono."""
+
+    samples: Array = quantity("1", "sample", "16-bit samples, 32767 is full scale", np.int16)
+    rate: Array = quantity("Hz", "", "sampling rate")
+    full_scale: Array = quantity("1", "", "what a sample at full scale stands for, in the unit that `unit` names")
+    unit: Array = text("", "coherent SI unit of the signal")
+    content: Array = text("", "what it is")
+    begin: Array = quantity("s", "", "begin in the time of the signal; 0 of held tones")
+
+
+@product(version=4)
 class Squeal:
     """Squeal events at the sensors, and levels per band."""
 
@@ -45,6 +57,7 @@ class Squeal:
     event_duration: Array = quantity("s", "event", "duration")
     event_fundamental: Array = quantity("Hz", "event", "fundamental of which the event is an integer multiple; its own frequency if there is none")
     event_order: Array = count("event", "order: 1 = fundamental, 2 and more = harmonic")
+    listen: dict[str, Excerpt] = parts("squeal: velocity where it is loudest, to listen to; nothing where it does not squeal", empty=True)
 
 
 @product(version=1)
@@ -70,7 +83,7 @@ class OccurrenceMap:
     level: Array = quantity("1", "first second", "largest level of the events there, dB(A); dB re 1e-6 m/s^2 if no run has a microphone; 0 where none")
 
 
-@product(version=3)
+@product(version=4)
 class NoiseEvents:
     """Squeal and other noise events in recordings. A record is a channel of a run."""
 
@@ -102,6 +115,7 @@ class NoiseEvents:
     mode_unstable: Array = count("mode", "1 where it is predicted to be unstable, 0 where it is predicted not to be, -1 where nothing is predicted")
     near: Array = quantity("1", "", "largest distance of an event from a mode near it, as a share of its frequency")
     near_chance: Array = quantity("1", "chance", "share of the squeal band, on a logarithmic axis, that lies as near to a mode, and to an unstable one")
+    listen: dict[str, Excerpt] = parts("squeal: the loudest, to listen to; nothing where there is none", empty=True)
     maps: dict[str, OccurrenceMap] = parts("squeal over two conditions, named first.second", empty=True)
     spectrogram: dict[str, Spectrogram] = parts("of each record, named run.channel", empty=True)
 

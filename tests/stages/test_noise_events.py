@@ -1,9 +1,11 @@
 """Stage noise_events on runs of microphones, accelerometers and slow channels."""
 
+import io
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
+import scipy
 
 from pipeline.contract import ConfigError
 from pipeline.products import Condition, Recording, Run
@@ -158,3 +160,18 @@ def test_maps_tell_the_share_of_time_with_squeal_in_every_bin(result):
     assert one.runs[:, 0].tolist() == [1] * 8 and one.squealing_runs[:, 0].tolist() == [0, 0, 1, 1, 1, 0, 0, 0]
     assert one.level[3, 0] == pytest.approx(86.2, abs=0.3) and one.level[0, 0] == 0
     assert not noise_events(recorded(), settings=Settings(channels=["pad"])).maps["pressure.speed"].level.max() < 100
+
+
+@pytest.mark.exact
+def test_the_loudest_squeal_is_written_to_listen_to(result):
+    """The microphone is heard, from 0.2 s before the event to 0.2 s after it, frequency within 1 Hz."""
+    rate, samples = scipy.io.wavfile.read(io.BytesIO(companions(result)["squeal.wav"]))
+    told = result.listen["squeal"]
+    assert len(samples) / rate == pytest.approx(1.9, abs=0.03) and told.begin == pytest.approx(1.3, abs=0.02)
+    line = np.abs(np.fft.rfft(samples * np.hanning(len(samples)), 2**20)).argmax() * rate / 2**20
+    assert line == pytest.approx(result.event_frequency[0], abs=1.0) and str(told.content) == "run loud, mic"
+    pascal = samples[rate // 2:rate] * told.full_scale / 32767
+    assert 20 * np.log10(pascal.std() / 20e-6) == pytest.approx(85.0, abs=0.2) and str(told.unit) == "Pa"
+    quiet = noise_events(Recording(source=[], runs={"a": run({"mic": channel(
+        NOISE, "Pa", "sound_pressure", RATE, 0.0, "mic")})}), settings=Settings())
+    assert list(companions(quiet)) == ["noise_events.csv"]

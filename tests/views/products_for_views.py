@@ -11,6 +11,7 @@ from pipeline.products import (
     Comparison,
     ComplexModes,
     Convergence,
+    Excerpt,
     FrictionMap,
     FrictionUpdate,
     Incidence,
@@ -167,6 +168,7 @@ def noise_events(quiet=False):
         event_highest=1.001 * events["event_frequency"], **events, mode_name=["umbrella", "mode 7"],
         mode_frequency=[2800.0, 9000.0], mode_unstable=[1, 0], near=0.03, near_chance=[0.06, 0.03],
         event_mode=np.array([0, -1, -1, -1, 0])[kept], maps={} if quiet else {"pressure.speed": occurrence_map()},
+        listen={} if quiet else {"squeal": excerpt("Pa", "run stop_1, mic")},
         spectrogram={"stop_1.mic": spectrogram, "stop_1.pad": spectrogram, "stop_2.mic": spectrogram})
 
 
@@ -468,7 +470,14 @@ def squeal(quiet=False, harmonic=False):
         event_operating=[7, 8][:events], event_sensor=[0, 0][:events], event_frequency=[16580.0, 16600.0][:events],
         event_order=[1, 20 if harmonic else 1][:events],
         event_fundamental=[16580.0, 830.0 if harmonic else 16600.0][:events], event_level=[88.5, 92.0][:events],
-        event_start=[0.02, 0.01][:events], event_duration=[0.01, 0.03][:events])
+        event_start=[0.02, 0.01][:events], event_duration=[0.01, 0.03][:events],
+        listen={} if quiet else {"squeal": excerpt("m/s", "tones of the velocity at sensor a, held for 2 s")})
+
+
+def excerpt(unit, content):
+    """A tenth of a second to listen to."""
+    return filled(Excerpt, samples=(2e4 * np.sin(0.3 * np.arange(4800))).astype(np.int16), rate=48e3, full_scale=0.02,
+                  unit=unit, content=content, begin=1.25)
 
 
 def interface_law():

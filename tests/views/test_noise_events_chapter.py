@@ -85,3 +85,11 @@ def test_events_are_told_beside_modes_and_what_chance_would_do():
                    mode_frequency=np.array([]), mode_unstable=np.array([], int))
     assert "modes" not in conclusion(bare) and len(chapter(bare, LOOK).tables[0].head) == 8
     assert key_figure(bare, LOOK).image != key_figure(product, LOOK).image
+
+
+def test_the_loudest_squeal_can_be_heard():
+    (sound,) = chapter(small.noise_events(), LOOK).sounds
+    told = plain(sound.caption)
+    assert sound.data[:4] == b"RIFF" and "as recorded (squeal.wav): run stop_1, mic, from 1.25 s on" in told
+    assert told.endswith("full scale is 0.02 Pa.")
+    assert not chapter(small.noise_events(quiet=True), LOOK).sounds

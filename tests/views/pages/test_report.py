@@ -32,6 +32,13 @@ def test_nothing_is_loaded_from_outside(html):
     assert "<script" not in html
 
 
+def test_the_squeal_can_be_heard_and_says_what_it_is(html):
+    (address,) = re.findall(r'<audio controls preload="none" src="([^"]*)"></audio>', html)
+    assert address.startswith("data:audio/wav;base64,") and "media-src data:" in html
+    assert "not the sound at an ear" in html and "full scale is 20\u202fmm/s" in html
+    assert not vibration.squeal(small.squeal(quiet=True), (), LOOK).sounds
+
+
 def test_figures_are_numbered_without_gaps(html):
     numbers = [int(n) for n in re.findall(r"<b>Figure (\d+)\.</b>", html)]
     assert numbers == list(range(1, len(numbers) + 1))

@@ -2,9 +2,10 @@
 
 import numpy as np
 
-from pipeline.views.chapters.chapter import Chapter, Figure, Table
+from pipeline.views.chapters.chapter import Chapter, Figure, Sound, Table
 from pipeline.views.figures.bench import noise_events as pictures
 from pipeline.views.figures.number_format import number, percent, plural, quantity
+from pipeline.views.pages.sound_file import wav
 
 #: spectrograms and rows that are shown
 _SHOWN, _ROWS = 6, 60
@@ -16,7 +17,15 @@ _PAIRS = (("pressure", "speed"), ("pressure", "temperature"), ("speed", "tempera
 def chapter(product, look):
     """Chapter of the product NoiseEvents."""
     return Chapter("noise_events", "Squeal and other noise in the recordings", _searched(product), conclusion(product),
-                   tuple(_figures(product, look)), tuple(_tables(product)))
+                   tuple(_figures(product, look)), tuple(_tables(product)), sounds=_sounds(product))
+
+
+def _sounds(product):
+    return tuple(Sound(wav(one), f"The loudest squeal as recorded (squeal.wav): {one.content}, from"
+                       f" {quantity(one.begin, 's', 3)} on. The volume is made for listening: full scale is"
+                       f" {quantity(one.full_scale, str(one.unit), 3)}." + (
+                           "" if str(one.unit) == "Pa" else " It is how the surface moves, not the sound at an ear."))
+                 for one in product.listen.values())
 
 
 def squeals(product):
