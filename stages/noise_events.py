@@ -16,6 +16,7 @@ from pipeline.physics.signals.spectra import HEARING, level
 from pipeline.physics.signals.squeal_detector import Detector, frames, loudest
 from pipeline.products import Excerpt, NoiseEvents, OccurrenceMap, Recording, Spectrogram
 from pipeline.recordings.samples import with_gaps
+from pipeline.views.pages.sound_file import sound_files
 
 
 class Settings(Section):
@@ -69,9 +70,7 @@ _FIELDS = ("kind", "frequency", "lowest", "highest", "level", "start", "duration
 
 def companions(product, case=None):
     """The table of events, and the loudest squeal to listen to."""
-    from pipeline.views.pages.sound_file import wav
-
-    return {"noise_events.csv": _table(product)} | {f"{name}.wav": wav(one) for name, one in product.listen.items()}
+    return {"noise_events.csv": _table(product)} | sound_files(product)
 
 
 def _table(product):
@@ -207,9 +206,10 @@ def _product(kept, recording, modes, settings):
     columns = {name: [getattr(event, name) for _, event in rows] for name in _FIELDS}
     columns["start"] = [begins[k] + event.start for k, event in rows]
     near = [modes.nearest([event.frequency], settings.near)[0] if event.kind in _OWN else -1 for _, event in rows]
-    band = settings.lowest_frequency, settings.highest_frequency
+    octaves = [event.frequency * np.array([2.0**-0.5, 2.0**0.5]) for _, event in rows]
+    chance = [[modes.covered(octave, settings.near, unstable) for unstable in (False, True)] for octave in octaves]
     return NoiseEvents(
-        threshold=settings.threshold, band=list(band),
+        threshold=settings.threshold, band=[settings.lowest_frequency, settings.highest_frequency],
         record_run=[name for (name, *_), _ in kept], record_channel=[key for (_, key, *_), _ in kept],
         record_kind=[kind for (*_, kind), _ in kept], condition=list(_CONDITIONS),
         record_duration=[len(channel.samples) / float(channel.rate) for (_, _, channel, _), _ in kept],
@@ -219,7 +219,7 @@ def _product(kept, recording, modes, settings):
         spectrogram={f"{name}.{key}": result[3] for (name, key, *_), result in kept},
         event_record=[k for k, _ in rows], event_condition=values, event_condition_known=known,
         event_mode=near, mode_name=list(modes.name), mode_frequency=modes.frequency, mode_unstable=modes.unstable,
-        near=settings.near, near_chance=[modes.covered(band, settings.near, unstable) for unstable in (False, True)],
+        near=settings.near, event_chance=np.reshape(chance, (-1, 2)),
         **{f"event_{name}": column for name, column in columns.items()})
 
 

@@ -5,10 +5,11 @@ from functools import partial
 import numpy as np
 
 from pipeline.contract import ConfigError, Context, Quantity, Section, option, stage
-from pipeline.physics.signals.listening import LONGEST, RATE, excerpt, held
+from pipeline.physics.signals.listening import LONGEST, RATE, audible, excerpt, held
 from pipeline.physics.signals.spectra import band_power, level, third_octave_bands
 from pipeline.physics.signals.squeal_detector import Detector, detect, frames, loudest
 from pipeline.products import Excerpt, Response, Squeal, Transient
+from pipeline.views.pages.sound_file import sound_files
 
 
 class Settings(Section):
@@ -43,14 +44,7 @@ class Settings(Section):
 _HEARD = 1.0
 
 
-def _companions(product, case=None):
-    """The loudest squeal to listen to, if there is any."""
-    from pipeline.views.pages.sound_file import wav
-
-    return {f"{name}.wav": wav(sound) for name, sound in product.listen.items()}
-
-
-@stage(companions=_companions)
+@stage(companions=sound_files)
 def squeal(response: Response | Transient, settings: Settings, context: Context) -> Squeal:
     """Detect squeal events and compute band levels of the sensor velocities.
 
@@ -94,7 +88,7 @@ def squeal(response: Response | Transient, settings: Settings, context: Context)
 
 def _listen(response, events, rate, settings):
     """{'squeal': Excerpt} of the sensor with the loudest event; {} without any that can be heard."""
-    heard = np.flatnonzero(events["event_frequency"] < 0.45 * RATE)
+    heard = np.flatnonzero(audible(events["event_frequency"]))
     if not len(heard):
         return {}
     loudest = heard[events["event_level"][heard].argmax()]

@@ -114,7 +114,7 @@ class NoiseEvents:
     mode_frequency: Array = quantity("Hz", "mode", "their natural frequencies, rising")
     mode_unstable: Array = count("mode", "1 where it is predicted to be unstable, 0 where it is predicted not to be, -1 where nothing is predicted")
     near: Array = quantity("1", "", "largest distance of an event from a mode near it, as a share of its frequency")
-    near_chance: Array = quantity("1", "chance", "share of the squeal band, on a logarithmic axis, that lies as near to a mode, and to an unstable one")
+    event_chance: Array = quantity("1", "event chance", "share of the octave about the event, on a logarithmic axis, that lies as near to a mode, and to an unstable one")
     listen: dict[str, Excerpt] = parts("squeal: the loudest, to listen to; nothing where there is none", empty=True)
     maps: dict[str, OccurrenceMap] = parts("squeal over two conditions, named first.second", empty=True)
     spectrogram: dict[str, Spectrogram] = parts("of each record, named run.channel", empty=True)

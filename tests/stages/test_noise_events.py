@@ -141,8 +141,8 @@ def test_events_are_compared_with_modes():
     modes = {"bell": "3.2 kHz", "ring": "5 kHz"}
     found = noise_events(recorded(), settings=Settings(modes=modes))
     assert list(found.mode_name) == ["bell", "ring"] and found.event_mode.tolist() == [0, 0]
-    covered = (np.log(1.03 / 0.97) * 2) / np.log(8)
-    assert found.near_chance == pytest.approx([covered, 0.0]) and found.mode_unstable.tolist() == [-1, -1]
+    np.testing.assert_allclose(found.event_chance, [[np.log2(1.03 / 0.97), 0.0]] * 2, rtol=1e-9)
+    assert found.mode_unstable.tolist() == [-1, -1]
     head, first, *_ = companions(found)["noise_events.csv"].splitlines()
     assert head.endswith("mode,mode / Hz") and first.endswith("bell,3200")
     far = noise_events(recorded(), settings=Settings(modes=modes, near=0.01))

@@ -166,7 +166,8 @@ def noise_events(quiet=False):
         record_peak=[89.0, 149.0, 78.0], record_peak_frequency=[2780.0, 2780.0, 7340.0], record_background=[62.0] * 3,
         condition=["pressure", "speed", "temperature"], event_lowest=0.999 * events["event_frequency"],
         event_highest=1.001 * events["event_frequency"], **events, mode_name=["umbrella", "mode 7"],
-        mode_frequency=[2800.0, 9000.0], mode_unstable=[1, 0], near=0.03, near_chance=[0.06, 0.03],
+        mode_frequency=[2800.0, 9000.0], mode_unstable=[1, 0], near=0.03,
+        event_chance=np.array([[0.06, 0.03], [0.08, 0.0], [0.02, 0.01], [0.0, 0.0], [0.06, 0.03]])[kept],
         event_mode=np.array([0, -1, -1, -1, 0])[kept], maps={} if quiet else {"pressure.speed": occurrence_map()},
         listen={} if quiet else {"squeal": excerpt("Pa", "run stop_1, mic")},
         spectrogram={"stop_1.mic": spectrogram, "stop_1.pad": spectrogram, "stop_2.mic": spectrogram})
@@ -335,7 +336,8 @@ def limit_cycle(settled=True):
         added_loss=[0.02, 0.05], frequency=frequency, spectrum=np.broadcast_to(spectrum, (2, 2, 501)),
         cycle_frequency=[7640.0, 8050.0], harmonic_amplitude=np.full((2, 2, 4), 0.01), patches=128, modes=374,
         step=2e-6,
-        check=["step"], check_level=[0.05], check_frequency=[1e-4])
+        check=["step"], check_level=[0.05], check_frequency=[1e-4],
+        listen={"squeal": excerpt("m/s", "strongest line of the velocity at sensor a and its multiples, held for 2 s")})
 
 
 def probability(draws=60):

@@ -77,8 +77,10 @@ def test_a_run_without_a_microphone_counts_by_its_accelerometer():
 def test_events_are_told_beside_modes_and_what_chance_would_do():
     product = small.noise_events()
     told = plain(conclusion(product))
-    assert "1 of 2 squeal events lie within 3 % of one of 2 modes; a tone that has nothing to do with them" in told
-    assert "would with 6 %. Near one that is predicted to be unstable: 1; by chance 3 %." in told
+    assert "Squeal frequencies within 3 % of one of 2 modes: 1 of 2; by chance 4 % would be, as dense as" in told
+    assert "there. Of one that is predicted to be unstable: 1; by chance 2 %." in told
+    together = replace(product, event_frequency=product.event_frequency * 0 + 2790.0)
+    assert "of one of 2 modes: 1 of 1;" in plain(conclusion(together))
     rows = [plain(row[-1]) for row in chapter(product, LOOK).tables[0].rows]
     assert rows[0] == "umbrella, −0.71 %, unstable" and rows.count("none within 3 %") == 2 and rows.count("") == 1
     bare = replace(product, event_mode=-1 + 0 * product.event_mode, mode_name=np.array([], dtype=object),

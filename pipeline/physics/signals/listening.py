@@ -29,14 +29,19 @@ def excerpt(signal, rate):
     return _of(scipy.signal.resample_poly(part - part.mean(), ratio.numerator, ratio.denominator))
 
 
+def audible(frequency):
+    """(tone,) whether tones of ``frequency`` (tone,) in Hz are low enough for the rate."""
+    return np.asarray(frequency) < _HIGHEST * RATE
+
+
 def held(frequency, root_mean_square, duration=2.0):
     """Sound of steady tones (tone,): ``frequency`` in Hz and ``root_mean_square`` in any unit, for ``duration`` s.
 
     Raises ValueError where none is low enough for the rate.
     """
-    time = np.arange(round(duration * RATE)) / RATE
+    time, kept = np.arange(round(duration * RATE)) / RATE, audible(frequency)
     tones = [np.sqrt(2.0) * strength * np.sin(2.0 * np.pi * f * time)
-             for f, strength in zip(frequency, root_mean_square, strict=True) if f < _HIGHEST * RATE]
+             for f, strength in zip(np.asarray(frequency)[kept], np.asarray(root_mean_square)[kept], strict=True)]
     if not tones:
         raise ValueError(f"expected a tone below {_HIGHEST * RATE:g} Hz, found none")
     return _of(np.sum(tones, axis=0))

@@ -13,3 +13,8 @@ def wav(excerpt):
         file.setframerate(round(float(excerpt.rate)))
         file.writeframes(excerpt.samples.astype("<i2").tobytes())
     return stream.getvalue()
+
+
+def sound_files(product, case=None):
+    """Companions of a product: {name.wav: bytes} of what it has to listen to."""
+    return {f"{name}.wav": wav(one) for name, one in product.listen.items()}

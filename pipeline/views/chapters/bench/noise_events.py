@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from pipeline.views.chapters.bench.noise_modes import near_modes, nearest_mode
 from pipeline.views.chapters.chapter import Chapter, Figure, Sound, Table
 from pipeline.views.figures.bench import noise_events as pictures
 from pipeline.views.figures.number_format import number, percent, plural, quantity
@@ -9,8 +10,6 @@ from pipeline.views.pages.sound_file import wav
 
 #: spectrograms and rows that are shown
 _SHOWN, _ROWS = 6, 60
-#: kinds of events that have a tone of their own, and what is said of a mode by ``mode_unstable``
-_TONES, _STATES = ("squeal", "moan", "groan", "judder"), {1: ", unstable", 0: ", stable", -1: ""}
 _PAIRS = (("pressure", "speed"), ("pressure", "temperature"), ("speed", "temperature"))
 
 
@@ -75,7 +74,7 @@ def conclusion(product):
             f" ({percent(len(noisy) / len(every), 2)}). The loudest: {number(product.event_level[first], 3)}"
             f" {_unit(product, product.event_record[first])} at {quantity(product.event_frequency[first], 'Hz', 4)} for"
             f" {quantity(product.event_duration[first], 's', 2)}, run {product.record_run[product.event_record[first]]}"
-            f"{_at(product, first)}.{_bands(product, rows)}{_modes(product)}"
+            f"{_at(product, first)}.{_bands(product, rows)}{near_modes(product, rows)}"
             + (f" Told beside: {beside}." if beside else ""))
 
 
@@ -111,32 +110,6 @@ def _bands(product, rows):
     return f" Frequencies, with the number of events: {told}."
 
 
-def _mode(product, event):
-    """The mode near an event, and how far the event lies above or below it."""
-    mode = product.event_mode[event]
-    if mode < 0:
-        return f"none within {percent(product.near, 2)}" if str(product.event_kind[event]) in _TONES else ""
-    away = product.event_frequency[event] / product.mode_frequency[mode] - 1.0
-    sign = "+" if away >= 0 else ""
-    return f"{product.mode_name[mode]}, {sign}{percent(away, 2)}{_STATES[product.mode_unstable[mode]]}"
-
-
-def _modes(product):
-    """How many squeal events lie near a mode, and how many would by chance; '' without modes."""
-    rows = squeals(product)
-    if not len(product.mode_name) or not len(rows):
-        return ""
-    near = product.event_mode[rows]
-    told = (f" {np.count_nonzero(near >= 0)} of {plural(len(rows), 'squeal event')} lie within"
-            f" {percent(product.near, 2)} of one of {plural(len(product.mode_name), 'mode')}; a tone that has nothing"
-            f" to do with them would with {percent(product.near_chance[0], 2)}.")
-    if np.any(product.mode_unstable == 1):
-        unstable = np.count_nonzero(product.mode_unstable[near[near >= 0]] == 1)
-        told += (f" Near one that is predicted to be unstable: {unstable}; by chance"
-                 f" {percent(product.near_chance[1], 2)}.")
-    return told
-
-
 def _figures(product, look):
     squeal = set(product.event_record[squeals(product)])
     order = sorted(range(len(product.record_run)), key=lambda k: (k not in squeal, product.record_kind[k] != "sound",
@@ -170,7 +143,7 @@ def _tables(product):
     rows = tuple((str(product.record_run[r]), str(product.record_channel[r]), str(product.event_kind[k]),
                   quantity(product.event_frequency[k], "Hz", 4), number(product.event_level[k], 3),
                   quantity(product.event_start[k], "s", 3), quantity(product.event_duration[k], "s", 2),
-                  _at(product, k).strip(" ()"), *([_mode(product, k)] if len(product.mode_name) else []))
+                  _at(product, k).strip(" ()"), *([nearest_mode(product, k)] if len(product.mode_name) else []))
                  for k in _in_order(product)[:_ROWS] for r in [product.event_record[k]])
     if rows:
         more = len(product.event_record) - len(rows)
