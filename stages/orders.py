@@ -5,7 +5,7 @@ from functools import partial
 import numpy as np
 
 from pipeline.contract import ConfigError, Context, Quantity, Section, option, stage
-from pipeline.physics.signals.order_tracking import campbell, over_speed, shaft_of, smooth, track
+from pipeline.physics.signals.order_tracking import campbell, over_speed, shaft_of, shaft_of_pulses, smooth, track
 from pipeline.physics.signals.outstanding_orders import strongest
 from pipeline.products import Orders, OrderSpectra, Recording
 from pipeline.recordings.samples import with_gaps
@@ -16,6 +16,7 @@ class Settings(Section):
 
     shaft: str = option("", "channel that tells the speed of revolution, in rpm, rad/s or revolutions per second (Hz);"
                         " none = the first of each run that measures an angular velocity")
+    pulses: int = option(0, "pulses a revolution, where that channel is a tacho, in any unit; 0 = it is the speed", ge=0)
     channels: tuple[str, ...] = option((), "channels whose orders are sought; none = all that measure acceleration,"
                                        " velocity, displacement, force, torque or pressure, of sound too")
     revolutions: int = option(8, "revolutions of a block; its inverse is the distance of the lines", ge=4, le=256)
@@ -54,7 +55,10 @@ def orders(recording: Recording, settings: Settings, context: Context) -> Orders
         shaft = _shaft(run, settings)
         if shaft is None:
             continue
-        turning = shaft_of(*_series(run.channels[shaft], _TURNING[str(run.channels[shaft].unit)]))
+        turning = _turning(run.channels[shaft], settings.pulses)
+        if turning is None:
+            context.log(f"{name}: the tacho {shaft} gives fewer than three pulses: no orders")
+            continue
         if np.ptp(turning.speed) < settings.variation * turning.speed.max() or not turning.speed.max():
             context.log(f"{name}: the speed {shaft} varies by less than {settings.variation:g} of its highest value:"
                         " no orders")
@@ -71,7 +75,9 @@ def orders(recording: Recording, settings: Settings, context: Context) -> Orders
 
 
 def _check_names(recording, settings):
-    """Refuse channels that no run has."""
+    """Refuse channels that no run has, and pulses of no channel."""
+    if settings.pulses and not settings.shaft:
+        raise ConfigError("orders.shaft", "the channel of the pulses", "none")
     there = {key for run in recording.runs.values() for key in run.channels}
     for key, names in (("shaft", {settings.shaft} - {""}), ("channels", set(settings.channels))):
         if names - there:
@@ -83,11 +89,18 @@ def _shaft(run, settings):
     """Name of the channel that tells the speed of a run; None of none."""
     if settings.shaft in run.channels:
         unit = str(run.channels[settings.shaft].unit)
-        if unit not in _TURNING:
+        if unit not in _TURNING and not settings.pulses:
             raise ConfigError("orders.shaft", "a channel in rpm, rad/s or Hz", f"{settings.shaft} in {unit}")
         return settings.shaft
     return None if settings.shaft else next((name for name, channel in run.channels.items() if str(
         channel.measures) in ("angular_velocity", "speed") and str(channel.unit) == "rad/s"), None)
+
+
+def _turning(channel, pulses):
+    """Shaft of the channel that tells its speed, or its pulses; None of too few pulses."""
+    if pulses:
+        return shaft_of_pulses(*_series(channel), pulses)
+    return shaft_of(*_series(channel, _TURNING[str(channel.unit)]))
 
 
 def _wanted(name, channel, settings):

@@ -9,7 +9,7 @@ from pipeline.contract import ConfigError
 from pipeline.products import Recording, Run
 from pipeline.recordings.samples import channel
 from stages.orders import Settings, orders
-from tests.physics.signals.ramp import FIRST, LAST, RATE, SLOW, T, order
+from tests.physics.signals.ramp import FIRST, LAST, RATE, SLOW, TURNS, T, order
 
 NOISE = 0.05 * np.random.default_rng(1).standard_normal(len(T))
 
@@ -79,3 +79,17 @@ def test_a_slow_record_tells_fewer_orders():
     slow = channel(order(2.0)[::16], "m/s^2", "acceleration", RATE / 16, 2.0, "pad")
     one = found(Recording(source=[], runs={"stop": run(pad=slow)}), channels=["pad"])["stop.pad"]
     assert one.order[-1] == 4.0 and one.outstanding == pytest.approx([2.0], abs=0.02)
+
+
+def test_the_speed_may_come_from_the_pulses_of_a_tacho():
+    pulses = channel(5.0 * (np.sin(2 * np.pi * 6 * TURNS) > 0), "V", "voltage", RATE, 2.0, "tacho")
+    bare = run(tacho=pulses).channels
+    bare = {name: one for name, one in bare.items() if name != "shaft"}
+    recording = Recording(source=[], runs={"stop": Run(description="", repeat_of="", channels=bare)})
+    one = found(recording, shaft="tacho", pulses=6)["stop.torque"]
+    assert one.outstanding == pytest.approx([2.0], abs=0.02) and one.edge[-1] == pytest.approx(FIRST, rel=0.05)
+    np.testing.assert_allclose(one.level[0][one.blocks > 0], 20.0, rtol=0.01)
+    with pytest.raises(ConfigError, match="orders.shaft: expected the channel of the pulses"):
+        found(recording, pulses=6)
+    told = []
+    assert not found(recording, told, shaft="torque", pulses=1, channels=["line"]) and told

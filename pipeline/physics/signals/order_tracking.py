@@ -13,6 +13,8 @@ from numpy.lib.stride_tricks import sliding_window_view
 #: samples per period of the highest frequency: cubic splines err there by 0.4 % of the amplitude
 _SAMPLED = 5.0
 
+#: share of the height of a tacho's pulses that its signal must pass beyond their middle
+_HYSTERESIS = 0.15
 
 
 @dataclass(frozen=True)
@@ -59,6 +61,25 @@ def shaft_of(speed, rate, begin):
     size = np.abs(np.interp(np.arange(len(speed)), np.flatnonzero(known), speed[known]))
     steps = (size[1:] + size[:-1]) / (4.0 * np.pi * rate)
     return Shaft(begin + np.arange(len(size)) / rate, size, np.concatenate([[0.0], np.cumsum(steps)]))
+
+
+def shaft_of_pulses(samples, rate, begin, pulses):
+    """Shaft of a tacho (n,) at ``rate`` in Hz from ``begin`` in s that gives so many ``pulses`` a revolution, evenly.
+
+    A pulse is where the signal rises through its middle, after it was low. None where fewer than three pulses come.
+    """
+    low, high = np.nanpercentile(samples, [0.1, 99.9])
+    middle, state = (low + high) / 2, np.zeros(len(samples), int)
+    state[samples > middle + _HYSTERESIS * (high - low)] = 1
+    state[samples < middle - _HYSTERESIS * (high - low)] = -1
+    told = np.flatnonzero(state)
+    rises = told[1:][(state[told[1:]] == 1) & (state[told[:-1]] == -1)]
+    falls = told[:-1][(state[told[1:]] == 1) & (state[told[:-1]] == -1)]
+    if high == low or len(rises) < 3:
+        return None
+    share = (middle - samples[falls]) / (samples[rises] - samples[falls])
+    time, turns = begin + (falls + share * (rises - falls)) / rate, np.arange(len(rises)) / pulses
+    return Shaft(time, 2.0 * np.pi * np.gradient(turns, time), turns)
 
 
 def smooth(samples, rate, begin, highest):
