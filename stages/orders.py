@@ -16,7 +16,7 @@ class Settings(Section):
 
     shaft: str = option("", "channel that tells the speed of revolution, in rpm, rad/s or revolutions per second (Hz);"
                         " none = the first of each run that measures an angular velocity")
-    pulses: int = option(0, "pulses a revolution, where that channel is a tacho, in any unit; 0 = it is the speed", ge=0)
+    pulses: int = option(0, "pulses a revolution where that channel is a tacho, in any unit; 0 = a speed", ge=0)
     channels: tuple[str, ...] = option((), "channels whose orders are sought; none = all that measure acceleration,"
                                        " velocity, displacement, force, torque or pressure, of sound too")
     revolutions: int = option(8, "revolutions of a block; its inverse is the distance of the lines", ge=4, le=256)

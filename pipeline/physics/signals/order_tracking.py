@@ -15,6 +15,8 @@ _SAMPLED = 5.0
 
 #: share of the height of a tacho's pulses that its signal must pass beyond their middle
 _HYSTERESIS = 0.15
+#: blocks that are transformed at once
+_AT_ONCE = 256
 
 
 @dataclass(frozen=True)
@@ -133,16 +135,22 @@ def _blocks(signal, read, shaft, stretch, highest, revolutions, slowest, overlap
     whole = lost[end] == lost[begin]
     if not whole.any():
         return None
-    pieces = sliding_window_view(read(instant), size)[first[whole]]
-    spectra = np.array([_amplitudes(piece, round(highest * revolutions) + 1) for piece in pieces])
+    spectra = _amplitudes(sliding_window_view(read(instant), size)[first[whole]], round(highest * revolutions) + 1)
     lasted = instant[last] - instant[first]
     return ((instant[first] + lasted / 2)[whole], (2.0 * np.pi * (size - 1) / density / lasted)[whole], spectra)
 
 
-def _amplitudes(piece, lines):
-    """(line,) amplitudes of a Hann spectrum of a block, less its straight line."""
-    hann = 0.5 - 0.5 * np.cos(2.0 * np.pi * np.arange(len(piece)) / len(piece))
-    return 2.0 * np.abs(scipy.fft.rfft(scipy.signal.detrend(piece) * hann)[:lines]) / hann.sum()
+def _amplitudes(pieces, lines):
+    """(block, line) amplitudes of ``lines`` of the Hann spectra of blocks (block, n), without their straight lines."""
+    size = pieces.shape[1]
+    hann, ramp = 0.5 - 0.5 * np.cos(2.0 * np.pi * np.arange(size) / size), np.linspace(-1.0, 1.0, size)
+    spectra = np.empty((len(pieces), lines))
+    for first in range(0, len(pieces), _AT_ONCE):
+        part = pieces[first:first + _AT_ONCE]
+        part = part - part.mean(axis=1, keepdims=True)
+        part -= np.outer(part @ ramp / (ramp @ ramp), ramp)
+        spectra[first:first + _AT_ONCE] = 2.0 * np.abs(scipy.fft.rfft(part * hann)[:, :lines]) / hann.sum()
+    return spectra
 
 
 def over_speed(speed, values, edges):
@@ -175,6 +183,5 @@ def campbell(signal, shaft, highest, window, edges, overlap=0.9):
     speed = 2.0 * np.pi * turned / (end - begin)
     frequency = np.fft.rfftfreq(size, 1.0 / rate)
     lines = np.count_nonzero(frequency <= highest)
-    pieces = sliding_window_view(signal.samples, size)[first[whole]]
-    spectra = np.array([_amplitudes(piece, lines) for piece in pieces]).reshape(-1, lines)
+    spectra = _amplitudes(sliding_window_view(signal.samples, size)[first[whole]], lines)
     return frequency[:lines], *over_speed(speed[whole], spectra, edges)
