@@ -5,11 +5,12 @@ from dataclasses import replace
 import numpy as np
 
 from pipeline.contract.context import CaseSummary
-from pipeline.products import Orders
+from pipeline.products import Orders, Recording, Run
 from pipeline.views.chapters.bench.orders import chapter
 from pipeline.views.chapters.chapter import Look
 from pipeline.views.figures.bench import orders as pictures
 from pipeline.views.pages.report import page
+from pipeline.views.pages.summary import verdict
 from tests.views import products_for_views as small
 
 LOOK = Look(dpi=50)
@@ -49,3 +50,14 @@ def test_pictures_change_with_the_data():
     one = small.orders().spectra["stop.torque"]
     for draw, field in ((lambda o: pictures.campbell(o, 50), "campbell"), (pictures.levels, "level")):
         assert draw(one) == draw(one) != draw(replace(one, **{field: getattr(one, field)[..., ::-1]}))
+
+
+def test_the_first_screen_tells_the_largest_orders():
+    recording = Recording(source=["stop.wav 0"], runs={"stop": Run(description="", repeat_of="")})
+    quiet = {"recording": recording, "noise_events": small.noise_events(quiet=True)}
+    told = dict(verdict(quiet | {"orders": small.orders()}, ()).answers)["Where"]
+    assert "Orders of the shaft: order 10 of torque with" in plain(told)
+    assert "Orders of the shaft" not in dict(verdict(quiet, ()).answers)["Where"]
+    case = CaseSummary(name="x")
+    assert "Campbell diagram" in page([], quiet | {"orders": small.orders()}, case, LOOK)
+    assert "Campbell diagram" not in page([], quiet | {"orders": small.orders(quiet=True)}, case, LOOK)

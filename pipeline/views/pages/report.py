@@ -109,7 +109,8 @@ def _key_figures(products, look):
     if products.get("modal_test") is not None:
         return (modal_test.key_figure(products["modal_test"], look),)
     if products.get("noise_events") is not None and products.get("complex_modes") is None:
-        return tuple(filter(None, [noise_events.key_figure(products["noise_events"], look)]))
+        heard = noise_events.key_figure(products["noise_events"], look)
+        return tuple(filter(None, [heard or orders.key_figure(products.get("orders"), look)]))
     answer, cycle = _key_figure(products, look), products.get("limit_cycle")
     return tuple(f for f in (answer, cycle and limit_cycle.key_figure(cycle)) if f)
 

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from pipeline.views.chapters import convergence, limit_cycle, probability
-from pipeline.views.chapters.bench import diagnosis, line_evidence, measured_friction, modal_test, noise_events
+from pipeline.views.chapters.bench import diagnosis, line_evidence, measured_friction, modal_test, noise_events, orders
 from pipeline.views.chapters.friction import outside_computed
 from pipeline.views.chapters.models.rupture import headline as rupture_headline
 from pipeline.views.chapters.pad_motion import extremes, open_balance, point, rate_in_words
@@ -135,7 +135,9 @@ def _settled_cycle(transient):
 def _where(products):
     squeal, cycle = products.get("squeal"), products.get("limit_cycle")
     if squeal is None and cycle is None and products.get("noise_events") is not None:
-        return noise_events.conclusion(products["noise_events"])
+        turning = orders.largest(products.get("orders"))
+        told = noise_events.conclusion(products["noise_events"])
+        return told + (f" Orders of the shaft: {turning}." if turning else "")
     if squeal is None:
         return "" if cycle is None else limit_cycle.statement(cycle)
     operating, sensor = np.unravel_index(np.argmax(squeal.peak_level), squeal.peak_level.shape)

@@ -35,32 +35,46 @@ def _frequency(one, k, which):
     return one.outstanding[k] * _speed(one, which) / (2.0 * np.pi)
 
 
+def largest(product):
+    """The largest order of each unit in words; '' where none stands out, or there is no product."""
+    units = {}
+    for row in _rows(product) if product is not None else ():
+        units.setdefault(str(row[0].unit), row)
+    return "; ".join(f"order {number(one.outstanding[k], 3)} of {one.channel} with"
+                     f" {quantity(one.level[k, b], unit, 3)} at {number(pictures.rpm(_speed(one, b)), 3)} rpm,"
+                     f" {quantity(_frequency(one, k, b), 'Hz', 3)}, run {one.run}"
+                     for unit, (one, k, b) in units.items())
+
+
+def key_figure(product, look):
+    """Figure of the first screen: the Campbell diagram of the channel with the largest order; None without any."""
+    rows = _rows(product) if product is not None else ()
+    return _diagram(rows[0][0], look) if rows else None
+
+
 def _conclusion(product):
-    spectra, rows = product.spectra.values(), _rows(product)
+    spectra, rows, told = product.spectra.values(), _rows(product), largest(product)
     speeds = span([pictures.rpm(edge) for one in spectra for edge in one.edge[[0, -1]]], "1", 3)
     heard = len({id(one) for one, *_ in rows})
     have = f"{heard or 'none'} {'has' if heard < 2 else 'have'}"
-    units = {}
-    for row in rows:
-        units.setdefault(str(row[0].unit), row)
-    largest = "; ".join(f"order {number(one.outstanding[k], 3)} of {one.channel} with"
-                        f" {quantity(one.level[k, b], unit, 3)} at {number(pictures.rpm(_speed(one, b)), 3)} rpm,"
-                        f" {quantity(_frequency(one, k, b), 'Hz', 3)}, run {one.run}"
-                        for unit, (one, k, b) in units.items())
     return (f"Of {plural(len(spectra), 'channel')}, at {speeds} rpm, {have} orders that stand out. "
-            + (f"The largest: {largest}." if largest else "What is loud there keeps its frequency while the speed"
-               " changes, or is noise.")
+            + (f"The largest: {told}." if told else "What is loud there keeps its frequency while the speed changes, or"
+               " is noise.")
             + ("" if all(one.sure[k] for one, k, _ in rows) else " An order or steady tone: over this range of speed a"
                " tone of constant frequency would look alike; more range, or more revolutions a block, tells."))
+
+
+def _diagram(one, look):
+    return Figure(pictures.campbell(one, look.dpi),
+                  f"Run {one.run}, {one.channel}: Campbell diagram, amplitude over speed and frequency; dashed: "
+                  + ("orders that stand out." if len(one.outstanding) else "whole orders, none of which stands out.")
+                  + " White: no such speed was recorded.")
 
 
 def _figures(product, look):
     chosen = sorted(product.spectra.values(), key=lambda one: -len(one.outstanding))[:_SHOWN]
     for one in chosen:
-        yield Figure(pictures.campbell(one, look.dpi),
-                     f"Run {one.run}, {one.channel}: Campbell diagram, amplitude over speed and frequency; dashed: "
-                     + ("orders that stand out." if len(one.outstanding) else "whole orders, none of which stands out.")
-                     + " White: no such speed was recorded.")
+        yield _diagram(one, look)
         if len(one.outstanding):
             yield Figure(pictures.levels(one), f"Run {one.run}, {one.channel}: amplitude of its orders over the speed.")
 

@@ -63,7 +63,7 @@ def _modes(axes, product, shown):
         height = product.mode_frequency[k] / 1e3
         axes.plot([begin, end if whole else begin + 0.02 * (end - begin)], [height, height], color="white", lw=0.7,
                   zorder=1.5, ls="--" if product.mode_unstable[k] else ":")
-        if whole and height - last > 0.05 * shown.frequency[-1] / 1e3:
+        if whole and height - last > 0.04 * shown.frequency[-1] / 1e3:
             last = height
             name = f"{product.mode_name[k]}{', unstable' if product.mode_unstable[k] == 1 else ''}"
             axes.annotate(name, (begin, height), (3, 1), textcoords="offset points", color="white", fontsize=7.5)
