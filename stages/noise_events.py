@@ -90,7 +90,16 @@ def _table(product):
     return stream.getvalue()
 
 
-@stage(companions=companions)
+def _check(sections):
+    """Refuse a file without modes, and a band that ends before it begins."""
+    settings = sections["noise_events"]
+    named_modes(settings.modes, settings.modes_file, "noise_events.modes_file")
+    if settings.lowest_frequency >= settings.highest_frequency:
+        raise ConfigError("noise_events.lowest_frequency", f"less than highest_frequency,"
+                          f" {settings.highest_frequency:g} Hz", f"{settings.lowest_frequency:g} Hz")
+
+
+@stage(companions=companions, check=_check)
 def noise_events(recording: Recording, settings: Settings, context: Context) -> NoiseEvents:
     """Find squeal and other noise events in the recordings.
 
@@ -105,9 +114,6 @@ def noise_events(recording: Recording, settings: Settings, context: Context) -> 
     Where modes are given, an event is near one if their frequencies differ by at most {near}. Maps tell the share of
     the recorded time with squeal in bins of two conditions, over all runs that know both.
     """
-    if settings.lowest_frequency >= settings.highest_frequency:
-        raise ConfigError("noise_events.lowest_frequency", f"less than highest_frequency,"
-                          f" {settings.highest_frequency:g} Hz", f"{settings.lowest_frequency:g} Hz")
     modes = named_modes(settings.modes, settings.modes_file, "noise_events.modes_file")
     tasks = [(name, key, channel, kind) for name, run in recording.runs.items()
              for key, channel in run.channels.items() for kind in [_kind(key, channel, settings)] if kind]

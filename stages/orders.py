@@ -37,7 +37,13 @@ _TURNING = {"rad/s": 1.0, "Hz": 2.0 * np.pi}
 _READ = 0.2
 
 
-@stage
+def _check(sections):
+    """Refuse pulses of no channel."""
+    if sections["orders"].pulses and not sections["orders"].shaft:
+        raise ConfigError("orders.shaft", "the channel of the pulses", "none")
+
+
+@stage(check=_check)
 def orders(recording: Recording, settings: Settings, context: Context) -> Orders:
     """Find vibration that follows the revolutions of a shaft.
 
@@ -75,9 +81,7 @@ def orders(recording: Recording, settings: Settings, context: Context) -> Orders
 
 
 def _check_names(recording, settings):
-    """Refuse channels that no run has, and pulses of no channel."""
-    if settings.pulses and not settings.shaft:
-        raise ConfigError("orders.shaft", "the channel of the pulses", "none")
+    """Refuse channels that no run has."""
     there = {key for run in recording.runs.values() for key in run.channels}
     for key, names in (("shaft", {settings.shaft} - {""}), ("channels", set(settings.channels))):
         if names - there:

@@ -95,7 +95,7 @@ def test_without_channels_of_sound_nothing_is_found():
 
 def test_a_band_that_ends_before_it_begins_is_refused():
     with pytest.raises(ConfigError, match="lowest_frequency: expected less than highest_frequency, 1000 Hz"):
-        noise_events(recorded(), settings=Settings(highest_frequency="1 kHz"))
+        noise_events.check({"noise_events": Settings(highest_frequency="1 kHz")})
 
 
 def test_the_table_of_events(result):

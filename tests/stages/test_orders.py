@@ -90,6 +90,6 @@ def test_the_speed_may_come_from_the_pulses_of_a_tacho():
     assert one.outstanding == pytest.approx([2.0], abs=0.02) and one.edge[-1] == pytest.approx(FIRST, rel=0.05)
     np.testing.assert_allclose(one.level[0][one.blocks > 0], 20.0, rtol=0.01)
     with pytest.raises(ConfigError, match="orders.shaft: expected the channel of the pulses"):
-        found(recording, pulses=6)
+        orders.check({"orders": Settings(pulses=6)})
     told = []
     assert not found(recording, told, shaft="torque", pulses=1, channels=["line"]) and told

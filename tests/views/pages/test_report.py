@@ -110,5 +110,6 @@ def test_settings_are_written_for_reading():
     assert case_view.written(7, "") == "7"
     assert case_view.written("turned", "") == "turned"
     assert case_view.written(Path("/somewhere/plu-1.plu"), "") == "plu-1.plu"
+    assert case_view.written({"bell": 2750.0, "ring": 5200.0}, "Hz") == "bell: 2.75\u202fkHz, ring: 5.2\u202fkHz"
     assert case_view.written((1e6, 2.5e6), "Pa") == "1, 2.5\u202fMPa"
     assert case_view.tuned(small.case()) == (("micro_friction.shear_limit", "13.5\u202fMPa"),)

@@ -72,8 +72,8 @@ def _diagram(one, look):
 
 
 def _figures(product, look):
-    chosen = sorted(product.spectra.values(), key=lambda one: -len(one.outstanding))[:_SHOWN]
-    for one in chosen:
+    chosen = sorted(product.spectra.values(), key=lambda one: -len(one.outstanding))
+    for one in [one for one in chosen if len(one.outstanding)][:_SHOWN] or chosen[:1]:
         yield _diagram(one, look)
         if len(one.outstanding):
             yield Figure(pictures.levels(one), f"Run {one.run}, {one.channel}: amplitude of its orders over the speed.")
