@@ -17,7 +17,7 @@ CHAINS = {
     "beam_on_beam": ("beam_on_beam", "reduced_model", "effects", "complex_modes", "transient", "motion_scatter",
                      "squeal", "comparison", "report"),
     "beam_geometry": ("beam_geometry", "report"),
-    "recording": ("recording", "noise_events", "report"),
+    "recording": ("recording", "noise_events", "orders", "report"),
     "modal_test": ("recording", "response_functions", "modal_test", "report"),
     "model_update": ("recording", "response_functions", "modal_test", "model_update", "report"),
     "lumped_bench": ("lumped", "reduced_model", "effects", "recording", "bench", "diagnosis", "report"),

@@ -18,12 +18,14 @@ from pipeline.case_models.steady_sliding import mapped_friction, posed
 from pipeline.case_models.unstable_roots import nearly
 from pipeline.contract import ConfigError, Context, ConvergenceError, Quantity, Section, option, stage
 from pipeline.physics.signals.limit_cycle import harmonic_levels
+from pipeline.physics.signals.listening import RATE, audible, held
 from pipeline.physics.signals.oscillation import dominant_frequency
 from pipeline.physics.sliding.equilibrium import closure_response
 from pipeline.physics.sliding_motion import exudyn_motion
 from pipeline.physics.sliding_motion.motion import sliding_motion
 from pipeline.physics.sliding_motion.sliding_modes import sliding_modes
-from pipeline.products import ComplexModes, Effects, FrictionMap, LimitCycle, ReducedModel
+from pipeline.products import ComplexModes, Effects, Excerpt, FrictionMap, LimitCycle, ReducedModel
+from pipeline.views.pages.sound_file import sound_files
 
 COMPILED, EXUDYN = "compiled", "exudyn"
 STEP, PATCHES, STICK, MODES = CHECKS = "step", "patches", "stick speed", "modes"
@@ -69,7 +71,7 @@ def _check(sections):
                           f"{settings.duration:g} s")
 
 
-@stage(check=_check)
+@stage(check=_check, companions=sound_files)
 def limit_cycle(model: ReducedModel, friction_map: FrictionMap, modes: ComplexModes, effects: Effects | None,
                 settings: Settings, context: Context) -> LimitCycle:
     """Simulate unstable modes from onset to limit cycle.
@@ -102,6 +104,7 @@ def limit_cycle(model: ReducedModel, friction_map: FrictionMap, modes: ComplexMo
         onset_operating=[o[0] for o in onset], onset_root=np.array([o[1] for o in onset], complex),
         onset_simulated=np.array([o[2] for o in onset], complex), sensor_name=model.sensor_name, window=settings.window,
         settled_within=settings.settled_within, step=settings.step, **_axes(results, settings), **fields,
+        listen=_listen(results, model.sensor_name),
         **_changes(settings.checks[:len(checks)], others, results[strongest] if checks else None))
 
 
@@ -226,6 +229,22 @@ def _nothing(model, settings):
               "harmonic_amplitude": (0, sensors, settings.harmonics)}
     return {name: np.zeros(shape, {"settled": int, "velocity": np.float32}.get(name, float))
             for name, shape in shapes.items()}
+
+
+def _listen(results, sensors):
+    """{'squeal': Excerpt} of the loudest limit cycle at its loudest sensor; {} where all motion decays."""
+    if not results:
+        return {}
+    cycle = max(results, key=lambda result: (result["level"][:, -1] ** 2).sum())
+    sensor = int(cycle["level"][:, -1].argmax())
+    amplitude = np.asarray(cycle["harmonic_amplitude"])[sensor]
+    frequency = cycle["cycle_frequency"] * np.arange(1, len(amplitude) + 1)
+    if not audible(frequency[:1]).any():
+        return {}
+    sound = held(frequency, amplitude / np.sqrt(2.0))
+    content = f"strongest line of the velocity at sensor {sensors[sensor]} and its multiples, held for 2 s"
+    return {"squeal": Excerpt(samples=sound.samples, rate=RATE, full_scale=sound.full_scale, unit="m/s",
+                              content=content, begin=0.0)}
 
 
 def _checks(points, modes, settings):

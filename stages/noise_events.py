@@ -3,15 +3,20 @@
 import csv
 import io
 from functools import partial
+from itertools import combinations
 
 import numpy as np
 
-from pipeline.contract import ConfigError, Context, Quantity, Section, option, stage
+from pipeline.case_models.named_modes import named_modes
+from pipeline.contract import ConfigError, Context, InputFile, Quantity, Section, option, stage
+from pipeline.physics.signals.listening import LONGEST, RATE, excerpt
 from pipeline.physics.signals.noise_events import broadband, tonal
+from pipeline.physics.signals.occurrence import Conditions, even_edges, occurrence
 from pipeline.physics.signals.spectra import HEARING, level
 from pipeline.physics.signals.squeal_detector import Detector, frames, loudest
-from pipeline.products import NoiseEvents, Recording, Spectrogram
+from pipeline.products import Excerpt, NoiseEvents, OccurrenceMap, Recording, Spectrogram
 from pipeline.recordings.samples import with_gaps
+from pipeline.views.pages.sound_file import sound_files
 
 
 class Settings(Section):
@@ -38,36 +43,63 @@ class Settings(Section):
                                   " weighted", gt=0)
     low_window: Quantity("s", gt=0) = option("200 ms", "length of a frame for tones below the squeal band")
     lowest_tone: Quantity("Hz", gt=0) = option("20 Hz", "tones from here on are told")
+    modes: dict[str, Quantity("Hz", gt=0)] = option({}, "natural frequencies by name, to compare the events with")
+    modes_file: InputFile | None = option(None, "modes of another run to compare the events with: its complex_modes.h5"
+                                          " or modal_test.h5")
+    bins: int = option(10, "most bins of a condition in the maps of squeal over two of them", ge=2, le=40)
+    near: float = option(0.03, "largest distance of an event from a mode near it, as a share", gt=0, lt=0.3)
 
 
 #: acceleration of 0 dB [m/s^2] (ISO 1683)
 _STILL = 1e-6
+#: what is heard before and after an event [s]
+_BEFORE = 0.2
 #: largest pressure in Pa that a microphone hears (160 dB); a line pressure is more
 _SOUND = 2e3
-#: conditions of an event: name, and what channels measure it
-_CONDITIONS = {"pressure": ("pressure",), "speed": ("angular_velocity", "speed"), "temperature": ("temperature",)}
-#: units of the conditions
-_UNITS = {"pressure": "Pa", "speed": "rad/s", "temperature": "K"}
+#: conditions of an event: name, what channels measure it, and their unit
+_CONDITIONS = {"pressure": (("pressure",), "Pa"), "speed": (("angular_velocity", "speed"), "rad/s"),
+              "temperature": (("temperature",), "K")}
+#: distance of the instants that are counted in the maps over conditions [s], and where their bins begin
+_INSTANT, _ORIGIN = 0.05, {"temperature": 273.15}
 #: most frames and lines of a spectrogram that is kept for the page
 _KEPT = 600, 320
+#: kinds of events that have a tone of their own
+_OWN = ("squeal", "moan", "groan", "judder")
 _FIELDS = ("kind", "frequency", "lowest", "highest", "level", "start", "duration", "fundamental", "order")
 
 
 def companions(product, case=None):
-    """The table of events."""
+    """The table of events, and the loudest squeal to listen to."""
+    return {"noise_events.csv": _table(product)} | sound_files(product)
+
+
+def _table(product):
     stream = io.StringIO()
     writer = csv.writer(stream, lineterminator="\n")
     writer.writerow(("run", "channel", "kind", "frequency / Hz", "lowest / Hz", "highest / Hz", "level / dB",
-                     "start / s", "duration / s", "order", *(f"{name} / {_UNITS[name]}" for name in product.condition)))
+                     "start / s", "duration / s", "order",
+                     *(f"{name} / {_CONDITIONS[name][1]}" for name in product.condition),
+                     *(("mode", "mode / Hz") if len(product.mode_name) else ())))
     for k, record in enumerate(product.event_record):
         writer.writerow((product.record_run[record], product.record_channel[record], product.event_kind[k],
                          *(f"{getattr(product, f'event_{name}')[k]:.6g}" for name in _FIELDS[1:7]),
                          product.event_order[k], *(f"{value:.6g}" if known else "" for value, known in zip(
-                             product.event_condition[k], product.event_condition_known[k], strict=True))))
-    return {"noise_events.csv": stream.getvalue()}
+                             product.event_condition[k], product.event_condition_known[k], strict=True)),
+                         *((product.mode_name[mode], f"{product.mode_frequency[mode]:.6g}")
+                           if (mode := product.event_mode[k]) >= 0 else ())))
+    return stream.getvalue()
 
 
-@stage(companions=companions)
+def _check(sections):
+    """Refuse a file without modes, and a band that ends before it begins."""
+    settings = sections["noise_events"]
+    named_modes(settings.modes, settings.modes_file, "noise_events.modes_file")
+    if settings.lowest_frequency >= settings.highest_frequency:
+        raise ConfigError("noise_events.lowest_frequency", f"less than highest_frequency,"
+                          f" {settings.highest_frequency:g} Hz", f"{settings.lowest_frequency:g} Hz")
+
+
+@stage(companions=companions, check=_check)
 def noise_events(recording: Recording, settings: Settings, context: Context) -> NoiseEvents:
     """Find squeal and other noise events in the recordings.
 
@@ -79,10 +111,10 @@ def noise_events(recording: Recording, settings: Settings, context: Context) -> 
     amplitude. Levels are those of the tones, A-weighted by the formula of IEC 61672-1. Noise without a tone counts by
     the level of the band without its strongest lines. Tones below the band are told from {low_threshold} dB on, not
     weighted; accelerometers from {vibration_threshold} on. No standard fixes the last two, nor the shortest event.
+    Where modes are given, an event is near one if their frequencies differ by at most {near}. Maps tell the share of
+    the recorded time with squeal in bins of two conditions, over all runs that know both.
     """
-    if settings.lowest_frequency >= settings.highest_frequency:
-        raise ConfigError("noise_events.lowest_frequency", f"less than highest_frequency,"
-                          f" {settings.highest_frequency:g} Hz", f"{settings.lowest_frequency:g} Hz")
+    modes = named_modes(settings.modes, settings.modes_file, "noise_events.modes_file")
     tasks = [(name, key, channel, kind) for name, run in recording.runs.items()
              for key, channel in run.channels.items() for kind in [_kind(key, channel, settings)] if kind]
     strange = set(settings.channels) - {key for run in recording.runs.values() for key in run.channels}
@@ -93,7 +125,7 @@ def noise_events(recording: Recording, settings: Settings, context: Context) -> 
         if isinstance(result, str):
             context.log(f"{name}, {key}: not searched: {result}")
     kept = [(task, result) for task, result in zip(tasks, found, strict=True) if not isinstance(result, str)]
-    return _product(kept, recording, settings)
+    return _product(kept, recording, modes, settings)
 
 
 def _kind(name, channel, settings):
@@ -169,21 +201,19 @@ def _spectrogram(spectra, detector, begin, top):
                        level=level(np.square(blocks.max(axis=(1, 3)), dtype=float), detector.reference))
 
 
-def _product(kept, recording, settings):
+def _product(kept, recording, modes, settings):
     rows = [(k, event) for k, (_, (events, *_)) in enumerate(kept) for event in events]
     begins = [result[4] for _, result in kept]
-    values = np.zeros((len(rows), len(_CONDITIONS)))
-    known = np.zeros(values.shape, int)
-    measured = {name: _measured(recording.runs[name]) for (name, *_), _ in kept}
-    for j, (k, event) in enumerate(rows):
-        run = kept[k][0][0]
-        for i, name in enumerate(_CONDITIONS):
-            value = _condition(measured[run][name], recording.runs[run].conditions.get(name), name,
-                               begins[k] + event.start, event.duration)
-            if value is not None:
-                values[j, i], known[j, i] = value, 1
+    conditions = {name: _conditions(recording.runs[name]) for (name, *_), _ in kept}
+    told = [[conditions[kept[k][0][0]].mean(name, begins[k] + event.start, event.duration) for name in _CONDITIONS]
+            for k, event in rows]
+    known = np.array([[int(value is not None) for value in row] for row in told], int).reshape(-1, len(_CONDITIONS))
+    values = np.array([[value or 0.0 for value in row] for row in told], float).reshape(known.shape)
     columns = {name: [getattr(event, name) for _, event in rows] for name in _FIELDS}
     columns["start"] = [begins[k] + event.start for k, event in rows]
+    near = [modes.nearest([event.frequency], settings.near)[0] if event.kind in _OWN else -1 for _, event in rows]
+    octaves = [event.frequency * np.array([2.0**-0.5, 2.0**0.5]) for _, event in rows]
+    chance = [[modes.covered(octave, settings.near, unstable) for unstable in (False, True)] for octave in octaves]
     return NoiseEvents(
         threshold=settings.threshold, band=[settings.lowest_frequency, settings.highest_frequency],
         record_run=[name for (name, *_), _ in kept], record_channel=[key for (_, key, *_), _ in kept],
@@ -191,25 +221,74 @@ def _product(kept, recording, settings):
         record_duration=[len(channel.samples) / float(channel.rate) for (_, _, channel, _), _ in kept],
         record_peak=[result[1][0] for _, result in kept], record_peak_frequency=[result[1][1] for _, result in kept],
         record_background=[result[2] for _, result in kept],
+        maps=_maps(kept, conditions, settings.bins), listen=_listen(kept),
         spectrogram={f"{name}.{key}": result[3] for (name, key, *_), result in kept},
         event_record=[k for k, _ in rows], event_condition=values, event_condition_known=known,
+        event_mode=near, mode_name=list(modes.name), mode_frequency=modes.frequency, mode_unstable=modes.unstable,
+        near=settings.near, event_chance=np.reshape(chance, (-1, 2)),
         **{f"event_{name}": column for name, column in columns.items()})
 
 
-def _measured(run):
-    """{condition: [(samples, NaN where missing, rate in Hz, begin in s)]} of the channels of a Run that measure it."""
-    return {name: [(with_gaps(c), float(c.rate), float(c.begin)) for c in run.channels.values()
-                   if str(c.measures) in wanted and str(c.unit) == _UNITS[name]
-                   and not (name == "pressure" and _heard(c))] for name, wanted in _CONDITIONS.items()}
+def _listen(kept):
+    """{'squeal': Excerpt} of the loudest squeal, of a microphone if any heard one; {} without squeal."""
+    squeal = [(kind == "sound", event.level, event, name, key, channel, begin)
+              for (name, key, channel, kind), (events, *_, begin) in kept for event in events if event.kind == "squeal"]
+    if not squeal:
+        return {}
+    *_, event, name, key, channel, begin = max(squeal, key=lambda row: row[:2])
+    rate = float(channel.rate)
+    first, last = (max(int((t - _BEFORE * sign) * rate), 0) for t, sign in (
+        (event.start, 1), (event.start + min(event.duration, LONGEST - 2 * _BEFORE), -1)))
+    sound = excerpt(channel.samples[first:last], rate)
+    return {"squeal": Excerpt(samples=sound.samples, rate=RATE, full_scale=sound.full_scale, unit=str(channel.unit),
+                              content=f"run {name}, {key}", begin=begin + first / rate)}
 
 
-def _condition(measured, stated, name, start, duration):
-    """Mean of a condition over an event, by what ``_measured`` it, else as the run has ``stated`` it, or None."""
-    for samples, rate, begin in measured:
-        first, last = (int((t - begin) * rate) for t in (start, start + duration))
-        inside = samples[max(first, 0):max(last, first + 1)]
-        if np.isfinite(inside).any():
-            return float(np.nanmean(inside))
-    if stated is None or str(stated.unit) != _UNITS[name]:
-        return None
-    return float(np.interp(start + duration / 2, stated.time, stated.value))
+def _conditions(run):
+    """Conditions of a Run: by its channels, else as it states them."""
+    measured = {name: [(with_gaps(c), float(c.rate), float(c.begin)) for c in run.channels.values()
+                       if str(c.measures) in wanted and str(c.unit) == unit
+                       and not (name == "pressure" and _heard(c))] for name, (wanted, unit) in _CONDITIONS.items()}
+    return Conditions(measured, {name: (run.conditions[name].time, run.conditions[name].value)
+                                 for name, (_, unit) in _CONDITIONS.items()
+                                 if name in run.conditions and str(run.conditions[name].unit) == unit})
+
+
+def _maps(kept, conditions, bins):
+    """{first.second: OccurrenceMap} of the pairs of conditions that are known together."""
+    courses = {name: _course(name, kept, of) for name, of in conditions.items()}
+    maps = {}
+    for first, second in combinations(_CONDITIONS, 2):
+        both = [(course[first], course[second], course["level"]) for course in courses.values()
+                if np.isfinite(course[first] + course[second]).any()]
+        if not both:
+            continue
+        edges = [even_edges(np.concatenate([run[k][np.isfinite(run[k])] for run in both]), bins, _ORIGIN.get(name, 0.0))
+                 for k, name in enumerate((first, second))]
+        parts = [occurrence(*run, _INSTANT, edges) for run in both]
+        whole = sum(parts[1:], parts[0])
+        maps[f"{first}.{second}"] = OccurrenceMap(
+            condition=[first, second], first_edge=edges[0], second_edge=edges[1], time=whole.time,
+            squealing=whole.sounding, level=whole.level, runs=np.sum([part.time > 0 for part in parts], axis=0),
+            squealing_runs=np.sum([part.sounding > 0 for part in parts], axis=0))
+    return maps
+
+
+def _course(run, kept, conditions):
+    """Conditions and level of the squeal of a run, -inf where there is none, at instants over its records.
+
+    Squeal is that of microphones, or of accelerometers where no run has a microphone.
+    """
+    sound = any(kind == "sound" for (*_, kind), _ in kept)
+    records = [(channel, events, begin) for (name, _, channel, kind), (events, *_, begin) in kept
+               if name == run and (kind == "sound" or not sound)]
+    ends = [begin + len(channel.samples) / float(channel.rate) for channel, _, begin in records]
+    first = min((begin for *_, begin in records), default=0.0)
+    time = first + _INSTANT * (np.arange(int((max(ends, default=0.0) - first) / _INSTANT)) + 0.5)
+    course = {name: conditions.at(name, time) for name in _CONDITIONS} | {"level": np.full(len(time), -np.inf)}
+    for _, events, begin in records:
+        for event in events:
+            if event.kind == "squeal":
+                inside = (time >= begin + event.start) & (time <= begin + event.start + event.duration)
+                course["level"][inside] = np.maximum(course["level"][inside], event.level)
+    return course

@@ -35,5 +35,6 @@ def report(products: Products, settings: Settings, context: Context) -> Report:
         for build in builders:
             chapters.append(build())
             progress.advance()
+    chapters = [chapter for chapter in chapters if chapter is not None]
     return Report(html=page(chapters, products, context.case, look),
                   verdict=verdict_text(verdict(products, ()), products))

@@ -5,9 +5,11 @@ from functools import partial
 import numpy as np
 
 from pipeline.contract import ConfigError, Context, Quantity, Section, option, stage
+from pipeline.physics.signals.listening import LONGEST, RATE, audible, excerpt, held
 from pipeline.physics.signals.spectra import band_power, level, third_octave_bands
 from pipeline.physics.signals.squeal_detector import Detector, detect, frames, loudest
-from pipeline.products import Response, Squeal, Transient
+from pipeline.products import Excerpt, Response, Squeal, Transient
+from pipeline.views.pages.sound_file import sound_files
 
 
 class Settings(Section):
@@ -38,7 +40,11 @@ class Settings(Section):
         0.33, "share of the frames of an event that must be told as the same harmonic", ge=0.1, lt=1)
 
 
-@stage
+#: shortest motion that is listened to as it is [s]; of shorter ones the tones are held
+_HEARD = 1.0
+
+
+@stage(companions=sound_files)
 def squeal(response: Response | Transient, settings: Settings, context: Context) -> Squeal:
     """Detect squeal events and compute band levels of the sensor velocities.
 
@@ -50,7 +56,8 @@ def squeal(response: Response | Transient, settings: Settings, context: Context)
     drift by less than {drift} between frames form one event. An event is a harmonic if in more than {told_share} of its
     frames it is an integer multiple of a lower tone, itself at or above {lowest_fundamental} and {threshold}, with
     frequencies accurate to {line_accuracy} of the line spacing, and if at most {largest_chance} of unrelated tones
-    would satisfy this by chance. Third-octave levels are sums of the velocity spectra.
+    would satisfy this by chance. Third-octave levels are sums of the velocity spectra. What there is to listen to is
+    the velocity of the sensor that squeals loudest, or its tones held at their levels where the motion is short.
     """
     if settings.lowest_frequency >= settings.highest_frequency:
         raise ConfigError("squeal.lowest_frequency", f"less than highest_frequency, {settings.highest_frequency:g} Hz",
@@ -68,13 +75,37 @@ def squeal(response: Response | Transient, settings: Settings, context: Context)
     results = context.map(search, [velocity[:, searched] for velocity in response.velocity], "squeal detection")
     middle = third_octave_bands(settings.lowest_frequency, settings.highest_frequency)
     power = band_power(response.frequency, response.velocity_spectrum, middle)
+    events = _events(results, response.time[searched][0])
     peaks = np.array([[peak for peak, _ in sensors] for sensors in results])
     return Squeal(
         pressure=response.pressure, speed=response.speed, sensor_name=response.sensor_name,
         coupling=getattr(response, "coupling", "transient"),
         reference=settings.reference, threshold=detector.threshold,
         peak_level=peaks[..., 0], peak_frequency=peaks[..., 1],
-        band=middle, band_level=level(power, settings.reference), **_events(results, response.time[searched][0]))
+        band=middle, band_level=level(power, settings.reference), **events,
+        listen=_listen(response, events, rate, settings))
+
+
+def _listen(response, events, rate, settings):
+    """{'squeal': Excerpt} of the sensor with the loudest event; {} without any that can be heard."""
+    heard = np.flatnonzero(audible(events["event_frequency"]))
+    if not len(heard):
+        return {}
+    loudest = heard[events["event_level"][heard].argmax()]
+    operating, sensor = (int(events[f"event_{name}"][loudest]) for name in ("operating", "sensor"))
+    name = str(response.sensor_name[sensor])
+    begin = max(float(events["event_start"][loudest]), float(response.time[0]))
+    rest = response.time >= begin
+    if response.time[-1] - begin >= _HEARD:
+        sound = excerpt(response.velocity[operating, sensor, rest], rate)
+        content = f"velocity at sensor {name} from {begin:.3g} s on, for up to {LONGEST:g} s"
+    else:
+        there = heard[(events["event_operating"][heard] == operating) & (events["event_sensor"][heard] == sensor)]
+        sound = held(events["event_frequency"][there],
+                     settings.reference * 10.0 ** (events["event_level"][there] / 20.0))
+        content, begin = f"tones of the velocity at sensor {name}, held for 2 s", 0.0
+    return {"squeal": Excerpt(samples=sound.samples, rate=RATE, full_scale=sound.full_scale, unit="m/s",
+                              content=content, begin=begin)}
 
 
 def _detector(settings):

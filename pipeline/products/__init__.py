@@ -51,13 +51,22 @@ from pipeline.products.recording import (
 )
 from pipeline.products.rupture import Rupture
 from pipeline.products.sliding import ReducedModel
-from pipeline.products.sound import NoiseEvents, Response, Spectrogram, Squeal
+from pipeline.products.sound import (
+    Excerpt,
+    NoiseEvents,
+    OccurrenceMap,
+    Orders,
+    OrderSpectra,
+    Response,
+    Spectrogram,
+    Squeal,
+)
 from pipeline.products.structure import Structure
 from pipeline.products.surfaces import Surface
 
 __all__ = ["BeamGeometry", "BeamOnBeam", "Bench", "BenchRun", "Body", "Channel", "Comparison", "ComplexModes",
-           "Condition", "Convergence", "DiagnosedRun", "Diagnosis", "Effects", "Follows", "FrequencyResponse", "FrictionDescriptions",
+           "Condition", "Convergence", "DiagnosedRun", "Diagnosis", "Effects", "Excerpt", "Follows", "FrequencyResponse", "FrictionDescriptions",
            "FrictionMap", "FrictionOverTemperature", "FrictionUpdate", "Incidence", "InterfaceLaw", "LatentForce", "LatentPrediction", "LimitCycle", "LineEvidence", "Lines", "Located", "LockIn",
-           "Lumped", "MeasuredFriction", "MeasuredModes", "MicroFriction", "ModalTest", "ModelUpdate", "MotionScatter", "Multibody", "NoiseEvents", "PinOnDisc", "Probability",
+           "Lumped", "MeasuredFriction", "MeasuredModes", "MicroFriction", "ModalTest", "ModelUpdate", "MotionScatter", "Multibody", "NoiseEvents", "OccurrenceMap", "OrderSpectra", "Orders", "PinOnDisc", "Probability",
            "Recording", "ReducedModel", "Report", "Response", "ResponseFunctions", "Run", "Rupture", "Spectrogram", "Squeal", "SquealCheck", "Structure", "Surface", "TestModes", "TestResponses", "Topography",
            "Transient"]

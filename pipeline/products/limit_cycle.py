@@ -2,10 +2,11 @@
 
 import numpy as np
 
-from pipeline.contract import Array, count, product, quantity, text
+from pipeline.contract import Array, count, parts, product, quantity, text
+from pipeline.products.sound import Excerpt
 
 
-@product(version=1)
+@product(version=2)
 class LimitCycle:
     """What unstable modes grow into: motion about steady sliding with opening, stiffening and sticking contacts.
 
@@ -38,3 +39,4 @@ class LimitCycle:
     check: Array = text("check", "what was changed to see how far the result holds, at the strongest operating point")
     check_level: Array = quantity("1", "check", "change of the level by it in dB, all sensors together")
     check_frequency: Array = quantity("1", "check", "change of the frequency of the strongest line by it, as a share of it")
+    listen: dict[str, Excerpt] = parts("squeal: the loudest limit cycle, to listen to; nothing where all motion decays", empty=True)

@@ -23,7 +23,19 @@ class Response:
     coupling: Array = text("", "how forces enter: disc, released (open contacts) or assembly (closed contacts)")
 
 
-@product(version=3)
+@product(version=1)
+class Excerpt:
+    """A sound to listen to, mono."""
+
+    samples: Array = quantity("1", "sample", "16-bit samples, 32767 is full scale", np.int16)
+    rate: Array = quantity("Hz", "", "sampling rate")
+    full_scale: Array = quantity("1", "", "what a sample at full scale stands for, in the unit that `unit` names")
+    unit: Array = text("", "coherent SI unit of the signal")
+    content: Array = text("", "what it is")
+    begin: Array = quantity("s", "", "begin in the time of the signal; 0 of held tones")
+
+
+@product(version=4)
 class Squeal:
     """Squeal events at the sensors, and levels per band."""
 
@@ -45,6 +57,7 @@ class Squeal:
     event_duration: Array = quantity("s", "event", "duration")
     event_fundamental: Array = quantity("Hz", "event", "fundamental of which the event is an integer multiple; its own frequency if there is none")
     event_order: Array = count("event", "order: 1 = fundamental, 2 and more = harmonic")
+    listen: dict[str, Excerpt] = parts("squeal: velocity where it is loudest, to listen to; nothing where it does not squeal", empty=True)
 
 
 @product(version=1)
@@ -57,6 +70,20 @@ class Spectrogram:
 
 
 @product(version=1)
+class OccurrenceMap:
+    """Squeal over two conditions, in bins, over all runs in which both are known."""
+
+    condition: Array = text("axis", "the two conditions")
+    first_edge: Array = quantity("1", "first_edge", "ends of the bins of the first condition, SI")
+    second_edge: Array = quantity("1", "second_edge", "ends of the bins of the second condition, SI")
+    time: Array = quantity("s", "first second", "recorded time in the bin")
+    squealing: Array = quantity("s", "first second", "part of it with squeal")
+    runs: Array = count("first second", "runs that were in the bin")
+    squealing_runs: Array = count("first second", "runs that squealed there")
+    level: Array = quantity("1", "first second", "largest level of the events there, dB(A); dB re 1e-6 m/s^2 if no run has a microphone; 0 where none")
+
+
+@product(version=4)
 class NoiseEvents:
     """Squeal and other noise events in recordings. A record is a channel of a run."""
 
@@ -82,4 +109,41 @@ class NoiseEvents:
     event_order: Array = count("event", "the multiple; 1: a tone of its own")
     event_condition: Array = quantity("1", "event condition", "mean of each condition over the event, SI; 0 where not known")
     event_condition_known: Array = count("event condition", "1 where it is known")
+    event_mode: Array = count("event", "named mode nearest in frequency, -1 where none lies within `near`, or of a harmonic, sweep, series or broadband noise")
+    mode_name: Array = text("mode", "modes that the events are compared with")
+    mode_frequency: Array = quantity("Hz", "mode", "their natural frequencies, rising")
+    mode_unstable: Array = count("mode", "1 where it is predicted to be unstable, 0 where it is predicted not to be, -1 where nothing is predicted")
+    near: Array = quantity("1", "", "largest distance of an event from a mode near it, as a share of its frequency")
+    event_chance: Array = quantity("1", "event chance", "share of the octave about the event, on a logarithmic axis, that lies as near to a mode, and to an unstable one")
+    listen: dict[str, Excerpt] = parts("squeal: the loudest, to listen to; nothing where there is none", empty=True)
+    maps: dict[str, OccurrenceMap] = parts("squeal over two conditions, named first.second", empty=True)
     spectrogram: dict[str, Spectrogram] = parts("of each record, named run.channel", empty=True)
+
+
+@product(version=1)
+class OrderSpectra:
+    """Vibration over the revolutions of a shaft: one channel of a run during which the speed varies."""
+
+    run: Array = text("", "run")
+    channel: Array = text("", "channel")
+    shaft: Array = text("", "channel that tells the speed")
+    unit: Array = text("", "coherent SI unit of the amplitudes")
+    time: Array = quantity("s", "time", "middle of each block of revolutions, in the time of the record")
+    speed: Array = quantity("rad/s", "time", "mean speed in it")
+    order: Array = quantity("1", "order", "order axis: 1 is once per revolution")
+    amplitude: Array = quantity("1", "time order", "amplitude of a sine of that order", np.float32)
+    edge: Array = quantity("rad/s", "edge", "ends of the bins of speed")
+    outstanding: Array = quantity("1", "outstanding", "orders that stand out and follow the speed, strongest first")
+    sure: Array = count("outstanding", "0 where the speed varies too little to tell it from a tone of constant frequency")
+    level: Array = quantity("1", "outstanding bin", "their amplitude over speed, root mean square over blocks; 0 where there are none")
+    blocks: Array = count("bin", "blocks in each bin of speed")
+    frequency: Array = quantity("Hz", "frequency", "frequency axis of the Campbell diagram")
+    campbell: Array = quantity("1", "bin frequency", "amplitude over speed and frequency, root mean square over frames; 0 where there are none", np.float32)
+    frames: Array = count("bin", "frames in each bin of speed")
+
+
+@product(version=1)
+class Orders:
+    """Orders of the recordings of a bench. Empty where no channel tells a speed that varies."""
+
+    spectra: dict[str, OrderSpectra] = parts("of each channel, named run.channel", empty=True)

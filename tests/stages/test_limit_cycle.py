@@ -1,7 +1,10 @@
 """Stage limit_cycle on a brake of a few elements."""
 
+import io
+
 import numpy as np
 import pytest
+import scipy
 
 from pipeline.contract import ConfigError, ConvergenceError
 from pipeline.products import Effects
@@ -49,6 +52,21 @@ def test_growth_ends_and_energy_balances(cycle):
     growth = np.log(total[:, 1:] / total[:, :-1]) / (2 * float(cycle.window))
     fastest = np.array([cycle.onset_root.real[cycle.onset_operating == k].max() for k in range(len(total))])
     assert (growth[:, -1] < 0.5 * fastest).all()
+
+
+@pytest.mark.exact
+def test_the_loudest_cycle_is_written_to_listen_to(cycle):
+    """The strongest line within 1 Hz, as strong as its harmonics say."""
+    rate, samples = scipy.io.wavfile.read(io.BytesIO(limit_cycle.companions(cycle)["squeal.wav"]))
+    loudest = (cycle.level[..., -1]**2).sum(axis=1).argmax()
+    sensor = cycle.level[loudest, :, -1].argmax()
+    harmonics = cycle.cycle_frequency[loudest] * np.arange(1, cycle.harmonic_amplitude.shape[2] + 1)
+    strongest = harmonics[cycle.harmonic_amplitude[loudest, sensor].argmax()]
+    spectrum = np.abs(np.fft.rfft(samples * np.hanning(len(samples)), 2**20))
+    assert spectrum.argmax() * rate / 2**20 == pytest.approx(strongest, abs=1.0)
+    middle = samples[1000:-1000].std() * cycle.listen["squeal"].full_scale / 32767
+    heard = cycle.harmonic_amplitude[loudest, sensor][harmonics < 0.45 * rate]
+    assert middle == pytest.approx(np.sqrt((heard**2).sum() / 2), rel=0.02)
 
 
 @pytest.mark.exact

@@ -1,9 +1,11 @@
 """Stage noise_events on runs of microphones, accelerometers and slow channels."""
 
+import io
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
+import scipy
 
 from pipeline.contract import ConfigError
 from pipeline.products import Condition, Recording, Run
@@ -93,7 +95,7 @@ def test_without_channels_of_sound_nothing_is_found():
 
 def test_a_band_that_ends_before_it_begins_is_refused():
     with pytest.raises(ConfigError, match="lowest_frequency: expected less than highest_frequency, 1000 Hz"):
-        noise_events(recorded(), settings=Settings(highest_frequency="1 kHz"))
+        noise_events.check({"noise_events": Settings(highest_frequency="1 kHz")})
 
 
 def test_the_table_of_events(result):
@@ -132,3 +134,44 @@ def test_a_tone_of_a_narrow_band_is_not_noise_as_well():
     mic = run({"mic": channel(tone + NOISE, "Pa", "sound_pressure", RATE, 0.0, "mic")})
     found = noise_events(Recording(source=[], runs={"a": mic}), settings=Settings(highest_frequency="3 kHz"))
     assert list(found.event_kind) == ["squeal"]
+
+
+def test_events_are_compared_with_modes():
+    """The tone lies 1.6 % below a mode, which names it; within 1 % of none."""
+    modes = {"bell": "3.2 kHz", "ring": "5 kHz"}
+    found = noise_events(recorded(), settings=Settings(modes=modes))
+    assert list(found.mode_name) == ["bell", "ring"] and found.event_mode.tolist() == [0, 0]
+    np.testing.assert_allclose(found.event_chance, [[np.log2(1.03 / 0.97), 0.0]] * 2, rtol=1e-9)
+    assert found.mode_unstable.tolist() == [-1, -1]
+    head, first, *_ = companions(found)["noise_events.csv"].splitlines()
+    assert head.endswith("mode,mode / Hz") and first.endswith("bell,3200")
+    far = noise_events(recorded(), settings=Settings(modes=modes, near=0.01))
+    assert far.event_mode.tolist() == [-1, -1] and companions(far)["noise_events.csv"].splitlines()[1].endswith(",400")
+
+
+@pytest.mark.exact
+def test_maps_tell_the_share_of_time_with_squeal_in_every_bin(result):
+    """The line pressure rises by 1 MPa a second from 0.5 s on while it squeals from 1.5 s to 3 s; 400 K are stated."""
+    assert set(result.maps) == {"pressure.speed", "pressure.temperature", "speed.temperature"}
+    one = result.maps["pressure.temperature"]
+    assert one.first_edge.tolist() == [0.0, 5e5, 1e6, 1.5e6, 2e6, 2.5e6, 3e6, 3.5e6, 4e6] and one.time.shape == (8, 1)
+    np.testing.assert_allclose(one.time[:, 0], 0.5)
+    np.testing.assert_allclose(one.squealing[:, 0], [0, 0, 0.5, 0.5, 0.5, 0, 0, 0], atol=0.051)
+    assert one.runs[:, 0].tolist() == [1] * 8 and one.squealing_runs[:, 0].tolist() == [0, 0, 1, 1, 1, 0, 0, 0]
+    assert one.level[3, 0] == pytest.approx(86.2, abs=0.3) and one.level[0, 0] == 0
+    assert not noise_events(recorded(), settings=Settings(channels=["pad"])).maps["pressure.speed"].level.max() < 100
+
+
+@pytest.mark.exact
+def test_the_loudest_squeal_is_written_to_listen_to(result):
+    """The microphone is heard, from 0.2 s before the event to 0.2 s after it, frequency within 1 Hz."""
+    rate, samples = scipy.io.wavfile.read(io.BytesIO(companions(result)["squeal.wav"]))
+    told = result.listen["squeal"]
+    assert len(samples) / rate == pytest.approx(1.9, abs=0.03) and told.begin == pytest.approx(1.3, abs=0.02)
+    line = np.abs(np.fft.rfft(samples * np.hanning(len(samples)), 2**20)).argmax() * rate / 2**20
+    assert line == pytest.approx(result.event_frequency[0], abs=1.0) and str(told.content) == "run loud, mic"
+    pascal = samples[rate // 2:rate] * told.full_scale / 32767
+    assert 20 * np.log10(pascal.std() / 20e-6) == pytest.approx(85.0, abs=0.2) and str(told.unit) == "Pa"
+    quiet = noise_events(Recording(source=[], runs={"a": run({"mic": channel(
+        NOISE, "Pa", "sound_pressure", RATE, 0.0, "mic")})}), settings=Settings())
+    assert list(companions(quiet)) == ["noise_events.csv"]

@@ -1,7 +1,10 @@
 """Squeal events and levels of tones of known size."""
 
+import io
+
 import numpy as np
 import pytest
+import scipy
 
 from pipeline.contract import ConfigError
 from pipeline.physics.signals.spectra import power_spectrum
@@ -69,3 +72,31 @@ def test_settling_is_not_searched():
 def test_settings_that_do_not_fit_the_signals(settings, said):
     with pytest.raises(ConfigError, match=said):
         find([tone(5000, 1e-5)], **settings)
+
+
+def heard(product):
+    """(frequency of the strongest line in Hz, effective value in m/s) of what squeal.wav plays."""
+    rate, samples = scipy.io.wavfile.read(io.BytesIO(squeal.companions(product)["squeal.wav"]))
+    spectrum = np.abs(np.fft.rfft(samples * np.hanning(len(samples)), 2**20))
+    middle = samples[len(samples) // 4:-len(samples) // 4]
+    return spectrum.argmax() * rate / 2**20, middle.std() * product.listen["squeal"].full_scale / 32767
+
+
+@pytest.mark.exact
+def test_the_loudest_squeal_is_written_to_listen_to():
+    """A motion of 0.2 s: its tones are held for 2 s at their levels, frequency within 1 Hz."""
+    found = find([tone(4000, 2e-3), tone(2000, 3e-3) + tone(9000, 5e-3)])
+    frequency, effective = heard(found)
+    assert frequency == pytest.approx(found.event_frequency[found.event_level.argmax()], abs=1.0)
+    assert frequency == pytest.approx(9000, abs=2) and effective == pytest.approx(np.hypot(3e-3, 5e-3), rel=0.02)
+    assert found.listen["squeal"].content == "tones of the velocity at sensor 1, held for 2 s"
+    assert squeal.companions(find([tone(5000, 1e-5)])) == {}
+
+
+@pytest.mark.exact
+def test_a_long_motion_is_listened_to_as_it_is(monkeypatch):
+    monkeypatch.setattr("stages.squeal._HEARD", 0.05)
+    found = find([tone(9000, 5e-3, 0.1)])
+    frequency, effective = heard(found)
+    assert frequency == pytest.approx(9000, abs=1.0) and effective == pytest.approx(5e-3, rel=0.02)
+    assert 0.09 < found.listen["squeal"].begin < 0.11 and "from 0.0" in str(found.listen["squeal"].content)

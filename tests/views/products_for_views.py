@@ -11,6 +11,7 @@ from pipeline.products import (
     Comparison,
     ComplexModes,
     Convergence,
+    Excerpt,
     FrictionMap,
     FrictionUpdate,
     Incidence,
@@ -24,6 +25,9 @@ from pipeline.products import (
     ModelUpdate,
     Multibody,
     NoiseEvents,
+    OccurrenceMap,
+    Orders,
+    OrderSpectra,
     PinOnDisc,
     Probability,
     ReducedModel,
@@ -176,8 +180,33 @@ def noise_events(quiet=False):
         record_channel=["mic", "pad", "mic"], record_kind=["sound", "vibration", "sound"], record_duration=[10.0] * 3,
         record_peak=[89.0, 149.0, 78.0], record_peak_frequency=[2780.0, 2780.0, 7340.0], record_background=[62.0] * 3,
         condition=["pressure", "speed", "temperature"], event_lowest=0.999 * events["event_frequency"],
-        event_highest=1.001 * events["event_frequency"], **events,
+        event_highest=1.001 * events["event_frequency"], **events, mode_name=["umbrella", "mode 7"],
+        mode_frequency=[2800.0, 9000.0], mode_unstable=[1, 0], near=0.03,
+        event_chance=np.array([[0.06, 0.03], [0.08, 0.0], [0.02, 0.01], [0.0, 0.0], [0.06, 0.03]])[kept],
+        event_mode=np.array([0, -1, -1, -1, 0])[kept], maps={} if quiet else {"pressure.speed": occurrence_map()},
+        listen={} if quiet else {"squeal": excerpt("Pa", "run stop_1, mic")},
         spectrogram={"stop_1.mic": spectrogram, "stop_1.pad": spectrogram, "stop_2.mic": spectrogram})
+
+
+def occurrence_map():
+    """Pressures to 3 MPa and speeds to 20 rad/s, not all of them recorded, squeal at the middle pressure."""
+    time = np.array([[2.0, 4.0], [3.0, 1.0], [0.0, 5.0]])
+    return filled(OccurrenceMap, condition=["pressure", "speed"], first_edge=[0.0, 1e6, 2e6, 3e6],
+                  second_edge=[0.0, 10.0, 20.0], time=time, squealing=time * [[0, 0], [0.5, 1], [0, 0]],
+                  runs=[[2, 2], [2, 1], [0, 2]], squealing_runs=[[0, 0], [1, 1], [0, 0]],
+                  level=[[0, 0], [78.0, 89.0], [0, 0]])
+
+
+def orders(quiet=False):
+    """A stop from 25 to 5 revolutions per second: orders 1 and 10 of the torque stand out, or none does."""
+    edge = 2 * np.pi * np.linspace(5.0, 25.0, 11)
+    frequency, random = np.linspace(0.0, 500.0, 40), np.random.default_rng(7)
+    found = np.array([] if quiet else [1.0, 10.0])
+    return Orders(spectra={"stop.torque": filled(
+        OrderSpectra, run="stop", channel="torque", shaft="wheel", unit="N m", time=np.arange(30.0),
+        speed=np.linspace(edge[-1], edge[0], 30), order=np.arange(161) / 8, edge=edge, outstanding=found,
+        sure=[0, 1][:len(found)], level=np.outer(found, 1.0 + random.random(10)).reshape(-1, 10),
+        blocks=[3] * 9 + [0], frequency=frequency, campbell=random.random((10, 40)), frames=[5] * 9 + [0])})
 
 
 def friction_update():
@@ -322,7 +351,8 @@ def limit_cycle(settled=True):
         added_loss=[0.02, 0.05], frequency=frequency, spectrum=np.broadcast_to(spectrum, (2, 2, 501)),
         cycle_frequency=[7640.0, 8050.0], harmonic_amplitude=np.full((2, 2, 4), 0.01), patches=128, modes=374,
         step=2e-6,
-        check=["step"], check_level=[0.05], check_frequency=[1e-4])
+        check=["step"], check_level=[0.05], check_frequency=[1e-4],
+        listen={"squeal": excerpt("m/s", "strongest line of the velocity at sensor a and its multiples, held for 2 s")})
 
 
 def probability(draws=60):
@@ -457,7 +487,14 @@ def squeal(quiet=False, harmonic=False):
         event_operating=[7, 8][:events], event_sensor=[0, 0][:events], event_frequency=[16580.0, 16600.0][:events],
         event_order=[1, 20 if harmonic else 1][:events],
         event_fundamental=[16580.0, 830.0 if harmonic else 16600.0][:events], event_level=[88.5, 92.0][:events],
-        event_start=[0.02, 0.01][:events], event_duration=[0.01, 0.03][:events])
+        event_start=[0.02, 0.01][:events], event_duration=[0.01, 0.03][:events],
+        listen={} if quiet else {"squeal": excerpt("m/s", "tones of the velocity at sensor a, held for 2 s")})
+
+
+def excerpt(unit, content):
+    """A tenth of a second to listen to."""
+    return filled(Excerpt, samples=(2e4 * np.sin(0.3 * np.arange(4800))).astype(np.int16), rate=48e3, full_scale=0.02,
+                  unit=unit, content=content, begin=1.25)
 
 
 def interface_law():

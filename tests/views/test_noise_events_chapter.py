@@ -51,7 +51,8 @@ def test_the_page_has_spectrograms_levels_and_tables():
     assert [t.title for t in made.tables] == ["Events", "Records"] and len(made.tables[0].rows) == 5
     assert [row[2] for row in made.tables[0].rows][:3] == ["squeal"] * 3
     captions = [figure.caption for figure in made.figures]
-    assert len(captions) == 5 and "Run stop_1, mic" in captions[0] and "pressure and speed" in captions[-1]
+    assert len(captions) == 7 and "Run stop_1, mic" in captions[0] and "over pressure and speed" in captions[4]
+    assert captions[5].startswith("Share of the time with squeal over pressure and speed; runs that squealed there /")
     assert "loudest squeal: run stop_1, mic" in key_figure(product, LOOK).caption
 
 
@@ -71,3 +72,26 @@ def test_a_run_without_a_microphone_counts_by_its_accelerometer():
     assert runs(mixed)[0] == ["b"] and headline(mixed)[0].startswith("Squeal in 1 of 2 runs")
     silent = replace(mixed, event_kind=np.array(["sweep"] * 5, dtype=object))
     assert "89 dB(A)" in plain(conclusion(silent))
+
+
+def test_events_are_told_beside_modes_and_what_chance_would_do():
+    product = small.noise_events()
+    told = plain(conclusion(product))
+    assert "Squeal frequencies within 3 % of one of 2 modes: 1 of 2; by chance 4 % would be, as dense as" in told
+    assert "there. Of one that is predicted to be unstable: 1; by chance 2 %." in told
+    together = replace(product, event_frequency=product.event_frequency * 0 + 2790.0)
+    assert "of one of 2 modes: 1 of 1;" in plain(conclusion(together))
+    rows = [plain(row[-1]) for row in chapter(product, LOOK).tables[0].rows]
+    assert rows[0] == "umbrella, −0.71 %, unstable" and rows.count("none within 3 %") == 2 and rows.count("") == 1
+    bare = replace(product, event_mode=-1 + 0 * product.event_mode, mode_name=np.array([], dtype=object),
+                   mode_frequency=np.array([]), mode_unstable=np.array([], int))
+    assert "modes" not in conclusion(bare) and len(chapter(bare, LOOK).tables[0].head) == 8
+    assert key_figure(bare, LOOK).image != key_figure(product, LOOK).image
+
+
+def test_the_loudest_squeal_can_be_heard():
+    (sound,) = chapter(small.noise_events(), LOOK).sounds
+    told = plain(sound.caption)
+    assert sound.data[:4] == b"RIFF" and "as recorded (squeal.wav): run stop_1, mic, from 1.25 s on" in told
+    assert told.endswith("full scale is 0.02 Pa.")
+    assert not chapter(small.noise_events(quiet=True), LOOK).sounds

@@ -60,6 +60,8 @@ PICTURES = {
     "level of events": (noise_events.level_frequency, small.noise_events, "event_level"),
     "squeal over conditions": (lambda p: noise_events.over_conditions(p, "pressure", "speed"), small.noise_events,
                                "event_level"),
+    "share of squeal": (noise_events.occurrence, small.occurrence_map, "squealing"),
+    "loudest squeal": (noise_events.loudest, small.occurrence_map, "level"),
     "map": (friction.friction_map, small.friction_map, "friction"),
     "preload": (lambda p: preload.contact_pressure(p, preload.loads(p), 60), small.structure, "preload"),
     "sliding load": (lambda p: preload.contact_pressure(small.structure(), preload.loads(small.structure(), p), 60),

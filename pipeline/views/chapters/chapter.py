@@ -29,6 +29,19 @@ class Figure:
 
 
 @dataclass(frozen=True)
+class Sound:
+    """A sound to listen to (bytes of a WAV file), and a caption that says what it is."""
+
+    data: bytes
+    caption: str
+
+    @property
+    def uri(self):
+        """The sound as a data URI."""
+        return f"data:audio/wav;base64,{base64.b64encode(self.data).decode()}"
+
+
+@dataclass(frozen=True)
 class Table:
     """Rows of text under a head; ``numeric`` columns are right-aligned, ``wide`` ones hold sentences.
 
@@ -65,3 +78,4 @@ class Chapter:
     tables: tuple = ()
     notes: tuple = ()
     blocks: tuple = ()
+    sounds: tuple = ()

@@ -2,10 +2,11 @@
 
 import numpy as np
 
-from pipeline.views.chapters.chapter import Chapter, Figure, Table
+from pipeline.views.chapters.chapter import Chapter, Figure, Sound, Table
 from pipeline.views.chapters.pad_motion import extremes, point
 from pipeline.views.figures import vibration as pictures
 from pipeline.views.figures.number_format import THIN, number, ordinal, plural, quantity, span
+from pipeline.views.pages.sound_file import wav
 
 #: what the forces act on, by the coupling of the stage response
 _ENTERED = {"disc": "disc alone", "released": "brake with open contacts", "assembly": "brake with closed contacts"}
@@ -52,7 +53,15 @@ def squeal(product, published, look):
         f" {quantity(product.reference, 'm/s', 3)}) in the squeal band an event, sensor by sensor."
         " An event at a whole multiple of a lower fundamental, inside the band or below it, is reported as its"
         " harmonic, not as a separate squeal frequency. Figure 1 shows where it squeals.",
-        _conclusion(product), figures, _table(product))
+        _conclusion(product), figures, _table(product), sounds=_sounds(product))
+
+
+def _sounds(product):
+    return tuple(Sound(wav(one), f"The loudest squeal as predicted (squeal.wav): {one.content}. It is how the surface"
+                       " moves, not the sound at an ear: radiation, room and hearing are not in it. The volume is made"
+                       f" for listening: full scale is {quantity(one.full_scale, 'm/s', 3)}, the velocity level"
+                       f" {number(product.event_level.max(), 3)} dB re {quantity(product.reference, 'm/s', 3)}.")
+                 for one in product.listen.values())
 
 
 def occurrence_caption(product):

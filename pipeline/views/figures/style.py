@@ -110,7 +110,7 @@ def tiles(axes, pressure, speed, values, texts, label, **look):
     axes.grid(False)
     for p, v, value, text in zip(pressure, speed, values, texts, strict=True):
         axes.text(np.searchsorted(speeds, v), np.searchsorted(pressures, p), text, ha="center", va="center",
-                  fontsize=9, linespacing=1.15, color=_readable_on(shown, value))
+                  fontsize=9, linespacing=1.15, color=readable_on(shown, value))
     return colour_bar(axes, shown, label)
 
 
@@ -119,7 +119,8 @@ def legend(axes, columns=3):
     axes.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=columns, borderaxespad=0.2)
 
 
-def _readable_on(shown, value):
+def readable_on(shown, value):
+    """Colour of a text on the colour that ``shown`` gives to a value."""
     red, green, blue, _ = shown.cmap(shown.norm(value))
     return INK if 0.299 * red + 0.587 * green + 0.114 * blue > 0.5 else "white"
 

@@ -43,6 +43,8 @@ def written(value, unit):
         return "yes" if value else "no"
     if isinstance(value, Path):
         return value.name
+    if isinstance(value, dict):
+        return ", ".join(f"{name}: {written(inner, unit)}" for name, inner in value.items()) or "—"
     many = isinstance(value, (tuple, list))
     if isinstance(value, int):
         return str(value)

@@ -23,6 +23,7 @@ from pipeline.views.chapters.bench import (
     modal_test,
     model_update,
     noise_events,
+    orders,
     recording,
     response_functions,
 )
@@ -62,6 +63,7 @@ CHAPTERS = {
     "rupture": (rupture.chapter, ()),
     "recording": (recording.chapter, ()),
     "noise_events": (noise_events.chapter, ()),
+    "orders": (orders.chapter, ()),
     "response_functions": (response_functions.chapter, ()),
     "modal_test": (modal_test.chapter, ()),
     "model_update": (model_update.chapter, ()),
@@ -76,7 +78,10 @@ NO_CHAPTER = {"effects": "the settings", "reduced_model": "the chapter of comple
 
 
 def plan(products, look):
-    """Functions without arguments, one per chapter whose product is there, in chain order."""
+    """Functions without arguments, one per chapter whose product is there, in chain order.
+
+    A chapter is None where its product has nothing to say.
+    """
     published = published_squeal(products.get("comparison"))
 
     def given(name):
@@ -89,10 +94,12 @@ def plan(products, look):
 def page(chapters, products, case, look):
     """HTML text of the report; the same arguments give the same bytes."""
     facts = products.get("comparison")
+    silent = set(CHAPTERS) & set(products) - {chapter.anchor for chapter in chapters}
+    methods = tuple((stage, sentence) for stage, sentence in case_view.methods(case) if stage not in silent)
     return template().render(
         case=case, chapters=chapters, verdict=verdict(products, case_view.tuned(case)),
         key_figures=_key_figures(products, look), key_tables=() if facts is None else comparison.tables(facts),
-        stages=case_view.stages(case), methods=case_view.methods(case), limits=limits(products))
+        stages=case_view.stages(case), methods=methods, limits=limits(products))
 
 
 def _key_figures(products, look):
@@ -106,7 +113,8 @@ def _key_figures(products, look):
     if products.get("modal_test") is not None:
         return (modal_test.key_figure(products["modal_test"], look),)
     if products.get("noise_events") is not None and products.get("complex_modes") is None:
-        return tuple(filter(None, [noise_events.key_figure(products["noise_events"], look)]))
+        heard = noise_events.key_figure(products["noise_events"], look)
+        return tuple(filter(None, [heard or orders.key_figure(products.get("orders"), look)]))
     answer, cycle = _key_figure(products, look), products.get("limit_cycle")
     return tuple(f for f in (answer, cycle and limit_cycle.key_figure(cycle)) if f)
 

@@ -12,6 +12,7 @@ from pipeline.views.chapters.bench import (
     modal_test,
     model_update,
     noise_events,
+    orders,
 )
 from pipeline.views.chapters.friction import outside_computed
 from pipeline.views.chapters.models.rupture import headline as rupture_headline
@@ -142,7 +143,9 @@ def _settled_cycle(transient):
 def _where(products):
     squeal, cycle = products.get("squeal"), products.get("limit_cycle")
     if squeal is None and cycle is None and products.get("noise_events") is not None:
-        return noise_events.conclusion(products["noise_events"])
+        turning = orders.largest(products.get("orders"))
+        told = noise_events.conclusion(products["noise_events"])
+        return told + (f" Orders of the shaft: {turning}." if turning else "")
     if squeal is None:
         return "" if cycle is None else limit_cycle.statement(cycle)
     operating, sensor = np.unravel_index(np.argmax(squeal.peak_level), squeal.peak_level.shape)

@@ -32,6 +32,13 @@ def test_nothing_is_loaded_from_outside(html):
     assert "<script" not in html
 
 
+def test_the_squeal_can_be_heard_and_says_what_it_is(html):
+    (address,) = re.findall(r'<audio controls preload="none" src="([^"]*)"></audio>', html)
+    assert address.startswith("data:audio/wav;base64,") and "media-src data:" in html
+    assert "not the sound at an ear" in html and "full scale is 20\u202fmm/s" in html
+    assert not vibration.squeal(small.squeal(quiet=True), (), LOOK).sounds
+
+
 def test_figures_are_numbered_without_gaps(html):
     numbers = [int(n) for n in re.findall(r"<b>Figure (\d+)\.</b>", html)]
     assert numbers == list(range(1, len(numbers) + 1))
@@ -103,5 +110,6 @@ def test_settings_are_written_for_reading():
     assert case_view.written(7, "") == "7"
     assert case_view.written("turned", "") == "turned"
     assert case_view.written(Path("/somewhere/plu-1.plu"), "") == "plu-1.plu"
+    assert case_view.written({"bell": 2750.0, "ring": 5200.0}, "Hz") == "bell: 2.75\u202fkHz, ring: 5.2\u202fkHz"
     assert case_view.written((1e6, 2.5e6), "Pa") == "1, 2.5\u202fMPa"
     assert case_view.tuned(small.case()) == (("micro_friction.shear_limit", "13.5\u202fMPa"),)

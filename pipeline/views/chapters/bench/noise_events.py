@@ -2,9 +2,11 @@
 
 import numpy as np
 
-from pipeline.views.chapters.chapter import Chapter, Figure, Table
+from pipeline.views.chapters.bench.noise_modes import near_modes, nearest_mode
+from pipeline.views.chapters.chapter import Chapter, Figure, Sound, Table
 from pipeline.views.figures.bench import noise_events as pictures
 from pipeline.views.figures.number_format import number, percent, plural, quantity
+from pipeline.views.pages.sound_file import wav
 
 #: spectrograms and rows that are shown
 _SHOWN, _ROWS = 6, 60
@@ -14,7 +16,15 @@ _PAIRS = (("pressure", "speed"), ("pressure", "temperature"), ("speed", "tempera
 def chapter(product, look):
     """Chapter of the product NoiseEvents."""
     return Chapter("noise_events", "Squeal and other noise in the recordings", _searched(product), conclusion(product),
-                   tuple(_figures(product, look)), tuple(_tables(product)))
+                   tuple(_figures(product, look)), tuple(_tables(product)), sounds=_sounds(product))
+
+
+def _sounds(product):
+    return tuple(Sound(wav(one), f"The loudest squeal as recorded (squeal.wav): {one.content}, from"
+                       f" {quantity(one.begin, 's', 3)} on. The volume is made for listening: full scale is"
+                       f" {quantity(one.full_scale, str(one.unit), 3)}." + (
+                           "" if str(one.unit) == "Pa" else " It is how the surface moves, not the sound at an ear."))
+                 for one in product.listen.values())
 
 
 def squeals(product):
@@ -64,7 +74,8 @@ def conclusion(product):
             f" ({percent(len(noisy) / len(every), 2)}). The loudest: {number(product.event_level[first], 3)}"
             f" {_unit(product, product.event_record[first])} at {quantity(product.event_frequency[first], 'Hz', 4)} for"
             f" {quantity(product.event_duration[first], 's', 2)}, run {product.record_run[product.event_record[first]]}"
-            f"{_at(product, first)}.{_bands(product, rows)}" + (f" Told beside: {beside}." if beside else ""))
+            f"{_at(product, first)}.{_bands(product, rows)}{near_modes(product, rows)}"
+            + (f" Told beside: {beside}." if beside else ""))
 
 
 def _searched(product):
@@ -103,10 +114,11 @@ def _figures(product, look):
     squeal = set(product.event_record[squeals(product)])
     order = sorted(range(len(product.record_run)), key=lambda k: (k not in squeal, product.record_kind[k] != "sound",
                                                        -product.record_peak[k]))
+    drawn = " White: modes, stable ones dotted." if len(product.mode_name) else ""
     for record in order[:_SHOWN]:
         yield Figure(pictures.spectrogram(product, record, look.dpi),
                      f"Run {product.record_run[record]}, {product.record_channel[record]}: level over time and"
-                     " frequency; lines are events, red squeal.")
+                     f" frequency; lines are events, red squeal.{drawn}")
     if np.any(product.record_kind[product.event_record] == "sound"):
         yield Figure(pictures.level_frequency(product), "Events of the microphones: level over frequency; dashed: the"
                      " threshold. Those below the band are not A-weighted.")
@@ -114,19 +126,30 @@ def _figures(product, look):
     if pair is not None:
         yield Figure(pictures.over_conditions(product, *pair), f"Squeal over {pair[0]} and {pair[1]}: one marker an"
                      " event, the larger the louder.")
+    yield from _maps(product)
+
+
+def _maps(product):
+    """Figures of squeal over two conditions of which both vary."""
+    for one in product.maps.values():
+        if min(one.time.shape) > 1 and one.squealing.any():
+            first, second = one.condition
+            counts = f"over {first} and {second}; runs that squealed there / runs that were there."
+            yield Figure(pictures.occurrence(one), f"Share of the time with squeal {counts} Without: no run was.")
+            yield Figure(pictures.loudest(one), f"Largest level of squeal {counts} White: no squeal.")
 
 
 def _tables(product):
     rows = tuple((str(product.record_run[r]), str(product.record_channel[r]), str(product.event_kind[k]),
                   quantity(product.event_frequency[k], "Hz", 4), number(product.event_level[k], 3),
                   quantity(product.event_start[k], "s", 3), quantity(product.event_duration[k], "s", 2),
-                  _at(product, k).strip(" ()"))
+                  _at(product, k).strip(" ()"), *([nearest_mode(product, k)] if len(product.mode_name) else []))
                  for k in _in_order(product)[:_ROWS] for r in [product.event_record[k]])
     if rows:
         more = len(product.event_record) - len(rows)
         title = "Events" + (f", the loudest; {more} more in noise_events.csv" if more else "")
-        yield Table(("run", "channel", "kind", "frequency", "level / dB", "begin", "length", "conditions"), rows, title,
-                    numeric=(3, 4, 5, 6), wide=(7,), folded=len(rows) > 12)
+        head = ("run", "channel", "kind", "frequency", "level / dB", "begin", "length", "conditions", "nearest mode")
+        yield Table(head[:len(rows[0])], rows, title, numeric=(3, 4, 5, 6), wide=(7,), folded=len(rows) > 12)
     peaks = tuple((str(product.record_run[k]), str(product.record_channel[k]),
                    number(product.record_peak[k], 3), quantity(product.record_peak_frequency[k], "Hz", 4),
                    number(product.record_background[k], 3), quantity(product.record_duration[k], "s", 3))

@@ -13,6 +13,7 @@ from pipeline.views.figures.style import (
     drawing,
     legend,
     png,
+    readable_on,
     svg,
 )
 
@@ -21,6 +22,10 @@ KINDS = {"squeal": RED, "harmonic": COLOURS[4], "sweep": COLOURS[5], "series": C
          "moan": COLOURS[2], "groan": COLOURS[2], "judder": COLOURS[2]}
 #: dB that a spectrogram shows
 _RANGE = 60.0
+#: size and zero of the units of the conditions, and their names
+_SIZES = {"pressure": (1e5, 0.0, "bar"), "speed": (1.0, 0.0, "rad/s"), "temperature": (1.0, 273.15, "°C")}
+#: so many modes are all drawn across
+_FEW = 12
 
 
 def spectrogram(product, record, dpi):
@@ -40,10 +45,29 @@ def spectrogram(product, record, dpi):
             axes.plot([begin, begin + product.event_duration[k]], [height, height], lw=1.4,
                       color=KINDS[str(product.event_kind[k])], solid_capstyle="butt")
         axes.set(xlabel="time / s", ylabel="frequency / kHz", ylim=(0, shown.frequency[-1] / 1e3))
+        _modes(axes, product, shown)
         axes.grid(False)
         unit = "dB(A)" if product.record_kind[record] == "sound" else "dB re 1 µm/s²"
         colour_bar(axes, image, f"level / {unit}")
         return png(figure, dpi)
+
+
+def _modes(axes, product, shown):
+    """Dashed lines at the natural frequencies of named modes: all if they are few, else the unstable and those near an
+    event, the others as ticks; names at the left, of none that would cover another."""
+    inside = np.flatnonzero(product.mode_frequency < shown.frequency[-1])
+    named = np.isin(inside, product.event_mode) | (product.mode_unstable[inside] == 1) | (len(inside) <= _FEW)
+    begin, end = axes.get_xlim()
+    last = -np.inf
+    for k, whole in zip(inside, named, strict=True):
+        height = product.mode_frequency[k] / 1e3
+        axes.plot([begin, end if whole else begin + 0.02 * (end - begin)], [height, height], color="white", lw=0.7,
+                  zorder=1.5, ls="--" if product.mode_unstable[k] else ":")
+        if whole and height - last > 0.04 * shown.frequency[-1] / 1e3:
+            last = height
+            name = f"{product.mode_name[k]}{', unstable' if product.mode_unstable[k] == 1 else ''}"
+            axes.annotate(name, (begin, height), (3, 1), textcoords="offset points", color="white", fontsize=7.5)
+    axes.set_xlim(begin, end)
 
 
 def level_frequency(product):
@@ -75,15 +99,44 @@ def told(product, *conditions):
     return heard(product) & product.event_condition_known[:, columns].all(axis=1)
 
 
+def occurrence(one):
+    """SVG of the share of the time with squeal over two conditions, with the runs counted."""
+    share = 100.0 * np.divide(one.squealing, one.time, out=np.zeros_like(one.time), where=one.time > 0)
+    return _bins(one, np.where(one.time > 0, share, np.nan), "share of time / %", vmin=0.0)
+
+
+def loudest(one):
+    """SVG of the largest level of squeal over two conditions, with the runs counted."""
+    return _bins(one, np.where(one.squealing > 0, one.level, np.nan), "level / dB")
+
+
+def _bins(one, values, label, **look):
+    edges = [(edge - zero) / size for edge, (size, zero, _) in zip(
+        (one.first_edge, one.second_edge), (_SIZES[str(name)] for name in one.condition), strict=True)]
+    with drawing(3.4, bar=True) as figure:
+        axes = figure.subplots()
+        shown = axes.pcolormesh(*edges, values.T, cmap=SEQUENTIAL, **look)
+        for i, j in np.argwhere(one.runs > 0):
+            colour = readable_on(shown, values[i, j]) if np.isfinite(values[i, j]) else INK
+            axes.text(edges[0][i:i + 2].mean(), edges[1][j:j + 2].mean(),
+                      f"{one.squealing_runs[i, j]}/{one.runs[i, j]}", ha="center", va="center", color=colour,
+                      fontsize=8 if max(values.shape) < 8 else 6)
+        axes.set(**{f"{axis}label": f"{name} / {_SIZES[str(name)][2]}" for axis, name in zip(
+            "xy", one.condition, strict=True)})
+        axes.grid(False)
+        colour_bar(axes, shown, label)
+        return svg(figure)
+
+
 def over_conditions(product, first, second):
     """SVG of squeal over two conditions, such as 'pressure' and 'speed': one marker an event, larger if louder."""
     column = {str(name): k for k, name in enumerate(product.condition)}
-    size = {"pressure": (1e5, "bar"), "speed": (1.0, "rad/s"), "temperature": (1.0, "K")}
     squeal = told(product, first, second)
     with drawing() as figure:
         axes = figure.subplots()
-        x, y = (product.event_condition[squeal, column[name]] / size[name][0] for name in (first, second))
+        x, y = ((product.event_condition[squeal, column[name]] - _SIZES[name][1]) / _SIZES[name][0]
+                for name in (first, second))
         over = product.event_level[squeal] - product.threshold
         axes.scatter(x, y, s=12 + 6 * np.clip(over, 0, 40), color=RED, alpha=0.6, lw=0)
-        axes.set(xlabel=f"{first} / {size[first][1]}", ylabel=f"{second} / {size[second][1]}")
+        axes.set(xlabel=f"{first} / {_SIZES[first][2]}", ylabel=f"{second} / {_SIZES[second][2]}")
         return svg(figure)
