@@ -7,9 +7,11 @@ from functools import partial
 import numpy as np
 
 from pipeline.contract import ConfigError, Context, Quantity, Section, option, stage
-from pipeline.physics.signals.noise_events import broadband, tonal
+from pipeline.contract.mapped import Slices, blocks
+from pipeline.physics.signals.frames import frames
+from pipeline.physics.signals.noise_events import Broadband, Tonal, tonal
 from pipeline.physics.signals.spectra import HEARING, level
-from pipeline.physics.signals.squeal_detector import Detector, frames, loudest
+from pipeline.physics.signals.squeal_detector import Detector, Loudest
 from pipeline.products import NoiseEvents, Recording, Spectrogram
 from pipeline.recordings.samples import with_gaps
 
@@ -48,6 +50,8 @@ _SOUND = 2e3
 _CONDITIONS = {"pressure": ("pressure",), "speed": ("angular_velocity", "speed"), "temperature": ("temperature",)}
 #: units of the conditions
 _UNITS = {"pressure": "Pa", "speed": "rad/s", "temperature": "K"}
+#: samples of a condition that are averaged at once
+_AT_ONCE = 1 << 20
 #: most frames and lines of a spectrogram that is kept for the page
 _KEPT = 600, 320
 _FIELDS = ("kind", "frequency", "lowest", "highest", "level", "start", "duration", "fundamental", "order")
@@ -109,34 +113,34 @@ def _kind(name, channel, settings):
 
 
 def _heard(channel):
-    """Whether a pressure is that of sound: about 0, and of its size but for single samples."""
-    size = np.abs(channel.samples)
-    return bool(str(channel.measures) in ("pressure", "value") and np.percentile(size, 99.9) < _SOUND
-                and abs(channel.samples.mean()) <= channel.samples.std())
+    """Whether a pressure is that of sound: about 0, and of its size but for one sample in a thousand."""
+    if str(channel.measures) not in ("pressure", "value"):
+        return False
+    parts = np.array([(np.sum(x, dtype=float), np.sum(np.square(x, dtype=float)), np.sum(np.abs(x) >= _SOUND))
+                      for x in blocks(channel.samples)])
+    mean, square, large = parts.sum(axis=0) / len(channel.samples)
+    return bool(large <= 1e-3 and mean**2 <= square - mean**2)
 
 
 def _searched(task, settings):
     """(events, level and frequency of the loudest tone, background level, Spectrogram) of a channel, or why not."""
     _, _, channel, kind = task
-    rate, samples = float(channel.rate), np.asarray(channel.samples, float)
+    rate, samples, begin = float(channel.rate), Slices(channel.samples), float(channel.begin)
     top = min(settings.highest_frequency, 0.45 * rate)
     if top <= 1.1 * settings.lowest_frequency:
         return f"its rate of {rate:g} Hz does not reach the squeal band"
     if len(samples) < 3 * settings.window * rate:
         return f"it is shorter than three frames of {settings.window:g} s"
     detector = _detector(settings, kind, (settings.lowest_frequency, top))
-    spectra = frames(samples, rate, detector, np.float32)
-    events = tonal(spectra, detector, settings.wander)
-    if kind == "sound":
-        events += broadband(spectra, detector)
+    found = frames(samples, rate, detector, np.float32)
+    tones, noise = Tonal(found, detector, settings.wander), Broadband(found, detector)
+    loudest, picture = Loudest(found, detector), _Picture(found, detector, top)
+    found.scan(tones, noise, loudest, picture)
+    events = tones.result() + (noise.result() if kind == "sound" else [])
     if len(samples) >= 3 * settings.low_window * rate:
         slow = _low_detector(settings, kind, rate)
         events += tonal(frames(samples, rate, slow, np.float32), slow, settings.wander, low=True)
-    inside = (spectra.frequency >= detector.band[0]) & (spectra.frequency <= top)
-    background = float(level(np.median(np.square(spectra.spectrum[:, inside], dtype=float).sum(axis=1)) / 1.5,
-                             detector.reference))
-    begin = float(channel.begin)
-    return events, loudest(spectra, detector), background, _spectrogram(spectra, detector, begin, top), begin
+    return events, loudest.result(), noise.background(), picture.result(begin), begin
 
 
 def _detector(settings, kind, band):
@@ -157,16 +161,33 @@ def _low_detector(settings, kind, rate):
                     settings.lowest_tone, 0.05, 0.1, 0.33, False, settings.above, 0)
 
 
-def _spectrogram(spectra, detector, begin, top):
-    """Spectrogram of the largest levels over blocks of frames and lines, from 0 to a little above the band."""
-    lines = np.flatnonzero(spectra.frequency <= 1.1 * top)
-    across = max(-(-len(lines) // _KEPT[1]), 1)
-    along = max(-(-len(spectra.time) // _KEPT[0]), 1)
-    rows, columns = len(spectra.time) // along * along, len(lines) // across * across
-    blocks = spectra.spectrum[:rows, :columns].reshape(rows // along, along, columns // across, across)
-    return Spectrogram(time=begin + spectra.time[:rows].reshape(-1, along).mean(axis=1),
-                       frequency=spectra.frequency[:columns].reshape(-1, across).mean(axis=1),
-                       level=level(np.square(blocks.max(axis=(1, 3)), dtype=float), detector.reference))
+class _Picture:
+    """Watches Frames for the largest levels over blocks of frames and lines, from 0 to a little above the band."""
+
+    def __init__(self, found, detector, top):
+        lines = np.flatnonzero(found.frequency <= 1.1 * top)
+        self._across, self._along = (max(-(-n // most), 1) for n, most in (
+            (len(lines), _KEPT[1]), (len(found.time), _KEPT[0])))
+        self._found, self._reference = found, detector.reference
+        self._largest = np.zeros((len(found.time) // self._along, len(lines) // self._across), np.float32)
+
+    def see(self, first, spectra):
+        """The next block of spectra (frame, line), from the frame ``first`` on."""
+        rows, columns = self._largest.shape
+        spectra = spectra[:max(rows * self._along - first, 0), :columns * self._across]
+        if not len(spectra):
+            return
+        row = np.arange(first, first + len(spectra)) // self._along
+        begins = np.flatnonzero(np.diff(row, prepend=-1))
+        largest = np.maximum.reduceat(spectra.reshape(len(row), columns, self._across).max(axis=2), begins)
+        self._largest[row[begins]] = np.maximum(self._largest[row[begins]], largest)
+
+    def result(self, begin):
+        """The Spectrogram of a record that begins at ``begin`` [s]."""
+        (rows, columns), found = self._largest.shape, self._found
+        return Spectrogram(time=begin + found.time[:rows * self._along].reshape(rows, -1).mean(axis=1),
+                           frequency=found.frequency[:columns * self._across].reshape(columns, -1).mean(axis=1),
+                           level=level(np.square(self._largest, dtype=float), self._reference))
 
 
 def _product(kept, recording, settings):
@@ -197,19 +218,27 @@ def _product(kept, recording, settings):
 
 
 def _measured(run):
-    """{condition: [(samples, NaN where missing, rate in Hz, begin in s)]} of the channels of a Run that measure it."""
-    return {name: [(with_gaps(c), float(c.rate), float(c.begin)) for c in run.channels.values()
-                   if str(c.measures) in wanted and str(c.unit) == _UNITS[name]
+    """{condition: [Channel]} of the channels of a Run that measure it."""
+    return {name: [c for c in run.channels.values() if str(c.measures) in wanted and str(c.unit) == _UNITS[name]
                    and not (name == "pressure" and _heard(c))] for name, wanted in _CONDITIONS.items()}
 
 
 def _condition(measured, stated, name, start, duration):
     """Mean of a condition over an event, by what ``_measured`` it, else as the run has ``stated`` it, or None."""
-    for samples, rate, begin in measured:
-        first, last = (int((t - begin) * rate) for t in (start, start + duration))
-        inside = samples[max(first, 0):max(last, first + 1)]
-        if np.isfinite(inside).any():
-            return float(np.nanmean(inside))
+    for channel in measured:
+        first, last = (int((t - float(channel.begin)) * float(channel.rate)) for t in (start, start + duration))
+        mean = _mean(channel, max(first, 0), max(last, first + 1))
+        if mean is not None:
+            return mean
     if stated is None or str(stated.unit) != _UNITS[name]:
         return None
     return float(np.interp(start + duration / 2, stated.time, stated.value))
+
+
+def _mean(channel, first, last):
+    """Mean of the samples of a Channel from ``first`` up to ``last`` that are not missing; None of none."""
+    total, count = 0.0, 0
+    for begin in range(first, min(last, len(channel.samples)), _AT_ONCE):
+        inside = with_gaps(channel, slice(begin, min(begin + _AT_ONCE, last)))
+        total, count = total + np.nansum(inside), count + np.isfinite(inside).sum()
+    return float(total / count) if count else None

@@ -5,8 +5,9 @@ from functools import partial
 import numpy as np
 
 from pipeline.contract import ConfigError, Context, Quantity, Section, option, stage
+from pipeline.physics.signals.frames import frames
 from pipeline.physics.signals.spectra import band_power, level, third_octave_bands
-from pipeline.physics.signals.squeal_detector import Detector, detect, frames, loudest
+from pipeline.physics.signals.squeal_detector import Detector, detect, loudest
 from pipeline.products import Response, Squeal, Transient
 
 
