@@ -285,7 +285,7 @@ def _track(track, waveform, rate, where):
                           " sound file also factor (value of full scale) or calibrator")
     measures = track.measures or ("sound_pressure" if track.calibrator else measured_in(unit, f"{where}: unit"))
     return channel(waveform.values, unit, measures, waveform.rate or rate or np.nan, waveform.begin, where,
-                   factor=factor, role=track.role, place=track.place, direction=track.direction)
+                   factor=factor, narrow=True, role=track.role, place=track.place, direction=track.direction)
 
 
 def _pascal(calibrator, where):

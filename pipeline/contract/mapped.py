@@ -50,9 +50,9 @@ def map_of(array):
     return source if isinstance(source, FileMap) else None
 
 
-def blocks(array, size=_BLOCK):
+def blocks(array, size=None):
     """Consecutive parts of an array along its first axis, of ``size`` bytes; of one that is mapped none stays."""
-    file = map_of(array)
+    file, size = map_of(array), size or _BLOCK
     if array.ndim == 0 or (file is None and array.nbytes <= size):
         yield array
         return

@@ -17,11 +17,11 @@ _BLOCKS = 40
 OFF_GRID = 0.25
 
 
-def channel(values, unit, measures, rate, begin, where, *, factor=1.0, role="response", place="", position=(),
-            direction=()):
+def channel(values, unit, measures, rate, begin, where, *, factor=1.0, narrow=False, role="response", place="",
+            position=(), direction=()):
     """Channel of ``factor`` times ``values`` (sample,) in ``unit``; samples that are not finite are missing.
 
-    ``rate`` Hz and ``begin`` s: sampling rate and time of the first sample. Values in float32 stay so. Raises
+    ``rate`` Hz and ``begin`` s: sampling rate and time of the first sample. ``narrow``: float32 stays float32. Raises
     ConfigError, with ``where``, for a unit that pint cannot read or the quantity cannot have, a rate that is not
     positive and a channel without any valid sample.
     """
@@ -31,7 +31,7 @@ def channel(values, unit, measures, rate, begin, where, *, factor=1.0, role="res
         raise ConfigError(where, "real samples", "complex ones", "complex spectra go into frf")
     if role not in ROLES:
         raise ConfigError(f"{where}: role", f"one of {', '.join(ROLES)}", repr(role))
-    samples, missing, name = _converted(np.asarray(values), factor, unit, measures, where)
+    samples, missing, name = _converted(np.asarray(values, None if narrow else float), factor, unit, measures, where)
     if not len(samples) or missing.tolist() == [[0, len(samples)]]:
         raise ConfigError(where, "samples", "none that are finite")
     return Channel(samples=samples, missing=missing, unit=name, measures=measures, rate=rate, begin=begin, place=place,
