@@ -8,6 +8,8 @@ import math
 import mmap
 import os
 import tempfile
+from contextlib import suppress
+from functools import cache
 
 import numpy as np
 
@@ -31,7 +33,18 @@ def opened(path, lasting=True):
         return _of_stream(stream, path if lasting else None)
 
 
+@cache
+def _lift_limit():
+    """A map holds its file open: let this process open as many files as it may."""
+    with suppress(ImportError, OSError, ValueError):
+        import resource
+
+        hard = resource.getrlimit(resource.RLIMIT_NOFILE)[1]
+        resource.setrlimit(resource.RLIMIT_NOFILE, (hard, hard))
+
+
 def _of_stream(stream, path):
+    _lift_limit()
     file = FileMap(stream.fileno(), 0, access=mmap.ACCESS_READ)
     file.path, file.changed = path and str(path), os.fstat(stream.fileno()).st_mtime_ns
     return file
@@ -111,6 +124,7 @@ class Growing:
         self._parts = []
 
     def _open(self):
+        _lift_limit()
         if self._folder is None:
             self._stream = tempfile.TemporaryFile(prefix="brakechain-")   # noqa: SIM115
         else:

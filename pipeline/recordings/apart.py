@@ -99,7 +99,7 @@ _OUT_OF_TIME = 24
 
 def _columns_of(folder):
     """Waveforms whose values are maps of files that are gone from the folder, but last as long as these."""
-    return {name: Waveform(_left(folder / file, np.dtype(dtype), count), *rest)
+    return {name: Waveform(_left(folder / Path(file).name, np.dtype(dtype), count), *rest)
             for name, file, dtype, count, *rest in json.loads((folder / _COLUMNS).read_text())}
 
 

@@ -1,6 +1,7 @@
 """Large arrays: in files, mapped, in blocks."""
 
 import pickle
+import resource
 
 import numpy as np
 import pytest
@@ -62,6 +63,20 @@ def test_a_file_in_a_folder_keeps_its_name(tmp_path):
 def test_no_room_is_told(tmp_path):
     with pytest.raises(ProductError, match="gone: expected room for the samples of a record"):
         grown(NUMBERS, folder=tmp_path / "gone")
+
+
+def test_more_channels_than_files_that_are_usually_open(monkeypatch):
+    limits = resource.getrlimit(resource.RLIMIT_NOFILE)
+    monkeypatch.setattr(mapped, "LARGE", 8)
+    mapped._lift_limit.cache_clear()
+    resource.setrlimit(resource.RLIMIT_NOFILE, (256, limits[1]))
+    try:
+        every = [grown(np.full(5, float(k))) for k in range(400)]
+        assert [array[4] for array in every] == list(range(400))
+    finally:
+        every.clear()
+        resource.setrlimit(resource.RLIMIT_NOFILE, limits)
+        mapped._lift_limit.cache_clear()
 
 
 @pytest.fixture
