@@ -79,4 +79,5 @@ def digest(path):
 
 @cache
 def _digest(path, _modified, _size):
-    return hashlib.sha256(path.read_bytes()).hexdigest()
+    with path.open("rb") as stream:
+        return hashlib.file_digest(stream, "sha256").hexdigest()

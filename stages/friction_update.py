@@ -5,7 +5,6 @@ import copy
 import numpy as np
 
 from pipeline.case_models.rough.pair import Settings as MicroSettings
-from pipeline.case_models.runs import valid
 from pipeline.contract import ConfigError, Context, Quantity, Section, option, restored, stage
 from pipeline.contract import documents as yaml
 from pipeline.diagnosis.measured_friction import update as updating
@@ -14,6 +13,7 @@ from pipeline.diagnosis.measured_friction.update import DISTANCE, LEVEL, PRESSUR
 from pipeline.physics.friction.friction_table import FrictionLaw
 from pipeline.products import FrictionMap, FrictionUpdate, MicroFriction, Recording
 from pipeline.recordings.friction import SILENT
+from pipeline.recordings.samples import with_gaps
 
 #: sets of terms that the product lists
 _LISTED = 10
@@ -130,8 +130,8 @@ def _samples(name, run, settings):
     if len({(float(c.rate), len(c.samples)) for c in channels}) > 1:
         raise ConfigError("friction_update.slides", f"channels of run {name} of one rate and length", "several")
     stated = {name: float(np.mean(condition.value)) for name, condition in run.conditions.items()}
-    return of_slides(name, *(np.where(valid(c), c.samples, np.nan) for c in channels), float(channels[0].rate),
-                     slides.area, stated.get("temperature", SILENT["temperature"]), slides.settle,
+    return of_slides(name, *(with_gaps(c) for c in channels), float(channels[0].rate), slides.area,
+                     stated.get("temperature", SILENT["temperature"]), slides.settle,
                      stated.get("distance", SILENT["distance"]))
 
 

@@ -9,11 +9,13 @@ import numpy as np
 
 from pipeline.case_models.named_modes import named_modes
 from pipeline.contract import ConfigError, Context, InputFile, Quantity, Section, option, stage
+from pipeline.contract.mapped import Slices, blocks
+from pipeline.physics.signals.frames import frames
 from pipeline.physics.signals.listening import LONGEST, RATE, excerpt
-from pipeline.physics.signals.noise_events import broadband, tonal
+from pipeline.physics.signals.noise_events import Broadband, Tonal, tonal
 from pipeline.physics.signals.occurrence import Conditions, even_edges, occurrence
 from pipeline.physics.signals.spectra import HEARING, level
-from pipeline.physics.signals.squeal_detector import Detector, frames, loudest
+from pipeline.physics.signals.squeal_detector import Detector, Loudest
 from pipeline.products import Excerpt, NoiseEvents, OccurrenceMap, Recording, Spectrogram
 from pipeline.recordings.samples import with_gaps
 from pipeline.views.pages.sound_file import sound_files
@@ -61,6 +63,8 @@ _CONDITIONS = {"pressure": (("pressure",), "Pa"), "speed": (("angular_velocity",
               "temperature": (("temperature",), "K")}
 #: distance of the instants that are counted in the maps over conditions [s], and where their bins begin
 _INSTANT, _ORIGIN = 0.05, {"temperature": 273.15}
+#: samples of a condition are averaged to this rate [Hz], so many of them at once
+_SLOW, _AT_ONCE = 200.0, 1 << 20
 #: most frames and lines of a spectrogram that is kept for the page
 _KEPT = 600, 320
 #: kinds of events that have a tone of their own
@@ -141,34 +145,34 @@ def _kind(name, channel, settings):
 
 
 def _heard(channel):
-    """Whether a pressure is that of sound: about 0, and of its size but for single samples."""
-    size = np.abs(channel.samples)
-    return bool(str(channel.measures) in ("pressure", "value") and np.percentile(size, 99.9) < _SOUND
-                and abs(channel.samples.mean()) <= channel.samples.std())
+    """Whether a pressure is that of sound: about 0, and of its size but for one sample in a thousand."""
+    if str(channel.measures) not in ("pressure", "value"):
+        return False
+    parts = np.array([(np.sum(x, dtype=float), np.sum(np.square(x, dtype=float)), np.sum(np.abs(x) >= _SOUND))
+                      for x in blocks(channel.samples)])
+    mean, square, large = parts.sum(axis=0) / len(channel.samples)
+    return bool(large <= 1e-3 and mean**2 <= square - mean**2)
 
 
 def _searched(task, settings):
     """(events, level and frequency of the loudest tone, background level, Spectrogram) of a channel, or why not."""
     _, _, channel, kind = task
-    rate, samples = float(channel.rate), np.asarray(channel.samples, float)
+    rate, samples, begin = float(channel.rate), Slices(channel.samples), float(channel.begin)
     top = min(settings.highest_frequency, 0.45 * rate)
     if top <= 1.1 * settings.lowest_frequency:
         return f"its rate of {rate:g} Hz does not reach the squeal band"
     if len(samples) < 3 * settings.window * rate:
         return f"it is shorter than three frames of {settings.window:g} s"
     detector = _detector(settings, kind, (settings.lowest_frequency, top))
-    spectra = frames(samples, rate, detector, np.float32)
-    events = tonal(spectra, detector, settings.wander)
-    if kind == "sound":
-        events += broadband(spectra, detector)
+    found = frames(samples, rate, detector, np.float32)
+    tones, noise = Tonal(found, detector, settings.wander), Broadband(found, detector)
+    loudest, picture = Loudest(found, detector), _Picture(found, detector, top)
+    found.scan(tones, noise, loudest, picture)
+    events = tones.result() + (noise.result() if kind == "sound" else [])
     if len(samples) >= 3 * settings.low_window * rate:
         slow = _low_detector(settings, kind, rate)
         events += tonal(frames(samples, rate, slow, np.float32), slow, settings.wander, low=True)
-    inside = (spectra.frequency >= detector.band[0]) & (spectra.frequency <= top)
-    background = float(level(np.median(np.square(spectra.spectrum[:, inside], dtype=float).sum(axis=1)) / 1.5,
-                             detector.reference))
-    begin = float(channel.begin)
-    return events, loudest(spectra, detector), background, _spectrogram(spectra, detector, begin, top), begin
+    return events, loudest.result(), noise.background(), picture.result(begin), begin
 
 
 def _detector(settings, kind, band):
@@ -189,16 +193,33 @@ def _low_detector(settings, kind, rate):
                     settings.lowest_tone, 0.05, 0.1, 0.33, False, settings.above, 0)
 
 
-def _spectrogram(spectra, detector, begin, top):
-    """Spectrogram of the largest levels over blocks of frames and lines, from 0 to a little above the band."""
-    lines = np.flatnonzero(spectra.frequency <= 1.1 * top)
-    across = max(-(-len(lines) // _KEPT[1]), 1)
-    along = max(-(-len(spectra.time) // _KEPT[0]), 1)
-    rows, columns = len(spectra.time) // along * along, len(lines) // across * across
-    blocks = spectra.spectrum[:rows, :columns].reshape(rows // along, along, columns // across, across)
-    return Spectrogram(time=begin + spectra.time[:rows].reshape(-1, along).mean(axis=1),
-                       frequency=spectra.frequency[:columns].reshape(-1, across).mean(axis=1),
-                       level=level(np.square(blocks.max(axis=(1, 3)), dtype=float), detector.reference))
+class _Picture:
+    """Watches Frames for the largest levels over blocks of frames and lines, from 0 to a little above the band."""
+
+    def __init__(self, found, detector, top):
+        lines = np.flatnonzero(found.frequency <= 1.1 * top)
+        self._across, self._along = (max(-(-n // most), 1) for n, most in (
+            (len(lines), _KEPT[1]), (len(found.time), _KEPT[0])))
+        self._found, self._reference = found, detector.reference
+        self._largest = np.zeros((len(found.time) // self._along, len(lines) // self._across), np.float32)
+
+    def see(self, first, spectra):
+        """The next block of spectra (frame, line), from the frame ``first`` on."""
+        rows, columns = self._largest.shape
+        spectra = spectra[:max(rows * self._along - first, 0), :columns * self._across]
+        if not len(spectra):
+            return
+        row = np.arange(first, first + len(spectra)) // self._along
+        begins = np.flatnonzero(np.diff(row, prepend=-1))
+        largest = np.maximum.reduceat(spectra.reshape(len(row), columns, self._across).max(axis=2), begins)
+        self._largest[row[begins]] = np.maximum(self._largest[row[begins]], largest)
+
+    def result(self, begin):
+        """The Spectrogram of a record that begins at ``begin`` [s]."""
+        (rows, columns), found = self._largest.shape, self._found
+        return Spectrogram(time=begin + found.time[:rows * self._along].reshape(rows, -1).mean(axis=1),
+                           frequency=found.frequency[:columns * self._across].reshape(columns, -1).mean(axis=1),
+                           level=level(np.square(self._largest, dtype=float), self._reference))
 
 
 def _product(kept, recording, modes, settings):
@@ -239,19 +260,36 @@ def _listen(kept):
     rate = float(channel.rate)
     first, last = (max(int((t - _BEFORE * sign) * rate), 0) for t, sign in (
         (event.start, 1), (event.start + min(event.duration, LONGEST - 2 * _BEFORE), -1)))
-    sound = excerpt(channel.samples[first:last], rate)
+    sound = excerpt(Slices(channel.samples)[first:last], rate)
     return {"squeal": Excerpt(samples=sound.samples, rate=RATE, full_scale=sound.full_scale, unit=str(channel.unit),
                               content=f"run {name}, {key}", begin=begin + first / rate)}
 
 
 def _conditions(run):
     """Conditions of a Run: by its channels, else as it states them."""
-    measured = {name: [(with_gaps(c), float(c.rate), float(c.begin)) for c in run.channels.values()
+    measured = {name: [(*_averaged(c), float(c.begin)) for c in run.channels.values()
                        if str(c.measures) in wanted and str(c.unit) == unit
                        and not (name == "pressure" and _heard(c))] for name, (wanted, unit) in _CONDITIONS.items()}
     return Conditions(measured, {name: (run.conditions[name].time, run.conditions[name].value)
                                  for name, (_, unit) in _CONDITIONS.items()
                                  if name in run.conditions and str(run.conditions[name].unit) == unit})
+
+
+def _averaged(channel):
+    """(means of a Channel over equal stretches, NaN where all is missing, their rate in Hz)."""
+    each = max(int(float(channel.rate) / _SLOW), 1)
+    step = max(_AT_ONCE // each, 1) * each
+    means = [_means(with_gaps(channel, slice(first, first + step)), each)
+             for first in range(0, len(channel.samples), step)]
+    return np.concatenate(means), float(channel.rate) / each
+
+
+def _means(samples, each):
+    """Means over ``each`` samples, the last over what is left of them."""
+    begins = np.arange(0, len(samples), each)
+    known = np.add.reduceat(np.isfinite(samples).astype(float), begins)
+    total = np.add.reduceat(np.nan_to_num(samples), begins)
+    return np.where(known > 0, total / np.maximum(known, 1.0), np.nan)
 
 
 def _maps(kept, conditions, bins):

@@ -1,6 +1,5 @@
 """Stage recording: test bench recordings, read from any supported file format into one product."""
 
-import hashlib
 from collections import Counter
 from dataclasses import dataclass
 from functools import partial
@@ -9,6 +8,7 @@ from typing import Literal
 import numpy as np
 
 from pipeline.contract import ConfigError, Context, InputFile, OneOf, Quantity, Section, option, stage
+from pipeline.contract.fingerprint import digest
 from pipeline.contract.units import in_si, measured_in
 from pipeline.physics.signals.spectra import HEARING
 from pipeline.products import Condition, Recording, Run
@@ -196,7 +196,7 @@ def recording(settings: Settings, context: Context) -> Recording:
         if twice:
             raise ConfigError(f"recording.files.{number}", "run names that are not taken", ", ".join(sorted(twice)))
         collected |= new_runs
-        source.append(f"{file.file.name} {hashlib.sha256(file.file.read_bytes()).hexdigest()}")
+        source.append(f"{file.file.name} {digest(file.file)}")
     _check_repeats(collected)
     context.log(f"{len(collected)} runs: {', '.join(collected)}")
     return Recording(source=source, runs=collected)
@@ -284,8 +284,8 @@ def _track(track, waveform, rate, where):
         raise ConfigError(f"{where}: unit", "a unit in the file or in the case", "none", "add unit and measures, of a"
                           " sound file also factor (value of full scale) or calibrator")
     measures = track.measures or ("sound_pressure" if track.calibrator else measured_in(unit, f"{where}: unit"))
-    return channel(factor * waveform.values, unit, measures, waveform.rate or rate or np.nan, waveform.begin, where,
-                   role=track.role, place=track.place, direction=track.direction)
+    return channel(waveform.values, unit, measures, waveform.rate or rate or np.nan, waveform.begin, where,
+                   factor=factor, narrow=True, role=track.role, place=track.place, direction=track.direction)
 
 
 def _pascal(calibrator, where):

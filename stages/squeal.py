@@ -5,9 +5,10 @@ from functools import partial
 import numpy as np
 
 from pipeline.contract import ConfigError, Context, Quantity, Section, option, stage
+from pipeline.physics.signals.frames import frames
 from pipeline.physics.signals.listening import LONGEST, RATE, audible, excerpt, held
 from pipeline.physics.signals.spectra import band_power, level, third_octave_bands
-from pipeline.physics.signals.squeal_detector import Detector, detect, frames, loudest
+from pipeline.physics.signals.squeal_detector import Detector, detect, loudest
 from pipeline.products import Excerpt, Response, Squeal, Transient
 from pipeline.views.pages.sound_file import sound_files
 

@@ -120,7 +120,7 @@ def _recorded(name, run, settings, model_inputs):
     compared = np.array([valid(p) for p in parts]) & (np.arange(count) >= settings.settle * rate)
     holds = tuple(key for key, given in settings.inputs.items() if given.hold == "step")
     plan = Run(name, (count - 1) / rate, rate, inputs, drive, conditions, held=holds)
-    return Recorded(plan, tuple(seen), tuple(str(p.unit) for p in parts), np.array([p.samples for p in parts]),
+    return Recorded(plan, tuple(seen), tuple(str(p.unit) for p in parts), np.array([p.samples for p in parts], float),
                     compared, str(run.repeat_of))
 
 

@@ -7,6 +7,7 @@ from typing import get_args, get_origin
 import numpy as np
 
 from pipeline.contract.errors import ProductError
+from pipeline.contract.mapped import blocks, map_of, sent
 from pipeline.contract.units import SI
 
 Array = np.ndarray
@@ -14,12 +15,15 @@ Array = np.ndarray
 _PART = re.compile(r"[A-Za-z0-9][A-Za-z0-9_.-]*")
 
 
-def quantity(unit, dims, meaning, dtype=float):
-    """Declare one array: SI unit, space-separated dimension names ("" = scalar), meaning."""
+def quantity(unit, dims, meaning, dtype=float, narrow=False):
+    """Declare one array: SI unit, space-separated dimension names ("" = scalar), meaning.
+
+    ``narrow``: float32 stays float32, the precision of the file that it comes from.
+    """
     if unit not in SI:
         raise ProductError(f"unit {unit!r} is not in the SI vocabulary of units.py")
     return field(metadata={"unit": unit, "dims": tuple(dims.split()), "meaning": meaning,
-                           "dtype": np.dtype(dtype)})
+                           "dtype": np.dtype(dtype), "narrow": narrow})
 
 
 def count(dims, meaning):
@@ -69,7 +73,7 @@ def product(version):
     """
 
     def decorate(cls):
-        cls.__post_init__ = _validate
+        cls.__post_init__, cls.__getstate__ = _validate, _state
         cls = dataclass(frozen=True, eq=False, kw_only=True)(cls)
         _check_names(cls)
         cls.name, cls.version = snake(cls.__name__), version
@@ -89,6 +93,11 @@ def _check_names(cls):
                                    f"dimensions {plain[dim]}")
 
 
+def _state(self):
+    """What is pickled: arrays in files of products stay there."""
+    return {name: sent(value) for name, value in self.__dict__.items()}
+
+
 def _validate(self):
     sizes = {}
     for f in fields(self):
@@ -100,11 +109,17 @@ def _validate(self):
         if held_by(f.type):
             object.__setattr__(self, f.name, _as_parts(value, held_by(f.type), where))
             continue
-        array = _as_array(value, f.metadata["dtype"], where)
+        dtype = np.dtype(np.float32) if f.metadata["narrow"] and _narrow(value) else f.metadata["dtype"]
+        array = _as_array(value, dtype, where)
         _check_dimensions(array, f.metadata["dims"], sizes, where)
-        if array.dtype.kind in "fc" and not np.isfinite(array).all():
-            raise ProductError(where, "finite values", f"{np.sum(~np.isfinite(array))} that are not")
+        strange = sum(part.size - np.isfinite(part).sum() for part in blocks(array)) if array.dtype.kind in "fc" else 0
+        if strange:
+            raise ProductError(where, "finite values", f"{strange} that are not")
         object.__setattr__(self, f.name, array)
+
+
+def _narrow(value):
+    return isinstance(value, np.ndarray) and value.dtype == np.float32
 
 
 def _check_part(value, cls, where):
@@ -143,6 +158,8 @@ def _as_array(value, dtype, where):
 
 def _fixed(array):
     """Whether nothing can write to an array: neither to itself nor to what it is a view of, as that of a product."""
+    if map_of(array) is not None:
+        return True
     while isinstance(array, np.ndarray):
         if array.flags.writeable:
             return False

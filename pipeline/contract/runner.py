@@ -205,7 +205,7 @@ class ChainRun:
     def _compute(self, stage, context):
         if not os.access(self.folder, os.W_OK | os.X_OK):      # at once, not after minutes of computing
             raise _closed(self.folder, os.strerror(errno.EACCES))
-        inputs, current = self._inputs(stage), self.fingerprint(stage)
+        inputs, current = self._inputs(stage, not context.sees_files), self.fingerprint(stage)
         for _, product, path in self._ingredients(stage):   # also those that a stage which reads all might never read
             if current is None and store.identity(path) is None:
                 store.read(product, path)       # says what is wrong with it
@@ -229,15 +229,18 @@ class ChainRun:
             store.write_companion(self.folder / name, content)
         return seconds
 
-    def _inputs(self, stage):
-        """The arguments of ``stage`` that are products; read at once, or at their first use if it reads all."""
-        readers = {name: partial(store.read, product, self.path(product)) if product else lambda: None
+    def _inputs(self, stage, whole):
+        """The arguments of ``stage`` that are products; read at once, or at their first use if it reads all.
+
+        ``whole``: into memory, for tasks on other machines.
+        """
+        readers = {name: partial(store.read, product, self.path(product), whole) if product else lambda: None
                    for name, product in self.filled(stage).items()}
         if stage.reads_all:
             return {"products": Products(readers)}
         varied = {argument: {} for argument in stage.varied}
         for name, run, last, argument in self.variants(stage):
-            varied[argument][name] = store.read(last.output, run.path(last.output))
+            varied[argument][name] = store.read(last.output, run.path(last.output), whole)
         return {name: read() for name, read in readers.items()} | varied
 
 

@@ -12,9 +12,9 @@ from dataclasses import fields
 from pathlib import Path
 
 import h5py
-import numpy as np
 
 from pipeline.contract.errors import ProductError
+from pipeline.contract.mapped import LARGE, blocks, mapped, opened
 from pipeline.contract.product import held_by, is_product
 
 
@@ -26,6 +26,8 @@ class DamagedFile(ProductError):
 _LONGEST = 200
 #: what h5py and numpy raise of damaged bytes
 _DAMAGE = (KeyError, OSError, RuntimeError, TypeError, ValueError, AttributeError, MemoryError)
+#: large arrays begin at multiples of so many bytes, where they can be mapped
+_PAGE = 4096
 _NO_COORDINATE = "This is a netCDF dimension but not a netCDF variable."
 
 
@@ -41,7 +43,8 @@ def content_hash(item):
             digest.update("".join(f"{f.name}/{name}/{content_hash(value[name])}/" for name in sorted(value)).encode())
             continue
         digest.update(f"{f.name}/{f.metadata['unit']}/{value.dtype.str}/{value.shape}".encode())
-        digest.update("\0".join(value.flat).encode() if value.dtype.kind == "O" else np.ascontiguousarray(value))
+        for part in ("\0".join(value.flat).encode(),) if value.dtype.kind == "O" else blocks(value):
+            digest.update(part)
     return digest.hexdigest()
 
 
@@ -50,7 +53,7 @@ def write(item, path, provenance, content=None):
     path = Path(path)
     partial = path.with_name(f".{path.name}.partial")
     try:
-        with h5py.File(partial, "w", track_order=True) as h5:
+        with h5py.File(partial, "w", track_order=True, alignment_threshold=LARGE, alignment_interval=_PAGE) as h5:
             h5.attrs.update(product=item.name, version=item.version, content=content or content_hash(item))
             _write_group(h5.create_group("data", track_order=True), item)
             h5.create_group("provenance").attrs.update(provenance)
@@ -95,8 +98,7 @@ def _write_group(group, item):
             for name, each in value.items():
                 _write_part(inner, name, each, held_by(f.type).__doc__)
             continue
-        dtype = h5py.string_dtype() if value.dtype.kind == "O" else value.dtype
-        dataset = group.create_dataset(f.name, data=value, dtype=dtype)
+        dataset = _write_array(group, f.name, value)
         dataset.attrs.update(units=f.metadata["unit"], long_name=f.metadata["meaning"])
         if f.metadata["dims"] == (f.name,):
             dataset.make_scale(f.name)
@@ -104,6 +106,16 @@ def _write_group(group, item):
     for f in fields(item):
         if "dims" in f.metadata:
             _attach_dimensions(group, f, scales)
+
+
+def _write_array(group, name, value):
+    if value.dtype.kind == "O" or value.nbytes < LARGE:
+        return group.create_dataset(name, data=value, dtype=h5py.string_dtype() if value.dtype.kind == "O" else None)
+    dataset, first = group.create_dataset(name, value.shape, value.dtype), 0
+    for part in blocks(value):
+        dataset[first:first + len(part)] = part
+        first += len(part)
+    return dataset
 
 
 def _write_part(group, name, item, meaning):
@@ -123,11 +135,14 @@ def _attach_dimensions(group, f, scales):
         dataset.dims[axis].attach_scale(scales[dim])
 
 
-def read(cls, path):
-    """Read a ``cls`` back; refuses another product, version or unit, and a damaged file."""
+def read(cls, path, whole=False):
+    """Read a ``cls`` back; refuses another product, version or unit, and a damaged file.
+
+    Large arrays stay in the file, which is mapped; ``whole``: all are read into memory.
+    """
     with _opened(path) as h5:
         _check_identity(h5, cls, path)
-        item, content = _read_group(h5["data"], cls, path), h5.attrs["content"]
+        item, content = _read_group(h5["data"], cls, path, None if whole else opened(path)), h5.attrs["content"]
     if content_hash(item) != content:
         raise _damaged(path, "its values are not those that were written")
     return item
@@ -197,21 +212,30 @@ def _check_identity(h5, cls, path):
         raise ProductError(path, f"{cls.name} version {cls.version}", content, "rerun the stage that writes it")
 
 
-def _read_group(group, cls, path):
+def _read_group(group, cls, path, file):
     values = {}
     for f in fields(cls):
         if is_product(f.type):
-            values[f.name] = _read_group(group[f.name], f.type, path)
+            values[f.name] = _read_group(group[f.name], f.type, path, file)
             continue
         if held_by(f.type):
-            values[f.name] = {name: _read_group(each, held_by(f.type), path) for name, each in group[f.name].items()}
+            values[f.name] = {name: _read_group(each, held_by(f.type), path, file)
+                              for name, each in group[f.name].items()}
             continue
         dataset = group[f.name]
         if dataset.attrs["units"] != f.metadata["unit"]:
             raise ProductError(f"{path}: {f.name}", f"units {f.metadata['unit']}", dataset.attrs["units"])
         is_text = h5py.check_string_dtype(dataset.dtype) is not None
-        values[f.name] = dataset.asstr()[()] if is_text else dataset[()]
+        values[f.name] = dataset.asstr()[()] if is_text else _array(dataset, file)
     return cls(**values)
+
+
+def _array(dataset, file):
+    """The array of a dataset: a large one where it lies in ``file``, the FileMap of its file, if any."""
+    offset, dtype = dataset.id.get_offset(), dataset.dtype
+    if file is None or dataset.nbytes < LARGE or not offset or offset % dtype.alignment or not dtype.isnative:
+        return dataset[()]
+    return mapped(file, dtype, dataset.shape, offset)
 
 
 def walk(path):

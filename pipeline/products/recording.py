@@ -7,7 +7,7 @@ from pipeline.contract import Array, count, parts, product, quantity, text
 class Channel:
     """One sampled signal of a run."""
 
-    samples: Array = quantity("1", "sample", "samples in the unit that `unit` names; 0 where missing")
+    samples: Array = quantity("1", "sample", "samples in the unit that `unit` names; 0 where missing", narrow=True)
     missing: Array = count("sample_gap bound", "first sample of each gap in the data, and the first after it")
     unit: Array = text("", "coherent SI unit of the samples")
     measures: Array = text("", "what is measured: displacement, velocity, acceleration, force, pressure, voltage, ...")

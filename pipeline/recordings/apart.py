@@ -15,6 +15,7 @@ import numpy as np
 
 from pipeline.contract import store
 from pipeline.contract.errors import BrakechainError, ConfigError, ProductError
+from pipeline.contract.mapped import blocks, map_of, mapped, opened
 from pipeline.environment import ONE_THREAD
 from pipeline.products import Recording, Run
 from pipeline.recordings.audio import read_audio
@@ -98,16 +99,28 @@ _OUT_OF_TIME = 24
 
 def _columns_of(folder):
     """Waveforms whose values are maps of files that are gone from the folder, but last as long as these."""
-    table = json.loads((folder / _COLUMNS).read_text())
-    return {name: Waveform(np.load(folder / f"{k}.npy", mmap_mode="r"), *rest) for k, (name, *rest) in enumerate(table)}
+    return {name: Waveform(_left(folder / Path(file).name, np.dtype(dtype), count), *rest)
+            for name, file, dtype, count, *rest in json.loads((folder / _COLUMNS).read_text())}
+
+
+def _left(file, dtype, count):
+    if file.stat().st_size != count * dtype.itemsize:
+        raise ValueError(f"{file.stat().st_size} bytes of {count * dtype.itemsize}")
+    return mapped(opened(file, lasting=False), dtype, (count,)) if count else np.empty(0, dtype)
 
 
 def _leave_columns(found, folder):
+    """Values that lie in a file of the folder already stay there; others are written."""
     table = []
     for k, (name, waveform) in enumerate(found.items()):
-        np.save(folder / f"{k}.npy", waveform.values, allow_pickle=False)
-        table.append((name, waveform.unit, None if waveform.rate is None else float(waveform.rate),
-                      float(waveform.begin)))
+        values, file = np.asarray(waveform.values), map_of(waveform.values)
+        path = folder / f"{k}.bin" if file is None else Path(file.path)
+        if file is None:
+            with path.open("wb") as stream:
+                for block in blocks(values):
+                    stream.write(np.ascontiguousarray(block))
+        table.append((name, path.name, values.dtype.str, len(values), waveform.unit,
+                      None if waveform.rate is None else float(waveform.rate), float(waveform.begin)))
     (folder / _COLUMNS).write_text(json.dumps(table))
 
 
@@ -115,19 +128,19 @@ def _leave_runs(found, folder):
     store.write(Recording(source=[], runs=found), folder / _RUNS, {})
 
 
-def _matlab(path):
+def _matlab(path, _):
     return {name: Waveform(values) for name, values in read_matlab(path).items()}
 
 
-def _universal(path, units=None):
+def _universal(path, _, units=None):
     channels, frf, modes = read_uff(path, units)
     return {"file": Run(description="", repeat_of="", channels=channels, frf=frf, modes=modes)}
 
 
-#: kind of file -> (reader, what leaves its answer)
+#: kind of file -> (reader of a path and the folder for what is long, what leaves its answer)
 _READERS = {"matlab": (_matlab, _leave_columns), "audio": (read_audio, _leave_columns),
             "tdms": (read_tdms, _leave_columns), "mdf": (read_mdf, _leave_columns),
-            "hdf5": (read_neutral, _leave_runs), "uff": (_universal, _leave_runs)}
+            "hdf5": (lambda path, _: read_neutral(path), _leave_runs), "uff": (_universal, _leave_runs)}
 
 
 def _limit(seconds, memory):
@@ -148,7 +161,7 @@ def main(kind, path, folder, seconds, memory):
     _limit(int(seconds), int(memory))
     reader, leave = _READERS[kind]
     try:
-        leave(reader(path, **json.load(sys.stdin)), Path(folder))
+        leave(reader(path, folder, **json.load(sys.stdin)), Path(folder))
     except BrakechainError as error:
         _tell(folder, str(error.where), error.expected, error.found, error.remedy)
     except MemoryError:

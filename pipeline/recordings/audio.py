@@ -6,20 +6,24 @@ from pathlib import Path
 import numpy as np
 
 from pipeline.contract.errors import ConfigError
+from pipeline.contract.mapped import Growing
 from pipeline.recordings.waveform import Waveform, library
 
 #: begins of RIFF files, little and big endian; RF64 and BW64 state their sizes in a chunk of their own
 _RIFF = {b"RIFF": "<", b"RIFX": ">"}
 #: kinds of samples that float32 does not hold exactly
 _WIDE = ("PCM_32", "DOUBLE")
+#: samples of each channel that are read at once
+_BLOCK = 1 << 17
 #: size of a data chunk that a program left open: it is not known
 _OPEN = (0, 0xFFFFFFFF)
 
 
-def read_audio(path):
+def read_audio(path, folder=None):
     """{'1': Waveform, '2': ...} of the channels of a sound file, in shares of full scale (float files: as they are).
 
-    Raises ConfigError for a file that is no sound file, holds fewer samples than it declares or none.
+    ``folder``: for long channels, see ``Growing``. Raises ConfigError for a file that is no sound file, holds fewer
+    samples than it declares or none.
     """
     sound = library("soundfile", "soundfile", path)
     _refuse_cut(path)
@@ -27,12 +31,16 @@ def read_audio(path):
         with sound.SoundFile(str(path)) as file:
             declared, rate = file.frames, float(file.samplerate)
             exact = "float64" if file.subtype in _WIDE else "float32"
-            values = file.read(dtype=exact, always_2d=True)
+            columns = [Growing(exact, folder) for _ in range(file.channels)]
+            while len(block := file.read(_BLOCK, exact, always_2d=True)):
+                for column, values in zip(columns, block.T, strict=True):
+                    column.append(values)
     except (sound.SoundFileError, RuntimeError, OSError, TypeError, ValueError) as error:
         raise ConfigError(path, "a sound file", str(error)) from None
-    if len(values) < max(declared, 1):
-        raise ConfigError(path, f"{max(declared, 1)} samples", f"{len(values)}", "the file is cut off: copy it again")
-    return {str(k + 1): Waveform(np.ascontiguousarray(column), "", rate) for k, column in enumerate(values.T)}
+    found = [column.array() for column in columns]
+    if len(found[0]) < max(declared, 1):
+        raise ConfigError(path, f"{max(declared, 1)} samples", f"{len(found[0])}", "the file is cut off: copy it again")
+    return {str(k + 1): Waveform(values, "", rate) for k, values in enumerate(found)}
 
 
 def write_audio(path, channels, full_scale):

@@ -54,7 +54,8 @@ def _mirrored(entry, local):
     if not local.is_file():
         raise ConfigError(f"measured:{entry.name}", f"a file at {local}", "none",
                           "copy it there, or unset BRAKECHAIN_DATA to download it")
-    digest = hashlib.sha256(local.read_bytes()).hexdigest()
+    with local.open("rb") as stream:
+        digest = hashlib.file_digest(stream, "sha256").hexdigest()
     if digest != entry.sha256:
         raise ConfigError(local, f"SHA-256 {entry.sha256}", digest, "the file was changed; fetch it again")
     return local

@@ -3,6 +3,7 @@
 import numpy as np
 
 from pipeline.contract.errors import ConfigError
+from pipeline.contract.mapped import Growing, Slices, blocks
 from pipeline.contract.units import in_si
 from pipeline.products import Channel
 
@@ -16,12 +17,13 @@ _BLOCKS = 40
 OFF_GRID = 0.25
 
 
-def channel(values, unit, measures, rate, begin, where, *, role="response", place="", position=(), direction=()):
-    """Channel of ``values`` (sample,) in ``unit``; samples that are not finite are missing.
+def channel(values, unit, measures, rate, begin, where, *, factor=1.0, narrow=False, role="response", place="",
+            position=(), direction=()):
+    """Channel of ``factor`` times ``values`` (sample,) in ``unit``; samples that are not finite are missing.
 
-    ``rate`` Hz and ``begin`` s: sampling rate and time of the first sample. Raises ConfigError, with ``where``, for a
-    unit that pint cannot read or the quantity cannot have, a rate that is not positive and a channel without any valid
-    sample.
+    ``rate`` Hz and ``begin`` s: sampling rate and time of the first sample. ``narrow``: float32 stays float32. Raises
+    ConfigError, with ``where``, for a unit that pint cannot read or the quantity cannot have, a rate that is not
+    positive and a channel without any valid sample.
     """
     if not (np.isfinite(rate) and rate > 0):
         raise ConfigError(f"{where}: sample_rate", "a rate above 0 Hz", f"{rate:g}")
@@ -29,20 +31,42 @@ def channel(values, unit, measures, rate, begin, where, *, role="response", plac
         raise ConfigError(where, "real samples", "complex ones", "complex spectra go into frf")
     if role not in ROLES:
         raise ConfigError(f"{where}: role", f"one of {', '.join(ROLES)}", repr(role))
-    converted, name = in_si(np.asarray(values, float), unit, f"{where}: unit", measures)
-    good = np.isfinite(converted)
-    if not good.any():
+    samples, missing, name = _converted(np.asarray(values, None if narrow else float), factor, unit, measures, where)
+    if not len(samples) or missing.tolist() == [[0, len(samples)]]:
         raise ConfigError(where, "samples", "none that are finite")
-    return Channel(samples=converted if good.all() else np.where(good, converted, 0.0), missing=stretches(~good),
-                   unit=name, measures=measures, rate=rate, begin=begin, place=place, position=position,
-                   direction=_unit_vector(direction, where), role=role)
+    return Channel(samples=samples, missing=missing, unit=name, measures=measures, rate=rate, begin=begin, place=place,
+                   position=position, direction=_unit_vector(direction, where), role=role)
 
 
-def with_gaps(one):
-    """Samples (n,) of a Channel, NaN where they are missing."""
-    samples = np.array(one.samples, float)
-    for first, last in one.missing:
-        samples[first:last] = np.nan
+def _converted(values, factor, unit, measures, where):
+    """(samples (sample,), 0 where missing, gaps (gap, 2), SI unit) of values in ``unit``, block by block."""
+    samples, gaps, count, name = Growing(np.float32 if values.dtype == np.float32 else float), [], 0, ""
+    for block in blocks(values):
+        converted, name = in_si(factor * np.asarray(block, float), unit, f"{where}: unit", measures)
+        good = np.isfinite(converted)
+        gaps += (count + stretches(~good)).tolist() if not good.all() else []
+        samples.append(np.where(good, converted, 0.0))
+        count += len(block)
+    return samples.array(), _joined(gaps), name
+
+
+def _joined(gaps):
+    """(n, 2) of the gaps [first, after its last], one where a gap goes on in the next block."""
+    joined = []
+    for first, last in gaps:
+        if joined and joined[-1][1] == first:
+            joined[-1][1] = last
+        else:
+            joined.append([first, last])
+    return np.array(joined, int).reshape(-1, 2)
+
+
+def with_gaps(one, part=slice(None)):
+    """Samples (n,) of a Channel, NaN where they are missing; ``part``: of these alone."""
+    first, last, _ = part.indices(len(one.samples))
+    samples = np.array(Slices(one.samples)[first:last], float)
+    for low, high in one.missing:
+        samples[max(low - first, 0):max(high - first, 0)] = np.nan
     return samples
 
 
@@ -71,10 +95,12 @@ def stretches(flag):
 
 def even_rate(time, where):
     """(rate in Hz, begin in s) of sampling instants (sample,) in s; ConfigError if they are not evenly spaced."""
-    if len(time) < 2 or not np.isfinite(time).all():
+    if len(time) < 2 or not all(np.isfinite(block).all() for block in blocks(time)):
         raise ConfigError(where, "at least two finite times", f"{len(time)}")
-    interval = (time[-1] - time[0]) / (len(time) - 1)
-    off = np.abs(time - (time[0] + interval * np.arange(len(time)))).max()
+    interval, first, off = (time[-1] - time[0]) / (len(time) - 1), 0, 0.0
+    for block in blocks(time):
+        off = max(off, np.abs(block - (time[0] + interval * np.arange(first, first + len(block)))).max())
+        first += len(block)
     if interval <= 0 or off > EVEN * interval:
         raise ConfigError(where, "times at one even interval", f"a deviation of {off:.3g} s from {interval:.6g} s",
                           "resample the record, or split it where samples were lost")
@@ -113,10 +139,8 @@ def stretch(whole, begin, end, where):
     if first >= last:
         raise ConfigError(where, f"a stretch within {start:g} s to {start + (count - 1) / rate:g} s",
                           f"{_instant(begin)} to {_instant(end)}")
-    gap = np.zeros(count, bool)
-    for low, high in whole.missing:
-        gap[low:high] = True
-    return Channel(samples=whole.samples[first:last], missing=stretches(gap[first:last]), rate=rate,
+    missing = np.clip(whole.missing, first, last) - first
+    return Channel(samples=whole.samples[first:last], missing=missing[missing[:, 0] < missing[:, 1]], rate=rate,
                    begin=start + first / rate,
                    **{name: getattr(whole, name) for name in ("unit", "measures", "place", "position", "direction",
                                                               "role")})

@@ -25,6 +25,11 @@ class Waveform:
     begin: float = 0.0
 
 
+def held_as(dtype):
+    """float32 where it holds numbers of this ``dtype`` exactly, else float."""
+    return np.dtype(np.float32 if np.can_cast(dtype, np.float32, "safe") else float)
+
+
 def plain_name(text, otherwise="channel"):
     """A name as runs and channels have them: ASCII letters, digits and _, umlauts written out."""
     written = unicodedata.normalize("NFKD", str(text).translate(_UMLAUTS)).encode("ascii", "ignore").decode()

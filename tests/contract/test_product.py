@@ -82,3 +82,16 @@ def test_arrays_of_products_are_shared_and_those_of_others_copied():
     view = own[:2]
     view.setflags(write=False)
     assert not np.shares_memory(Sample(value=view).value, own)
+
+
+def test_float32_stays_where_a_field_is_narrow():
+    @product(version=1)
+    class Sampled:
+        """Samples of a file."""
+
+        samples: Array = quantity("1", "sample", "samples", narrow=True)
+        other: Array = quantity("1", "sample", "others")
+
+    single, double = np.ones(3, np.float32), np.ones(3)
+    assert [Sampled(samples=x, other=x).samples.dtype for x in (single, double, [1, 2, 3])] == ["f4", "f8", "f8"]
+    assert Sampled(samples=single, other=single).other.dtype == "f8"

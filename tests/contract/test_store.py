@@ -9,6 +9,7 @@ import pytest
 
 from pipeline.cli.inspect import describe
 from pipeline.contract import ProductError, store
+from pipeline.contract.mapped import map_of
 from pipeline.products import FrictionMap, Surface
 from tests.contract.test_product import GOOD
 from tests.contract.toy.products import Doubled, Inner, Shelf, Source
@@ -108,6 +109,23 @@ def test_damaged_products_of_others_give_one_sentence(name):
         list(describe(path))
     with pytest.raises(ProductError):
         store.read(FrictionMap if "map" in name else Surface, path)
+
+
+def test_large_arrays_stay_in_the_file(tmp_path):
+    position, path = np.arange(300_000.0).reshape(-1, 3), tmp_path / "inner.h5"
+    store.write(Inner(position=position), path, {})
+    back, whole = store.read(Inner, path), store.read(Inner, path, whole=True)
+    assert map_of(back.position).path == str(path) and map_of(whole.position) is None
+    for item in (back, whole):
+        np.testing.assert_array_equal(item.position, position)
+        assert store.content_hash(item) == store.content_hash(Inner(position=position)) and item.position.flags.aligned
+    assert Inner(position=back.position).position is back.position
+    store.write(back, path, {})         # onto the file that it is a map of
+    np.testing.assert_array_equal(store.read(Inner, path).position, position)
+    content = path.read_bytes()
+    path.write_bytes(content[:len(content) // 2])
+    with pytest.raises(ProductError, match="truncated or damaged"):
+        store.read(Inner, path)
 
 
 def test_an_interrupted_write_leaves_the_old_product(written, monkeypatch):

@@ -42,7 +42,8 @@ def test_errors_of_readers_come_through(tmp_path):
     ("raise KeyError('x')", "expected an undamaged file, found KeyError: 'x'")])
 def test_what_a_reader_does_not_survive_is_one_sentence(tmp_path, monkeypatch, code, told):
     """A reader that crashes, never ends, asks for all memory or stumbles: put in place of that of sound files."""
-    (tmp_path / "sitecustomize.py").write_text(f"import pipeline.recordings.audio as a\ndef read(path):\n    {code}\n"
+    (tmp_path / "sitecustomize.py").write_text("import pipeline.recordings.audio as a\n"
+                                               f"def read(path, folder):\n    {code}\n"
                                                "a.read_audio = read\n")
     monkeypatch.setenv("PYTHONPATH", str(tmp_path))
     monkeypatch.setattr(apart, "_SECONDS", 1)
@@ -104,7 +105,7 @@ def _layout(other):
 
 
 def test_what_a_reader_says_does_not_fill_the_memory(tmp_path, monkeypatch):
-    (tmp_path / "sitecustomize.py").write_text("import pipeline.recordings.audio as a\ndef read(path):\n"
+    (tmp_path / "sitecustomize.py").write_text("import pipeline.recordings.audio as a\ndef read(path, folder):\n"
                                                "    import os\n    for _ in range(3000):\n"
                                                "        os.write(2, b'\\xff' * 10000)\n    os._exit(3)\n"
                                                "a.read_audio = read\n")

@@ -49,3 +49,23 @@ def test_channels_of_one_name_in_one_group_are_both_kept(tmp_path):
                      asammdf.Signal(-np.arange(10.0), time, unit="N", name="a")])
         file.save(str(tmp_path / "a.mf4"))
     assert [w.values[1] for w in read_mdf(tmp_path / "a.mf4").values()] == [1, -1]
+
+
+@pytest.mark.parametrize("version, compression", [("3.30", 0), ("4.10", 0), ("4.10", 1), ("4.10", 2), ("4.20", 0)])
+def test_long_channels_are_read_in_blocks(tmp_path, monkeypatch, version, compression):
+    """Old and new, compressed or not: values, scaling and time stamps of all blocks, in the precision of the file."""
+    import asammdf
+
+    count = 100_000
+    time, values = 3.0 + np.arange(count) / RATE, np.arange(count, dtype=np.float32)
+    scaled = asammdf.Signal(np.arange(count, dtype="u2"), time, unit="bar", name="line",
+                            conversion={"a": 0.5, "b": -1.0})
+    with asammdf.MDF(version=version) as file:
+        file.append([asammdf.Signal(values, time, unit="Pa", name="mic"), scaled])
+        file.save(str(tmp_path / "a.mf4"), overwrite=True, compression=compression)
+    monkeypatch.setattr("pipeline.recordings.mdf._BLOCK", 1 << 16)
+    mic, line = read_mdf(next(tmp_path.iterdir())).values()
+    np.testing.assert_array_equal(mic.values, values)
+    np.testing.assert_array_equal(line.values, 0.5 * (np.arange(count) % 2**16) - 1.0)
+    assert (mic.values.dtype, line.values.dtype) == (np.float32, float) and (mic.unit, line.unit) == ("Pa", "bar")
+    assert mic.rate == pytest.approx(RATE) and mic.begin == line.begin == pytest.approx(3.0)

@@ -33,3 +33,18 @@ def test_what_is_no_tdms_file_is_refused(tmp_path, content):
     (tmp_path / "a.tdms").write_bytes(content)
     with pytest.raises(ConfigError, match="a channel of numbers, found none"):
         read_tdms(tmp_path / "a.tdms")
+
+
+def test_segments_are_joined_in_the_precision_of_the_file(tmp_path):
+    from nptdms import ChannelObject, TdmsWriter
+
+    with TdmsWriter(str(tmp_path / "a.tdms")) as writer:
+        for k in range(3):
+            writer.write_segment([ChannelObject("b", name, (SINE + k).astype(kind)) for name, kind in (
+                ("short", "i2"), ("single", "f4"), ("long", "i4"), ("double", "f8"))])
+    found = read_tdms(tmp_path / "a.tdms")
+    for name, kind, held in (("short", "i2", "f4"), ("single", "f4", "f4"), ("long", "i4", "f8"),
+                             ("double", "f8", "f8")):
+        values = found[f"b/{name}"].values
+        assert values.dtype == held
+        np.testing.assert_array_equal(values, np.concatenate([(SINE + k).astype(kind) for k in range(3)]))

@@ -1,13 +1,15 @@
 """Stage noise_events on runs of microphones, accelerometers and slow channels."""
 
 import io
+from contextlib import closing
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
 import scipy
 
-from pipeline.contract import ConfigError
+from pipeline.contract import ConfigError, mapped, store
+from pipeline.contract.executor import LocalProcesses
 from pipeline.products import Condition, Recording, Run
 from pipeline.recordings.samples import channel
 from stages.noise_events import Settings, companions, noise_events
@@ -175,3 +177,22 @@ def test_the_loudest_squeal_is_written_to_listen_to(result):
     quiet = noise_events(Recording(source=[], runs={"a": run({"mic": channel(
         NOISE, "Pa", "sound_pressure", RATE, 0.0, "mic")})}), settings=Settings())
     assert list(companions(quiet)) == ["noise_events.csv"]
+
+
+def test_a_product_in_its_file_gives_the_events_of_one_in_memory(tmp_path, monkeypatch):
+    store.write(recorded(), tmp_path / "recording.h5", {})
+    outside, inside = (store.read(Recording, tmp_path / "recording.h5", whole) for whole in (False, True))
+    maps = [mapped.map_of(one.runs["loud"].channels["mic"].samples) for one in (outside, inside)]
+    assert maps[0] is not None and maps[1] is None
+    expected = store.content_hash(noise_events(inside, settings=Settings()))
+    assert store.content_hash(noise_events(outside, settings=Settings())) == expected
+    with closing(LocalProcesses(2)) as work:
+        context = SimpleNamespace(map=lambda function, items, _: work.map(function, items, lambda: None),
+                                  log=lambda _: None)
+        assert store.content_hash(noise_events(outside, settings=Settings(), context=context)) == expected
+
+
+def test_a_condition_is_averaged_in_parts(monkeypatch):
+    whole = noise_events(recorded(), settings=Settings()).event_condition
+    monkeypatch.setattr("stages.noise_events._AT_ONCE", 10)
+    np.testing.assert_allclose(noise_events(recorded(), settings=Settings()).event_condition, whole, rtol=1e-12)

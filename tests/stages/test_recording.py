@@ -7,7 +7,7 @@ import pytest
 from scipy.io import savemat
 
 import stages
-from pipeline.contract import ConfigError, case
+from pipeline.contract import ConfigError, case, mapped, store
 from pipeline.contract.settings import fill
 from stages.recording import Settings, recording
 from tests.recordings import test_neutral, test_uff
@@ -127,6 +127,28 @@ def test_a_microphone_has_a_calibrator_or_a_factor(tmp_path):
     np.testing.assert_allclose(left.samples, 0.05 * SINE[:480] * effective / (0.2 / np.sqrt(2)), atol=1e-5)
     np.testing.assert_allclose(right.samples, SINE[:480], atol=1e-5)
     assert len(found.runs["late"].channels["left"].samples) == 520
+
+
+def test_long_channels_are_those_of_memory(tmp_path, monkeypatch):
+    """Samples, gaps, runs and hash do not depend on files and blocks: both ways give the same product."""
+    pressure = 0.1 * np.random.default_rng(3).standard_normal(300_000).astype(np.float32)
+    pressure[[0, 1023, 1024, 1025, 70_000]] = np.nan
+    sound(tmp_path / "long.wav", pressure, 0.5 * pressure, subtype="FLOAT")
+    file = {"kind": "audio", "file": "long.wav", "columns": {
+        "mic": {"column": "1", "unit": "Pa", "factor": 20, "measures": "sound_pressure"},
+        "pad": {"column": "2", "unit": "g", "factor": 50}},
+        "runs": {"all": {}, "late": {"begin": "0.021 s", "end": "5 s"}}}
+    monkeypatch.setattr(mapped, "LARGE", 1 << 40)
+    inside = read(tmp_path, file)
+    monkeypatch.setattr(mapped, "LARGE", 1 << 10)
+    monkeypatch.setattr(mapped, "_BLOCK", 1 << 12)      # 1024 samples of the file
+    outside = read(tmp_path, file)
+    mic, late = outside.runs["all"].channels["mic"], outside.runs["late"].channels["pad"]
+    assert mapped.map_of(mic.samples) is not None and mapped.map_of(inside.runs["all"].channels["mic"].samples) is None
+    assert store.content_hash(inside) == store.content_hash(outside)
+    assert mic.samples.dtype == np.float32 and mic.missing.tolist() == [[0, 1], [1023, 1026], [70_000, 70_001]]
+    np.testing.assert_array_equal(mic.samples, (20.0 * np.nan_to_num(pressure).astype(float)).astype(np.float32))
+    assert late.missing.tolist() == [[15, 18], [68_992, 68_993]] and len(late.samples) == 240_000 - 1008
 
 
 @pytest.mark.parametrize("file, told", [

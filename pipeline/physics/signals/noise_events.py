@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from pipeline.physics.signals.spectra import level
-from pipeline.physics.signals.squeal_detector import detect
+from pipeline.physics.signals.squeal_detector import Search
 
 SQUEAL, HARMONIC, SWEEP, SERIES, BROADBAND = "squeal", "harmonic", "sweep", "series", "broadband"
 #: names of steady tones below the squeal band, and the frequency [Hz] up to which each goes
@@ -44,18 +44,33 @@ class NoiseEvent:
     order: int
 
 
-def tonal(found, detector, wander, low=False):
-    """[NoiseEvent] of the tones in Frames, by begin.
+class Tonal:
+    """Watches Frames for tones.
 
     A tone whose frequency varies by more than the share ``wander``, a short one by more than half a percent, is a
     sweep, not squeal; ``low``: tones below the squeal band, named by their frequency.
     """
-    followed = replace(detector, threshold=detector.threshold - _BELOW)
-    events = [_named(event, found.hop, detector.window, wander, low) for event in detect(found, followed)]
-    moving = [event for event in events if event.kind == SWEEP]
-    told = [replace(event, kind=SERIES) if event.kind not in (SWEEP, HARMONIC) and _among(event, moving) else event
-            for event in events]
-    return [event for event in told if event.duration >= detector.shortest and event.level >= detector.threshold]
+
+    def __init__(self, found, detector, wander, low=False):
+        self._hop, self._detector, self._named = found.hop, detector, (detector.window, wander, low)
+        self._search = Search(found, replace(detector, threshold=detector.threshold - _BELOW))
+        self.see = self._search.see
+
+    def result(self):
+        """[NoiseEvent], by begin."""
+        events = [_named(event, self._hop, *self._named) for event in self._search.result()]
+        moving = [event for event in events if event.kind == SWEEP]
+        told = [replace(event, kind=SERIES) if event.kind not in (SWEEP, HARMONIC) and _among(event, moving) else event
+                for event in events]
+        return [event for event in told
+                if event.duration >= self._detector.shortest and event.level >= self._detector.threshold]
+
+
+def tonal(found, detector, wander, low=False):
+    """[NoiseEvent] of the tones in Frames, by begin; see ``Tonal``."""
+    watcher = Tonal(found, detector, wander, low)
+    found.scan(watcher)
+    return watcher.result()
 
 
 def _among(event, moving):
@@ -68,25 +83,46 @@ def _among(event, moving):
     return covered.mean() > 0.5
 
 
-def broadband(found, detector):
-    """[NoiseEvent] of stretches in which the band is as loud as the threshold without its strongest lines."""
-    inside = (found.frequency >= detector.band[0]) & (found.frequency <= detector.band[1])
-    frequency = found.frequency[inside]
-    levels, middles = np.empty(len(found.time)), np.empty(len(found.time))
-    for k, row in enumerate(found.spectrum):
-        power = np.square(row[inside], dtype=float)
-        if len(power) > 4 * _TONES:
-            power[np.argpartition(power, -_TONES)[-_TONES:]] = 0.0
+class Broadband:
+    """Watches Frames for stretches in which the band is as loud as the threshold without its strongest lines, and for
+    the median level of the band."""
+
+    def __init__(self, found, detector):
+        self._found, self._detector, self._inside = found, detector, found.inside(detector.band)
+        self._whole, self._levels, self._middles = [], [], []
+
+    def see(self, _, spectra):
+        """The next block of spectra (frame, line)."""
+        power, frequency = np.square(spectra[:, self._inside], dtype=float), self._found.frequency[self._inside]
+        self._whole.append(power.sum(axis=1))
+        if power.shape[1] > 4 * _TONES:
+            np.put_along_axis(power, np.argpartition(power, -_TONES, axis=1)[:, -_TONES:], 0.0, axis=1)
         else:                   # too few lines to leave some out: noise by their median
-            power = np.full(len(power), np.median(power) / np.log(2.0))
-        whole = power.sum()
-        levels[k] = level(whole / _BANDWIDTH, detector.reference)
-        middles[k] = power @ frequency / whole if whole > 0.0 else 0.0
-    loud = np.flatnonzero(np.diff(np.r_[False, levels >= detector.threshold, False].astype(int))).reshape(-1, 2)
-    stretches = [(first, last) for first, last in loud if (last - first) * found.hop >= detector.shortest]
-    return [NoiseEvent(BROADBAND, float(middles[a:b].mean()), detector.band[0], detector.band[1],
-                       float(levels[a:b].max()), float(found.time[a] - found.hop / 2), float((b - a) * found.hop),
-                       float(middles[a:b].mean()), 1) for a, b in stretches]
+            power[:] = np.median(power, axis=1, keepdims=True) / np.log(2.0)
+        noise = power.sum(axis=1)
+        self._levels.append(level(noise / _BANDWIDTH, self._detector.reference))
+        self._middles.append(np.divide(power @ frequency, noise, out=np.zeros(len(noise)), where=noise > 0.0))
+
+    def background(self):
+        """Median level of the band [dB]."""
+        return float(level(np.median(np.concatenate(self._whole)) / _BANDWIDTH, self._detector.reference))
+
+    def result(self):
+        """[NoiseEvent], by begin."""
+        levels, middles = np.concatenate(self._levels), np.concatenate(self._middles)
+        found, detector = self._found, self._detector
+        loud = np.flatnonzero(np.diff(np.r_[False, levels >= detector.threshold, False].astype(int))).reshape(-1, 2)
+        stretches = [(first, last) for first, last in loud if (last - first) * found.hop >= detector.shortest]
+        return [NoiseEvent(BROADBAND, float(middles[a:b].mean()), detector.band[0], detector.band[1],
+                           float(levels[a:b].max()), float(found.time[a] - found.hop / 2), float((b - a) * found.hop),
+                           float(middles[a:b].mean()), 1) for a, b in stretches]
+
+
+def broadband(found, detector):
+    """[NoiseEvent] of the noise without a tone in Frames, by begin; see ``Broadband``."""
+    watcher = Broadband(found, detector)
+    found.scan(watcher)
+    return watcher.result()
 
 
 def _named(event, hop, window, wander, low):

@@ -9,16 +9,12 @@ from dataclasses import dataclass, field
 
 import numpy as np
 import scipy
-from numpy.lib.stride_tricks import sliding_window_view
 
-from pipeline.contract.errors import ConfigError
 from pipeline.physics.signals.harmonic_ladder import comb, ladders
-from pipeline.physics.signals.spectra import a_weighting, level
+from pipeline.physics.signals.spectra import level
 
 #: how much lower a tone midway between two lines of a Hann spectrum looks [dB], rounded up
 _BETWEEN_LINES = 1.5
-#: frames that are transformed at once
-_AT_ONCE = 2048
 #: lines on either side of a tone, and those next to it that are its own, of which the median is the noise about it
 _ABOUT, _OWN = 20, 3
 
@@ -71,24 +67,6 @@ class Detector:
 
 
 @dataclass(frozen=True)
-class Frames:
-    """Overlapping Hann frames of one signal.
-
-    time : (frame,) middle of each frame [s]
-    hop : time from frame to frame [s]
-    duration : of the signal [s]
-    frequency : (line,) [Hz]
-    spectrum : (frame, line) root mean square of a tone on that line [unit of the signal]
-    """
-
-    time: np.ndarray
-    hop: float
-    duration: float
-    frequency: np.ndarray
-    spectrum: np.ndarray
-
-
-@dataclass(frozen=True)
 class Event:
     """One squeal event.
 
@@ -120,66 +98,75 @@ class _Track:
     fundamental: list
 
 
-def frames(signal, rate, detector, kept=float):
-    """Frames of a signal (sample,) taken at ``rate`` [Hz]; ``kept``: type of the spectrum, float32 for long signals.
+class Loudest:
+    """Watches Frames for the strongest tone of the band in any frame."""
 
-    Raises ConfigError for a signal shorter than a frame or a band beyond half the rate.
-    """
-    size = round(detector.window * rate)
-    if len(signal) < size:
-        raise ConfigError("squeal detector", f"a signal of at least {detector.window:g} s", f"{len(signal) / rate:g} s",
-                          "shorten the window or lengthen the signal")
-    if detector.band[1] > rate / 2:
-        raise ConfigError("squeal detector", f"a band below half the sampling rate, {rate / 2:g} Hz",
-                          f"{detector.band[1]:g} Hz", "lower the band or sample faster")
-    hop = max(1, round(size * (1 - detector.overlap)))
-    hann = 0.5 - 0.5 * np.cos(2 * np.pi * np.arange(size) / size)
-    pieces, frequency = sliding_window_view(signal, size)[::hop], np.fft.rfftfreq(size, 1 / rate)
-    scale = np.sqrt(2) / hann.sum() * (a_weighting(frequency) if detector.weighted else 1.0)
-    spectrum = np.empty((len(pieces), len(frequency)), kept)
-    for first in range(0, len(pieces), _AT_ONCE):
-        part = slice(first, first + _AT_ONCE)
-        spectrum[part] = np.abs(scipy.fft.rfft(pieces[part] * hann)) * scale
-    middle = (np.arange(len(pieces)) * hop + size / 2) / rate
-    return Frames(middle, hop / rate, len(signal) / rate, frequency, spectrum)
+    def __init__(self, found, detector):
+        self._found, self._detector, self._most, self._tone = found, detector, -np.inf, None
+
+    def see(self, _, spectra):
+        """The next block of spectra (frame, line)."""
+        inside = np.where(self._found.inside(self._detector.band), spectra, 0)
+        if inside.max() > self._most:
+            frame, line = np.unravel_index(inside.argmax(), inside.shape)
+            self._most, self._tone = inside[frame, line], _refine(spectra[frame], self._found, np.array([line]))
+
+    def result(self):
+        """(level [dB], frequency [Hz])."""
+        (frequency,), (root_mean_square,) = self._tone
+        return float(level(root_mean_square**2, self._detector.reference)), float(frequency)
 
 
-def loudest(spectrum, detector):
-    """Level [dB] and frequency [Hz] of the strongest tone of the band in any frame."""
-    inside = _inside(spectrum, detector.band)
-    frame, line = np.unravel_index(np.where(inside, spectrum.spectrum, 0).argmax(), spectrum.spectrum.shape)
-    frequency, root_mean_square = _refine(spectrum, frame, np.array([line]))
-    return float(level(root_mean_square[0]**2, detector.reference)), float(frequency[0])
+class Search:
+    """Watches Frames for events; what grows at the end of a block goes on in the next."""
+
+    def __init__(self, found, detector):
+        self._found, self._detector, self._growing, self._ended = found, detector, [], []
+        self._least = detector.reference * 10.0 ** ((detector.threshold - _BETWEEN_LINES) / 20.0)
+        self._searched = found.inside((min(detector.lowest_fundamental, detector.band[0]), detector.band[1]))
+
+    def see(self, first, spectra):
+        """The next block of spectra (frame, line), from the frame ``first`` on."""
+        time, longest = self._found.time, self._detector.gap + self._found.hop * 1.5
+        for k in np.flatnonzero(spectra[:, self._searched].max(axis=1, initial=0.0) >= self._least):
+            frame = first + k
+            late = [t for t in self._growing if time[frame] - time[t.frame[-1]] > longest]
+            self._ended += late
+            self._growing = [t for t in self._growing if t not in late]
+            _extend(self._growing, frame, *_related_tones(spectra[k], self._found, self._detector), self._detector)
+
+    def result(self):
+        """[Event], in order of their begin."""
+        events = [_event(track, self._found, self._detector) for track in self._ended + self._growing]
+        return sorted((e for e in events if e.duration >= self._detector.shortest),
+                      key=lambda e: (e.start, e.frequency))
+
+
+def loudest(found, detector):
+    """Level [dB] and frequency [Hz] of the strongest tone of the band in any of the Frames."""
+    watcher = Loudest(found, detector)
+    found.scan(watcher)
+    return watcher.result()
 
 
 def detect(found, detector):
-    """Events of the frames, in order of their begin.
+    """Events of the Frames, in order of their begin.
 
     Begin and end are where the tone passes the threshold, to half a hop. A frame that covers only
     part of a tone shows part of its amplitude (half of it, -6 dB, with the begin in its middle), so
     that a sudden tone seems to begin before its true begin by up to half a window if it is more
     than 6 dB above the threshold, and after it if less.
     """
-    growing, ended = [], []
-    least = detector.reference * 10.0 ** ((detector.threshold - _BETWEEN_LINES) / 20.0)
-    searched = _inside(found, (min(detector.lowest_fundamental, detector.band[0]), detector.band[1]))
-    for frame in np.flatnonzero(found.spectrum[:, searched].max(axis=1, initial=0.0) >= least):
-        late = [t for t in growing if found.time[frame] - found.time[t.frame[-1]] > detector.gap + found.hop * 1.5]
-        ended += late
-        growing = [t for t in growing if t not in late]
-        _extend(growing, frame, *_related_tones(found, frame, detector), detector)
-    events = [_event(track, found, detector) for track in ended + growing]
-    return sorted((e for e in events if e.duration >= detector.shortest), key=lambda e: (e.start, e.frequency))
+    watcher = Search(found, detector)
+    found.scan(watcher)
+    return watcher.result()
 
 
-def _inside(found, band):
-    return (found.frequency >= band[0]) & (found.frequency <= band[1])
-
-
-def _related_tones(found, frame, detector):
-    """Frequencies, levels, orders and fundamentals of the tones of the band in one frame, strongest first."""
-    frequency, levels = _tones(found, frame, detector, detector.band)
-    below, _ = _tones(found, frame, detector, (detector.lowest_fundamental, detector.band[0]))
+def _related_tones(spectrum, found, detector):
+    """Frequencies, levels, orders and fundamentals of the tones of the band in the spectrum (line,) of one frame of
+    Frames, strongest first."""
+    frequency, levels = _tones(spectrum, found, detector, detector.band)
+    below, _ = _tones(spectrum, found, detector, (detector.lowest_fundamental, detector.band[0]))
     below = below[below >= detector.lowest_fundamental]
     accuracy = detector.accuracy * found.frequency[1]
     order, fundamental = ladders(np.concatenate([frequency, below]), accuracy, detector.chance)
@@ -188,14 +175,14 @@ def _related_tones(found, frame, detector):
     return frequency, levels, order[:len(frequency)], fundamental[:len(frequency)]
 
 
-def _tones(spectrum, frame, detector, band):
+def _tones(spectrum, found, detector, band):
     """Frequencies and levels of the tones of one frame in a band (lowest, highest) [Hz], strongest first."""
-    levels = level(spectrum.spectrum[frame]**2, detector.reference)
+    levels = level(spectrum**2, detector.reference)
     lines = scipy.signal.find_peaks(levels, detector.threshold - _BETWEEN_LINES, prominence=detector.prominence)[0]
-    lines = lines[_inside(spectrum, band)[lines]]
+    lines = lines[found.inside(band)[lines]]
     if detector.above:
         lines = lines[levels[lines] >= _about(levels, lines) + detector.above]
-    frequency, root_mean_square = _refine(spectrum, frame, lines)
+    frequency, root_mean_square = _refine(spectrum, found, lines)
     levels = level(root_mean_square**2, detector.reference)
     lowest = max(detector.threshold, levels.max(initial=-np.inf) - detector.range)
     order = [i for i in np.argsort(-levels, kind="stable") if levels[i] >= lowest]
@@ -208,15 +195,15 @@ def _about(levels, lines):
     return np.median(levels[np.clip(lines[:, None] + away, 0, len(levels) - 1)], axis=1)
 
 
-def _refine(spectra, frame, lines):
+def _refine(spectrum, found, lines):
     """Frequency and root mean square of tones between the lines of a Hann spectrum: exact for one steady tone."""
-    spectrum, last = spectra.spectrum[frame], len(spectra.frequency) - 1
+    last = len(found.frequency) - 1
     lower, upper = spectrum[np.maximum(lines - 1, 0)], spectrum[np.minimum(lines + 1, last)]
     side = np.where(upper >= lower, 1, -1)
     ratio = np.maximum(upper, lower) / np.maximum(spectrum[lines], np.finfo(float).tiny)
     shift = np.clip((2 * ratio - 1) / (ratio + 1), 0, 0.5)
-    spacing = spectra.frequency[1]
-    return spectra.frequency[lines] + side * shift * spacing, spectrum[lines] * (1 - shift**2) / np.sinc(shift)
+    spacing = found.frequency[1]
+    return found.frequency[lines] + side * shift * spacing, spectrum[lines] * (1 - shift**2) / np.sinc(shift)
 
 
 def _extend(growing, frame, frequency, levels, orders, fundamentals, detector):
@@ -236,14 +223,14 @@ def _extend(growing, frame, frequency, levels, orders, fundamentals, detector):
         nearest.fundamental.append(fundamental)
 
 
-def _event(track, spectrum, detector):
+def _event(track, found, detector):
     """An event reaches half a hop beyond its frames, or to the ends of the signal."""
     first, last = track.frame[0], track.frame[-1]
-    start = 0.0 if first == 0 else spectrum.time[first] - spectrum.hop / 2
-    end = spectrum.duration if last == len(spectrum.time) - 1 else spectrum.time[last] + spectrum.hop / 2
+    start = 0.0 if first == 0 else found.time[first] - found.hop / 2
+    end = found.duration if last == len(found.time) - 1 else found.time[last] + found.hop / 2
     power = 10**(np.array(track.level) / 10)
     frequency = float(np.average(track.frequency, weights=power))
-    course = np.array([spectrum.time[track.frame], track.frequency, track.level])
+    course = np.array([found.time[track.frame], track.frequency, track.level])
     return Event(frequency, max(track.level), start, end - start, *_origin(track, frequency, power, detector), course)
 
 

@@ -7,6 +7,7 @@ and cividis, signed quantities purple-orange; every category also differs by lin
 
 from contextlib import contextmanager
 from io import BytesIO
+from itertools import pairwise
 
 import numpy as np
 
@@ -133,8 +134,14 @@ def symmetric(values, least=1e-9):
 
 def envelope(time, values, bins=1200):
     """Lowest and highest value in each of ``bins`` time windows, alternating: what a screen can show of a signal."""
-    if len(time) <= 2 * bins:
-        return time, values
-    edges = np.linspace(0, len(time), bins + 1).astype(int)[:-1]
-    low, high = np.minimum.reduceat(values, edges), np.maximum.reduceat(values, edges)
-    return np.repeat(time[edges], 2), np.column_stack([low, high]).ravel()
+    index, shown = outline(values, bins)
+    return time[index], shown
+
+
+def outline(values, bins=1200):
+    """(indices, values) of the same, of an array (sample,) or what gives slices of it."""
+    if len(values) <= 2 * bins:
+        return np.arange(len(values)), values[:]
+    edges = np.linspace(0, len(values), bins + 1).astype(int)
+    windows = (values[first:last] for first, last in pairwise(edges))
+    return np.repeat(edges[:-1], 2), np.array([(window.min(), window.max()) for window in windows]).ravel()

@@ -6,9 +6,10 @@ import numpy as np
 import pytest
 import scipy
 
+from pipeline.physics.signals.frames import frames
 from pipeline.physics.signals.noise_events import BROADBAND, HARMONIC, SQUEAL, SWEEP, broadband, tonal
 from pipeline.physics.signals.spectra import a_weighting
-from pipeline.physics.signals.squeal_detector import Detector, frames
+from pipeline.physics.signals.squeal_detector import Detector
 
 RATE = 51200
 #: as the stage noise_events has it

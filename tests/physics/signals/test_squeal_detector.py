@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from pipeline.contract.errors import ConfigError
-from pipeline.physics.signals.squeal_detector import Detector, detect, frames, loudest
+from pipeline.physics.signals.frames import frames
+from pipeline.physics.signals.squeal_detector import Detector, detect, loudest
 
 RATE = 100e3
 TIME = np.arange(100000) / RATE

@@ -51,7 +51,7 @@ def _channels(product):
         for key, channel in run.channels.items():
             count, lost = len(channel.samples), int(np.sum(np.diff(channel.missing, axis=1)))
             rows.append((name, key, str(channel.measures), str(channel.role),
-                         quantity(np.abs(channel.samples).max(), str(channel.unit), 3),
+                         quantity(pictures.largest(channel), str(channel.unit), 3),
                          quantity(channel.rate, "Hz", 4), quantity(count / float(channel.rate), "s", 3),
                          percent(lost / count, 2)))
     head = ("run", "channel", "measures", "role", "largest", "sampling rate", "length", "missing")

@@ -2,11 +2,17 @@
 
 import numpy as np
 
+from pipeline.contract.mapped import Slices, blocks
 from pipeline.views.figures.number_format import scale
-from pipeline.views.figures.style import COLOURS, FAINT, MARKERS, drawing, envelope, legend, png, svg
+from pipeline.views.figures.style import COLOURS, FAINT, MARKERS, drawing, legend, outline, png, svg
 
 #: channels that one picture shows
 MOST = 8
+
+
+def largest(channel):
+    """Largest absolute value of the samples of a Channel."""
+    return max((float(np.abs(block).max(initial=0.0)) for block in blocks(channel.samples)), default=0.0)
 
 
 def channels(run, dpi):
@@ -39,9 +45,10 @@ def friction(product):
 
 def _channel(axes, name, channel, colour):
     rate, begin = float(channel.rate), float(channel.begin)
-    time = begin + np.arange(len(channel.samples)) / rate
-    unit, size = scale(np.abs(channel.samples).max(initial=0.0), str(channel.unit))
-    axes.plot(*envelope(time, channel.samples / size), color=colour, lw=0.7)
+    index, samples = outline(Slices(channel.samples))
+    unit, size = scale(largest(channel), str(channel.unit))
+    axes.plot(begin + index / rate, samples / size, color=colour, lw=0.7)
     for first, last in channel.missing:
         axes.axvspan(begin + first / rate, begin + last / rate, color=FAINT, alpha=0.4, lw=0)
-    axes.set(ylabel=name if unit == "1" else f"{name} / {unit}", xlim=(time[0], max(time[-1], time[0] + 1 / rate)))
+    axes.set(ylabel=name if unit == "1" else f"{name} / {unit}",
+             xlim=(begin, begin + max(len(channel.samples) - 1, 1) / rate))

@@ -2,6 +2,8 @@
 
 import numpy as np
 
+from pipeline.contract import store
+from pipeline.contract.mapped import map_of
 from pipeline.products import MeasuredFriction, Recording, Run
 from pipeline.recordings.samples import channel
 from pipeline.views.chapters.bench.recording import chapter
@@ -31,6 +33,15 @@ def test_the_picture_shows_samples_and_gaps():
     first = recording.channels(run(whole), 60)
     assert recording.channels(run(whole), 60) == first != recording.channels(run(gap), 60)
     assert recording.channels(run(2 * whole), 60) != first
+
+
+def test_a_channel_in_a_file_looks_as_in_memory(tmp_path):
+    values = np.sin(np.arange(300_000) / 5000) * np.linspace(-2, 1, 300_000)
+    store.write(Recording(source=[], runs={"long": run(values)}), tmp_path / "recording.h5", {})
+    outside, inside = (store.read(Recording, tmp_path / "recording.h5", whole).runs["long"] for whole in (False, True))
+    assert map_of(outside.channels["force"].samples) is not None
+    assert recording.channels(outside, 60) == recording.channels(inside, 60)
+    assert recording.largest(outside.channels["force"]) == 1e3 * np.abs(values).max()
 
 
 def rubbed(scale=1.0):
