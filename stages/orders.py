@@ -5,8 +5,15 @@ from functools import partial
 import numpy as np
 
 from pipeline.contract import ConfigError, Context, Quantity, Section, option, stage
-from pipeline.physics.signals.order_tracking import campbell, over_speed, shaft_of, shaft_of_pulses, smooth, track
-from pipeline.physics.signals.outstanding_orders import strongest
+from pipeline.physics.signals.orders.order_tracking import (
+    campbell,
+    over_speed,
+    shaft_of,
+    shaft_of_pulses,
+    smooth,
+    track,
+)
+from pipeline.physics.signals.orders.outstanding_orders import strongest
 from pipeline.products import Orders, OrderSpectra, Recording
 from pipeline.recordings.samples import with_gaps
 

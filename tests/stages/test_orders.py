@@ -9,7 +9,7 @@ from pipeline.contract import ConfigError
 from pipeline.products import Recording, Run
 from pipeline.recordings.samples import channel
 from stages.orders import Settings, orders
-from tests.physics.signals.ramp import FIRST, LAST, RATE, SLOW, TURNS, T, order
+from tests.physics.signals.orders.ramp import FIRST, LAST, RATE, SLOW, TURNS, T, order
 
 NOISE = 0.05 * np.random.default_rng(1).standard_normal(len(T))
 

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 import scipy
 
-from pipeline.physics.signals.order_tracking import smooth, track
-from pipeline.physics.signals.outstanding_orders import strongest
-from tests.physics.signals.ramp import LAST, RATE, T, order, ramp, tracked
+from pipeline.physics.signals.orders.order_tracking import smooth, track
+from pipeline.physics.signals.orders.outstanding_orders import strongest
+from tests.physics.signals.orders.ramp import LAST, RATE, T, order, ramp, tracked
 
 
 @pytest.mark.exact

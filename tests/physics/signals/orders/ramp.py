@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from pipeline.physics.signals.order_tracking import shaft_of, smooth, track
+from pipeline.physics.signals.orders.order_tracking import shaft_of, smooth, track
 
 RATE, END = 8000.0, 20.0
 T = np.arange(round(END * RATE)) / RATE

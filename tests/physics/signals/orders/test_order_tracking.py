@@ -3,9 +3,16 @@
 import numpy as np
 import pytest
 
-from pipeline.physics.signals.order_tracking import campbell, over_speed, shaft_of, shaft_of_pulses, smooth, track
-from pipeline.physics.signals.outstanding_orders import strongest
-from tests.physics.signals.ramp import END, FIRST, LAST, RATE, SLOW, TURNS, T, order, ramp, tracked
+from pipeline.physics.signals.orders.order_tracking import (
+    campbell,
+    over_speed,
+    shaft_of,
+    shaft_of_pulses,
+    smooth,
+    track,
+)
+from pipeline.physics.signals.orders.outstanding_orders import strongest
+from tests.physics.signals.orders.ramp import END, FIRST, LAST, RATE, SLOW, TURNS, T, order, ramp, tracked
 
 
 @pytest.mark.exact

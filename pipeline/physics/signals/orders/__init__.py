@@ -1,0 +1,1 @@
+"""Orders of a shaft: what turns with it, and which of it stands out."""
