@@ -123,7 +123,7 @@ def vibrations(brake, run):
 
 def small_motion(brake, run):
     """State matrix of (q, q', friction that lags) about the steady state of a run. ConvergenceError as ``record``."""
-    size, stiffness, damping = len(brake.mass), pad_joints.with_shim(brake, parts(brake, run)), brake.damping
+    size, stiffness, damping = len(brake.mass), parts(brake, run), brake.damping
     push, fed, rate = np.zeros((size, 0)), np.zeros((0, 2 * size)), np.zeros(0)
     if run.load > 0:
         place, press, slope = pressed(brake, run)
@@ -140,16 +140,16 @@ def small_motion(brake, run):
             else:
                 stiffness, damping = (whole + brake.tangent.T @ part for whole, part in zip(
                     (stiffness, damping), np.hsplit(drawn, 2), strict=True))
-    whole = np.zeros((2 * size + len(rate),) * 2, stiffness.dtype)
+    whole = np.zeros((2 * size + len(rate),) * 2)
     whole[:size, size:2 * size] = np.eye(size)
     whole[size:2 * size] = np.linalg.solve(brake.mass, np.hstack((-stiffness, -damping, push)))
     whole[2 * size:] = np.hstack((fed, -np.diag(rate)))
-    return whole
+    return pad_joints.relaxing(brake, whole)
 
 
 def parts(brake, run):
     """Stiffness (n, n) of the parts, as warm and as loaded as in a run, and of linings that hold on."""
-    stiffness = brake.stiffness.copy()
+    stiffness = pad_joints.relaxed(brake)
     if heat := brake.hidden.get("heated_disc"):
         cold = np.ones(len(stiffness))
         cold[:brake.disc] = np.sqrt(1 - heat["drop"] * run.warmth)
