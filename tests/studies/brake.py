@@ -26,7 +26,7 @@ from tests.studies.forced import answered, by_stages, recorded, shared_out
 
 ROOT = Path(__file__).parents[2]
 CONFIG = ROOT / "configs" / "disc_brake_bench.yaml"
-DRAWS, CONTROLS = 2, 6
+CONTROLS = 6
 EFFECTS = (*brake.HIDDEN, *FURTHER)
 #: (class, what is hidden) of the practice files, in the order of their names; the last is of another brake
 ANOTHER = "another_brake"
@@ -50,9 +50,10 @@ class Plan:
 
 
 def plans(first=7000):
-    """Two draws of each effect, one after the other through all effects, then controls, then what no catalogue has."""
-    found = [("effect", name) for _ in range(DRAWS) for name in EFFECTS] + [("control", "")] * CONTROLS
-    return [Plan(first + k, *one) for k, one in enumerate([*found, *(("foreign", name) for name in brake.FOREIGN)])]
+    """A draw of each effect, controls and what no catalogue has, then another draw of each effect."""
+    rounds = [("effect", name) for name in EFFECTS]
+    empty = [*[("control", "")] * CONTROLS, *(("foreign", name) for name in brake.FOREIGN)]
+    return [Plan(first + k, *one) for k, one in enumerate([*rounds, *empty, *rounds])]
 
 
 def write(plan, folder):

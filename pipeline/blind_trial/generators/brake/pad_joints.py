@@ -4,8 +4,8 @@ A shim behind the outer pad relaxes under the fingers, three branches a decade o
 
     F = sum_j F_j + k_0 e,    F_j' = g e' - F_j / tau_j,
 
-which lose the share h of what they store alike at all frequencies of the band (M. A. Biot, Proc. 3rd US Nat. Congr. Appl.
-Mech., 1958) and store as much as the fingers without shim at a kilohertz. A pad leans on its abutment with
+which lose h times what the fingers store, alike at all frequencies of the band (M. A. Biot, Proc. 3rd US Nat. Congr.
+Appl. Mech., 1958), and are as stiff as the fingers without shim at a kilohertz. A pad leans on its abutment with
 
     F = k x + c x^3,
 
