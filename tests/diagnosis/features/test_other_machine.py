@@ -40,7 +40,7 @@ def test_many_poles_far_from_all_modes_are_refused_with_what_to_do(model):
     with pytest.raises(ConfigError) as refused:
         refuse(None, {"rest": shown([120, 140, 160, 180, 800, 1200, 1600]), "sliding": shown([400, 810])}, RULES)
     told = str(refused.value)
-    assert "4 of 9 poles (in rest: 120, 140, 160, 180 Hz) farther off" in told and "25%" in told
+    assert "4 of 9 poles (in rest: 120, 140, 160, 180 Hz) farther off" in told and "20%" in told
     assert "is this a recording of that machine?" in told
 
 
