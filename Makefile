@@ -16,7 +16,7 @@ READY  := .venv/.ready
 BIN    := .venv/bin
 
 .DEFAULT_GOAL := help
-.PHONY: help setup run test coverage test-kernels test-slow test-study bench trial trial_sealed trial_again study_diagnosis study_squeal study_lines study_knock_out study_sharp paper_micro study_micro study_several study_disturbed study_second_family pin_bench worn_bench lint clean $(STAGES)
+.PHONY: help setup run test coverage test-kernels test-slow test-study bench trial trial_sealed trial_again study_diagnosis study_squeal study_brake study_lines study_knock_out study_sharp paper_micro study_micro study_several study_disturbed study_second_family pin_bench brake_bench worn_bench lint clean $(STAGES)
 
 help:            ## show this list
 	@echo "usage: make TARGET [CASE=disc_brake] [ARGS=...]      cases: $(basename $(notdir $(wildcard configs/*.yaml)))"
@@ -82,6 +82,9 @@ study_diagnosis: $(READY)  ## identification rates for hidden physics on forced 
 study_squeal: $(READY)  ## identification rates on the practice pin-on-disc bench; resumes case by case
 	$(BIN)/python -m tests.studies.self_excited $(ARGS)
 
+study_brake: $(READY)  ## identification rates on the practice disc brake; resumes case by case
+	$(BIN)/python -m tests.studies.brake $(ARGS)
+
 study_lines: $(READY)  ## whether a disc flexible in the loop is named from lines heard on concealed benches; resumes case by case
 	$(BIN)/python -m tests.studies.lines $(ARGS)
 
@@ -108,6 +111,9 @@ study_second_family: $(READY)  ## identification rates on rigs that truly switch
 
 pin_bench: $(READY)  ## write the practice recordings of configs/pin_on_disc_bench.yaml to data/runs/practice
 	$(BIN)/python -m tests.studies.self_excited --practice
+
+brake_bench: $(READY)  ## write the practice recordings of configs/disc_brake_bench.yaml to data/runs/practice
+	$(BIN)/python -m tests.studies.brake --practice
 
 worn_bench: $(READY)  ## write the practice recordings of configs/worn_pad.yaml to data/runs/practice
 	$(BIN)/python -m tests.studies.worn

@@ -6,6 +6,7 @@ from pipeline.contract import BrakechainError, ConfigError
 from pipeline.diagnosis.experiment_design.next_features import planned_records
 from pipeline.diagnosis.experiment_design.next_run import altered
 from pipeline.diagnosis.features.limit_cycle_check import Squeals
+from pipeline.diagnosis.features.other_machine import OtherMachine, refuse
 from pipeline.diagnosis.features.poles import features, observed, predicted
 from pipeline.diagnosis.forced_response import check_names, chosen, nominal_parameters
 from pipeline.diagnosis.problem import DiagnosisProblem, nominal
@@ -47,12 +48,14 @@ class Rooted:
 def pole_problem(bench, recorded, settings, band):
     """DiagnosisProblem over {name: Recorded} of a Bench whose section ``bench.poles`` is ``band``.
 
-    ConfigError for unknown runs, effects and parameters, and for recordings that show no pole twice.
+    ConfigError for unknown runs, effects and parameters, and for recordings that show no pole twice, or those of
+    another machine.
     """
     solver = procedure(settings, few=True, starts=_STARTS)
     shown = features(bench, recorded, band, solver.rules.poles)
     check_names("held_out", settings.held_out, shown)
     observations, units = observed(shown, settings.held_out)
+    refuse(bench, shown, solver.rules.poles)
     squeals = None
     if settings.saturated_squeal:
         check_names("saturated_squeal.runs", settings.saturated_squeal.runs, recorded)
@@ -70,7 +73,8 @@ def pole_problem(bench, recorded, settings, band):
     return DiagnosisProblem(
         problem, noises | {p.name: noises[p.like] for p in planned},
         candidates(bench, brief, chosen(settings), settings.places, priors=settings.priors), units, solver,
-        squeals=squeals, next_runs=_predictable(problem, blank.values(), must=bool(settings.next)))
+        squeals=squeals, revision=OtherMachine(solver.rules.poles),
+        next_runs=_predictable(problem, blank.values(), must=bool(settings.next)))
 
 
 def _predictable(problem, runs, must):

@@ -113,12 +113,13 @@ class SquealCheck:
     agrees: Array = count("who feature", "1 where the mean lies within the spread of both from that recorded")
 
 
-@product(version=7)
+@product(version=8)
 class Diagnosis:
     """The verdict on recordings: what differs, where, what is missing, how sure, and what to measure next."""
 
     verdict: Array = text("", "consistent, parameters, missing, tie, sensor, numerics or unknown")
     reason: Array = text("reason", "why, in sentences")
+    other_machine: Array = text("", "why these may be recordings of another machine; empty where nothing speaks for that")
     channel: Array = text("channel", "sensors, or features")
     channel_unit: Array = text("channel", "their SI units")
     named: Array = count("named", "rows of the hypotheses that the verdict names; all of a tie")

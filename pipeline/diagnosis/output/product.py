@@ -38,10 +38,11 @@ def product(problem, diagnosis, contacts=None):
     squeals = problem.squeals.compared(recalibrated, completed) if problem.squeals else {}
     channels, rows, left = tuple(problem.units), problem.rules.rows(), remainder(problem, diagnosis)
     result = Diagnosis(
-        verdict=diagnosis.decision.verdict, reason=list(diagnosis.decision.reasons), channel=channels,
-        channel_unit=[problem.units[c] for c in channels], **table, **_parameters(completed, std, table),
-        **combinations(diagnosis), **_leading(diagnosis, table), **_levels(problem, diagnosis), left_floors=left.floors,
-        left_sentence=left.sentence, left_candidate=left.candidate, **_starts(runs, completed, std),
+        verdict=diagnosis.decision.verdict, reason=list(diagnosis.decision.reasons), other_machine="",
+        channel=channels, channel_unit=[problem.units[c] for c in channels], **table,
+        **_parameters(completed, std, table), **combinations(diagnosis), **_leading(diagnosis, table),
+        **_levels(problem, diagnosis), left_floors=left.floors, left_sentence=left.sentence,
+        left_candidate=left.candidate, **_starts(runs, completed, std),
         completed_step=problem.step / 2**halvings if (halvings := completed.hypothesis.halvings) else 0.0,
         fit=[_part(part) for part in fits], unexplained_share=unexplained(recalibrated, completed, problem.rules),
         drift_p_value=diagnosis.weighing.drift.p_value,

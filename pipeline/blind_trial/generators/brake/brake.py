@@ -15,6 +15,7 @@ import numpy as np
 from scipy.linalg import eig
 from scipy.signal import butter, sosfilt
 
+from pipeline.blind_trial.generators.brake import pad_joints
 from pipeline.blind_trial.generators.brake.brake_parts import HIGHEST, PADS
 from pipeline.blind_trial.generators.spring_mass.sensors import converted
 from pipeline.contract.errors import ConvergenceError
@@ -125,9 +126,9 @@ def small_motion(brake, run):
     size, stiffness, damping = len(brake.mass), parts(brake, run), brake.damping
     push, fed, rate = np.zeros((size, 0)), np.zeros((0, 2 * size)), np.zeros(0)
     if run.load > 0:
-        _, press, slope = pressed(brake, run)
+        place, press, slope = pressed(brake, run)
         loss = brake.share * brake.hidden.get("contact_damping", {}).get("damping", 0.0)
-        stiffness = stiffness + (brake.normal.T * slope) @ brake.normal
+        stiffness = pad_joints.leaning(brake, stiffness, place) + (brake.normal.T * slope) @ brake.normal
         damping = damping + (brake.normal.T * loss) @ brake.normal
         if run.speed > 0:
             _, gain, drag = friction(brake, run, press)
@@ -143,12 +144,12 @@ def small_motion(brake, run):
     whole[:size, size:2 * size] = np.eye(size)
     whole[size:2 * size] = np.linalg.solve(brake.mass, np.hstack((-stiffness, -damping, push)))
     whole[2 * size:] = np.hstack((fed, -np.diag(rate)))
-    return whole
+    return pad_joints.relaxing(brake, whole)
 
 
 def parts(brake, run):
     """Stiffness (n, n) of the parts, as warm and as loaded as in a run, and of linings that hold on."""
-    stiffness = brake.stiffness.copy()
+    stiffness = pad_joints.relaxed(brake)
     if heat := brake.hidden.get("heated_disc"):
         cold = np.ones(len(stiffness))
         cold[:brake.disc] = np.sqrt(1 - heat["drop"] * run.warmth)
@@ -184,10 +185,12 @@ def pressed(brake, run):
         press = force * (approach / reach) ** (1 + exponent)
         slope = (1 + exponent) * press / approach
         drawn, gain, _ = friction(brake, run, press) if run.speed > 0 else np.zeros((3, len(press)))
-        error = stiffness @ displacement - press @ (normal + drawn[:, None] * tangent) - brake.press * run.load
-        step = np.linalg.solve(stiffness + ((normal + gain[:, None] * tangent).T * slope) @ normal, error)
+        held = pad_joints.carried(brake, stiffness @ displacement, displacement)
+        error = held - press @ (normal + drawn[:, None] * tangent) - brake.press * run.load
+        there = pad_joints.leaning(brake, stiffness, displacement)
+        step = np.linalg.solve(there + ((normal + gain[:, None] * tangent).T * slope) @ normal, error)
         displacement = displacement - step
-        if abs(normal @ step).max() < _TOLERANCE * reach:
+        if max(abs(normal @ step).max(), pad_joints.moved(brake, step)) < _TOLERANCE * reach:
             break
     else:
         raise ConvergenceError("practice brake", "a steady state", f"none in {run.name}")

@@ -26,6 +26,7 @@ from pipeline.blind_trial.generators.brake.brake_model import (
     nominal,
 )
 from pipeline.blind_trial.generators.brake.brake_parts import LOSS, NOMINAL, ORDERS, SHAPES, built
+from pipeline.blind_trial.generators.brake.pad_joints import FURTHER
 from pipeline.blind_trial.generators.spring_mass.detectability import Explained
 from pipeline.blind_trial.generators.spring_mass.placement import BELOW
 from pipeline.blind_trial.generators.spring_mass.rig_case import FAR
@@ -43,10 +44,12 @@ _SIZE = {"contact_stiffness_law": "exponent", "contact_damping": "damping", "fal
 _LARGEST, _STEP, _ROUNDS, _NEAR = 0.3, 1e-3, 20, 0.2
 
 
-def write(draw, folder):
-    """A disc brake, tapped lifted, pressed and sliding: its two files, and its truth."""
+def write(draw, folder, shape=None):
+    """A disc brake, tapped lifted, pressed and sliding: its two files, and its truth. Its ``shape`` is drawn unless
+    given."""
     random = np.random.default_rng([draw.seed, 2])
-    shape = SHAPES[random.integers(len(SHAPES))]
+    drawn_shape = SHAPES[random.integers(len(SHAPES))]
+    shape = shape or drawn_shape
     values = {name: value * _factor(random, SPREAD[name]) for name, value in NOMINAL.items()}
     values |= {f"loss_{order}": LOSS * _factor(random, SPREAD["loss"]) for order in range(ORDERS + 1)}
     far = str(random.choice(tuple(_FAR_OFF))) if draw.kind == "wrong_value" else ""
@@ -124,11 +127,11 @@ def _factor(random, spread):
 
 def _sizes(random, name):
     """Values of what is hidden, and where it is."""
-    ends = {**brake.HIDDEN, **brake.FOREIGN, **brake.DECOYS}[name]
+    ends = {**brake.HIDDEN, **brake.FOREIGN, **brake.DECOYS, **FURTHER}[name]
     sizes = {key: float(random.uniform(*pair)) for key, pair in ends.items()}
     where = {"doublet_split": ("order", SPLIT), "attached_mass": ("sensor", (0, 1, 2)),
              "added_stiffness": ("sensor", (0, 1, 2)), "resonant_clip": ("sensor", (0, 1, 2, 3, 5)),
-             "moving_base": ("pad", (0, 1))}
+             "moving_base": ("pad", (0, 1)), "cubic_stiffness": ("pad", (0, 1))}
     where |= dict.fromkeys(brake.DECOYS, ("channel", ("laser_outer", "accelerometer")))
     if name in where:
         key, options = where[name]
@@ -138,7 +141,7 @@ def _sizes(random, name):
 
 def _told(name, values):
     """{name, place, parameters} of what is hidden, in the words of the catalogue where they mean the same."""
-    location = {"heated_disc": "disc", "slack_abutment": "abutments"}.get(name, "contact")
+    location = {"heated_disc": "disc", "slack_abutment": "abutments", "shim_damping": "fingers"}.get(name, "contact")
     known = {key: value for key, value in values.items() if key not in ("order", "sensor", "pad", "channel")}
     if name == "doublet_split":
         location, known = f"{WORDS[values['order']]} 1", {}

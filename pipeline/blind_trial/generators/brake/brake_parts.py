@@ -93,7 +93,8 @@ class _Family:
 def built(values, shape, scale=None, hidden=None):
     """The Brake of ``values`` (those of NOMINAL, and loss_N of the waves of order N) and one of SHAPES.
 
-    ``scale`` {(frequency, mass or damping, order): factor} of the first wave of an order.
+    ``scale`` {(frequency, mass or damping, order): factor} of the first wave of an order. Other pads than PAD have
+    ``values["pad"]`` kg, of the same shape.
     """
     families = _families(Disc(*shape, values["young"], POISSON, values["density"]), values, scale or {})
     squared, loss = (np.concatenate([getattr(family, name) for family in families]) for name in ("squared", "loss"))
@@ -102,9 +103,10 @@ def built(values, shape, scale=None, hidden=None):
     pads[0, disc:disc + 3] = pads[1, disc + 3:disc + 6] = ON_PAD
     struck, *seen = (np.pad(_seen(families, np.array([angle]), np.array([laser]))[0], ((0, 0), (0, 7)))
                      for angle in (TAPPED, *LASERS))
-    press, none = np.zeros(disc + 7), np.zeros(7)
+    press, none, heavier = np.zeros(disc + 7), np.zeros(7), values.get("pad", PAD) / PAD
     press[[disc + 4, disc + 6]] = -1.0
-    brake = Brake(np.diag(np.append(np.ones(disc), (PAD, PAD, PITCH, PAD, PAD, PITCH, CALIPER))),
+    pads_mass = heavier * np.array((PAD, PAD, PITCH, PAD, PAD, PITCH))
+    brake = Brake(np.diag(np.concatenate((np.ones(disc), pads_mass, (CALIPER,)))),
                   np.diag(np.append(2 * loss * np.sqrt(squared), none)), np.diag(np.append(squared, none)),
                   *_linings(families, shape, disc), np.vstack((*seen, pads[[0, 0, 1]])), np.vstack((struck, pads)),
                   press, disc, values, hidden or {})

@@ -87,7 +87,9 @@ def _effect(product, k):
 
 
 def _unknown(product):
-    """Headline where nothing is named: what leads, or that the catalogue does not hold it."""
+    """Headline where nothing is named: what leads, or that the catalogue, or the machine, is another one."""
+    if product.other_machine.item():
+        return "The recordings do not fit this model: are they of another machine?"
     if not len(product.leading):
         return f"Unmodelled physics{_at(product)}, outside the catalogue"
     k, = product.leading
@@ -97,6 +99,8 @@ def _unknown(product):
 
 def _leading(product):
     """What leads where nothing is named, and what stays."""
+    if product.other_machine.item():
+        return product.other_machine.item()
     if not len(product.leading):
         return "No effect of the catalogue helps beyond chance: the physics lies outside it."
     k, = product.leading

@@ -38,8 +38,8 @@ def roots(bench, run=SLIDING):
 def test_it_uses_nothing_of_the_diagnosis():
     here = "pipeline.blind_trial.generators"
     assert imported(f"{here}.brake.brake") == {f"{here}.brake.brake", f"{here}.brake.brake_parts",
-                                               f"{here}.brake.annulus", f"{here}.spring_mass.sensors",
-                                               "pipeline.contract.errors"}
+                                               f"{here}.brake.pad_joints", f"{here}.brake.annulus",
+                                               f"{here}.spring_mass.sensors", "pipeline.contract.errors"}
 
 
 @pytest.mark.exact
