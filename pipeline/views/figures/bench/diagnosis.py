@@ -24,6 +24,8 @@ MODELS = (("nominal", FAINT, ":"), ("recalibrated", ORANGE, "--"), ("completed",
 OCTAVES = 8
 #: runs with at most this many samples hold features
 FEATURES = 64
+#: channels of a mismatch map that have room for names and numbers; its widest left margin, and width of a letter [inch]
+NAMED, WIDEST, LETTER = 12, 1.7, 0.083
 #: bars of the picture of hypotheses, and panels of that of parameters
 BARS, PANELS = 8, 6
 
@@ -69,21 +71,27 @@ def mismatch_map(product):
     edges, recalibrated = table_of(product, "recalibrated")
     tables = (("recalibrated nominal model", recalibrated), ("completed model", table_of(product, "completed")[1]))
     top = max(2.0, float(np.nanmax(recalibrated)))
-    with drawing(1.35 + 0.56 * len(product.runs), left=1.1, top=0.3, bar=True) as figure:
+    runs = [_run_label(n, r) for n, r in product.runs.items()]
+    left = np.clip(0.3 + LETTER * max(len(line) for label in runs for line in label.split("\n")), 1.1, WIDEST)
+    with drawing(1.35 + 0.56 * len(product.runs), left=left, top=0.3, bar=True) as figure:
         from matplotlib.colors import LogNorm
 
         for axes, (title, table) in zip(figure.subplots(2, sharex=True), tables, strict=True):
             shown = axes.imshow(np.maximum(table, 1.0), aspect="auto", cmap=SEQUENTIAL, norm=LogNorm(1.0, top))
-            _tiles(axes, shown, table)
+            if table.shape[1] <= NAMED:
+                _tiles(axes, shown, table)
             axes.set_title(title, loc="left", pad=3)
-            axes.set_yticks(range(len(product.runs)), [_run_label(n, r) for n, r in product.runs.items()])
+            axes.set_yticks(range(len(runs)), runs)
             axes.grid(False)
             colour_bar(axes, shown, "over noise")
         if table_of is mismatch:
             axes.set_xticks(np.arange(0, len(edges), 2) - 0.5, [f"{e:.3g}" for e in edges[::2]])
             axes.set_xlabel("frequency / Hz")
-        else:
+        elif len(edges) <= NAMED:
             axes.set_xticks(range(len(edges)), edges, rotation=0 if len(edges) < 4 else 40)
+        else:
+            axes.set_xticks(range(0, len(edges), 5), range(1, len(edges) + 1, 5))
+            axes.set_xlabel("gains, delays, then poles")
         return svg(figure)
 
 
