@@ -17,6 +17,7 @@ from pipeline.physics.signals.occurrence import Conditions, even_edges, occurren
 from pipeline.physics.signals.spectra import HEARING, level
 from pipeline.physics.signals.squeal_detector import Detector, Loudest
 from pipeline.products import Excerpt, NoiseEvents, OccurrenceMap, Recording, Spectrogram
+from pipeline.products.sound import OWN_TONES
 from pipeline.recordings.samples import with_gaps
 from pipeline.views.pages.sound_file import sound_files
 
@@ -67,8 +68,6 @@ _INSTANT, _ORIGIN = 0.05, {"temperature": 273.15}
 _SLOW, _AT_ONCE = 200.0, 1 << 20
 #: most frames and lines of a spectrogram that is kept for the page
 _KEPT = 600, 320
-#: kinds of events that have a tone of their own
-_OWN = ("squeal", "moan", "groan", "judder")
 _FIELDS = ("kind", "frequency", "lowest", "highest", "level", "start", "duration", "fundamental", "order")
 
 
@@ -232,7 +231,7 @@ def _product(kept, recording, modes, settings):
     values = np.array([[value or 0.0 for value in row] for row in told], float).reshape(known.shape)
     columns = {name: [getattr(event, name) for _, event in rows] for name in _FIELDS}
     columns["start"] = [begins[k] + event.start for k, event in rows]
-    near = [modes.nearest([event.frequency], settings.near)[0] if event.kind in _OWN else -1 for _, event in rows]
+    near = [modes.nearest([event.frequency], settings.near)[0] if event.kind in OWN_TONES else -1 for _, event in rows]
     octaves = [event.frequency * np.array([2.0**-0.5, 2.0**0.5]) for _, event in rows]
     chance = [[modes.covered(octave, settings.near, unstable) for unstable in (False, True)] for octave in octaves]
     return NoiseEvents(

@@ -83,6 +83,10 @@ class OccurrenceMap:
     level: Array = quantity("1", "first second", "largest level of the events there, dB(A); dB re 1e-6 m/s^2 if no run has a microphone; 0 where none")
 
 
+#: kinds of NoiseEvents that have a tone of their own, which may be that of a mode
+OWN_TONES = ("squeal", "moan", "groan", "judder")
+
+
 @product(version=4)
 class NoiseEvents:
     """Squeal and other noise events in recordings. A record is a channel of a run."""

@@ -5,9 +5,7 @@ lacks; rules were tried on other draws (seeds below 100). 'make brake_bench' wri
 case that has its answer is not solved again. Cases are shared out over processes.
 """
 
-import argparse
 import json
-import os
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
@@ -22,7 +20,8 @@ from pipeline.blind_trial.metrics.criteria import judged
 from pipeline.blind_trial.metrics.rates import line, rate
 from pipeline.contract import documents
 from pipeline.contract.errors import ConvergenceError
-from tests.studies.forced import answered, by_stages, recorded, shared_out
+from tests.studies.forced import answered, by_stages, recorded
+from tests.studies.self_excited import commanded
 
 ROOT = Path(__file__).parents[2]
 CONFIG = ROOT / "configs" / "disc_brake_bench.yaml"
@@ -128,20 +127,7 @@ def practice(folder):
 
 def main():
     """Write the practice files, or solve what is chosen and print the table."""
-    parser = argparse.ArgumentParser(prog="make study_brake", description=__doc__)
-    parser.add_argument("--practice", action="store_true", help="write the practice files and stop")
-    parser.add_argument("--folder", type=Path, default=ROOT / "data" / "runs")
-    parser.add_argument("--only", nargs="*", help="hidden physics; 'control' for none; default all")
-    parser.add_argument("--most", type=int, default=None, help="so many cases at most")
-    parser.add_argument("--first", type=int, default=7000, help="seed of the first draw")
-    parser.add_argument("--workers", type=int, default=os.cpu_count(), help="processes; default all processors")
-    chosen = parser.parse_args()
-    if chosen.practice:
-        practice(chosen.folder / "practice")
-        return
-    wanted = [p for p in plans(chosen.first) if not chosen.only or (p.hidden or "control") in chosen.only]
-    results = shared_out(partial(solve, chosen.folder / "study_brake"), wanted[:chosen.most], chosen.workers)
-    print("\n".join(table(results)))
+    commanded("study_brake", __doc__, 7000, practice, plans, solve, table)
 
 
 if __name__ == "__main__":

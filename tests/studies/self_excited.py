@@ -101,20 +101,25 @@ def practice(folder):
 
 def main():
     """Write the practice files, or solve what is chosen and print the table."""
-    parser = argparse.ArgumentParser(prog="make study_squeal", description=__doc__)
+    commanded("study_squeal", __doc__, 1000, practice, plans, solve, table)
+
+
+def commanded(name, description, first, practice, plans, solve, table):
+    """Run the study ``name`` as the command line asks: ``practice(folder)``, or ``solve(folder, plan)`` of what is
+    chosen of ``plans(first)`` and its ``table(results)``."""
+    parser = argparse.ArgumentParser(prog=f"make {name}", description=description)
     parser.add_argument("--practice", action="store_true", help="write the practice files and stop")
     parser.add_argument("--folder", type=Path, default=ROOT / "data" / "runs")
     parser.add_argument("--only", nargs="*", help="hidden physics; 'control' for none; default all")
     parser.add_argument("--most", type=int, default=None, help="so many cases at most")
-    parser.add_argument("--first", type=int, default=1000, help="seed of the first draw")
+    parser.add_argument("--first", type=int, default=first, help="seed of the first draw")
     parser.add_argument("--workers", type=int, default=os.cpu_count(), help="processes; default all processors")
     chosen = parser.parse_args()
     if chosen.practice:
         practice(chosen.folder / "practice")
         return
     wanted = [p for p in plans(chosen.first) if not chosen.only or (p.hidden or "control") in chosen.only]
-    folder = chosen.folder / "study_squeal"
-    results = shared_out(partial(solve, folder), wanted[:chosen.most], chosen.workers)
+    results = shared_out(partial(solve, chosen.folder / name), wanted[:chosen.most], chosen.workers)
     print("\n".join(table(results)))
 
 

@@ -47,16 +47,21 @@ def grouped(frequency, within):
 
 def nearest_mixture(shape, seen):
     """Part (n,) of a real ``shape`` (n,) that mixtures of the columns of ``seen`` (n, k) make up."""
-    basis, size, _ = np.linalg.svd(seen, full_matrices=False)
-    basis = basis[:, size > 1e-9 * max(size.max(initial=0.0), 1e-300)]
+    basis = _basis(seen)
     return basis @ (basis.T @ shape)
 
 
 def assurance(shapes, groups):
     """MAC (t, g) of real ``shapes`` (t, n) and of what each group shows, [(n, k)]."""
     size = np.maximum(np.sum(shapes ** 2, axis=1), 1e-300)
-    return np.array([[np.sum(nearest_mixture(x, seen) ** 2) for seen in groups] for x in shapes]).reshape(
-        len(shapes), len(groups)) / size[:, None]
+    return np.array([np.sum((shapes @ _basis(seen)) ** 2, axis=1) / size for seen in groups]).reshape(
+        len(groups), len(shapes)).T
+
+
+def _basis(seen):
+    """Orthonormal basis (n, i) of the mixtures of columns (n, k)."""
+    basis, size, _ = np.linalg.svd(seen, full_matrices=False)
+    return basis[:, size > 1e-9 * max(size.max(initial=0.0), 1e-300)]
 
 
 def real(shape):

@@ -76,8 +76,7 @@ def update(model, seen, test, count):
     for _ in range(_STEPS):
         groups = grouped(modes.frequency, CLOSE)
         frequency, slope = _means(modes, groups)
-        spread = np.sqrt(np.einsum("gp,pq,gq->g", slope, covariance, slope))
-        pairing, likeness = _paired(modes, groups, seen, test, frequency, np.hypot(spread, error))
+        pairing, likeness = _paired(modes, groups, seen, test, frequency, np.hypot(_spread(slope, covariance), error))
         clear = pairing.clear
         if not clear.any():
             raise ConvergenceError("model update", "a measured mode that is one of the model beyond doubt", "none",
@@ -87,7 +86,7 @@ def update(model, seen, test, count):
         moved = (target - latent) / np.sqrt(np.diag(covariance))
         if abs(moved).max(initial=0.0) < _ENOUGH:
             return Updated(target, covariance, error, error_spread, before, modes, groups,
-                           np.sqrt(np.einsum("gp,pq,gq->g", slope, covariance, slope)), pairing, likeness)
+                           _spread(slope, covariance), pairing, likeness)
         latent = target
         modes = model(latent)
     raise ConvergenceError("model update", f"values that settle within {_STEPS} steps", "others at every step",
@@ -127,6 +126,11 @@ def _told(test, pairing, frequency):
     left = [np.log(test.frequency[m] / frequency[group]).mean() for m, group in zip(members, own, strict=True)]
     noise = [np.linalg.norm(test.spread[m]) / np.count_nonzero(m) for m in members]
     return own, np.array(left), np.array(noise)
+
+
+def _spread(slope, covariance):
+    """Standard deviation (g,) of ln f of each group by the values."""
+    return np.sqrt(np.einsum("gp,pq,gq->g", slope, covariance, slope))
 
 
 def _means(modes, groups):

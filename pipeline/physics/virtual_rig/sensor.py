@@ -251,11 +251,6 @@ class Sensor:
         """Displacement row (n,) that it needs of a Bench, or None."""
         return self.measurand.row(bench, self.source, self.name)
 
-    def shown(self, simulated):
-        """What it writes (steps + 1,) in a SimulatedRun."""
-        values, sharp = self.measurand.parts(simulated, self)
-        return self.written(values, simulated.step, sharp)
-
     def written(self, values, step, sharp=()):
         """What it writes of ``values`` (n,) at equal steps (s), with [(factor, part)] that are ``sharp`` on top."""
         time = step * np.arange(len(values))

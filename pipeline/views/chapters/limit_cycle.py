@@ -2,10 +2,10 @@
 
 import numpy as np
 
-from pipeline.views.chapters.chapter import Chapter, Figure, Sound, Table
+from pipeline.views.chapters.chapter import Chapter, Figure, Table
+from pipeline.views.chapters.vibration import surface_sounds
 from pipeline.views.figures.models import limit_cycle as pictures
 from pipeline.views.figures.number_format import number, percent, plural, quantity
-from pipeline.views.pages.sound_file import wav
 
 TWO_PI = 2.0 * np.pi
 #: check -> what was done
@@ -27,14 +27,8 @@ def chapter(cycle, look):
         f" {quantity(float(cycle.step), 's', 3)}. The energy balance closes within {percent(cycle.imbalance.max(), 2)};"
         f" {percent(cycle.added_loss.max(), 2)} of the energy lost goes to the damping added above the frequencies of"
         " interest.",
-        statement(cycle), figures, (_cycles(cycle), _onsets(cycle)), sounds=_sounds(cycle))
-
-
-def _sounds(cycle):
-    return tuple(Sound(wav(one), f"The loudest limit cycle (squeal.wav): {one.content}. It is how the surface moves,"
-                       " not the sound at an ear: radiation, room and hearing are not in it. The volume is made for"
-                       f" listening: full scale is {quantity(one.full_scale, 'm/s', 3)}.")
-                 for one in cycle.listen.values())
+        statement(cycle), figures, (_cycles(cycle), _onsets(cycle)),
+        sounds=surface_sounds(cycle.listen, "The loudest limit cycle"))
 
 
 def key_figure(cycle):

@@ -57,11 +57,18 @@ def squeal(product, published, look):
 
 
 def _sounds(product):
-    return tuple(Sound(wav(one), f"The loudest squeal as predicted (squeal.wav): {one.content}. It is how the surface"
-                       " moves, not the sound at an ear: radiation, room and hearing are not in it. The volume is made"
-                       f" for listening: full scale is {quantity(one.full_scale, 'm/s', 3)}, the velocity level"
-                       f" {number(product.event_level.max(), 3)} dB re {quantity(product.reference, 'm/s', 3)}.")
-                 for one in product.listen.values())
+    if not product.listen:
+        return ()
+    level = (f", the velocity level {number(product.event_level.max(), 3)} dB re"
+             f" {quantity(product.reference, 'm/s', 3)}")
+    return surface_sounds(product.listen, "The loudest squeal as predicted", level)
+
+
+def surface_sounds(listen, what, level=""):
+    """Sounds of {name: Excerpt} of a surface that moves, with ``what`` they are and the ``level`` in words."""
+    return tuple(Sound(wav(one), f"{what} (squeal.wav): {one.content}. It is how the surface moves, not the sound at an"
+                       " ear: radiation, room and hearing are not in it. The volume is made for listening: full scale"
+                       f" is {quantity(one.full_scale, 'm/s', 3)}{level}.") for one in listen.values())
 
 
 def occurrence_caption(product):

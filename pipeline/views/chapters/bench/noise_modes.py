@@ -2,10 +2,9 @@
 
 import numpy as np
 
+from pipeline.products.sound import OWN_TONES
 from pipeline.views.figures.number_format import percent, plural
 
-#: kinds of events that have a tone of their own
-_TONES = ("squeal", "moan", "groan", "judder")
 #: what is said of a mode by ``mode_unstable``
 _STATES = {1: ", unstable", 0: ", stable", -1: ""}
 
@@ -14,7 +13,7 @@ def nearest_mode(product, event):
     """The mode near an event, and how far the event lies above or below it."""
     mode = product.event_mode[event]
     if mode < 0:
-        return f"none within {percent(product.near, 2)}" if str(product.event_kind[event]) in _TONES else ""
+        return f"none within {percent(product.near, 2)}" if str(product.event_kind[event]) in OWN_TONES else ""
     away = product.event_frequency[event] / product.mode_frequency[mode] - 1.0
     sign = "+" if away >= 0 else ""
     return f"{product.mode_name[mode]}, {sign}{percent(away, 2)}{_STATES[product.mode_unstable[mode]]}"
