@@ -2,8 +2,8 @@
 
 One to three bodies in a row on linear springs and dampers, 5 Hz to 3 kHz, shaken at the last body at four levels and
 sampled 15 to 120 times a period; SciPy integrates them. What is stated of the noise is its root mean square. No answer
-may name physics that is not there. One file a case; a case that has its answer is not solved again. Prints one line a
-case, then the table of rates.
+may name physics that is not there. Answers are added to data/studies/disturbed.csv; a case that stands there is not
+solved again. Prints one line a case, then the table of rates of all that is solved.
 """
 
 import argparse
@@ -23,6 +23,7 @@ from pipeline.products import Run as RunProduct
 from pipeline.recordings.samples import channel
 from tests.diagnosis.decays import UNITS
 from tests.studies.forced import ROOT, by_stages, kept_answer, shared_out
+from tests.studies.ledger import FOLDER, Ledger, answer_of
 from tests.studies.sharp import NOISES, Plan
 
 #: disturbance -> effects that state it, so that they are no false alarm: a softening joint softens
@@ -224,14 +225,19 @@ def scored(plan, answer):
     return answer["verdict"] in NOTHING, answer["verdict"] in NAMING and bool(foreign)
 
 
-def solve(folder, kept, plan):
-    """(plan, whether told as it is, whether a false alarm) of a Plan; prints its line."""
+def solve(folder, kept, ledger, plan):
+    """Solve one Plan and add its answer to a Ledger; prints its line."""
     answer = kept_answer(folder / f"{plan.name}.json", partial(made, plan), partial(solved, kept=kept))
-    right, alarm = scored(plan, answer)
+    ledger.add(plan.name, plan.kind, plan.noise, 0.0, answer)
     named = ", ".join(f"{e['name']} at {e['place']}" for e in answer["effects"])
-    print(f"{plan.name:<22} -> {'FALSE ALARM ' if alarm else ''}{answer['verdict']:<10} {named:<40}"
+    print(f"{plan.name:<22} -> {'FALSE ALARM ' if scored(plan, answer)[1] else ''}{answer['verdict']:<10} {named:<40}"
           f" {answer['cpu_seconds']:.0f} s", flush=True)
-    return plan, right, alarm
+
+
+def results_of(rows):
+    """[(Plan, whether told as it is, whether a false alarm)] of the rows of a Ledger."""
+    by_name = {plan.name: plan for plan in plans()}
+    return [(by_name[name], *scored(by_name[name], answer_of(row))) for name, row in rows.items()]
 
 
 def table(results):
@@ -248,13 +254,18 @@ def main():
     """Solve what is chosen, print the table."""
     parser = argparse.ArgumentParser(prog="make study_disturbed", description=__doc__)
     parser.add_argument("--folder", type=Path, default=ROOT / "data" / "runs" / "study_disturbed")
+    parser.add_argument("--ledger", type=Path, default=FOLDER / "disturbed.csv")
     parser.add_argument("--only", nargs="*", default=list(DISTURBANCES), choices=list(DISTURBANCES), help="default all")
     parser.add_argument("--every", type=int, default=1, help="one case in so many")
     parser.add_argument("--kept", type=int, default=4, help="candidates that are refitted")
     parser.add_argument("--workers", type=int, default=2, help="processes")
     chosen = parser.parse_args()
-    wanted = plans(chosen.only)[::chosen.every]
-    print("\n".join(table(shared_out(partial(solve, chosen.folder, chosen.kept), wanted, chosen.workers))))
+    ledger = Ledger(chosen.ledger)
+    there = ledger.rows()
+    left = [plan for plan in plans(chosen.only)[::chosen.every] if plan.name not in there]
+    shared_out(partial(solve, chosen.folder, chosen.kept, ledger), left, chosen.workers)
+    ledger.tidy()
+    print("\n".join(table(results_of(ledger.rows()))))
 
 
 if __name__ == "__main__":

@@ -2,12 +2,11 @@
 
 What the catalogue does not hold must not be taken for something that it does. Each case is one of a known effect,
 solved without that effect and without the laws that contain it (CONTAINING). Scored are the answers that name no
-physics in its place; cases that leave less than can be seen count apart. One folder a case; a case that has its answer
-is not solved again.
+physics in its place; cases that leave less than can be seen count apart. Answers are added to
+data/studies/knock_out.csv; a case that stands there is not solved again.
 """
 
 import argparse
-import json
 import os
 from functools import partial
 from pathlib import Path
@@ -19,6 +18,7 @@ from pipeline.blind_trial.metrics.rates import line, rate
 from pipeline.contract.errors import BrakechainError
 from pipeline.effects import CATALOGUE
 from tests.studies.forced import COLOURS, LEVELS, ROOT, Plan, run, shared_out
+from tests.studies.ledger import FOLDER, Ledger, answer_of
 
 #: laws of joint friction that are dry friction as a limit of theirs
 _DRY = ("dahl", "lugre", "stribeck_joint", "position_friction", "jenkins", "series_stiffness", "logarithmic_friction",
@@ -73,31 +73,40 @@ def table(results):
     return [line(name, rate(hits)) for name, hits in rows if hits]
 
 
-def solve(folder, kept, plan):
-    """(truth, answer) of one Plan without its effect, or None where its case cannot be made; prints its line."""
+def solve(folder, kept, ledger, plan):
+    """Solve one Plan without its effect and add its answer to a Ledger, unless its case cannot be made; prints its
+    line."""
     try:
         truth, answer = run(plan, folder / f"{plan.seed}", kept=kept, without=removed(plan.hidden))
     except BrakechainError as error:
         print(f"{plan.seed} {plan.hidden}: not made: {error}", flush=True)
-        return None
+        return
+    ledger.add(f"{plan.seed}", plan.hidden, truth["noise"], truth["left"], answer)
     named = ", ".join(f"{e['name']} at {e['place']}" for e in answer["effects"])
     print(f"{plan.seed} {plan.hidden:<22} {truth['noise']:>4.0%} leaves {truth['left']:6.1f}  ->"
           f" {answer['verdict']:<10} {named}   {answer['cpu_seconds']:.0f} s", flush=True)
-    return truth, answer
+
+
+def results_of(rows):
+    """[(truth, answer)] of the rows of a Ledger."""
+    return [({"noise": float(row["noise"]), "left": float(row["left"])}, answer_of(row)) for row in rows]
 
 
 def main():
-    """Solve what is chosen, print the table."""
+    """Solve what is chosen, print the table of all that is solved."""
     parser = argparse.ArgumentParser(prog="make study_knock_out", description=__doc__)
     parser.add_argument("--folder", type=Path, default=ROOT / "data" / "runs" / "study_knock_out")
+    parser.add_argument("--ledger", type=Path, default=FOLDER / "knock_out.csv")
     parser.add_argument("--every", type=int, default=1, help="one case in so many")
     parser.add_argument("--kept", type=int, default=4, help="candidates that are refitted")
     parser.add_argument("--workers", type=int, default=os.cpu_count(), help="processes; default all processors")
     chosen = parser.parse_args()
-    results = shared_out(partial(solve, chosen.folder, chosen.kept), plans()[::chosen.every], chosen.workers)
-    kept = [r for r in results if r]
-    (chosen.folder / "rates.json").write_text(json.dumps(table(kept), indent=1) + "\n")
-    print("\n".join(table(kept)))
+    ledger = Ledger(chosen.ledger)
+    there = ledger.rows()
+    left = [plan for plan in plans()[::chosen.every] if f"{plan.seed}" not in there]
+    shared_out(partial(solve, chosen.folder, chosen.kept, ledger), left, chosen.workers)
+    ledger.tidy()
+    print("\n".join(table(results_of(ledger.rows().values()))))
 
 
 if __name__ == "__main__":

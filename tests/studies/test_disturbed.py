@@ -5,7 +5,7 @@ import pytest
 
 from pipeline.effects import CATALOGUE
 from tests.diagnosis.decays import UNITS
-from tests.studies.disturbed import DISTURBANCES, Row, disturbed, made, plans, scored, solved, table
+from tests.studies.disturbed import DISTURBANCES, Row, disturbed, made, plans, results_of, scored, solved, table
 from tests.studies.sharp import Plan
 
 
@@ -70,6 +70,12 @@ def test_what_states_the_disturbance_is_no_false_alarm():
     assert scored(white, answer("missing", "thermal_softening")) == (False, True)
     assert scored(white, answer("unknown")) == (False, False) and scored(white, answer("parameters")) == (True, False)
     assert "false alarms" in table([(white, True, False)])[0]
+
+
+def test_rows_of_the_ledger_count_as_answers():
+    row = {"verdict": "missing", "named": "thermal_softening at joint_1", "cpu_seconds": "9"}
+    told = results_of({Plan(kind, 0, 0.01).name: row for kind in ("warming", "white")})
+    assert [(plan.kind, alarm) for plan, _, alarm in told] == [("warming", False), ("white", True)]
 
 
 @pytest.mark.parametrize("kind", ["bursts", "lost"])

@@ -6,7 +6,7 @@ from pipeline.blind_trial.generators.spring_mass.hidden_laws import HIDDEN
 from pipeline.blind_trial.generators.spring_mass.rig_case import kind_of
 from pipeline.effects import CATALOGUE
 from tests.studies.forced import Plan, run
-from tests.studies.knock_out import CONTAINING, misnamed, plans, removed, table
+from tests.studies.knock_out import CONTAINING, misnamed, plans, removed, results_of, table
 
 
 def test_every_effect_is_removed_in_at_least_150_cases():
@@ -29,6 +29,12 @@ def test_only_a_name_is_wrong():
     rows = table([(seen, {"verdict": "unknown"}), (seen, {"verdict": "missing"}),
                   ({"left": 2.0, "noise": 0.1}, {"verdict": "missing"})])
     assert "1 of 2" in rows[0] and "0 of 1" in rows[-1]
+
+
+def test_rows_of_the_ledger_count_as_answers():
+    rows = [{"noise": "0.1", "left": "20.5", "verdict": "missing", "named": "dahl at joint_1", "cpu_seconds": "9"}]
+    (truth, answer), = results_of(rows)
+    assert truth == {"noise": 0.1, "left": 20.5} and misnamed(answer) and answer["effects"][0]["name"] == "dahl"
 
 
 @pytest.mark.slow
