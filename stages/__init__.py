@@ -13,6 +13,7 @@ CHAINS = {
     "pin_on_disc": ("surface", "interface_law", "friction_descriptions", "pin_on_disc", "reduced_model",
                     "effects", "complex_modes", "transient", "lock_in", "squeal", "comparison", "report"),
     "lumped": ("lumped", "reduced_model", "effects", "complex_modes", "transient", "comparison", "report"),
+    "matrices": ("matrices", "matrix_modes", "comparison", "report"),
     "bimaterial_rupture": ("rupture", "comparison", "report"),
     "beam_on_beam": ("beam_on_beam", "reduced_model", "effects", "complex_modes", "transient", "motion_scatter",
                      "squeal", "comparison", "report"),

@@ -5,7 +5,7 @@ from fnmatch import fnmatch
 
 from pipeline.contract import ConfigError, Context, InputFile, Products, Section, option, stage
 from pipeline.products import Comparison
-from pipeline.validation import beam_on_beam, disc_brake, field_of, lumped, pin_on_disc, rupture
+from pipeline.validation import beam_on_beam, disc_brake, field_of, lumped, matrices, pin_on_disc, rupture
 from pipeline.validation.published_facts import load
 
 #: product that only one system has -> rows (products, facts, known) -> {key: Ours}, and the product field of each
@@ -13,7 +13,8 @@ from pipeline.validation.published_facts import load
 SYSTEMS = {"structure": (disc_brake.disc_brake_rows, disc_brake.FIELDS),
            "pin_on_disc": (pin_on_disc.pin_on_disc_rows, pin_on_disc.FIELDS),
            "beam_on_beam": (beam_on_beam.beam_on_beam_rows, beam_on_beam.FIELDS),
-           "lumped": (lumped.lumped_rows, lumped.FIELDS), "rupture": (rupture.rupture_rows, rupture.FIELDS)}
+           "lumped": (lumped.lumped_rows, lumped.FIELDS), "rupture": (rupture.rupture_rows, rupture.FIELDS),
+           "matrices": (matrices.matrix_rows, matrices.FIELDS)}
 
 #: size in SI of the printed units that the chains compute
 SIZE = {"1": 1.0, "%": 0.01, "um": 1e-6, "mm": 1e-3, "m": 1.0, "us": 1e-6, "ms": 1e-3, "s": 1.0, "1/s": 1.0, "Hz": 1.0,

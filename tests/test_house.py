@@ -35,6 +35,7 @@ MAY_IMPORT = {
     "pipeline.validation.published_facts": {"pipeline.contract"},
     "pipeline.recordings": {"pipeline.recordings", "pipeline.products", "pipeline.contract", "pipeline.environment"},
     "pipeline.recordings.registry": {"pipeline.contract"},
+    "pipeline.decks": {"pipeline.decks", "pipeline.recordings.apart", "pipeline.contract.errors"},
     "pipeline.case_models": {"pipeline.case_models", "pipeline.products", "pipeline.effects", "pipeline.physics",
                              "pipeline.inference.priors", "pipeline.contract"},
     "pipeline.case_models.lumped": {"pipeline.contract", "pipeline.systems"},
@@ -54,7 +55,7 @@ MAY_IMPORT = {
     "pipeline.views.pages.trial": {"pipeline.views", "pipeline.contract", "pipeline.blind_trial.metrics.wording"},
     "pipeline.views": {"pipeline.views", "pipeline.products", "pipeline.contract"},
     "stages": {"pipeline.contract", "pipeline.products", "pipeline.physics", "pipeline.systems", "pipeline.validation",
-               "pipeline.views", "pipeline.recordings", "pipeline.case_models", "pipeline.diagnosis"},
+               "pipeline.views", "pipeline.recordings", "pipeline.decks", "pipeline.case_models", "pipeline.diagnosis"},
     "pipeline.cli": {"pipeline.contract"},
     "pipeline.cli.options": set(),
     "pipeline.cli.facts": {"pipeline.cli", "pipeline.contract", "pipeline.products", "pipeline.views.pages.facts"},
@@ -100,8 +101,9 @@ EAGER = re.compile(r"scipy\.")
 
 
 #: packages whose files all have a test of their own
-MIRRORED = ("stages", "pipeline/physics", "pipeline/systems", "pipeline/recordings", "pipeline/inference",
-            "pipeline/effects", "pipeline/case_models", "pipeline/diagnosis", "pipeline/blind_trial")
+MIRRORED = ("stages", "pipeline/physics", "pipeline/systems", "pipeline/recordings", "pipeline/decks",
+            "pipeline/inference", "pipeline/effects", "pipeline/case_models", "pipeline/diagnosis",
+            "pipeline/blind_trial")
 #: formulas without code of their own, tested where they serve as the reference
 REFERENCES = "pipeline/physics/closed_form"
 MOST_FILES = 16

@@ -63,10 +63,11 @@ from pipeline.products.sound import (
 )
 from pipeline.products.structure import Structure
 from pipeline.products.surfaces import Surface
+from pipeline.products.systems.matrices import Matrices, MatrixModes, MatrixTerm, RootsOfMatrices
 
 __all__ = ["BeamGeometry", "BeamOnBeam", "Bench", "BenchRun", "Body", "Channel", "Comparison", "ComplexModes",
            "Condition", "Convergence", "DiagnosedRun", "Diagnosis", "Effects", "Excerpt", "Follows", "FrequencyResponse", "FrictionDescriptions",
            "FrictionMap", "FrictionOverTemperature", "FrictionUpdate", "Incidence", "InterfaceLaw", "LatentForce", "LatentPrediction", "LimitCycle", "LineEvidence", "Lines", "Located", "LockIn",
-           "Lumped", "MeasuredFriction", "MeasuredModes", "MicroFriction", "ModalTest", "ModelUpdate", "MotionScatter", "Multibody", "NoiseEvents", "OccurrenceMap", "OrderSpectra", "Orders", "PinOnDisc", "Probability",
-           "Recording", "ReducedModel", "Report", "Response", "ResponseFunctions", "Run", "Rupture", "Spectrogram", "Squeal", "SquealCheck", "Structure", "Surface", "TestModes", "TestResponses", "Topography",
+           "Lumped", "Matrices", "MatrixModes", "MatrixTerm", "MeasuredFriction", "MeasuredModes", "MicroFriction", "ModalTest", "ModelUpdate", "MotionScatter", "Multibody", "NoiseEvents", "OccurrenceMap", "OrderSpectra", "Orders", "PinOnDisc", "Probability",
+           "Recording", "ReducedModel", "Report", "Response", "ResponseFunctions", "RootsOfMatrices", "Run", "Rupture", "Spectrogram", "Squeal", "SquealCheck", "Structure", "Surface", "TestModes", "TestResponses", "Topography",
            "Transient"]

@@ -8,6 +8,7 @@ import json
 import os
 import subprocess
 import sys
+from importlib import import_module
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
@@ -49,6 +50,14 @@ def runs(kind, path, **given):
     Errors as of ``waveforms``.
     """
     return _child(kind, path, given, lambda folder: store.read(Recording, folder / _RUNS).runs)
+
+
+def answered(reader, path, collect, **given):
+    """``collect(folder)`` of what the function ``reader``, "module:function", has left of the file at ``path``.
+
+    It is called with the path, the folder and ``given``. Errors as of ``waveforms``.
+    """
+    return _child(reader, path, given, collect)
 
 
 def _child(kind, path, given, collect):
@@ -159,9 +168,13 @@ def _limit(seconds, memory):
 def main(kind, path, folder, seconds, memory):
     """Child process: read, and leave the answer or the error in ``folder``."""
     _limit(int(seconds), int(memory))
-    reader, leave = _READERS[kind]
     try:
-        leave(reader(path, folder, **json.load(sys.stdin)), Path(folder))
+        if kind in _READERS:
+            reader, leave = _READERS[kind]
+            leave(reader(path, folder, **json.load(sys.stdin)), Path(folder))
+        else:
+            module, _, function = kind.partition(":")
+            getattr(import_module(module), function)(path, folder, **json.load(sys.stdin))
     except BrakechainError as error:
         _tell(folder, str(error.where), error.expected, error.found, error.remedy)
     except MemoryError:

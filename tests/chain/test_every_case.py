@@ -18,12 +18,13 @@ SLOW = {**dict.fromkeys(("disc_brake", "disc_brake_paper_joints", "bimaterial_ru
                          "pin_on_disc_lines", "bimaterial_rupture_fine"), [pytest.mark.slow, pytest.mark.study]),
         **dict.fromkeys(("emps", "silverbox", "tribometer"),
                         [pytest.mark.slow, pytest.mark.study, pytest.mark.measured]),
-        **dict.fromkeys(("disc_brake_scanned", "tribometer_map"), [pytest.mark.slow, pytest.mark.measured]),
+        **dict.fromkeys(("brake_matrices", "disc_brake_scanned", "tribometer_map"),
+                        [pytest.mark.slow, pytest.mark.measured]),
         "emps_recording": [pytest.mark.measured]}
 CASES = [pytest.param(path, marks=SLOW.get(path.stem, ()), id=path.stem)
          for path in sorted((ROOT / "configs").glob("*.yaml")) if not path.stem.endswith("_quick")]
 PRACTICE = ROOT / "data" / "runs" / "practice"
-CLOSED_FORM = ("belt", "two_mode_flutter", "wobbling_disc")
+CLOSED_FORM = ("belt", "two_mode_flutter", "wobbling_disc", "brake_matrices")
 #: case -> facts that may be outside. The motion of the beams is chaotic: the median force varies between processors by
 #: more than its distance from the bound (data/reference/beam_geometry.yaml). The rocking mode was measured below the
 #: frequency range of the paper's model update.

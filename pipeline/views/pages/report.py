@@ -28,7 +28,7 @@ from pipeline.views.chapters.bench import (
     response_functions,
 )
 from pipeline.views.chapters.chapter import Figure
-from pipeline.views.chapters.models import beam_on_beam, lock_in, lumped, rupture, transient
+from pipeline.views.chapters.models import beam_on_beam, lock_in, lumped, matrix_modes, rupture, transient
 from pipeline.views.figures import complex_modes as stability_pictures
 from pipeline.views.figures import vibration as sound_pictures
 from pipeline.views.figures.models import rupture as rupture_pictures
@@ -49,6 +49,8 @@ CHAPTERS = {
     "pin_on_disc": (lock_in.pin_on_disc, ()),
     "beam_on_beam": (beam_on_beam.beams, ("complex_modes", "comparison")),
     "lumped": (lumped.chapter, ("transient",)),
+    "matrices": (matrix_modes.system, ()),
+    "matrix_modes": (matrix_modes.chapter, ()),
     "complex_modes": (complex_modes.chapter, ("reduced_model", _PUBLISHED)),
     "convergence": (convergence.chapter, ()),
     "limit_cycle": (limit_cycle.chapter, ()),
@@ -110,6 +112,8 @@ def _key_figures(products, look):
         return (measured_friction.key_figure(products["friction_update"]),)
     if products.get("model_update") is not None:
         return (model_update.key_figure(products["model_update"]),)
+    if products.get("matrix_modes") is not None:
+        return (matrix_modes.key_figure(products["matrix_modes"], look),)
     if products.get("modal_test") is not None:
         return (modal_test.key_figure(products["modal_test"], look),)
     if products.get("noise_events") is not None and products.get("complex_modes") is None:

@@ -15,6 +15,7 @@ from pipeline.views.chapters.bench import (
     orders,
 )
 from pipeline.views.chapters.friction import outside_computed
+from pipeline.views.chapters.models import matrix_modes
 from pipeline.views.chapters.models.rupture import headline as rupture_headline
 from pipeline.views.chapters.pad_motion import extremes, open_balance, point, rate_in_words
 from pipeline.views.chapters.unstable_modes import (
@@ -47,7 +48,8 @@ def verdict(products, tuned_settings):
     """Verdict over ``products`` (name -> product or None); ``tuned_settings`` are (name, value) pairs."""
     if products.get("diagnosis") is not None or products.get("line_evidence") is not None:
         return _diagnosed(products.get("diagnosis"), products, tuned_settings)
-    for name, told in (("friction_update", measured_friction), ("model_update", model_update)):
+    for name, told in (("friction_update", measured_friction), ("model_update", model_update),
+                       ("matrix_modes", matrix_modes)):
         if products.get(name) is not None:
             answers = (*told.note(products[name]), ("Tuned", _tuned(products, tuned_settings)))
             return Verdict(*told.headline(products[name]), tuple(filter(lambda a: a[1], answers)),

@@ -16,10 +16,11 @@ TWO_PI = 2.0 * np.pi
 
 def verdict_text(verdict, products):
     """JSON text of a Verdict and the ``products`` (name -> product or None) behind it; SI units, null where unknown."""
-    modes, refined = products.get("complex_modes"), products.get("convergence")
-    document = {"schema": SCHEMA, "headline": verdict.headline, "squeal_can_start": _can_start(modes),
+    modes, refined, given = (products.get(name) for name in ("complex_modes", "convergence", "matrix_modes"))
+    document = {"schema": SCHEMA, "headline": verdict.headline,
+                "squeal_can_start": _can_start(modes) if given is None else len(given.roots.residual) > 0,
                 "probability": _probability(products.get("probability")),
-                "unstable_modes": [] if modes is None else _unstable(modes),
+                "unstable_modes": _of_matrices(given) + ([] if modes is None else _unstable(modes)),
                 "convergence": None if refined is None else _convergence(refined),
                 "transient": _transient(products.get("limit_cycle")),
                 "heard_lines": _heard(products.get("line_evidence")),
@@ -76,6 +77,18 @@ def _unstable(modes):
             "finite_elements": _finite_elements(root, modes.unstable_reduced[k], modes.unstable_residual[k]),
             "same_mode_as": int(modes.unstable_first[k]), **_over_friction(modes, k)})
     return found
+
+
+def _of_matrices(modes):
+    """One entry for each unstable mode of a system of matrices; none without these."""
+    if modes is None:
+        return []
+    found = modes.roots
+    return [{"frequency": root.imag / TWO_PI, "growth_rate": root.real, "damping_ratio": -root.real / abs(root),
+             "speed": float(found.speed[point]), "friction": float(modes.friction), "residual": float(residual),
+             "growth_per_relative_change": _named(modes.term, term.real)}
+            for root, point, residual, term in zip(found.unstable_root, found.unstable_operating, found.residual,
+                                                   found.per_term, strict=True)]
 
 
 def _finite_elements(root, reduced, residual):

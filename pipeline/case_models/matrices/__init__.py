@@ -1,0 +1,1 @@
+"""Systems that are given as matrices: their terms, and how these change with speed and friction."""

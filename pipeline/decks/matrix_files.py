@@ -1,0 +1,83 @@
+"""Sparse matrices that other programs wrote: MATLAB, Matrix Market, NumPy, Abaqus, Nastran.
+
+Programs that number degrees of freedom by node and direction (Abaqus, Nastran) give labels; the others count rows.
+"""
+
+import json
+from pathlib import Path
+
+import numpy as np
+import scipy
+
+from pipeline.contract.errors import ConfigError
+from pipeline.decks.entries import Entries, sound
+from pipeline.decks.labelled_matrices import abaqus, nastran
+from pipeline.recordings import apart
+
+_READERS = "a .mat (up to version 7), .mtx, .mtx.gz or .npz file, an .mtx of Abaqus, or a .pch with DMIG of Nastran"
+_MARKET = b"%%MatrixMarket"
+_NAMES, _ENTRIES = "names.json", "entries.npz"
+
+
+def read(path, variable=None):
+    """Entries of the matrix in the file at ``path``; ``variable``: its name there, where the file holds several.
+
+    Raises ConfigError for a file that is damaged or holds no matrix, several, or one that is not square, real, finite.
+    """
+    return apart.answered("pipeline.decks.matrix_files:leave", path, _collected, variable=variable)
+
+
+def leave(path, folder, variable=None):
+    """In the child process: read the file and leave its entries in ``folder``."""
+    found = _opened(Path(path), variable)
+    extra = {} if found.label is None else {"label": found.label}
+    np.savez(Path(folder) / _ENTRIES, row=found.row, column=found.column, value=found.value, **extra)
+    (Path(folder) / _NAMES).write_text(json.dumps({"size": found.size, "halved": found.halved}))
+
+
+def _collected(folder):
+    about = json.loads((folder / _NAMES).read_text())
+    with np.load(folder / _ENTRIES) as held:
+        return Entries(held["row"], held["column"], held["value"], label=held.get("label"), **about)
+
+
+def _opened(path, variable):
+    suffix = "".join(path.suffixes[-2:]) if path.suffix == ".gz" else path.suffix
+    if suffix == ".mat":
+        return _of_matrix(path, _chosen(path, scipy.io.loadmat(path), variable))
+    if suffix == ".npz":
+        return _of_matrix(path, _npz(path, variable))
+    if suffix in (".mtx", ".mtx.gz"):
+        with path.open("rb") as file:
+            plain = suffix == ".mtx" and not file.read(len(_MARKET)).startswith(_MARKET)
+        return abaqus(path) if plain else _of_matrix(path, scipy.io.mmread(path))
+    if suffix == ".pch":
+        return nastran(path, variable)
+    raise ConfigError(path, _READERS, repr(suffix))
+
+
+def _npz(path, variable):
+    with np.load(path, allow_pickle=False) as held:
+        if "format" in held and "shape" in held:
+            return scipy.sparse.load_npz(path)
+        return _chosen(path, dict(held), variable)
+
+
+def _chosen(path, held, variable):
+    """The one matrix among the variables ``held`` {name: array}, or the one that is named."""
+    names = [name for name, value in held.items() if not name.startswith("__") and getattr(value, "ndim", 0) == 2
+             and min(value.shape) > 1]
+    if variable is None and len(names) == 1:
+        return held[names[0]]
+    if variable not in names:
+        raise ConfigError(path, f"the matrix {variable!r}" if variable else "one matrix, or its name as 'variable'",
+                          ", ".join(names) or "none")
+    return held[variable]
+
+
+def _of_matrix(path, matrix):
+    """Entries of a dense or sparse matrix."""
+    entries = scipy.sparse.coo_matrix(matrix)
+    if entries.shape[0] != entries.shape[1]:
+        raise ConfigError(path, "a square matrix", f"{entries.shape[0]} x {entries.shape[1]}")
+    return sound(path, Entries(entries.row, entries.col, entries.data, entries.shape[0]))

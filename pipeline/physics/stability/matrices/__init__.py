@@ -1,0 +1,1 @@
+"""Large systems given as matrices: their terms over speed and friction, their roots without reduction."""

@@ -1,0 +1,73 @@
+"""Systems given as matrices that change with speed and friction: s^2 M + s C + K, each a sum of scaled terms.
+
+    T(s) = sum over terms t of  s^order_t  c_t(speed, friction)  A_t,
+    c(speed, friction) = sum over k of  a_k speed^m_k friction^n_k
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+import scipy
+
+#: powers of s that the kinds of matrices stand with
+ORDERS = {"stiffness": 0, "damping": 1, "mass": 2}
+
+
+@dataclass(frozen=True)
+class Term:
+    """A sparse matrix (n, n) of a ``kind`` (mass, damping or stiffness), times its summands (a, m, n)."""
+
+    name: str
+    kind: str
+    matrix: "scipy.sparse.csr_matrix"
+    summands: tuple
+
+    def factor(self, speed, friction):
+        """c(speed, friction)."""
+        return sum(a * speed**m * friction**n for a, m, n in self.summands)
+
+    def slopes(self, speed, friction):
+        """(dc/d ln speed, dc/d ln friction); the second at no friction is that to friction itself, times 0."""
+        parts = [(a * speed**m * friction**n, m, n) for a, m, n in self.summands]
+        return sum(m * c for c, m, _ in parts), sum(n * c for c, _, n in parts)
+
+
+@dataclass(frozen=True)
+class MatrixFamily:
+    """Terms (n, n) of one system."""
+
+    terms: tuple
+
+    @property
+    def size(self):
+        """Degrees of freedom."""
+        return self.terms[0].matrix.shape[0]
+
+    def at(self, speed, friction):
+        """(M, C, K) (n, n) sparse at a speed and a coefficient of friction, each over that of the matrices."""
+        return tuple(sum((term.factor(speed, friction) * term.matrix for term in self.terms if term.kind == kind),
+                         scipy.sparse.csr_matrix((self.size, self.size))) for kind in ("mass", "damping", "stiffness"))
+
+    def projected(self, basis):
+        """The family on ``basis`` (n, d): dense terms (d, d)."""
+        return MatrixFamily(tuple(Term(t.name, t.kind, basis.T @ (t.matrix @ basis), t.summands) for t in self.terms))
+
+    def dense_at(self, speed, friction):
+        """(M, C, K) (d, d) of a projected family."""
+        held = {kind: np.zeros((self.size, self.size)) for kind in ("mass", "damping", "stiffness")}
+        for term in self.terms:
+            held[term.kind] += term.factor(speed, friction) * term.matrix
+        return tuple(held.values())
+
+    def derivatives(self, mode, speed, friction):
+        """(t,) ds per relative change of each term, and (2,) per ln speed and ln friction, of a Mode (right, left).
+
+        ds = - y^H dT x / (y^H T'(s) x); P. Lancaster, Numer. Math. 6 (1964) 377.
+        """
+        mass, damping, _ = self.at(speed, friction)
+        x, y, s = mode.right, mode.left, mode.root
+        along = np.vdot(y, 2 * s * (mass @ x) + damping @ x)
+        raw = np.array([-s**ORDERS[t.kind] * np.vdot(y, t.matrix @ x) / along for t in self.terms])
+        own = np.array([t.factor(speed, friction) for t in self.terms])
+        slopes = np.array([t.slopes(speed, friction) for t in self.terms])
+        return raw * own, raw @ slopes

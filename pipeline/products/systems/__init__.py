@@ -1,0 +1,1 @@
+"""Products of systems that are given otherwise than by bodies."""

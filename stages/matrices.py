@@ -1,0 +1,107 @@
+"""Stage matrices: a system that another program wrote as matrices."""
+
+import numpy as np
+
+from pipeline.case_models.matrices.dependence import summands
+from pipeline.case_models.matrices.sections import Term
+from pipeline.contract import ConfigError, Context, Quantity, Section, option, stage
+from pipeline.decks.matrix_files import read
+from pipeline.products import Matrices, MatrixTerm
+
+KINDS = ("mass", "damping", "stiffness")
+#: a mass matrix is symmetric to this share of its largest entry
+_SYMMETRIC = 1e-8
+
+
+class Settings(Section):
+    """Terms of the three matrices, each by a name of yours; units are consistent, and times in seconds."""
+
+    mass: dict[str, Term] = option({}, "terms of the mass matrix")
+    damping: dict[str, Term] = option({}, "terms of the matrix of velocities: damping, gyroscopic, of friction")
+    stiffness: dict[str, Term] = option({}, "terms of the matrix of displacements: stiffness, circulatory, of spin")
+    reference_speed: Quantity("rad/s", gt=0) = option("1 rad/s", "speed for which the terms are given")
+
+
+def _check(sections):
+    """Refuse a system without mass or stiffness, names that stand twice, and dependences that cannot be read."""
+    settings = sections["matrices"]
+    named = [(name, kind) for kind in KINDS for name in getattr(settings, kind)]
+    for kind in ("mass", "stiffness"):
+        if not getattr(settings, kind):
+            raise ConfigError(f"matrices.{kind}", "at least one term", "none", "name a file, such as"
+                              " {structure: {file: K.mtx}}")
+    if len({name for name, _ in named}) < len(named):
+        raise ConfigError("matrices", "a name of its own for every term", ", ".join(name for name, _ in named))
+    for name, kind in named:
+        term = getattr(settings, kind)[name]
+        summands(term.times, f"matrices.{kind}.{name}.times")
+        if term.at_frequency is not None and kind != "damping":
+            raise ConfigError(f"matrices.{kind}.{name}.at_frequency", "none but in damping",
+                              f"{term.at_frequency:g} Hz")
+
+
+@stage(check=_check)
+def matrices(settings: Settings, context: Context) -> Matrices:
+    """Read a system that another program wrote as matrices.
+
+    Method:
+    The system was read as matrices of mass, damping and stiffness; terms are given for {reference_speed} and one
+    coefficient of friction, and change with both as stated.
+    """
+    held = {name: (kind, term, read(term.file, term.variable)) for kind in KINDS
+            for name, term in getattr(settings, kind).items()}
+    labels, size = _freedoms(held)
+    terms = {name: _term(kind, term, *_placed(entries, labels), f"matrices.{kind}.{name}")
+             for name, (kind, term, entries) in held.items()}
+    for name, (_, _, entries) in held.items():
+        if entries.halved:
+            context.log(f"{name}: one triangle is given, and the other was added")
+    return Matrices(size=size, node=labels[:, 0], direction=labels[:, 1], reference_speed=settings.reference_speed,
+                    terms=terms)
+
+
+def _freedoms(held):
+    """(labels (n, 2) in order, none where rows are counted; number of degrees of freedom n)."""
+    labelled = {name: entries.label for name, (_, _, entries) in held.items() if entries.label is not None}
+    sizes = {name: entries.size for name, (_, _, entries) in held.items()}
+    if not labelled:
+        largest = max(sizes.values())
+        if len(set(sizes.values())) > 1:
+            raise ConfigError("matrices", "matrices of one size", ", ".join(f"{n}: {k}" for n, k in sizes.items()))
+        return np.empty((0, 2), int), largest
+    if len(labelled) < len(held):
+        raise ConfigError("matrices", "nodes and directions in all files or in none",
+                          f"none in {', '.join(set(held) - set(labelled))}")
+    labels = np.unique(np.concatenate(list(labelled.values())), axis=0)
+    return labels, len(labels)
+
+
+def _placed(entries, labels):
+    """(row, column, value) of Entries among all degrees of freedom."""
+    if entries.label is None:
+        return entries.row, entries.column, entries.value
+    place = {tuple(label): k for k, label in enumerate(labels.tolist())}
+    index = np.array([place[tuple(label)] for label in entries.label.tolist()])
+    return index[entries.row], index[entries.column], entries.value
+
+
+def _term(kind, term, row, column, value, where):
+    if kind == "mass":
+        _refuse_masses(row, column, value, where)
+    dependence = summands(term.times, f"{where}.times")
+    scale = 1.0 if term.at_frequency is None else 1 / (2 * np.pi * term.at_frequency)
+    coefficient, speed, friction = zip(*dependence, strict=True)
+    return MatrixTerm(kind=kind, times=str(term.times), source=term.file.name, row=row, column=column,
+                      value=scale * value, coefficient=coefficient, speed_power=speed, friction_power=friction)
+
+
+def _refuse_masses(row, column, value, where):
+    """ConfigError for a mass matrix that is not symmetric, or has a negative mass on its diagonal."""
+    from scipy.sparse import coo_matrix
+
+    size = max(row.max(), column.max()) + 1
+    matrix = coo_matrix((value, (row, column)), (size, size)).tocsr()
+    if abs(matrix - matrix.T).max() > _SYMMETRIC * abs(matrix).max():
+        raise ConfigError(where, "a symmetric mass matrix", "another one", "is it the stiffness?")
+    if matrix.diagonal().min() < 0:
+        raise ConfigError(where, "masses above 0", f"{matrix.diagonal().min():g} in row {matrix.diagonal().argmin()}")
