@@ -30,8 +30,8 @@ def test_the_first_screen_tells_where_what_matters_and_how_certain():
     assert told.headline == ("Squeal can start at 2 of 2 speeds, most strongly at 800\u202fHz, which grows by"
                              " 31.4\u202f1/s") and told.tone == "squeal"
     answers = dict(told.answers)
-    assert answers["Where"].endswith("On the map friction up to 0.5 times that of the matrices is stable at every"
-                                     " speed.")
+    assert answers["Where"].endswith("On the map it is stable up to friction 0.5 times that of the matrices, whatever"
+                                     " the speed.")
     assert "friction, everywhere +5, speed +0.4, Q +9, M \u22122, K \u22120.3" in answers["What matters"]
     assert "No root was missed up to 3\u202fkHz within 300\u202fHz" in answers["How certain"]
 

@@ -8,7 +8,7 @@ from pipeline.views.figures.number_format import number, percent, plural, quanti
 
 TWO_PI = 2.0 * np.pi
 #: unstable modes that are shown with what moves them
-_SHOWN = 6
+_SHOWN = 4
 #: names in the sentence on what matters
 _NAMED = 5
 #: change that derivatives are told for
@@ -85,8 +85,8 @@ def _where(modes):
     safe = [f for f in lowest if f is not None]
     if len(safe) < len(lowest) or not all(_below(row) for row in stable):
         return "; ".join(parts) + "."
-    limit = f"friction up to {number(min(safe), 3)} times that of the matrices" if min(safe) else "no friction"
-    return "; ".join(parts) + f". On the map {limit} is stable at every speed."
+    stays = f"up to friction {number(min(safe), 3)} times that of the matrices" if min(safe) else "without friction alone"
+    return "; ".join(parts) + f". On the map it is stable {stays}, whatever the speed."
 
 
 def _below(stable):
@@ -111,7 +111,7 @@ def _movers(modes, k):
     """(names, change of the growth rate (1/s) by a tenth more) of friction, speed and every term."""
     found = modes.roots
     raw = np.concatenate(([found.per_friction[k], found.per_speed[k]], found.per_term[k]))
-    return ["friction, everywhere", "speed", *map(str, modes.term)], _TENTH * raw.real
+    return ["friction, everywhere", "speed", *(str(name).replace("_", " ") for name in modes.term)], _TENTH * raw.real
 
 
 def _signed(value):

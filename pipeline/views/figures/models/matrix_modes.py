@@ -68,6 +68,6 @@ def movers(names, values):
         colours = [ORANGE if v > 0 else BLUE for v in values[order]]
         axes.barh(range(len(order)), values[order], color=colours, height=0.65)
         axes.set_yticks(range(len(order)), [names[k] for k in order])
-        axes.set(xlabel="change of the growth rate by 10 % more / 1/s")
+        axes.set(xlabel="change by 10 % more / 1/s")
         axes.grid(axis="y", visible=False)
         return svg(figure)
