@@ -85,7 +85,8 @@ def _where(modes):
     safe = [f for f in lowest if f is not None]
     if len(safe) < len(lowest) or not all(_below(row) for row in stable):
         return "; ".join(parts) + "."
-    stays = f"up to friction {number(min(safe), 3)} times that of the matrices" if min(safe) else "without friction alone"
+    stays = (f"up to friction {number(min(safe), 3)} times that of the matrices" if min(safe)
+             else "without friction alone")
     return "; ".join(parts) + f". On the map it is stable {stays}, whatever the speed."
 
 
