@@ -29,7 +29,6 @@ from pipeline.products.friction import (
     InterfaceLaw,
     MicroFriction,
 )
-from pipeline.products.limit_cycle import LimitCycle
 from pipeline.products.lumped import Lumped
 from pipeline.products.motion import ComplexModes, Convergence, Multibody, Probability, Transient
 from pipeline.products.pages import Comparison, Report
@@ -67,6 +66,6 @@ from pipeline.products.surfaces import Surface
 __all__ = ["BeamGeometry", "BeamOnBeam", "Bench", "BenchRun", "Body", "Channel", "Comparison", "ComplexModes",
            "Condition", "Convergence", "DiagnosedRun", "Diagnosis", "Effects", "Excerpt", "Follows", "FrequencyResponse", "FrictionDescriptions",
            "FrictionMap", "FrictionOverTemperature", "FrictionUpdate", "Incidence", "InterfaceLaw", "LatentForce", "LatentPrediction", "LimitCycle", "LineEvidence", "Lines", "Located", "LockIn",
-           "Lumped", "MeasuredFriction", "MeasuredModes", "MicroFriction", "ModalTest", "ModelUpdate", "MotionScatter", "Multibody", "NoiseEvents", "OccurrenceMap", "OrderSpectra", "Orders", "PinOnDisc", "Probability",
+           "Lumped", "MeasuredFriction", "MeasuredModes", "MicroFriction", "ModalTest", "ModelUpdate", "MotionScatter", "Multibody", "NoiseEvents", "NoiseMatrix", "OccurrenceMap", "OrderSpectra", "Orders", "PinOnDisc", "Probability",
            "Recording", "ReducedModel", "Report", "Response", "ResponseFunctions", "Run", "Rupture", "Spectrogram", "Squeal", "SquealCheck", "Structure", "Surface", "TestModes", "TestResponses", "Topography",
            "Transient"]
