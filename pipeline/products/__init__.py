@@ -33,6 +33,7 @@ from pipeline.products.lumped import Lumped
 from pipeline.products.motion import ComplexModes, Convergence, Multibody, Probability, Transient
 from pipeline.products.pages import Comparison, Report
 from pipeline.products.pin_on_disc import LockIn, PinOnDisc
+from pipeline.products.predicted_squeal import LimitCycle, NoiseMatrix
 from pipeline.products.recording import (
     Channel,
     Condition,
