@@ -30,8 +30,8 @@ from pipeline.products import ComplexModes, FrictionMap, NoiseEvents, NoiseMatri
 class Settings(Section):
     """The schedule, what scatters from brake to brake and from stop to stop, and what of a bench belongs to it."""
 
-    schedule: NamedSchedule = option("j2521", "schedule: j2521, j3211, or a file like pipeline/case_models/noise_matrix/"
-                                     "j2521.yaml")
+    schedule: NamedSchedule = option("j2521", "schedule: j2521, j3211, or a file like theirs, which are in"
+                                     " pipeline/case_models/noise_matrix")
     modules: tuple[Module, ...] = option((), "instead: modules of your own")
     wheel_radius: Quantity("m", gt=0) = option("0.31 m", "rolling radius of the tyre: speed of the vehicle per speed of"
                                                " the disc")
@@ -110,8 +110,8 @@ def noise_matrix(model: ReducedModel, friction_map: FrictionMap | None, modes: C
     the schedule is solved, a stop at several speeds along it. An application is noisy where a mode is unstable.
 
     Method:
-    {draws} brakes with {repeats} stops each were drawn from the declared scatter (seed {seed}); sources that change from
-    stop to stop were drawn anew for each. Unstable modes from {lowest_frequency} to {highest_frequency} make an
+    {draws} brakes with {repeats} stops each were drawn from the declared scatter (seed {seed}); sources that change
+    from stop to stop were drawn anew for each. Unstable modes from {lowest_frequency} to {highest_frequency} make an
     application noisy, a stop at any of {points} speeds along it. Recorded stops were matched with the conditions of the
     schedule within {within}, and the number of noisy ones was tested against the beta-binomial distribution of another
     brake of this scatter, two-sided, with Holm's correction over all conditions and bands (level {level}).

@@ -17,6 +17,6 @@ from pipeline.contract.settings import (
 )
 from pipeline.contract.stage import Products, Stage, Variants, stage
 
-__all__ = ["Array", "BrakechainError", "ConfigError", "Context", "ConvergenceError", "InputFile", "NamedFile", "ProductError",
-           "OneOf", "Products", "Quantities", "Quantity", "Section", "Stage", "Variants", "count", "option", "part",
-           "parts", "product", "quantity", "restored", "section", "stage", "stored", "text"]
+__all__ = ["Array", "BrakechainError", "ConfigError", "Context", "ConvergenceError", "InputFile", "NamedFile",
+           "ProductError", "OneOf", "Products", "Quantities", "Quantity", "Section", "Stage", "Variants", "count",
+           "option", "part", "parts", "product", "quantity", "restored", "section", "stage", "stored", "text"]

@@ -1,1 +1,1 @@
-"""Noise matrix of a brake: the schedule of its stops, the stops of a recording in it, draws solved at its conditions."""
+"""Noise matrix of a brake: schedule, draws at its conditions, the stops of a recording in it."""

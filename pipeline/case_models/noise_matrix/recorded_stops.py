@@ -1,4 +1,4 @@
-"""The stops of a recording in a schedule: under which of its conditions was each run, and in which bands was it noisy?"""
+"""The stops of a recording in a schedule: the condition of each run, and the bands in which it was noisy."""
 
 from dataclasses import dataclass
 
