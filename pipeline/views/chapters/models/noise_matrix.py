@@ -10,9 +10,9 @@ from pipeline.views.figures.probability import nominal
 
 #: the sign of a difference -> what it says
 TOO = {1: "the model squeals too much", -1: "the model squeals too little"}
-MATRIX_CAPTION = ("Share of the draws that are noisy at each line pressure and speed, in percent; below it recorded"
-                  " stops, noisy / all. Framed: they differ by more than chance; solid red, the model squeals too"
-                  " little there, dashed white, too much.")
+PREDICTED = "Share of the draws that are noisy at each line pressure and speed, in percent"
+RECORDED = ("; below it recorded stops, noisy / all. Framed: they differ by more than chance; solid red, the model"
+            " squeals too little there, dashed white, too much")
 
 
 def chapter(product, look):
@@ -46,15 +46,15 @@ def where(product):
     heard = ", ".join(f"{nominal(product.band[k]) / 1e3:g} kHz ({percent(product.band_occurrence[k], 2)})"
                       for k in strongest)
     never, ever = (float(np.mean(sign)) for sign in (product.brake_occurrence == 0, product.brake_occurrence > 0))
-    return (f"Most likely at {worst}; most of it in the 1/3 octaves of {heard}. {percent(ever, 2)} of the drawn brakes"
+    return (f"Most likely in {worst}; most of it in the 1/3 octaves of {heard}. {percent(ever, 2)} of the drawn brakes"
             f" squeal at least once in the schedule, {percent(never, 2)} never.")
 
 
 def bench(product):
-    """Whether recorded stops agree, in sentences; empty without any."""
+    """Whether recorded stops agree, in sentences."""
     stops, runs = int(product.condition_stops.sum()), len(product.run)
     if not runs:
-        return ""
+        return "No stops were recorded: nothing says whether a bench agrees."
     if not stops:
         return f"None of {plural(runs, 'recorded stop')} is near a condition of the schedule."
     noisy = int(product.condition_noisy.sum())
@@ -88,12 +88,15 @@ def named(column, pressure, temperature=0.0):
     kind = "stops" if pictures.ARROW in column else "drags"
     turn = " in reverse" if column.startswith("R ") else ""
     warm = f", {temperature - 273.15:.3g} °C" if temperature else ""
-    return f"{kind} {column.removeprefix('R ')} km/h, {pressure / 1e5:.3g} bar{turn}{warm}"
+    way = "from" if kind == "stops" else "at"
+    speed = column.removeprefix("R ").replace(pictures.ARROW, " to ")
+    return f"{kind} {way} {speed} km/h, {pressure / 1e5:.3g} bar{turn}{warm}"
 
 
 def key_figure(product):
     """Figure of the first screen."""
-    return Figure(pictures.matrix(product), MATRIX_CAPTION)
+    recorded = RECORDED if product.condition_stops.any() else ""
+    return Figure(pictures.matrix(product), f"{PREDICTED}{recorded}.")
 
 
 def certain(product):
@@ -188,7 +191,7 @@ def _notes(product):
     if product.condition_stops.any():
         yield (f"Recorded stops are taken to be those of one brake. {int(product.tests)} tests (conditions, bands, all"
                f" together) at a family-wise level of {percent(float(product.level))}, Holm; beta-binomial, so that"
-               " stops of one brake count as alike as they are predicted to be. The test knows the declared scatter only,"
+               " stops of one brake count as alike as they are predicted to be. The test knows the declared scatter,"
                " no error of the model.")
 
 
