@@ -36,16 +36,19 @@ class Rate:
         return (0.0 if p == 0 else max(low, 0.0)), (1.0 if p == 1 else min(high, 1.0))
 
     def distribution(self, stops):
-        """Distribution of the number of noisy ones among ``stops`` stops of another brake."""
+        """(stops + 1,) probabilities of the numbers of noisy ones among ``stops`` stops of another brake."""
+        betaln = scipy.special.betaln
         share = (self.share * self.effective + 0.5) / (self.effective + 1)
         correlation = np.clip(self.correlation + (1 - self.correlation) / (self.effective + 1), 1 - _MOST, _MOST)
         size = (1 - correlation) / correlation
-        return scipy.stats.betabinom(int(stops), share * size, (1 - share) * size)
+        a, b, noisy = share * size, (1 - share) * size, np.arange(stops + 1)
+        ways = -np.log1p(stops) - betaln(stops - noisy + 1, noisy + 1)
+        return np.exp(ways + betaln(noisy + a, stops - noisy + b) - betaln(a, b))
 
     def p_value(self, noisy, stops):
         """Two-sided p-value of ``noisy`` among ``stops`` stops of another brake: twice the smaller tail."""
         law = self.distribution(stops)
-        return float(min(1.0, 2 * min(law.cdf(noisy), law.sf(noisy - 1))))
+        return float(min(1.0, 2 * min(law[:noisy + 1].sum(), law[noisy:].sum())))
 
     def least(self, stops):
         """Smallest p-value that so many stops can have: that of all of them, or of none, being noisy."""

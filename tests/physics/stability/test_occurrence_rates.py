@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 import scipy
 
-from pipeline.physics.stability.occurrence_rates import rate
+from pipeline.physics.stability.occurrence_rates import Rate, rate
 
 
 def drawn(rng, share, correlation, brakes, stops):
@@ -46,6 +46,16 @@ def test_false_alarms_are_at_most_as_frequent_as_stated(share, correlation):
     values = np.array([rate(drawn(rng, share, correlation, 60, 2)).p_value(
         int(drawn(rng, share, correlation, 1, 12).sum()), 12) for _ in range(count)])
     assert np.mean(values <= 0.05) <= 0.05 + 3.1 * np.sqrt(0.05 * 0.95 / count)
+
+
+@pytest.mark.exact
+@pytest.mark.parametrize("share, correlation", [(0.3, 0.2), (0.0, 0.999), (0.9, 0.001)])
+def test_the_distribution_is_beta_binomial(share, correlation):
+    made = Rate(share, correlation, 80.0)
+    p, rho = (share * 80 + 0.5) / 81, min(correlation + (1 - correlation) / 81, 0.999)
+    law = scipy.stats.betabinom(12, p * (1 - rho) / rho, (1 - p) * (1 - rho) / rho)
+    np.testing.assert_allclose(made.distribution(12), law.pmf(np.arange(13)), rtol=1e-9, atol=1e-15)
+    assert made.p_value(5, 12) == pytest.approx(min(1, 2 * min(law.cdf(5), law.sf(4))), rel=1e-9)
 
 
 def test_one_brake_cannot_contradict_what_differs_between_brakes_alone():
