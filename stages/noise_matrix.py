@@ -22,6 +22,7 @@ from pipeline.case_models.scatter import (
     stability_settings,
 )
 from pipeline.contract import ConfigError, Context, Quantity, Section, option, stage
+from pipeline.diagnosis import noise_matrix_case
 from pipeline.diagnosis.noise_matrix_comparison import comparison
 from pipeline.physics.stability.draw_statistics import third_octaves
 from pipeline.products import ComplexModes, FrictionMap, NoiseEvents, NoiseMatrix, Recording, ReducedModel
@@ -62,7 +63,7 @@ class Settings(Section):
 
 
 def companions(product, case=None):
-    """The conditions as a table: predicted and measured occurrence, and where they differ."""
+    """The conditions as a table, predicted and measured, and the case that asks why where these differ."""
     stream = io.StringIO()
     writer = csv.writer(stream, lineterminator="\n")
     writer.writerow(("kind", "line pressure / Pa", "pad pressure / Pa", "begin / m/s", "end / m/s", "temperature / K",
@@ -77,7 +78,7 @@ def companions(product, case=None):
                    product.condition_noisy[k], product.condition_expected[k], product.condition_p_value[k])
         writer.writerow((kind, *(f"{value:.6g}" for value in numbers), words[int(product.condition_difference[k])],
                          *(f"{value:.6g}" for value in product.band_probability[k])))
-    return {"noise_matrix.csv": stream.getvalue()}
+    return {"noise_matrix.csv": stream.getvalue()} | noise_matrix_case.companions(product, case)
 
 
 def _check(sections):

@@ -57,8 +57,8 @@ def test_the_first_screen_answers_how_likely_where_and_whether_the_bench_agrees(
                                        " in the 1/3 octaves of 2 kHz (20 %), 2.5 kHz (1 %). 50 % of the drawn brakes")
     assert answers["The bench"] == (
         "The bench squealed in 10 of 15 recorded stops, where 2.5 noisy ones are predicted (no difference beyond"
-        " chance, p 0.3). Beyond chance: drags at 3 km/h, 5 bar (9 of 10 noisy, 1 predicted): the model squeals too little; 1/3"
-        " octave of 2 kHz (10 of 15 noisy, 2.5 predicted): the model squeals too little.")
+        " chance, p 0.3). Beyond chance: drags at 3 km/h, 5 bar (9 of 10 noisy, 1 predicted): the model squeals too"
+        " little; 1/3 octave of 2 kHz (10 of 15 noisy, 2.5 predicted): the model squeals too little.")
     assert "At twice as many speeds along a stop, 1 of 20 drawn stops" in answers["How certain"]
     assert "1 of 4 conditions lie" in answers["How certain"]
 

@@ -14,6 +14,8 @@ _MEASURES = {"pressure": (("pressure",), "Pa"), "speed": (("angular_velocity", "
 _BRAKED, _SOUND = 0.5, 2e3
 #: share by which the speed of a drag may vary
 _STEADY = 0.2
+#: most samples of a channel that are read
+_READ = 20000
 #: difference of temperatures, K, that counts as one
 _WARM = 30.0
 
@@ -55,13 +57,23 @@ def _course(run):
 
 
 def _samples(run, name, measures, unit):
-    above = _SOUND if name == "pressure" else -np.inf
-    channels = [channel.samples for channel in run.channels.values() if str(channel.unit) == unit
-                and str(channel.measures) in measures and np.median(channel.samples) > above]
-    if len(channels) == 1:
-        return np.asarray(channels[0], float)
+    above = _SOUND if name == "pressure" else 0.0
+    read = [_read(channel) for channel in run.channels.values() if str(channel.unit) == unit
+            and str(channel.measures) in measures]
+    read = [samples for samples in read if len(samples) and np.median(abs(samples)) > above]
+    if len(read) == 1:
+        return read[0]
     stated = run.conditions.get(name)
     return np.asarray(stated.value, float) if stated is not None and str(stated.unit) == unit else None
+
+
+def _read(channel):
+    """Samples of a Channel, evenly chosen, without those that are missing."""
+    count = len(channel.samples)
+    index = np.arange(0, count, max(count // _READ, 1))
+    for first, after in channel.missing:
+        index = index[(index < first) | (index >= after)]
+    return np.asarray(channel.samples[index], float)
 
 
 def _nearest(course, conditions, settings):
