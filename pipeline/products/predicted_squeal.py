@@ -87,7 +87,7 @@ class NoiseMatrix:
     module_interval: Array = quantity("1", "module bound", "95 % interval of it by the number of draws")
     occurrence: Array = quantity("1", "", "share of the applications of the schedule that are noisy")
     occurrence_interval: Array = quantity("1", "bound", "95 % interval of it by the number of draws")
-    brake_occurrence: Array = quantity("1", "brake", "the same share of each brake")
+    brake_occurrence: Array = quantity("1", "brake", "the same share of each brake, by its drawn stops")
     refined_stops: Array = count("", "stops that were also solved at twice as many speeds")
     refined_changed: Array = count("", "of these, stops that were noisy at one number of speeds and not at the other")
     checked_root: Array = quantity("1/s", "checked", "roots of some draws on the common bases", complex)

@@ -6,7 +6,8 @@ import numpy as np
 
 from pipeline.products import NoiseMatrix
 from pipeline.views.chapters.chapter import Look
-from pipeline.views.chapters.models.noise_matrix import bench, chapter, differing, headline, where
+from pipeline.views.chapters.models.noise_matrix import bench, chapter, headline, where
+from pipeline.views.chapters.models.noise_matrix_tables import differing
 from pipeline.views.figures.models import noise_matrix as pictures
 from pipeline.views.pages.summary import verdict
 from tests.views.products_for_views import filled
@@ -53,8 +54,11 @@ def test_the_first_screen_answers_how_likely_where_and_whether_the_bench_agrees(
     assert plain(told.headline) == ("18 % (12 % to 26 %) of the brake applications of this schedule are predicted to"
                                     " squeal") and told.tone == "squeal"
     answers = {name: plain(answer) for name, answer in told.answers}
+    assert answers["Schedule"] == ("One in the manner of SAE J2521: 20 brake applications, of 1917 published ones. Its"
+                                   " values are not those of the standard, which were not available.")
     assert answers["Where"].startswith("Most likely in stops from 50 to 0 km/h, 10 bar, 60 % of the draws; most of it"
-                                       " in the 1/3 octaves of 2 kHz (20 %), 2.5 kHz (1 %). 50 % of the drawn brakes")
+                                       " in the 1/3 octaves of 2 kHz (20 %), 2.5 kHz (1 %). 50 % of the drawn brakes"
+                                       " are noisy under some condition in their 2 drawn stops of each.")
     assert answers["The bench"] == (
         "The bench squealed in 10 of 15 recorded stops, where 2.5 noisy ones are predicted (no difference beyond"
         " chance, p 0.3). Beyond chance: drags at 3 km/h, 5 bar (9 of 10 noisy, 1 predicted): the model squeals too"

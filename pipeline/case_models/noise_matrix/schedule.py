@@ -103,7 +103,7 @@ def schedule(file, modules=(), temperature_acts=False):
 
     ConfigError for a file that is none, modules of one name, and stops that do not slow down.
     """
-    told, origins = (ScheduleFile(title="a schedule of its own", modules=modules), ()) if modules else _file(file)
+    told, origins = (ScheduleFile(title="of this case", modules=modules), ()) if modules else _file(file)
     names = [module.module for module in told.modules]
     twice = sorted({name for name in names if names.count(name) > 1})
     if twice:

@@ -2,14 +2,13 @@
 
 import numpy as np
 
-from pipeline.views.chapters.chapter import Chapter, Figure, Table
-from pipeline.views.chapters.probability import accuracy, in_words
+from pipeline.views.chapters.chapter import Chapter, Figure
+from pipeline.views.chapters.models.noise_matrix_tables import TOO, differing, named, tables
+from pipeline.views.chapters.probability import accuracy
 from pipeline.views.figures.models import noise_matrix as pictures
 from pipeline.views.figures.number_format import number, percent, plural, quantity
 from pipeline.views.figures.probability import nominal
 
-#: the sign of a difference -> what it says
-TOO = {1: "the model squeals too much", -1: "the model squeals too little"}
 PREDICTED = "Share of the draws that are noisy at each line pressure and speed, in percent"
 RECORDED = ("; below it recorded stops, noisy / all. Framed: they differ by more than chance; solid red, the model"
             " squeals too little there, dashed white, too much")
@@ -20,10 +19,9 @@ def chapter(product, look):
     return Chapter(
         "noise_matrix", "Noise matrix", _see(product), f"{headline(product)[0]}. {bench(product)}".strip(),
         (key_figure(product), Figure(pictures.bands(product), _bands_caption(product)),
-         Figure(pictures.brakes(product), "Noisy applications of each drawn brake: which share of the brakes has at"
-                " most so many. Dashed: the mean.")),
-        tuple(t for t in (_differences(product), _modules(product), _scatter(product), _unmatched(product),
-                          _origins(product)) if t.rows), tuple(filter(None, _notes(product))))
+         Figure(pictures.brakes(product), "Noisy applications of each drawn brake, by its drawn stops: which share of"
+                " the brakes has at most so many. Dashed: the mean.")),
+        tables(product), tuple(filter(None, _notes(product))))
 
 
 def headline(product):
@@ -36,6 +34,15 @@ def headline(product):
             " are predicted to squeal", "squeal")
 
 
+def schedule(product):
+    """What the schedule is, and how much of a published one."""
+    public = int(product.published_applications)
+    missing = " Its values are not those of the standard, which were not available." if str(
+        product.not_available) else ""
+    of = f", of {public} published ones" if public else ""
+    return f"One {product.title}: {int(product.applications.sum())} brake applications{of}.{missing}"
+
+
 def where(product):
     """Where it is most likely: conditions and bands."""
     if not product.probability.any():
@@ -45,9 +52,9 @@ def where(product):
     strongest = [k for k in np.argsort(-product.band_occurrence)[:3] if product.band_occurrence[k] > 0]
     heard = ", ".join(f"{nominal(product.band[k]) / 1e3:g} kHz ({percent(product.band_occurrence[k], 2)})"
                       for k in strongest)
-    never, ever = (float(np.mean(sign)) for sign in (product.brake_occurrence == 0, product.brake_occurrence > 0))
+    ever, repeats = float(np.mean(product.brake_occurrence > 0)), plural(int(product.repeats), "drawn stop")
     return (f"Most likely in {worst}; most of it in the 1/3 octaves of {heard}. {percent(ever, 2)} of the drawn brakes"
-            f" squeal at least once in the schedule, {percent(never, 2)} never.")
+            f" are noisy under some condition in their {repeats} of each.")
 
 
 def bench(product):
@@ -68,29 +75,6 @@ def bench(product):
                        for name, heard, of, expected, _, sign in apart[:4])
     more = f"; {len(apart) - 4} more in the table" if len(apart) > 4 else ""
     return f"{first} Beyond chance: {listed}{more}."
-
-
-def differing(product):
-    """[(name, noisy, stops, expected, family-wise p, sign)] of conditions and bands that differ, clearest first."""
-    stops = int(product.condition_stops.sum())
-    conditions = [(named(pictures.column(product, k), product.pressure[k], product.temperature[k]),
-                   int(product.condition_noisy[k]), int(product.condition_stops[k]), product.condition_expected[k],
-                   product.condition_p_value[k], int(product.condition_difference[k]))
-                  for k in np.flatnonzero(product.condition_difference)]
-    bands = [(f"1/3 octave of {nominal(product.band[k]) / 1e3:g} kHz", int(product.band_noisy[k]), stops,
-              product.band_expected[k], product.band_p_value[k], int(product.band_difference[k]))
-             for k in np.flatnonzero(product.band_difference)]
-    return sorted(conditions + bands, key=lambda row: row[4])
-
-
-def named(column, pressure, temperature=0.0):
-    """A condition in words."""
-    kind = "stops" if pictures.ARROW in column else "drags"
-    turn = " in reverse" if column.startswith("R ") else ""
-    warm = f", {temperature - 273.15:.3g} °C" if temperature else ""
-    way = "from" if kind == "stops" else "at"
-    speed = column.removeprefix("R ").replace(pictures.ARROW, " to ")
-    return f"{kind} {way} {speed} km/h, {pressure / 1e5:.3g} bar{turn}{warm}"
 
 
 def key_figure(product):
@@ -141,7 +125,8 @@ def _see(product):
 def _temperature(product):
     if product.temperature.any():
         return "Temperature acts by the softening of the friction map alone, not on materials."
-    return "The temperatures of the schedule do not act: the model has no dependence on them."
+    return ("The temperatures of the schedule do not act: the model does not depend on them, as friction does where"
+            " friction_map.bulk_temperatures are stated.")
 
 
 def _bands_caption(product):
@@ -149,41 +134,6 @@ def _bands_caption(product):
         return ("Share of the recorded stops that are noisy in each 1/3 octave, predicted and recorded. Star: they"
                 " differ by more than chance.")
     return "Share of the applications of the schedule that are noisy in each 1/3 octave."
-
-
-def _differences(product):
-    rows = [(name, f"{heard} / {stops}", number(expected, 3), number(p, 2), TOO[sign])
-            for name, heard, stops, expected, p, sign in differing(product)]
-    return Table(("condition or band", "recorded noisy / all", "predicted noisy", "family-wise p", "verdict"),
-                 tuple(rows), "Where the bench and the model differ by more than chance", (1, 2, 3), (4,))
-
-
-def _modules(product):
-    rows = [(str(name), str(int(uses.sum())), percent(share, 3), f"{percent(low, 2)} to {percent(high, 2)}")
-            for name, uses, share, (low, high) in zip(product.module, product.applications, product.module_occurrence,
-                                                      product.module_interval, strict=True)]
-    return Table(("module", "applications", "predicted noisy", "95 % interval"), tuple(rows), "Occurrence by module",
-                 (1, 2, 3))
-
-
-def _scatter(product):
-    rows = [(in_words(name), str(law), "stop to stop" if varies else "brake to brake")
-            for name, law, varies in zip(product.source, product.source_law, product.source_varies, strict=True)]
-    return Table(("source", "scatter", "from"), tuple(rows), "What scatters", wide=(1,), folded=True)
-
-
-def _unmatched(product):
-    rows = [(str(product.run[k]), "yes" if product.run_noisy[k] else "no", str(product.run_reason[k]))
-            for k in np.flatnonzero(product.run_condition < 0)]
-    return Table(("run", "squeal", "reason"), tuple(rows), "Recorded stops that are no condition of the schedule", (),
-                 (2,), folded=len(rows) > 8)
-
-
-def _origins(product):
-    rows = [tuple(map(str, row)) for row in zip(product.origin_module, product.origin_setting, product.origin_value,
-                                                product.origin, product.origin_source, strict=True)]
-    return Table(("module", "setting", "value", "origin", "source"), tuple(rows),
-                 "Where the values of the schedule come from", (), (2, 4), folded=True)
 
 
 def _notes(product):
