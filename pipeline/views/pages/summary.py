@@ -64,7 +64,8 @@ def verdict(products, tuned_settings):
 
 def _of_matrix(product, products, tuned_settings):
     """Verdict of a noise matrix: how likely it squeals, in what, where, and whether the bench agrees."""
-    answers = [("Schedule", noise_matrix.schedule(product)), ("Where", noise_matrix.where(product)), ("The bench", noise_matrix.bench(product)),
+    answers = [("Schedule", noise_matrix.schedule(product)), ("Where", noise_matrix.where(product)),
+               ("The bench", noise_matrix.bench(product)),
                ("How certain", noise_matrix.certain(product)), ("Tuned", _tuned(products, tuned_settings))]
     return Verdict(*noise_matrix.headline(product), tuple(a for a in answers if a[1]), tuple(_facts(products)))
 
