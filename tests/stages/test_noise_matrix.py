@@ -1,6 +1,7 @@
 """Stage noise_matrix on a brake whose squeal is known in closed form, and on one of a few elements."""
 
 import csv
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -8,7 +9,7 @@ import scipy
 
 from pipeline.contract import ConfigError, store
 from pipeline.contract.settings import fill
-from pipeline.products import Condition, NoiseEvents, Recording, Run
+from pipeline.products import Condition, FrictionOverTemperature, NoiseEvents, Recording, Run
 from stages.complex_modes import Settings as Modes
 from stages.complex_modes import complex_modes
 from stages.noise_matrix import Settings, companions, noise_matrix
@@ -115,6 +116,18 @@ def test_the_number_of_workers_changes_no_bit_and_draws_agree_with_the_whole_mod
     np.testing.assert_allclose(one.checked_root.imag, one.whole_root.imag, rtol=5e-3)
     assert 0 < one.occurrence < 1 and one.value.shape == (8, 3)
     np.testing.assert_array_equal(one.source_varies, [0, 1, 1])
+
+
+def test_where_friction_softens_a_warm_disc_squeals_less(brake):
+    """Friction of the map at 20 degC is 0.6, and nothing is left of it 100 K above that."""
+    model, law, modes = brake
+    soft = FrictionOverTemperature(temperature=[100.0], friction=np.full((1, 2, 2, 2), 1e-3))
+    law = replace(law, friction=np.full((2, 2, 2), 0.6), over_temperature={"bodies": soft})
+    drags = {**MODULES[0], "direction": "forward", "pressures": ["15 bar"], "temperatures": ["20 degC", "120 degC"]}
+    made = noise_matrix(model, law, modes, settings=settings(
+        modules=[drags], draws=10, checked=0, sources=SOURCES[:2], lowest_frequency="500 Hz"))
+    np.testing.assert_allclose(made.temperature, [293.15, 393.15])
+    assert made.probability[0] > 0.3 and made.probability[1] == 0
 
 
 @pytest.mark.parametrize("given, said", [

@@ -1,5 +1,6 @@
 """Chapter of a noise matrix: how likely, where, whether the bench agrees, and what the schedule is made of."""
 
+import json
 from dataclasses import replace
 
 import numpy as np
@@ -10,6 +11,7 @@ from pipeline.views.chapters.models.noise_matrix import bench, chapter, headline
 from pipeline.views.chapters.models.noise_matrix_tables import differing
 from pipeline.views.figures.models import noise_matrix as pictures
 from pipeline.views.pages.summary import verdict
+from pipeline.views.pages.verdict_file import verdict_text
 from tests.views.products_for_views import filled
 
 LOOK = Look(dpi=50)
@@ -65,6 +67,15 @@ def test_the_first_screen_answers_how_likely_where_and_whether_the_bench_agrees(
         " little; 1/3 octave of 2 kHz (10 of 15 noisy, 2.5 predicted): the model squeals too little.")
     assert "At twice as many speeds along a stop, 1 of 20 drawn stops" in answers["How certain"]
     assert "1 of 4 conditions lie" in answers["How certain"]
+
+
+def test_other_programs_read_the_same():
+    given = {"noise_matrix": product(**BENCH)}
+    made = json.loads(verdict_text(verdict(given, ()), given))["noise_matrix"]
+    assert made["occurrence"] == 0.18 and made["applications"] == 20 and (made["recorded"], made["noisy"]) == (15, 10)
+    assert made["differences"][0] == {"condition": "drags at 3 km/h, 5 bar", "recorded": 10, "noisy": 9,
+                                      "predicted_noisy": 1.0, "family_wise_p": 0.002, "model_squeals_too": "little"}
+    assert json.loads(verdict_text(verdict({}, ()), {}))["noise_matrix"] is None
 
 
 def test_agreement_silence_and_no_bench_are_told():
