@@ -46,7 +46,8 @@ class Settings(Section):
     highest_frequency: Quantity("Hz", gt=0) = option("16 kHz", "modes up to it are squeal (SAE J2521); at most"
                                                      " complex_modes.frequency_max counts")
     least_growth: Quantity("1/s", ge=0) = option("0 1/s", "growth rate above which a mode counts")
-    draws: int = option(100, "brakes that are drawn", ge=2)
+    draws: int = option(250, "brakes that are drawn: the smallest p-value of a difference is about half of its inverse",
+                        ge=2)
     repeats: int = option(2, "stops of each that are drawn", ge=1)
     seed: int = option(11, "seed of the draws", ge=0)
     sources: tuple[Source, ...] = option(DEFAULT, "what scatters, each source independent of the others")

@@ -83,7 +83,7 @@ def test_agreement_silence_and_no_bench_are_told():
     agreeing = product(**{**BENCH, "condition_difference": [0] * 4, "band_difference": [0, 0]})
     assert not differing(agreeing) and bench(agreeing).endswith(
         "No pressure, speed or band differs by more than chance. In 1 of 2 conditions it could not have: so few stops"
-        " of one brake fit the scatter whatever they do.")
+        " of one brake, or so few draws, leave room for any result.")
     far = product(**{**BENCH, **{name: PLAIN[name] for name in ("condition_stops", "condition_noisy")}})
     assert bench(far) == "None of 2 recorded stops is near a condition of the schedule."
     quiet = product(occurrence=0.0, probability=np.zeros(4))

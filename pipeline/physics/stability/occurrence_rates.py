@@ -46,9 +46,15 @@ class Rate:
         return np.exp(ways + betaln(noisy + a, stops - noisy + b) - betaln(a, b))
 
     def p_value(self, noisy, stops):
-        """Two-sided p-value of ``noisy`` among ``stops`` stops of another brake: twice the smaller tail."""
+        """Two-sided p-value of ``noisy`` among ``stops`` stops of another brake: twice the smaller tail.
+
+        Where all draws are noisy, or none is, it can only be less, or more: one tail.
+        """
         law = self.distribution(stops)
-        return float(min(1.0, 2 * min(law[:noisy + 1].sum(), law[noisy:].sum())))
+        below, above = law[:noisy + 1].sum(), law[noisy:].sum()
+        if self.share in (0.0, 1.0):
+            return float(min(1.0, above if self.share == 0 else below))
+        return float(min(1.0, 2 * min(below, above)))
 
     def least(self, stops):
         """Smallest p-value that so many stops can have: that of all of them, or of none, being noisy."""

@@ -36,10 +36,11 @@ def test_without_scatter_every_stop_is_the_same():
     for certain in (0, 1):
         made = rate(np.full((100, 2), certain))
         assert made.share == certain and made.interval()[certain] == certain
-        assert made.p_value(certain * 10, 10) == 1.0 and made.p_value((1 - certain) * 10, 10) < 0.02
+        assert made.p_value(certain * 10, 10) == pytest.approx(1, abs=1e-12) and made.p_value((1 - certain) * 10, 10) < 0.02
 
 
-@pytest.mark.parametrize("share, correlation", [(0.05, 0.3), (0.3, 0.02), (0.3, 0.5), (0.7, 0.9), (0.5, 0.2)])
+@pytest.mark.parametrize("share, correlation", [
+    (0.05, 0.3), (0.3, 0.02), (0.3, 0.5), (0.7, 0.9), (0.5, 0.2), (0.004, 0.9), (0.98, 0.5), (0.99, 0.02)])
 def test_false_alarms_are_at_most_as_frequent_as_stated(share, correlation):
     """Bench and model are of one law: a p-value of at most 5 % occurs in at most 5 %, within 3.1 standard errors."""
     rng, count = np.random.default_rng(7), 600
@@ -55,7 +56,18 @@ def test_the_distribution_is_beta_binomial(share, correlation):
     p, rho = (share * 80 + 0.5) / 81, min(correlation + (1 - correlation) / 81, 0.999)
     law = scipy.stats.betabinom(12, p * (1 - rho) / rho, (1 - p) * (1 - rho) / rho)
     np.testing.assert_allclose(made.distribution(12), law.pmf(np.arange(13)), rtol=1e-9, atol=1e-15)
-    assert made.p_value(5, 12) == pytest.approx(min(1, 2 * min(law.cdf(5), law.sf(4))), rel=1e-9)
+    tails = law.sf(4) if share == 0 else 2 * min(law.cdf(5), law.sf(4))
+    assert made.p_value(5, 12) == pytest.approx(min(1, tails), rel=1e-9)
+
+
+@pytest.mark.exact
+@pytest.mark.parametrize("count", [20, 100, 250])
+def test_what_no_draw_does_is_as_improbable_as_their_number_says(count):
+    """A brake that differs with probability q, of which ``count`` draws show none, is at most max q (1 - q)^count
+    frequent: the p-value is not below that."""
+    made = rate(np.zeros((count, 1)))
+    q = 1 / (count + 1)
+    assert q * (1 - q) ** count <= made.p_value(10, 10) <= 1 / (count + 1)
 
 
 def test_one_brake_cannot_contradict_what_differs_between_brakes_alone():

@@ -103,8 +103,8 @@ def _blind(product):
     blind = int(np.sum(asked & (product.condition_least_p > product.level)))
     if not blind:
         return ""
-    return (f" In {blind} of {plural(int(asked.sum()), 'condition')} it could not have: so few stops of one brake fit"
-            " the scatter whatever they do.")
+    return (f" In {blind} of {plural(int(asked.sum()), 'condition')} it could not have: so few stops of one brake, or"
+            " so few draws, leave room for any result.")
 
 
 def _see(product):
