@@ -7,9 +7,10 @@ import numpy as np
 from pipeline.case_models.noise_matrix.schedule import DRAG, STOP
 from pipeline.physics.stability.draw_statistics import band_of
 
-#: what channels measure of a condition, and its unit
+#: what channels measure of a condition, and its unit; a speed in m/s is that of the vehicle
 _MEASURES = {"pressure": (("pressure",), "Pa"), "speed": (("angular_velocity", "speed"), "rad/s"),
              "temperature": (("temperature",), "K")}
+_VEHICLE = ("speed",), "m/s"
 #: a run is braked where its pressure is above this share of its largest; median in Pa below which a pressure is sound
 _BRAKED, _SOUND = 0.5, 2e3
 #: share by which the speed of a drag may vary
@@ -34,7 +35,7 @@ class Stops:
 def recorded_stops(recording, events, conditions, bands, settings):
     """Stops of the products Recording and NoiseEvents in the ``conditions`` of a schedule."""
     runs = tuple(dict.fromkeys(map(str, events.record_run)))
-    matched = [_nearest(_course(recording.runs[run]), conditions, settings) for run in runs]
+    matched = [_nearest(_course(recording.runs[run], settings.wheel_radius), conditions, settings) for run in runs]
     noisy = np.array([_squeals(events, run, bands) for run in runs]).reshape(len(runs), len(bands.middle))
     return Stops(runs, np.array([m[0] for m in matched], int), tuple(m[1] for m in matched), noisy)
 
@@ -51,9 +52,14 @@ def _squeals(events, run, bands):
     return noisy
 
 
-def _course(run):
-    """{condition: samples} of a Run: of its one channel of it, else as it states them; None where neither is there."""
-    return {name: _samples(run, name, *of) for name, of in _MEASURES.items()}
+def _course(run, radius):
+    """{condition: samples} of a Run: of its one channel of it, else as it states them; None where neither is there.
+
+    The speed is that of the disc, rad/s, on whose wheel the ``radius`` m belongs to a speed of the vehicle.
+    """
+    course = {name: _samples(run, name, *of) for name, of in _MEASURES.items()}
+    vehicle = _samples(run, "speed", *_VEHICLE) if course["speed"] is None else None
+    return course if vehicle is None else {**course, "speed": vehicle / radius}
 
 
 def _samples(run, name, measures, unit):
@@ -80,7 +86,7 @@ def _nearest(course, conditions, settings):
     """(row of the nearest of the ``conditions``, "") or (-1, why there is none)."""
     pressure, speed, temperature = (course[name] for name in _MEASURES)
     if pressure is None or speed is None:
-        return -1, f"its {'pressure' if pressure is None else 'speed in rad/s'} is neither measured nor stated"
+        return -1, f"its {'pressure' if pressure is None else 'speed'} is neither measured nor stated"
     line = float(np.median(pressure[pressure >= _BRAKED * pressure.max()]))
     begin, end = (float(np.percentile(abs(speed), share)) for share in (98, 2))
     kind = DRAG if begin - end <= _STEADY * begin else STOP

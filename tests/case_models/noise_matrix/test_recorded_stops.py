@@ -52,9 +52,17 @@ def test_stated_and_measured_stops_find_their_condition():
     np.testing.assert_array_equal(made.condition, [0, 2, 1, 3, -1, -1, -1])
     assert made.reason[4] == "no condition is near a drag at 3 km/h and 25 bar"
     assert made.reason[5] == "no condition is near a drag at 50 km/h and 5 bar"
-    assert made.reason[6] == "its speed in rad/s is neither measured nor stated"
+    assert made.reason[6] == "its speed is neither measured nor stated"
     np.testing.assert_array_equal(made.noisy.any(axis=1), [False, False, False, True, False, False, False])
     assert BANDS.middle[made.noisy[3]].round() == [3981]
+
+
+def test_a_speed_in_metres_a_second_is_that_of_the_vehicle():
+    slow, ramp = stated(5e5), np.linspace(50 / 3.6, 0.0, 500)
+    slow.conditions["speed"] = Stated(value=[3 / 3.6], time=[0.0], unit="m/s")
+    made = found({"stated": slow, "stop": stated(1e6, None, v=(ramp, "m/s", "speed")),
+                  "vibration": stated(1e6, None, v=(ramp, "m/s", "velocity"))}, {})
+    np.testing.assert_array_equal(made.condition, [0, 3, -1])
 
 
 def test_the_nearest_of_two_conditions_counts():
