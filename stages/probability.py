@@ -23,10 +23,9 @@ from pipeline.case_models.scatter import (
 )
 from pipeline.contract import ConfigError, Context, ConvergenceError, Quantity, Section, option, stage
 from pipeline.physics.stability.draw_statistics import band_of, first_order, rate_interval, third_octaves
-from pipeline.physics.stability.refinement import moved_roots
 from pipeline.physics.stability.sampled_roots import sampled
 from pipeline.physics.stability.scatter import NOMINAL
-from pipeline.physics.stability.whole_roots import whole_roots
+from pipeline.physics.stability.whole_roots import beside_whole
 from pipeline.products import ComplexModes, Effects, FrictionMap, Probability, ReducedModel
 
 TWO_PI = 2.0 * np.pi
@@ -34,8 +33,6 @@ TWO_PI = 2.0 * np.pi
 _CHUNK = 25
 #: lowest 1/3 octave band, Hz
 _LOWEST_BAND = 200.0
-#: growth rate in 1/s above which a root that only one of basis and whole model has counts as missed
-_MISSED = 10.0
 
 
 class Settings(Section):
@@ -135,14 +132,8 @@ def _checks(cases, drawn, points, settings):
 
 
 def _checked(points, task):
-    """(roots (u,) on the basis, the same in the whole model, number that only one has) of unstable modes."""
     case, speed, factors = task
-    whole = whole_roots(case.family, factors, speed, points.frequency_max)
-    unstable = whole[whole.real > 0]
-    moved = moved_roots(unstable, case.roots(factors, speed), _MISSED)
-    there = np.isfinite(moved.root)
-    edge = abs(moved.added) < TWO_PI * points.frequency_max * 0.99
-    return moved.root[there], unstable[there], np.sum(~there & (unstable.real > _MISSED)) + edge.sum()
+    return beside_whole(case, factors, speed, points.frequency_max)
 
 
 def _accuracy(checked):

@@ -5,6 +5,7 @@ from pipeline.contract.errors import BrakechainError, ConfigError, ConvergenceEr
 from pipeline.contract.product import Array, count, part, parts, product, quantity, text
 from pipeline.contract.settings import (
     InputFile,
+    NamedFile,
     OneOf,
     Quantities,
     Quantity,
@@ -16,6 +17,6 @@ from pipeline.contract.settings import (
 )
 from pipeline.contract.stage import Products, Stage, Variants, stage
 
-__all__ = ["Array", "BrakechainError", "ConfigError", "Context", "ConvergenceError", "InputFile", "ProductError",
-           "OneOf", "Products", "Quantities", "Quantity", "Section", "Stage", "Variants", "count", "option", "part",
-           "parts", "product", "quantity", "restored", "section", "stage", "stored", "text"]
+__all__ = ["Array", "BrakechainError", "ConfigError", "Context", "ConvergenceError", "InputFile", "NamedFile",
+           "ProductError", "OneOf", "Products", "Quantities", "Quantity", "Section", "Stage", "Variants", "count",
+           "option", "part", "parts", "product", "quantity", "restored", "section", "stage", "stored", "text"]

@@ -150,6 +150,20 @@ def _existing(value, info: ValidationInfo):
 InputFile = Annotated[Path, BeforeValidator(_existing), WithJsonSchema({"type": "string", "description": "a file"})]
 
 
+def NamedFile(folder):  # noqa: N802
+    """An InputFile that may be the name, without ``.yaml``, of a document in ``folder``."""
+    names = sorted(path.stem for path in Path(folder).glob("*.yaml"))
+
+    def in_folder(value):
+        if value in names:
+            return str(Path(folder) / f"{value}.yaml")
+        if not isinstance(value, str | Path) or not Path(value).suffix and not str(value).startswith("measured:"):
+            raise ValueError(f"expected {', '.join(names)} or a YAML file, found {value!r}")
+        return value
+
+    return Annotated[InputFile, BeforeValidator(in_folder)]
+
+
 def annotated(values):
     """Whether a mapping of a case is a value with its origin; with a key ``unit`` it is a section instead."""
     return isinstance(values, dict) and "value" in values and "unit" not in values

@@ -36,6 +36,8 @@ AS_WRITTEN = {"U/min": "rpm", "°": "deg"}
 #: and the same of parts of a unit: torques, accelerations
 _PARTS = ((re.compile(r"(?<![A-Za-z])([kM]?N)(m{1,2})(?![A-Za-z])"), r"(\1 \2)"),
           (re.compile(r"\b([mu]?m)/s2\b"), r"\1/s^2"))
+#: a temperature as it is read; 0 degC in K
+_CELSIUS, _ZERO_CELSIUS = ("degC", "°C"), 273.15
 _LEVEL = re.compile(r"dB\s+re\s+(?P<value>[\d.]+(e[-+]?\d+)?)\s*(?P<unit>.+)", re.IGNORECASE)
 
 #: unit of a linear quantity -> that of its counterpart about an axis, at a radius of 1 m of one size
@@ -81,6 +83,8 @@ def to_si(value, unit, where):
     if _STRAY.search(_OF_UNIT.sub("", spelt["unit"])):
         raise ConfigError(where, expected, repr(value), "write one number, with a decimal point, and its unit")
     number, written = value.removesuffix(spelt["unit"]), as_written(spelt["unit"])
+    if unit == "K" and written in _CELSIUS:
+        return float(number) + _ZERO_CELSIUS
     plain = _plainly(number, written, unit)
     if plain is not None:
         return plain

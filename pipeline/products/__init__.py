@@ -29,11 +29,11 @@ from pipeline.products.friction import (
     InterfaceLaw,
     MicroFriction,
 )
-from pipeline.products.limit_cycle import LimitCycle
 from pipeline.products.lumped import Lumped
 from pipeline.products.motion import ComplexModes, Convergence, Multibody, Probability, Transient
 from pipeline.products.pages import Comparison, Report
 from pipeline.products.pin_on_disc import LockIn, PinOnDisc
+from pipeline.products.predicted_squeal import LimitCycle, NoiseMatrix
 from pipeline.products.recording import (
     Channel,
     Condition,
@@ -68,6 +68,6 @@ from pipeline.products.systems.matrices import Matrices, MatrixModes, MatrixTerm
 __all__ = ["BeamGeometry", "BeamOnBeam", "Bench", "BenchRun", "Body", "Channel", "Comparison", "ComplexModes",
            "Condition", "Convergence", "DiagnosedRun", "Diagnosis", "Effects", "Excerpt", "Follows", "FrequencyResponse", "FrictionDescriptions",
            "FrictionMap", "FrictionOverTemperature", "FrictionUpdate", "Incidence", "InterfaceLaw", "LatentForce", "LatentPrediction", "LimitCycle", "LineEvidence", "Lines", "Located", "LockIn",
-           "Lumped", "Matrices", "MatrixModes", "MatrixTerm", "MeasuredFriction", "MeasuredModes", "MicroFriction", "ModalTest", "ModelUpdate", "MotionScatter", "Multibody", "NoiseEvents", "OccurrenceMap", "OrderSpectra", "Orders", "PinOnDisc", "Probability",
+           "Lumped", "Matrices", "MatrixModes", "MatrixTerm", "MeasuredFriction", "MeasuredModes", "MicroFriction", "ModalTest", "ModelUpdate", "MotionScatter", "Multibody", "NoiseEvents", "NoiseMatrix", "OccurrenceMap", "OrderSpectra", "Orders", "PinOnDisc", "Probability",
            "Recording", "ReducedModel", "Report", "Response", "ResponseFunctions", "RootsOfMatrices", "Run", "Rupture", "Spectrogram", "Squeal", "SquealCheck", "Structure", "Surface", "TestModes", "TestResponses", "Topography",
            "Transient"]

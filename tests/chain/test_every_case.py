@@ -12,8 +12,8 @@ from tests.chain.conftest import ROOT, brakechain
 from tests.studies import brake, self_excited, worn
 
 #: cases in full resolution; disc_brake_scanned needs recordings as well
-SLOW = {**dict.fromkeys(("disc_brake", "disc_brake_paper_joints", "bimaterial_rupture", "pin_on_disc",
-                         "pin_on_disc_paper_step", "beam_geometry"), [pytest.mark.slow]),
+SLOW = {**dict.fromkeys(("disc_brake", "disc_brake_matrix", "disc_brake_paper_joints", "bimaterial_rupture",
+                         "pin_on_disc", "pin_on_disc_paper_step", "beam_geometry"), [pytest.mark.slow]),
         **dict.fromkeys(("pin_on_disc_bench", "disc_brake_bench", "worn_pad", "disc_table1", "disc_brake_lines",
                          "pin_on_disc_lines", "bimaterial_rupture_fine"), [pytest.mark.slow, pytest.mark.study]),
         **dict.fromkeys(("emps", "silverbox", "tribometer"),

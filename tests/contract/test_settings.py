@@ -4,7 +4,7 @@ from typing import Literal
 
 import pytest
 
-from pipeline.contract import ConfigError, InputFile, Quantities, Quantity, Section, option
+from pipeline.contract import ConfigError, InputFile, NamedFile, Quantities, Quantity, Section, option
 from pipeline.contract.settings import fill, leaves, without_origins
 
 
@@ -73,3 +73,20 @@ def test_leaves_tell_units_and_meanings():
     told = {key: (value, unit, meaning) for key, value, unit, meaning in leaves(Settings())}
     assert told["ring.thickness"] == (pytest.approx(0.00687), "m", "ring thickness")
     assert told["pressures"] == ((1e6, 2e6), "Pa", "pressures") and told["steps"] == (41, "", "steps")
+
+
+def test_a_document_of_a_folder_is_named_and_others_are_files(tmp_path):
+    (tmp_path / "one.yaml").write_text("{}")
+    (tmp_path / "two.yaml").write_text("{}")
+
+    class Named(Section):
+        """A section with a named document."""
+
+        which: NamedFile(tmp_path) = option("one", "a document")
+
+    assert Named().which == tmp_path / "one.yaml"
+    assert fill(Named, {"which": str(tmp_path / "two.yaml")}, "c").which == tmp_path / "two.yaml"
+    for wrong, said in (("onw", "expected one, two or a YAML file, found 'onw'"), ("x.yaml", "expected a file"),
+                        (3, "expected one, two or a YAML file")):
+        with pytest.raises(ConfigError, match=said):
+            fill(Named, {"which": wrong}, "c")

@@ -7,6 +7,7 @@ import pytest
 
 from pipeline.views.chapters.bench import line_evidence, line_fit
 from pipeline.views.chapters.chapter import Look
+from pipeline.views.figures.bench import line_fit as line_fit_pictures
 from pipeline.views.figures.number_format import number, quantity
 from pipeline.views.pages.summary import verdict
 from tests.views import diagnosis_for_views
@@ -88,3 +89,8 @@ def test_of_the_cycle_it_is_said_what_has_time_to_be_heard():
     assert "1.5" in tables[1].rows[0][2] and tables[1].rows[1][2] == "none"
     assert line_fit.cycle(replace(WEIGHED, cycle_time=np.empty(0), cycle_pressure=np.empty(0),
                                   cycle_speed=np.empty(0)), []) == ("", (), ())
+
+
+def test_a_hypothesis_without_any_tone_is_drawn():
+    silent = replace(WEIGHED, tone_hypothesis=np.full(len(WEIGHED.tone), 2))
+    assert line_fit_pictures.before_after(silent, list(silent.hypothesis)).startswith("<?xml")

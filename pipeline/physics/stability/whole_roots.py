@@ -9,9 +9,12 @@ from pipeline.physics.sliding.equilibrium import closure_response, given_state, 
 from pipeline.physics.sliding.model import FrictionState
 from pipeline.physics.sliding.structural_damping import equivalent_damping
 from pipeline.physics.stability.friction_basis import friction_basis
+from pipeline.physics.stability.refinement import moved_roots
 
 #: growth rates above this negative share of the frequency are solved for in the whole model
 _NEARLY = 5e-4
+#: growth rate in 1/s above which a root that only one of basis and whole model has counts as missed
+_MISSED = 10.0
 
 
 def whole_roots(family, factors, speed, below, smallest=1e-3):
@@ -35,6 +38,19 @@ def whole_roots(family, factors, speed, below, smallest=1e-3):
     root = np.array([polished(mass, damping, stiffness + 1j * loss, s, basis @ x)[0]
                      for s, x in zip(modes.value[near], modes.right[:, near].T, strict=True)])
     return root[np.argsort(-root.real, kind="stable")]
+
+
+def beside_whole(case, factors, speed, below):
+    """(roots (u,) of a Sampled, the same in the whole model, number that only one has) of the unstable modes of a draw.
+
+    ``below`` Hz limits the modes; those within 1 % of it may lie on either side.
+    """
+    whole = whole_roots(case.family, factors, speed, below)
+    unstable = whole[whole.real > 0]
+    moved = moved_roots(unstable, case.roots(factors, speed), _MISSED)
+    there = np.isfinite(moved.root)
+    edge = abs(moved.added) < 2 * np.pi * below * 0.99
+    return moved.root[there], unstable[there], np.sum(~there & (unstable.real > _MISSED)) + edge.sum()
 
 
 def _about(varied):

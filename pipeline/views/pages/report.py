@@ -28,7 +28,7 @@ from pipeline.views.chapters.bench import (
     response_functions,
 )
 from pipeline.views.chapters.chapter import Figure
-from pipeline.views.chapters.models import beam_on_beam, lock_in, lumped, matrix_modes, rupture, transient
+from pipeline.views.chapters.models import beam_on_beam, lock_in, lumped, matrix_modes, noise_matrix, rupture, transient
 from pipeline.views.figures import complex_modes as stability_pictures
 from pipeline.views.figures import vibration as sound_pictures
 from pipeline.views.figures.models import rupture as rupture_pictures
@@ -70,6 +70,7 @@ CHAPTERS = {
     "modal_test": (modal_test.chapter, ()),
     "model_update": (model_update.chapter, ()),
     "line_evidence": (line_evidence.chapter, ()),
+    "noise_matrix": (noise_matrix.chapter, ()),
     "friction_update": (measured_friction.chapter, ()),
     "bench": (bench.chapter, ()),
     "diagnosis": (diagnosis.chapter, ()),
@@ -108,6 +109,8 @@ def _key_figures(products, look):
     """Figures of the first screen: the answer, and what a simulated brake sounds like."""
     if products.get("diagnosis") is not None and products.get("line_evidence") is None:
         return diagnosis.key_figures(products["diagnosis"])
+    if products.get("noise_matrix") is not None:
+        return (noise_matrix.key_figure(products["noise_matrix"]),)
     if products.get("friction_update") is not None:
         return (measured_friction.key_figure(products["friction_update"]),)
     if products.get("model_update") is not None:

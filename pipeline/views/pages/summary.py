@@ -15,7 +15,7 @@ from pipeline.views.chapters.bench import (
     orders,
 )
 from pipeline.views.chapters.friction import outside_computed
-from pipeline.views.chapters.models import matrix_modes
+from pipeline.views.chapters.models import matrix_modes, noise_matrix
 from pipeline.views.chapters.models.rupture import headline as rupture_headline
 from pipeline.views.chapters.pad_motion import extremes, open_balance, point, rate_in_words
 from pipeline.views.chapters.unstable_modes import (
@@ -54,11 +54,21 @@ def verdict(products, tuned_settings):
             answers = (*told.note(products[name]), ("Tuned", _tuned(products, tuned_settings)))
             return Verdict(*told.headline(products[name]), tuple(filter(lambda a: a[1], answers)),
                            tuple(_facts(products)))
+    if products.get("noise_matrix") is not None:
+        return _of_matrix(products["noise_matrix"], products, tuned_settings)
     headline, tone = _headline(products)
     answers = [("Where", _where(products)), ("Why", _why(products)), ("How likely", _likely(products)),
                ("How certain", _sure(products)),
                ("Tuned", _tuned(products, tuned_settings))]
     return Verdict(headline, tone, tuple(a for a in answers if a[1]), tuple(_facts(products)))
+
+
+def _of_matrix(product, products, tuned_settings):
+    """Verdict of a noise matrix: how likely it squeals, in what, where, and whether the bench agrees."""
+    answers = [("Schedule", noise_matrix.schedule(product)), ("Where", noise_matrix.where(product)),
+               ("The bench", noise_matrix.bench(product)),
+               ("How certain", noise_matrix.certain(product)), ("Tuned", _tuned(products, tuned_settings))]
+    return Verdict(*noise_matrix.headline(product), tuple(a for a in answers if a[1]), tuple(_facts(products)))
 
 
 def _diagnosed(product, products, tuned_settings):

@@ -7,6 +7,7 @@ import numpy as np
 from pipeline.views.chapters.convergence import WORDS, statement
 from pipeline.views.chapters.friction import outside_computed
 from pipeline.views.chapters.limit_cycle import total
+from pipeline.views.chapters.models.noise_matrix_tables import differing
 from pipeline.views.chapters.pad_motion import open_balance
 from pipeline.views.chapters.unstable_modes import critical_friction, losses, mechanism, pair, squealing
 
@@ -24,6 +25,7 @@ def verdict_text(verdict, products):
                 "convergence": None if refined is None else _convergence(refined),
                 "transient": _transient(products.get("limit_cycle")),
                 "heard_lines": _heard(products.get("line_evidence")),
+                "noise_matrix": _matrix(products.get("noise_matrix")),
                 "warnings": _warnings(modes, refined) + list(filter(None, (
                     outside_computed(products), open_balance(products.get("multibody")))))}
     return json.dumps(document, indent=1) + "\n"
@@ -56,6 +58,19 @@ def _heard(weighed):
             "ln_factor_flexible_against_rigid": float(weighed.flexible),
             "standard_error": float(weighed.flexible_error),
             "ln_factors": {str(name): {"value": float(v), "standard_error": float(e)} for name, v, e in rows}}
+
+
+def _matrix(product):
+    """Occurrence over a schedule, recorded stops beside it, and where they differ; None without a noise matrix."""
+    if product is None:
+        return None
+    apart = [{"condition": name, "recorded": stops, "noisy": noisy, "predicted_noisy": float(expected),
+              "family_wise_p": float(p), "model_squeals_too": "much" if sign > 0 else "little"}
+             for name, noisy, stops, expected, p, sign in differing(product)]
+    return {"schedule": str(product.title), "applications": int(product.applications.sum()),
+            "occurrence": float(product.occurrence), "interval": [float(v) for v in product.occurrence_interval],
+            "recorded": int(product.condition_stops.sum()), "noisy": int(product.condition_noisy.sum()),
+            "predicted_noisy": float(product.all_expected), "differences": apart}
 
 
 def _can_start(modes):

@@ -1,12 +1,14 @@
 """Roots of a draw without common bases, beside a direct solution of all coordinates."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 import scipy
 
 from pipeline.physics.sliding.equilibrium import closure_response, model_about, steady_sliding
 from pipeline.physics.stability.scatter import NOMINAL
-from pipeline.physics.stability.whole_roots import whole_roots
+from pipeline.physics.stability.whole_roots import beside_whole, whole_roots
 from tests.physics.stability.scattered_block import draws, family
 
 
@@ -27,3 +29,17 @@ def test_roots_are_those_of_all_coordinates(factors):
     assert len(growing) == np.sum(roots.real > 1.0)
     for root in growing:
         assert abs(roots - root).min() < 1e-5 * abs(root)
+
+
+def test_roots_beside_those_of_the_whole_model_and_those_that_only_one_has():
+    whole = whole_roots(family(), NOMINAL, 2.0, 20e3)
+    growing = whole[whole.real > 10]
+    assert len(growing)
+    alike = SimpleNamespace(family=family(), roots=lambda factors, speed: whole)
+    roots, same, missed = beside_whole(alike, NOMINAL, 2.0, 20e3)
+    np.testing.assert_array_equal(roots, same)
+    assert missed == 0 and set(growing) <= set(roots)
+    without = SimpleNamespace(family=family(), roots=lambda factors, speed: whole[whole.real <= 0])
+    assert beside_whole(without, NOMINAL, 2.0, 20e3)[2] == len(growing)
+    beside = SimpleNamespace(family=family(), roots=lambda factors, speed: np.append(whole, 50 + 1234j))
+    assert beside_whole(beside, NOMINAL, 2.0, 20e3)[2] == 1

@@ -21,7 +21,7 @@ def before_after(product, names):
             draw = product.tone_draw[members].astype(int)
             share = weight[draw] / weight.max()
             axes.scatter(product.tone[members] / 1e3, rank[draw] / max(len(weight) - 1, 1), s=5 + 14 * share,
-                         color=COLOURS[disc], alpha=0.15 + 0.85 * share, lw=0, zorder=2)
+                         color=COLOURS[disc], alpha=0.15 + 0.85 * share if len(share) else None, lw=0, zorder=2)
             axes.set(xlim=(low, high), ylim=(-0.05, 1.08), yticks=[])
             axes.set_title(f"{names[row]} ({disc} disc)", fontsize=9, loc="left", pad=3)
             axes.grid(axis="y", visible=False)

@@ -1,0 +1,1 @@
+"""Noise matrix of a brake: schedule, draws at its conditions, the stops of a recording in it."""
