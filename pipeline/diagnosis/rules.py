@@ -31,8 +31,8 @@ class PoleRules:
     gain_std: float = threshold(0.005, "standard deviation of the logarithm of a ratio of gains, at least")
     delay_std: float = threshold(1e-6, "standard deviation of a delay between channels, at least", "s")
     heard: float = threshold(0.02, "amplitude at a sensor, as a fraction of its largest, from which a mode counts")
-    other_machine: float = threshold(0.2, "logarithm of the ratio of a recorded frequency to that of its mode beyond"
-                                           " which it is far from the model with its given values")
+    other_machine: float = threshold(0.25, "logarithm of the ratio of a recorded frequency to that of its mode beyond"
+                                            " which it is far from the model with its given values")
     missed: float = threshold(0.03, "the same, as a fraction, once all values are fitted")
     other_share: float = threshold(0.25, "share of such poles at which recordings are of another machine")
 

@@ -40,8 +40,16 @@ def test_many_poles_far_from_all_modes_are_refused_with_what_to_do(model):
     with pytest.raises(ConfigError) as refused:
         refuse(None, {"rest": shown([120, 140, 160, 180, 800, 1200, 1600]), "sliding": shown([400, 810])}, RULES)
     told = str(refused.value)
-    assert "4 of 9 poles (in rest: 120, 140, 160, 180 Hz) farther off" in told and "20%" in told
+    assert "4 of 9 poles (in rest: 120, 140, 160, 180 Hz) farther off" in told and "25%" in told
     assert "is this a recording of that machine?" in told
+
+
+def test_a_machine_whose_values_are_all_a_fifth_off_is_fitted(monkeypatch):
+    apart = 400.0 * 2.0**np.arange(6)
+    monkeypatch.setattr(other_machine, "modes", lambda bench, run: (2j * np.pi * apart - 5.0, np.ones((6, 1))))
+    refuse(None, {"rest": shown(0.8 * apart)}, RULES)
+    with pytest.raises(ConfigError, match="6 of 6 poles"):
+        refuse(None, {"rest": shown(0.75 * apart)}, RULES)
 
 
 def test_few_poles_are_never_refused(model):
