@@ -33,13 +33,13 @@ class Incidence:
     weight: Array = quantity("1", "entry", "weight")
 
 
-@product(version=1)
+@product(version=2)
 class ModelUpdate:
-    """Values of a body that its modal test asks for, and the pairs of modes that they come from."""
+    """Values of a body or a brake that its modal test asks for, and the pairs of modes that they come from."""
 
     run: Array = text("", "run of the modal test")
-    body: Array = text("", "body of the brake")
-    parameter: Array = text("parameter", "names of the values")
+    body: Array = text("", "body of the brake, or assembly")
+    parameter: Array = text("parameter", "names of the values with their sections, as in disc.young")
     unit: Array = text("parameter", "their SI units")
     before: Array = quantity("1", "parameter", "values stated, in the unit that `unit` names")
     before_spread: Array = quantity("1", "parameter", "standard deviation of the logarithm that was stated")
@@ -61,6 +61,8 @@ class ModelUpdate:
     frequency_spread: Array = quantity("1", "cluster", "its relative standard deviation by the values")
     members: Array = count("cluster", "modes of each group: 2 for a pair of a disc")
     diameters: Array = count("cluster", "nodal diameters of a disc, -1 of other bodies")
+    mover: Array = text("cluster", "body that moves most in each group")
+    mover_share: Array = quantity("1", "cluster", "its share of the kinetic energy")
     place: Array = text("seen", "measured points that the shapes are compared at")
     reference: Array = text("seen", "their references")
     agreement: Array = quantity("1", "seen", "correlation of measured and computed motion over the pairs: its square is"
