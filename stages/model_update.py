@@ -21,7 +21,7 @@ from pipeline.systems.disc_brake_rows import body_names
 
 #: sections of the brake that hold its bodies and joints: those of ``structure`` under the same names
 STRUCTURE = ("disc", "pad", "caliper", "bracket", "piston", "joints")
-#: least share of measured modes with a pair beyond doubt for values to be handed on
+#: share of measured modes with a pair beyond doubt that must be exceeded for values to be handed on
 _ENOUGH = 0.5
 #: values whose joint only some brakes have: section, and its kind or None for a force of the piston
 _ONLY_WITH = {"joints.mount_stiffness": "bracket", "joints.shim_stiffness": "piston",
@@ -72,9 +72,9 @@ def stated(given):
 def companions(product, case):
     """The case with the values that the test asks for, with their standard deviations, and a brake with them.
 
-    None where fewer than half of the measured modes have a pair beyond doubt: the model may be of something else.
+    None where no more than half of the measured modes have a pair beyond doubt: it may be of something else.
     """
-    if case is None or np.mean(product.clear) < _ENOUGH:
+    if case is None or np.mean(product.clear) <= _ENOUGH:
         return {}
     document = copy.deepcopy(case.document)
     section = document.setdefault("model_update", {})
@@ -114,6 +114,7 @@ def model_update(responses: ResponseFunctions, modes: ModalTest, settings: Setti
     which is integrated out; a split pair counts by its mean; priors are log-normal with the spreads declared. Bodies of
     an assembly are reduced to their joints (Craig-Bampton); pads under a force of the piston stick to the disc.
     """
+    stated({"model_update": settings})
     name, test = _test(modes, settings)
     model = (AssembledBrake if settings.body == "assembly" else FreeBody)(settings, context.solver,
                                                                           float(test.frequency.max()))

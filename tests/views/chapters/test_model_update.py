@@ -12,7 +12,7 @@ def test_values_pairs_doubts_and_points_are_told():
         "2 of 4 measured modes paired beyond doubt; the model is off by 3.8\u202f% as stated, by 0.11\u202f% updated",
         "warning")
     assert "disc.young 120\u202fGPa to 128.3\u202fGPa ± 0.4\u202f%" in model_update.values(product)
-    assert "hardly tells poisson: what was stated decides" in model_update.values(product)
+    assert "hardly tells disc.poisson: what was stated decides" in model_update.values(product)
     assert model_update.doubts(product) == ("No mode of the model: 1710 Hz; one of two modes of the model: 1500 Hz.")
     assert "Point node 2 direction 3 shows other shapes than the model (correlation of 0.5" in made.conclude
     values, modes, points = made.tables
