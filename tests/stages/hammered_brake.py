@@ -75,7 +75,7 @@ def _contacts(brake, stiffness, free, force, normal, along):
     pressure = force / brake.pad_area
     law = contact_law([10 * pressure], [10 * normal], 100 * pressure)       # k = p times normal / pressure
     found = solve_preload(*condense(stiffness, rows, piston * force, "superlu"), brake.contacts.area, *law)
-    return found.stiffness, found.stiffness * along / normal
+    return found.force * normal / pressure, found.force * along / pressure
 
 
 def motions(brake, shape):

@@ -119,7 +119,7 @@ class AssembledBrake:
         return bodies, coupled if brake.fluid is None else _with_line(coupled, brake)
 
     def _pressed(self, brake, pressed):
-        """Areas (c,) m^2 of the patches, each times its stiffness over that at the mean pressure; 0 of open ones."""
+        """Areas (c,) m^2 of the patches, each times its pressure over the mean; 0 of open ones."""
         area = brake.contacts.area
         self.weights = np.zeros(len(area))
         coupled, springs = self._coupled(brake)[1], self._springs(brake, pressed)
@@ -128,7 +128,7 @@ class AssembledBrake:
         pressure = pressed.force / brake.pad_area
         law = contact_law([_LINEAR * pressure], [_LINEAR * pressed.stiffness], _TABLE * pressure)
         compliance = (moved[:, :-1] + moved[:, :-1].T) / 2
-        return solve_preload(compliance, -moved[:, -1], area, *law).stiffness / pressed.stiffness
+        return solve_preload(compliance, -moved[:, -1], area, *law).force / pressure
 
     def _members(self, brake):
         """(s, p): 1 where a spring follows a value of a joint, which each is in proportion to."""

@@ -18,8 +18,8 @@ from pipeline.physics.reduction.craig_bampton import ReducedBody, attachment, cr
 
 #: modes below this share of the frequency limit count as rigid motions
 _RIGID = 1e-4
-#: residual shapes are kept up to this many times the limit of the modes of a body
-_RESIDUAL = 60.0
+#: limit of the pseudo-frequencies of residual shapes, Hz
+_RESIDUAL = 1e6
 
 
 @dataclass(frozen=True)
@@ -57,14 +57,14 @@ def reduced_body(solid, rows, below, solver):
     """ReducedBody of a Solid whose shape (3 nodes, k) is 0 where it is held.
 
     ``rows`` (r, 3 nodes) sparse: its interface; ``below`` Hz: modes kept, with the interface fixed where nothing holds
-    the body. Residual shapes, to 60 times this frequency, make static forces on the interface exact.
+    the body. Residual shapes beside them make the response to static forces on the interface exact.
     """
     stiffness, mass = solid.matrices()
     free = free_freedoms(len(solid.mesh.node), solid.supported)
     stiffness, mass, rows = stiffness[free][:, free], mass[free][:, free], rows.tocsr()[:, free]
     loads = rows[independent_rows(rows)] if rows.nnz else rows[:0]
     if not len(solid.supported):
-        reduced = craig_bampton(stiffness, mass, loads, below, solver, _RESIDUAL * below)
+        reduced = craig_bampton(stiffness, mass, loads, below, solver, _RESIDUAL)
     else:
         frequency, modes = lowest_modes(stiffness, mass, solver, below=below)
         reduced = _with_residuals(stiffness, mass, loads, frequency, modes, below, solver)
@@ -77,5 +77,4 @@ def _with_residuals(stiffness, mass, loads, frequency, modes, below, solver):
     """ReducedBody of given modes, with the residual response to ``loads`` where there are any."""
     if not loads.shape[0]:
         return ReducedBody(modes, np.eye(len(frequency)), np.diag((2 * np.pi * frequency) ** 2), 0, frequency)
-    return attachment(stiffness, mass, loads, frequency, modes, _RESIDUAL * below,
-                      factorise(stiffness, solver))
+    return attachment(stiffness, mass, loads, frequency, modes, _RESIDUAL, factorise(stiffness, solver))
