@@ -1,9 +1,9 @@
 """Stage model_update: values of a body that its modal test asks for."""
 
-import copy
 from typing import Literal
 
 import numpy as np
+from pipeline.case_models.bodies.other_meshes import off_by_mesh, other_meshes
 
 from pipeline.case_models.bodies.assembled_brake import AssembledBrake, sections
 from pipeline.case_models.bodies.brake_bodies import Bracket, Caliper, Disc, Ground, Pad, Piston, Seal
@@ -11,25 +11,21 @@ from pipeline.case_models.bodies.brake_joints import Joints, PressedPads
 from pipeline.case_models.bodies.declared_values import Value, known_values, named, refuse_unknown
 from pipeline.case_models.bodies.free_body import FreeBody
 from pipeline.case_models.bodies.measured_points import Point, refuse_unplaced, rows
+from pipeline.case_models.bodies.updated_case import completed
 from pipeline.contract import ConfigError, Context, Section, option, stage
-from pipeline.contract import documents as yaml
 from pipeline.physics.modal.disc_modes import describe
 from pipeline.physics.modal.mode_pairing import assurance, grouped, nearest_mixture, real
-from pipeline.physics.modal.model_updating import CLOSE, Test, update
+from pipeline.physics.modal.model_updating import CLOSE, Test, shift, update
 from pipeline.products import ModalTest, ModelUpdate, ResponseFunctions
 from pipeline.systems.disc_brake_rows import body_names
 
-#: sections of the brake that hold its bodies and joints: those of ``structure`` under the same names
-STRUCTURE = ("disc", "pad", "caliper", "bracket", "piston", "joints")
-#: share of measured modes with a pair beyond doubt that must be exceeded for values to be handed on
-_ENOUGH = 0.5
-#: values whose joint only some brakes have: section, and its kind or None for a force of the piston
+#: values whose joint only some brakes have, and the section that has to be a body
 _ONLY_WITH = {"joints.mount_stiffness": "bracket", "joints.shim_stiffness": "piston",
               "joints.seal_stiffness": "piston"}
 
 
 class Settings(Section):
-    """The body hung freely, or the assembled brake; the values that may be off, and where the points of the test lie."""
+    """The body hung freely or the assembled brake, the values that may be off, and where points of the test lie."""
 
     run: str | None = option(None, "run of the modal test; none = the only one")
     body: Literal["disc", "pad", "caliper", "assembly"] = option("disc", "body that was tested, hung freely; assembly ="
@@ -41,8 +37,11 @@ class Settings(Section):
     piston: Seal | Piston = option(Seal(), "piston, as in the section structure", discriminator="kind")
     joints: Joints = option(Joints(), "joints, as in the section structure")
     pressed: PressedPads = option(PressedPads(), "pads pressed on the disc in the test of an assembly")
-    values: dict[str, Value] = option({}, "values that may be off, as SECTION.NAME; those of a single body also by their"
-                                      " names alone")
+    values: dict[str, Value] = option({}, "values that may be off, as SECTION.NAME; of a single body by their names"
+                                      " alone as well")
+    finer: float | None = option(1.5, "elements of a finer mesh over those of the mesh, in each direction, and of the"
+                                 " disc's over those of a coarser one, by which the error of the mesh is estimated"
+                                 " where points are stated; none = it is not", gt=1, le=4)
     points: tuple[Point, ...] = option((), "points of the test; none = modes of a single body are paired by frequency"
                                        " alone")
 
@@ -56,54 +55,24 @@ def stated(given):
     if not any(part is None or name.startswith(f"{part}.") for name in values):
         raise ConfigError(f"{where}.values", f"values of {part or 'bodies and joints'} that may be off, such as"
                           f" {part or 'disc'}.young: {{spread: 0.05}}", "none")
-    if part is not None:
-        return refuse_unplaced(settings.points, (part,), where)
+    if part is None:
+        _refuse_lacking(settings, values, where)
+    refuse_unplaced(settings.points, (part,) if part else body_names(settings), where)
+
+
+def _refuse_lacking(settings, values, where):
+    """Refuse values of joints that the assembled brake does not have, and a test without points."""
     lacking = [name for name in values if (kind := _ONLY_WITH.get(name)) and getattr(settings, kind).kind != "body"]
     lacking += [name for name in values if name.startswith("pressed.") and not settings.pressed.force]
     if lacking:
-        raise ConfigError(f"{where}.values", "joints that this brake has: bracket and piston as bodies, pads pressed by a"
-                          " force", ", ".join(lacking), "state what they belong to, or leave them out")
+        raise ConfigError(f"{where}.values", "joints that this brake has: bracket and piston as bodies, pads pressed"
+                          " by a force", ", ".join(lacking), "state what they belong to, or leave them out")
     if not settings.points:
         raise ConfigError(f"{where}.points", "points of the test with the bodies that they lie on: modes of an assembly"
                           " are too close to be paired by frequency alone", "none")
-    refuse_unplaced(settings.points, body_names(settings), where)
 
 
-def companions(product, case):
-    """The case with the values that the test asks for, with their standard deviations, and a brake with them.
-
-    None where no more than half of the measured modes have a pair beyond doubt: it may be of something else.
-    """
-    if case is None or np.mean(product.clear) <= _ENOUGH:
-        return {}
-    document = copy.deepcopy(case.document)
-    section = document.setdefault("model_update", {})
-    for name, unit, value, spread in zip(product.parameter, product.unit, product.after, product.after_spread,
-                                         strict=True):
-        part, key = str(name).split(".")
-        section.setdefault(part, {})[key] = {
-            "value": f"{float(value):.6g} {unit}" if str(unit) else float(f"{value:.6g}"),
-            "origin": "measured", "source": f"modal test {case.name}, {spread:.1%}"}
-    section["values"] = _handed_on(product, section.get("values", {}))
-    title = f"{document.get('title', case.name)}, updated"
-    brake = {"chain": "brake_squeal", "title": title,
-             "structure": {name: section[name] for name in STRUCTURE if name in section}}
-    return {f"{case.name}_updated.yaml": yaml.yaml_text(document | {"title": title}),
-            f"{case.name}_brake.yaml": yaml.yaml_text(brake)}
-
-
-def _handed_on(product, values):
-    """Section values with what the test leaves uncertain in place of the priors of its values."""
-    names = [str(name) for name in product.parameter]
-    left = {name: value for name, value in named(values, str(product.body)).items() if name not in names}
-    for k, name in enumerate(names):
-        beside = {names[j]: round(float(product.correlation[k, j]), 6) for j in range(k)
-                  if abs(product.correlation[k, j]) > 0.01}
-        left[name] = {"spread": float(f"{product.after_spread[k]:.4g}")} | ({"correlation": beside} if beside else {})
-    return left
-
-
-@stage(companions=companions, check=stated)
+@stage(companions=completed, check=stated)
 def model_update(responses: ResponseFunctions, modes: ModalTest, settings: Settings, context: Context) -> ModelUpdate:
     """Update the values of a body, or of the joints of a brake, by a modal test, and tell how well they are known.
 
@@ -112,21 +81,40 @@ def model_update(responses: ResponseFunctions, modes: ModalTest, settings: Setti
     a disc with the nearest mixture of both); pairs in doubt (odds below e^3) do not count. The values declared were
     updated by all others, ln f being normal about that of the model with the error of the test and one of the model,
     which is integrated out; a split pair counts by its mean; priors are log-normal with the spreads declared. Bodies of
-    an assembly are reduced to their joints (Craig-Bampton); pads under a force of the piston stick to the disc.
+    an assembly are reduced to their joints (Craig-Bampton); pads under a force of the piston stick to the disc. The
+    error of the mesh is what values of a finer one, of the disc a coarser one, show with an order of 2 ({finer} times
+    the elements).
     """
     stated({"model_update": settings})
     name, test = _test(modes, settings)
-    model = (AssembledBrake if settings.body == "assembly" else FreeBody)(settings, context.solver,
-                                                                          float(test.frequency.max()))
-    seen = rows(settings.points, test.place, test.reference, responses.tests[name].unit, model.nodes, "model_update")
+    model, seen = _model(settings, test, responses.tests[name].unit, context)
     shown = np.zeros((len(test.frequency), 0)) if seen is None else _shown(test, seen)
-    if settings.body == "assembly":
-        seen = model.observe(seen)
     measured = Test(test.frequency, test.frequency_std / test.frequency, shown)
     found = update(model, seen and seen.products, measured, len(model.declared.names))
     context.log(f"{int(found.pairing.clear.sum())} of {len(test.frequency)} measured modes have a pair beyond doubt")
-    return ModelUpdate(run=name, body=settings.body, **_values(model.declared, found), **_modes(test, model, found),
-                       **_points(test, shown, seen, found))
+    checked = settings.finer is not None and seen is not None
+    mesh = [_by_mesh(*each, found, seen, measured, test, responses.tests[name].unit, context)
+            for each in (other_meshes(settings, settings.finer) if checked else ())]
+    return ModelUpdate(run=name, body=settings.body, **_values(model.declared, found, mesh),
+                       **_modes(test, model, found), **_points(test, shown, seen, found),
+                       mesh_checked=int(checked))
+
+
+def _by_mesh(settings, factor, found, seen, measured, test, units, context):
+    """Change (p,) of the values, in standard deviations, that ``factor`` times the change by another mesh brings."""
+    model, there_seen = _model(settings, test, units, context)
+    there = model(found.latent)
+    off = off_by_mesh(found.after, found.groups, seen.products, there, grouped(there.frequency, CLOSE),
+                      there_seen.products)
+    return factor * shift(found, measured, off)
+
+
+def _model(settings, test, units, context):
+    """(model of the body or the brake, Rows of the test on what its shapes show or None)."""
+    kind = AssembledBrake if settings.body == "assembly" else FreeBody
+    model = kind(settings, context.solver, float(test.frequency.max()))
+    seen = rows(settings.points, test.place, test.reference, units, model.nodes, "model_update")
+    return model, model.observe(seen) if settings.body == "assembly" else seen
 
 
 def _test(modes, settings):
@@ -145,11 +133,14 @@ def _shown(test, seen):
     return np.array([real(row) for row in test.shape[:, seen.index] / turn ** seen.order])
 
 
-def _values(declared, found):
-    spread, correlation = declared.spread_of(found.covariance)
+def _values(declared, found, mesh):
+    """Fields of the values; ``mesh`` [(p,)]: what errors of meshes shift them by, in standard deviations."""
+    mesh = np.reshape(mesh, (-1, len(found.latent)))
+    spread, correlation = declared.spread_of(found.covariance + mesh.T @ mesh)
     return {"parameter": list(declared.names), "unit": declared.units.tolist(), "before": declared.stated,
             "before_spread": declared.spread, "after": declared.values(found.latent), "after_spread": spread,
-            "correlation": correlation, "model_error": found.error, "model_error_spread": found.error_spread}
+            "correlation": correlation, "mesh_shift": declared.spread * np.linalg.norm(declared.root @ mesh.T, axis=1),
+            "model_error": found.error, "model_error_spread": found.error_spread}
 
 
 def _modes(test, model, found):

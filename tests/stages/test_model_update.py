@@ -4,15 +4,13 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-import yaml
 
 from pipeline import products
+from pipeline.case_models.bodies.free_body import FreeBody
 from pipeline.case_models.bodies.measured_points import rows
 from pipeline.contract import ConfigError
-from pipeline.contract.case import CaseText
 from pipeline.products import ModalTest, ResponseFunctions
-from pipeline.case_models.bodies.free_body import FreeBody
-from stages.model_update import Settings, companions, model_update
+from stages.model_update import Settings, model_update
 
 COARSE = {"web_cells": 2, "ring_cells": 3, "angular_cells": 20}
 ANGLES = np.deg2rad([0, 25, 60, 100, 150, 190, 230, 280, 325])
@@ -74,24 +72,6 @@ def test_points_agree_and_a_sensor_mounted_the_wrong_way_round_is_told(result):
     turned = replace(test, shape=test.shape * np.where(np.arange(9) == 4, -1.0, 1.0))
     wrong = model_update(responses, ModalTest(runs={"hammer": turned}), settings=Settings(**GIVEN))
     assert wrong.agreement.argmin() == 4
-
-
-def test_the_completed_case_states_the_values(result):
-    text = companions(result, CaseText("disc", {"chain": "model_update", "model_update": {"disc": {}}}))
-    disc = yaml.safe_load(text["disc_updated.yaml"])["model_update"]["disc"]
-    assert disc["young"]["origin"] == "measured" and disc["young"]["value"].endswith("Pa")
-    values = yaml.safe_load(text["disc_updated.yaml"])["model_update"]["values"]
-    assert list(values) == ["disc.young", "disc.ring_thickness", "disc.web_thickness"]
-    assert values["disc.young"]["spread"] == pytest.approx(result.after_spread[0], rel=1e-3)
-    assert values["disc.web_thickness"]["correlation"]["disc.young"] == pytest.approx(result.correlation[2, 0], abs=1e-6)
-    brake = yaml.safe_load(text["disc_brake.yaml"])
-    assert brake["chain"] == "brake_squeal" and brake["structure"] == {"disc": disc}
-    assert companions(result, None) == {}
-
-
-def test_a_test_of_something_else_completes_no_case(result):
-    few = replace(result, clear=np.where(np.arange(len(result.clear)) < 2, 1, 0))
-    assert companions(few, CaseText("disc", {"chain": "model_update"})) == {}
 
 
 def test_values_that_the_body_does_not_have_and_runs_without_modes_are_refused():

@@ -22,6 +22,8 @@ from pipeline.systems.disc_brake_joints import joints
 
 #: bodies keep modes to this many times the highest frequency of the assembly, residual shapes beside them
 _BASIS = 1.5
+#: moduli that rise by one factor to this share have modes that stay
+_EQUAL = 1e-12
 #: the contact law is linear in pressure up to this many times its mean, and tabulated up to the next
 _LINEAR, _TABLE = 8.0, 160.0
 
@@ -76,21 +78,24 @@ class AssembledBrake:
         parts = [shape[a:z] for a, z in zip(first, first[1:], strict=False)]
         share = [np.einsum("km,kl,lm->m", x, b.mass, x) for x, b in zip(parts, bodies, strict=True)]
         motion = [b.shape @ x for b, x in zip(bodies, parts, strict=True)]
-        slope = self.declared.spread[:, None] * (self.members.T @ strain) / 2 + self._slopes(values, frequency, motion)
+        slope = self.declared.spread[:, None] * (self.members.T @ strain) / 2
+        slope = slope + self._slopes(values, frequency, parts, bodies)
         whole = np.vstack(motion)
         shown = whole if self._seen is None else np.vstack([rows @ whole for rows in self._seen])
         return BrakeModes(frequency, slope.T @ self.declared.root, shown, np.array(share))
 
-    def _slopes(self, values, frequency, motion):
-        """(p, m) of ln f over each u by values of bodies, from shapes at all nodes [(3 nodes, m)]."""
+    def _slopes(self, values, frequency, parts, bodies):
+        """(p, m) of ln f over each u by values of bodies, from reduced shapes [(k, m)] of the ReducedBodies."""
         slope = np.zeros((len(values), len(frequency)))
         for k, name in enumerate(self.declared.names):
             if name.split(".")[0] in JOINED:
                 continue
             step = STEP * self.declared.spread[k] * np.eye(len(values))[k]
             sides = (self.brake(values * np.exp(side * step)).bodies for side in (-1, 1))
-            slope[k] = sum((slopes(frequency, x, less.matrices(), more.matrices()) / (2 * STEP)
-                            for x, less, more in zip(motion, *sides, strict=True) if not _same(less, more)), 0.0)
+            for less, more, x, body in zip(*sides, parts, bodies, strict=True):
+                if _times(more, less) != (1.0, 1.0):
+                    matrices = _changed(less, more, x, body)
+                    slope[k] += slopes(frequency, *matrices) / (2 * STEP)
         return slope
 
     def _springs(self, brake, pressed):
@@ -110,11 +115,12 @@ class AssembledBrake:
         """(ReducedBody of each, CoupledBodies): bodies that are as they were are not reduced again."""
         rows, bodies = self._rows(brake), []
         for name, solid, row in zip(brake.names, brake.bodies, rows, strict=True):
-            solid_before, row_before, reduced = self._bodies.get(name, (None, None, None))
-            if reduced is None or not _same(solid, solid_before) or (row != row_before).nnz:
-                reduced = reduced_body(solid, row, _BASIS * self.below, self.solver)
+            first, row_before, reduced = self._bodies.get(name, (None, None, None))
+            times = None if reduced is None or (row != row_before).nnz else _times(solid, first)
+            if times is None:
+                reduced, times = reduced_body(solid, row, _BASIS * self.below, self.solver), (1.0, 1.0)
                 self._bodies[name] = solid, row, reduced
-            bodies.append(reduced)
+            bodies.append(replace(reduced, stiffness=times[0] * reduced.stiffness, mass=times[1] * reduced.mass))
         coupled = side_by_side(bodies, rows)
         return bodies, coupled if brake.fluid is None else _with_line(coupled, brake)
 
@@ -148,11 +154,26 @@ def sections(settings):
     return {name: getattr(settings, name) for name in ("disc", "pad", "caliper", "bracket", "piston", *JOINED)}
 
 
-def _same(first, second):
-    """Whether two Solids have the same finite elements."""
-    return all(np.array_equal(a, b) for a, b in ((first.mesh.node, second.mesh.node), (first.density, second.density),
-                                                 (first.elasticity, second.elasticity),
-                                                 (first.supported, second.supported)))
+def _times(solid, first):
+    """(stiffness, mass) of a Solid over those of the ``first``, whose modes it has; None where it has others."""
+    ratios = [new[old != 0] / old[old != 0] for new, old in ((solid.elasticity, first.elasticity),
+                                                     (solid.density, first.density))]
+    same = (np.array_equal(solid.mesh.node, first.mesh.node) and np.array_equal(solid.supported, first.supported)
+            and all(np.ptp(each) <= _EQUAL * each[0] for each in ratios))
+    return tuple(float(each[0]) for each in ratios) if same else None
+
+
+def _changed(less, more, shape, body):
+    """(shape, (K, M) of the Solid ``less``, those of ``more``) of a ReducedBody with reduced ``shape`` (k, m).
+
+    Where both differ by factors these are those of the reduced body, taken as what lies between them.
+    """
+    times = _times(more, less)
+    if times is None:
+        return body.shape @ shape, less.matrices(), more.matrices()
+    sides = [[side * matrix for side, matrix in zip(np.power(times, power), (body.stiffness, body.mass), strict=True)]
+             for power in (-0.5, 0.5)]
+    return shape, *sides
 
 
 def _with_line(coupled, brake):

@@ -97,6 +97,6 @@ def _root(names, values, where):
                 whole[i, names.index(other)] = whole[names.index(other), i] = size
     size, vector = np.linalg.eigh(whole)
     if size.min() < -_ROUNDING:
-        raise ConfigError(f"{where}.values", "correlations that can hold together", f"an eigenvalue of {size.min():.2g}",
-                          "take them all from one completed case")
+        raise ConfigError(f"{where}.values", "correlations that can hold together",
+                          f"an eigenvalue of {size.min():.2g}", "take them all from one completed case")
     return vector * np.sqrt(np.maximum(size, 0.0)) @ vector.T

@@ -114,8 +114,8 @@ def _row(known, name, where):
                           " names", f"{name!r} and {list(point.direction)}")
     distance, node = mesh.tree.query(point.position)
     if distance > _FAR * mesh.reach:
-        raise ConfigError(f"{where}.points: {place}", f"a point of the body, within {_FAR * mesh.reach:.2g} m of a node",
-                          f"one {distance:.2g} m away", "positions are in m, in the axes of the model")
+        raise ConfigError(f"{where}.points: {place}", f"a point of the body, within {_FAR * mesh.reach:.2g} m of a"
+                          " node", f"one {distance:.2g} m away", "positions are in m, in the axes of the model")
     return (mesh.first + 3 * node + np.arange(3), direction / size), float(distance)
 
 

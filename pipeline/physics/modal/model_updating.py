@@ -79,8 +79,8 @@ def update(model, seen, test, count):
     for _ in range(_STEPS):
         groups = grouped(modes.frequency, CLOSE)
         frequency, slope = _means(modes, groups)
-        whole = np.linalg.norm([_spread(slope, covariance), _CURVED * abs(slope @ moved), 0 * frequency + error], axis=0)
-        pairing, likeness = _paired(modes, groups, seen, test, frequency, whole)
+        spread = np.hypot(np.hypot(_spread(slope, covariance), _CURVED * (slope @ moved)), error)
+        pairing, likeness = _paired(modes, groups, seen, test, frequency, spread)
         clear = pairing.clear
         if not clear.any():
             raise ConvergenceError("model update", "a measured mode that is one of the model beyond doubt", "none",
@@ -94,7 +94,15 @@ def update(model, seen, test, count):
         latent = target
         modes = model(latent)
     raise ConvergenceError("model update", f"values that settle within {_STEPS} steps", "others at every step",
-                           "state narrower priors, or fewer values")
+                           "state narrower priors or fewer values; the test may be of something else than the model")
+
+
+def shift(found, test, off):
+    """Change (p,) of the values that frequencies of the groups off by ``off`` (g,), in ln f, bring about."""
+    frequency, slope = _means(found.after, found.groups)
+    own, _, noise = _told(test, found.pairing, frequency)
+    weight = slope[own].T / (noise ** 2 + found.error ** 2)
+    return np.linalg.solve(np.eye(len(found.latent)) + weight @ slope[own], weight @ off[own])
 
 
 def posterior(left, slope, spread):

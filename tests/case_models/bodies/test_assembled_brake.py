@@ -54,9 +54,10 @@ def test_pressed_pads_are_as_stiff_as_their_pressure():
 
 
 def test_slopes_are_those_of_differences_whether_of_springs_or_of_bodies():
-    values = {"joints.finger_stiffness": 0.3, "pressed.tangential_stiffness": 0.2, "caliper.density": 0.1}
+    values = {"joints.finger_stiffness": 0.3, "pressed.tangential_stiffness": 0.2, "caliper.density": 0.1,
+              "pad.lining_young_normal": 0.1}
     brake = model(values, pressed={"force": "5 kN"}, highest=900.0)
-    np.testing.assert_allclose(brake(np.zeros(3)).slope, slopes_by_differences(brake, 3), atol=2e-6)
+    np.testing.assert_allclose(brake(np.zeros(4)).slope, slopes_by_differences(brake, 4), atol=2e-6)
 
 
 def test_correlated_priors_turn_the_slopes():
@@ -67,14 +68,18 @@ def test_correlated_priors_turn_the_slopes():
 
 
 def test_bodies_are_reduced_once_while_only_joints_vary(monkeypatch):
-    calls = []
-    monkeypatch.setattr(assembled_brake, "reduced_body", lambda *a, f=assembled_brake.reduced_body: calls.append(1) or f(*a))
+    calls, reduce = [], assembled_brake.reduced_body
+    monkeypatch.setattr(assembled_brake, "reduced_body", lambda *given: calls.append(1) or reduce(*given))
     brake = model({"joints.finger_stiffness": 0.3, "caliper.young": 0.1}, highest=600.0)
     for finger in (0.0, 0.5, 1.0):
         brake(np.array([finger, 0.0]))
     assert len(calls) == 4
     brake(np.array([0.0, 0.5]))
-    assert len(calls) == 5      # the caliper alone
+    assert len(calls) == 4      # the caliper has the same modes
+    other = model({"pad.lining_young_normal": 0.1}, highest=600.0)
+    other(np.zeros(1))
+    other(np.ones(1))
+    assert len(calls) == 4 + 4 + 2
 
 
 def test_bracket_piston_and_fluid_are_part_of_it():

@@ -41,8 +41,8 @@ def test_without_points_there_is_nothing_to_compare():
 
 def test_points_off_the_body_unknown_places_and_missing_directions_are_refused():
     with pytest.raises(ConfigError, match="a point of the body, within 0.005 m of a node, found one 0.9 m away"):
-        rows((Point(place="p", position=["1 m", "0 m", "0 m"]),), ["p direction 1"], ["p direction 1"], ["m/N"], {"disc": NODES},
-             "model_update")
+        rows((Point(place="p", position=["1 m", "0 m", "0 m"]),), ["p direction 1"], ["p direction 1"], ["m/N"],
+             {"disc": NODES}, "model_update")
     with pytest.raises(ConfigError, match="places of the responses: node 7 direction 1, found node 1, rim"):
         seen(["node 7 direction 1"], ["hammer"])
     with pytest.raises(ConfigError, match="node 1: expected a direction of three numbers"):

@@ -8,8 +8,10 @@ from pipeline.views.figures.number_format import number, percent, plural, quanti
 
 #: share of its prior's standard deviation above which a value counts as not told
 _UNTOLD = 0.8
-#: standard deviations of its prior by which a value may move unremarked; share of modes with a clear pair that must be exceeded
+#: standard deviations of its prior by which a value may move unremarked; share of modes with a clear pair to exceed
 _FAR, _ENOUGH = 3.0, 0.5
+#: error of the model from which its bodies are others than those tested
+_WRONG = 0.02
 #: correlation of two values from which only their combination is told
 _TOGETHER = 0.95
 
@@ -36,7 +38,8 @@ def headline(product):
     clear = int(product.clear.sum())
     before, after = (percent(_off(product, f), 2) for f in (product.frequency_before, product.frequency))
     return (f"{clear} of {plural(len(product.clear), 'measured mode')} paired beyond doubt; the model is off by"
-            f" {before} as stated, by {after} updated", "warning" if _few(product) else "quiet")
+            f" {before} as stated, by {after} updated",
+            "warning" if _few(product) or product.model_error > _WRONG else "quiet")
 
 
 def note(product):
@@ -53,7 +56,9 @@ def strange(product):
     few = ("No more than half of the measured modes are modes of this model beyond doubt: the test may be of another"
            f" {other}, and no completed case is written.") if _few(product) else ""
     far = f"More than {_FAR:g} standard deviations from what was stated: {', '.join(names)}." if names else ""
-    return " ".join(filter(None, (few, far)))
+    wrong = (f"No values of these bring the frequencies of the model within {percent(_WRONG, 1)}: sizes, materials or"
+             " joints that count as known are others in the test.") if product.model_error > _WRONG else ""
+    return " ".join(filter(None, (few, wrong, far)))
 
 
 def _few(product):
@@ -107,10 +112,12 @@ def left(product):
 
 def limits(product):
     """What the update assumes."""
-    joined = ("Joints are linear springs. Pads under a force stick to the disc, and how their pressure is distributed is"
-              " computed once with the values as stated; damping is not updated.",) if _assembled(product) else ()
-    return ("Errors of the model count as independent from mode to mode. Those of a coarse mesh are not: they pull"
-            " values one way, and only a finer mesh shows by how much.", *joined)
+    mesh = ("The error of the mesh counts in the intervals as other meshes show it, with an order of 2. A joint between"
+            " small spots takes up what the mesh lacks there." if product.mesh_checked
+            else "Errors of a coarse mesh pull values one way, and only a finer mesh shows by how much.")
+    joined = ("Joints are linear springs. Pads under a force stick to the disc, and their pressure is distributed as the"
+              " values stated ask for; damping is not updated.",) if _assembled(product) else ()
+    return ("Errors of the model count as independent from mode to mode.", mesh, *joined)
 
 
 def _written(product):
@@ -133,8 +140,10 @@ def _frequencies(product, chosen):
 def _values(product):
     before, after, spread = _written(product)
     stated = [percent(each, 2) for each in product.before_spread]
-    rows = tuple(zip(map(str, product.parameter), before, stated, after, spread, strict=True))
-    return Table(("value", "stated", "±", "updated", "±"), rows, "Values before and after", numeric=(1, 2, 3, 4))
+    mesh = [percent(abs(each), 2) if product.mesh_checked else "not estimated" for each in product.mesh_shift]
+    rows = tuple(zip(map(str, product.parameter), before, stated, after, spread, mesh, strict=True))
+    return Table(("value", "stated", "±", "updated", "±", "of it by the mesh"), rows, "Values before and after",
+                 numeric=(1, 2, 3, 4, 5))
 
 
 def _modes(product):
