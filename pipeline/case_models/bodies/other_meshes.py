@@ -24,8 +24,8 @@ def other_meshes(settings, by):
     parts = {"disc": (), "assembly": ("pad", "caliper", "bracket", "piston")}.get(settings.body, (settings.body,))
     tested = settings.body == "disc" or settings.pressed.force or any(p.body == "disc" for p in settings.points)
     cases = [(parts, by, 1 / (1 - by ** -2))] * bool(parts) + [(("disc",), 1 / by, -1 / (by ** 2 - 1))] * bool(tested)
-    return [(settings.model_copy(update={name: _meshed(name, getattr(settings, name), times) for name in names}), factor)
-            for names, times, factor in cases]
+    changed = [{name: _meshed(name, getattr(settings, name), times) for name in names} for names, times, _ in cases]
+    return [(settings.model_copy(update=each), factor) for each, (*_, factor) in zip(changed, cases, strict=True)]
 
 
 def _meshed(name, part, times):

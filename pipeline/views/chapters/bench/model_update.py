@@ -115,8 +115,8 @@ def limits(product):
     mesh = ("The error of the mesh counts in the intervals as other meshes show it, with an order of 2. A joint between"
             " small spots takes up what the mesh lacks there." if product.mesh_checked
             else "Errors of a coarse mesh pull values one way, and only a finer mesh shows by how much.")
-    joined = ("Joints are linear springs. Pads under a force stick to the disc, and their pressure is distributed as the"
-              " values stated ask for; damping is not updated.",) if _assembled(product) else ()
+    joined = ("Joints are linear springs. Pads under a force stick to the disc; their pressure is distributed as the"
+              " values stated ask for, and damping is not updated.",) if _assembled(product) else ()
     return ("Errors of the model count as independent from mode to mode.", mesh, *joined)
 
 
