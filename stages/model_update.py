@@ -19,6 +19,8 @@ from pipeline.physics.modal.model_updating import CLOSE, Test, shift, update
 from pipeline.products import ModalTest, ModelUpdate, ResponseFunctions
 from pipeline.systems.disc_brake_rows import body_names
 
+#: share of a body by which nodes of a coarser mesh may lie off the points
+_ANYWHERE = 0.5
 #: values whose joint only some brakes have, and the section that has to be a body
 _ONLY_WITH = {"joints.mount_stiffness": "bracket", "joints.shim_stiffness": "piston",
               "joints.seal_stiffness": "piston"}
@@ -102,18 +104,18 @@ def model_update(responses: ResponseFunctions, modes: ModalTest, settings: Setti
 
 def _by_mesh(settings, factor, found, seen, measured, test, units, context):
     """Change (p,) of the values, in standard deviations, that ``factor`` times the change by another mesh brings."""
-    model, there_seen = _model(settings, test, units, context)
+    model, there_seen = _model(settings, test, units, context, far=_ANYWHERE)
     there = model(found.latent)
     off = off_by_mesh(found.after, found.groups, seen.products, there, grouped(there.frequency, CLOSE),
                       there_seen.products)
     return factor * shift(found, measured, off)
 
 
-def _model(settings, test, units, context):
+def _model(settings, test, units, context, **far):
     """(model of the body or the brake, Rows of the test on what its shapes show or None)."""
     kind = AssembledBrake if settings.body == "assembly" else FreeBody
     model = kind(settings, context.solver, float(test.frequency.max()))
-    seen = rows(settings.points, test.place, test.reference, units, model.nodes, "model_update")
+    seen = rows(settings.points, test.place, test.reference, units, model.nodes, "model_update", **far)
     return model, model.observe(seen) if settings.body == "assembly" else seen
 
 

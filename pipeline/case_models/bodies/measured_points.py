@@ -61,18 +61,18 @@ def refuse_unplaced(points, bodies, where):
                               "none" if point.body is None else point.body)
 
 
-def rows(points, places, references, units, nodes, where):
+def rows(points, places, references, units, nodes, where, far=_FAR):
     """Rows of responses at ``places`` per ``references``, in ``units``; None without points.
 
     ``nodes`` {body: (k, 3)}, degrees of freedom in the order of the bodies. Raises ConfigError for points off their
-    body and responses without a direction.
+    body, further than the share ``far`` of its size from its nodes, and for responses without a direction.
     """
     if not points:
         return None
     refuse_unplaced(points, tuple(nodes), where)
     meshes, first = {}, 0
     for body, each in nodes.items():
-        meshes[body] = _Mesh(scipy.spatial.cKDTree(each), np.ptp(each, axis=0).max(), first)
+        meshes[body] = _Mesh(scipy.spatial.cKDTree(each), far * np.ptp(each, axis=0).max(), first)
         first += 3 * len(each)
     known = {point.place: (point, meshes[point.body or next(iter(nodes))]) for point in points}
     found = [_row(known, str(place), where) for place in places]
@@ -92,7 +92,7 @@ def rows(points, places, references, units, nodes, where):
 
 @dataclass(frozen=True)
 class _Mesh:
-    """Nodes of a body, its size in m, and its first degree of freedom."""
+    """Nodes of a body, the most that a point may be off them in m, and its first degree of freedom."""
 
     tree: object
     reach: float
@@ -113,8 +113,8 @@ def _row(known, name, where):
         raise ConfigError(f"{where}.points: {place}", "a direction of three numbers, not all 0, or one that its place"
                           " names", f"{name!r} and {list(point.direction)}")
     distance, node = mesh.tree.query(point.position)
-    if distance > _FAR * mesh.reach:
-        raise ConfigError(f"{where}.points: {place}", f"a point of the body, within {_FAR * mesh.reach:.2g} m of a"
+    if distance > mesh.reach:
+        raise ConfigError(f"{where}.points: {place}", f"a point of the body, within {mesh.reach:.2g} m of a"
                           " node", f"one {distance:.2g} m away", "positions are in m, in the axes of the model")
     return (mesh.first + 3 * node + np.arange(3), direction / size), float(distance)
 
