@@ -3,7 +3,6 @@
 from typing import Literal
 
 import numpy as np
-from pipeline.case_models.bodies.other_meshes import off_by_mesh, other_meshes
 
 from pipeline.case_models.bodies.assembled_brake import AssembledBrake, sections
 from pipeline.case_models.bodies.brake_bodies import Bracket, Caliper, Disc, Ground, Pad, Piston, Seal
@@ -11,11 +10,12 @@ from pipeline.case_models.bodies.brake_joints import Joints, PressedPads
 from pipeline.case_models.bodies.declared_values import Value, known_values, named, refuse_unknown
 from pipeline.case_models.bodies.free_body import FreeBody
 from pipeline.case_models.bodies.measured_points import Point, refuse_unplaced, rows
+from pipeline.case_models.bodies.other_meshes import off_by_mesh, other_meshes
 from pipeline.case_models.bodies.updated_case import completed
 from pipeline.contract import ConfigError, Context, Section, option, stage
 from pipeline.physics.modal.disc_modes import describe
 from pipeline.physics.modal.mode_pairing import assurance, grouped, nearest_mixture, real
-from pipeline.physics.modal.model_updating import CLOSE, Test, shift, update
+from pipeline.physics.modal.model_updating import CLOSE, Test, update, with_errors
 from pipeline.products import ModalTest, ModelUpdate, ResponseFunctions
 from pipeline.systems.disc_brake_rows import body_names
 
@@ -95,20 +95,20 @@ def model_update(responses: ResponseFunctions, modes: ModalTest, settings: Setti
     found = update(model, seen and seen.products, measured, len(model.declared.names))
     context.log(f"{int(found.pairing.clear.sum())} of {len(test.frequency)} measured modes have a pair beyond doubt")
     checked = settings.finer is not None and seen is not None
-    mesh = [_by_mesh(*each, found, seen, measured, test, responses.tests[name].unit, context)
-            for each in (other_meshes(settings, settings.finer) if checked else ())]
-    return ModelUpdate(run=name, body=settings.body, **_values(model.declared, found, mesh),
+    errors = [factor * _by_mesh(other, found, seen, test, responses.tests[name].unit, context)
+              for other, factor in (other_meshes(settings, settings.finer) if checked else ())]
+    whole = with_errors(found, measured, errors) if errors else found.covariance
+    return ModelUpdate(run=name, body=settings.body, **_values(model.declared, found, whole),
                        **_modes(test, model, found), **_points(test, shown, seen, found),
                        mesh_checked=int(checked))
 
 
-def _by_mesh(settings, factor, found, seen, measured, test, units, context):
-    """Change (p,) of the values, in standard deviations, that ``factor`` times the change by another mesh brings."""
+def _by_mesh(settings, found, seen, test, units, context):
+    """Change (g,) of ln f of the groups by the mesh of other ``settings``."""
     model, there_seen = _model(settings, test, units, context, far=_ANYWHERE)
     there = model(found.latent)
-    off = off_by_mesh(found.after, found.groups, seen.products, there, grouped(there.frequency, CLOSE),
-                      there_seen.products)
-    return factor * shift(found, measured, off)
+    return off_by_mesh(found.after, found.groups, seen.products, there, grouped(there.frequency, CLOSE),
+                       there_seen.products)
 
 
 def _model(settings, test, units, context, **far):
@@ -135,13 +135,13 @@ def _shown(test, seen):
     return np.array([real(row) for row in test.shape[:, seen.index] / turn ** seen.order])
 
 
-def _values(declared, found, mesh):
-    """Fields of the values; ``mesh`` [(p,)]: what errors of meshes shift them by, in standard deviations."""
-    mesh = np.reshape(mesh, (-1, len(found.latent)))
-    spread, correlation = declared.spread_of(found.covariance + mesh.T @ mesh)
+def _values(declared, found, covariance):
+    """Fields of the values; their ``covariance`` (p, p) with the error of the mesh."""
+    spread, correlation = declared.spread_of(covariance)
+    without = declared.spread_of(found.covariance)[0]
     return {"parameter": list(declared.names), "unit": declared.units.tolist(), "before": declared.stated,
             "before_spread": declared.spread, "after": declared.values(found.latent), "after_spread": spread,
-            "correlation": correlation, "mesh_shift": declared.spread * np.linalg.norm(declared.root @ mesh.T, axis=1),
+            "correlation": correlation, "mesh_spread": np.sqrt(np.maximum(spread**2 - without**2, 0.0)),
             "model_error": found.error, "model_error_spread": found.error_spread}
 
 

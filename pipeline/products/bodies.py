@@ -46,8 +46,8 @@ class ModelUpdate:
     after: Array = quantity("1", "parameter", "values that the test asks for")
     after_spread: Array = quantity("1", "parameter", "standard deviation of their logarithm")
     correlation: Array = quantity("1", "parameter other", "correlation of the errors of the logarithms")
-    mesh_shift: Array = quantity("1", "parameter", "change of the logarithm that the error of the mesh brings about, part"
-                                                   " of its standard deviation; 0 where it was not estimated")
+    mesh_spread: Array = quantity("1", "parameter", "part of that standard deviation by the error of the mesh; 0 where it"
+                                                    " was not estimated")
     mesh_checked: Array = count("", "1 where the error of the mesh was estimated on a finer one")
     model_error: Array = quantity("1", "", "relative error of natural frequencies that no value mends")
     model_error_spread: Array = quantity("1", "", "standard deviation of its logarithm")

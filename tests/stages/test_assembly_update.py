@@ -154,7 +154,7 @@ def test_values_of_a_disc_alone_are_handed_on_to_the_brake(tmp_path, lifted):
                       unit=np.array(["Pa", "kg/m^3"]), before=np.array([120e9, 7200.0]),
                       before_spread=np.array([0.1, 0.02]), after=np.array([118e9, 7150.0]),
                       after_spread=np.array([0.02, 0.019]), correlation=np.array([[1, 0.95], [0.95, 1]]),
-                      mesh_shift=np.zeros(2))
+                      mesh_spread=np.zeros(2))
     for name, text in completed(product, cases.CaseText("disc", document)).items():
         (tmp_path / name).write_text(text)
     (tmp_path / "brake.yaml").write_text(yaml.safe_dump({"based_on": "disc_updated.yaml", "model_update": {

@@ -142,7 +142,7 @@ def model_update(points=True, body="disc"):
     """Three measured modes: a pair of a disc, one in doubt, and one that the model lacks; or the same of a brake."""
     return ModelUpdate(
         run="hammer", body=body, parameter=["disc.young", "disc.poisson"], mover=["disc", "caliper", "pad_outer"],
-        mover_share=[0.93, 0.6, 0.7], mesh_shift=[0.002 * points, 0.0], mesh_checked=int(points),
+        mover_share=[0.93, 0.6, 0.7], mesh_spread=[0.002 * points, 0.0], mesh_checked=int(points),
         unit=["Pa", "1"], before=[120e9, 0.27], before_spread=[0.1, 0.1], after=[128.3e9, 0.272],
         after_spread=[0.004, 0.09], correlation=np.eye(2), model_error=0.003, model_error_spread=0.3,
         measured_frequency=[800.0, 801.0, 1500.0, 1710.0],

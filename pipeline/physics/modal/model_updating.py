@@ -23,6 +23,8 @@ _ROUGH = 0.02
 _ENOUGH, _STEPS = 0.02, 20
 #: share of the change of a frequency in a step that is in doubt
 _CURVED = 0.5
+#: steps after which modes that are apart in one step and together in the next count as together: groups grow wider
+_LATE, _WIDER = 8, 0.1
 #: modes of a model closer than this are one group
 CLOSE = 2e-3
 
@@ -76,8 +78,8 @@ def update(model, seen, test, count):
     """
     latent, covariance, error, moved = np.zeros(count), np.eye(count), _ROUGH, np.zeros(count)
     before = modes = model(latent)
-    for _ in range(_STEPS):
-        groups = grouped(modes.frequency, CLOSE)
+    for step in range(_STEPS):
+        groups = grouped(modes.frequency, CLOSE * (1 + _WIDER * max(step - _LATE, 0)))
         frequency, slope = _means(modes, groups)
         spread = np.hypot(np.hypot(_spread(slope, covariance), _CURVED * (slope @ moved)), error)
         pairing, likeness = _paired(modes, groups, seen, test, frequency, spread)
@@ -97,12 +99,19 @@ def update(model, seen, test, count):
                            "state narrower priors or fewer values; the test may be of something else than the model")
 
 
-def shift(found, test, off):
-    """Change (p,) of the values that frequencies of the groups off by ``off`` (g,), in ln f, bring about."""
+def with_errors(found, test, errors):
+    """Covariance (p, p) about the values of an Updated, with ``errors`` [(g,)] of ln f of its groups beside them.
+
+    Each is times an unknown factor, N(0, 1): what the frequencies cannot tell from the values makes these uncertain,
+    at most as their priors.
+    """
     frequency, slope = _means(found.after, found.groups)
-    own, _, noise = _told(test, found.pairing, frequency)
-    weight = slope[own].T / (noise ** 2 + found.error ** 2)
-    return np.linalg.solve(np.eye(len(found.latent)) + weight @ slope[own], weight @ off[own])
+    own, left, noise = _told(test, found.pairing, frequency)
+    beside = np.reshape(errors, (-1, len(found.groups))).T[own]
+    count = len(found.latent)
+    mean, covariance, _, _ = posterior(left + slope[own] @ found.latent, np.hstack((slope[own], beside)), noise)
+    apart = mean[:count] - found.latent
+    return covariance[:count, :count] + np.outer(apart, apart)
 
 
 def posterior(left, slope, spread):

@@ -140,7 +140,7 @@ def _frequencies(product, chosen):
 def _values(product):
     before, after, spread = _written(product)
     stated = [percent(each, 2) for each in product.before_spread]
-    mesh = [percent(abs(each), 2) if product.mesh_checked else "not estimated" for each in product.mesh_shift]
+    mesh = [percent(each, 2) if product.mesh_checked else "not estimated" for each in product.mesh_spread]
     rows = tuple(zip(map(str, product.parameter), before, stated, after, spread, mesh, strict=True))
     return Table(("value", "stated", "±", "updated", "±", "of it by the mesh"), rows, "Values before and after",
                  numeric=(1, 2, 3, 4, 5))
