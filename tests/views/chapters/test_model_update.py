@@ -39,6 +39,17 @@ def test_of_a_brake_the_page_names_the_bodies_that_move():
     assert made.tables[0].rows[1][0] == "joints.finger_stiffness"
 
 
+def test_of_many_values_those_that_moved_most_are_listed():
+    small_one = small.model_update()
+    after = np.array([1.0, 1.3, 1.1, 1.0, 1.2, 1.05, 1.02, 0.9])
+    product = replace(small_one, parameter=np.array([f"joints.j{k}" for k in range(8)]), unit=np.array(["N/m"] * 8),
+                      before=np.ones(8), before_spread=np.full(8, 0.3), after=after, after_spread=np.full(8, 0.01),
+                      correlation=np.eye(8), mesh_spread=np.zeros(8))
+    told = model_update.values(product)
+    assert "joints.j1 " in told and "joints.j7 " in told and "joints.j0 " not in told and "joints.j3 " not in told
+    assert told.endswith("; others in the table.")
+
+
 def test_another_brake_is_told_by_modes_without_a_pair_and_by_values_far_off():
     product = replace(small.model_update(body="assembly"), after=np.array([180e9, 0.272]))
     told = model_update.strange(product)

@@ -12,13 +12,15 @@ _UNTOLD = 0.8
 _FAR, _ENOUGH = 3.0, 0.5
 #: error of the model from which its bodies are others than those tested
 _WRONG = 0.02
+#: values that a sentence lists, those that moved most
+_MANY = 6
 #: correlation of two values from which only their combination is told
 _TOGETHER = 0.95
 
 
 def chapter(product, look):
     """Chapter of the product ModelUpdate."""
-    shapes = (f"by frequency and by their shapes at {plural(len(product.place), 'point')}" if len(product.place)
+    shapes = (f"by frequency and by their shapes at {plural(_places(product), 'point')}" if len(product.place)
               else "by frequency alone, as no point of the test is stated")
     what = "assembled brake at rest" if _assembled(product) else f"freely hung {product.body}"
     see = f"Modes of run {product.run} paired with those of the {what} {shapes}."
@@ -73,12 +75,20 @@ def values(product):
     """The values before and after, and what the test does not tell."""
     parts = [f"{name} {before} to {after} ± {spread}" for name, before, after, spread in zip(
         product.parameter, *_written(product), strict=True)]
+    moved = abs(np.log(product.after / product.before)) / product.before_spread
+    first = sorted(np.argsort(-moved, kind="stable")[:_MANY])
+    parts = [parts[k] for k in first] + ["others in the table"] * (len(parts) > _MANY)
     untold = [str(n) for n, a, b in zip(product.parameter, product.after_spread, product.before_spread, strict=True)
               if a > _UNTOLD * b]
     told = "; ".join(parts) + "."
     if untold:
         told += f" The test hardly tells {', '.join(untold)}: what was stated decides."
     return told + _together(product)
+
+
+def _places(product):
+    """Number of measured points, whatever their directions."""
+    return len({str(place).partition(" direction ")[0] for place in product.place})
 
 
 def _together(product):
