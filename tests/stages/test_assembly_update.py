@@ -160,6 +160,8 @@ def test_values_of_a_disc_alone_are_handed_on_to_the_brake(tmp_path, lifted):
     (tmp_path / "brake.yaml").write_text(yaml.safe_dump({"based_on": "disc_updated.yaml", "model_update": {
         "body": "assembly", "values": VALUES, "points": points()}}))
     given = cases.load(tmp_path / "brake.yaml", stages.CHAINS, stages.load, unread=BEFORE).sections["model_update"]
+    brake = cases.load(tmp_path / "disc_brake.yaml", stages.CHAINS, stages.load).sections["structure"]
+    assert brake.disc.young == pytest.approx(118e9) and brake.disc.density == pytest.approx(7150)
     assert given.disc.young == pytest.approx(118e9) and given.body == "assembly"
     assert given.values["disc.young"].spread == pytest.approx(0.02)
     assert given.values["disc.density"].correlation == {"disc.young": 0.95} and set(VALUES) < set(given.values)
