@@ -1,129 +1,122 @@
 """Stage model_update: values of a body that its modal test asks for."""
 
-import copy
-from types import SimpleNamespace
 from typing import Literal
 
 import numpy as np
 
-from pipeline.case_models.bodies.brake_bodies import Caliper, Disc, Pad, Seal
-from pipeline.case_models.bodies.measured_points import Point, rows
+from pipeline.case_models.bodies.assembled_brake import AssembledBrake, sections
+from pipeline.case_models.bodies.brake_bodies import Bracket, Caliper, Disc, Ground, Pad, Piston, Seal
+from pipeline.case_models.bodies.brake_joints import Joints, PressedPads
+from pipeline.case_models.bodies.declared_values import Value, known_values, named, refuse_unknown
+from pipeline.case_models.bodies.free_body import FreeBody
+from pipeline.case_models.bodies.measured_points import Point, refuse_unplaced, rows
+from pipeline.case_models.bodies.other_meshes import off_by_mesh, other_meshes
+from pipeline.case_models.bodies.updated_case import completed
 from pipeline.contract import ConfigError, Context, Section, option, stage
-from pipeline.contract import documents as yaml
-from pipeline.contract.settings import leaves
-from pipeline.physics.fem.supports import free_modes
 from pipeline.physics.modal.disc_modes import describe
 from pipeline.physics.modal.mode_pairing import assurance, grouped, nearest_mixture, real
-from pipeline.physics.modal.model_updating import CLOSE, ModelModes, Test, update
-from pipeline.physics.modal.natural_modes import slopes
+from pipeline.physics.modal.model_updating import CLOSE, Test, update, with_errors
 from pipeline.products import ModalTest, ModelUpdate, ResponseFunctions
-from pipeline.systems import disc_brake
+from pipeline.systems.disc_brake_rows import body_names
 
-#: parts of the brake, and how each is meshed alone
-BODIES = {"disc": lambda parts: disc_brake.disc(parts.disc), "pad": lambda parts: disc_brake.pad(parts, +1),
-          "caliper": disc_brake.caliper}
-#: step of differences to either side, in standard deviations of the priors
-_STEP = 1e-3
-#: modes of the model are computed up to this many standard deviations of the values, and a share, above the test
-_DEVIATIONS, _ABOVE = 3.0, 1.1
-
-
-class Value(Section):
-    """A value that may be off."""
-
-    spread: float = option(..., "standard deviation of its logarithm: 0.05 = about 5 %", gt=0, le=1)
+#: share of a body by which nodes of a coarser mesh may lie off the points
+_ANYWHERE = 0.5
+#: values whose joint only some brakes have, and the section that has to be a body
+_ONLY_WITH = {"joints.mount_stiffness": "bracket", "joints.shim_stiffness": "piston",
+              "joints.seal_stiffness": "piston"}
 
 
 class Settings(Section):
-    """The body, hung freely, the values that may be off, and where the points of the test lie."""
+    """The body hung freely or the assembled brake, the values that may be off, and where points of the test lie."""
 
     run: str | None = option(None, "run of the modal test; none = the only one")
-    body: Literal[*BODIES] = option("disc", "body that was tested, hung freely")
+    body: Literal["disc", "pad", "caliper", "assembly"] = option("disc", "body that was tested, hung freely; assembly ="
+                                                                 " the whole brake at rest")
     disc: Disc = option(Disc(), "brake disc, as in the section structure")
     pad: Pad = option(Pad(), "pad, as in the section structure")
     caliper: Caliper = option(Caliper(), "caliper, as in the section structure")
-    values: dict[str, Value] = option({}, "values of the body that may be off, by their names in its section")
-    points: tuple[Point, ...] = option((), "points of the test on the body; none = modes are paired by frequency alone")
+    bracket: Ground | Bracket = option(Ground(), "bracket, as in the section structure", discriminator="kind")
+    piston: Seal | Piston = option(Seal(), "piston, as in the section structure", discriminator="kind")
+    joints: Joints = option(Joints(), "joints, as in the section structure")
+    pressed: PressedPads = option(PressedPads(), "pads pressed on the disc in the test of an assembly")
+    values: dict[str, Value] = option({}, "values that may be off, as SECTION.NAME; of a single body by their names"
+                                      " alone as well")
+    finer: float | None = option(1.5, "elements of a finer mesh over those of the mesh, in each direction, and of the"
+                                 " disc's over those of a coarser one, by which the error of the mesh is estimated"
+                                 " where points are stated; none = it is not", gt=1, le=4)
+    points: tuple[Point, ...] = option((), "points of the test; none = modes of a single body are paired by frequency"
+                                       " alone")
 
 
-def stated(settings):
-    """Refuse a case that states no value that may be off."""
-    if not settings["model_update"].values:
-        raise ConfigError("model_update.values", "values of the body that may be off, such as young: {spread: 0.05}",
-                          "none")
+def stated(given):
+    """Refuse values and points that the brake does not have before anything is computed, and a case without any."""
+    settings, where = given["model_update"], "model_update"
+    part = None if settings.body == "assembly" else settings.body
+    values = named(settings.values, part)
+    refuse_unknown(values, known_values(sections(settings)), where)
+    if not any(part is None or name.startswith(f"{part}.") for name in values):
+        raise ConfigError(f"{where}.values", f"values of {part or 'bodies and joints'} that may be off, such as"
+                          f" {part or 'disc'}.young: {{spread: 0.05}}", "none")
+    if part is None:
+        _refuse_lacking(settings, values, where)
+    refuse_unplaced(settings.points, (part,) if part else body_names(settings), where)
 
 
-def companions(product, case):
-    """The case with the values that the test asks for, with their standard deviations."""
-    if case is None:
-        return {}
-    document = copy.deepcopy(case.document)
-    section = document.setdefault("model_update", {}).setdefault(str(product.body), {})
-    for name, unit, value, spread in zip(product.parameter, product.unit, product.after, product.after_spread,
-                                         strict=True):
-        section[str(name)] = {"value": f"{float(value):.6g} {unit}" if str(unit) else float(f"{value:.6g}"),
-                              "origin": "measured", "source": f"modal test {case.name}, {spread:.1%}"}
-    document["title"] = f"{document.get('title', case.name)}, updated"
-    return {f"{case.name}_updated.yaml": yaml.yaml_text(document)}
+def _refuse_lacking(settings, values, where):
+    """Refuse values of joints that the assembled brake does not have, and a test without points."""
+    lacking = [name for name in values if (kind := _ONLY_WITH.get(name)) and getattr(settings, kind).kind != "body"]
+    lacking += [name for name in values if name.startswith("pressed.") and not settings.pressed.force]
+    if lacking:
+        raise ConfigError(f"{where}.values", "joints that this brake has: bracket and piston as bodies, pads pressed"
+                          " by a force", ", ".join(lacking), "state what they belong to, or leave them out")
+    if not settings.points:
+        raise ConfigError(f"{where}.points", "points of the test with the bodies that they lie on: modes of an assembly"
+                          " are too close to be paired by frequency alone", "none")
 
 
-@stage(companions=companions, check=stated)
+@stage(companions=completed, check=stated)
 def model_update(responses: ResponseFunctions, modes: ModalTest, settings: Settings, context: Context) -> ModelUpdate:
-    """Update the values of a body by its modal test, and tell how well they are known.
+    """Update the values of a body, or of the joints of a brake, by a modal test, and tell how well they are known.
 
     Method:
-    Measured modes of the free body were paired with those of its finite-element model by frequency and shape (MAC, of
-    pairs of a disc with the nearest mixture of both); pairs in doubt (odds below e^3) do not count. The values declared
-    were updated by all others, ln f being normal about that of the model with the error of the test and one of the
-    model, which is integrated out; a split pair counts by its mean; priors are log-normal with the spreads declared.
+    Measured modes were paired with those of the finite-element model ({body}) by frequency and shape (MAC, of pairs of
+    a disc with the nearest mixture of both); pairs in doubt (odds below e^3) do not count. The values declared were
+    updated by all others, ln f being normal about that of the model with the error of the test and one of the model,
+    which is integrated out; a split pair counts by its mean; priors are log-normal with the spreads declared. Bodies of
+    an assembly are reduced to their joints (Craig-Bampton); pads under a force of the piston stick to the disc. The
+    error of the mesh is what values of a finer one, of the disc a coarser one, show with an order of 2 ({finer} times
+    the elements).
     """
+    stated({"model_update": settings})
     name, test = _test(modes, settings)
-    body = Body(settings, context.solver, float(test.frequency.max()))
-    seen = rows(settings.points, test.place, test.reference, responses.tests[name].unit, body.solid(0.0).mesh.node,
-                "model_update")
+    model, seen = _model(settings, test, responses.tests[name].unit, context)
     shown = np.zeros((len(test.frequency), 0)) if seen is None else _shown(test, seen)
     measured = Test(test.frequency, test.frequency_std / test.frequency, shown)
-    found = update(body, seen and seen.products, measured, len(body.names))
+    found = update(model, seen and seen.products, measured, len(model.declared.names))
     context.log(f"{int(found.pairing.clear.sum())} of {len(test.frequency)} measured modes have a pair beyond doubt")
-    return ModelUpdate(run=name, body=settings.body, **_values(body, found), **_modes(test, body, found),
-                       **_points(test, shown, seen, found))
+    checked = settings.finer is not None and seen is not None
+    errors = [factor * _by_mesh(other, found, seen, test, responses.tests[name].unit, context)
+              for other, factor in (other_meshes(settings, settings.finer) if checked else ())]
+    whole = with_errors(found, measured, errors) if errors else found.covariance
+    return ModelUpdate(run=name, body=settings.body, **_values(model.declared, found, whole),
+                       **_modes(test, model, found), **_points(test, shown, seen, found),
+                       mesh_checked=int(checked))
 
 
-class Body:
-    """A freely hung part of the brake as a model of its values, each ``u`` standard deviations from what is stated."""
+def _by_mesh(settings, found, seen, test, units, context):
+    """Change (g,) of ln f of the groups by the mesh of other ``settings``."""
+    model, there_seen = _model(settings, test, units, context, far=_ANYWHERE)
+    there = model(found.latent)
+    return off_by_mesh(found.after, found.groups, seen.products, there, grouped(there.frequency, CLOSE),
+                       there_seen.products)
 
-    def __init__(self, settings, solver, highest):
-        self.part, self.solver = settings.body, solver
-        self.parts = {"disc": settings.disc, "pad": settings.pad, "caliper": settings.caliper, "piston": Seal()}
-        known = {key: (value, unit) for key, value, unit, _ in leaves(self.parts[self.part])
-                 if isinstance(value, float) and value > 0}
-        strange = [name for name in settings.values if name not in known]
-        if strange:
-            raise ConfigError("model_update.values", f"values of {self.part} above 0: {', '.join(known)}",
-                              ", ".join(strange))
-        self.names = tuple(settings.values)
-        self.stated, self.units = (np.array(each) for each in zip(*(known[n] for n in self.names), strict=True))
-        self.spread = np.array([value.spread for value in settings.values.values()])
-        self.below = _ABOVE * highest * np.exp(_DEVIATIONS * np.linalg.norm(self.spread) / 2)
 
-    def values(self, latent):
-        """Values (p,) in SI units."""
-        return self.stated * np.exp(self.spread * latent)
-
-    def solid(self, latent):
-        """The Solid at ``latent`` values (p,)."""
-        given = dict(zip(self.names, self.values(np.broadcast_to(latent, self.stated.shape)).tolist(), strict=True))
-        parts = {**self.parts, self.part: self.parts[self.part].model_copy(update=given)}
-        return BODIES[self.part](SimpleNamespace(**parts))
-
-    def __call__(self, latent):
-        """ModelModes at ``latent`` values, the shapes at all nodes."""
-        matrices = self.solid(latent).matrices()
-        frequency, shape = free_modes(*matrices, self.solver, self.below, f"model_update: {self.part}")
-        sides = ([self.solid(latent + side * _STEP * unit).matrices() for side in (-1, 1)]
-                 for unit in np.eye(len(latent)))
-        slope = [slopes(frequency, shape, *both) / (2 * _STEP) for both in sides]
-        return ModelModes(frequency, np.array(slope).T, shape)
+def _model(settings, test, units, context, **far):
+    """(model of the body or the brake, Rows of the test on what its shapes show or None)."""
+    kind = AssembledBrake if settings.body == "assembly" else FreeBody
+    model = kind(settings, context.solver, float(test.frequency.max()))
+    seen = rows(settings.points, test.place, test.reference, units, model.nodes, "model_update", **far)
+    return model, model.observe(seen) if settings.body == "assembly" else seen
 
 
 def _test(modes, settings):
@@ -142,28 +135,38 @@ def _shown(test, seen):
     return np.array([real(row) for row in test.shape[:, seen.index] / turn ** seen.order])
 
 
-def _values(body, found):
-    spread = np.sqrt(np.diag(found.covariance))
-    return {"parameter": list(body.names), "unit": body.units.tolist(), "before": body.stated,
-            "before_spread": body.spread, "after": body.values(found.latent), "after_spread": body.spread * spread,
-            "correlation": found.covariance / np.outer(spread, spread), "model_error": found.error,
-            "model_error_spread": found.error_spread}
+def _values(declared, found, covariance):
+    """Fields of the values; their ``covariance`` (p, p) with the error of the mesh."""
+    spread, correlation = declared.spread_of(covariance)
+    without = declared.spread_of(found.covariance)[0]
+    return {"parameter": list(declared.names), "unit": declared.units.tolist(), "before": declared.stated,
+            "before_spread": declared.spread, "after": declared.values(found.latent), "after_spread": spread,
+            "correlation": correlation, "mesh_spread": np.sqrt(np.maximum(spread**2 - without**2, 0.0)),
+            "model_error": found.error, "model_error_spread": found.error_spread}
 
 
-def _modes(test, body, found):
+def _modes(test, model, found):
     """Fields of measured modes and of the groups of the model; a group before is that of the most alike shapes."""
     pairing, after, before = found.pairing, found.after, grouped(found.before.frequency, CLOSE)
     first = [group[0] for group in found.groups]
     alike = assurance(after.shown[:, first].T, [found.before.shown[:, group] for group in before]).argmax(axis=1)
     diameters = np.full(len(first), -1)
-    if body.part == "disc":
-        diameters = describe(body.solid(found.latent).mesh.node, after.shown)[0][first]
+    if model.part == "disc":
+        diameters = describe(model.solid(found.latent).mesh.node, after.shown)[0][first]
     return {"measured_frequency": test.frequency, "measured_std": test.frequency_std, "pair": pairing.group,
             "rival": pairing.rival, "odds": pairing.odds, "clear": pairing.clear.astype(int),
             "likeness": found.likeness, "frequency_spread": found.spread, "diameters": diameters,
             "frequency_before": [found.before.frequency[before[k]].mean() for k in alike],
             "frequency": [after.frequency[group].mean() for group in found.groups],
-            "members": [len(group) for group in found.groups]}
+            "members": [len(group) for group in found.groups], **_movers(model, found)}
+
+
+def _movers(model, found):
+    """Fields of the body that moves most in each group, with its share of the kinetic energy."""
+    if model.part != "assembly":
+        return {"mover": [model.part] * len(found.groups), "mover_share": np.ones(len(found.groups))}
+    share = np.array([found.after.share[:, group].mean(axis=1) for group in found.groups])
+    return {"mover": [model.names[k] for k in share.argmax(axis=1)], "mover_share": share.max(axis=1)}
 
 
 def _points(test, shown, seen, found):

@@ -7,6 +7,7 @@ import numpy as np
 import scipy
 
 from pipeline.case_models.bodies.brake_bodies import Bracket, Caliper, Disc, Ground, Pad, Piston, Seal
+from pipeline.case_models.bodies.brake_joints import Joints
 from pipeline.contract import Context, Quantities, Quantity, Section, option, stage
 from pipeline.physics.contact.static_preload import condense, contact_law, solve_preload
 from pipeline.physics.fem.supports import free_freedoms, free_modes, held_modes
@@ -20,42 +21,6 @@ from pipeline.systems.fem_bodies import assembly_fields, body_product, incidence
 _LAW_RANGE = 20
 #: bodies that only some brakes have
 OTHERS = ("bracket", "piston")
-
-
-class Joints(Section):
-    """Springs and dampers of the parts that are not meshed."""
-
-    abutment_stiffness: Quantity("N/m", gt=0) = option("50 MN/m", "trailing abutment of a pad, along sliding")
-    clip_stiffness: Quantity("N/m", gt=0) = option("1 MN/m", "clip at the leading end of a pad, along sliding")
-    abutment_radial_stiffness: Quantity("N/m", gt=0) = option("5 MN/m", "abutment of a pad end, radial")
-    finger_stiffness: Quantity("N/m", gt=0) = option("400 MN/m", "fingers on the outer backplate, normal")
-    finger_shear_stiffness: Quantity("N/m", gt=0) = option("20 MN/m", "fingers on the outer backplate, each direction"
-                                                           " in the plane")
-    piston_stiffness: Quantity("N/m", gt=0) = option("0.1 MN/m", "piston seal, normal; the pressure is held, so the"
-                                                     " brake fluid adds none")
-    piston_shear_stiffness: Quantity("N/m", gt=0) = option("20 MN/m", "piston on the inner backplate, each direction"
-                                                           " in the plane")
-    guide_pin_stiffness: Quantity("N/m", gt=0) = option("20 MN/m", "one guide pin across its axis")
-    guide_pin_axial_stiffness: Quantity("N/m", gt=0) = option("100 kN/m", "boot of one guide pin, axial")
-    shim_stiffness: Quantity("N/m", gt=0) = option("400 MN/m", "piston body on the inner backplate, normal")
-    seal_stiffness: Quantity("N/m", gt=0) = option("5 MN/m", "seal of a piston body in its bore, each direction"
-                                                   " across the axis; along it piston_stiffness")
-    mount_stiffness: Quantity("N/m", gt=0) = option("200 MN/m", "one bolt of the bracket with the knuckle behind it,"
-                                                    " each direction")
-    abutment_loss_factor: float = option(0.0, "loss factor of abutments and clips, in both directions", ge=0)
-    finger_loss_factor: float = option(0.0, "loss factor of the fingers on the backplate", ge=0)
-    piston_loss_factor: float = option(0.0, "loss factor of piston seal and piston on the backplate", ge=0)
-    guide_pin_loss_factor: float = option(0.0, "loss factor of guide pins and boots", ge=0)
-    seal_loss_factor: float = option(0.0, "loss factor of the seal of a piston body", ge=0)
-    mount_loss_factor: float = option(0.0, "loss factor of the mount of the bracket", ge=0)
-    loss_time: Quantity("s", ge=0) = option("5 us", "viscous damping over stiffness of every joint, beside the loss"
-                                            " factors; damping that rises with frequency")
-    clamping_radius: Quantity("m", gt=0) = option("122 mm", "radius of the centre of fingers and piston")
-    clamping_height: Quantity("m", gt=0) = option("32 mm", "radial distance of their bearing spots")
-    finger_distance: Quantity("m", gt=0) = option("60 mm", "distance of the fingers along sliding")
-    piston_distance: Quantity("m", gt=0) = option("32 mm", "distance of the piston's bearing spots along sliding")
-    guide_pin_radius: Quantity("m", gt=0) = option("150 mm", "radius of the guide pins")
-    spot_size: Quantity("m", gt=0) = option("6 mm", "size of a bearing spot")
 
 
 class LaserPoint(Section):

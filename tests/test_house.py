@@ -38,6 +38,8 @@ MAY_IMPORT = {
     "pipeline.decks": {"pipeline.decks", "pipeline.recordings.apart", "pipeline.contract.errors"},
     "pipeline.case_models": {"pipeline.case_models", "pipeline.products", "pipeline.effects", "pipeline.physics",
                              "pipeline.inference.priors", "pipeline.contract"},
+    "pipeline.case_models.bodies": {"pipeline.case_models.bodies", "pipeline.products", "pipeline.physics",
+                                    "pipeline.systems", "pipeline.contract"},
     "pipeline.case_models.lumped": {"pipeline.contract", "pipeline.systems"},
     "pipeline.diagnosis": {"pipeline.diagnosis", "pipeline.case_models", "pipeline.products", "pipeline.effects",
                            "pipeline.inference", "pipeline.physics", "pipeline.contract"},

@@ -33,19 +33,22 @@ class Incidence:
     weight: Array = quantity("1", "entry", "weight")
 
 
-@product(version=1)
+@product(version=2)
 class ModelUpdate:
-    """Values of a body that its modal test asks for, and the pairs of modes that they come from."""
+    """Values of a body or a brake that its modal test asks for, and the pairs of modes that they come from."""
 
     run: Array = text("", "run of the modal test")
-    body: Array = text("", "body of the brake")
-    parameter: Array = text("parameter", "names of the values")
+    body: Array = text("", "body of the brake, or assembly")
+    parameter: Array = text("parameter", "names of the values with their sections, as in disc.young")
     unit: Array = text("parameter", "their SI units")
     before: Array = quantity("1", "parameter", "values stated, in the unit that `unit` names")
     before_spread: Array = quantity("1", "parameter", "standard deviation of the logarithm that was stated")
     after: Array = quantity("1", "parameter", "values that the test asks for")
     after_spread: Array = quantity("1", "parameter", "standard deviation of their logarithm")
     correlation: Array = quantity("1", "parameter other", "correlation of the errors of the logarithms")
+    mesh_spread: Array = quantity("1", "parameter", "part of that standard deviation by the error of the mesh; 0 where it"
+                                                    " was not estimated")
+    mesh_checked: Array = count("", "1 where the error of the mesh was estimated on a finer one")
     model_error: Array = quantity("1", "", "relative error of natural frequencies that no value mends")
     model_error_spread: Array = quantity("1", "", "standard deviation of its logarithm")
     measured_frequency: Array = quantity("Hz", "measured", "natural frequencies of the test")
@@ -61,6 +64,8 @@ class ModelUpdate:
     frequency_spread: Array = quantity("1", "cluster", "its relative standard deviation by the values")
     members: Array = count("cluster", "modes of each group: 2 for a pair of a disc")
     diameters: Array = count("cluster", "nodal diameters of a disc, -1 of other bodies")
+    mover: Array = text("cluster", "body that moves most in each group")
+    mover_share: Array = quantity("1", "cluster", "its share of the kinetic energy")
     place: Array = text("seen", "measured points that the shapes are compared at")
     reference: Array = text("seen", "their references")
     agreement: Array = quantity("1", "seen", "correlation of measured and computed motion over the pairs: its square is"

@@ -138,12 +138,14 @@ def modal_test(empty=False):
     return ModalTest(runs={"hammer": modes})
 
 
-def model_update(points=True):
-    """Three measured modes: a pair of a disc, one in doubt, and one that the model lacks."""
+def model_update(points=True, body="disc"):
+    """Three measured modes: a pair of a disc, one in doubt, and one that the model lacks; or the same of a brake."""
     return ModelUpdate(
-        run="hammer", body="disc", parameter=["young", "poisson"], unit=["Pa", "1"], before=[120e9, 0.27],
-        before_spread=[0.1, 0.1], after=[128.3e9, 0.272], after_spread=[0.004, 0.09], correlation=np.eye(2),
-        model_error=0.003, model_error_spread=0.3, measured_frequency=[800.0, 801.0, 1500.0, 1710.0],
+        run="hammer", body=body, parameter=["disc.young", "disc.poisson"], mover=["disc", "caliper", "pad_outer"],
+        mover_share=[0.93, 0.6, 0.7], mesh_spread=[0.002 * points, 0.0], mesh_checked=int(points),
+        unit=["Pa", "1"], before=[120e9, 0.27], before_spread=[0.1, 0.1], after=[128.3e9, 0.272],
+        after_spread=[0.004, 0.09], correlation=np.eye(2), model_error=0.003, model_error_spread=0.3,
+        measured_frequency=[800.0, 801.0, 1500.0, 1710.0],
         measured_std=[0.01, 0.01, 0.02, 0.1], pair=[0, 0, 1, -1], rival=[-1, -1, 2, -1], odds=[25.0, 25.0, 1.1, 4.0],
         clear=[1, 1, 0, 0], likeness=np.array([[0.99, 0.01, 0], [0.98, 0, 0.01], [0, 0.7, 0.6], [0, 0, 0]]) * points,
         frequency_before=[770.0, 1450.0, 1470.0], frequency=[801.2, 1495.0, 1512.0],

@@ -4,7 +4,8 @@ ln f_i = ln f_i(u) + e_i,  e_i ~ N(0, s_i^2 + s^2): s_i is the error of the test
 can mend. Values are u standard deviations from their priors, u ~ N(0, I), linear about the best ones; s has a prior
 that is constant in ln s, and is integrated out over a grid, so that few modes or many values leave wide intervals
 (J. L. Beck, L. S. Katafygiotis, Updating models and their uncertainties, J. Eng. Mech. 124 (1998) 455).
-Pairs of modes are found anew with every step (``mode_pairing``); those in doubt do not count.
+Pairs of modes are found anew with every step (``mode_pairing``), with half of what the step moved a frequency by as
+an error of its own, since slopes are those before it; those in doubt do not count.
 """
 
 from dataclasses import dataclass
@@ -20,6 +21,10 @@ _ERRORS = np.geomspace(1e-5, 0.1, 81)
 _ROUGH = 0.02
 #: change of all values in standard deviations at which the update ends; steps at most
 _ENOUGH, _STEPS = 0.02, 20
+#: share of the change of a frequency in a step that is in doubt
+_CURVED = 0.5
+#: steps after which modes that are apart in one step and together in the next count as together: groups grow wider
+_LATE, _WIDER = 8, 0.1
 #: modes of a model closer than this are one group
 CLOSE = 2e-3
 
@@ -71,26 +76,42 @@ def update(model, seen, test, count):
     mixture where its mode is one of these. Raises ConvergenceError where no pair is clear or the steps do not end, and
     what the model raises.
     """
-    latent, covariance, error = np.zeros(count), np.eye(count), _ROUGH
+    latent, covariance, error, moved = np.zeros(count), np.eye(count), _ROUGH, np.zeros(count)
     before = modes = model(latent)
-    for _ in range(_STEPS):
-        groups = grouped(modes.frequency, CLOSE)
+    for step in range(_STEPS):
+        groups = grouped(modes.frequency, CLOSE * (1 + _WIDER * max(step - _LATE, 0)))
         frequency, slope = _means(modes, groups)
-        pairing, likeness = _paired(modes, groups, seen, test, frequency, np.hypot(_spread(slope, covariance), error))
+        spread = np.hypot(np.hypot(_spread(slope, covariance), _CURVED * (slope @ moved)), error)
+        pairing, likeness = _paired(modes, groups, seen, test, frequency, spread)
         clear = pairing.clear
         if not clear.any():
             raise ConvergenceError("model update", "a measured mode that is one of the model beyond doubt", "none",
                                    "measure more points and state where they are, or widen the priors")
         own, left, noise = _told(test, pairing, frequency)
         target, covariance, error, error_spread = posterior(left + slope[own] @ latent, slope[own], noise)
-        moved = (target - latent) / np.sqrt(np.diag(covariance))
-        if abs(moved).max(initial=0.0) < _ENOUGH:
+        moved = target - latent
+        if abs(moved / np.sqrt(np.diag(covariance))).max(initial=0.0) < _ENOUGH:
             return Updated(target, covariance, error, error_spread, before, modes, groups,
                            _spread(slope, covariance), pairing, likeness)
         latent = target
         modes = model(latent)
     raise ConvergenceError("model update", f"values that settle within {_STEPS} steps", "others at every step",
-                           "state narrower priors, or fewer values")
+                           "state narrower priors or fewer values; the test may be of something else than the model")
+
+
+def with_errors(found, test, errors):
+    """Covariance (p, p) about the values of an Updated, with ``errors`` [(g,)] of ln f of its groups beside them.
+
+    Each is times an unknown factor, N(0, 1): what the frequencies cannot tell from the values makes these uncertain,
+    at most as their priors.
+    """
+    frequency, slope = _means(found.after, found.groups)
+    own, left, noise = _told(test, found.pairing, frequency)
+    beside = np.reshape(errors, (-1, len(found.groups))).T[own]
+    count = len(found.latent)
+    mean, covariance, _, _ = posterior(left + slope[own] @ found.latent, np.hstack((slope[own], beside)), noise)
+    apart = mean[:count] - found.latent
+    return covariance[:count, :count] + np.outer(apart, apart)
 
 
 def posterior(left, slope, spread):

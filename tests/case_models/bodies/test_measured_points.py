@@ -13,7 +13,7 @@ SHAPE = np.arange(24.0).reshape(12, 2)
 
 
 def seen(places, references, units=("m/s^2/N",) * 3):
-    return rows(POINTS, places, references, units[:len(places)], NODES, "model_update")
+    return rows(POINTS, places, references, units[:len(places)], {"disc": NODES}, "model_update")
 
 
 def test_a_residue_is_the_motion_of_the_place_times_that_of_the_reference():
@@ -36,13 +36,13 @@ def test_of_unknown_references_those_of_the_first_count():
 
 
 def test_without_points_there_is_nothing_to_compare():
-    assert rows((), ["a"], ["b"], ["m/N"], NODES, "model_update") is None
+    assert rows((), ["a"], ["b"], ["m/N"], {"disc": NODES}, "model_update") is None
 
 
 def test_points_off_the_body_unknown_places_and_missing_directions_are_refused():
     with pytest.raises(ConfigError, match="a point of the body, within 0.005 m of a node, found one 0.9 m away"):
-        rows((Point(place="p", position=["1 m", "0 m", "0 m"]),), ["p direction 1"], ["p direction 1"], ["m/N"], NODES,
-             "model_update")
+        rows((Point(place="p", position=["1 m", "0 m", "0 m"]),), ["p direction 1"], ["p direction 1"], ["m/N"],
+             {"disc": NODES}, "model_update")
     with pytest.raises(ConfigError, match="places of the responses: node 7 direction 1, found node 1, rim"):
         seen(["node 7 direction 1"], ["hammer"])
     with pytest.raises(ConfigError, match="node 1: expected a direction of three numbers"):

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from pipeline.contract import ConvergenceError
-from pipeline.physics.modal.model_updating import ModelModes, Test, posterior, update
+from pipeline.physics.modal.model_updating import ModelModes, Test, posterior, update, with_errors
 
 MASS = np.diag([1.0, 1.3, 0.7, 1.1, 0.9])
 STEP = 1e-6
@@ -73,6 +73,34 @@ def test_intervals_hold_the_truth_as_often_as_they_say():
         found = update(chain, lambda shape: shape, measured(true, 0.01, random=random), 2)
         inside.append(abs(found.latent - true) < 2 * np.sqrt(np.diag(found.covariance)))
     assert 0.90 <= np.mean(inside) <= 0.98
+
+
+def test_an_error_of_known_shape_counts_in_the_values_that_look_like_it():
+    """One that looks like a value leaves this as its prior, one that looks like none leaves both as they were."""
+    found, test = (update(chain, lambda shape: shape, measured([0.3, -0.2]), 2), measured([0.3, -0.2]))
+    slope = found.after.slope
+    like, unlike = slope[:, 0] * 100, np.linalg.svd(slope)[0][:, 4] * 1e-3
+    spread = np.sqrt(np.diag(with_errors(found, test, [like])))
+    assert 0.9 < spread[0] < 1.05 and spread[1] < 0.05
+    alone = with_errors(found, test, np.zeros((1, 5)))
+    np.testing.assert_allclose(alone, found.covariance, rtol=0.05, atol=1e-9)
+    ratio = np.sqrt(np.diag(with_errors(found, test, [unlike])) / np.diag(alone))
+    assert ((ratio > 0.8) & (ratio < 1.4)).all()        # one unknown more for the same five frequencies
+
+
+def test_two_modes_at_the_limit_of_a_group_do_not_keep_the_update_from_ending():
+    """A gap that is just within a group at one step and just without it at the next."""
+    gap, sides = 2e-3, []
+
+    def modes(latent):
+        sides.append(len(sides) % 2)
+        split = gap * (1.05 if sides[-1] else 0.95)
+        frequency = np.array([10.0, 10.0 * (1 + split), 30.0]) * np.exp(0.1 * latent[0])
+        return ModelModes(frequency, np.full((3, 1), 0.1), np.eye(6)[:, :3])
+
+    test = Test(np.array([10.2, 30.6]), np.full(2, 1e-5), np.eye(6)[[0, 2]])
+    found = update(modes, lambda shape: shape, test, 1)
+    assert found.latent[0] == pytest.approx(np.log(1.02) / 0.1, rel=0.05)
 
 
 def test_modes_of_another_structure_are_refused():

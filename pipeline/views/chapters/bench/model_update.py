@@ -1,4 +1,4 @@
-"""Chapter: values of a body that its modal test asks for."""
+"""Chapter: values of a body, or of a brake with its joints, that a modal test asks for."""
 
 import numpy as np
 
@@ -8,16 +8,23 @@ from pipeline.views.figures.number_format import number, percent, plural, quanti
 
 #: share of its prior's standard deviation above which a value counts as not told
 _UNTOLD = 0.8
+#: standard deviations of its prior by which a value may move unremarked; share of modes with a clear pair to exceed
+_FAR, _ENOUGH = 3.0, 0.5
+#: error of the model from which its bodies are others than those tested
+_WRONG = 0.02
+#: values that a sentence lists, those that moved most
+_MANY = 6
 #: correlation of two values from which only their combination is told
 _TOGETHER = 0.95
 
 
 def chapter(product, look):
     """Chapter of the product ModelUpdate."""
-    shapes = (f"by frequency and by their shapes at {plural(len(product.place), 'point')}" if len(product.place)
+    shapes = (f"by frequency and by their shapes at {plural(_places(product), 'point')}" if len(product.place)
               else "by frequency alone, as no point of the test is stated")
-    see = f"Modes of run {product.run} paired with those of the freely hung {product.body} {shapes}."
-    said = (headline(product)[0] + ".", values(product), doubts(product), left(product))
+    what = "assembled brake at rest" if _assembled(product) else f"freely hung {product.body}"
+    see = f"Modes of run {product.run} paired with those of the {what} {shapes}."
+    said = (headline(product)[0] + ".", strange(product), values(product), doubts(product), left(product))
     return Chapter("model_update", "The model updated by the modal test", see, " ".join(filter(None, said)),
                    (key_figure(product),), (_values(product), _modes(product), *_points(product)), limits(product))
 
@@ -33,24 +40,55 @@ def headline(product):
     clear = int(product.clear.sum())
     before, after = (percent(_off(product, f), 2) for f in (product.frequency_before, product.frequency))
     return (f"{clear} of {plural(len(product.clear), 'measured mode')} paired beyond doubt; the model is off by"
-            f" {before} as stated, by {after} updated", "quiet" if clear > len(product.clear) / 2 else "warning")
+            f" {before} as stated, by {after} updated",
+            "warning" if _few(product) or product.model_error > _WRONG else "quiet")
 
 
 def note(product):
     """(question, answer) pairs of the first screen."""
-    return (("What to change", values(product)), ("In doubt", doubts(product)), ("What is left", left(product)))
+    doubt = " ".join(filter(None, (strange(product), doubts(product))))
+    return (("What to change", values(product)), ("In doubt", doubt), ("What is left", left(product)))
+
+
+def strange(product):
+    """Whether the test may be of something else than the model."""
+    moved = abs(np.log(product.after / product.before)) > _FAR * product.before_spread
+    names = [str(name) for name in product.parameter[moved]]
+    other = "brake" if _assembled(product) else product.body
+    few = ("No more than half of the measured modes are modes of this model beyond doubt: the test may be of another"
+           f" {other}, and no completed case is written.") if _few(product) else ""
+    far = f"More than {_FAR:g} standard deviations from what was stated: {', '.join(names)}." if names else ""
+    wrong = (f"No values of these bring the frequencies of the model within {percent(_WRONG, 1)}: sizes, materials or"
+             " joints that count as known are others in the test.") if product.model_error > _WRONG else ""
+    return " ".join(filter(None, (few, wrong, far)))
+
+
+def _few(product):
+    return product.clear.mean() <= _ENOUGH
+
+
+def _assembled(product):
+    return str(product.body) == "assembly"
 
 
 def values(product):
     """The values before and after, and what the test does not tell."""
-    parts = [f"{product.body}.{name} {before} to {after} ± {spread}" for name, before, after, spread in zip(
+    parts = [f"{name} {before} to {after} ± {spread}" for name, before, after, spread in zip(
         product.parameter, *_written(product), strict=True)]
+    moved = abs(np.log(product.after / product.before)) / product.before_spread
+    first = sorted(np.argsort(-moved, kind="stable")[:_MANY])
+    parts = [parts[k] for k in first] + ["others in the table"] * (len(parts) > _MANY)
     untold = [str(n) for n, a, b in zip(product.parameter, product.after_spread, product.before_spread, strict=True)
               if a > _UNTOLD * b]
     told = "; ".join(parts) + "."
     if untold:
         told += f" The test hardly tells {', '.join(untold)}: what was stated decides."
     return told + _together(product)
+
+
+def _places(product):
+    """Number of measured points, whatever their directions."""
+    return len({str(place).partition(" direction ")[0] for place in product.place})
 
 
 def _together(product):
@@ -84,8 +122,12 @@ def left(product):
 
 def limits(product):
     """What the update assumes."""
-    return ("Errors of the model count as independent from mode to mode. Those of a coarse mesh are not: they pull"
-            " values one way, and only a finer mesh shows by how much.",)
+    mesh = ("The error of the mesh counts in the intervals as other meshes show it, with an order of 2. A joint between"
+            " small spots takes up what the mesh lacks there." if product.mesh_checked
+            else "Errors of a coarse mesh pull values one way, and only a finer mesh shows by how much.")
+    joined = ("Joints are linear springs. Pads under a force stick to the disc; their pressure is distributed as the"
+              " values stated ask for, and damping is not updated.",) if _assembled(product) else ()
+    return ("Errors of the model count as independent from mode to mode.", mesh, *joined)
 
 
 def _written(product):
@@ -108,9 +150,10 @@ def _frequencies(product, chosen):
 def _values(product):
     before, after, spread = _written(product)
     stated = [percent(each, 2) for each in product.before_spread]
-    names = [f"{product.body}.{name}" for name in product.parameter]
-    rows = tuple(zip(names, before, stated, after, spread, strict=True))
-    return Table(("value", "stated", "±", "updated", "±"), rows, "Values before and after", numeric=(1, 2, 3, 4))
+    mesh = [percent(each, 2) if product.mesh_checked else "not estimated" for each in product.mesh_spread]
+    rows = tuple(zip(map(str, product.parameter), before, stated, after, spread, mesh, strict=True))
+    return Table(("value", "stated", "±", "updated", "±", "of it by the mesh"), rows, "Values before and after",
+                 numeric=(1, 2, 3, 4, 5))
 
 
 def _modes(product):
@@ -124,12 +167,15 @@ def _modes(product):
                                                                                      product.frequency)]
         rows.append((frequency, number(product.frequency[group], 6), *off,
                      number(product.likeness[t, group], 3) if len(product.place) else "", _kind(product, t, group)))
-    return Table(("measured / Hz", "model / Hz", "before / %", "after / %", "MAC", "pair"), tuple(rows),
+    pair = "pair, by the body that moves most" if _assembled(product) else "pair"
+    return Table(("measured / Hz", "model / Hz", "before / %", "after / %", "MAC", pair), tuple(rows),
                  "Modes measured and computed", numeric=(0, 1, 2, 3, 4), folded=len(rows) > 20)
 
 
 def _kind(product, t, group):
     kind = f"{plural(int(product.diameters[group]), 'nodal diameter')}" if product.diameters[group] >= 0 else "clear"
+    if _assembled(product):
+        kind = f"{product.mover[group]} {percent(product.mover_share[group], 2)}"
     if product.clear[t]:
         return kind
     rival = product.rival[t]
