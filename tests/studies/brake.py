@@ -20,6 +20,7 @@ from pipeline.blind_trial.metrics.criteria import judged
 from pipeline.blind_trial.metrics.rates import line, rate
 from pipeline.contract import documents
 from pipeline.contract.errors import ConvergenceError
+from tests.studies.brake_stops import practice as stops
 from tests.studies.forced import answered, by_stages, recorded
 from tests.studies.self_excited import commanded
 
@@ -123,6 +124,7 @@ def practice(folder):
             write(Plan(number, kind, hidden), Path(made))
             (Path(made) / "recordings.h5").replace(folder / f"brake_{number}.h5")
             (Path(made) / "truth.json").replace(folder / f"brake_{number}_truth.json")
+    stops(folder)
 
 
 def main():

@@ -19,10 +19,14 @@ from pipeline.physics.signals.onsets.growth_trace import frame, frame_length, ho
 
 #: least growth in a window in powers of e, and fewest frames and periods
 _GROWN, _FRAMES, _PERIODS = 1.5, 6, 10
-#: level over the noise floor from which a window begins
-_ABOVE = 4.0
+#: level over the noise floor from which a window begins, and powers of e below its end, as fainter frames tell nothing
+_ABOVE, _REACH = 4.0, 5.0
 #: rounds of the fit; error of p over what leaving out the upper half of the amplitudes changes
 _ROUNDS, _REST = 40, 2.0
+#: halvings of the interval in which the spread of stops lies
+_HALVINGS = 60
+#: how often the upper end of a window is halved where growth is bent
+_NARROWER = 4
 #: changes within so many standard deviations are noise
 _BENT = 3.0
 
@@ -46,7 +50,7 @@ class Growth:
 @dataclass(frozen=True)
 class Stops:
     """Mean ``root`` rad/s of several growths, its ``std`` of either part, ``spread`` of single stops beyond their own
-    errors (0 of one), ``shape`` (c,) of unit size."""
+    errors, ``shape`` (c,) of unit size, ``count`` of stops."""
 
     root: complex
     std: float
@@ -57,7 +61,7 @@ class Stops:
 
 def growth(samples, rate, low, high, share=0.2):
     """Growth of the squeal in samples (c, n) at ``rate`` Hz, between ``low`` and ``high`` Hz, up to the fraction
-    ``share`` of its saturated amplitude.
+    ``share`` of its saturated amplitude, or up to a smaller one where that bends the logarithm beyond noise.
 
     Raises ConfigError where no window lies between noise floor and saturation, or one too short to be judged.
     """
@@ -66,34 +70,57 @@ def growth(samples, rate, low, high, share=0.2):
         begin, end = _window(trace, share)
         first = _fitted(trace, slice(begin, end))
         trace = traced(samples, rate, low, high, frame_length(first.root.real))
-    begin, end = _window(trace, share)
-    whole = _fitted(trace, slice(begin, end))
-    lower = begin + int(np.searchsorted(np.maximum.accumulate(trace.level[begin:end]), trace.level[end - 1] / 2))
-    bend = _bend(whole, _fitted(trace, slice(begin, lower))) if lower - begin >= _FRAMES else 0.0
-    grown = float(np.log(trace.level[end - 1] / trace.level[begin]))
-    loud = trace.level[end:] >= 0.9 * trace.level.max()
-    saturates = bool(loud.any() and (trace.time[-1] - trace.time[end:][loud][0]) * whole.root.real > 1)
-    return Growth(whole.root, float(np.hypot(whole.std, bend)), bend, whole.amplitude, float(trace.time[begin]),
-                  float(trace.time[end - 1]), grown, saturates)
+    best = _judged(trace, share)
+    for _ in range(_NARROWER):
+        share = share / 2
+        try:
+            narrower = _judged(trace, share) if best.bend else best
+        except ConfigError:
+            break
+        best = min(best, narrower, key=lambda result: result.std)
+    return best
 
 
-def mean(growths):
-    """Stops of [Growth] at one operating point.
-
-    Errors of single stops and their spread beyond these, estimated by moments (R. DerSimonian, N. Laird, Controlled
-    Clinical Trials 7 (1986) 177), make the weights; of one stop no spread is known.
-    """
+def mean(growths, spread=0.0):
+    """Stops of [Growth] at one operating point, of which single ones spread by ``spread`` rad/s in either part beyond
+    their own errors."""
     root, own = np.array([g.root for g in growths]), np.array([g.std for g in growths])
-    weight = own**-2.0
-    middle = weight @ root / weight.sum()
-    excess = weight @ abs(root - middle) ** 2 / 2 - (len(root) - 1)
-    between = max(excess / (weight.sum() - weight @ weight / weight.sum()), 0.0) if len(root) > 1 else 0.0
-    weight = 1 / (own**2 + between)
+    weight = 1 / (own**2 + spread**2)
     shapes = np.array([g.shape / np.linalg.norm(g.shape) for g in growths])
     turned = np.array([np.exp(-1j * np.angle(shapes[0].conj() @ shape)) for shape in shapes])
     shape = (weight * turned) @ shapes
-    return Stops(complex(weight @ root / weight.sum()), float(weight.sum() ** -0.5), float(np.sqrt(between)),
+    return Stops(complex(weight @ root / weight.sum()), float(weight.sum() ** -0.5), float(spread),
                  shape / np.linalg.norm(shape), len(root))
+
+
+def spread_of(points):
+    """Standard deviation in rad/s of either part by which single stops spread beyond their own errors, from [[Growth]]
+    of several operating points together, as few stops at each tell little; 0 where no point has two.
+
+    It makes the deviations of the stops from the means of their points as large as errors and spread together (R. C.
+    Paule, J. Mandel, J. Res. Nat. Bur. Standards 87 (1982) 377).
+    """
+    groups = [(np.array([g.root for g in point]), np.array([g.std for g in point])) for point in points
+              if len(point) > 1]
+    free = sum(len(root) - 1 for root, _ in groups)
+    if not free:
+        return 0.0
+
+    def excess(square):
+        total = 0.0
+        for root, own in groups:
+            weight = 1 / (own**2 + square)
+            total += weight @ abs(root - weight @ root / weight.sum()) ** 2 / 2
+        return total - free
+
+    high = sum(np.ptp(root.real) ** 2 + np.ptp(root.imag) ** 2 for root, _ in groups)
+    if excess(0.0) <= 0:
+        return 0.0
+    low = 0.0
+    for _ in range(_HALVINGS):
+        middle = (low + high) / 2
+        low, high = (middle, high) if excess(middle) > 0 else (low, middle)
+    return float(np.sqrt(high))
 
 
 @dataclass(frozen=True)
@@ -103,16 +130,29 @@ class _Fit:
     amplitude: np.ndarray
 
 
+def _judged(trace, share):
+    """Growth of a Trace up to the fraction ``share`` of its saturated amplitude."""
+    begin, end = _window(trace, share)
+    whole, level = _fitted(trace, slice(begin, end)), trace.level
+    lower = begin + int(np.searchsorted(np.maximum.accumulate(level[begin:end]), level[end - 1] / 2))
+    bend = _bend(whole, _fitted(trace, slice(begin, lower))) if lower - begin >= _FRAMES else 0.0
+    loud = trace.time[end:][level[end:] >= 0.9 * level.max()]
+    saturates = bool(loud.size and (trace.time[-1] - loud[0]) * whole.root.real > 1)
+    return Growth(whole.root, float(np.hypot(whole.std, bend)), bend, whole.amplitude, float(trace.time[begin]),
+                  float(trace.time[end - 1]), float(np.log(level[end - 1] / level[begin])), saturates)
+
+
 def _window(trace, share):
     """(first, after the last) frame of the free growth; ConfigError where there is none to judge."""
     level = trace.level
     limit = share * trace.largest
     if limit < _ABOVE * np.exp(_GROWN):
-        raise ConfigError("onset", f"a squeal that outgrows the noise floor {_ABOVE * np.exp(_GROWN) / share:.0f} times",
+        needed = _ABOVE * np.exp(_GROWN) / share
+        raise ConfigError("onset", f"a squeal that outgrows the noise floor {needed:.0f} times",
                           f"{trace.largest:.3g} times at {trace.frequency:.4g} Hz",
                           "record from before the squeal begins, with less noise")
     end = int(np.argmax(level >= limit))
-    below = np.flatnonzero(level[:end] < _ABOVE)
+    below = np.flatnonzero(level[:end] < max(_ABOVE, limit * np.exp(-_REACH)))
     begin = int(below[-1] + 1) if below.size else 0
     grown = np.log(level[end - 1] / level[begin]) if end > begin else 0.0
     periods = (trace.time[end - 1] - trace.time[begin]) * trace.frequency if end > begin else 0.0

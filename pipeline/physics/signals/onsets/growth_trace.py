@@ -78,7 +78,7 @@ def frame(size):
 
 
 def demodulated(samples, rate, frequency, size):
-    """(time (k,) of their last samples in s, complex amplitudes (c, k) at ``frequency`` Hz) of Hann frames of (c, n)."""
+    """(time (k,) of their last samples in s, complex amplitudes (c, k) at ``frequency`` Hz) of Hann frames."""
     window = frame(size)
     last = np.arange(size - 1, samples.shape[1], hop(size))
     turning = samples * np.exp(-2j * np.pi * frequency * np.arange(samples.shape[1]) / rate)
