@@ -60,7 +60,7 @@ class Equation(Section):
 class Onset(Section):
     """Stops that squeal: the mode that grows between noise floor and saturation is compared."""
 
-    runs: tuple[str, ...] = option((), "runs that are such stops, also as patterns (stop_*), each with its repeats; none"
+    runs: tuple[str, ...] = option((), "runs that are such stops, also as patterns (stop_*), with their repeats; none"
                                        " = those whose drive turns and whose motions grow until they saturate")
     share: float = option(0.2, "fraction of the saturated amplitude up to which growth is fitted", gt=0, lt=1)
     held: dict[str, float] = option({}, "recorded channel that has to hold while it squeals, as pressure or speed:"

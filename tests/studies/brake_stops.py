@@ -49,16 +49,17 @@ def write(number, folder):
     """recordings.h5 and truth.json of a practice file in a folder; returns the truth."""
     whole, truth = made(number)
     taps = [run for run in brake.campaign() if run.speed == 0]
-    case_files.leave(folder, {}, brake.record(whole, truth["seed"], taps) | squealing_stops.record(whole, truth["seed"]))
+    runs = brake.record(whole, truth["seed"], taps) | squealing_stops.record(whole, truth["seed"])
+    case_files.leave(folder, {}, runs)
     (folder / "nominal.yaml").unlink()
     (folder / "truth.json").write_text(json.dumps(truth, indent=1) + "\n")
     return truth
 
 
-def practice(folder, numbers=range(len(PRACTICE))):
-    """squealing_brake_0.h5 ... of PRACTICE, each with its truth beside it."""
+def practice(folder, numbers=None):
+    """squealing_brake_0.h5 ... of PRACTICE, each with its truth beside it; ``numbers``: of these alone."""
     folder.mkdir(parents=True, exist_ok=True)
-    for number in numbers:
+    for number in range(len(PRACTICE)) if numbers is None else numbers:
         with TemporaryDirectory(dir=folder) as there:
             write(number, Path(there))
             (Path(there) / "recordings.h5").replace(folder / f"squealing_brake_{number}.h5")

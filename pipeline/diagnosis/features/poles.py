@@ -1,8 +1,9 @@
 """Features of self-excited benches: poles of taps and growth phases, ratios of sensors, forces locked to the angle.
 
-Stops that squeal (``stops``) show the pole that grows. Other runs with motion channels are free vibrations: their poles count where two records (a run and its ``repeat_of``) show
-them; sensors that look at one point give the logarithm of their ratio and their delay. Runs with joint forces alone are
-slow turns: they give cosine and sine of the first orders. Every operating point is one record of features.
+Stops that squeal (``stops``) show the pole that grows. Other runs with motion channels are free vibrations: their poles
+count where two records (a run and its ``repeat_of``) show them; sensors that look at one point give the logarithm of
+their ratio and their delay. Runs with joint forces alone are slow turns: they give cosine and sine of the first orders.
+Every operating point is one record of features.
 """
 
 from dataclasses import dataclass, field, replace
@@ -34,8 +35,9 @@ _STEADY = 0.05
 class Features:
     """What one operating point showed: Poles ``seen``, or none; ``values``, ``std`` {feature: SI value}.
 
-    ``resolved``: rad/s that poles have to be apart to be told apart, 2 pi / length of the shortest record. ``channels``:
-    indices of the motion channels that shapes hold, none: all. ``stops`` {run: Growth, or why it tells none}.
+    ``resolved``: rad/s that poles have to be apart to be told apart, 2 pi / length of the shortest record.
+    ``channels``: indices of the motion channels that shapes hold, none: all. ``stops`` {run: Growth, or why it tells
+    none}.
     """
 
     run: object

@@ -18,7 +18,6 @@ from scipy.signal import butter, sosfilt
 
 from pipeline.blind_trial.generators.brake import brake
 from pipeline.blind_trial.generators.brake.brake_parts import PADS
-from pipeline.blind_trial.generators.spring_mass.sensors import converted
 from pipeline.contract.errors import ConfigError
 
 #: (force N of the piston, speed rad/s) of the operating points, and stops at each
@@ -35,7 +34,8 @@ DURATION, _WIPED, _FINE = 0.4, (0.06, 0.085), 8
 _TURNS, _FRICTION, _PRESSURE, _ROUGH = 0.012, 0.01, 0.005, 0.02
 #: physics that only the linear model of taps has
 _NOT_HERE = ("shim_damping", "contact_memory")
-_CORNER, _GAIN = 10e3, 0.002
+#: corner in Hz, error of gains that a calibration leaves, bits of a converter over the range of its channel
+_CORNER, _GAIN, _BITS = 10e3, 0.002, 24
 
 
 @dataclass(frozen=True)
@@ -175,15 +175,16 @@ def _exponentials(forces, step):
     size = len(forces.stiffness)
     matrix = np.zeros((4 * size, 4 * size))
     matrix[:size, size:2 * size] = np.eye(size)
-    matrix[size:2 * size, :2 * size] = np.linalg.solve(forces.whole.mass, np.hstack((-forces.stiffness, -forces.damping)))
-    matrix[size:2 * size, 2 * size:3 * size] = np.linalg.inv(forces.whole.mass)
+    inverse = np.linalg.inv(forces.whole.mass)
+    matrix[size:2 * size, :2 * size] = -inverse @ np.hstack((forces.stiffness, forces.damping))
+    matrix[size:2 * size, 2 * size:3 * size] = inverse
     matrix[2 * size:3 * size, 3 * size:] = np.eye(size) / step
     whole = expm(matrix * step)[:2 * size]
     return whole[:, :2 * size], whole[:, 2 * size:3 * size], whole[:, 3 * size:]
 
 
 def _recorded(motion, torque, load, random):
-    """{channel: (samples, unit, quantity, rate, role)} of one stop from velocities (7, n) and torque (n,) at fine steps."""
+    """{channel: (samples, unit, quantity, rate, role)} of one stop of velocities (7, n), torque (n,) at fine steps."""
     guard = butter(4, _CORNER, fs=brake.RATE * _FINE, output="sos")
     channels = {}
     sources = [*zip(brake.CHANNELS.items(), motion[:6], strict=True), (("caliper", "acceleration"), motion[6])]
@@ -200,4 +201,5 @@ def _recorded(motion, torque, load, random):
 
 def _channel(values, unit, quantity, noise, random):
     values = values[::_FINE] + noise * random.standard_normal(len(values[::_FINE]))
-    return converted(values, 1.25 * abs(values).max()).astype(np.float32), unit, quantity, brake.RATE, "response"
+    step = 2.5 * abs(values).max() / 2**_BITS
+    return (step * np.round(values / step)).astype(np.float32), unit, quantity, brake.RATE, "response"

@@ -6,8 +6,8 @@ Between the noise floor and a small fraction of the saturated amplitude a squeal
 
 The amplitudes in Hann frames are fitted by least squares, whitened by the correlation that overlapping frames give to
 white noise. The fit includes what saturation takes first, a (1 - b |a|^2) exp(p t) with a complex b, whatever the law
-(J. T. Stuart, J. Fluid Mech. 9 (1960) 353). Where the upper amplitudes still change p beyond noise, twice that change is
-taken as a further error.
+(J. T. Stuart, J. Fluid Mech. 9 (1960) 353). Where the upper amplitudes still change p beyond noise, the
+window ends earlier, or twice that change is taken as a further error.
 """
 
 from dataclasses import dataclass

@@ -59,7 +59,7 @@ def traced(samples, rate, low, high, length=FIRST):
         raise ConfigError("onset", f"a record of at least {_SHORTEST * size / rate:.3g} s",
                           f"{samples.shape[1] / rate:.3g} s", "record from before the squeal begins")
     time, amplitude = demodulated(samples, rate, frequency, size)
-    return Trace(time, amplitude, frequency, size, _floor(amplitude))
+    return Trace(time, amplitude, frequency, size, np.maximum(_floor(amplitude), _steps(samples, size)))
 
 
 def hop(size):
@@ -103,6 +103,14 @@ def _frequency(samples, rate, low, high):
     stretch = band[:, begin:begin + round(_STRETCH * rate)]
     _, right = np.linalg.eigh(stretch @ stretch.T)          # the channels as they move together
     return dominant_frequency(right[:, -1] @ stretch, 1 / rate, low)
+
+
+def _steps(samples, size):
+    """Effective values (c,) of what the converter rounds away, in frames of ``size`` samples: a signal below its step
+    looks more quiet than it is."""
+    change = abs(np.diff(samples))
+    step = np.min(change, axis=1, where=change > 1e-9 * change.max(axis=1, keepdims=True), initial=np.inf)
+    return np.where(np.isfinite(step), step, 0.0) * np.sqrt(6 / 12 / size)
 
 
 def _floor(amplitude):

@@ -49,3 +49,10 @@ def test_bands_records_and_channels_that_show_nothing_are_refused():
         traced(squeal()[:, :800], RATE, 300, 5000)
     with pytest.raises(ConfigError, match="a motion between"):
         traced(np.zeros((2, 8000)), RATE, 300, 5000)
+
+
+def test_what_the_converter_rounds_away_counts_as_noise():
+    """Noise below the step of the converter reads as zeros: the floor is that of rounding."""
+    step = 1e-3
+    trace = traced(step * np.round(squeal(noise=1e-6) / step), RATE, 300, 5000)
+    assert trace.floor == pytest.approx(np.full(3, step / np.sqrt(12) * np.sqrt(6 / trace.size)), rel=0.05)
