@@ -77,7 +77,7 @@ def test_the_direction_is_that_of_the_mode_in_velocities(whole):
 
 def test_the_spread_over_stops_widens_the_error(whole):
     alike, spread = (stops_of(whole, stops(whole, off=off), BAND)["stop_hard_0"].seen.std[0] for off in (0.0, 1.5))
-    assert alike < 0.05 and spread == pytest.approx(1.5 / np.sqrt(6), rel=0.1)
+    assert alike < 0.05 and spread == pytest.approx(1.5 / np.sqrt(3), rel=0.1)
 
 
 def test_channels_that_a_stop_lacks_are_left_out_of_its_shape(whole):

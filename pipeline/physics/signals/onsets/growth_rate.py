@@ -25,7 +25,7 @@ _ABOVE, _REACH = 4.0, 5.0
 _ROUNDS, _REST = 40, 2.0
 #: halvings of the interval in which the spread of stops lies
 _HALVINGS = 60
-#: how often the upper end of a window is halved where growth is bent
+#: how often the upper end of a window is halved, to see whether growth is free there with a smaller error
 _NARROWER = 4
 #: changes within so many standard deviations are noise
 _BENT = 3.0
@@ -61,7 +61,7 @@ class Stops:
 
 def growth(samples, rate, low, high, share=0.2):
     """Growth of the squeal in samples (c, n) at ``rate`` Hz, between ``low`` and ``high`` Hz, up to the fraction
-    ``share`` of its saturated amplitude, or up to a smaller one where that bends the logarithm beyond noise.
+    ``share`` of its saturated amplitude, or up to the smaller one whose error is least.
 
     Raises ConfigError where no window lies between noise floor and saturation, or one too short to be judged.
     """
@@ -70,15 +70,14 @@ def growth(samples, rate, low, high, share=0.2):
         begin, end = _window(trace, share)
         first = _fitted(trace, slice(begin, end))
         trace = traced(samples, rate, low, high, frame_length(first.root.real))
-    best = _judged(trace, share)
+    windows = [_judged(trace, share)]
     for _ in range(_NARROWER):
         share = share / 2
         try:
-            narrower = _judged(trace, share) if best.bend else best
-        except ConfigError:
+            windows.append(_judged(trace, share))
+        except ConfigError:                 # no window that narrow
             break
-        best = min(best, narrower, key=lambda result: result.std)
-    return best
+    return min(windows, key=lambda result: result.std)
 
 
 def mean(growths, spread=0.0):
@@ -94,29 +93,30 @@ def mean(growths, spread=0.0):
 
 
 def spread_of(points):
-    """Standard deviation in rad/s of either part by which single stops spread beyond their own errors, from [[Growth]]
-    of several operating points together, as few stops at each tell little; 0 where no point has two.
-
-    It makes the deviations of the stops from the means of their points as large as errors and spread together (R. C.
-    Paule, J. Mandel, J. Res. Nat. Bur. Standards 87 (1982) 377).
+    """Standard deviation in rad/s by which single stops spread beyond their own errors, from [[Growth]] of several
+    operating points together, as few stops at each tell little: the larger one of growth rate and angular frequency; 0
+    where no point has two stops.
     """
     groups = [(np.array([g.root for g in point]), np.array([g.std for g in point])) for point in points
               if len(point) > 1]
-    free = sum(len(root) - 1 for root, _ in groups)
-    if not free:
-        return 0.0
+    parts = ([(part(root), own) for root, own in groups] for part in (np.real, np.imag))
+    return max(map(_spread, parts)) if groups else 0.0
 
+
+def _spread(groups):
+    """Spread of numbers [(values (m,), their own errors (m,))] about the means of their groups: so large that their
+    deviations are as large as errors and spread together (R. C. Paule, J. Mandel, J. Res. Nat. Bur. Standards 87 (1982)
+    377)."""
     def excess(square):
         total = 0.0
-        for root, own in groups:
+        for value, own in groups:
             weight = 1 / (own**2 + square)
-            total += weight @ abs(root - weight @ root / weight.sum()) ** 2 / 2
-        return total - free
+            total += weight @ (value - weight @ value / weight.sum()) ** 2 - (len(value) - 1)
+        return total
 
-    high = sum(np.ptp(root.real) ** 2 + np.ptp(root.imag) ** 2 for root, _ in groups)
     if excess(0.0) <= 0:
         return 0.0
-    low = 0.0
+    low, high = 0.0, sum(np.ptp(value) ** 2 for value, _ in groups)
     for _ in range(_HALVINGS):
         middle = (low + high) / 2
         low, high = (middle, high) if excess(middle) > 0 else (low, middle)

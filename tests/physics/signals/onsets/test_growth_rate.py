@@ -128,10 +128,11 @@ def test_the_mean_of_stops_that_agree_is_known_better_by_their_root():
 
 
 def test_the_spread_over_stops_counts_beyond_their_own_errors():
-    """Six points of three stops that spread by 10 rad/s: the pooled spread, and 95 % intervals of the means."""
+    """Six points of three stops whose growth rates spread by 10 rad/s: the pooled spread, and 95 % intervals of the
+    means."""
     random, spreads, held = np.random.default_rng(2), [], []
     for _ in range(200):
-        points = [[fit(ROOT + 10 * (random.standard_normal() + 1j * random.standard_normal()), own)
+        points = [[fit(ROOT + 10 * random.standard_normal() + 1j * random.standard_normal(), own)
                    for own in (0.1, 1.0, 3.0)] for _ in range(6)]
         spreads.append(spread_of(points))
         held += [abs(stops.root.real - ROOT.real) < 1.96 * stops.std
