@@ -76,6 +76,7 @@ def test_the_chapter_of_the_bench_lists_single_stops_and_why_some_tell_nothing()
     product = Bench(settings="{}", channel=["pole 1 frequency"], unit=["Hz"], runs={"stop_a": run}, stops=stops)
     result = bench_chapter.chapter(product, None)
     onsets, errors = result.tables
+    assert result.figures == () and result.see == "1 run, 1 feature: poles, ratios of sensors, orders."
     assert onsets.rows[0][1:3] == ("189.3 ± 2", "1191.2") and onsets.rows[1][1] == "expected a squeal, found none"
     assert "8.3 times the noise of the features" in result.conclude and errors.head[2] == "error over noise"
     assert errors.rows[0][2] == "8.3" and pytest.approx(8.3) == product.runs["stop_a"].error[0]

@@ -12,10 +12,10 @@ def chapter(product, look):
     """Chapter of the product Bench."""
     errors = [float(e) for run in product.runs.values() for e, valid in zip(run.error, run.valid, strict=True)
               if valid.any()]
-    figures = tuple(Figure(measured_and_predicted(run, product.channel, product.unit),
-                           f"Run {name}: measured, and predicted by the nominal model.")
-                    for name, run in list(product.runs.items())[:MOST])
     features = all(run.measured.shape[1] == 1 for run in product.runs.values())
+    drawn = [] if features else list(product.runs.items())[:MOST]
+    figures = tuple(Figure(measured_and_predicted(run, product.channel, product.unit),
+                           f"Run {name}: measured, and predicted by the nominal model.") for name, run in drawn)
     shown, of = (number, "noise") if features else (percent, "standard deviation")
     rows = tuple((name, str(product.channel[k]), shown(run.error[k], 3),
                   quantity(run.root_mean_square[k], str(product.unit[k]), 3))
@@ -25,10 +25,15 @@ def chapter(product, look):
                   "Predicted minus measured", (2, 3), folded=len(rows) > 12)
     return Chapter(
         "bench", "Bench: predicted and measured",
-        f"{plural(len(product.runs), 'run')}, {plural(len(product.channel), 'channel')}:"
-        f" {', '.join(map(str, product.channel))}.",
-        _sentence(errors, features),
-        figures, tuple(filter(None, (_onsets(product), table))))
+        f"{plural(len(product.runs), 'run')}, {_compared(product, features)}.", _sentence(errors, features), figures,
+        tuple(filter(None, (_onsets(product), table))))
+
+
+def _compared(product, features):
+    """What is compared: channels by their names, features by their kinds."""
+    if features:
+        return f"{plural(len(product.channel), 'feature')}: poles, ratios of sensors, orders"
+    return f"{plural(len(product.channel), 'channel')}: {', '.join(map(str, product.channel))}"
 
 
 def _sentence(errors, features):
