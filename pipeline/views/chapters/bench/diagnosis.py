@@ -5,7 +5,7 @@ import numpy as np
 from pipeline.views.chapters.bench.hypotheses import combination_table, hypothesis_table, words
 from pipeline.views.chapters.bench.model_errors import changes, differs, error_table, held_out_stops, stop_table
 from pipeline.views.chapters.chapter import Chapter, Figure, Table
-from pipeline.views.chapters.squeal_check import squeal_tables
+from pipeline.views.chapters.squeal_check import squeal_note, squeal_tables
 from pipeline.views.figures.bench import diagnosis as pictures
 from pipeline.views.figures.bench import latent_force
 from pipeline.views.figures.number_format import number, percent, quantity, scale
@@ -247,6 +247,8 @@ def _notes(product):
             " it is not used in any prediction.")
     if product.latent_use.item():
         yield product.latent_use.item()
+    if sentence := squeal_note(product):
+        yield sentence
 
 
 def _figures(product):
